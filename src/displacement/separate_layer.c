@@ -174,13 +174,21 @@ static sunder_status optimise(sunder_i_solver *s, sunder_error *err)
     return status ? status : sunder_i_solver_put_in_contact(s, err);
 }
 
-/* What has no solution as long as coarse bodies are held is solved once more, with these let go. */
+/* What has no solution as long as coarse bodies are held is solved once more, with these let go; the better of the two
+ * layouts is taken. */
 static sunder_status solve_without_holding(sunder_i_solver *s, sunder_error *err)
 {
-    bool again;
-    sunder_status status = sunder_i_solver_let_go(s, &again, err);
+    bool again = false;
+    sunder_i_held_layout held = {0};
+    if (!sunder_i_solver_any_held(s)) return SUNDER_OK;
+    sunder_status status = sunder_i_solver_keep_held(s, &held, err);
+    if (!status) status = sunder_i_solver_let_go(s, &again, err);
     if (!status && again) status = seek(s, FOUND, FOUND, err);
-    return status || !again ? status : optimise(s, err);
+    if (!status && again) status = optimise(s, err);
+    if (!status && again) status = sunder_i_solver_uphold(s, err);
+    if (!status && again) status = sunder_i_solver_take_better(s, &held, err);
+    sunder_i_held_layout_free(&held);
+    return status;
 }
 
 /* Without limits first, and then, if one is overstepped, within them: what nothing oversteps changes nothing. */
@@ -209,9 +217,9 @@ static sunder_status work(sunder_i_solver *s, const sunder_layer *layer, const s
                           sunder_report **report, sunder_error *err)
 {
     sunder_status status = start(s, layer, options, TO_SEPARATE, report, err);
+    if (!status) status = sunder_i_solver_begin_holding(s, err);
     if (!status) status = sunder_i_solver_find_infeasible(s, NULL, err);
     if (!status) status = prepare(s, err);
-    if (!status && !(s->let_go = sunder_i_calloc(s->model.bodies, sizeof *s->let_go))) status = sunder_i_no_memory(err);
     if (!status && !sunder_i_progress(&s->model.rules, PREPARED)) status = sunder_i_no_memory(err);
     if (!status) status = solve(s, err);
     if (!status && !sunder_i_progress(&s->model.rules, FOUND)) status = sunder_i_no_memory(err);

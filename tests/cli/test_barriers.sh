@@ -180,7 +180,7 @@ beside() { # WKT KEYS STATUS WITH LIMIT [STATUS WITHOUT]: solved without a limit
 beside 'LINESTRING EMPTY' ,width=9 0
 beside 'GEOMETRYCOLLECTION EMPTY' ,width=9 0
 beside 'MULTILINESTRING((5 5,5 5),(11 5,11 5,11 5))' ,width=3 0          # of no length
-beside 'LINESTRING(-1e300 0,1e300 1)' ,width=3 3 3                       # far on both sides: left, and said so
+beside 'LINESTRING(-1e300 0,1e300 1)' ,width=3 0                         # far on both sides, yet a line like others
 beside 'POLYGON((-1e15 -1e15,1e15 -1e15,1e15 1e15,-1e15 1e15,-1e15 -1e15))' '' 3
 beside 'POLYGON((0 0,10 0,10 10,0 10,0 0))' '' 3                         # a feature itself
 beside 'LINESTRING(-5 12,50 12)' ,width=0,gap=0 0                        # in nobody's way
@@ -188,6 +188,30 @@ beside 'LINESTRING(11 -20,11 40)' ,width=1e9 3
 beside 'MULTIPOINT((5 5),(5 5.0000000001),(5 5.000000000000001))' '' 0   # hardly different
 for ((k = 0; k < 60; k++)); do printf '%s5 %s,15 5.%03d' "$([ $k = 0 ] || echo '),(')" 5 $k; done >fan
 beside "MULTILINESTRING(($(cat fan)))" ,width=1 0                        # many at one place
+# A line across the layer with an end or both far away costs what it costs with ends near by, at home and in UTM; the lower
+# bound is no worse than half of it. A road with one corrupt vertex on the way is a line that goes there and comes back.
+layer utm.gpkg t POLYGON <<'X'
+id,WKT
+1,"POLYGON((500000 5300000,500010 5300000,500010 5300010,500000 5300010,500000 5300000))"
+2,"POLYGON((500030 5300000,500040 5300000,500040 5300010,500030 5300010,500030 5300000))"
+3,"POLYGON((500036 5300002,500046 5300002,500046 5300012,500036 5300012,500036 5300002))"
+X
+across() { # WKT: the result's cost, rounded, and whether the bound is more than half of it
+    rm -f k.gpkg
+    printf 'id,WKT\n1,"%s"\n' "$1" | layer k.gpkg k GEOMETRY
+    expect 0 separate utm.gpkg o.gpkg -q --overwrite --gap 1 --max-shift 20 --barrier k.gpkg --stats s.json
+    jq -r '.displacement | "\(.cost * 100 | round) \(.lower_bound > .cost / 2)"' s.json
+}
+level=$(across 'LINESTRING(400000 5300003.5,600000 5300003.5)')
+upright=$(across 'LINESTRING(500004 5200000,500004 5400000)')
+corner=$(across 'LINESTRING(400000 5300003,500003 5300003,500003 5200000)')
+for far in 1e15 1e17 1e20 1e100 1e300 1.7976931348623157e308; do
+    same "$(across "LINESTRING(-$far 5300003.5,$far 5300003.5)")" "$level" "a line from -$far to $far"
+    same "$(across "LINESTRING(500004 -$far,500004 $far)")" "$upright" "a line up from -$far to $far"
+    same "$(across "LINESTRING(-$far 5300003,500003 5300003,500003 -$far)")" "$corner" "a corner, its ends at -$far"
+done
+same "$(across 'LINESTRING(400000 5300003.5,490000 5300003.5,1e20 5300003.5,490000 5300003.5)')" "$level" "a corrupt vertex"
+
 refused 2 'too much for a double' separate three.gpkg never.gpkg --barrier k.gpkg,width=1e308,gap=1.7e308
 
 # ---- What is wrong ----

@@ -1,5 +1,5 @@
 /* Bodies as the search sees them: how their pieces are numbered, their boxes in doubles, and whole blocks as shapes. */
-#include "displacement/layer/model.h"
+#include "displacement/layer/far_corners.h"
 
 #include "base/extremes.h"
 #include "base/parallel.h"
@@ -9,13 +9,26 @@
 #include <stdlib.h>
 #include <string.h>
 
+static void box_of_far_pieces(const sunder_shape *shape, const sunder_i_body *body, double box[4])
+{
+    uint32_t from = 0;
+    sunder_i_box_clear(box);
+    for (uint32_t p = 0; p < shape->pieces; from = shape->piece_end[p++]) {
+        for (uint32_t k = from; k < shape->piece_end[p]; k++) {
+            double corner[4];
+            const size_t n = sunder_i_far_corner(body, shape, p, k, corner);
+            for (size_t l = 0; l < n; l++) sunder_i_box_include(box, corner + 2 * l);
+        }
+    }
+}
+
 /* The box of a thing's pieces from that origin. Most are made of corners as given, and so is their box: rounding keeps
  * order, so that box less the origin is the box of the corners less the origin. */
 static void box_of_pieces(const sunder_i_model *model, uint32_t thing, const sunder_i_body *body, double box[4])
 {
     const sunder_shape *shape = sunder_i_thing_shape(model, thing);
     for (size_t c = 0; c < 4; c++) box[c] = sunder_i_from_origin(body, shape->box[c], c & 1);
-    if (shape->rational) {
+    if (shape->rational && !body->far) {
         sunder_i_box_clear(box);
         for (uint32_t k = 0; k < shape->piece_end[shape->pieces - 1]; k++) {
             const double *xy = shape->xy + 2 * (size_t)sunder_i_piece_vertices(shape)[k];
@@ -23,6 +36,7 @@ static void box_of_pieces(const sunder_i_model *model, uint32_t thing, const sun
                 box, (double[]){sunder_i_from_origin(body, xy[0], 0), sunder_i_from_origin(body, xy[1], 1)});
         }
     }
+    if (body->far) box_of_far_pieces(shape, body, box);
     const double beyond = sunder_i_reach_beyond(model, thing);
     if (beyond > 0) sunder_i_box_grow(box, beyond, box);
 }
@@ -35,10 +49,8 @@ static sunder_status measure_some(void *context, size_t begin, size_t end, sunde
     for (size_t b = begin; b < end; b++) {
         sunder_i_body *body = &model->body[b];
         body->clear = INFINITY;
-        body->reach = 0x1p400; /* products of two such lengths are doubles */
         sunder_i_box_clear(body->box);
-        const uint32_t first = model->member[body->member];
-        memcpy(body->origin, sunder_i_home_box(model, first), sizeof body->origin);
+        if (!body->held) sunder_i_find_far_corners(model, body);
         body->pieces = 0;
         for (uint32_t k = 0; k < body->members; k++) {
             const uint32_t f = model->member[body->member + k];

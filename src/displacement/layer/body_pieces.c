@@ -6,7 +6,7 @@
  * publishes its own. Pieces stay until the model is freed, or, if they take much memory, until a stage ends and no code
  * refers to them (sunder_i_pieces_forget): the next stage needs only part of them, and making them again is cheap
  * beside searching for a place. They lie in chunks that are freed at once. */
-#include "displacement/layer/model.h"
+#include "displacement/layer/far_corners.h"
 
 #include "base/invariant.h"
 #include "base/sort.h"
@@ -85,12 +85,16 @@ size_t sunder_i_outline_of(const sunder_i_model *model, uint32_t thing, double *
     const sunder_shape *shape = sunder_i_thing_shape(model, thing);
     const sunder_i_body *body = &model->body[model->body_of[thing]];
     const uint32_t n = shape->vertices;
-    if (!sunder_i_is_barrier(model, thing) && shape->pieces == 1 && shape->piece_end[0] == n) {
+    if (!sunder_i_is_barrier(model, thing) && !body->far && shape->pieces == 1 && shape->piece_end[0] == n) {
         for (uint32_t k = 0; k < n; k++)
             from_origin(shape, sunder_i_piece_vertices(shape)[k], body, out + 2 * (size_t)k);
         if (is_its_outline(shape, out)) return n;
     }
-    for (uint32_t v = 0; v < n; v++) from_origin(shape, v, body, point + 2 * (size_t)v);
+    if (body->far) {
+        memcpy(point, shape->xy, 2 * (size_t)n * sizeof *point);
+        sunder_i_draw_in(body, point, n);
+    } else
+        for (uint32_t v = 0; v < n; v++) from_origin(shape, v, body, point + 2 * (size_t)v);
     return sunder_i_convex_hull(point, n, out);
 }
 
@@ -99,6 +103,17 @@ size_t sunder_i_outline_of(const sunder_i_model *model, uint32_t thing, double *
 static uint32_t corners_of(const sunder_shape *shape)
 {
     return shape->pieces ? shape->piece_end[shape->pieces - 1] : 0;
+}
+
+/* The corners of piece p of a body with far ones: returns how many. */
+static uint32_t take_far_corners(const sunder_i_body *body, const sunder_shape *shape, uint32_t p, double *corner,
+                                 double box[4])
+{
+    uint32_t n = 0;
+    for (uint32_t k = p ? shape->piece_end[p - 1] : 0; k < shape->piece_end[p]; k++)
+        n += (uint32_t)sunder_i_far_corner(body, shape, p, k, corner + 2 * (size_t)n);
+    for (uint32_t k = 0; k < n; k++) sunder_i_box_include(box, corner + 2 * (size_t)k);
+    return n;
 }
 
 /* The pieces of a member, and their corners; they come behind those. */
@@ -112,10 +127,13 @@ static void cut_member(const sunder_i_model *model, const sunder_i_body *body, u
         sunder_i_body_piece *to = (*piece)++;
         *to = (sunder_i_body_piece){.corner = *corner, .corners = shape->piece_end[p] - from, .feature = f};
         sunder_i_box_clear(to->box);
-        for (; from < shape->piece_end[p]; from++, *corner += 2) {
+        if (body->far) to->corners = take_far_corners(body, shape, p, *corner, to->box);
+        if (body->far) *corner += 2 * (size_t)to->corners;
+        for (; from < shape->piece_end[p] && !body->far; from++, *corner += 2) {
             from_origin(shape, sunder_i_piece_vertices(shape)[from], body, *corner);
             sunder_i_box_include(to->box, *corner);
         }
+        from = shape->piece_end[p];
         if (beyond > 0) sunder_i_box_grow(to->box, beyond, to->box);
     }
 }
@@ -177,6 +195,7 @@ static sunder_i_body_pieces *make(const sunder_i_model *model, const sunder_i_bo
     const uint32_t *member = model->member + body->member;
     for (uint32_t m = 0; m < body->members; m++)
         if (model->present[member[m]]) corners += corners_of(sunder_i_thing_shape(model, member[m]));
+    if (body->far) corners += body->pieces; /* one more of each */
     const size_t of_pieces = ((size_t)body->pieces + anchors) * sizeof(sunder_i_body_piece),
                  of_doubles = (2 * corners + 4 * (size_t)runs) * sizeof(double);
     sunder_i_body_pieces *made = take_room(model->store, sizeof *made + of_pieces + of_doubles);
@@ -308,16 +327,36 @@ static bool anchor_as_given(const sunder_i_model *model, const sunder_i_body_pie
     return at;
 }
 
-void sunder_i_piece_as_given(const sunder_i_model *model, const sunder_i_body_piece *piece, double *out)
+/* The corners of a piece of its feature's shape, [from, end) of its pieces'. They are in the order of the shape's; and
+ * whoever has one had them made. */
+static void find_corners(const sunder_i_model *model, const sunder_i_body_piece *piece, uint32_t *from, uint32_t *end)
 {
     const uint32_t f = piece->feature;
-    if (anchor_as_given(model, piece, out)) return;
-    /* The pieces of a feature are in the order of the shape's; a caller that has one knows that they were made. */
     const sunder_shape *shape = sunder_i_thing_shape(model, f);
     const sunder_i_body_piece *first = piece, *all = atomic_load(&model->made[model->body_of[f]])->piece;
     while (first > all && first[-1].feature == f) first--;
     const size_t p = (size_t)(piece - first);
-    const uint32_t from = p ? shape->piece_end[p - 1] : 0;
-    for (uint32_t k = 0; k < piece->corners; k++)
+    *from = p ? shape->piece_end[p - 1] : 0;
+    *end = shape->piece_end[p];
+}
+
+size_t sunder_i_corners_as_given(const sunder_i_model *model, const sunder_i_body_piece *piece)
+{
+    const uint32_t b = model->body_of[piece->feature];
+    const sunder_i_body *body = &model->body[b];
+    const sunder_i_body_pieces *made = body->far ? atomic_load(&model->made[b]) : NULL;
+    uint32_t from, end;
+    if (!made || piece < made->piece || piece >= made->piece + body->pieces) return piece->corners;
+    find_corners(model, piece, &from, &end);
+    return end - from;
+}
+
+void sunder_i_piece_as_given(const sunder_i_model *model, const sunder_i_body_piece *piece, double *out)
+{
+    uint32_t from, end;
+    if (anchor_as_given(model, piece, out)) return;
+    const sunder_shape *shape = sunder_i_thing_shape(model, piece->feature);
+    find_corners(model, piece, &from, &end);
+    for (uint32_t k = 0; k < end - from; k++)
         memcpy(out + 2 * (size_t)k, shape->xy + 2 * (size_t)sunder_i_piece_vertices(shape)[from + k], 2 * sizeof *out);
 }

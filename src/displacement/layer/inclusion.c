@@ -7,7 +7,7 @@
  *
  * Many inner features touch their holder's edge, and with a tolerance they may overstep it: a wall never demands more
  * of a pair than held at the start. */
-#include "displacement/layer/model.h"
+#include "displacement/layer/far_corners.h"
 
 #include "base/extremes.h"
 #include "base/invariant.h"
@@ -15,6 +15,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 static sunder_i_inclusion *find(sunder_i_inclusion *list, size_t n, uint32_t f, uint32_t g)
 {
@@ -150,7 +151,8 @@ static void add_walls(sunder_i_model *model, const sunder_i_body *body, uint32_t
         wall->corners = 2;
         const uint32_t ends[2] = {v, shape->form->cleaned.next[v]};
         for (size_t e = 0; e < 2; e++)
-            for (size_t c = 0; c < 2; c++) p[2 * e + c] = shape->xy[2 * ends[e] + c] - body->origin[c];
+            memcpy(p + 2 * e, shape->xy + 2 * (size_t)ends[e], 2 * sizeof *p);
+        sunder_i_reckon_from_origin(body, p, 2);
         for (size_t c = 0; c < 2; c++) {
             wall->box[c] = sunder_i_min(p[c], p[c + 2]);
             wall->box[c + 2] = sunder_i_max(p[c], p[c + 2]);

@@ -6,7 +6,7 @@
  * the other; where there is the least distance between them, there is a slit through which an anchor may pass.
  *
  * Both members block the anchor; an anchor that lies in one of them is exempt. */
-#include "displacement/layer/model.h"
+#include "displacement/layer/far_corners.h"
 
 #include "base/watch.h"
 #include "spatial/box.h"
@@ -78,16 +78,13 @@ static void add(joining *j, uint32_t f, uint32_t g, const edge *e, const edge *o
         j->failed = true;
         return;
     }
-    const double *origin = model->body[model->body_of[f]].origin;
     sunder_i_joint *joint = &model->joint[model->joints++];
     *joint = (sunder_i_joint){.piece = {.corners = 4, .feature = f}, .other = g};
     memcpy(joint->at, at, sizeof at);
     sunder_i_box_clear(joint->piece.box);
-    for (size_t k = 0; k < 4; k++) {
-        double *to = joint->corner + 2 * k;
-        for (size_t c = 0; c < 2; c++) to[c] = at[2 * k + c] - origin[c];
-        sunder_i_box_include(joint->piece.box, to);
-    }
+    memcpy(joint->corner, at, sizeof joint->corner);
+    sunder_i_reckon_from_origin(&model->body[model->body_of[f]], joint->corner, 4);
+    for (size_t k = 0; k < 4; k++) sunder_i_box_include(joint->piece.box, joint->corner + 2 * k);
 }
 
 /* Edge e of feature f, and those of g. */

@@ -36,6 +36,7 @@ typedef struct sunder_i_body {
                        * (solve/clusters/coarse_bodies.c) */
     bool has_seams;   /* they were looked for */
     bool pinned;      /* stays where it came from: rounding would make a pair of it stand worse (uphold.c) */
+    bool far;         /* it has corners out of all proportion (far_corners.c) */
     double reach;     /* for the search no corner is farther from the origin, along either axis */
     double origin[2]; /* its corners are stored relative to this */
     double box[4];    /* of its pieces, relative to the origin */
@@ -313,8 +314,10 @@ void sunder_i_pieces_end(sunder_i_model *model);
 void sunder_i_pieces_forget(sunder_i_model *model, size_t most);
 /* Less is not worth forgetting. */
 #define SUNDER_I_PIECES_HELD ((size_t)4 << 20)
-/* The corners of a piece, an anchor or a side, where they stood in the layer: as given; of repaired shapes the nearest
- * doubles. out: room for all of the piece's. */
+/* How many corners a piece, an anchor or a side had as given; the search may look at one more or at fewer, where some
+ * are far (far_corners.h). */
+size_t sunder_i_corners_as_given(const sunder_i_model *model, const sunder_i_body_piece *piece);
+/* Where they stood in the layer; of repaired shapes the nearest doubles. out: room for all of them. */
 void sunder_i_piece_as_given(const sunder_i_model *model, const sunder_i_body_piece *piece, double *out);
 /* The convex hull of n points, counter-clockwise, in out (room for n + 1), in doubles. The points are sorted. */
 size_t sunder_i_convex_hull(double *point, size_t n, double *out);

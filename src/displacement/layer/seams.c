@@ -7,7 +7,7 @@
  * the pieces (geometry/obstacle_shadow.h), on the boundary of both, although the feature blocks it. So proofs, which
  * test pieces one by one and may pass on the boundary of each, get one more piece around each diagonal: a convex
  * quadrilateral that lies in the feature (seamless.c). */
-#include "displacement/layer/model.h"
+#include "displacement/layer/far_corners.h"
 
 #include "spatial/box.h"
 
@@ -21,13 +21,13 @@ typedef struct gathering {
 /* The seam's corners from its body's origin, and their box. */
 static void put(sunder_i_model *model, uint32_t f, const sunder_i_seam *seam)
 {
-    const double *origin = model->body[model->body_of[f]].origin;
     sunder_i_body_piece *piece = &model->seam[model->seams];
     double *to = model->seam_corner + 8 * model->seams;
     memcpy(model->seam_diagonal + 4 * model->seams++, seam->diagonal, sizeof seam->diagonal);
     *piece = (sunder_i_body_piece){.corners = 4, .feature = f};
     sunder_i_box_clear(piece->box);
-    for (size_t i = 0; i < 8; i++) to[i] = seam->corner[i] - origin[i & 1];
+    memcpy(to, seam->corner, sizeof seam->corner);
+    sunder_i_reckon_from_origin(&model->body[model->body_of[f]], to, 4);
     for (size_t i = 0; i < 8; i += 2) sunder_i_box_include(piece->box, to + i);
 }
 

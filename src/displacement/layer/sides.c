@@ -17,6 +17,7 @@
  * In the model the lines are pieces of two corners, in the order of the barriers' parts, and a part's body has those of
  * the part. */
 #include "displacement/layer/sides.h"
+#include "displacement/layer/far_corners.h"
 #include "displacement/layer/reads.h"
 
 #include "base/parallel.h"
@@ -73,11 +74,10 @@ static void put_piece(const sunder_i_model *model, const sunder_i_body *body, ui
     sunder_i_body_piece *piece = &side->piece;
     *piece = (sunder_i_body_piece){.corner = side->corner, .corners = 2, .feature = (uint32_t)model->features + part};
     sunder_i_box_clear(piece->box);
-    for (int e = 0; e < 2; e++) {
-        double *to = side->corner + 2 * e;
-        for (int c = 0; c < 2; c++) to[c] = (e ? side->to : side->from)[c] - body->origin[c];
-        sunder_i_box_include(piece->box, to);
-    }
+    memcpy(side->corner, side->from, 2 * sizeof *side->corner);
+    memcpy(side->corner + 2, side->to, 2 * sizeof *side->corner);
+    sunder_i_reckon_from_origin(body, side->corner, 2);
+    for (int e = 0; e < 2; e++) sunder_i_box_include(piece->box, side->corner + 2 * e);
 }
 
 static sunder_status take_all_lines(sunder_i_model *model, sunder_error *err)

@@ -74,11 +74,11 @@ static bool owe(const listing *l, uint32_t f, uint32_t g, const sunder_i_waiver 
 static double size_of(const listing *l, const sunder_i_body *body, const sunder_i_body_piece *piece)
 {
     const sunder_shape *shape = sunder_i_thing_shape(l->model, piece->feature);
-    const bool rational = shape && shape->rational;
+    const bool vague = body->far || (shape && shape->rational);
     double size = 0;
     for (size_t c = 0; c < 2; c++) {
         size += sunder_i_max(fabs(piece->box[c]), fabs(piece->box[c + 2]));
-        if (rational) size += 4 * (fabs(body->origin[c]) + fabs(piece->box[c]) + fabs(piece->box[c + 2]));
+        if (vague) size += 4 * (fabs(body->origin[c]) + fabs(piece->box[c]) + fabs(piece->box[c + 2]));
     }
     return size;
 }

@@ -34,9 +34,10 @@ static void lower(int *exponent, double v)
 /* Corners as they stood: less the body's origin they may be rounded. False if memory is out. */
 static bool lower_by_piece(sunder_i_tight *f, const sunder_i_body_piece *piece, int *exponent)
 {
-    if (!sunder_i_reserve(&f->corner, &f->corners, 2 * (size_t)piece->corners, sizeof *f->corner)) return false;
+    const size_t n = sunder_i_corners_as_given(f->model, piece);
+    if (!sunder_i_reserve(&f->corner, &f->corners, 2 * n, sizeof *f->corner)) return false;
     sunder_i_piece_as_given(f->model, piece, f->corner);
-    for (size_t v = 0; v < 2 * (size_t)piece->corners; v++) lower(exponent, f->corner[v]);
+    for (size_t v = 0; v < 2 * n; v++) lower(exponent, f->corner[v]);
     return true;
 }
 

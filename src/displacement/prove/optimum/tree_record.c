@@ -76,14 +76,13 @@ static bool reserve(recording *r)
 static bool add_part(recording *r, const sunder_i_body_piece *part, size_t *first, size_t *n)
 {
     sunder_bound_tree *out = r->out;
-    const bool ok =
-        sunder_i_reserve(&r->corner, &r->corner_capacity, 2 * (out->corners + part->corners), sizeof *r->corner);
+    *n = sunder_i_corners_as_given(r->tree->task.model, part);
+    const bool ok = sunder_i_reserve(&r->corner, &r->corner_capacity, 2 * (out->corners + *n), sizeof *r->corner);
     out->corner = r->corner;
     if (!ok) return false;
     *first = out->corners;
-    *n = part->corners;
     sunder_i_piece_as_given(r->tree->task.model, part, r->corner + 2 * out->corners);
-    out->corners += part->corners;
+    out->corners += *n;
     return true;
 }
 

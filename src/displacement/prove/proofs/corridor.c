@@ -263,7 +263,11 @@ typedef struct looking {
     sunder_error *err;
 } looking;
 
-static bool is_rational(const sunder_i_model *model, uint32_t f) { return sunder_i_thing_shape(model, f)->rational; }
+/* Are its corners known as the nearest doubles, or drawn in? */
+static bool is_vague(const sunder_i_model *model, uint32_t f)
+{
+    return sunder_i_thing_shape(model, f)->rational || model->body[model->body_of[f]].far;
+}
 
 /* Takes the line, if the pair stood as `part`, of the feature, and the other thing's part did. */
 static void take_line(looking *g, const facing *f, const double *part, size_t corners)
@@ -375,11 +379,11 @@ static void look_at_requirement(looking *g, const sunder_i_requirement *r)
     const sunder_i_model *model = c->model;
     const uint32_t f = model->body_of[r->a] == g->mover ? r->a : r->b, other = f == r->a ? r->b : r->a;
     double clearance, box[4];
-    if (sunder_i_limit_of(&model->body[model->body_of[other]]) > 0 || is_rational(model, f)) return;
+    if (sunder_i_limit_of(&model->body[model->body_of[other]]) > 0 || is_vague(model, f)) return;
     if ((r->a == c->subproblem->a && r->b == c->subproblem->b) || !sunder_i_branching_owe(c, f, other, &clearance))
         return;
     if (!sunder_i_is_barrier(model, other)) {
-        if (!is_rational(model, other)) look_at_pair(g, f, other, clearance);
+        if (!is_vague(model, other)) look_at_pair(g, f, other, clearance);
         return;
     }
     const uint32_t end = (uint32_t)model->features + model->barriers->part_end[sunder_i_barrier_of(model, other)];
@@ -389,7 +393,7 @@ static void look_at_requirement(looking *g, const sunder_i_requirement *r)
     if (c->near.n) qsort(c->near.item, c->near.n, sizeof *c->near.item, sunder_i_by_number);
     size_t out = 0;
     for (size_t k = 0; k < c->near.n; k++)
-        if (c->near.item[k] >= other && c->near.item[k] < end && !is_rational(model, c->near.item[k]))
+        if (c->near.item[k] >= other && c->near.item[k] < end && !is_vague(model, c->near.item[k]))
             c->near.item[out++] = c->near.item[k];
     c->near.n = out;
     for (size_t k = 0; k < c->near.n && !g->status; k++) look_at_pair(g, f, c->near.item[k], clearance);

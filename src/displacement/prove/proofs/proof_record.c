@@ -19,7 +19,9 @@ static void count(const sunder_i_branching *c, size_t at, size_t depth, sunder_p
     if (depth > *deepest) *deepest = depth;
     sum->ways += node->ways;
     sum->forces += node->forces;
-    if (node->ways) sum->corners += node->part_a->corners + node->part_b->corners;
+    if (node->ways)
+        sum->corners +=
+            sunder_i_corners_as_given(c->model, node->part_a) + sunder_i_corners_as_given(c->model, node->part_b);
     if (node->chord != SIZE_MAX) sum->corners += CHORD_CORNERS;
     for (size_t k = 0; k < node->ways; k++) count(c, c->way[node->way + k].next, depth + 1, sum, deepest);
 }
@@ -39,7 +41,7 @@ static size_t copy_part(copying *g, const sunder_i_body_piece *piece)
 {
     const size_t at = g->proof->corners;
     sunder_i_piece_as_given(g->branching->model, piece, g->corner + 2 * at);
-    g->proof->corners += piece->corners;
+    g->proof->corners += sunder_i_corners_as_given(g->branching->model, piece);
     return at;
 }
 
@@ -99,8 +101,8 @@ static size_t copy(copying *g, size_t at, size_t depth)
     to->shadow = from->shadow;
     to->slack = from->slack;
     to->held = from->held;
-    to->corners_a = from->part_a->corners;
-    to->corners_b = from->part_b->corners;
+    to->corners_a = sunder_i_corners_as_given(c->model, from->part_a);
+    to->corners_b = sunder_i_corners_as_given(c->model, from->part_b);
     to->part_a = copy_part(g, from->part_a);
     to->part_b = from->chord == SIZE_MAX ? copy_part(g, from->part_b) : copy_chord(g, &c->chord[from->chord]);
     if (from->chord != SIZE_MAX) {

@@ -15,7 +15,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-static bool is_rational(const sunder_i_model *model, uint32_t f) { return sunder_i_thing_shape(model, f)->rational; }
+/* Are its corners known as the nearest doubles, or drawn in? */
+static bool is_vague(const sunder_i_model *model, uint32_t f)
+{
+    return sunder_i_thing_shape(model, f)->rational || model->body[model->body_of[f]].far;
+}
 
 /* The pieces of a body; NULL, and noted, if memory is out. */
 static const sunder_i_body_pieces *pieces_of(sunder_i_branching *c, const sunder_i_body *body)
@@ -40,10 +44,9 @@ size_t sunder_i_branching_fill_ways(sunder_i_branching *branching, const sunder_
                                 .clearance = clearance,
                                 .at = at,
                                 .coarse = coarse};
-    /* Corners of rational shapes are known as the nearest doubles. */
     for (int x = 0; x < 4; x++) {
-        if (is_rational(model, a->feature)) parting.vague += fabs(p->origin[x & 1]) + fabs(a->box[x]);
-        if (is_rational(model, b->feature)) parting.vague += fabs(q->origin[x & 1]) + fabs(b->box[x]);
+        if (is_vague(model, a->feature)) parting.vague += fabs(p->origin[x & 1]) + fabs(a->box[x]);
+        if (is_vague(model, b->feature)) parting.vague += fabs(q->origin[x & 1]) + fabs(b->box[x]);
     }
     const size_t most = SUNDER_I_HALF_PLANES_A_CORNER * (parting.na + parting.nb) + SUNDER_I_HALF_PLANES_MORE;
     branching->looked += parting.na + parting.nb;

@@ -53,7 +53,7 @@ void sunder_i_solver_free(sunder_i_solver *solver)
     sunder_i_free(solver->cheapest);
     sunder_i_free(solver->limit);
     sunder_i_free(solver->aside);
-    sunder_i_free(solver->let_go);
+    sunder_i_free(solver->holding);
     sunder_i_free(solver->went);
     sunder_i_relaxations_free(&solver->waiting);
     sunder_i_free(solver->carrier);
@@ -175,7 +175,7 @@ double sunder_i_solver_margin(const sunder_i_solver *solver, const uint32_t *b, 
     unsigned widened = 0;
     for (size_t k = 0; k < n; k++) {
         const sunder_i_body *body = &solver->model.body[b[k]];
-        if (body->pieces == 0 || body->held) continue;
+        if (body->pieces == 0 || body->held || (body->fixed && body->far)) continue;
         for (int c = 0; c < 4; c++) {
             const double far = fabs(body->origin[c & 1]) + fabs(body->box[c]);
             if (far > largest) largest = far;

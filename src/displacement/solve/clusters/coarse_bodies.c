@@ -3,13 +3,18 @@
  * A move of a body is a multiple of the last place of its largest coordinate (../../layer/rounding.c). One corrupt
  * vertex, at 1e20, makes that 16384 m: moving such a body by the shortfall of a neighbour's gap throws it, and
  * everything that it runs into, kilometres away, and the margin for its last place throws the neighbour as far. So a
- * body is *held* if its last place is coarse beside a neighbour that it is in conflict with: beside how far the
- * neighbour may have to move, which is its size and the distance owed, and beside the neighbour's own last place. A
- * held body is fixed for all stages. If a conflict with one remains, it is released, and its cluster is solved once
- * more from the original places.
+ * body is *held*, which is fixed for all stages, beside a neighbour in conflict with it that has a much finer last
+ * place, if one of these holds:
+ *
+ *     its last place is coarse beside how far the neighbour may have to move, which is its size and the distance owed
+ *     it has far corners (../../layer/far_corners.h): its moves may be of use, but its neighbours share its margin
+ *
+ * If a conflict with a held body remains, or it is held for its far corners alone, it is released, and its cluster is
+ * solved once more from the original places. The better of the two layouts is taken (held_or_free.c).
  *
  * Nothing is proved of a layout with held bodies: a contact group that has one keeps no bound, and the layer's bound
  * there is that of pairs, in which all bodies may move. */
+#include "displacement/layer/far_corners.h"
 #include "displacement/layer/resolution.h"
 #include "displacement/solve/clusters/stages.h"
 #include "displacement/solve/clusters/tuning.h"
@@ -17,87 +22,187 @@
 #include "base/extremes.h"
 #include "base/union_find.h"
 
+#include <limits.h>
 #include <math.h>
 
-/* Exponent of the last place of the body's largest coordinate. */
-static int last_place(const sunder_i_body *b)
+/* As it stood at the start; box[0] > box[2]: nothing of it is there. */
+static void home_box(const sunder_i_model *model, const sunder_i_body *b, double box[4])
+{
+    sunder_i_box_clear(box);
+    for (uint32_t m = 0; m < b->members; m++) {
+        const uint32_t f = model->member[b->member + m];
+        if (model->present[f]) sunder_i_box_join(box, sunder_i_home_box(model, f));
+    }
+}
+
+/* Exponent of the last place of the greatest of four coordinates. */
+static int last_place(const double box[4])
 {
     double largest = 0;
     int exponent;
-    for (int c = 0; c < 4; c++) largest = sunder_i_max(largest, fabs(b->box[c] + b->origin[c & 1]));
+    for (int c = 0; c < 4; c++) largest = sunder_i_max(largest, fabs(box[c]));
     frexp(largest, &exponent);
     return exponent - 53;
 }
 
-static bool is_coarse_beside(const sunder_i_model *model, const sunder_i_body *b, const sunder_i_body *other)
+/* ---- Holding ----------------------------------------------------------------------------------------------------- */
+
+/* What it may have to go: its size, and what is owed. */
+static double stretch_of(const sunder_i_solver *solver, const double box[4])
 {
-    const int place = last_place(b);
-    if (place < last_place(other) + COARSE_BITS) return false;
-    const double size = sunder_i_max(other->box[2] - other->box[0], other->box[3] - other->box[1]);
-    return ldexp(COARSE_PLACES, place) > size + model->rules.gap;
+    return sunder_i_max(box[2] - box[0], box[3] - box[1]) + solver->model.rules.gap;
 }
 
 /* Has it stood still so far, and is it in no cluster? Then it can be held. */
-static bool is_free_to_hold(const sunder_i_solver *s, uint32_t b)
+static bool is_free_to_hold(const sunder_i_solver *solver, uint32_t b)
 {
-    const double *t = s->model.move + 2 * (size_t)b;
+    const double *t = solver->model.move + 2 * (size_t)b;
     size_t n;
-    sunder_i_solver_members(s, b, &n);
-    return !s->let_go[b] && n == 0 && t[0] == 0 && t[1] == 0 && sunder_i_union_find(s->parent, b) == b;
+    if (!solver->parent) return true; /* there are no clusters so far */
+    sunder_i_solver_members(solver, b, &n);
+    return solver->holding[b] == SUNDER_I_NOT_HELD && n == 0 && t[0] == 0 && t[1] == 0 &&
+           sunder_i_union_find(solver->parent, b) == b;
 }
 
-/* Corners that are farther away than the nearest coarse coordinate are drawn in for the search: seen from the
- * neighbours their edges change by less than rounding, and products of such lengths are doubles. */
-static void hold(sunder_i_solver *s, uint32_t b, const sunder_i_body *other)
+/* Where no corner is near, those that are farther away than the nearest coarse coordinate are drawn in for the search,
+ * so that products of lengths are doubles. */
+static void fix(sunder_i_solver *solver, sunder_i_body *body, double stretch)
 {
-    sunder_i_body *body = &s->model.body[b];
-    const double size = sunder_i_max(other->box[2] - other->box[0], other->box[3] - other->box[1]);
     body->held = body->fixed = true;
-    body->reach = sunder_i_min(body->reach, ldexp(size + s->model.rules.gap, 53) / COARSE_PLACES);
+    if (body->far) return;
+    body->reach = sunder_i_min(body->reach, ldexp(stretch, 53) / COARSE_PLACES);
     for (int c = 0; c < 4; c++) body->box[c] = sunder_i_max(-body->reach, sunder_i_min(body->box[c], body->reach));
-    sunder_i_pieces_forget(&s->model, 0);
+    if (solver->parent) sunder_i_pieces_forget(&solver->model, 0);
 }
 
-void sunder_i_solver_hold(sunder_i_solver *solver, uint32_t i, uint32_t j)
+static void hold_beside(sunder_i_solver *solver, uint32_t b, uint32_t neighbour)
 {
-    sunder_i_body *body = solver->model.body;
-    if (!solver->let_go || body[i].fixed || body[j].fixed) return;
-    for (int e = 0; e < 2; e++) {
-        const uint32_t b = e ? j : i;
-        if (is_coarse_beside(&solver->model, &body[b], &body[e ? i : j]) && is_free_to_hold(solver, b))
-            hold(solver, b, &body[e ? i : j]);
+    sunder_i_body *body = &solver->model.body[b];
+    const sunder_i_body *other = &solver->model.body[neighbour];
+    double box[4], beside[4];
+    if ((body->fixed && !body->held) || (other->fixed && !other->held)) return;
+    home_box(&solver->model, body, box);
+    home_box(&solver->model, other, beside);
+    if (last_place(box) < last_place(beside) + COARSE_BITS) return;
+    const double stretch = stretch_of(solver, beside);
+    const bool coarse = ldexp(COARSE_PLACES, last_place(box)) > stretch;
+    if (!body->held && (coarse || body->far) && is_free_to_hold(solver, b)) {
+        fix(solver, body, stretch);
+        solver->holding[b] = SUNDER_I_HELD;
     }
+    if (body->held && coarse) solver->holding[b] = SUNDER_I_HELD_AS_COARSE;
+}
+
+static void hold(sunder_i_solver *solver, const sunder_i_relations *relations)
+{
+    for (size_t k = 0; k < relations->n; k++) {
+        const sunder_i_relation *r = &relations->pair[k];
+        const uint32_t i = solver->model.body_of[r->a], j = solver->model.body_of[r->b];
+        const bool aside = solver->aside && (solver->aside[i] || solver->aside[j]);
+        if (!sunder_i_is_open_conflict(&solver->model, r) || aside) continue;
+        hold_beside(solver, i, j);
+        hold_beside(solver, j, i);
+    }
+}
+
+/* Is the last place of some so much finer than that of others that these could be held? */
+static bool may_hold(const sunder_i_model *model)
+{
+    int finest = INT_MAX, coarsest = INT_MIN;
+    for (size_t b = 0; b < model->bodies; b++) {
+        double box[4];
+        home_box(model, &model->body[b], box);
+        if (model->body[b].fixed || box[0] > box[2]) continue;
+        const int place = last_place(box);
+        finest = place < finest ? place : finest;
+        coarsest = place > coarsest ? place : coarsest;
+    }
+    return finest < coarsest && coarsest - finest >= COARSE_BITS;
+}
+
+sunder_status sunder_i_solver_begin_holding(sunder_i_solver *solver, sunder_error *err)
+{
+    if (!may_hold(&solver->model)) return SUNDER_OK;
+    solver->holding = sunder_i_calloc(solver->model.bodies, sizeof *solver->holding);
+    if (!solver->holding) return sunder_i_no_memory(err);
+    for (size_t b = 0; b < solver->model.bodies; b++) sunder_i_find_far_corners(&solver->model, &solver->model.body[b]);
+    hold(solver, &solver->start);
+    return SUNDER_OK;
+}
+
+void sunder_i_solver_hold(sunder_i_solver *solver)
+{
+    if (solver->holding) hold(solver, &solver->now);
+}
+
+bool sunder_i_solver_any_held(const sunder_i_solver *solver)
+{
+    for (size_t b = 0; solver->holding && b < solver->model.bodies; b++)
+        if (solver->model.body[b].held) return true;
+    return false;
+}
+
+/* ---- Letting go -------------------------------------------------------------------------------------------------- */
+
+/* Held bodies with a conflict left, and such as may be of use: *any. */
+static void mark_let_go(sunder_i_solver *solver, bool *any)
+{
+    const sunder_i_model *model = &solver->model;
+    *any = false;
+    for (size_t b = 0; b < model->bodies; b++)
+        if (solver->holding[b] == SUNDER_I_HELD) solver->holding[b] = SUNDER_I_LET_GO;
+    for (size_t k = 0; k < solver->now.n; k++) {
+        const sunder_i_relation *r = &solver->now.pair[k];
+        if (!sunder_i_is_conflict_of_bodies(model, r)) continue;
+        if (model->body[model->body_of[r->a]].held) solver->holding[model->body_of[r->a]] = SUNDER_I_LET_GO;
+        if (model->body[model->body_of[r->b]].held) solver->holding[model->body_of[r->b]] = SUNDER_I_LET_GO;
+    }
+    for (size_t b = 0; b < model->bodies; b++) *any = *any || solver->holding[b] == SUNDER_I_LET_GO;
+}
+
+/* root: [bodies] those of the sets that an edge leads to from who is let go, and its own. */
+static void mark_roots(sunder_i_solver *solver, bool *root)
+{
+    for (uint32_t b = 0; b < solver->model.bodies; b++)
+        if (solver->holding[b] == SUNDER_I_LET_GO) root[sunder_i_union_find(solver->parent, b)] = true;
+    for (size_t k = 0; k < solver->edges; k++) {
+        const uint32_t i = solver->edge[k].a, j = solver->edge[k].b;
+        if (solver->holding[i] == SUNDER_I_LET_GO || solver->holding[j] == SUNDER_I_LET_GO)
+            root[sunder_i_union_find(solver->parent, i)] = root[sunder_i_union_find(solver->parent, j)] = true;
+    }
+}
+
+/* What was proved infeasible at the start stays so, but beside who is let go. False if memory is out. */
+static bool keep_infeasible(sunder_i_solver *solver)
+{
+    const sunder_i_model *model = &solver->model;
+    bool ok = true;
+    for (size_t k = 0; k < model->relaxations.n && ok; k++) {
+        const sunder_i_relaxation *t = &model->relaxations.item[k];
+        const uint32_t i = model->body_of[t->a], j = model->body_of[t->b];
+        if (t->infeasible && (solver->wanted[i] || solver->wanted[j]) && solver->holding[i] != SUNDER_I_LET_GO &&
+            solver->holding[j] != SUNDER_I_LET_GO)
+            ok = sunder_i_relaxations_add(&solver->waiting, t);
+    }
+    return ok;
 }
 
 sunder_status sunder_i_solver_let_go(sunder_i_solver *solver, bool *any, sunder_error *err)
 {
     sunder_i_model *model = &solver->model;
+    mark_let_go(solver, any);
+    if (!*any) return SUNDER_OK;
     bool *root = sunder_i_calloc(model->bodies, sizeof *root);
-    *any = false;
     if (!root) return sunder_i_no_memory(err);
-    for (size_t k = 0; k < solver->now.n; k++) {
-        const sunder_i_relation *r = &solver->now.pair[k];
-        const uint32_t pair[2] = {model->body_of[r->a], model->body_of[r->b]};
-        if (!sunder_i_is_conflict_of_bodies(model, r)) continue;
-        for (int e = 0; e < 2; e++) {
-            sunder_i_body *body = &model->body[pair[e]];
-            if (!body->held && !solver->let_go[pair[e]]) continue;
-            *any = *any || body->held;
-            if (body->held) body->held = body->fixed = false;
-            solver->let_go[pair[e]] = root[sunder_i_union_find(solver->parent, pair[0])] =
-                root[sunder_i_union_find(solver->parent, pair[1])] = true;
-        }
-    }
-    sunder_status status = SUNDER_OK;
-    if (*any) {
-        for (uint32_t b = 0; b < model->bodies; b++) {
-            solver->wanted[b] = !model->body[b].fixed && root[sunder_i_union_find(solver->parent, b)];
-            solver->reconsidered[b] = solver->reconsidered[b] && !solver->wanted[b];
-        }
-        status = sunder_i_solver_begin_again(solver, solver->wanted, err);
+    mark_roots(solver, root);
+    for (uint32_t b = 0; b < model->bodies; b++) {
+        sunder_i_body *body = &model->body[b];
+        if (solver->holding[b] == SUNDER_I_LET_GO) body->held = body->fixed = false;
+        solver->wanted[b] = !body->fixed && root[sunder_i_union_find(solver->parent, b)];
+        solver->reconsidered[b] = solver->reconsidered[b] && !solver->wanted[b];
     }
     sunder_i_free(root);
-    return status;
+    return keep_infeasible(solver) ? sunder_i_solver_begin_again(solver, solver->wanted, err) : sunder_i_no_memory(err);
 }
 
 void sunder_i_solver_end_holding(sunder_i_solver *solver)

@@ -126,6 +126,7 @@ static sunder_status find_work(sunder_i_solver *s, bool *any, sunder_error *err)
     sunder_i_model *model = &s->model;
     memset(s->dirty, 0, model->bodies * sizeof *s->dirty);
     *any = false;
+    sunder_i_solver_hold(s);
     for (size_t k = 0; k < s->now.n; k++) {
         const sunder_i_relation *r = &s->now.pair[k];
         const uint32_t i = model->body_of[r->a], j = model->body_of[r->b];
@@ -138,7 +139,6 @@ static sunder_status find_work(sunder_i_solver *s, bool *any, sunder_error *err)
             continue;
         }
         if (!are_together(s, i, j)) {
-            sunder_i_solver_hold(s, i, j);
             if (!sunder_i_solver_add_edge(s, i, j)) return sunder_i_no_memory(err);
             carry(s, r->a, r->b);
             *any = true;

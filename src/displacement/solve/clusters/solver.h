@@ -40,6 +40,14 @@ typedef struct sunder_i_groups {
     bool any_seamed;
 } sunder_i_groups;
 
+/* Is a body held, or was it? As coarse: its moves are of no use to a neighbour. */
+typedef enum sunder_i_holding {
+    SUNDER_I_NOT_HELD,
+    SUNDER_I_HELD,
+    SUNDER_I_HELD_AS_COARSE,
+    SUNDER_I_LET_GO
+} sunder_i_holding;
+
 /* Members of clusters are to be listed, whatever edges there are. */
 #define SUNDER_I_NONE_LISTED SIZE_MAX
 
@@ -76,7 +84,7 @@ typedef struct sunder_i_solver {
     bool *cheapest; /* [bodies] there are none: it stands where a solution had it that was known to be the cheapest */
     double *limit;  /* [bodies] the limits, while they are lifted */
     bool *aside;    /* [bodies] left as they are while limits are lifted; NULL: they never were */
-    bool *let_go;   /* [bodies] held once, and no longer (coarse_bodies.c); NULL: none is ever held */
+    unsigned char *holding; /* [bodies] sunder_i_holding (coarse_bodies.c); NULL: none is ever held */
     double *went;   /* [2 * bodies] where those stood that were set aside because they went too far */
     sunder_i_relaxations waiting;    /* of what was set aside */
     uint32_t *carrier;               /* [bodies] whose place to start from instead of its own, or SUNDER_I_NOBODY */

@@ -45,13 +45,39 @@ sunder_status sunder_i_solver_begin_again(sunder_i_solver *solver, const bool *b
 
 /* ---- coarse_bodies.c --------------------------------------------------------------------------------------------- */
 
-/* Of two bodies in conflict the one with coarse moves compared with the other is fixed from now on, if possible. */
-void sunder_i_solver_hold(sunder_i_solver *solver, uint32_t i, uint32_t j);
-/* Bodies that are held and still in conflict may move from now on: *any, and then what hangs together with them, which
- * is what is wanted from now on, has begun again. */
+/* Of two bodies in conflict at the start the one whose moves are coarse beside the other is fixed from now on. */
+sunder_status sunder_i_solver_begin_holding(sunder_i_solver *solver, sunder_error *err);
+/* The same as things stand, if it can be. */
+void sunder_i_solver_hold(sunder_i_solver *solver);
+/* Is a body held? */
+bool sunder_i_solver_any_held(const sunder_i_solver *solver);
+/* Bodies that are held and still in conflict, or that might be of use, may move from now on: *any, and then what hangs
+ * together with them, which is what is wanted from now on, has begun again. */
 sunder_status sunder_i_solver_let_go(sunder_i_solver *solver, bool *any, sunder_error *err);
 /* What was held is fixed no longer, for the report; nothing is proved of it but by pairs. */
 void sunder_i_solver_end_holding(sunder_i_solver *solver);
+
+/* ---- held_or_free.c ---------------------------------------------------------------------------------------------- */
+
+/* A layout with held bodies, and what it stands on. Zeroed: none. */
+typedef struct sunder_i_held_layout {
+    double *move;              /* [2 * bodies] */
+    bool *held, *improved;     /* [bodies] */
+    unsigned char *widened;    /* [bodies] */
+    sunder_i_id_pair *edge;    /* [edges] bodies */
+    sunder_i_id_pair *conflict; /* [conflicts] bodies, of each two features in conflict */
+    sunder_i_id_pair *given_up;
+    size_t edges, conflicts, given_up_n;
+    sunder_i_inclusion_state *state; /* [inclusions] */
+    sunder_i_relaxations relaxations;
+} sunder_i_held_layout;
+
+/* The layout as it stands. Failure leaves what sunder_i_held_layout_free() takes. */
+sunder_status sunder_i_solver_keep_held(const sunder_i_solver *solver, sunder_i_held_layout *layout, sunder_error *err);
+/* Takes it back where it is better than what was found since, cluster by cluster. */
+sunder_status sunder_i_solver_take_better(sunder_i_solver *solver, const sunder_i_held_layout *layout,
+                                          sunder_error *err);
+void sunder_i_held_layout_free(sunder_i_held_layout *layout);
 
 /* ---- move_inside.c ----------------------------------------------------------------------------------------------- */
 
