@@ -22,7 +22,7 @@
 
 enum { DONE = 0, NO_MEMORY = 1, WRONG = 2 };
 
-/* A closed scribble in full doubles: its corners are crossings, of which exact texts are long. */
+/* A closed scribble in full doubles: its corners are crossings, whose exact texts are long. */
 static sunder_status scribble(rng *g, int n, double reach, sunder_shape **out)
 {
     double xy[2 * 64];
@@ -89,7 +89,7 @@ static size_t pages_now(void)
     return pages;
 }
 
-/* In a child that may take so many bytes more. */
+/* In a child process that may take this many bytes more. */
 static int under_limit(size_t bytes, uint64_t seed)
 {
     fflush(NULL);

@@ -92,7 +92,7 @@ static void test_all_is_done_within_threads(void **state)
         }
 }
 
-/* Of one item nobody else is in need of the other threads. */
+/* With a single item the other threads are idle. */
 static void test_idle_threads_help(void **state)
 {
     (void)state;

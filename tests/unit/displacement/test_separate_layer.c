@@ -103,7 +103,7 @@ static void check_limits(void **state)
     assert_int_equal(scene_left(&s), 0);
     assert_true(scene_length(&s, 0) <= 0.25);
     assert_near(scene_length(&s, 1), 1.75, 1e-6);
-    /* Together too little: the pair is listed, and nobody moves to ease it. */
+    /* Together too little: the pair is listed, and no body moves to ease it. */
     s.feature[1].max_shift = 0.5;
     scene_separate(&s);
     assert_int_equal(scene_left(&s), 1);
@@ -163,8 +163,8 @@ static void check_chain_without_room(void **state)
     scene_end(&s);
 }
 
-/* Twelve houses wall to wall, each of which may go a third of the way that would make room for the gaps: all that stays
- * is proved to, though each pair by itself has room. */
+/* Twelve houses wall to wall, each of which may move a third of the distance that would make room for the gaps: every
+ * remaining conflict is proved, though each pair by itself has room. */
 static void check_row_without_room(void **state)
 {
     scene s;
@@ -225,8 +225,8 @@ static void check_narrow_yard(void **state)
     scene_end(&s);
 }
 
-/* The same, with moves long enough to leave it: what forbids that is the rule against jumps, by a proof; and a limit
- * that would let nobody leave is told first. */
+/* The same, with moves long enough to leave it: the rule against jumps forbids that, with a proof; and a limit too
+ * short to leave it is reported first. */
 static void check_yard_without_gate(void **state)
 {
     for (int k = 0; k < 3; k++) {
@@ -254,8 +254,7 @@ static void check_yard_without_gate(void **state)
     scene_end(&s);
 }
 
-/* A hut between two fixed walls that it cannot keep the gap from, and neighbours with room: nobody moves for the
- * hut. */
+/* A hut between two fixed walls that it cannot keep the gap from, and neighbours with room: none moves for the hut. */
 static void check_nothing_worse(void **state)
 {
     scene s;

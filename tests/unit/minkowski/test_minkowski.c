@@ -254,8 +254,8 @@ static void test_out_of_memory(void **state)
     }
 }
 
-/* Members that are apart, that overlap once they are grown, and that share a wall, which takes three roads; bars, so
- * many that it is asked which sums are needed. */
+/* Members that are apart, that overlap once they are grown, and that share a wall, which takes three roads; and enough
+ * bars that only the needed sums are made. */
 static void test_out_of_memory_in_members(void **state)
 {
     (void)state;

@@ -10,7 +10,7 @@
 
 #include <cmocka.h>
 
-#define SIDE 60 /* places are a board of so many columns and rows */
+#define SIDE 60 /* places form a board of columns and rows */
 #define FAR ((int64_t)1 << 57)
 
 static void open_lattice(sunder_i_lattice *l, bool wide)

@@ -227,8 +227,8 @@ static sunder_shape *triangle(double scale, bool swap)
     return s;
 }
 
-/* Beside a gap of 2^406 a triangle of 2^-1000 has sides of which doubles in units of both know nothing. Its top, over
- * the origin, is what the least translation has too many digits for: the nearest doubles stay below it by this much. */
+/* Beside a gap of 2^406 a triangle of 2^-1000 has sides that doubles in units of both cannot represent. Its top, over
+ * the origin, gives the least translation too many digits: the nearest doubles stay below it by this much. */
 static void tiny_beside_a_gap(void **state)
 {
     const double gap = 0x1p406, bottom = gap * (1 - 0x1p-14);

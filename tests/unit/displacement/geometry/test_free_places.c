@@ -210,7 +210,7 @@ static bool go_on_once(void *user)
     return go_on;
 }
 
-/* Whoever is told to stop, be it while cells are made, says that he failed. */
+/* A search that is told to stop, even while cells are made, reports failure. */
 static void test_stopped(void **state)
 {
     (void)state;
@@ -224,7 +224,7 @@ static void test_stopped(void **state)
         uint64_t steps = 0;
         draw(&r, &c);
         for (size_t k = 0; k < c.n; k++) sunder_i_obstacles_add(&o, c.corner[k][0], c.corners[k], 0);
-        sunder_watch(go_on_once, &asked); /* it is asked at the next step, and then at each of so many */
+        sunder_watch(go_on_once, &asked); /* polled at the next step, and then every SUNDER_I_STEPS steps */
         for (int k = 0; k < before; k++) sunder_i_step();
         sunder_i_free_places(&o, c.target, 1e9, 0, 4, place, &steps, &failed);
         assert_true(failed == sunder_i_stopped());

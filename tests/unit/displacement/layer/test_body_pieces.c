@@ -1,6 +1,6 @@
-/* What the search looks at of a body: nothing until somebody asks, and then the same whoever asks, from however many
- * threads: pieces from the body's origin, in the order of the shapes', with boxes that make the body's; anchors; and
- * outlines, convex. */
+/* The search's view of a body: not made until its first use, and then the same for every thread that asks first: pieces
+ * relative to the body's origin, in the order of the shapes', with boxes that make up the body's; anchors; and convex
+ * outlines. */
 #include "random.h"
 #include "scene.h"
 #include "scene_model.h"
@@ -111,7 +111,7 @@ static void test_made_when_asked(void **state)
         most_members = body->members > most_members ? body->members : most_members;
     }
     assert_true(seams >= model->most_pieces - 1);
-    assert_true(most_members > 4); /* so many have a box that is kept */
+    assert_true(most_members > 4); /* runs with a stored box */
     assert_true(model->most_pieces >= 2 * SUNDER_I_RUN - 1);
     scene_model_end(&of);
     scene_end(&s);

@@ -14,8 +14,8 @@
 
 #include <cmocka.h>
 
-/* Boxes of which many have the same lower edge, on either side of 0 and on it; some absent, some alike, and now and
- * then one as far away as doubles go. */
+/* Boxes, many with the same lower edge, on either side of 0 and on it; some absent, some alike, and now and then one as
+ * far away as doubles go. */
 static void draw_scene(rng *g, scene *s)
 {
     scene_begin(s, 1);
@@ -91,7 +91,7 @@ static void test_by_place(void **state)
     }
 }
 
-/* Nobody is there; or nothing at all. */
+/* All features are absent; or there are none. */
 static void test_of_none(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* Who came near a box on the way from home: by the tree, and by looking at all; as bodies move a little, far, and back,
- * and where each feature has a move of its own. */
+/* Which bodies came near a box on their way from their original place: by the tree, and by looking at all; as bodies
+ * move a little, far, and back, and where each feature has a move of its own. */
 #include "random.h"
 #include "scene_model.h"
 

@@ -27,7 +27,7 @@ static void draw_scene(rng *g, scene *s)
     for (size_t k = 0; k < n; k++) s->feature[k].fixed = rng_once_in(g, 2);
 }
 
-/* Those of a few are all of which one is among them, and no others. */
+/* The relations of a few things are all relations with one of them, and no others. */
 static void test_relations_of_some(void **state)
 {
     (void)state;
@@ -61,7 +61,7 @@ static void test_relations_of_some(void **state)
     }
 }
 
-/* Some bodies go elsewhere, or a hair aside; what changed, sorted, and who was near. */
+/* Moves some bodies, far or slightly; lists the changed ones, sorted, and their neighbours. */
 static void move_some(rng *g, scene_model *m, sunder_i_changes *changes, sunder_i_list *about)
 {
     sunder_error err;
@@ -92,8 +92,7 @@ static bool are_alike(const sunder_i_relation *a, const sunder_i_relation *b)
            a->contained == b->contained && a->kept == b->kept;
 }
 
-/* Relations that are brought up to date, move after move, are those that are found afresh; whether it is told who was
- * near or not. */
+/* Relations that are updated, move after move, equal those computed afresh, whether the neighbours are given or not. */
 static void test_brought_up_to_date(void **state)
 {
     (void)state;

@@ -1,6 +1,6 @@
-/* Orders of elimination: whichever it is, it ranks all, and tells who is joined to whom as eliminating one node after
- * the other does, with sets, in that order. Where nodes stand beside their neighbours dissection takes less than
- * minimum degree; a graph that no line parts it leaves alone. */
+/* Elimination orders: each ranks all nodes, and gives the same neighbours as eliminating one node after the other in
+ * that order, with sets. Where nodes stand beside their neighbours dissection takes less than minimum degree; a graph
+ * without a small separator is declined. */
 #include "displacement/quadratic/elimination.h"
 #include "random.h"
 

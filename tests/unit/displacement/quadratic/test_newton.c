@@ -34,8 +34,8 @@ static void begin(program *p)
     for (size_t k = 0; k < BODIES; k++) p->mass[k] = 0.5;
 }
 
-/* Contacts at random of bodies with their next ones, some with the ground, some of which cannot move; all of what they
- * owe grows along one way, so that it has a solution: that all move along it. */
+/* Random contacts of bodies with their neighbours in a list, some with the ground, some of them fixed; all distances
+ * grow along one direction, so that there is a solution: all move along it. */
 static void draw(rng *r, program *p)
 {
     begin(p);
@@ -103,8 +103,7 @@ static void row(program *p, double limit)
     }
 }
 
-/* Where a solution may cost no more than so much, it is known that none does; where it may cost anything, the forces
- * are what they were. */
+/* With a bound on the cost, it is found that no solution is below it; without one, the forces are what they were. */
 static void check_contradiction(void **state)
 {
     (void)state;

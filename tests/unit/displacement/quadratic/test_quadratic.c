@@ -164,8 +164,8 @@ static void check_nearest(void **state)
     assert_true(outcomes[0] > 0 && outcomes[1] > 0 && outcomes[2] <= test_count(4000) / 100);
 }
 
-/* A crowd in rows, each of which has to keep from those about it, in directions that are off by as much as a right
- * angle: chains of contacts send the outer ones fifty times as far as the bodies are large. */
+/* A crowd in rows; each body has to keep a distance from those around it, in directions that are off by as much as a
+ * right angle: chains of contacts send the outer ones fifty times as far as the bodies are large. */
 enum { SIDE = 40, CROWD = SIDE * SIDE };
 
 static size_t crowd(rng *r, sunder_i_constraint *constraint)
@@ -203,7 +203,7 @@ static double cost_of(const sunder_i_quadratic *q)
     return cost;
 }
 
-/* A crowd that is solved, and one beside it that nobody is in contact with. */
+/* A crowd that is solved, and a body beside it without contacts. */
 enum { MORE = 3, LONE = CROWD };
 
 typedef struct solved_crowd {
@@ -276,8 +276,8 @@ static void check_mended(void **state)
     assert_true(mended > 0 && left > 0);
 }
 
-/* That it is to cost no more than so much changes nothing where a solution costs less; where there is none it is mostly
- * known to cost more. */
+/* A bound on the cost changes nothing where a solution costs less; where there is none it is usually found that it
+ * would cost more. */
 static void check_dear(void **state)
 {
     (void)state;

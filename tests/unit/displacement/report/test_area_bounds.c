@@ -34,7 +34,7 @@ static void test_bound_is_near(void **state)
     scene_end(&s);
 }
 
-/* Who spread out before, without prices, pays more than they prove, and more than who begins where they say. */
+/* A crowd that spread out without prices costs more than they prove, and more than one that begins where they say. */
 static void test_bound_holds_of_other_layouts(void **state)
 {
     (void)state;

@@ -76,7 +76,7 @@ static void check_tight_yard(void **state)
     scene_add_box(&s, 0, 5, 5, 20);
     scene_add_box(&s, 25, 5, 5, 20);
     scene_add_box(&s, 7, 10, 16, 10);
-    for (int dropped = 0; dropped < 2; dropped++) { /* whom a proof names is known without it, too */
+    for (int dropped = 0; dropped < 2; dropped++) { /* the features named by a proof are known without it, too */
         s.options.drop_proofs = dropped;
         scene_separate(&s);
         const sunder_conflict *c = sunder_report_conflicts(s.report, &n);

@@ -135,8 +135,8 @@ static void test_needs(void **state)
     (void)state;
     crowd c;
     sunder_report *report = ask_for_needs(&c, NAN);
-    /* Between a dozen and 200 take part in each, and gaps are asked of all pairs until that is spent; limits of so
-     * many, and then of as many as there are powers of two. */
+    /* Between a dozen and 200 features take part in each, and gaps are examined for all pairs until the budget is
+     * spent; limits for a fixed number, and then for one in every power of two. */
     assert_true(asked_gap[0] >= NEED_IN_VAIN / 200 && asked_gap[0] <= NEED_IN_VAIN / 12);
     assert_true(asked_gap[0] < report->conflicts - 1);
     assert_true(asked_limit[0] >= NEED_PATIENCE && asked_limit[0] <= NEED_PATIENCE + 12);
@@ -180,7 +180,7 @@ static sunder_status decide_in_vain(const sunder_i_subproblem *q, sunder_i_decis
     return SUNDER_OK;
 }
 
-/* Asks about all pairs of a field of so many squares each way; how many it has. */
+/* Asks about all pairs of a square field; returns the number of pairs. */
 static size_t ask_for_proofs(size_t side, size_t tell)
 {
     crowd c;

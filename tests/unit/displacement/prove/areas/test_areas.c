@@ -23,7 +23,7 @@ typedef struct body {
     sunder_i_outline outline;
 } body;
 
-/* Corners about a place, turning to the left, or to the right; so many that it is within the ring. */
+/* Corners around a place, turning to the left, or to the right; enough of them that it is within the ring. */
 static void draw_ring(rng *g, sunder_i_outline *o, const double at[2], double least, double most, bool left)
 {
     const size_t from = o->rings ? o->ring_end[o->rings - 1] : 0, n = (size_t)rng_int(g, 5, MOST_CORNERS);
@@ -245,7 +245,7 @@ static double worth_of(const sunder_i_prices *p)
     return sum * p->unit * p->grid.side * p->grid.side;
 }
 
-/* What one pays by a move of so many squares. */
+/* The payment of one payer for a move by a number of squares. */
 static long double paid_at(const market *m, const double t[2])
 {
     const sunder_i_prices *p = &m->prices;
@@ -277,7 +277,7 @@ static void draw_move(rng *g, const market *m, double limit, double at[2])
         for (int c = 0; c < 2; c++) at[c] *= far > 0 ? most / far : 0;
 }
 
-/* Nobody finds a place that is cheaper than what is proved: from a random one by ever shorter steps downwards. */
+/* No place is cheaper than what is proved: descents from random places by ever shorter steps. */
 static void seek_cheaper(rng *g, const market *m, long double least)
 {
     const double limit = m->payer.limit / m->prices.grid.side;
@@ -296,7 +296,7 @@ static void seek_cheaper(rng *g, const market *m, long double least)
     if (paid < least) fail_msg("by (%g, %g) squares %.17Lg is paid, and not %.17Lg", at[0], at[1], paid, least);
 }
 
-/* So many of one kind that the worth of all area is little beside what they pay. */
+/* Enough payers of one kind that the worth of all area is small beside their payments. */
 static double prove_copies(const market *m)
 {
     static sunder_i_payer payer[COPIES];

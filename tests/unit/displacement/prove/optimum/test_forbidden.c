@@ -41,7 +41,7 @@ static void add(set *s, const double box[4], double radius)
     f->grain = 0x1p-46 * f->size;
 }
 
-/* n rectangles about the middle, so many that they overlap; some are grown by nothing. */
+/* n rectangles about the middle, enough of them that they overlap; some are grown by nothing. */
 static void make(rng *r, size_t n, set *s)
 {
     memset(s, 0, sizeof *s);
@@ -90,7 +90,7 @@ static void check_places(rng *r, const set *s)
         assert_true(depth_of(s, u[0] + way * dir[0], u[1] + way * dir[1]) <= hair);
         const double half = sunder_i_forbidden_exit(&s->forbidden, u, dir, way / 2);
         assert_true(way == 0 || (half >= way / 2 && half <= way));
-        /* Whoever asks for no more than some way gets no less, or where it ends. */
+        /* A search limited to a distance finds no less than that, or where the set ends. */
         for (int e = 1; e < 16; e++) {
             const double most = way * e / 12, some = sunder_i_forbidden_exit(&s->forbidden, u, dir, most);
             assert_true(most > way ? some == way : some >= most && some <= way);

@@ -253,7 +253,7 @@ static void test_small_move_beside_what_is_long(void **state)
     scene_end(&s);
 }
 
-/* Half a unit each leaves the box in the slot, and half a unit from a line that nobody was in contact with. */
+/* Half a unit each leaves the box in the slot, and half a unit from a line that nothing touched. */
 static void test_slot_beside_a_stranger(void **state)
 {
     (void)state;
@@ -394,8 +394,8 @@ static void test_no_nearer_by_dividing(void **state)
     scene_end(&s);
 }
 
-/* Without limits the box would leave the ring by half a unit; with one of its own it stays within, and the ring goes:
- * who had a solution without limits is asked about once more within them. */
+/* Without limits the box would leave the ring by half a unit; with a limit of its own it stays inside, and the ring
+ * moves: a pair with a solution without limits is examined once more within them. */
 static void test_within_limits_too(void **state)
 {
     (void)state;

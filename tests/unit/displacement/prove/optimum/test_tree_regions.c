@@ -22,7 +22,7 @@ typedef struct crowd {
     uint32_t body[BODIES];
 } crowd;
 
-/* Boxes of 10 every 8, all over each other, and their tree after so many steps. */
+/* Boxes of 10 every 8, overlapping each other, and their tree after a number of steps. */
 static void begin(crowd *c, uint64_t steps)
 {
     const sunder_i_waived none = {0};

@@ -1,5 +1,5 @@
-/* displacement/proofs/plane_kept: who asks about the same bodies again, of a small layer, is told the same with what
- * was kept as without, for the same effort, whatever was asked before. */
+/* displacement/prove/proofs/plane_kept: a further question about the same bodies of a small layer has the same answer
+ * with the cache as without, for the same effort, whatever was asked before. */
 #include "random.h"
 #include "scene_model.h"
 

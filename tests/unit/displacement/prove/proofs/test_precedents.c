@@ -1,5 +1,5 @@
-/* displacement/proofs/precedents: who asks about the same bodies again, with what was told before, is told the same as
- * without, sooner; and what coarse lines do not prove of some things they do not prove of fewer. */
+/* displacement/prove/proofs/precedents: a further question about the same bodies has the same answer with earlier
+ * answers at hand, sooner; and what coarse lines do not prove of some things they do not prove of fewer. */
 #include "random.h"
 #include "scene_model.h"
 

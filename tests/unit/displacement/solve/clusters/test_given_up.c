@@ -1,5 +1,5 @@
-/* Pairs that were given up: their list, kept in order one by one, and as a whole; and that who can be helped alone is
- * helped in whatever crowd. */
+/* Pairs that were given up: their list, kept in order one by one, and as a whole; and a body that can be solved alone
+ * is solved in any crowd. */
 #include "displacement/layer/model.h"
 
 #include "random.h"
@@ -23,7 +23,7 @@
 
 enum { FEATURES = 24, BODIES = 12 };
 
-/* The same relaxations; p, of which some were taken out one by one, may say of bodies that they reach farther. */
+/* The same relaxations; p, from which some were removed one by one, may record a larger reach for bodies. */
 static void expect_same(const sunder_i_relaxations *p, const sunder_i_relaxations *q)
 {
     assert_int_equal(p->n, q->n);
@@ -106,9 +106,9 @@ static void add_box(sunder_feature *out, double x, double y, double w, double h,
     *out = (sunder_feature){.shape = shape, .weight = 1, .max_shift = 1, .block = -1, .fixed = fixed};
 }
 
-/* A row of slabs, each of which overlaps the next: within the limits no more than a handful part. Beneath each stands a
- * hut that it overlaps by less than it may move. However long the row is, no slab stays on its hut. Of that the search
- * is asked: with more effort only proofs of what is left take longer. */
+/* A row of slabs, each overlapping the next: within the limits only a handful separate. Beneath each stands a hut that
+ * it overlaps by less than it may move. However long the row is, no slab stays on its hut. The search has to achieve
+ * that: with more effort only proofs of the rest take longer. */
 static void check_row(size_t slabs, double effort)
 {
     sunder_feature feature[2 * MOST];
@@ -187,8 +187,7 @@ static void check_last_hair(void **state)
 
 enum { SYMBOLS = 30, HEAP_WIDE = 6, HEAP_HIGH = 9, HEAP = HEAP_WIDE * HEAP_HIGH };
 
-/* So many squares of that side, which lie as they fall, and may go so far; moves: where they went. Returns how many
- * conflicts are left. */
+/* Squares of this side at random places, with this limit; moves: their moves. Returns how many conflicts are left. */
 static size_t separate_symbols(double (*at)[2], size_t n, double side, double limit, double (*move)[2])
 {
     sunder_feature feature[HEAP];
@@ -212,8 +211,8 @@ static size_t separate_symbols(double (*at)[2], size_t n, double side, double li
     return left;
 }
 
-/* A limit that nobody's move reaches changes none of them; and one of four fifths of the longest move leaves few pairs
- * in conflict, of those that all have a solution without it. The crowds are always the same: how many is a matter of
+/* A limit that no move reaches changes none of them; and a limit of four fifths of the longest move leaves few of the
+ * pairs in conflict that all have a solution without it. The crowds are fixed, so the number left is a property of
  * each. */
 static void check_symbols(void **state)
 {
@@ -234,8 +233,8 @@ static void check_symbols(void **state)
     assert_true(left <= 6);
 }
 
-/* A heap of squares of side 4, a unit from one to the next, each of which lies in a dozen and more: within the limit
- * there is room for most of them, but not for all. So what is given up is a few beside those that were in conflict. */
+/* A heap of squares of side 4, a unit from one to the next, each overlapping a dozen and more: within the limit there
+ * is room for most of them, but not for all. So few pairs are given up compared with those in conflict. */
 static void check_heap(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* A large crowd takes in, before it is solved, whom it needs the ground of: others that may go anywhere, alone or in
- * small crowds, and nobody else. */
+/* Before it is solved, a large crowd absorbs the bodies on the ground that it needs: those that may go anywhere, alone
+ * or in small crowds, and no others. */
 #include "random.h"
 #include "scene_solver.h"
 
@@ -110,7 +110,7 @@ static void test_takes_in(void **state)
     for (size_t k = 0; k < c.n; k++) sunder_shape_free((sunder_shape *)(uintptr_t)c.feature[k].shape);
 }
 
-/* Without effort nobody begins where prices put him; and what is small begins anew whenever it grows. */
+/* Without effort no body starts where prices put it; and a small crowd starts again whenever it grows. */
 static void test_others_stay(void **state)
 {
     (void)state;

@@ -33,7 +33,7 @@ static void add_round(scene_field *f, double x, double y)
     scene_field_add(f, wkt, INFINITY);
 }
 
-/* Round things in so many columns and rows, so far from each other. */
+/* Round bodies in columns and rows at a fixed distance. */
 static scene_field *begin(size_t columns, size_t rows, double apart)
 {
     scene_field *f = scene_field_new(columns * rows);
@@ -111,7 +111,7 @@ static void test_a_large_crowd(void **state)
     }
 }
 
-/* One who has a limit: nobody goes down roughly, but finds the way all the same. */
+/* With one limited body the crowd does not descend coarsely, but still finds the solution. */
 static void test_with_a_limit(void **state)
 {
     (void)state;

@@ -1,4 +1,5 @@
-/* displacement/search/descend: who misses a hair beside a wide barrier goes down to the place there, not elsewhere. */
+/* displacement/solve/search/descend: a body that misses a hair beside a wide barrier descends to the place there, not
+ * elsewhere. */
 #include "scene.h"
 
 #include "displacement/solve/search/stages.h"

@@ -25,7 +25,7 @@ typedef struct pair {
     bool done;
 } pair;
 
-/* A scene of nobody yet. */
+/* An empty scene. */
 static scene *scene_of(pair *p, double gap)
 {
     memset(p, 0, sizeof *p);

@@ -1,5 +1,6 @@
-/* displacement/search/mend_few: a crowd in which somebody was sent home, and few clash, is mended about those, and
- * nobody else moves; where nobody was, or many clash, or it is no large crowd, it is left as it was. */
+/* displacement/solve/search/mend_few: a crowd in which a body was sent back, with few clashes, is repaired around
+ * these, and no other body moves. If no body was sent back, many clash, or the crowd is not large, it is left as it
+ * was. */
 #include "scene_field.h"
 
 #include "displacement/solve/search/stages.h"
@@ -17,7 +18,7 @@
 
 enum { MOST = 24 * 24 };
 
-/* Squares of 10 m that owe each other 3, and stand 4 apart in a field of so many by so many; each may go 2. */
+/* Squares of 10 m that owe each other 3 m, and stand 4 m apart in a square field; each may move 2 m. */
 static scene_field *begin(size_t side)
 {
     scene_field *f = scene_field_new(side * side);

@@ -1,5 +1,5 @@
-/* displacement/search/pushed: who is pushed when a pair is parted, how far each has to go, and when it is in vain; what
- * is taken back so of a row; displacement/search/together: what went the same way but for a hair. */
+/* displacement/solve/search/pushed: which bodies are pushed when a pair is separated, how far each has to move, and
+ * when it fails; what a row gives back like this. Also common_moves: bodies that moved together up to a hair. */
 #include "scene_board.h"
 
 #include "displacement/solve/search/pushed.h"
@@ -74,7 +74,7 @@ static void test_pushed_as_far_as_need_be(void **state)
     end_row(&b, &s);
 }
 
-/* Both ends of the row may go so far, and no farther: what is missed by more is in vain, and nobody has moved. */
+/* Both ends of the row may move this far, and no farther: a greater violation fails, and no body has moved. */
 static void test_limits(void **state)
 {
     (void)state;
@@ -92,7 +92,7 @@ static void test_limits(void **state)
     }
 }
 
-/* Somebody who is not in the way of the ways, but of one of those that are pushed, aside: it is not done. */
+/* A body beside the pushed direction, but in the way of one of the pushed bodies: the push is not made. */
 static void test_put_back(void **state)
 {
     (void)state;

@@ -15,8 +15,8 @@
 
 static const double margin = 0x1p-30;
 
-/* Two that overlap by 2, were given up, and may part; two beside each other that miss so many tolerances of what the
- * search asks for, of which one is fixed and the other may hardly move. Is the first pair granted? */
+/* Two that overlap by 2, were given up, and may separate; two beside each other that miss a number of tolerances, one
+ * of them fixed and the other hardly movable. Does the first pair succeed? */
 static bool is_granted(double missed)
 {
     scene_board b;

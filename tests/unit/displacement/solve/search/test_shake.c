@@ -27,7 +27,7 @@ typedef struct grid {
     sunder_i_group group;
 } grid;
 
-/* In the box's place a comb of so many teeth, upwards; between them is no room for anybody. */
+/* In place of the box, a comb with teeth upwards; nothing fits between them. */
 static void add_comb(scene *s, double x, double y, int teeth)
 {
     char wkt[4096];
@@ -156,8 +156,8 @@ static void test_patience(void **state)
     end(&g);
 }
 
-/* However many steps there are, a small group is shaken so often as it has ways; one that is to stay is not, nor is one
- * body alone; and no steps are none. */
+/* However many steps there are, a small group is perturbed once for each of its variants; a group with a fixed body is
+ * not, nor is a single body; and without steps nothing happens. */
 static void test_ends(void **state)
 {
     (void)state;
@@ -203,8 +203,8 @@ static size_t prove(grid *g)
     return prove_waived(g, &none);
 }
 
-/* A group too large for its tree, that costs what it cost when it was asked, or nearly, keeps what is proved of it, at
- * a fraction of the work; one of which a part was asked is asked once more. */
+/* A group too large for its tree whose cost is that of the last time, or nearly, keeps its bound, at a fraction of the
+ * work. A group with only a part examined is examined once more. */
 static void test_asked_once(void **state)
 {
     (void)state;

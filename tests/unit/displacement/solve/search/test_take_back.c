@@ -67,8 +67,8 @@ static void test_taken_back(void **state)
     scene_board_end(&b);
 }
 
-/* What is given up with somebody who stands far from all of the search, and so is none of it: like a far part of a
- * barrier that a feature was near to before. */
+/* A pair given up with a body far from all of the search, and so not part of it: like a far part of a barrier that a
+ * feature was near to before. */
 static void test_stranger(void **state)
 {
     (void)state;
@@ -90,8 +90,8 @@ static void test_stranger(void **state)
     scene_board_end(&b);
 }
 
-/* Pairs that overlap by 2 and may not part, as many as that; then one that overlaps by 3, and may, but only aside,
- * since something fixed stands on either side: so nobody can be pushed. Is it asked? */
+/* Pairs that overlap by 2 and may not separate, as many as that; then one that overlaps by 3, and may, but only
+ * sideways, since something fixed stands on either side, so pushing fails. Is it asked for? */
 static bool is_asked_after(size_t in_vain)
 {
     const double last = 100 * (double)in_vain;
@@ -116,8 +116,8 @@ static bool is_asked_after(size_t in_vain)
     return asked;
 }
 
-/* The same, but that the last is to push a row of so many, of which none has any other place to go to; and at its end
- * stands a slope that the last of it has to go up. */
+/* The same, except that the last is to push a row of bodies that have no other place to go to; and at its end is a
+ * slope that the last of the row has to climb. */
 static bool is_whole_asked_after(size_t in_vain, size_t row)
 {
     scene_board b;
