@@ -50,8 +50,6 @@ static bool resolve_invalid(const gis_options *options, gis_invalid_policy *out,
 /* More threads than any machine has processors would be a slip of the pen. */
 static const double most_threads = 4096;
 
-static const double usual_effort = 1;
-
 static uint64_t seed_of(const gis_options *options)
 {
     return options->given[OPT_SEED] ? (uint64_t)options->number[OPT_SEED] : 0;
@@ -118,17 +116,18 @@ static bool resolve_rules(const gis_options *options, gis_layer_rules *out, gis_
         .block_field = options->text[OPT_BLOCK_FIELD],
         .weight_field = options->text[OPT_WEIGHT_FIELD],
         .max_shift_field = options->text[OPT_MAX_SHIFT_FIELD],
-        .no_blocks = options->given[OPT_NO_BLOCKS],
-        .list_inside = options->given[OPT_LIST_INSIDE],
-        .allow_jumps = options->given[OPT_ALLOW_JUMPS],
-        .effort = options->given[OPT_EFFORT] ? options->number[OPT_EFFORT] : usual_effort,
-        .seed = seed_of(options),
-        .keep_trees = options->given[OPT_PROOF],
-        .threads = thread_count(options),
     };
+    sunder_layer_options_init(&out->core);
+    out->core.no_blocks = options->given[OPT_NO_BLOCKS];
+    out->core.list_inside = options->given[OPT_LIST_INSIDE];
+    out->core.allow_jumps = options->given[OPT_ALLOW_JUMPS];
+    if (options->given[OPT_EFFORT]) out->core.effort = options->number[OPT_EFFORT];
+    out->core.seed = seed_of(options);
+    out->core.keep_trees = options->given[OPT_PROOF];
+    out->core.threads = thread_count(options);
     if (!resolve_choice(options, OPT_WEIGHT, weighting_word, &weighting, error)) return false;
     out->weighting = (gis_weighting)weighting;
-    return resolve_contained(options, &out->contained, error);
+    return resolve_contained(options, &out->core.contained, error);
 }
 
 /* The files that go with the output may not be those of a barrier; the output itself is looked after where that is

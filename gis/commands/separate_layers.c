@@ -44,7 +44,7 @@ bool gis_separate_open_sink(gis_separate_run *run, gis_error *error)
         return false;
     if (!gis_sink_takes_more(run->sink)) run->chosen = GIS_SEPARATE_MAIN;
     if (!run->to.proof) gis_layer_forget_demands(&run->input);
-    run->request.rules.keep_pushes = (run->chosen & GIS_SEPARATE_PUSHES) != 0;
+    run->request.rules.core.keep_pushes = (run->chosen & GIS_SEPARATE_PUSHES) != 0;
     return true;
 }
 

@@ -36,7 +36,7 @@ static bool open_source(gis_layer_input *input, bool packed, gis_error *error)
 {
     gis_source_request request = input->request->source;
     request.packed = packed;
-    request.threads = input->request->rules.threads;
+    request.threads = input->request->rules.core.threads;
     request.not_finite = gis_invalid_not_finite(input->request->invalid, GIS_NOT_FINITE_KEPT);
     input->points = input->request->symbol || input->request->symbol_field;
     request.takes = input->points ? GIS_TAKES_POINTS : GIS_TAKES_POLYGONS;
@@ -262,7 +262,7 @@ bool gis_layer_input_read(const gis_layer_input_request *request, gis_layer_inpu
 {
     if (!gis_layer_begin(request, true, out, error) || !gis_layer_make_room(out, true, error)) return false;
     if (!gis_layer_lengths(out, error) || !gis_layer_shapes(out, error) ||
-        !gis_source_borrow(out->source, out->shape, request->rules.threads, error))
+        !gis_source_borrow(out->source, out->shape, request->rules.core.threads, error))
         return false;
     gis_layer_default_demands(out);
     gis_layer_warn_of_crs(out);

@@ -26,12 +26,9 @@ static const sunder_feature *demands_of(const void *of, size_t feature)
 
 gis_proof_head gis_proof_head_of(const gis_layer_input *input, const sunder_layer_summary *summary)
 {
-    const gis_layer_rules *rules = &input->request->rules;
     return (gis_proof_head){.layer = gis_source_name(input->source),
-                            .gap = input->gap,
+                            .how = gis_layer_core_options(input),
                             .max_shift = input->max_shift,
-                            .contained = rules->contained,
-                            .allow_jumps = input->points || rules->allow_jumps,
                             .summary = summary};
 }
 

@@ -381,10 +381,10 @@ void gis_proof_head_line(gis_json *json, const gis_proof_head *head)
     gis_json_open(json, '{');
     gis_json_put_size(json, "sunder_proof", VERSION);
     gis_json_put_string(json, "layer", head->layer);
-    gis_json_put_double(json, "gap", head->gap);
+    gis_json_put_double(json, "gap", head->how.gap);
     gis_json_put_double(json, "max_shift", head->max_shift);
-    gis_json_put_string(json, "contained", sunder_containment_string(head->contained));
-    gis_json_put_bool(json, "allow_jumps", head->allow_jumps);
+    gis_json_put_string(json, "contained", sunder_containment_string(head->how.contained));
+    gis_json_put_bool(json, "allow_jumps", head->how.allow_jumps);
     gis_json_put_double(json, "lower_bound", head->summary->lower_bound);
     gis_json_put_size(json, "conflicts", head->conflicts);
     gis_json_put_size(json, "trees", head->trees);

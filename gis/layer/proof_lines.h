@@ -52,9 +52,8 @@ bool gis_proof_order(const gis_proof_lines *lines, gis_proof_place **out, size_t
 
 typedef struct gis_proof_head {
     const char *layer;
-    double gap, max_shift;
-    sunder_containment contained;
-    bool allow_jumps;
+    sunder_layer_options how;
+    double max_shift;
     const sunder_layer_summary *summary;
     size_t conflicts, trees;
 } gis_proof_head;

@@ -16,14 +16,10 @@ typedef struct gis_layer_rules {
     const char *ignore_where, *fixed_where; /* SQL */
     const char *block_field, *weight_field, *max_shift_field;
     gis_weighting weighting;
-    sunder_containment contained;
-    bool no_blocks, list_inside, allow_jumps;
-    bool count_thin;  /* where the tolerance is 0: how many overlaps would one of a hundredth of a metre join? */
-    double effort;    /* how hard to look for better sides, and for proofs */
-    uint64_t seed;    /* of what that draws at random */
-    bool keep_trees;  /* proofs, and what the bound stands on, are wanted: for --proof */
-    bool keep_pushes; /* what presses on what is */
-    unsigned threads; /* 0: as many as there are processors */
+    bool count_thin; /* where the tolerance is 0: how many overlaps would one of a hundredth of a metre join? */
+    /* The library's own options, as the command line gives them. What depends on the layer, such as its unit, is filled
+     * in by gis_layer_core_options(). */
+    sunder_layer_options core;
 } gis_layer_rules;
 
 #endif

@@ -16,23 +16,14 @@ double gis_layer_thin(const gis_layer_input *input)
 sunder_layer_options gis_layer_core_options(const gis_layer_input *input)
 {
     const gis_layer_rules *rules = &input->request->rules;
-    sunder_layer_options core;
-    sunder_layer_options_init(&core);
+    sunder_layer_options core = rules->core;
     core.gap = input->gap;
     core.touch_tolerance = input->tolerance;
-    core.no_blocks = rules->no_blocks;
     core.no_touch = input->points && !rules->touch_tolerance.text;
     core.thin = gis_layer_thin(input);
-    core.list_inside = rules->list_inside;
-    core.contained = rules->contained;
-    core.effort = rules->effort;
-    core.seed = rules->seed;
-    core.keep_trees = rules->keep_trees;
-    core.keep_pushes = rules->keep_pushes;
-    core.drop_proofs = !rules->keep_trees;
-    core.threads = rules->threads;
+    core.drop_proofs = !core.keep_trees;
     core.barrier_reach = input->barrier_reach;
-    core.allow_jumps = input->points || rules->allow_jumps;
+    core.allow_jumps = input->points || core.allow_jumps;
     return core;
 }
 

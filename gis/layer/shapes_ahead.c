@@ -43,7 +43,7 @@ static void make(void *context)
 
 void gis_layer_shapes_ahead(gis_layer_input *input)
 {
-    if (input->points || input->n < MANY || gis_threads(input->request->rules.threads) == 1) return;
+    if (input->points || input->n < MANY || gis_threads(input->request->rules.core.threads) == 1) return;
     making m = {.input = input};
     gis_side_thread *beside = gis_side_thread_new();
     if (!beside) return;

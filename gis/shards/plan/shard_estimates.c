@@ -11,7 +11,7 @@ static const double seconds_anyway = 2, seconds_a_feature = 2e-4, seconds_of_eff
 
 static double seconds_of(const gis_layer_rules *rules, double features)
 {
-    return ceil(seconds_anyway + (seconds_a_feature + seconds_of_effort * rules->effort) * features);
+    return ceil(seconds_anyway + (seconds_a_feature + seconds_of_effort * rules->core.effort) * features);
 }
 
 gis_plan_estimate gis_plan_estimate_shard(const gis_plan *plan, const gis_plan_load *shard,

@@ -58,7 +58,7 @@ static double bytes_of_barriers(const gis_spooled_barriers *b)
 
 double gis_shard_run_bytes(const gis_layer_rules *rules, double features, double vertices)
 {
-    return gis_part_bytes(rules->keep_trees, rules->effort, features, vertices);
+    return gis_part_bytes(rules->core.keep_trees, rules->core.effort, features, vertices);
 }
 
 double gis_shard_run_bytes_written(double features, bool drawn)
