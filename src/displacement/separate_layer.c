@@ -226,6 +226,27 @@ static sunder_status work(sunder_i_solver *s, const sunder_layer *layer, const s
     return status;
 }
 
+/* To where it can be asked what proofs tell of it. */
+static sunder_status prepare_for_proofs(sunder_i_solver *s, const sunder_i_spared *list, sunder_error *err)
+{
+    sunder_status status = sunder_i_inclusions_note_nested(&s->model, &s->start, err);
+    if (!status) status = sunder_i_solver_spare(s, list, err);
+    return status ? status : prepare(s, err);
+}
+
+static sunder_status look_for_proof(sunder_i_solver *s, const sunder_i_spared *list, sunder_i_proof_found *found,
+                                    sunder_error *err)
+{
+    sunder_i_verdict verdict;
+    sunder_i_planes planes = {0};
+    const sunder_i_proving how = {.spared = list, .planes = &planes};
+    const sunder_status status = sunder_i_solver_prove(s, &how, &verdict, &s->refuted, err);
+    sunder_i_planes_clear(&planes);
+    s->hopeless = verdict == SUNDER_I_INFEASIBLE;
+    *found = s->hopeless ? SUNDER_I_PROOF_FOUND : SUNDER_I_PROOF_IN_VAIN;
+    return status;
+}
+
 /* A question about a conflict: a small layer of its own, of which nothing is reported. It is whether all of it has a
  * solution: a pair without one ends it, or a proof, or a cluster for which none is found, and nothing is given up or
  * improved. (Only who has to leave what it lies in finds that out by a search in vain.) */
@@ -237,8 +258,10 @@ static sunder_status work_briefly(const sunder_layer *layer, const sunder_layer_
     sunder_report *report = NULL;
     sunder_status status = start(s, layer, options, TO_ANSWER, &report, err);
     sunder_report_free(report);
+    if (!status && *proof == SUNDER_I_PROOF_LATER) return prepare_for_proofs(s, &list, err);
     if (!status) status = sunder_i_solver_find_infeasible(s, &list, err);
     if (status) return status;
+    s->refuted = options->gap;
     s->brief = s->model.inclusions == 0;
     s->hopeless = s->brief && sunder_i_solver_is_beyond_limits(s, &list);
     if (s->hopeless) return SUNDER_OK;
@@ -246,10 +269,8 @@ static sunder_status work_briefly(const sunder_layer *layer, const sunder_layer_
     if (!status) status = prepare(s, err);
     /* Two may be shut in, too. */
     s->hopeless = s->brief && sunder_i_solver_is_beyond_limits(s, &list);
-    if (!status && s->brief && !s->hopeless && *proof == SUNDER_I_PROOF_WANTED) {
-        status = sunder_i_solver_is_proved_hopeless(s, &list, &s->hopeless, err);
-        *proof = s->hopeless ? SUNDER_I_PROOF_FOUND : SUNDER_I_PROOF_IN_VAIN;
-    }
+    if (!status && s->brief && !s->hopeless && *proof == SUNDER_I_PROOF_WANTED)
+        status = look_for_proof(s, &list, proof, err);
     if (!status && !s->hopeless) status = sunder_i_solver_move_inside(s, err);
     if (!status && !s->hopeless) status = sunder_i_solver_choose_holders(s, err);
     if (!status && !s->hopeless) status = sunder_i_solver_settle(s, 0, 1, err);

@@ -230,6 +230,13 @@ static inline double sunder_i_owed_above(const sunder_i_model *model, uint32_t f
     return sunder_i_required_above(model->barriers, sunder_i_barrier_of(model, part));
 }
 
+/* Do they owe each other the layer's gap? A barrier may have one of its own. */
+static inline bool sunder_i_owe_gap(const sunder_i_model *model, uint32_t f, uint32_t g)
+{
+    const uint32_t part = f > g ? f : g;
+    return !sunder_i_is_barrier(model, part) || model->layer->barrier[sunder_i_barrier_of(model, part)].gap < 0;
+}
+
 /* The distance owed to a thing beyond the gap. All boxes of barriers, of bodies and pieces too, are grown by it: so a
  * query with the gap finds everything to which a distance is owed. */
 static inline double sunder_i_reach_beyond(const sunder_i_model *model, uint32_t thing)

@@ -79,13 +79,19 @@ static sunder_status keep_what_there_is(const sunder_i_questions *g, sunder_erro
 
 /* ---- The three needs --------------------------------------------------------------------------------------------- */
 
-/* A question; one in vain takes of what is left as many features as took part. */
-static sunder_status ask(const sunder_i_questions *g, const sunder_i_surroundings *a, const sunder_conflict *c,
-                         const sunder_i_supposition *what, budget *left, bool *yes, double *longest, sunder_error *err)
+/* A question in vain. */
+static void note_in_vain(const sunder_i_surroundings *a, budget *left)
 {
     const uint64_t took = a->feature.n + a->part.n;
-    const sunder_status status = sunder_i_ask(g, a, c, what, &left->proof, yes, longest, err);
-    if (!status && !*yes) left->left -= took < left->left ? took : left->left;
+    left->left -= took < left->left ? took : left->left;
+}
+
+/* A question; one in vain takes of what is left as many features as took part. */
+static sunder_status ask(const sunder_i_questions *g, const sunder_i_surroundings *a, const sunder_conflict *c,
+                         const sunder_i_supposition *what, budget *left, sunder_i_answer *answer, sunder_error *err)
+{
+    const sunder_status status = sunder_i_ask(g, a, c, what, &left->proof, answer, err);
+    if (!status && !answer->yes) note_in_vain(a, left);
     return status;
 }
 
@@ -94,18 +100,19 @@ static sunder_status ask(const sunder_i_questions *g, const sunder_i_surrounding
 static sunder_status need_shift(const sunder_i_questions *g, const sunder_i_surroundings *a, sunder_conflict *c,
                                 budget *left, sunder_error *err)
 {
-    sunder_i_supposition what = {sunder_i_min(a->farthest, c->need_shift), g->options->gap, SUNDER_I_NOBODY, false};
-    double longest, low = INFINITY;
-    bool yes;
+    sunder_i_supposition what = {
+        .limit = sunder_i_min(a->farthest, c->need_shift), .gap = g->options->gap, .gone = SUNDER_I_NOBODY};
+    double low = INFINITY;
+    sunder_i_answer answer;
     for (size_t k = 0; k < a->moving; k++) low = sunder_i_min(low, a->as[k].max_shift);
     if (!(low < what.limit) || !sunder_i_patience_asks(&left->shift)) return SUNDER_OK;
     for (int k = 0; k <= g->halvings; k++) {
-        const sunder_status status = ask(g, a, c, &what, left, &yes, &longest, err);
+        const sunder_status status = ask(g, a, c, &what, left, &answer, err);
         if (status) return status;
-        if (k == 0) sunder_i_patience_note(&left->shift, yes);
+        if (k == 0) sunder_i_patience_note(&left->shift, answer.yes);
         /* One unit above what is rounded once holds the move. */
-        if (yes)
-            c->need_shift = sunder_i_min(c->need_shift, nextafter(longest, INFINITY));
+        if (answer.yes)
+            c->need_shift = sunder_i_min(c->need_shift, nextafter(answer.longest, INFINITY));
         else if (k == 0)
             return SUNDER_OK;
         else
@@ -186,102 +193,199 @@ static bool are_alone(const sunder_i_model *model, const sunder_i_surroundings *
     return alone;
 }
 
-typedef struct gap_search {
+/* What is asked about one conflict; high: no larger gap is asked about any more; all: what few are listed besides are
+ * solved in all answers, too. */
+typedef struct asked {
     const sunder_i_questions *questions;
     const sunder_i_surroundings *about;
     sunder_conflict *conflict;
     budget *left;
-    double high; /* no larger gap is asked about any more */
-    bool all;    /* what few are listed besides are solved in all answers, too */
-} gap_search;
+    double high;
+    bool all;
+    sunder_i_foresight *foresight; /* NULL: none yet, or not looked for */
+    bool foresight_of_all;
+} asked;
 
 /* Asks whether there is a solution with that gap, and notes the answer. */
-static sunder_status try_gap(gap_search *g, double gap, bool *yes, sunder_error *err)
+static sunder_status try_gap(asked *g, double gap, bool *yes, sunder_error *err)
 {
-    const sunder_i_supposition what = {0, gap, SUNDER_I_NOBODY, g->all};
-    double longest;
-    const sunder_status status = ask(g->questions, g->about, g->conflict, &what, g->left, yes, &longest, err);
-    if (*yes)
+    const sunder_i_supposition what = {.gap = gap, .gone = SUNDER_I_NOBODY, .all = g->all};
+    sunder_i_answer answer;
+    const sunder_status status = ask(g->questions, g->about, g->conflict, &what, g->left, &answer, err);
+    *yes = answer.yes;
+    if (answer.yes)
         g->conflict->need_gap = gap;
     else
-        g->high = gap;
+        g->high = answer.refuted;
     return status;
 }
 
-/* No larger gap is asked about than the limits of the two leave them. Nobody else being about that is the answer, but
- * for the hair that the search keeps to limits; or a little less where that is still too tight. */
-static sunder_status try_gap_of_pair(gap_search *g, double step, bool alone, sunder_error *err)
+static void look_ahead_no_more(asked *g)
+{
+    if (g->foresight) sunder_i_foresight_clear(g->foresight);
+    sunder_i_free(g->foresight);
+    g->foresight = NULL;
+}
+
+/* Makes the layer of which it is asked what can be proved, unless it is made. */
+static sunder_status look_ahead(asked *g, bool all, sunder_error *err)
+{
+    if (g->foresight && g->foresight_of_all == all) return SUNDER_OK;
+    look_ahead_no_more(g);
+    g->foresight = sunder_i_alloc(1, sizeof *g->foresight);
+    if (!g->foresight) return sunder_i_no_memory(err);
+    g->foresight_of_all = all;
+    return sunder_i_foresight_init(g->foresight, g->questions, g->about, g->conflict, all, err);
+}
+
+/* Narrows what the largest gap may be, as proofs have it, to `step`: low does, or might; high does not, or nothing is
+ * known of it. What they refute is asked about no more. */
+static sunder_status narrow(asked *g, bool in_plane, double step, double *low, double high, sunder_error *err)
+{
+    sunder_status status = SUNDER_OK;
+    while (!status && high - *low > step) {
+        const double next = *low < 0 ? 0 : *low + NEED_GAP_AT * (high - *low);
+        sunder_i_verdict verdict;
+        double refuted;
+        status = sunder_i_foresee(g->foresight, next, SUNDER_I_NOBODY, in_plane, &verdict, &refuted, err);
+        if (!status && verdict == SUNDER_I_INFEASIBLE) g->high = refuted;
+        if (verdict == SUNDER_I_FEASIBLE || (in_plane && verdict == SUNDER_I_UNKNOWN))
+            *low = next;
+        else
+            high = sunder_i_min(next, g->high);
+    }
+    return status;
+}
+
+/* Roughly the largest gap with which there is a solution of reals, to within `step`; -1: none is seen. First as if the
+ * two were alone among what stands, which is mostly true: then one question more confirms it. */
+static sunder_status foresee_gap(asked *g, double step, double *gap, sunder_error *err)
+{
+    const double first = isnan(g->conflict->need_gap) ? -step : g->conflict->need_gap;
+    const double high = g->high;
+    double low = first, refuted;
+    sunder_i_verdict verdict = SUNDER_I_UNKNOWN;
+    *gap = -1;
+    if (!sunder_i_patience_asks(&g->left->proof)) return SUNDER_OK;
+    sunder_status status = look_ahead(g, g->all, err);
+    if (!status) status = narrow(g, true, step, &low, high, err);
+    if (!status && low == first) sunder_i_patience_note(&g->left->proof, g->high < high);
+    if (status || low == first) return status;
+    status = sunder_i_foresee(g->foresight, low, SUNDER_I_NOBODY, false, &verdict, &refuted, err);
+    if (!status && verdict == SUNDER_I_INFEASIBLE) g->high = refuted;
+    const double most = sunder_i_min(low, g->high);
+    if (verdict != SUNDER_I_FEASIBLE) low = first;
+    if (!status && verdict != SUNDER_I_FEASIBLE) status = narrow(g, false, step, &low, most, err);
+    if (low > first) *gap = low;
+    sunder_i_patience_note(&g->left->proof, low > first || g->high < high);
+    return status;
+}
+
+/* Does the solution of reals that was foreseen hold for doubles, with a gap that is less by a hair? */
+static sunder_status try_foreseen(asked *g, double seen, bool *yes, sunder_error *err)
+{
+    const double gap = seen * (1 - NEED_LESS);
+    const sunder_status status = sunder_i_foresight_holds(g->foresight, g->conflict, gap, yes, err);
+    if (!status && *yes) g->conflict->need_gap = gap;
+    return status;
+}
+
+/* Of two that no other is about: the gap that their limits leave them is the answer, but for the hair that the search
+ * keeps to limits; or a little less where that is still too tight. */
+static sunder_status try_gap_of_pair(asked *g, double step, sunder_error *err)
 {
     const sunder_i_model *model = &g->questions->solver->model;
     const sunder_conflict *c = g->conflict;
     double does, above;
     bool yes = false;
     if (reach_of(model, c) == INFINITY || !is_about_gap(g->questions->solver, c)) return SUNDER_OK;
-    if (!alone && c->b >= model->features) return SUNDER_OK; /* beside roads that takes as long as it saves */
     sunder_status status = gap_of_pair(model, c, g->high, step / 2, &does, &above, err);
     if (status) return status;
     g->high = sunder_i_max(above, 0);
-    if (!alone || !(does > 0) || c->need_gap >= does) return SUNDER_OK;
+    if (!(does > 0) || c->need_gap >= does) return SUNDER_OK;
     status = try_gap(g, does * (1 - 0x1p-20), &yes, err);
     if (!status && !yes && does > step / 2) status = try_gap(g, does - step / 2, &yes, err);
     return status;
 }
 
-/* Is there a solution without a gap? One that solves what few are listed besides, too, if there is one; then larger
- * gaps have to do so as well. */
-static sunder_status try_no_gap(gap_search *g, sunder_error *err)
+/* Is there a solution without a gap that solves what few are listed besides, too, if there are any? Then larger gaps
+ * have to do so as well. */
+static sunder_status try_no_gap_of_all(asked *g, sunder_error *err)
 {
     const double high = g->high;
-    bool yes = false, few;
-    sunder_status status = sunder_i_few_are_listed(g->questions, g->about, g->conflict, &few, err);
-    if (!status && few) status = try_gap(g, 0, &yes, err);
-    if (!status && !yes) {
-        g->all = false;
-        status = try_gap(g, 0, &yes, err);
-    }
+    sunder_status status = sunder_i_few_are_listed(g->questions, g->about, g->conflict, &g->all, err);
+    if (!status && g->all) status = try_gap(g, 0, &g->all, err);
+    g->high = high;
+    return status;
+}
+
+static sunder_status try_no_gap(asked *g, sunder_error *err)
+{
+    const double high = g->high;
+    bool yes;
+    const sunder_status status = try_gap(g, 0, &yes, err);
     g->high = high;
     return status;
 }
 
 /* The largest gap with which there is a solution, to within a hundredth of the layer's. For a pair without neighbours
- * it is the pair's own; else it is bisected between the gap that is known to work and the pair's own, as often as the
- * effort allows. */
-static sunder_status need_gap(const sunder_i_questions *questions, const sunder_i_surroundings *a, sunder_conflict *c,
-                              budget *left, sunder_error *err)
+ * it is the pair's own. Else proofs alone tell roughly how large it is, which takes a small part of what searches take,
+ * and one search confirms it; where that finds nothing, the gap is halved a few times. */
+static sunder_status need_gap(asked *g, sunder_error *err)
 {
-    const bool known = !isnan(c->need_gap), alone = are_alone(&questions->solver->model, a, c);
-    const double step = questions->options->gap / NEED_GAP_PARTS;
-    gap_search g = {questions, a, c, left, questions->options->gap, true};
+    sunder_conflict *c = g->conflict;
+    const bool known = !isnan(c->need_gap);
+    const double step = g->questions->options->gap / NEED_GAP_PARTS, before = c->need_gap;
+    double seen = -1;
+    bool yes = false;
+    if (!(step > 0) || (known && !sunder_i_patience_asks(&g->left->gap))) return SUNDER_OK;
     sunder_status status = SUNDER_OK;
-    const double before = c->need_gap;
-    if (!(step > 0) || (known && !sunder_i_patience_asks(&left->gap))) return SUNDER_OK;
-    status = try_gap_of_pair(&g, step, alone, err);
-    if (!status && isnan(c->need_gap)) status = try_no_gap(&g, err);
+    if (are_alone(&g->questions->solver->model, g->about, c)) status = try_gap_of_pair(g, step, err);
+    if (!status && isnan(c->need_gap)) status = try_no_gap_of_all(g, err);
+    if (!status) status = foresee_gap(g, step, &seen, err);
+    if (!status && seen > 0) status = try_foreseen(g, seen, &yes, err);
+    if (seen > 0 && !yes) g->high = seen;
+    if (!status && isnan(c->need_gap) && g->high > 0) status = try_no_gap(g, err);
+    if (!status && isnan(c->need_gap) && !(g->high > 0)) note_in_vain(g->about, g->left);
     if (status || isnan(c->need_gap)) return status;
-    for (int k = 0; !status && k < NEED_GAP_HALVINGS * questions->halvings && g.high - c->need_gap > step; k++) {
-        bool yes;
-        status = try_gap(&g, c->need_gap + (g.high - c->need_gap) / 2, &yes, err);
-    }
-    if (known) sunder_i_patience_note(&left->gap, c->need_gap > before);
+    for (int k = 0; !status && k < NEED_GAP_HALVINGS * g->questions->halvings && g->high - c->need_gap > step; k++)
+        status = try_gap(g, c->need_gap + (g->high - c->need_gap) / 2, &yes, err);
+    if (known) sunder_i_patience_note(&g->left->gap, c->need_gap > before);
+    return status;
+}
+
+/* ---- The feature that leaves ------------------------------------------------------------------------------------- */
+
+/* Has it a solution without that one? No search looks for what is proved not to be there. */
+static sunder_status try_gone(asked *g, uint32_t gone, bool *yes, sunder_error *err)
+{
+    const double gap = g->questions->options->gap;
+    sunder_i_answer answer = {.yes = false};
+    sunder_i_verdict verdict = SUNDER_I_UNKNOWN;
+    double refuted;
+    const bool looks = g->foresight || sunder_i_patience_asks(&g->left->proof);
+    sunder_status status = looks ? look_ahead(g, false, err) : SUNDER_OK;
+    if (!status && looks) status = sunder_i_foresee(g->foresight, gap, gone, false, &verdict, &refuted, err);
+    const sunder_i_supposition what = {.gap = gap, .gone = gone};
+    if (!status && verdict == SUNDER_I_INFEASIBLE) note_in_vain(g->about, g->left);
+    if (!status && verdict != SUNDER_I_INFEASIBLE)
+        status = ask(g->questions, g->about, g->conflict, &what, g->left, &answer, err);
+    *yes = answer.yes;
     return status;
 }
 
 /* The first of those in the way, without which all others are solved. */
-static sunder_status need_gone(const sunder_i_questions *g, const sunder_i_surroundings *a, sunder_conflict *c,
-                               budget *left, sunder_error *err)
+static sunder_status need_gone(asked *g, sunder_error *err)
 {
-    const sunder_i_supposition none = {0, g->options->gap, SUNDER_I_NOBODY, false};
-    double longest;
+    sunder_conflict *c = g->conflict;
     bool yes = false;
-    if (c->n_blocked_by == 0 || !sunder_i_patience_asks(&left->gone)) return SUNDER_OK;
-    for (size_t k = 0; k < c->n_blocked_by && k < g->leaves && !yes; k++) {
-        sunder_i_supposition what = none;
-        what.gone = (uint32_t)c->blocked_by[k];
-        const sunder_status status = ask(g, a, c, &what, left, &yes, &longest, err);
+    if (c->n_blocked_by == 0 || !sunder_i_patience_asks(&g->left->gone)) return SUNDER_OK;
+    for (size_t k = 0; k < c->n_blocked_by && k < g->questions->leaves && !yes; k++) {
+        const sunder_status status = try_gone(g, (uint32_t)c->blocked_by[k], &yes, err);
         if (status) return status;
         if (yes) c->need_gone = c->blocked_by[k];
     }
-    sunder_i_patience_note(&left->gone, yes);
+    sunder_i_patience_note(&g->left->gone, yes);
     return SUNDER_OK;
 }
 
@@ -300,8 +404,10 @@ static sunder_status find_needs(const sunder_i_questions *g, sunder_conflict *c,
     a.farthest =
         sunder_i_min(a.farthest, g->options->barrier_reach); /* what it has not been told of may stand beyond */
     if (!status) status = need_shift(g, &a, c, left, err);
-    if (!status) status = need_gap(g, &a, c, left, err);
-    if (!status) status = need_gone(g, &a, c, left, err);
+    asked one = {.questions = g, .about = &a, .conflict = c, .left = left, .high = g->options->gap, .all = true};
+    if (!status) status = need_gap(&one, err);
+    if (!status) status = need_gone(&one, err);
+    look_ahead_no_more(&one);
     sunder_i_surroundings_clear(&a);
     return status;
 }

@@ -14,6 +14,7 @@
 #include "displacement/layer/reads.h"
 #include "displacement/layer/sides.h"
 #include "displacement/report/tuning.h"
+#include "displacement/solve/clusters/stages.h"
 
 #include "separation/separation.h"
 #include "shape/shape.h"
@@ -382,34 +383,42 @@ static sunder_status make_layer(const sunder_i_questions *g, const sunder_i_surr
     return status ? status : set_barriers(g->solver, a, what->gone, *layer, err);
 }
 
-/* Is there a solution that leaves those pairs, sorted, as they are? */
-static sunder_status ask_sparing(const sunder_i_questions *g, const sunder_i_surroundings *a, const sunder_conflict *c,
-                                 const sunder_i_supposition *what, const sunder_i_id_pair *spared, size_t n,
-                                 sunder_i_patience *proof, bool *yes, double *longest, sunder_error *err)
+/* The options of a question. */
+static sunder_layer_options options_for(const sunder_i_questions *g, double gap)
 {
-    sunder_i_proof_found found = sunder_i_patience_asks(proof) ? SUNDER_I_PROOF_WANTED : SUNDER_I_PROOF_UNASKED;
     sunder_layer_options options = *g->options;
-    sunder_i_solver x = {0};
-    sunder_layer *layer = NULL;
-    bool jumps = false;
-    options.gap = what->gap;
-    options.touch_tolerance = sunder_i_min(g->solver->model.rules.tolerance, what->gap / 2);
+    options.gap = gap;
+    options.touch_tolerance = sunder_i_min(g->solver->model.rules.tolerance, gap / 2);
     options.no_blocks = true; /* they have numbers */
     options.threads = 1;
     options.effort = 0;
     options.progress = NULL;
-    *yes = false;
+    return options;
+}
+
+/* Is there a solution that leaves those pairs, sorted, as they are? */
+static sunder_status ask_sparing(const sunder_i_questions *g, const sunder_i_surroundings *a, const sunder_conflict *c,
+                                 const sunder_i_supposition *what, const sunder_i_id_pair *spared, size_t n,
+                                 sunder_i_patience *proof, sunder_i_answer *answer, sunder_error *err)
+{
+    sunder_i_proof_found found = sunder_i_patience_asks(proof) ? SUNDER_I_PROOF_WANTED : SUNDER_I_PROOF_UNASKED;
+    const sunder_layer_options options = options_for(g, what->gap);
+    sunder_i_solver x = {0};
+    sunder_layer *layer = NULL;
+    bool jumps = false;
+    *answer = (sunder_i_answer){.refuted = what->gap};
     sunder_status status = make_layer(g, a, what, &layer, err);
     if (!status) {
         status = g->solve(layer, &options, spared, n, &found, &x, err);
-        if (!status) status = is_solved(g, a, c, &x, what, yes, longest, err);
-        if (!status && *yes) status = find_jump(g, a, &x, what->gone, &jumps, err);
-        *yes = *yes && !jumps;
+        if (!status) status = is_solved(g, a, c, &x, what, &answer->yes, &answer->longest, err);
+        if (!status && answer->yes) status = find_jump(g, a, &x, what->gone, &jumps, err);
+        answer->yes = answer->yes && !jumps;
+        if (x.hopeless) answer->refuted = x.refuted;
         sunder_i_solver_free(&x);
     }
     sunder_layer_free(layer);
     /* A solution is no proof in vain: nobody looked for it in vain. */
-    if (found == SUNDER_I_PROOF_FOUND || (found == SUNDER_I_PROOF_IN_VAIN && !*yes))
+    if (found == SUNDER_I_PROOF_FOUND || (found == SUNDER_I_PROOF_IN_VAIN && !answer->yes))
         sunder_i_patience_note(proof, found == SUNDER_I_PROOF_FOUND);
     return status;
 }
@@ -429,18 +438,120 @@ sunder_status sunder_i_few_are_listed(const sunder_i_questions *questions, const
  * they are many, as beside roads, they are left alone. */
 sunder_status sunder_i_ask(const sunder_i_questions *questions, const sunder_i_surroundings *surroundings,
                            const sunder_conflict *conflict, const sunder_i_supposition *what, sunder_i_patience *proof,
-                           bool *yes, double *longest, sunder_error *err)
+                           sunder_i_answer *answer, sunder_error *err)
 {
     sunder_i_id_pair *spared = NULL;
     size_t n = 0;
-    *yes = false;
+    *answer = (sunder_i_answer){.refuted = what->gap};
     sunder_status status =
         list_spared(questions, surroundings, conflict, what->gone, &spared, &n) ? SUNDER_OK : sunder_i_no_memory(err);
     if (!status && n <= NEED_ALL)
-        status = ask_sparing(questions, surroundings, conflict, what, NULL, 0, proof, yes, longest, err);
-    const bool spares = n > NEED_ALL || (n > 0 && !what->all && !*yes);
-    if (!status && spares)
-        status = ask_sparing(questions, surroundings, conflict, what, spared, n, proof, yes, longest, err);
+        status = ask_sparing(questions, surroundings, conflict, what, NULL, 0, proof, answer, err);
+    const bool spares = n > NEED_ALL || (n > 0 && !what->all && !answer->yes);
+    if (!status && spares) status = ask_sparing(questions, surroundings, conflict, what, spared, n, proof, answer, err);
     sunder_i_free(spared);
+    return status;
+}
+
+/* ---- What proofs tell of smaller gaps ---------------------------------------------------------------------------- */
+
+sunder_status sunder_i_foresight_init(sunder_i_foresight *foresight, const sunder_i_questions *questions,
+                                      const sunder_i_surroundings *surroundings, const sunder_conflict *conflict,
+                                      bool all, sunder_error *err)
+{
+    sunder_i_foresight *f = foresight;
+    const sunder_i_supposition what = {.gap = questions->options->gap, .gone = SUNDER_I_NOBODY};
+    const sunder_layer_options options = options_for(questions, what.gap);
+    sunder_i_proof_found later = SUNDER_I_PROOF_LATER;
+    *f = (sunder_i_foresight){.questions = questions, .about = surroundings};
+    if (!list_spared(questions, surroundings, conflict, SUNDER_I_NOBODY, &f->spared, &f->n))
+        return sunder_i_no_memory(err);
+    if (all && f->n <= NEED_ALL) f->n = 0;
+    sunder_status status = make_layer(questions, surroundings, &what, &f->layer, err);
+    if (!status) status = questions->solve(f->layer, &options, f->spared, f->n, &later, &f->solver, err);
+    if (status) return status;
+    f->move = sunder_i_calloc(2 * f->solver.model.bodies, sizeof *f->move);
+    f->next = sunder_i_calloc(2 * f->solver.model.bodies, sizeof *f->next);
+    f->at = sunder_i_calloc(2 * surroundings->feature.n, sizeof *f->at);
+    return f->move && f->next && f->at ? SUNDER_OK : sunder_i_no_memory(err);
+}
+
+void sunder_i_foresight_clear(sunder_i_foresight *foresight)
+{
+    sunder_i_planes_clear(&foresight->planes);
+    sunder_i_solver_free(&foresight->solver);
+    sunder_layer_free(foresight->layer);
+    sunder_i_free(foresight->spared);
+    sunder_i_free(foresight->move);
+    sunder_i_free(foresight->next);
+    sunder_i_free(foresight->at);
+}
+
+/* All things of the layer of the question but one. False if memory is out. */
+static bool list_others(const sunder_i_foresight *f, uint32_t gone, sunder_i_list *heeded)
+{
+    const sunder_i_model *there = &f->solver.model, *model = &f->questions->solver->model;
+    for (uint32_t k = 0; k < there->things; k++)
+        if (sunder_i_whole_of(model, whole_number(f->questions, f->about, &f->solver, k, SUNDER_I_NOBODY)) != gone &&
+            !sunder_i_list_push(heeded, sunder_i_whole_of(there, k)))
+            return false;
+    heeded->n = sunder_i_set_make(heeded->item, heeded->n);
+    return true;
+}
+
+sunder_status sunder_i_foresee(sunder_i_foresight *foresight, double gap, uint32_t gone, bool in_plane,
+                               sunder_i_verdict *verdict, double *refuted, sunder_error *err)
+{
+    sunder_i_foresight *f = foresight;
+    const sunder_i_spared list = {f->spared, f->n};
+    const bool all = gone == SUNDER_I_NOBODY;
+    sunder_i_list heeded = {0};
+    *refuted = gap;
+    sunder_status status = all || list_others(f, gone, &heeded) ? SUNDER_OK : sunder_i_no_memory(err);
+    memset(f->next, 0, 2 * f->solver.model.bodies * sizeof *f->next);
+    const sunder_i_proving how = {&list, all ? NULL : &heeded, &f->planes, &f->precedents, in_plane, f->next};
+    if (!status) status = sunder_i_solver_prove(&f->solver, &how, verdict, refuted, err);
+    sunder_i_free(heeded.item);
+    if (status || *verdict != SUNDER_I_FEASIBLE) return status;
+    double *solution = f->next;
+    f->next = f->move;
+    f->move = solution;
+    return SUNDER_OK;
+}
+
+/* The moves of its bodies, in another solver of the same layer: shorter by what rounding takes of a limit. */
+static void carry_over(const sunder_i_foresight *f, const sunder_i_solver *x, double *move)
+{
+    const sunder_i_solver *s = &f->solver;
+    double *of = f->at;
+    for (size_t k = 0; k < s->model.features; k++)
+        memcpy(of + 2 * (size_t)s->layer.number[k], f->move + 2 * (size_t)s->model.body_of[k], 2 * sizeof *of);
+    for (size_t k = 0; k < x->model.features; k++)
+        for (size_t e = 0; e < 2; e++)
+            move[2 * (size_t)x->model.body_of[k] + e] = of[2 * (size_t)x->layer.number[k] + e] * (1 - NEED_SHORTER);
+}
+
+sunder_status sunder_i_foresight_holds(const sunder_i_foresight *foresight, const sunder_conflict *conflict, double gap,
+                                       bool *yes, sunder_error *err)
+{
+    const sunder_i_foresight *f = foresight;
+    const sunder_i_questions *g = f->questions;
+    const sunder_layer_options options = options_for(g, gap);
+    const sunder_i_supposition what = {.gap = gap, .gone = SUNDER_I_NOBODY};
+    sunder_i_proof_found later = SUNDER_I_PROOF_LATER;
+    sunder_i_solver x = {0};
+    bool jumps = false;
+    double longest;
+    *yes = false;
+    sunder_status status = g->solve(f->layer, &options, f->spared, f->n, &later, &x, err);
+    double *move = status ? NULL : sunder_i_calloc(2 * x.model.bodies, sizeof *move);
+    if (!status && !move) status = sunder_i_no_memory(err);
+    if (!status) carry_over(f, &x, move);
+    if (!status) status = sunder_i_solver_stand(&x, move, yes, err);
+    if (!status && *yes) status = is_solved(g, f->about, conflict, &x, &what, yes, &longest, err);
+    if (!status && *yes) status = find_jump(g, f->about, &x, SUNDER_I_NOBODY, &jumps, err);
+    *yes = *yes && !jumps;
+    sunder_i_free(move);
+    sunder_i_solver_free(&x);
     return status;
 }

@@ -188,10 +188,12 @@ sunder_status sunder_i_report_crowd_needs(sunder_report *report, sunder_i_solver
 
 /* ---- needs.c ----------------------------------------------------------------------------------------------------- */
 
-/* Is it asked first whether a proof tells that there is no solution, and does one? */
+/* Is it asked first whether a proof tells that there is no solution, and does one? Or is the layer to be left as it
+ * was given, prepared for such questions? */
 typedef enum sunder_i_proof_found {
     SUNDER_I_PROOF_UNASKED,
     SUNDER_I_PROOF_WANTED,
+    SUNDER_I_PROOF_LATER,
     SUNDER_I_PROOF_IN_VAIN,
     SUNDER_I_PROOF_FOUND
 } sunder_i_proof_found;

@@ -92,11 +92,19 @@
  * those in the way are let go by turns. */
 #define NEED_EFFORT 16
 #define NEED_GONE 2
-/* A gap that would do is looked for to within this part of the gap asked for. Where others are about it takes six or
- * seven halvings, and no more than these for each unit of effort are made: with all of them the 505 conflicts of Krems
- * beside its roads took 1.6 times as long as that layer did before. */
+/* A gap that would do is looked for to within this part of the gap asked for. Where neighbours are about, proofs narrow
+ * it to that. Searches narrow it further only where a solution of reals was not confirmed, and then by no more halvings
+ * than these for each unit of effort: with searches alone, to the same width, the 505 conflicts of Krems beside its
+ * roads took 1.6 times as long as that layer did before. */
 #define NEED_GAP_PARTS 100
 #define NEED_GAP_HALVINGS 2
+/* The next gap that is asked about lies at this share of the way from the least to the most that the largest gap may
+ * be: the proof that a gap has no solution also excludes some smaller gaps. */
+#define NEED_GAP_AT 0.6
+/* A solution of reals keeps limits and lines up to a hair (../prove/proofs/participants.c). It is tried in doubles with
+ * a gap that is smaller by the first share, and with moves that are shorter by the second. */
+#define NEED_LESS 0x1p-16
+#define NEED_SHORTER 0x1p-32
 /* So many moves of two features by themselves are looked at for it. */
 #define PAIR_GAP_ROUNDS 24
 /* For each unit of effort so many features may take part in questions about a cluster that are in vain: seconds. */

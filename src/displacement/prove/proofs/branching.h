@@ -157,6 +157,8 @@ uint32_t sunder_i_branching_join_slack(sunder_i_branching *branching, const sund
 void sunder_i_branching_begin(sunder_i_branching *branching, size_t first);
 /* Takes in those of the reserve that could meet one that takes part; false if there are none. */
 bool sunder_i_branching_widen(sunder_i_branching *branching);
+/* What is asked of two things that are not held to less, rounded down. */
+double sunder_i_branching_owed(const sunder_i_subproblem *subproblem, uint32_t f, uint32_t g);
 /* What features f and g of two bodies owe each other; false if nothing. */
 bool sunder_i_branching_owe(const sunder_i_branching *branching, uint32_t f, uint32_t g, double *clearance);
 /* Is f heeded, or are its ways? */

@@ -48,6 +48,7 @@ typedef struct sunder_i_subproblem {
     uint32_t a, b;   /* things likewise that owe each other all, whatever is listed; or SUNDER_I_NOBODY */
     const sunder_i_requirement *required; /* sorted */
     size_t required_n;
+    double less;             /* of the layer's gap so much is not asked for: what is told then is of a smaller gap */
     double margin;           /* to be kept beyond what is owed: 0 where a proof is looked for */
     const uint32_t *feature; /* NULL, or the only things to be heeded, likewise, ascending */
     size_t features;
@@ -109,6 +110,10 @@ void sunder_i_proof_free(sunder_proof *proof);
 /* The features that a proof names, and its barriers by their first parts, ascending: into set, which has room for three
  * a node. */
 size_t sunder_i_proof_things(const sunder_i_model *model, const sunder_proof *proof, uint32_t *set);
+/* *gap: roughly the least gap, no more than the one that it is of, for which it still proves that there is no solution
+ * (least_gap.c). */
+sunder_status sunder_i_proof_least_gap(const sunder_i_subproblem *subproblem, const sunder_proof *proof, double *gap,
+                                       sunder_error *err);
 /* Strips the proof to its feature list: the two things of each inner node, once. It can no longer be checked. */
 void sunder_i_proof_strip(sunder_proof *proof);
 

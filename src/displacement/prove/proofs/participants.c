@@ -181,6 +181,12 @@ bool sunder_i_branching_shades(const sunder_i_branching *branching, uint32_t f, 
            (side || !sunder_i_is_held(branching->model, f, g));
 }
 
+double sunder_i_branching_owed(const sunder_i_subproblem *subproblem, uint32_t f, uint32_t g)
+{
+    const double owed = sunder_i_owed_below(subproblem->model, f, g), less = subproblem->less;
+    return less > 0 && sunder_i_owe_gap(subproblem->model, f, g) ? sunder_i_max(owed - less, 0) : owed;
+}
+
 bool sunder_i_branching_owe(const sunder_i_branching *branching, uint32_t f, uint32_t g, double *clearance)
 {
     const sunder_i_model *model = branching->model;
@@ -192,11 +198,11 @@ bool sunder_i_branching_owe(const sunder_i_branching *branching, uint32_t f, uin
         sunder_i_may_get_inside(&model->rules, sunder_i_home_box(model, f), sunder_i_home_box(model, g),
                                 nextafter(reach, INFINITY)))
         return false;
-    *clearance = sunder_i_owed_below(model, f, g) + q->margin;
+    *clearance = sunder_i_branching_owed(q, f, g) + q->margin;
     const sunder_i_requirement key = {.a = whole[f > g], .b = whole[f < g]};
     const bool is_asked = key.a == q->a && key.b == q->b;
     const sunder_i_requirement *required =
         is_asked || !q->required_n ? NULL : bsearch(&key, q->required, q->required_n, sizeof key, sunder_i_by_id_pair);
-    if (required) *clearance = required->clearance;
+    if (required) *clearance = q->less > 0 ? sunder_i_min(*clearance, required->clearance) : required->clearance;
     return *clearance > -INFINITY;
 }

@@ -97,6 +97,7 @@ typedef struct sunder_i_solver {
     size_t room, listed;    /* edges that there is room for here; and that member[] is of */
     bool brief;             /* the first cluster without a solution ends it: nothing is given up */
     bool hopeless;          /* there was one */
+    double refuted;         /* then: larger gaps have none, either, roughly */
     sunder_i_groups groups; /* contact groups, and what is proved of them; with effort 0 nothing */
 } sunder_i_solver;
 

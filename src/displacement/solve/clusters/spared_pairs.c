@@ -2,11 +2,14 @@
  * none, and a search that finds none has tried all it knows: so it is asked first what can be proved, which costs less.
  */
 #include "displacement/layer/requirement.h"
+#include "displacement/layer/rounding.h"
 #include "displacement/prove/proofs/feasibility.h"
 #include "displacement/solve/clusters/stages.h"
 #include "displacement/solve/clusters/tuning.h"
 
+#include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 bool sunder_i_solver_is_spared(const sunder_i_solver *solver, const sunder_i_spared *spared, uint32_t a, uint32_t b)
 {
@@ -76,55 +79,97 @@ static sunder_status find_requirements(const sunder_i_solver *s, const sunder_i_
     return status;
 }
 
-/* Is there a conflict to be solved that provably has no solution? Conflicts of the same two bodies are one question,
- * since all that are not spared have to hold. */
-static sunder_status prove(const sunder_i_solver *s, const sunder_i_spared *list, sunder_i_subproblem *q, bool *proved,
-                           sunder_error *err)
+static bool are_heeded(const sunder_i_subproblem *q, const sunder_i_relation *r)
+{
+    return sunder_i_set_has(q->feature, q->features, sunder_i_whole_of(q->model, r->a)) &&
+           sunder_i_set_has(q->feature, q->features, sunder_i_whole_of(q->model, r->b));
+}
+
+/* Is there a conflict to be solved that provably has no solution, or has each one by itself? Conflicts of the same two
+ * bodies are one question, since all that are not spared have to hold. *gap: then, of that proof. */
+static sunder_status prove(const sunder_i_solver *s, const sunder_i_proving *how, sunder_i_subproblem *q,
+                           sunder_i_verdict *verdict, double *gap, sunder_error *err)
 {
     const sunder_i_model *model = &s->model;
     sunder_i_id_pair last = {SUNDER_I_NOBODY, SUNDER_I_NOBODY};
     sunder_status status = SUNDER_OK;
     uint64_t left = EFFORT_BRIEFLY;
-    for (size_t k = 0; k < s->start.n && left && !*proved && !status; k++) {
+    *verdict = SUNDER_I_FEASIBLE;
+    for (size_t k = 0; k < s->start.n && left && *verdict != SUNDER_I_INFEASIBLE && !status; k++) {
         const sunder_i_relation *r = &s->start.pair[k];
         const uint32_t body[2] = {model->body_of[r->a], model->body_of[r->b]};
         const bool barrier = sunder_i_is_barrier(model, r->b);
         const sunder_i_id_pair asked = {body[0], barrier ? SUNDER_I_NOBODY : body[1]};
         sunder_i_decision decision;
-        if (!sunder_i_is_open_conflict(model, r) || sunder_i_solver_is_spared(s, list, r->a, r->b) ||
-            sunder_i_by_id_pair(&asked, &last) == 0)
+        if (!sunder_i_is_open_conflict(model, r) || sunder_i_solver_is_spared(s, how->spared, r->a, r->b) ||
+            sunder_i_by_id_pair(&asked, &last) == 0 || (q->feature && !are_heeded(q, r)))
             continue;
         last = asked;
-        q->effort = left;
+        q->effort = how->in_plane ? 0 : left;
         q->body = body;
         q->bodies = barrier ? 1 : 2;
         status = sunder_i_decide(q, &decision, err);
-        *proved = decision.verdict == SUNDER_I_INFEASIBLE;
+        if (decision.verdict != SUNDER_I_FEASIBLE) *verdict = decision.verdict;
+        for (size_t m = 0; m < decision.solution.bodies && how->move; m++)
+            memcpy(how->move + 2 * (size_t)decision.solution.body[m], decision.solution.move + 2 * m,
+                   2 * sizeof *how->move);
         left -= decision.work < left ? decision.work : left;
+        if (!status && decision.proof) status = sunder_i_proof_least_gap(q, decision.proof, gap, err);
         sunder_i_decision_clear(&decision);
     }
+    const bool none = last.a == SUNDER_I_NOBODY;
+    if ((left == 0 || none) && *verdict == SUNDER_I_FEASIBLE) *verdict = SUNDER_I_UNKNOWN;
     return status;
 }
 
-sunder_status sunder_i_solver_is_proved_hopeless(const sunder_i_solver *solver, const sunder_i_spared *spared,
-                                                 bool *proved, sunder_error *err)
+sunder_status sunder_i_solver_prove(const sunder_i_solver *solver, const sunder_i_proving *how,
+                                    sunder_i_verdict *verdict, double *gap, sunder_error *err)
 {
-    sunder_i_planes planes = {0};
     sunder_i_requirement *required = sunder_i_alloc(solver->start.n, sizeof *required);
     size_t n = 0;
-    sunder_status status = required ? find_requirements(solver, spared, required, &n, err) : sunder_i_no_memory(err);
-    *proved = false;
+    sunder_status status =
+        required ? find_requirements(solver, how->spared, required, &n, err) : sunder_i_no_memory(err);
+    *verdict = SUNDER_I_UNKNOWN;
     if (!status) {
         sunder_i_subproblem q = {.model = &solver->model,
+                                 .less = solver->model.rules.gap - *gap,
                                  .a = SUNDER_I_NOBODY,
                                  .b = SUNDER_I_NOBODY,
                                  .required = required,
                                  .required_n = n,
-                                 .planes = &planes,
+                                 .feature = how->heeded ? how->heeded->item : NULL,
+                                 .features = how->heeded ? how->heeded->n : 0,
+                                 .planes = how->planes,
+                                 .precedents = how->precedents,
                                  .most = MOST_BODIES};
-        status = prove(solver, spared, &q, proved, err);
+        status = prove(solver, how, &q, verdict, gap, err);
     }
-    sunder_i_planes_clear(&planes);
     sunder_i_free(required);
+    return status;
+}
+
+/* ---- By a layout ------------------------------------------------------------------------------------------------- */
+
+sunder_status sunder_i_solver_stand(sunder_i_solver *solver, const double *move, bool *well, sunder_error *err)
+{
+    const sunder_i_model *model = &solver->model;
+    sunder_i_list near = {0};
+    bool jumps = false;
+    *well = true;
+    sunder_i_changes_clear(&solver->changes);
+    for (uint32_t b = 0; b < model->bodies; b++) {
+        double to[2];
+        if (!sunder_i_may_move(&model->body[b])) continue;
+        sunder_i_round_move(model, b, move + 2 * (size_t)b, to, NULL);
+        *well = *well && hypot(to[0], to[1]) <= model->body[b].limit;
+        sunder_i_solver_place(solver, b, to);
+    }
+    sunder_status status = *well ? sunder_i_solver_relate(solver, err) : SUNDER_OK;
+    for (uint32_t b = 0; b < model->bodies && *well && !status; b++) {
+        if (!sunder_i_may_move(&model->body[b])) continue;
+        status = sunder_i_jumps_of_body(&solver->jumps, model, b, &near, &jumps, err);
+        *well = !jumps;
+    }
+    sunder_i_free(near.item);
     return status;
 }

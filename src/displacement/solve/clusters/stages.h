@@ -2,6 +2,7 @@
 #ifndef SUNDER_I_SOLVER_STAGES_H
 #define SUNDER_I_SOLVER_STAGES_H
 
+#include "displacement/prove/proofs/feasibility.h"
 #include "displacement/solve/clusters/solver.h"
 
 /* Pairs that a question leaves as they are, sorted. */
@@ -159,9 +160,24 @@ sunder_status sunder_i_solver_optimise(sunder_i_solver *solver, sunder_error *er
 bool sunder_i_solver_is_spared(const sunder_i_solver *solver, const sunder_i_spared *spared, uint32_t a, uint32_t b);
 /* Is there a pair that was found to have no solution, and that is not spared? */
 bool sunder_i_solver_is_beyond_limits(const sunder_i_solver *solver, const sunder_i_spared *spared);
-/* Is it proved, with little effort, that those that are not spared cannot all be solved? Spared ones are relaxed. */
-sunder_status sunder_i_solver_is_proved_hopeless(const sunder_i_solver *solver, const sunder_i_spared *spared,
-                                                 bool *proved, sunder_error *err);
+/* What is asked of proofs. */
+typedef struct sunder_i_proving {
+    const sunder_i_spared *spared;   /* they are relaxed */
+    const sunder_i_list *heeded;     /* NULL, or nothing else is: things, of a barrier the first part, ascending */
+    sunder_i_planes *planes;         /* of this solver */
+    sunder_i_precedents *precedents; /* NULL, or likewise */
+    bool in_plane;                   /* of relative moves of two bodies alone, which tells less, sooner */
+    double *move;                    /* NULL, or [2 * bodies] where solutions are put */
+} sunder_i_proving;
+
+/* What little effort tells of those that are not spared: it is proved that they cannot all be solved, or each has a
+ * solution by itself, up to a hair. *gap: the one that is asked about, no more than the model's; where it is proved,
+ * then roughly the least with which the same proof proves it. */
+sunder_status sunder_i_solver_prove(const sunder_i_solver *solver, const sunder_i_proving *how,
+                                    sunder_i_verdict *verdict, double *gap, sunder_error *err);
+/* Puts all bodies that may move where a layout has them, [2 * bodies] rounded, and relates them. *well: that oversteps
+ * no limit, and nobody jumps. */
+sunder_status sunder_i_solver_stand(sunder_i_solver *solver, const double *move, bool *well, sunder_error *err);
 /* Relaxes those that are. Before the model is cut, so that nothing more is asked about them. */
 sunder_status sunder_i_solver_spare(sunder_i_solver *solver, const sunder_i_spared *spared, sunder_error *err);
 

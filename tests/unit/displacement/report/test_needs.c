@@ -64,7 +64,7 @@ static void a_smaller_gap(void **state)
     for (size_t k = 0; k < 2; k++) {
         const sunder_conflict *c = &conflict[k];
         assert_int_equal(c->reason, SUNDER_REASON_NO_ROOM);
-        assert_true(c->need_gap >= 0.87 && c->need_gap <= 1);
+        assert_true(c->need_gap >= 0.985 && c->need_gap <= 1);
         assert_int_equal(c->need_gone, c->a == 0 ? 2 : 0);
         assert_true(c->need_shift >= 6.375 && c->need_shift < 6.4);
     }

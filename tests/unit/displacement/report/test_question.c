@@ -88,11 +88,12 @@ static sunder_status solve_in_vain(const sunder_layer *layer, const sunder_layer
 {
     double box[4];
     (void)spared, (void)n, (void)err;
+    x->hopeless = true;
+    if (*proof == SUNDER_I_PROOF_LATER) return SUNDER_OK;
     sunder_shape_box(layer->shape[0], box);
     (options->gap < 2 ? asked_gap : asked_limit)[box[1] > 1000]++;
     asked_proof[box[1] > 1000] += *proof == SUNDER_I_PROOF_WANTED;
     if (*proof == SUNDER_I_PROOF_WANTED) *proof = SUNDER_I_PROOF_IN_VAIN;
-    x->hopeless = true;
     return SUNDER_OK;
 }
 

@@ -1,0 +1,103 @@
+/* For which smaller gaps does a proof that there is no solution still prove it?
+ *
+ * Let C be the convex set A - B of a node, and K what is behind all of its ways: K lies in C grown by a disc of the
+ * clearance r. With all its lines n.u = d drawn in by e |n|, e <= r, what is behind them is a K' that grown by a disc
+ * of e lies in K, and so in C grown by r - e and by e. What lies in a convex set when both are grown alike lies in it
+ * before: K' lies in C grown by r - e. So the proof is one for a gap that is smaller by e, if the ways of all nodes
+ * that owe the gap say n.u >= d - e |n| and each leaf remains a contradiction: what its forces win falls by a multiple
+ * of e, and what limits lose stays the same.
+ *
+ * It is computed in doubles, roughly: it decides which gaps are not asked about, and no verdict. */
+#include "displacement/prove/proofs/branching.h"
+
+#include "base/extremes.h"
+#include "base/memory.h"
+
+#include <math.h>
+
+typedef struct shrinking {
+    const sunder_i_subproblem *subproblem;
+    const sunder_i_model *model;
+    const sunder_proof *proof;
+    double *net; /* [2 * bodies] all zero between leaves */
+} shrinking;
+
+static double owed(const shrinking *g, const sunder_proof_node *node)
+{
+    return sunder_i_branching_owed(g->subproblem, (uint32_t)node->a, (uint32_t)node->b);
+}
+
+/* Does it owe the layer's gap? What a listed pair is held to, and what a barrier is owed by its own gap, stays. */
+static bool owes_gap(const shrinking *g, const sunder_proof_node *node)
+{
+    return !node->shadow && node->clearance >= owed(g, node) &&
+           sunder_i_owe_gap(g->model, (uint32_t)node->a, (uint32_t)node->b);
+}
+
+static double limit_of(const shrinking *g, uint32_t body)
+{
+    const sunder_i_body *b = &g->model->body[body];
+    if (b->fixed) return 0;
+    return isfinite(b->limit) ? b->limit : g->proof->within;
+}
+
+/* What the limit of a body loses; told once. */
+static double take_lost(shrinking *g, size_t thing)
+{
+    const uint32_t body = g->model->body_of[thing];
+    double *net = g->net + 2 * (size_t)body;
+    const double limit = limit_of(g, body), lost = limit > 0 ? limit * hypot(net[0], net[1]) : 0;
+    net[0] = net[1] = 0;
+    return lost;
+}
+
+/* By how much smaller a gap may be for the leaf to remain a contradiction. */
+static double shrink_leaf(shrinking *g, const sunder_proof_node *leaf)
+{
+    const sunder_proof_force *force = g->proof->force + leaf->force;
+    double won = 0, falls = 0;
+    for (size_t k = 0; k < leaf->forces; k++) {
+        const sunder_proof_way *way = &g->proof->way[force[k].way];
+        const sunder_proof_node *node = &g->proof->node[force[k].node];
+        const double f = force[k].behind ? -force[k].force : force[k].force;
+        double *p = g->net + 2 * (size_t)g->model->body_of[node->a],
+               *q = g->net + 2 * (size_t)g->model->body_of[node->b];
+        won += f * way->d;
+        if (owes_gap(g, node)) falls += f * hypot(way->n[0], way->n[1]);
+        for (size_t x = 0; x < 2; x++) {
+            p[x] -= f * way->n[x];
+            q[x] += f * way->n[x];
+        }
+    }
+    for (size_t k = 0; k < leaf->forces; k++)
+        won -= take_lost(g, g->proof->node[force[k].node].a) + take_lost(g, g->proof->node[force[k].node].b);
+    return falls > 0 ? sunder_i_max(won, 0) / falls : INFINITY;
+}
+
+/* The same of what a pair owes: that may not fall below what a listed one is held to. */
+static double shrink_owed(const shrinking *g, const sunder_proof_node *node)
+{
+    const double all = owed(g, node);
+    return node->clearance < all ? all - sunder_i_max(0, node->clearance) : INFINITY;
+}
+
+sunder_status sunder_i_proof_least_gap(const sunder_i_subproblem *subproblem, const sunder_proof *proof, double *gap,
+                                       sunder_error *err)
+{
+    const sunder_i_model *model = subproblem->model;
+    const double of = model->rules.gap - subproblem->less;
+    shrinking g = {subproblem, model, proof, sunder_i_calloc(2 * model->bodies, sizeof *g.net)};
+    if (!g.net) return sunder_i_no_memory(err);
+    double less = of;
+    for (size_t k = 0; k < proof->nodes; k++) {
+        const sunder_proof_node *node = &proof->node[k];
+        if (node->ways && !node->shadow) less = sunder_i_min(less, shrink_owed(&g, node));
+        if (node->slack || node->still)
+            less = 0;
+        else if (node->ways == 0)
+            less = sunder_i_min(less, shrink_leaf(&g, node));
+    }
+    *gap = of - sunder_i_max(less, 0);
+    sunder_i_free(g.net);
+    return SUNDER_OK;
+}
