@@ -83,14 +83,15 @@ class Verdict:
         own = {self.body_of(k) for k in (self.told["a"], self.told["b"]) if not self.problem.is_barrier(k)}
         barrier = self.problem.is_barrier(a) or self.problem.is_barrier(b)
         demand(reason == "jump" or (reason == "side" and barrier), "no ways are heeded by the reason", reason)
-        demand(barrier <= (self.within is None), "a side, where there is no limit")
+        demand(not barrier or self.within is None or reason == "side", "a side, where there is no limit")
         for k in (a, b):
             demand(self.problem.is_barrier(k) or self.body_of(k) in own, "the way of a bystander:", k)
 
     def check_within(self):
-        """Apart by more than they owe, however far beyond: the two features, or all of their blocks."""
+        """Apart by more than they owe, however far beyond: the two, a feature and a barrier with a side, or all of two blocks."""
         a, b = self.told["a"], self.told["b"]
-        demand(self.told["reason"] in ("jump", "no_room"), "a length for those without a limit, with the reason",
+        sided = self.told["reason"] == "side" and self.problem.is_barrier(b)
+        demand(sided or self.told["reason"] in ("jump", "no_room"), "a length for those without a limit, with the reason",
                self.told["reason"])
         pairs = [(a, b)]
         if self.told["reason"] == "no_room":

@@ -12,6 +12,7 @@
 #include "displacement/report/report.h"
 #include "displacement/report/tuning.h"
 
+#include "base/extremes.h"
 #include "base/memory.h"
 #include "base/parallel.h"
 
@@ -48,7 +49,7 @@ static sunder_status prove_alone(const sunder_i_model *model, const sunder_confl
                                        .b = feature[1],
                                        .feature = feature,
                                        .features = 2,
-                                       .every_side = instead == 0,
+                                       .every_side = instead == 0 || bodies == 1,
                                        .any_jump = ways != SIDES_AND_JUMPS,
                                        .any_way = ways == NO_WAYS,
                                        .every_way = true,
@@ -65,16 +66,29 @@ static sunder_status prove_alone(const sunder_i_model *model, const sunder_confl
     return status;
 }
 
+/* A length beyond which the two are apart for certain, c->b with all its parts if it is a barrier. */
+static double far_enough(const sunder_i_model *model, const sunder_conflict *c)
+{
+    const uint32_t b = (uint32_t)c->b, body = model->body_of[c->a];
+    const bool barrier = sunder_i_is_barrier(model, b);
+    const uint32_t features = (uint32_t)model->features,
+                   end = barrier ? features + model->barriers->part_end[sunder_i_barrier_of(model, b)] : b + 1;
+    double far = 0;
+    for (uint32_t k = b; k < end; k++) far = sunder_i_max(far, sunder_i_farthest_near(model, body, model->body_of[k]));
+    return 2 * far;
+}
+
 /* Where one of the two has no limit. Beyond where the two are apart for certain nothing but shadows forbids a relative
  * move, and these have no end: whatever direction leads into one there leads on in it for ever. So what has no solution
- * a little farther than there has none at all; sides, which are about moves of the one, are left out. */
+ * a little farther than there has none at all. Of two features sides are left out: they are about moves of the one. */
 static sunder_status reason_without_limit(const sunder_i_model *model, sunder_conflict *c, common *both,
                                           sunder_proof **proof, sunder_error *err)
 {
-    if (model->rules.jumps || c->b >= model->features) return SUNDER_OK;
-    const double within = 2 * sunder_i_farthest_near(model, model->body_of[c->a], model->body_of[c->b]);
-    const sunder_status status = prove_alone(model, c, SIDES_AND_JUMPS, within, both, proof, err);
-    if (*proof) c->reason = SUNDER_REASON_JUMP;
+    const bool barrier = c->b >= model->features;
+    if (barrier ? model->sides == 0 : model->rules.jumps) return SUNDER_OK;
+    const sunder_status status =
+        prove_alone(model, c, barrier ? SIDES : SIDES_AND_JUMPS, far_enough(model, c), both, proof, err);
+    if (*proof) c->reason = barrier ? SUNDER_REASON_SIDE : SUNDER_REASON_JUMP;
     return status;
 }
 
