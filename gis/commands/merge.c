@@ -82,12 +82,12 @@ int gis_command_merge(const gis_options *options)
     bool ok = gis_planned_open(directory, options, options->operand[1], &planned, &error) &&
               gis_separate_begin(&planned.options, &run, &error);
     run.options = &planned.options;
-    run.in_parts = run.merges = true;
     run.stamp = planned.plan.stamp;
     ok = ok && resume(&run, &planned, directory, &error);
     if (ok) gis_shard_run_warn_of_group(&run.parts);
     run.read = gis_clock() - run.start;
-    ok = ok && gis_separate_in_parts(&run, &error) && gis_separate_deliver(&run, &error);
+    ok = ok && gis_separate_in_parts_begin(&run, &error) && gis_separate_in_parts_end(&run, &error) &&
+         gis_separate_deliver(&run, &error);
     const int status = gis_separate_end(&run, ok, &error);
     gis_planned_clear(&planned);
     return status;

@@ -6,6 +6,7 @@
 #include "commands/report.h"
 #include "commands/resolve.h"
 #include "commands/separate_run.h"
+#include "layer/result_held.h"
 
 /* The layer onto the disk; the source once more, to be written from, by batches unless the format compares features in
  * the end. */
@@ -15,22 +16,28 @@ static bool read_in_parts(gis_separate_run *run, double memory, gis_error *error
            gis_shard_run_open_source(&run->parts, false, &run->input, error);
 }
 
-/* All but the last step, which is gis_deliver()'s. */
-static bool solve_and_write(gis_separate_run *run, gis_error *error)
+static bool separate_in_parts(gis_separate_run *run, gis_error *error)
 {
-    gis_sink_result result;
+    return gis_separate_in_parts_begin(run, error) &&
+           gis_shard_run_separate(&run->parts, 1, run->stamp, &run->progress, error) &&
+           gis_separate_in_parts_end(run, error);
+}
+
+static bool read_whole(gis_separate_run *run, gis_error *error)
+{
+    run->source_held = true;
+    return gis_layer_input_read(&run->request, &run->input, error);
+}
+
+static bool separate_whole(gis_separate_run *run, gis_error *error)
+{
     if (!gis_separate_open_sink(run, error)) return false;
     gis_progress_stage(&run->progress, GIS_SEPARATE_READ, GIS_SEPARATE_DONE);
-    if (!gis_layer_run(&run->input, sunder_layer_separate, &run->progress, &run->report, &run->summary, error))
+    if (!gis_layer_run(&run->input, sunder_layer_separate, &run->progress, &run->report, &run->summary, error) ||
+        !gis_layer_warn_of_far_moves(&run->input, run->report, error))
         return false;
-    if (!gis_layer_warn_of_far_moves(&run->input, run->report, error)) return false;
-    gis_progress_stage(&run->progress, GIS_SEPARATE_DONE, 1);
-    double begin = gis_clock();
-    if (!gis_separate_write_layers(run, error) || !gis_sink_finish(run->sink, &result, error)) return false;
-    run->write = gis_clock() - begin;
-    run->verified = run->summary.verified && result.exact;
-    gis_progress_done(&run->progress);
-    return true;
+    run->result = gis_result_held(&run->input, run->report);
+    return gis_separate_write_layers(run, error);
 }
 
 /* Where the library's share of the bar begins to do what. */
@@ -76,13 +83,11 @@ int gis_command_separate(const gis_options *options)
     double memory;
     bool ok = gis_separate_begin(options, &run, &error) && gis_resolve_memory(options, &memory, &error);
     run.request.rules.count_thin = gis_separate_is_summarised(&run);
-    run.in_parts = ok && memory > 0;
-    ok =
-        ok &&
-        (run.in_parts ? read_in_parts(&run, memory, &error) : gis_layer_input_read(&run.request, &run.input, &error)) &&
-        gis_destinations_spare(&run.to, run.input.source, &error);
+    const bool in_parts = ok && memory > 0;
+    ok = ok && (in_parts ? read_in_parts(&run, memory, &error) : read_whole(&run, &error)) &&
+         gis_destinations_spare(&run.to, run.input.source, &error);
     run.read = gis_clock() - run.start;
-    ok = ok && (run.in_parts ? gis_separate_in_parts(&run, &error) : solve_and_write(&run, &error)) &&
+    ok = ok && (in_parts ? separate_in_parts(&run, &error) : separate_whole(&run, &error)) &&
          gis_separate_deliver(&run, &error);
     return gis_separate_end(&run, ok, &error);
 }

@@ -5,21 +5,16 @@
 #include "commands/resolve.h"
 #include "commands/separate_run.h"
 
-#include "layer/proof.h"
-
 bool gis_separate_is_summarised(const gis_separate_run *run) { return !run->taken && !run->options->given[OPT_QUIET]; }
 
 static bool write_page(const gis_separate_run *run, gis_text *page, gis_error *error)
 {
     gis_call call = {0};
-    gis_page_held held = {&run->input, run->report};
-    gis_page_spooled *spooled = NULL;
-    bool ok = gis_call_list(run->options, &call, error) &&
-              (!run->in_parts || gis_page_spooled_open((gis_shard_run *)&run->parts, &spooled, error));
-    const gis_page_contents contents = spooled ? gis_page_contents_of_spool(spooled) : gis_page_contents_of(&held);
+    gis_result_view view = {0};
+    bool ok = gis_call_list(run->options, &call, error) && run->result.kind->view(&run->result, &view, error);
     const gis_page_request request = {
         .input = &run->input,
-        .contents = &contents,
+        .view = &view,
         .summary = &run->summary,
         .unit = gis_separate_unit(run),
         .output = run->to.output,
@@ -33,7 +28,7 @@ static bool write_page(const gis_separate_run *run, gis_text *page, gis_error *e
         .seconds_write = run->write,
     };
     ok = ok && gis_page_write(&request, page, error);
-    gis_page_spooled_close(spooled);
+    if (view.close) view.close(view.of);
     gis_call_clear(&call);
     return ok;
 }
@@ -41,8 +36,7 @@ static bool write_page(const gis_separate_run *run, gis_text *page, gis_error *e
 static bool write_proof(const void *of, FILE *to, gis_error *error)
 {
     const gis_separate_run *run = of;
-    if (!run->in_parts) return gis_proof_write(&run->input, run->report, to, error);
-    return gis_shard_run_proof((gis_shard_run *)&run->parts, &run->input, &run->summary, to, error);
+    return run->result.kind->proof(&run->result, &run->summary, to, error);
 }
 
 bool gis_separate_deliver(const gis_separate_run *run, gis_error *error)

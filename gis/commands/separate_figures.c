@@ -15,7 +15,7 @@ static GIntBig longest_fid(const gis_separate_run *run)
 {
     const size_t feature = run->summary.max_feature;
     if (feature >= run->input.n) return OGRNullFID;
-    return run->in_parts ? run->parts.joined.longest_fid : gis_source_fid(run->input.source, feature);
+    return run->result.kind->longest_fid(&run->result, feature);
 }
 
 double gis_separate_optimality_gap(const sunder_layer_summary *summary)

@@ -3,38 +3,31 @@
 #include "commands/progress_shares.h"
 #include "commands/separate_run.h"
 
-static bool open_sink_in_parts(gis_separate_run *run, gis_error *error)
+/* Where the format changes what it is given, all features are held, to be compared with what was written. */
+static bool open_sink(gis_separate_run *run, gis_error *error)
 {
-    if (!gis_separate_open_sink(run, error)) return false;
+    run->scratch = gis_shard_run_scratch(&run->parts, error);
+    if (!run->scratch || !gis_separate_open_sink(run, error)) return false;
     if (!gis_sink_remembers(run->sink)) return true;
     gis_sink_free(run->sink);
     run->sink = NULL;
     gis_layer_input_clear(&run->input);
-    run->whole = true;
+    run->source_held = true;
     return gis_shard_run_open_source(&run->parts, true, &run->input, error) && gis_separate_open_sink(run, error);
 }
 
-bool gis_separate_in_parts(gis_separate_run *run, gis_error *error)
+bool gis_separate_in_parts_begin(gis_separate_run *run, gis_error *error)
 {
-    gis_sink_result result;
-    if (!open_sink_in_parts(run, error)) return false;
+    if (!open_sink(run, error)) return false;
     gis_progress_stage(&run->progress, GIS_SEPARATE_READ, GIS_SEPARATE_DONE);
-    const double began = gis_clock();
-    if ((!run->merges && !gis_shard_run_separate(&run->parts, 1, run->stamp, &run->progress, error)) ||
-        !gis_shard_run_join(&run->parts, run->stamp, &run->summary, error))
-        return false;
-    run->summary.seconds_solve = gis_clock() - began - run->summary.seconds_explain - run->summary.seconds_verify;
-    gis_progress_stage(&run->progress, GIS_SEPARATE_DONE, 1);
-    const double begin = gis_clock();
-    const gis_shard_run_layers layers = {
-        (run->chosen & GIS_SEPARATE_MAIN) != 0, (run->chosen & GIS_SEPARATE_DISPLACEMENT) != 0,
-        (run->chosen & GIS_SEPARATE_CONFLICTS) != 0, (run->chosen & GIS_SEPARATE_PUSHES) != 0,
-        (run->chosen & GIS_SEPARATE_SYMBOLS) != 0};
-    if (!gis_shard_run_write(&run->parts, &run->input, &layers, run->sink, error) ||
-        !gis_sink_finish(run->sink, &result, error))
-        return false;
-    run->write = gis_clock() - begin;
-    run->verified = run->summary.verified && result.exact;
-    gis_progress_done(&run->progress);
+    run->began = gis_clock();
     return true;
+}
+
+bool gis_separate_in_parts_end(gis_separate_run *run, gis_error *error)
+{
+    if (!gis_shard_run_join(&run->parts, run->stamp, &run->summary, error)) return false;
+    run->summary.seconds_solve = gis_clock() - run->began - run->summary.seconds_explain - run->summary.seconds_verify;
+    run->result = gis_shard_run_result(&run->parts, &run->input);
+    return gis_separate_write_layers(run, error);
 }

@@ -1,8 +1,9 @@
-/* separate_layers.c: which layers separate writes: by --layers, and of those what the output takes. */
+/* separate_layers.c: the layers that separate writes: which, by --layers and by what the output takes; and all of them
+ * written and read back. */
+#include "base/resources.h"
+#include "commands/progress_shares.h"
 #include "commands/resolve.h"
 #include "commands/separate_run.h"
-
-#include "layer/output.h"
 
 #include <string.h>
 
@@ -38,24 +39,28 @@ bool gis_separate_open_sink(gis_separate_run *run, gis_error *error)
     request.suffixes = run->suffixes;
     request.features = (run->chosen & GIS_SEPARATE_MAIN) != 0;
     request.polygons = run->chosen & (run->input.points ? GIS_SEPARATE_SYMBOLS : GIS_SEPARATE_MAIN);
-    if (run->in_parts && !(request.scratch = gis_shard_run_scratch(&run->parts, error))) return false;
+    request.scratch = run->scratch;
     if (!gis_sink_open(&request, run->input.source, &run->sink, error)) return false;
-    if (gis_sink_remembers(run->sink) && (!run->in_parts || run->whole) && !gis_source_unpack(run->input.source, error))
-        return false;
+    if (gis_sink_remembers(run->sink) && run->source_held && !gis_source_unpack(run->input.source, error)) return false;
     if (!gis_sink_takes_more(run->sink)) run->chosen = GIS_SEPARATE_MAIN;
     if (!run->to.proof) gis_layer_forget_demands(&run->input);
     run->request.rules.core.keep_pushes = (run->chosen & GIS_SEPARATE_PUSHES) != 0;
     return true;
 }
 
-bool gis_separate_write_layers(const gis_separate_run *run, gis_error *error)
+bool gis_separate_write_layers(gis_separate_run *run, gis_error *error)
 {
-    unsigned chosen = run->chosen;
-    gis_sink *sink = run->sink;
-    const gis_layer_input *input = &run->input;
-    if ((chosen & GIS_SEPARATE_MAIN) && !gis_write_main(sink, input, run->report, error)) return false;
-    if ((chosen & GIS_SEPARATE_DISPLACEMENT) && !gis_write_displacement(sink, input, run->report, error)) return false;
-    if ((chosen & GIS_SEPARATE_CONFLICTS) && !gis_write_conflicts(sink, input, run->report, error)) return false;
-    if ((chosen & GIS_SEPARATE_PUSHES) && !gis_write_pushes(sink, input, run->report, error)) return false;
-    return !(chosen & GIS_SEPARATE_SYMBOLS) || gis_write_symbols(sink, input, run->report, error);
+    const gis_result_layers layers = {
+        (run->chosen & GIS_SEPARATE_MAIN) != 0, (run->chosen & GIS_SEPARATE_DISPLACEMENT) != 0,
+        (run->chosen & GIS_SEPARATE_CONFLICTS) != 0, (run->chosen & GIS_SEPARATE_PUSHES) != 0,
+        (run->chosen & GIS_SEPARATE_SYMBOLS) != 0};
+    gis_sink_result written;
+    gis_progress_stage(&run->progress, GIS_SEPARATE_DONE, 1);
+    const double begin = gis_clock();
+    if (!gis_result_write(&run->result, &layers, run->sink, error) || !gis_sink_finish(run->sink, &written, error))
+        return false;
+    run->write = gis_clock() - begin;
+    run->verified = run->summary.verified && written.exact;
+    gis_progress_done(&run->progress);
+    return true;
 }

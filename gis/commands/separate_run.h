@@ -4,6 +4,7 @@
 #define GIS_SEPARATE_RUN_H
 
 #include "base/json.h"
+#include "layer/result.h"
 #include "options/options.h"
 #include "shards/run/run.h"
 #include "write/deliver.h"
@@ -32,11 +33,12 @@ typedef struct gis_separate_run {
     bool taken;      /* standard output is */
     bool verified;
     double start, read, write;
-    bool in_parts;  /* the layer is not held */
-    bool whole;     /* ... but for its source, which is compared with what was written */
-    bool merges;    /* ... and its shards are done */
-    uint64_t stamp; /* of what they were done for */
-    gis_shard_run parts;
+    bool source_held;    /* all features of the source are; else it is read by batches */
+    const char *scratch; /* the directory for what is noted of features; NULL: memory */
+    uint64_t stamp;      /* of what shards were done for */
+    double began;        /* to separate */
+    gis_shard_run parts; /* of a layer that is not held */
+    gis_result result;   /* from when it is separated */
 } gis_separate_run;
 
 /* ---- separate.c: from beginning to end --------------------------------------------------------------------------- */
@@ -52,13 +54,15 @@ int gis_separate_end(gis_separate_run *run, bool done, const gis_error *error);
 bool gis_separate_choose_layers(const char *list, bool points, unsigned *chosen, gis_error *error);
 /* The sink is opened before the work is done: what can be refused is refused before hours of computing. */
 bool gis_separate_open_sink(gis_separate_run *run, gis_error *error);
-/* Of a layer that is held. */
-bool gis_separate_write_layers(const gis_separate_run *run, gis_error *error);
+/* Writes the layers of run->result: all but the last step, which is gis_deliver()'s. */
+bool gis_separate_write_layers(gis_separate_run *run, gis_error *error);
 
-/* ---- separate_in_parts.c ----------------------------------------------------------------------------------------- */
+/* ---- separate_in_parts.c: of a layer that is not held ------------------------------------------------------------ */
 
-/* Of a layer that is not held: the layers are written, all but the last step, which is gis_deliver()'s. */
-bool gis_separate_in_parts(gis_separate_run *run, gis_error *error);
+/* As gis_separate_open_sink(). From here on the layer is separated. */
+bool gis_separate_in_parts_begin(gis_separate_run *run, gis_error *error);
+/* All shards are there: joins them, and writes the layers. */
+bool gis_separate_in_parts_end(gis_separate_run *run, gis_error *error);
 
 /* ---- separate_figures.c: what came of it ------------------------------------------------------------------------- */
 

@@ -215,10 +215,3 @@ bool gis_write_report_conflicts(gis_sink_layer *layer, const gis_layer_input *in
     gis_conflict_texts_clear(&scratch);
     return ok;
 }
-
-bool gis_write_conflicts(gis_sink *sink, const gis_layer_input *input, const sunder_report *report, gis_error *error)
-{
-    gis_sink_layer *layer;
-    return gis_conflicts_begin(sink, "conflicts", gis_id_type(input), gis_source_crs(input->source), &layer, error) &&
-           gis_write_report_conflicts(layer, input, report, error);
-}

@@ -1,24 +1,15 @@
-/* output.h: the layers that separate and check write, of a report. Their rows are rows.h's. */
+/* output.h: what separate and check write of a layer that is held, with its report. Rows are rows.h's. */
 #ifndef GIS_LAYER_OUTPUT_H
 #define GIS_LAYER_OUTPUT_H
 
 #include "layer/input.h"
 #include "layer/rows.h"
 
-/* LAYER: every feature, moved, with sunder_dx, sunder_dy, sunder_len, sunder_st, sunder_blk. */
-bool gis_write_main(gis_sink *sink, const gis_layer_input *input, const sunder_report *report, gis_error *error);
-/* LAYER_displacement: a line for each feature that moved. */
-bool gis_write_displacement(gis_sink *sink, const gis_layer_input *input, const sunder_report *report,
-                            gis_error *error);
 /* Where the arrow of a feature starts: at the point itself (gis_layer_point()), or the anchor of a polygon. */
 bool gis_arrow_start(const gis_layer_input *input, size_t i, double from[2], gis_error *error);
-/* LAYER_conflicts. */
-bool gis_write_conflicts(gis_sink *sink, const gis_layer_input *input, const sunder_report *report, gis_error *error);
-/* Its rows alone. */
+/* The rows of LAYER_conflicts. */
 bool gis_write_report_conflicts(gis_sink_layer *layer, const gis_layer_input *input, const sunder_report *report,
                                 gis_error *error);
-/* LAYER_pushes: a line for each pair that presses on each other. */
-bool gis_write_pushes(gis_sink *sink, const gis_layer_input *input, const sunder_report *report, gis_error *error);
 /* How a feature by its place in the input moved; asked of each once, in their order. */
 typedef bool gis_move_of(void *user, size_t feature, double move[2], gis_error *error);
 /* LAYER_symbols of a source that is read anew, with its shapes: a batch at a time, if it was opened so. multi: some

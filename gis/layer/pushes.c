@@ -2,18 +2,7 @@
  * barrier has no anchor: of it the corner is taken that is nearest to the feature's. */
 #include "layer/output.h"
 
-#include "base/interrupt.h"
-
 #include <string.h>
-
-static void anchor_now(const gis_layer_input *input, const sunder_report *report, size_t feature, double at[2])
-{
-    double dx, dy;
-    sunder_shape_anchor(input->shape[feature], at);
-    sunder_report_move(report, feature, &dx, &dy);
-    at[0] += dx;
-    at[1] += dy;
-}
 
 void gis_things_push(const gis_things *things, const sunder_push *push, gis_value values[N_PUSH_COLUMNS])
 {
@@ -33,21 +22,6 @@ void gis_things_push(const gis_things *things, const sunder_push *push, gis_valu
     memcpy(values, row, sizeof row);
 }
 
-static bool write_push(gis_sink_layer *layer, const gis_layer_input *input, const sunder_report *report,
-                       const sunder_push *push, gis_error *error)
-{
-    const gis_things things = gis_things_of(input);
-    double from[2], to[2];
-    gis_value values[N_PUSH_COLUMNS];
-    anchor_now(input, report, push->a, from);
-    if (gis_things_is_barrier(&things, push->b))
-        gis_barrier_corner(&input->barriers.barrier[push->b - input->n].geometry, from, to);
-    else
-        anchor_now(input, report, push->b, to);
-    gis_things_push(&things, push, values);
-    return gis_line_row(layer, values, from, to, error);
-}
-
 bool gis_pushes_begin(gis_sink *sink, OGRSpatialReferenceH crs, gis_sink_layer **layer, gis_error *error)
 {
     static const gis_field fields[N_PUSH_COLUMNS] = {{"fid_a", OFTInteger64, 0}, {"fid_b", OFTInteger64, 0},
@@ -61,15 +35,4 @@ bool gis_pushes_begin(gis_sink *sink, OGRSpatialReferenceH crs, gis_sink_layer *
                                             .n_fields = N_PUSH_COLUMNS,
                                             .style = GIS_STYLE_PUSHES};
     return gis_sink_add(sink, &request, layer, error);
-}
-
-bool gis_write_pushes(gis_sink *sink, const gis_layer_input *input, const sunder_report *report, gis_error *error)
-{
-    gis_sink_layer *layer;
-    size_t n;
-    const sunder_push *push = sunder_report_pushes(report, &n);
-    if (!gis_pushes_begin(sink, gis_source_crs(input->source), &layer, error)) return false;
-    for (size_t k = 0; k < n; k++)
-        if (!gis_go_on(error) || !write_push(layer, input, report, &push[k], error)) return false;
-    return true;
 }

@@ -113,7 +113,7 @@ static bool add_move(data_writer *writer, size_t i, gis_error *error)
 
 static bool add_anchor(data_writer *writer, size_t i, gis_error *error)
 {
-    const gis_page_feature *feature = &writer->model->feature[i];
+    const gis_view_feature *feature = &writer->model->feature[i];
     const sunder_shape *shape;
     double at[2];
     if (length_steps(writer, feature->move[0]) == 0 && length_steps(writer, feature->move[1]) == 0) return true;
@@ -183,7 +183,7 @@ static bool add_line(data_writer *writer, const double *xy, size_t n, bool close
     return true;
 }
 
-static bool add_barrier(data_writer *writer, const gis_page_barrier *barrier, gis_corners *scratch, gis_error *error)
+static bool add_barrier(data_writer *writer, const gis_view_barrier *barrier, gis_corners *scratch, gis_error *error)
 {
     sunder_obstacle geometry;
     size_t begin = 0;

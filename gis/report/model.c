@@ -12,21 +12,21 @@
 
 /* ---- Boxes ------------------------------------------------------------------------------------------------------- */
 
-void gis_page_box(const gis_page_feature *feature, double part, double box[4])
+void gis_page_box(const gis_view_feature *feature, double part, double box[4])
 {
     for (int k = 0; k < 4; k++) box[k] = feature->box[k] + part * feature->move[k % 2];
 }
 
-double gis_page_length(const gis_page_feature *feature) { return hypot(feature->move[0], feature->move[1]); }
+double gis_page_length(const gis_view_feature *feature) { return hypot(feature->move[0], feature->move[1]); }
 
 /* ---- Features ---------------------------------------------------------------------------------------------------- */
 
 static bool take_features(gis_page_model *model, gis_error *error)
 {
-    const gis_page_contents *contents = model->request->contents;
+    const gis_result_view *view = model->request->view;
     model->feature = calloc(model->n + 1, sizeof *model->feature);
     if (!model->feature) return gis_no_memory(error);
-    if (!contents->fill(contents->of, model->feature, error)) return false;
+    if (!view->fill(view->of, model->feature, error)) return false;
     gis_box_clear(model->extent);
     for (size_t i = 0; i < model->n; i++) {
         double after[4];
@@ -42,8 +42,8 @@ static bool take_features(gis_page_model *model, gis_error *error)
 
 bool gis_page_shape(const gis_page_model *model, size_t feature, const sunder_shape **shape, gis_error *error)
 {
-    const gis_page_contents *contents = model->request->contents;
-    return contents->shape(contents->of, feature, model->feature[feature].place, shape, error);
+    const gis_result_view *view = model->request->view;
+    return view->shape(view->of, feature, model->feature[feature].place, shape, error);
 }
 
 /* ---- Barriers ---------------------------------------------------------------------------------------------------- */
@@ -51,7 +51,7 @@ bool gis_page_shape(const gis_page_model *model, size_t feature, const sunder_sh
 /* Areas before lines, then by width, so that pictures draw many in one path; else as they came. */
 static int by_width(const void *left, const void *right)
 {
-    const gis_page_barrier *a = left, *b = right;
+    const gis_view_barrier *a = left, *b = right;
     if (a->area != b->area) return a->area ? -1 : 1;
     if (a->width != b->width) return a->width < b->width ? -1 : 1;
     return (a->order > b->order) - (a->order < b->order);
@@ -61,14 +61,14 @@ static int by_width(const void *left, const void *right)
 static bool take_barriers(gis_page_model *model, gis_error *error)
 {
     static const double beyond = 0.1;
-    const gis_page_contents *contents = model->request->contents;
+    const gis_result_view *view = model->request->view;
     double seen[4];
-    model->barrier = malloc((contents->barriers + 1) * sizeof *model->barrier);
+    model->barrier = malloc((view->barriers + 1) * sizeof *model->barrier);
     if (!model->barrier) return gis_no_memory(error);
-    if (!contents->fill_barriers(contents->of, model->barrier, error)) return false;
+    if (!view->fill_barriers(view->of, model->barrier, error)) return false;
     double rim = beyond * fmax(model->extent[2] - model->extent[0], model->extent[3] - model->extent[1]);
     for (int k = 0; k < 4; k++) seen[k] = model->extent[k] + (k < 2 ? -rim : rim);
-    for (size_t k = 0; k < contents->barriers; k++) {
+    for (size_t k = 0; k < view->barriers; k++) {
         model->barrier[k].order = k;
         if (!model->empty && gis_box_meets(model->barrier[k].box, seen))
             model->barrier[model->n_barriers++] = model->barrier[k];
@@ -77,11 +77,11 @@ static bool take_barriers(gis_page_model *model, gis_error *error)
     return true;
 }
 
-bool gis_page_geometry(const gis_page_model *model, const gis_page_barrier *barrier, sunder_obstacle *geometry,
+bool gis_page_geometry(const gis_page_model *model, const gis_view_barrier *barrier, sunder_obstacle *geometry,
                        gis_error *error)
 {
-    const gis_page_contents *contents = model->request->contents;
-    return contents->geometry(contents->of, barrier->place, geometry, error);
+    const gis_result_view *view = model->request->view;
+    return view->geometry(view->of, barrier->place, geometry, error);
 }
 
 /* ---- Orders ------------------------------------------------------------------------------------------------------ */
@@ -106,10 +106,10 @@ static void involve(gis_page_model *model, size_t thing)
 
 static bool take_conflicts(gis_page_model *model, gis_error *error)
 {
-    const gis_page_contents *contents = model->request->contents;
+    const gis_result_view *view = model->request->view;
     const sunder_conflict *conflicts;
     size_t n;
-    if (!contents->conflicts(contents->of, &conflicts, &n, error)) return false;
+    if (!view->conflicts(view->of, &conflicts, &n, error)) return false;
     model->conflict = malloc((n + 1) * sizeof *model->conflict);
     if (!model->conflict) return gis_no_memory(error);
     for (size_t k = 0; k < n; k++) {
@@ -173,7 +173,7 @@ static void frame(const double box[4], double window[4])
 }
 
 /* What matters of a feature, around a point at which it matters: not all of a feature that is large beside `reach`. */
-static void add_near(double box[4], const gis_page_feature *feature, const double about[4], double reach)
+static void add_near(double box[4], const gis_view_feature *feature, const double about[4], double reach)
 {
     double wide[4] = {about[0] - reach, about[1] - reach, about[2] + reach, about[3] + reach}, there[4];
     for (int after = 0; after < 2; after++) {
@@ -191,8 +191,8 @@ static double size_of(const double box[4]) { return fmax(box[2] - box[0], box[3]
 
 static void conflict_window(const gis_page_model *model, const sunder_conflict *conflict, double window[4])
 {
-    const gis_page_feature *a = &model->feature[conflict->a];
-    const gis_page_feature *b = conflict->b < model->n ? &model->feature[conflict->b] : a;
+    const gis_view_feature *a = &model->feature[conflict->a];
+    const gis_view_feature *b = conflict->b < model->n ? &model->feature[conflict->b] : a;
     double box[4] = {fmin(conflict->from[0], conflict->to[0]), fmin(conflict->from[1], conflict->to[1]),
                      fmax(conflict->from[0], conflict->to[0]), fmax(conflict->from[1], conflict->to[1])};
     double about[4];
@@ -203,7 +203,7 @@ static void conflict_window(const gis_page_model *model, const sunder_conflict *
     frame(box, window);
 }
 
-static void move_window(const gis_page_feature *feature, double window[4])
+static void move_window(const gis_view_feature *feature, double window[4])
 {
     double box[4];
     gis_page_box(feature, 1, box);
@@ -249,8 +249,8 @@ static void choose_places(gis_page_model *model)
 
 bool gis_page_model_make(const gis_page_request *request, gis_page_model *model, gis_error *error)
 {
-    *model = (gis_page_model){
-        .request = request, .n = request->contents->features, .unit = gis_report_unit_of(request->unit)};
+    *model =
+        (gis_page_model){.request = request, .n = request->view->features, .unit = gis_report_unit_of(request->unit)};
     if (!take_features(model, error) || !take_barriers(model, error) || !take_conflicts(model, error) ||
         !take_moves(model, error))
         return false;
@@ -269,15 +269,15 @@ void gis_page_model_clear(gis_page_model *model)
 
 bool gis_page_name(const gis_page_model *model, size_t thing, gis_text *to, gis_error *error)
 {
-    const gis_page_contents *contents = model->request->contents;
+    const gis_result_view *view = model->request->view;
     const char *text;
     GIntBig fid;
     if (thing >= model->n) {
-        if (!contents->barrier_name(contents->of, thing - model->n, &fid, &text, error)) return false;
+        if (!view->barrier_name(view->of, thing - model->n, &fid, &text, error)) return false;
         gis_text_print(to, "%s:" CPL_FRMT_GIB, text, fid);
         return true;
     }
-    if (!contents->name(contents->of, thing, model->feature[thing].place, &fid, &text, error)) return false;
+    if (!view->name(view->of, thing, model->feature[thing].place, &fid, &text, error)) return false;
     if (text) gis_text_print(to, "%s (", text);
     if (fid == OGRNullFID)
         gis_text_print(to, "feature %zu", thing + 1);

@@ -1,5 +1,6 @@
 /* model.h: what the page shows, before any of it is drawn or written: features, barriers and conflicts as the core
- * reports them, brought into the order in which a reader wants them. Shapes stay where they are (contents.h). */
+ * reports them, brought into the order in which a reader wants them. Shapes stay where they are
+ * (layer/result_view.h). */
 #ifndef GIS_REPORT_MODEL_H
 #define GIS_REPORT_MODEL_H
 
@@ -21,10 +22,10 @@ typedef struct gis_page_model {
     const gis_page_request *request;
     gis_report_unit unit;
     size_t n;
-    gis_page_feature *feature; /* [n] */
+    gis_view_feature *feature; /* [n] */
     double extent[4];          /* of all that is drawn, before and after; empty: all zero */
     bool empty;                /* nothing is drawn */
-    gis_page_barrier *barrier; /* those that are seen beside the features; areas first, then by width */
+    gis_view_barrier *barrier; /* those that are seen beside the features; areas first, then by width */
     size_t n_barriers;
     const sunder_conflict **conflict; /* those between blocks, the worst first */
     size_t n_conflicts;
@@ -40,7 +41,7 @@ void gis_page_model_clear(gis_page_model *model);
 
 /* A feature's shape, which there is; a barrier's geometry: until another of the kind is asked for. */
 bool gis_page_shape(const gis_page_model *model, size_t feature, const sunder_shape **shape, gis_error *error);
-bool gis_page_geometry(const gis_page_model *model, const gis_page_barrier *barrier, sunder_obstacle *geometry,
+bool gis_page_geometry(const gis_page_model *model, const gis_view_barrier *barrier, sunder_obstacle *geometry,
                        gis_error *error);
 /* By which name a reader knows a feature: "FID 12", with the user's own id if there is one; or a barrier: "roads:12".
  * Plain text, not escaped. */
@@ -49,8 +50,8 @@ bool gis_page_name(const gis_page_model *model, size_t thing, gis_text *to, gis_
 /* ---- Boxes ------------------------------------------------------------------------------------------------------- */
 
 /* A feature's box, moved by a part of its move: 0 before, 1 after. */
-void gis_page_box(const gis_page_feature *feature, double part, double box[4]);
+void gis_page_box(const gis_view_feature *feature, double part, double box[4]);
 /* How long its move is. */
-double gis_page_length(const gis_page_feature *feature);
+double gis_page_length(const gis_view_feature *feature);
 
 #endif

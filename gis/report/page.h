@@ -2,7 +2,9 @@
 #ifndef GIS_REPORT_PAGE_H
 #define GIS_REPORT_PAGE_H
 
-#include "report/contents.h"
+#include "base/text.h"
+#include "layer/input.h"
+#include "layer/result_view.h"
 
 /* An option of the run, as it was given; value "": it takes none. */
 typedef struct gis_page_option {
@@ -12,7 +14,7 @@ typedef struct gis_page_option {
 /* What the page is about. All of it is borrowed. */
 typedef struct gis_page_request {
     const gis_layer_input *input; /* only its rules and the source's names are used */
-    const gis_page_contents *contents;
+    const gis_result_view *view;
     const sunder_layer_summary *summary;
     const char *unit;   /* of coordinates: the name that the CRS has for it */
     const char *output; /* where the layers went */

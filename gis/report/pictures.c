@@ -36,7 +36,7 @@ static void begin_svg(picture_writer *writer, const char *class, const char *lab
 /* One feature, if any of it is in the picture. */
 static bool add_feature(picture_writer *writer, size_t i, double part, gis_error *error)
 {
-    const gis_page_feature *feature = &writer->model->feature[i];
+    const gis_view_feature *feature = &writer->model->feature[i];
     const sunder_shape *shape;
     const double move[2] = {part * feature->move[0], part * feature->move[1]};
     double box[4];
@@ -78,7 +78,7 @@ typedef struct barrier_paint {
 } barrier_paint;
 
 /* What of one barrier is seen, added to the path that is open. */
-static bool add_barrier(picture_writer *writer, const gis_page_barrier *barrier, gis_error *error)
+static bool add_barrier(picture_writer *writer, const gis_view_barrier *barrier, gis_error *error)
 {
     static const double still[2] = {0, 0};
     sunder_obstacle geometry;
@@ -90,7 +90,7 @@ static bool add_barrier(picture_writer *writer, const gis_page_barrier *barrier,
            gis_picture_add_shape(&writer->picture, geometry.shape, still, &writer->scratch, writer->to, error);
 }
 
-static void open_barriers(picture_writer *writer, const gis_page_barrier *barrier, const barrier_paint *paint)
+static void open_barriers(picture_writer *writer, const gis_view_barrier *barrier, const barrier_paint *paint)
 {
     const double width = gis_picture_length(&writer->picture, barrier->width);
     const bool wide = paint->wide_class && !barrier->area && width >= paint->wide;
@@ -105,12 +105,12 @@ static bool paint_barriers(picture_writer *writer, const barrier_paint *paint, g
 {
     const gis_page_model *model = writer->model;
     for (size_t k = 0; k < model->n_barriers;) {
-        const gis_page_barrier *first = &model->barrier[k];
+        const gis_view_barrier *first = &model->barrier[k];
         const size_t before = writer->to->length;
         open_barriers(writer, first, paint);
         const size_t empty = writer->to->length;
         for (; k < model->n_barriers; k++) {
-            const gis_page_barrier *each = &model->barrier[k];
+            const gis_view_barrier *each = &model->barrier[k];
             const double size = fmax(each->box[2] - each->box[0], each->box[3] - each->box[1]);
             if (each->area != first->area || each->width != first->width) break;
             if (!gis_box_meets(each->box, writer->picture.window) ||
@@ -146,7 +146,7 @@ static bool add_underpasses(picture_writer *writer, gis_error *error)
 
 enum { CLOSE_UP_WIDTH = 4000, CLOSE_UP_HEIGHT = 3000, CLOSE_UP_RIM = 30 };
 
-static bool has_moved(const picture_writer *writer, const gis_page_feature *feature)
+static bool has_moved(const picture_writer *writer, const gis_view_feature *feature)
 {
     return gis_picture_length(&writer->picture, gis_page_length(feature)) >= 20;
 }
@@ -171,7 +171,7 @@ static bool add_moves(picture_writer *writer, gis_error *error)
     for (int status = SUNDER_FEATURE_MOVED; status <= SUNDER_FEATURE_BLOCKED; status++)
         if (!add_path(writer, "ghost", 0, add_ghost, (sunder_feature_status)status, error)) return false;
     for (size_t i = 0; i < model->n; i++) {
-        const gis_page_feature *feature = &model->feature[i];
+        const gis_view_feature *feature = &model->feature[i];
         const sunder_shape *shape;
         double box[4], from[2];
         gis_page_box(feature, 1, box);
@@ -242,7 +242,7 @@ typedef struct overview_writer {
 } overview_writer;
 
 /* Adds a feature that is tiny, if its square is free. False: it is not tiny. */
-static bool add_tiny(overview_writer *whole, const gis_page_feature *feature)
+static bool add_tiny(overview_writer *whole, const gis_view_feature *feature)
 {
     const gis_picture *picture = &whole->writer.picture;
     double box[4], at[2];
@@ -262,7 +262,7 @@ static bool add_tiny(overview_writer *whole, const gis_page_feature *feature)
 static bool add_for_overview(picture_writer *writer, size_t i, double part, gis_error *error)
 {
     overview_writer *whole = (overview_writer *)writer; /* its first member */
-    const gis_page_feature *feature = &writer->model->feature[i];
+    const gis_view_feature *feature = &writer->model->feature[i];
     return !feature->vertices || add_tiny(whole, feature) || add_feature(writer, i, part, error);
 }
 

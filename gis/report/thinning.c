@@ -47,7 +47,7 @@ static bool meets_marked(const gis_page_model *model, const double box[4], const
     return false;
 }
 
-static bool is_telling(const gis_page_feature *feature)
+static bool is_telling(const gis_view_feature *feature)
 {
     return feature->involved || feature->move[0] != 0 || feature->move[1] != 0;
 }
@@ -56,7 +56,7 @@ static bool is_telling(const gis_page_feature *feature)
 static void mark_telling(const gis_page_model *model, bool *marked)
 {
     for (size_t i = 0; i < model->n; i++) {
-        const gis_page_feature *feature = &model->feature[i];
+        const gis_view_feature *feature = &model->feature[i];
         if (!feature->vertices || !is_telling(feature)) continue;
         double after[4];
         gis_page_box(feature, 1, after);
@@ -75,11 +75,11 @@ typedef struct room {
     bool full; /* something found no room: nothing that matters less is drawn whole */
 } room;
 
-static double whole_bytes(const gis_page_feature *feature) { return FEATURE_BYTES + CORNER_BYTES * feature->vertices; }
+static double whole_bytes(const gis_view_feature *feature) { return FEATURE_BYTES + CORNER_BYTES * feature->vertices; }
 
 static void draw_whole(room *map, size_t i)
 {
-    const gis_page_feature *feature = &map->model->feature[i];
+    const gis_view_feature *feature = &map->model->feature[i];
     if (!feature->vertices || map->full || map->thinning->drawn[i]) return;
     double bytes = whole_bytes(feature);
     map->full = map->taken + bytes > map->most;
@@ -107,7 +107,7 @@ static bool fill(room *map, gis_error *error)
 
 /* ---- What is not ------------------------------------------------------------------------------------------------- */
 
-static bool is_as_small(const gis_page_feature *feature, double tolerance)
+static bool is_as_small(const gis_view_feature *feature, double tolerance)
 {
     return fmax(feature->box[2] - feature->box[0], feature->box[3] - feature->box[1]) <= tolerance;
 }
@@ -171,7 +171,7 @@ static bool choose(const gis_page_model *model, gis_thinning *thinning, gis_erro
 
 static const double most_barrier_bytes = 2e6;
 
-static bool line_bytes(const gis_page_model *model, const gis_page_barrier *barrier, double tolerance,
+static bool line_bytes(const gis_page_model *model, const gis_view_barrier *barrier, double tolerance,
                        gis_corners *scratch, double *bytes, gis_error *error)
 {
     sunder_obstacle geometry;

@@ -4,13 +4,13 @@
  *   gis_shard_run_separate   one of the shards to which it is dealt, part by part; what is told of it, to a file there
  *   gis_shard_run_open_source    opens the layer again, to be read by batches as it is written
  *   gis_shard_run_join   joins all shards, with what borders cut
- *   gis_shard_run_write   the layers: the same bytes as of a layer that is separated whole */
+ *   gis_shard_run_result  what came of it: the same bytes as of a layer that is separated whole */
 #ifndef GIS_RUN_H
 #define GIS_RUN_H
 
 #include "base/interrupt.h"
 #include "base/progress.h"
-#include "layer/rows.h"
+#include "layer/result.h"
 #include "shards/parts/join.h"
 #include "shards/run/layer_spooling.h"
 
@@ -32,11 +32,6 @@ typedef struct gis_shard_run {
     double explain, verify; /* seconds that parts took for these stages, in this process */
     GIntBig *block_fid;     /* [joined.blocks] of the features there, from when they are written */
 } gis_shard_run;
-
-/* Which layers are written. */
-typedef struct gis_shard_run_layers {
-    bool main, displacement, conflicts, pushes, symbols;
-} gis_shard_run_layers;
 
 /* Bytes that a process takes, about: for a part of so much; for a layer while it is written, or drawn, when no part is
  * there. */
@@ -71,9 +66,11 @@ bool gis_shard_run_compare_barriers(gis_shard_run *parts, const gis_layer_input 
 const char *gis_shard_run_scratch(gis_shard_run *parts, gis_error *error);
 /* Of all shards, whose files are there. */
 bool gis_shard_run_join(gis_shard_run *parts, uint64_t options, sunder_layer_summary *summary, gis_error *error);
-/* run_layers.c */
-bool gis_shard_run_write(gis_shard_run *parts, const gis_layer_input *input, const gis_shard_run_layers *layers,
-                         gis_sink *sink, gis_error *error);
+/* run_result.c: what came of it, once it is joined. The run and the input, which gis_shard_run_open_source() filled in,
+ * are borrowed. */
+gis_result gis_shard_run_result(gis_shard_run *parts, const gis_layer_input *input);
+/* run_view.c */
+bool gis_shard_run_view(const gis_result *result, gis_result_view *out, gis_error *error);
 /* run_proof.c: of what was written, the file of --proof. False: see gis_proof_print(). */
 bool gis_shard_run_proof(gis_shard_run *parts, const gis_layer_input *input, const sunder_layer_summary *summary,
                          FILE *to, gis_error *error);

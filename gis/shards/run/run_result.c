@@ -1,5 +1,5 @@
-/* run_layers.c: the layers of what was separated in parts, row by row: of things that lie in order on disk, beside
- * the features as they are read once more. */
+/* run_result.c: see layer/result.h. The results of a layer that was separated in parts lie in order on disk; features
+ * are read once more beside them. */
 #include "shards/run/run.h"
 
 #include "base/array.h"
@@ -7,6 +7,7 @@
 #include "disk/file.h"
 #include "layer/checksum.h"
 #include "layer/output.h"
+#include "layer/result.h"
 
 #include <cpl_conv.h>
 #include <stdlib.h>
@@ -17,6 +18,9 @@
 /* Where each list is, while features go by in their order. */
 typedef struct passing {
     gis_shard_run *parts;
+    bool has_null;
+    gis_feature_visit *visit; /* NULL: none */
+    void *user;
     gis_disk_file status;
     unsigned char *alone; /* of the batch that goes by: how each feature of it is by itself */
     size_t room;
@@ -26,17 +30,17 @@ typedef struct passing {
 
 /* Of a feature that went by, or goes: so the first of its block did, if it is of one. own: where it is in the block;
  * NULL: it stands alone. */
-static gis_value block_value(const gis_shard_run *p, const gis_sink_layer *layer, const gis_part_link *own,
-                             size_t feature, GIntBig fid)
+static gis_value block_value(const gis_shard_run *p, bool has_null, const gis_part_link *own, size_t feature,
+                             GIntBig fid)
 {
     const gis_joined *j = &p->joined;
-    const int64_t alone = gis_sink_has_null(layer) ? -1 : (int64_t)feature;
+    const int64_t alone = has_null ? -1 : (int64_t)feature;
     if (!own) return gis_block_as_value(p->facts.source.fids_unique, alone, fid);
     return gis_block_as_value(p->facts.source.fids_unique, (int64_t)own->b,
                               p->block_fid[gis_joined_block(j, own->b) - j->block]);
 }
 
-static bool pass(passing *at, const gis_source *source, size_t i, gis_sink_layer *layer, gis_error *error)
+static bool pass(passing *at, const gis_source *source, size_t i, gis_error *error)
 {
     gis_shard_run *p = at->parts;
     const gis_joined *j = &p->joined;
@@ -55,9 +59,9 @@ static bool pass(passing *at, const gis_source *source, size_t i, gis_sink_layer
     }
     const gis_part_link *own = at->block < j->blocks && j->block[at->block].a == feature ? &j->block[at->block] : NULL;
     if (own) p->block_fid[at->block++] = gis_source_fid(source, i);
-    if (!layer) return true;
-    row.block = block_value(p, layer, own, feature, gis_source_fid(source, i));
-    return gis_main_row(layer, i, &row, error);
+    if (!at->visit) return true;
+    row.block = block_value(p, at->has_null, own, feature, gis_source_fid(source, i));
+    return at->visit(at->user, i, &row, error);
 }
 
 /* The features are read a second time; others than the first time have no place in what was made of those. */
@@ -79,12 +83,14 @@ static bool begin_batch(passing *at, const gis_layer_input *input, gis_layer_che
     return gis_disk_file_read(&at->status, first, at->alone, n, error);
 }
 
-/* All features go by, as blocks are called by FIDs that are known then; and are written, if layer is not NULL. */
-static bool write_main(gis_shard_run *p, const gis_layer_input *input, gis_sink_layer *layer, gis_error *error)
+/* All features go by, as blocks are called by FIDs that are known then. */
+static bool visit_features(const gis_result *r, bool has_null, gis_feature_visit *visit, void *user, gis_error *error)
 {
+    gis_shard_run *p = r->of;
+    const gis_layer_input *input = r->input;
     gis_source *source = input->source;
     gis_layer_checksums sums = {0};
-    passing at = {.parts = p};
+    passing at = {.parts = p, .has_null = has_null, .visit = visit, .user = user};
     bool any = true;
     p->block_fid = malloc((p->joined.blocks + 1) * sizeof *p->block_fid);
     if (!p->block_fid) return gis_no_memory(error);
@@ -93,7 +99,7 @@ static bool write_main(gis_shard_run *p, const gis_layer_input *input, gis_sink_
                 gis_sorted_results_next(&p->joined.rows, &at.any, error);
     while (done && any) {
         done = begin_batch(&at, input, &sums, error);
-        for (size_t i = 0; i < gis_source_count(source) && done; i++) done = pass(&at, source, i, layer, error);
+        for (size_t i = 0; i < gis_source_count(source) && done; i++) done = pass(&at, source, i, error);
         any = !p->whole;
         if (any) done = done && gis_source_next(source, &any, error);
     }
@@ -113,8 +119,9 @@ static gis_value id_value(const gis_shard_run *p, const char *text)
     return (gis_value){GIS_TEXT, {.text = text}};
 }
 
-static bool write_displacement(gis_shard_run *p, gis_sink_layer *layer, gis_error *error)
+static bool visit_arrows(const gis_result *r, bool has_null, gis_arrow_visit *visit, void *user, gis_error *error)
 {
+    gis_shard_run *p = r->of;
     gis_sorted_results *rows = &p->joined.rows;
     bool any = true;
     gis_sorted_results_rewind(rows);
@@ -124,10 +131,10 @@ static bool write_displacement(gis_shard_run *p, gis_sink_layer *layer, gis_erro
         const gis_arrow_row row = {
             .fid = gis_fid_as_value(own->fid),
             .id = id_value(p, gis_part_text(&rows->one, own->id)),
-            .block = block_value(p, layer, gis_joined_block(&p->joined, own->index), own->index, own->fid),
+            .block = block_value(p, has_null, gis_joined_block(&p->joined, own->index), own->index, own->fid),
             .from = {own->from[0], own->from[1]},
             .move = {own->move[0], own->move[1]}};
-        if (!gis_go_on(error) || !gis_displacement_row(layer, &row, error)) return false;
+        if (!visit(user, &row, error)) return false;
     }
     return !any;
 }
@@ -165,22 +172,19 @@ static GIntBig part_barrier(const void *of, size_t thing, const char **layer)
     return name ? name->fid : OGRNullFID;
 }
 
-static bool write_conflicts(gis_shard_run *p, gis_sink_layer *layer, gis_error *error)
+static bool visit_conflicts(const gis_result *r, gis_conflict_visit *visit, void *user, gis_error *error)
 {
+    gis_shard_run *p = r->of;
     const gis_things things = {p, p->facts.source.features, part_fid, part_id, part_barrier};
-    gis_conflict_texts scratch = {0};
     gis_sorted_results *conflicts = &p->joined.conflicts;
-    bool any = true, done = true;
+    bool any = true;
     gis_sorted_results_rewind(conflicts);
-    while (done && (done = gis_sorted_results_next(conflicts, &any, error)) && any) {
+    while (gis_sorted_results_next(conflicts, &any, error) && any) {
         gis_part_conflict *c = conflicts->one.conflict;
-        gis_value values[N_CONFLICT_COLUMNS];
         c->is.blocked_by = conflicts->one.blocker;
-        done = gis_go_on(error) && gis_things_conflict(&things, &c->is, &scratch, values, error) &&
-               gis_line_row(layer, values, c->is.from, c->is.to, error);
+        if (!visit(user, &c->is, &things, error)) return false;
     }
-    gis_conflict_texts_clear(&scratch);
-    return done;
+    return !any;
 }
 
 /* The two things of the push that is at hand. */
@@ -198,16 +202,15 @@ static GIntBig push_barrier(const void *of, size_t thing, const char **layer)
     return one->push->fid[1];
 }
 
-static bool write_pushes(gis_shard_run *p, gis_sink_layer *layer, gis_error *error)
+static bool visit_pushes(const gis_result *r, gis_push_visit *visit, void *user, gis_error *error)
 {
+    gis_shard_run *p = r->of;
     gis_sorted_results *pushes = &p->joined.pushes;
     bool any = true;
     while (gis_sorted_results_next(pushes, &any, error) && any) {
         const gis_part_push *push = pushes->one.push;
         const gis_things things = {&pushes->one, p->facts.source.features, push_fid, NULL, push_barrier};
-        gis_value values[N_PUSH_COLUMNS];
-        gis_things_push(&things, &push->is, values);
-        if (!gis_go_on(error) || !gis_line_row(layer, values, push->from, push->to, error)) return false;
+        if (!visit(user, &push->is, &things, push->from, push->to, error)) return false;
     }
     return !any;
 }
@@ -227,29 +230,32 @@ static bool move_of(void *user, size_t feature, double move[2], gis_error *error
     return gis_sorted_results_next(m->rows, &m->any, error);
 }
 
-static bool write_symbols(gis_shard_run *p, const gis_layer_input *input, gis_sink *sink, gis_error *error)
+static bool write_symbols(const gis_result *r, gis_sink *sink, gis_error *error)
 {
+    gis_shard_run *p = r->of;
     moving m = {.rows = &p->joined.rows};
     gis_sorted_results_rewind(m.rows);
     return gis_sorted_results_next(m.rows, &m.any, error) &&
-           gis_write_symbols_anew(sink, input, p->facts.multi, !p->whole, move_of, &m, error);
+           gis_write_symbols_anew(sink, r->input, p->facts.multi, !p->whole, move_of, &m, error);
 }
 
-bool gis_shard_run_write(gis_shard_run *parts, const gis_layer_input *input, const gis_shard_run_layers *layers,
-                         gis_sink *sink, gis_error *error)
+static bool write_proof(const gis_result *r, const sunder_layer_summary *summary, FILE *to, gis_error *error)
 {
-    OGRSpatialReferenceH crs = gis_source_crs(input->source);
-    gis_sink_layer *layer = NULL;
-    const OGRFieldType id = parts->facts.id_type;
-    if (layers->main && !gis_main_begin(sink, &layer, error)) return false;
-    if (!write_main(parts, input, layer, error)) return false;
-    if (layers->displacement &&
-        (!gis_displacement_begin(sink, id, crs, &layer, error) || !write_displacement(parts, layer, error)))
-        return false;
-    if (layers->conflicts &&
-        (!gis_conflicts_begin(sink, "conflicts", id, crs, &layer, error) || !write_conflicts(parts, layer, error)))
-        return false;
-    if (layers->pushes && (!gis_pushes_begin(sink, crs, &layer, error) || !write_pushes(parts, layer, error)))
-        return false;
-    return !layers->symbols || write_symbols(parts, input, sink, error);
+    return gis_shard_run_proof(r->of, r->input, summary, to, error);
+}
+
+static GIntBig longest_fid(const gis_result *r, size_t feature)
+{
+    (void)feature;
+    return ((const gis_shard_run *)r->of)->joined.longest_fid;
+}
+
+static OGRFieldType id_type(const gis_result *r) { return ((const gis_shard_run *)r->of)->facts.id_type; }
+
+gis_result gis_shard_run_result(gis_shard_run *parts, const gis_layer_input *input)
+{
+    static const gis_result_kind kind = {visit_features,     visit_arrows,  visit_conflicts,
+                                         visit_pushes,       write_symbols, write_proof,
+                                         gis_shard_run_view, longest_fid,   id_type};
+    return (gis_result){&kind, input, parts};
 }

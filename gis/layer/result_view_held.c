@@ -1,6 +1,7 @@
-/* held.c: see contents.h. A page of a layer that is held in memory, with its report. */
+/* result_view_held.c: see result.h. A layer that is held in memory, with its report, to be drawn. */
+#include "base/interrupt.h"
 #include "geometry/box.h"
-#include "report/contents.h"
+#include "layer/result_held.h"
 
 #include <math.h>
 
@@ -9,10 +10,10 @@ static size_t points_of(const sunder_obstacle *geometry)
     return geometry->lines ? geometry->line_end[geometry->lines - 1] : 0;
 }
 
-gis_page_barrier gis_page_barrier_of(const sunder_obstacle *geometry, double width)
+gis_view_barrier gis_view_barrier_of(const sunder_obstacle *geometry, double width)
 {
     const size_t points = points_of(geometry);
-    gis_page_barrier out = {.width = width, .vertices = points, .area = geometry->shape != NULL};
+    gis_view_barrier out = {.width = width, .vertices = points, .area = geometry->shape != NULL};
     gis_box_clear(out.box);
     for (size_t i = 0; i < points; i++) {
         const double *at = geometry->xy + 2 * i;
@@ -28,27 +29,27 @@ gis_page_barrier gis_page_barrier_of(const sunder_obstacle *geometry, double wid
     return out;
 }
 
-static bool fill(void *of, gis_page_feature *feature, gis_error *error)
+static bool fill(void *of, gis_view_feature *feature, gis_error *error)
 {
-    const gis_page_held *held = of;
+    const gis_result *held = of;
     for (size_t i = 0; i < held->input->n; i++) {
         const sunder_shape *shape = held->input->shape[i];
-        gis_page_feature *each = &feature[i];
+        gis_view_feature *each = &feature[i];
         if (!gis_go_on(error)) return false;
-        sunder_report_move(held->report, i, &each->move[0], &each->move[1]);
-        each->status = (uint8_t)sunder_report_status(held->report, i);
+        sunder_report_move(held->of, i, &each->move[0], &each->move[1]);
+        each->status = (uint8_t)sunder_report_status(held->of, i);
         each->vertices = shape ? (uint32_t)sunder_shape_vertices(shape) : 0;
         if (each->vertices) sunder_shape_box(shape, each->box);
     }
     return true;
 }
 
-static bool fill_barriers(void *of, gis_page_barrier *barrier, gis_error *error)
+static bool fill_barriers(void *of, gis_view_barrier *barrier, gis_error *error)
 {
-    const gis_barriers *barriers = &((const gis_page_held *)of)->input->barriers;
+    const gis_barriers *barriers = &((const gis_result *)of)->input->barriers;
     (void)error;
     for (size_t k = 0; k < barriers->n; k++) {
-        barrier[k] = gis_page_barrier_of(&barriers->barrier[k].geometry, barriers->barrier[k].width);
+        barrier[k] = gis_view_barrier_of(&barriers->barrier[k].geometry, barriers->barrier[k].width);
         barrier[k].place = k;
     }
     return true;
@@ -57,27 +58,27 @@ static bool fill_barriers(void *of, gis_page_barrier *barrier, gis_error *error)
 static bool conflicts(void *of, const sunder_conflict **conflict, size_t *n, gis_error *error)
 {
     (void)error;
-    *conflict = sunder_report_conflicts(((const gis_page_held *)of)->report, n);
+    *conflict = sunder_report_conflicts(((const gis_result *)of)->of, n);
     return true;
 }
 
 static bool shape(void *of, size_t feature, uint64_t place, const sunder_shape **out, gis_error *error)
 {
     (void)place, (void)error;
-    *out = ((const gis_page_held *)of)->input->shape[feature];
+    *out = ((const gis_result *)of)->input->shape[feature];
     return true;
 }
 
 static bool geometry(void *of, uint64_t place, sunder_obstacle *out, gis_error *error)
 {
     (void)error;
-    *out = ((const gis_page_held *)of)->input->barriers.barrier[place].geometry;
+    *out = ((const gis_result *)of)->input->barriers.barrier[place].geometry;
     return true;
 }
 
 static bool name(void *of, size_t feature, uint64_t place, GIntBig *fid, const char **id, gis_error *error)
 {
-    const gis_layer_input *input = ((const gis_page_held *)of)->input;
+    const gis_layer_input *input = ((const gis_result *)of)->input;
     (void)place, (void)error;
     *fid = gis_source_fid(input->source, feature);
     *id = NULL;
@@ -89,16 +90,21 @@ static bool name(void *of, size_t feature, uint64_t place, GIntBig *fid, const c
 
 static bool barrier_name(void *of, size_t barrier, GIntBig *fid, const char **layer, gis_error *error)
 {
-    const gis_barriers *barriers = &((const gis_page_held *)of)->input->barriers;
+    const gis_barriers *barriers = &((const gis_result *)of)->input->barriers;
     (void)error;
     *fid = barriers->feature[barrier].fid;
     *layer = barriers->layer[barriers->feature[barrier].request];
     return true;
 }
 
-gis_page_contents gis_page_contents_of(gis_page_held *held)
+static void close_nothing(void *of) { (void)of; }
+
+bool gis_result_held_view(const gis_result *result, gis_result_view *out, gis_error *error)
 {
-    return (gis_page_contents){
-        held, held->input->n, held->input->barriers.n, fill, fill_barriers, conflicts, shape, geometry,
-        name, barrier_name};
+    (void)error;
+    *out = (gis_result_view){(void *)result, result->input->n, result->input->barriers.n,
+                             fill,           fill_barriers,    conflicts,
+                             shape,          geometry,         name,
+                             barrier_name,   close_nothing};
+    return true;
 }

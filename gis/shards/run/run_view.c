@@ -1,15 +1,16 @@
-/* spooled.c: see contents.h. A page of a layer that was separated in parts: shapes and names are read from the spool
- * one by one, what became of features from lists that lie in order on disk. */
+/* run_view.c: see layer/result_view.h. Shapes and names of a layer that was separated in parts are read from the spool
+ * one by one; what became of features is read from lists that lie in order on disk. */
 #include "base/array.h"
+#include "base/text.h"
 #include "disk/file.h"
-#include "report/contents.h"
+#include "shards/run/run.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 enum { STATUS_BUFFER = 1 << 16 };
 
-struct gis_page_spooled {
+typedef struct spool_view {
     gis_shard_run *parts;
     gis_spool *aside; /* NULL: nothing lies there */
     sunder_conflict *conflict;
@@ -22,20 +23,20 @@ struct gis_page_spooled {
     gis_text text;         /* of the name that is asked for */
     int64_t fid;
     bool named;
-};
+} spool_view;
 
 /* ---- Places ------------------------------------------------------------------------------------------------------ */
 
 /* Of a feature: its place in one of two spools, and in the lowest bit, which. */
 static uint64_t place_of(uint64_t place, bool aside) { return place << 1 | aside; }
 
-static gis_spool *spool_of(const gis_page_spooled *s, uint64_t place) { return place & 1 ? s->aside : s->parts->spool; }
+static gis_spool *spool_of(const spool_view *s, uint64_t place) { return place & 1 ? s->aside : s->parts->spool; }
 
 /* ---- All features ------------------------------------------------------------------------------------------------ */
 
 typedef struct filling {
-    gis_page_feature *feature;
-    gis_page_barrier *barrier;
+    gis_view_feature *feature;
+    gis_view_barrier *barrier;
     uint64_t *barrier_place;
     size_t n;
     bool aside;
@@ -52,7 +53,7 @@ static bool take_feature(void *user, const gis_spool_feature *feature, gis_error
     const sunder_shape *shape = feature->demands.shape;
     const bool done = is_numbered(f, feature, error);
     if (done) {
-        gis_page_feature *to = &f->feature[feature->index];
+        gis_view_feature *to = &f->feature[feature->index];
         to->place = place_of(feature->place, f->aside);
         to->vertices = (uint32_t)sunder_shape_vertices(shape);
         if (to->vertices) sunder_shape_box(shape, to->box);
@@ -69,7 +70,7 @@ static bool visit_all(gis_spool *spool, gis_spool_visit *visit, filling *f, gis_
 }
 
 /* Each as it would be by itself. */
-static bool take_statuses(const gis_page_spooled *s, gis_page_feature *feature, size_t n, gis_error *error)
+static bool take_statuses(const spool_view *s, gis_view_feature *feature, size_t n, gis_error *error)
 {
     unsigned char buffer[STATUS_BUFFER];
     gis_disk_file file = {0};
@@ -84,14 +85,14 @@ static bool take_statuses(const gis_page_spooled *s, gis_page_feature *feature, 
 }
 
 /* What became of those that are not as they would be alone. */
-static bool take_rows(const gis_page_spooled *s, gis_page_feature *feature, gis_error *error)
+static bool take_rows(const spool_view *s, gis_view_feature *feature, gis_error *error)
 {
     gis_joined *joined = &s->parts->joined;
     gis_sorted_results *rows = &joined->rows;
     bool any = true;
     gis_sorted_results_rewind(rows);
     while (gis_sorted_results_next(rows, &any, error) && any) {
-        gis_page_feature *to = &feature[rows->head.first];
+        gis_view_feature *to = &feature[rows->head.first];
         if (!gis_go_on(error)) return false;
         if (rows->one.rows) {
             memcpy(to->move, rows->one.row->move, sizeof to->move);
@@ -103,9 +104,9 @@ static bool take_rows(const gis_page_spooled *s, gis_page_feature *feature, gis_
     return !any;
 }
 
-static bool fill(void *of, gis_page_feature *feature, gis_error *error)
+static bool fill(void *of, gis_view_feature *feature, gis_error *error)
 {
-    const gis_page_spooled *s = of;
+    const spool_view *s = of;
     filling f = {.feature = feature, .n = s->parts->facts.source.features};
     if (!visit_all(s->parts->spool, take_feature, &f, error)) return false;
     f.aside = true;
@@ -129,16 +130,16 @@ static bool take_barrier(void *user, const gis_spool_feature *barrier, gis_error
     const bool done = is_numbered(f, barrier, error);
     if (done) {
         const sunder_obstacle geometry = geometry_of(barrier);
-        f->barrier[barrier->index] = gis_page_barrier_of(&geometry, barrier->demands.weight);
+        f->barrier[barrier->index] = gis_view_barrier_of(&geometry, barrier->demands.weight);
         f->barrier[barrier->index].place = f->barrier_place[barrier->index] = barrier->place;
     }
     sunder_shape_free((sunder_shape *)barrier->demands.shape);
     return done;
 }
 
-static bool fill_barriers(void *of, gis_page_barrier *barrier, gis_error *error)
+static bool fill_barriers(void *of, gis_view_barrier *barrier, gis_error *error)
 {
-    gis_page_spooled *s = of;
+    spool_view *s = of;
     gis_spool *all = s->parts->barriers.all;
     if (!all) return true;
     filling f = {.barrier = barrier, .barrier_place = s->barrier_place, .n = gis_spool_features(all)};
@@ -147,7 +148,7 @@ static bool fill_barriers(void *of, gis_page_barrier *barrier, gis_error *error)
 
 /* ---- Conflicts --------------------------------------------------------------------------------------------------- */
 
-static bool keep_conflict(gis_page_spooled *s, const gis_part_result *one, gis_error *error)
+static bool keep_conflict(spool_view *s, const gis_part_result *one, gis_error *error)
 {
     const sunder_conflict *conflict = &one->conflict->is;
     const size_t n = conflict->n_blocked_by;
@@ -162,7 +163,7 @@ static bool keep_conflict(gis_page_spooled *s, const gis_part_result *one, gis_e
 
 static bool conflicts(void *of, const sunder_conflict **conflict, size_t *n, gis_error *error)
 {
-    gis_page_spooled *s = of;
+    spool_view *s = of;
     gis_sorted_results *sorted = &s->parts->joined.conflicts;
     bool any = true;
     s->conflicts = s->blockers = 0;
@@ -180,7 +181,7 @@ static bool conflicts(void *of, const sunder_conflict **conflict, size_t *n, gis
 
 static bool lend_shape(void *user, const gis_spool_feature *feature, gis_error *error)
 {
-    gis_page_spooled *s = user;
+    spool_view *s = user;
     (void)error;
     sunder_shape_free(s->lent);
     s->lent = (sunder_shape *)feature->demands.shape;
@@ -189,7 +190,7 @@ static bool lend_shape(void *user, const gis_spool_feature *feature, gis_error *
 
 static bool shape(void *of, size_t feature, uint64_t place, const sunder_shape **out, gis_error *error)
 {
-    gis_page_spooled *s = of;
+    spool_view *s = of;
     (void)feature;
     if (!gis_spool_read_one(spool_of(s, place), place >> 1, lend_shape, s, error)) return false;
     *out = s->lent;
@@ -198,7 +199,7 @@ static bool shape(void *of, size_t feature, uint64_t place, const sunder_shape *
 
 static bool lend_geometry(void *user, const gis_spool_feature *barrier, gis_error *error)
 {
-    gis_page_spooled *s = user;
+    spool_view *s = user;
     (void)error;
     sunder_shape_free(s->lent_barrier);
     s->lent_barrier = (sunder_shape *)barrier->demands.shape;
@@ -208,7 +209,7 @@ static bool lend_geometry(void *user, const gis_spool_feature *barrier, gis_erro
 
 static bool geometry(void *of, uint64_t place, sunder_obstacle *out, gis_error *error)
 {
-    gis_page_spooled *s = of;
+    spool_view *s = of;
     if (!gis_spool_read_one(s->parts->barriers.all, place, lend_geometry, s, error)) return false;
     *out = s->lines;
     return true;
@@ -216,7 +217,7 @@ static bool geometry(void *of, uint64_t place, sunder_obstacle *out, gis_error *
 
 static bool take_name(void *user, const gis_spool_feature *feature, gis_error *error)
 {
-    gis_page_spooled *s = user;
+    spool_view *s = user;
     (void)error;
     s->fid = feature->fid;
     s->named = feature->id != NULL;
@@ -226,8 +227,7 @@ static bool take_name(void *user, const gis_spool_feature *feature, gis_error *e
     return true;
 }
 
-static bool ask_name(gis_page_spooled *s, gis_spool *spool, uint64_t place, GIntBig *fid, const char **text,
-                     gis_error *error)
+static bool ask_name(spool_view *s, gis_spool *spool, uint64_t place, GIntBig *fid, const char **text, gis_error *error)
 {
     if (!gis_spool_read_one(spool, place, take_name, s, error)) return false;
     *fid = s->fid;
@@ -237,20 +237,20 @@ static bool ask_name(gis_page_spooled *s, gis_spool *spool, uint64_t place, GInt
 
 static bool name(void *of, size_t feature, uint64_t place, GIntBig *fid, const char **id, gis_error *error)
 {
-    gis_page_spooled *s = of;
+    spool_view *s = of;
     (void)feature;
     return ask_name(s, spool_of(s, place), place >> 1, fid, id, error);
 }
 
 static bool barrier_name(void *of, size_t barrier, GIntBig *fid, const char **layer, gis_error *error)
 {
-    gis_page_spooled *s = of;
+    spool_view *s = of;
     return ask_name(s, s->parts->barriers.all, s->barrier_place[barrier], fid, layer, error);
 }
 
 /* ---- From beginning to end --------------------------------------------------------------------------------------- */
 
-static bool open_aside(gis_page_spooled *s, gis_error *error)
+static bool open_aside(spool_view *s, gis_error *error)
 {
     if (s->parts->facts.aside == 0) return true;
     char *path = gis_disk_path(s->parts->directory, GIS_SPOOL_ASIDE);
@@ -259,36 +259,38 @@ static bool open_aside(gis_page_spooled *s, gis_error *error)
     return done;
 }
 
-bool gis_page_spooled_open(gis_shard_run *parts, gis_page_spooled **out, gis_error *error)
+static void close_view(void *of)
 {
-    gis_page_spooled *s = calloc(1, sizeof *s);
-    if (!s) return gis_no_memory(error);
-    *out = s;
-    s->parts = parts;
+    spool_view *s = of;
+    if (!s) return;
+    gis_spool_close(s->aside);
+    sunder_shape_free(s->lent);
+    sunder_shape_free(s->lent_barrier);
+    gis_text_clear(&s->text);
+    free(s->conflict);
+    free(s->blocker);
+    free(s->barrier_place);
+    free(s);
+}
+
+bool gis_shard_run_view(const gis_result *result, gis_result_view *out, gis_error *error)
+{
+    gis_shard_run *parts = result->of;
     const size_t barriers = parts->barriers.all ? gis_spool_features(parts->barriers.all) : 0;
+    spool_view *s = calloc(1, sizeof *s);
+    *out = (gis_result_view){s,
+                             parts->facts.source.features,
+                             barriers,
+                             fill,
+                             fill_barriers,
+                             conflicts,
+                             shape,
+                             geometry,
+                             name,
+                             barrier_name,
+                             close_view};
+    if (!s) return gis_no_memory(error);
+    s->parts = parts;
     s->barrier_place = calloc(barriers + 1, sizeof *s->barrier_place);
     return (s->barrier_place || gis_no_memory(error)) && open_aside(s, error);
-}
-
-gis_page_contents gis_page_contents_of_spool(gis_page_spooled *spooled)
-{
-    const size_t barriers = spooled->parts->barriers.all ? gis_spool_features(spooled->parts->barriers.all) : 0;
-    return (gis_page_contents){spooled,       spooled->parts->facts.source.features,
-                               barriers,      fill,
-                               fill_barriers, conflicts,
-                               shape,         geometry,
-                               name,          barrier_name};
-}
-
-void gis_page_spooled_close(gis_page_spooled *spooled)
-{
-    if (!spooled) return;
-    gis_spool_close(spooled->aside);
-    sunder_shape_free(spooled->lent);
-    sunder_shape_free(spooled->lent_barrier);
-    gis_text_clear(&spooled->text);
-    free(spooled->conflict);
-    free(spooled->blocker);
-    free(spooled->barrier_place);
-    free(spooled);
 }

@@ -1,0 +1,105 @@
+/* result_held.c: see result.h. What became of a layer that is held in memory stands in the core's report. */
+#include "layer/result_held.h"
+
+#include "layer/output.h"
+#include "layer/proof.h"
+
+static gis_value block_value(const gis_result *r, bool has_null, size_t feature)
+{
+    const gis_source *source = r->input->source;
+    int64_t first = sunder_report_block(r->of, feature);
+    if (first < 0 && !has_null) first = (int64_t)feature;
+    return gis_block_as_value(gis_source_fids_unique(source), first,
+                              first < 0 ? OGRNullFID : gis_source_fid(source, (size_t)first));
+}
+
+static bool visit_features(const gis_result *r, bool has_null, gis_feature_visit *visit, void *user, gis_error *error)
+{
+    for (size_t i = 0; visit && i < r->input->n; i++) {
+        gis_feature_row row = {.status = sunder_report_status(r->of, i), .block = block_value(r, has_null, i)};
+        sunder_report_move(r->of, i, &row.dx, &row.dy);
+        if (!visit(user, i, &row, error)) return false;
+    }
+    return true;
+}
+
+static bool visit_arrow(const gis_result *r, bool has_null, size_t i, const double move[2], gis_arrow_visit *visit,
+                        void *user, gis_error *error)
+{
+    gis_arrow_row row = {
+        .fid = gis_fid_value(r->input, i), .block = block_value(r, has_null, i), .move = {move[0], move[1]}};
+    gis_conflict_texts scratch = {0};
+    const bool done = gis_arrow_start(r->input, i, row.from, error) &&
+                      gis_id_value(r->input, i, &scratch.id[0], &row.id, error) && visit(user, &row, error);
+    gis_conflict_texts_clear(&scratch);
+    return done;
+}
+
+static bool visit_arrows(const gis_result *r, bool has_null, gis_arrow_visit *visit, void *user, gis_error *error)
+{
+    for (size_t i = 0; i < r->input->n; i++) {
+        double move[2];
+        sunder_report_move(r->of, i, &move[0], &move[1]);
+        if ((move[0] != 0 || move[1] != 0) && !visit_arrow(r, has_null, i, move, visit, user, error)) return false;
+    }
+    return true;
+}
+
+static bool visit_conflicts(const gis_result *r, gis_conflict_visit *visit, void *user, gis_error *error)
+{
+    const gis_things things = gis_things_of(r->input);
+    size_t n;
+    const sunder_conflict *conflict = sunder_report_conflicts(r->of, &n);
+    for (size_t k = 0; k < n; k++)
+        if (!visit(user, &conflict[k], &things, error)) return false;
+    return true;
+}
+
+static void anchor_now(const gis_result *r, size_t feature, double at[2])
+{
+    double dx, dy;
+    sunder_shape_anchor(r->input->shape[feature], at);
+    sunder_report_move(r->of, feature, &dx, &dy);
+    at[0] += dx;
+    at[1] += dy;
+}
+
+static bool visit_pushes(const gis_result *r, gis_push_visit *visit, void *user, gis_error *error)
+{
+    const gis_things things = gis_things_of(r->input);
+    size_t n;
+    const sunder_push *push = sunder_report_pushes(r->of, &n);
+    for (size_t k = 0; k < n; k++) {
+        double from[2], to[2];
+        anchor_now(r, push[k].a, from);
+        if (gis_things_is_barrier(&things, push[k].b))
+            gis_barrier_corner(&r->input->barriers.barrier[push[k].b - r->input->n].geometry, from, to);
+        else
+            anchor_now(r, push[k].b, to);
+        if (!visit(user, &push[k], &things, from, to, error)) return false;
+    }
+    return true;
+}
+
+static bool write_symbols(const gis_result *r, gis_sink *sink, gis_error *error)
+{
+    return gis_write_symbols(sink, r->input, r->of, error);
+}
+
+static bool write_proof(const gis_result *r, const sunder_layer_summary *summary, FILE *to, gis_error *error)
+{
+    (void)summary; /* the report has its own */
+    return gis_proof_write(r->input, r->of, to, error);
+}
+
+static GIntBig longest_fid(const gis_result *r, size_t feature) { return gis_source_fid(r->input->source, feature); }
+
+static OGRFieldType id_type(const gis_result *r) { return gis_id_type(r->input); }
+
+gis_result gis_result_held(const gis_layer_input *input, sunder_report *report)
+{
+    static const gis_result_kind kind = {visit_features,       visit_arrows,  visit_conflicts,
+                                         visit_pushes,         write_symbols, write_proof,
+                                         gis_result_held_view, longest_fid,   id_type};
+    return (gis_result){&kind, input, report};
+}

@@ -1,0 +1,76 @@
+/* result_layers.c: see result.h. */
+#include "layer/result.h"
+
+#include "base/interrupt.h"
+
+static bool write_feature(void *layer, size_t i, const gis_feature_row *row, gis_error *error)
+{
+    return gis_main_row(layer, i, row, error);
+}
+
+static bool write_arrow(void *layer, const gis_arrow_row *row, gis_error *error)
+{
+    return gis_go_on(error) && gis_displacement_row(layer, row, error);
+}
+
+typedef struct conflict_writer {
+    gis_sink_layer *layer;
+    gis_conflict_texts scratch;
+} conflict_writer;
+
+static bool write_conflict(void *user, const sunder_conflict *conflict, const gis_things *things, gis_error *error)
+{
+    conflict_writer *w = user;
+    gis_value values[N_CONFLICT_COLUMNS];
+    return gis_go_on(error) && gis_things_conflict(things, conflict, &w->scratch, values, error) &&
+           gis_line_row(w->layer, values, conflict->from, conflict->to, error);
+}
+
+static bool write_push(void *layer, const sunder_push *push, const gis_things *things, const double from[2],
+                       const double to[2], gis_error *error)
+{
+    gis_value values[N_PUSH_COLUMNS];
+    gis_things_push(things, push, values);
+    return gis_go_on(error) && gis_line_row(layer, values, from, to, error);
+}
+
+static bool write_main(const gis_result *r, bool wanted, gis_sink *sink, gis_error *error)
+{
+    gis_sink_layer *layer = NULL;
+    if (!wanted) return r->kind->features(r, true, NULL, NULL, error);
+    return gis_main_begin(sink, &layer, error) &&
+           r->kind->features(r, gis_sink_has_null(layer), write_feature, layer, error);
+}
+
+static bool write_displacement(const gis_result *r, gis_sink *sink, gis_error *error)
+{
+    gis_sink_layer *layer;
+    return gis_displacement_begin(sink, r->kind->id_type(r), gis_source_crs(r->input->source), &layer, error) &&
+           r->kind->arrows(r, gis_sink_has_null(layer), write_arrow, layer, error);
+}
+
+static bool write_conflicts(const gis_result *r, gis_sink *sink, gis_error *error)
+{
+    conflict_writer w = {0};
+    const bool done = gis_conflicts_begin(sink, "conflicts", r->kind->id_type(r), gis_source_crs(r->input->source),
+                                          &w.layer, error) &&
+                      r->kind->conflicts(r, write_conflict, &w, error);
+    gis_conflict_texts_clear(&w.scratch);
+    return done;
+}
+
+static bool write_pushes(const gis_result *r, gis_sink *sink, gis_error *error)
+{
+    gis_sink_layer *layer;
+    return gis_pushes_begin(sink, gis_source_crs(r->input->source), &layer, error) &&
+           r->kind->pushes(r, write_push, layer, error);
+}
+
+bool gis_result_write(const gis_result *result, const gis_result_layers *layers, gis_sink *sink, gis_error *error)
+{
+    return write_main(result, layers->main, sink, error) &&
+           (!layers->displacement || write_displacement(result, sink, error)) &&
+           (!layers->conflicts || write_conflicts(result, sink, error)) &&
+           (!layers->pushes || write_pushes(result, sink, error)) &&
+           (!layers->symbols || result->kind->symbols(result, sink, error));
+}
