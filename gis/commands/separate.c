@@ -6,6 +6,7 @@
 #include "commands/report.h"
 #include "commands/resolve.h"
 #include "commands/separate_run.h"
+#include "layer/far_moves.h"
 #include "layer/result_held.h"
 
 /* The layer onto the disk; the source once more, to be written from, by batches unless the format compares features in
@@ -33,9 +34,9 @@ static bool separate_whole(gis_separate_run *run, gis_error *error)
 {
     if (!gis_separate_open_sink(run, error)) return false;
     gis_progress_stage(&run->progress, GIS_SEPARATE_READ, GIS_SEPARATE_DONE);
-    if (!gis_layer_run(&run->input, sunder_layer_separate, &run->progress, &run->report, &run->summary, error) ||
-        !gis_layer_warn_of_far_moves(&run->input, run->report, error))
+    if (!gis_layer_run(&run->input, sunder_layer_separate, &run->progress, &run->report, &run->summary, error))
         return false;
+    gis_far_moves_warn_all(&run->input, run->report);
     run->result = gis_result_held(&run->input, run->report);
     return gis_separate_write_layers(run, error);
 }

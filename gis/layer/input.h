@@ -53,9 +53,6 @@ typedef struct gis_layer_input {
     size_t other;         /* features of another kind of geometry than the one that is looked at */
 } gis_layer_input;
 
-/* far_moves.c: warns of moves that are longer than the sound part of the layer is wide, where it has another. */
-bool gis_layer_warn_of_far_moves(const gis_layer_input *input, const sunder_report *report, gis_error *error);
-
 /* Reads everything. On failure what was read can be released all the same. */
 bool gis_layer_input_read(const gis_layer_input_request *request, gis_layer_input *out, gis_error *error);
 /* The source and the shapes alone, arcs as chords: for a command that asks for no conflicts. */

@@ -15,4 +15,30 @@ id,WKT
 X
 expect 0 separate wild.csv wild.gpkg --fixed-where "id = '1'" --oo GEOM_POSSIBLE_NAMES=WKT
 grep -q 'FID 2: it moves by .*are its own coordinates corrupt' err || fail "no warning"
+
+# The same is said of two features alone, of a layer in parts, and of one that is merged from shards; of a sound one, never.
+told() { # WORDS: what separate says of the layer, in words and as JSON, whole and in parts
+    local messages
+    for messages in text json; do
+        rm -rf plan
+        expect 0 separate in.gpkg whole.gpkg --overwrite --messages $messages --fixed-where "id = '1'"
+        mv err whole
+        expect 0 separate in.gpkg parts.gpkg --overwrite --messages $messages --fixed-where "id = '1'" --max-memory 300M
+        same "$(cat err)" "$(cat whole)" "$1, in parts"
+        expect 0 plan in.gpkg plan --shards 2 --quiet --fixed-where "id = '1'"
+        for k in 1 2; do expect 0 separate --shard $k plan --quiet; done
+        rm -f merged.gpkg
+        expect 0 merge plan merged.gpkg --messages $messages
+        same "$(cat err)" "$(cat whole)" "$1, merged"
+        same "$(grep -c 'FID 2: it moves by 16384, farther than the features with sound coordinates reach' whole)" "$2" "$1"
+    done
+}
+ogr2ogr -q in.gpkg wild.csv -nln h -oo GEOM_POSSIBLE_NAMES=WKT
+told 'three features' 1
+head -3 wild.csv >two.csv
+rm in.gpkg && ogr2ogr -q in.gpkg two.csv -nln h -oo GEOM_POSSIBLE_NAMES=WKT
+told 'two features' 1
+sed 's/1e20 1e20/600000 5300050/' two.csv >near.csv
+rm in.gpkg && ogr2ogr -q in.gpkg near.csv -nln h -oo GEOM_POSSIBLE_NAMES=WKT
+told 'sound ones' 0
 finish

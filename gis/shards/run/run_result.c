@@ -6,6 +6,7 @@
 #include "base/interrupt.h"
 #include "disk/file.h"
 #include "layer/checksum.h"
+#include "layer/far_moves.h"
 #include "layer/output.h"
 #include "layer/result.h"
 
@@ -18,6 +19,7 @@
 /* Where each list is, while features go by in their order. */
 typedef struct passing {
     gis_shard_run *parts;
+    const gis_layer_input *input;
     bool has_null;
     gis_feature_visit *visit; /* NULL: none */
     void *user;
@@ -26,6 +28,7 @@ typedef struct passing {
     size_t room;
     bool any; /* joined.rows is at one */
     size_t block;
+    gis_far_moves far_moves;
 } passing;
 
 /* Of a feature that went by, or goes: so the first of its block did, if it is of one. own: where it is in the block;
@@ -52,6 +55,7 @@ static bool pass(passing *at, const gis_source *source, size_t i, gis_error *err
             row.dx = rows->one.row->move[0];
             row.dy = rows->one.row->move[1];
             row.status = rows->one.row->status;
+            gis_far_moves_warn(&at->far_moves, at->input, i, rows->one.row->move);
         } else {
             row.status = gis_joined_status(j, rows->one.still);
         }
@@ -83,6 +87,26 @@ static bool begin_batch(passing *at, const gis_layer_input *input, gis_layer_che
     return gis_disk_file_read(&at->status, first, at->alone, n, error);
 }
 
+static bool add_box(void *user, const gis_spool_feature *feature, const double box[4], size_t vertices,
+                    gis_error *error)
+{
+    (void)feature;
+    (void)vertices;
+    (void)error;
+    gis_far_moves_add(user, box);
+    return true;
+}
+
+/* Features are looked at only if a cell has one with corrupt coordinates. */
+static bool find_sound_part(gis_spool *spool, gis_far_moves *of, gis_error *error)
+{
+    const size_t cells = gis_spool_cells(spool);
+    bool any = false, done = true;
+    for (size_t k = 0; k < cells && !any; k++) any = gis_far_moves_may_warn(gis_spool_cell_at(spool, k)->box);
+    for (size_t k = 0; k < cells && any && done; k++) done = gis_spool_skim(spool, k, add_box, of, error);
+    return done;
+}
+
 /* All features go by, as blocks are called by FIDs that are known then. */
 static bool visit_features(const gis_result *r, bool has_null, gis_feature_visit *visit, void *user, gis_error *error)
 {
@@ -90,12 +114,13 @@ static bool visit_features(const gis_result *r, bool has_null, gis_feature_visit
     const gis_layer_input *input = r->input;
     gis_source *source = input->source;
     gis_layer_checksums sums = {0};
-    passing at = {.parts = p, .has_null = has_null, .visit = visit, .user = user};
+    passing at = {.parts = p, .input = input, .has_null = has_null, .visit = visit, .user = user};
     bool any = true;
     p->block_fid = malloc((p->joined.blocks + 1) * sizeof *p->block_fid);
     if (!p->block_fid) return gis_no_memory(error);
     gis_sorted_results_rewind(&p->joined.rows);
-    bool done = gis_disk_file_open(&at.status, p->directory, "status", error) &&
+    bool done = find_sound_part(p->spool, &at.far_moves, error) &&
+                gis_disk_file_open(&at.status, p->directory, "status", error) &&
                 gis_sorted_results_next(&p->joined.rows, &at.any, error);
     while (done && any) {
         done = begin_batch(&at, input, &sums, error);
