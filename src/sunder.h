@@ -465,6 +465,23 @@ typedef enum sunder_containment {
 /* "block", "ignore", "separate"; never NULL. */
 SUNDER_API const char *sunder_containment_string(sunder_containment containment);
 
+/* What one stage of sunder_layer_separate() did, for developers. Experimental: stages, steps and outcomes are words
+ * that may change with any version (docs/trace.md). The strings and arrays last as long as the call. */
+typedef struct sunder_trace_event {
+    const char *pass;      /* the part of the whole work; NULL: before its first */
+    const char *stage;     /* within the pass; NULL: the pass has one stage */
+    int round;             /* of the stage, from 1 on; 0: it has none */
+    const char *scope;     /* "layer", "cluster", "group", "pair": what it is about */
+    const char *step;      /* within the stage; NULL: the stage as a whole */
+    const char *outcome;   /* never NULL */
+    const uint32_t *thing; /* [things] features, and behind the last of these barriers, ascending; of a pair two */
+    size_t things;         /* 0: the layer */
+    double cost_before, cost_after; /* sums of weight times move squared; NAN: not measured */
+} sunder_trace_event;
+
+/* Called by the thread that separates. Events and their order are the same for every number of threads. */
+typedef void (*sunder_trace)(const sunder_trace_event *event, void *user);
+
 typedef struct sunder_layer_options {
     size_t size;            /* sizeof(sunder_layer_options) */
     double gap;             /* >= 0 */
@@ -489,6 +506,8 @@ typedef struct sunder_layer_options {
      * this; INFINITY (the default): none were. At least the longest max_shift; need_shift is at most this. Barriers
      * with sides may not be left out where they are within sunder_side_reach() of a feature's box. */
     double barrier_reach;
+    sunder_trace trace; /* NULL: none */
+    void *trace_user;
 } sunder_layer_options;
 
 /* How far about its box (xmin, ymin, xmax, ymax) barriers decide on which side of them a feature is: twice the width

@@ -80,8 +80,11 @@ static bool deliver(const buffer_run *run, bool taken, gis_error *error)
 {
     gis_json stats = {0};
     if (run->to.stats) json_buffer(&stats, &run->buffer);
-    const gis_delivery delivery = {
-        &run->to, run->sink, &stats, NULL, NULL, taken || run->options->given[OPT_QUIET] ? NULL : print_summary, run};
+    const gis_delivery delivery = {.to = &run->to,
+                                   .sink = run->sink,
+                                   .stats = &stats,
+                                   .print = taken || run->options->given[OPT_QUIET] ? NULL : print_summary,
+                                   .run = run};
     bool ok = gis_deliver(&delivery, error);
     gis_json_clear(&stats);
     return ok;

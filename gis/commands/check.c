@@ -72,7 +72,7 @@ static bool check_and_write(check_run *run, gis_error *error)
     if (!open_sink(run, error)) return false;
     if (!run->options->given[OPT_BEFORE]) gis_layer_forget_demands(&run->input);
     gis_progress_stage(&run->progress, GIS_CHECK_READ, GIS_CHECK_CHECKED);
-    if (!gis_layer_run(&run->input, sunder_layer_check, &run->progress, &run->report, &run->summary, error))
+    if (!gis_layer_run(&run->input, sunder_layer_check, &run->progress, NULL, &run->report, &run->summary, error))
         return false;
     gis_progress_stage(&run->progress, GIS_CHECK_CHECKED, 1);
     if (!check_moves(run, error) || !write_layer(run, error)) return false;
@@ -193,7 +193,8 @@ static bool deliver(const check_run *run, bool taken, gis_error *error)
 {
     gis_json stats = {0};
     if (run->to.stats) json_check(&stats, run);
-    const gis_delivery delivery = {&run->to, run->sink, &stats, NULL, NULL, taken ? NULL : print, run};
+    const gis_delivery delivery = {
+        .to = &run->to, .sink = run->sink, .stats = &stats, .print = taken ? NULL : print, .run = run};
     bool ok = gis_deliver(&delivery, error);
     gis_json_clear(&stats);
     return ok;

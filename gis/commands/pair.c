@@ -75,7 +75,8 @@ static bool report(const gis_destinations *to, const gis_operands *operands, con
     gis_json text = {0};
     gis_sink_result result;
     json_pair(&text, answer);
-    const gis_delivery delivery = {to, sink, &text, NULL, NULL, sink || taken ? NULL : gis_print_json, &text};
+    const gis_delivery delivery = {
+        .to = to, .sink = sink, .stats = &text, .print = sink || taken ? NULL : gis_print_json, .run = &text};
     bool ok = (gis_json_text(&text) || gis_no_memory(error)) &&
               (!sink || (add_translation(sink, operands, answer, error) && gis_sink_finish(sink, &result, error))) &&
               gis_deliver(&delivery, error);

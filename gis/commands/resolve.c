@@ -134,7 +134,7 @@ static bool resolve_rules(const gis_options *options, gis_layer_rules *out, gis_
  * read. */
 static bool spare_barrier(const gis_options *options, const char *dataset, gis_error *error)
 {
-    static const gis_option_id files[] = {OPT_STATS, OPT_REPORT, OPT_PROOF};
+    static const gis_option_id files[] = {OPT_STATS, OPT_REPORT, OPT_PROOF, OPT_TRACE};
     for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
         const char *path = options->text[files[i]];
         if (path && gis_path_lies_in(dataset, path))
@@ -361,7 +361,8 @@ gis_destinations gis_resolve_destinations(const gis_options *options)
     gis_destinations to = {.output = output_of(options),
                            .stats = options->text[OPT_STATS],
                            .report = options->text[OPT_REPORT],
-                           .proof = options->text[OPT_PROOF]};
+                           .proof = options->text[OPT_PROOF],
+                           .trace = options->text[OPT_TRACE]};
     for (size_t i = 0; i + 1 < options->command->most; i++) to.input[i] = options->operand[i];
     static const gis_option_id shapes[] = {OPT_SHAPE, OPT_ROBOT, OPT_SYMBOL};
     for (size_t i = 0; i < sizeof shapes / sizeof *shapes; i++) to.shape[i] = options->text[shapes[i]];

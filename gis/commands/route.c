@@ -118,7 +118,8 @@ static bool report(route_run *run, bool taken, gis_error *error)
     gis_json text = {0};
     bool ok = (!run->sink || write_layers(run, error)) && json_route(&text, run, error) &&
               (gis_json_text(&text) || gis_no_memory(error));
-    const gis_delivery delivery = {&run->to, run->sink, &text, NULL, NULL, taken ? NULL : gis_print_json, &text};
+    const gis_delivery delivery = {
+        .to = &run->to, .sink = run->sink, .stats = &text, .print = taken ? NULL : gis_print_json, .run = &text};
     ok = ok && gis_deliver(&delivery, error);
     gis_json_clear(&text);
     return ok;

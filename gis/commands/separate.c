@@ -34,7 +34,9 @@ static bool separate_whole(gis_separate_run *run, gis_error *error)
 {
     if (!gis_separate_open_sink(run, error)) return false;
     gis_progress_stage(&run->progress, GIS_SEPARATE_READ, GIS_SEPARATE_DONE);
-    if (!gis_layer_run(&run->input, sunder_layer_separate, &run->progress, &run->report, &run->summary, error))
+    gis_trace *trace = run->to.trace ? &run->trace : NULL;
+    run->trace.input = &run->input;
+    if (!gis_layer_run(&run->input, sunder_layer_separate, &run->progress, trace, &run->report, &run->summary, error))
         return false;
     gis_far_moves_warn_all(&run->input, run->report);
     run->result = gis_result_held(&run->input, run->report);
@@ -68,6 +70,7 @@ int gis_separate_end(gis_separate_run *run, bool done, const gis_error *error)
 {
     const int status =
         done ? gis_complete_status(run->options, gis_any_conflict(&run->summary.after)) : gis_say_failure(error);
+    gis_trace_clear(&run->trace);
     gis_sink_free(run->sink);
     sunder_report_free(run->report);
     gis_layer_input_clear(&run->input);
@@ -85,6 +88,8 @@ int gis_command_separate(const gis_options *options)
     bool ok = gis_separate_begin(options, &run, &error) && gis_resolve_memory(options, &memory, &error);
     run.request.rules.count_thin = gis_separate_is_summarised(&run);
     const bool in_parts = ok && memory > 0;
+    if (in_parts && run.to.trace)
+        ok = gis_fail_usage(&error, "--trace needs the whole layer in memory; leave out --max-memory");
     ok = ok && (in_parts ? read_in_parts(&run, memory, &error) : read_whole(&run, &error)) &&
          gis_destinations_spare(&run.to, run.input.source, &error);
     run.read = gis_clock() - run.start;

@@ -1,5 +1,5 @@
-/* separate_deliver.c: the end of a separation: its output, --stats, --report, --proof and the summary, all of them or
- * none. */
+/* separate_deliver.c: the end of a separation: its output, --stats, --report, --proof, --trace and the summary, all of
+ * them or none. */
 #include "commands/call.h"
 #include "commands/report.h"
 #include "commands/resolve.h"
@@ -45,9 +45,14 @@ bool gis_separate_deliver(const gis_separate_run *run, gis_error *error)
     gis_text page = {0};
     bool ok = !run->to.report || write_page(run, &page, error);
     if (run->to.stats) gis_separate_stats(&stats, run);
-    const gis_delivery delivery = {&run->to, run->sink,   &stats,
-                                   &page,    write_proof, gis_separate_is_summarised(run) ? gis_separate_print : NULL,
-                                   run};
+    const gis_delivery delivery = {.to = &run->to,
+                                   .sink = run->sink,
+                                   .stats = &stats,
+                                   .report = &page,
+                                   .trace = &run->trace.json.text,
+                                   .proof = write_proof,
+                                   .print = gis_separate_is_summarised(run) ? gis_separate_print : NULL,
+                                   .run = run};
     ok = ok && gis_deliver(&delivery, error);
     gis_json_clear(&stats);
     gis_text_clear(&page);

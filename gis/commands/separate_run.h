@@ -5,6 +5,7 @@
 
 #include "base/json.h"
 #include "layer/result.h"
+#include "layer/trace.h"
 #include "options/options.h"
 #include "shards/run/run.h"
 #include "write/deliver.h"
@@ -29,6 +30,7 @@ typedef struct gis_separate_run {
     sunder_report *report;
     sunder_layer_summary summary;
     gis_progress progress;
+    gis_trace trace; /* where --trace is given */
     unsigned chosen; /* which layers are written */
     bool taken;      /* standard output is */
     bool verified;

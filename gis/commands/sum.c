@@ -265,7 +265,8 @@ static bool report(sum_run *run, bool taken, gis_error *error)
     ok = ok && (!run->to.stats || json_sum(&stats, run, NULL, error));
     ok = ok && (!wanted || (json_sum(&whole, run, gis_json_text(&geometry), error) &&
                             (gis_json_text(&whole) || gis_no_memory(error))));
-    const gis_delivery delivery = {&run->to, run->sink, &stats, NULL, NULL, wanted ? gis_print_json : NULL, &whole};
+    const gis_delivery delivery = {
+        .to = &run->to, .sink = run->sink, .stats = &stats, .print = wanted ? gis_print_json : NULL, .run = &whole};
     ok = ok && gis_deliver(&delivery, error);
     gis_json_clear(&geometry);
     gis_json_clear(&whole);

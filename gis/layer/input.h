@@ -115,9 +115,11 @@ sunder_layer_options gis_layer_core_options(const gis_layer_input *input);
 /* sunder_layer_separate or sunder_layer_check. */
 typedef sunder_status gis_layer_work(const sunder_layer *layer, const sunder_layer_options *options,
                                      sunder_report **out, sunder_error *err);
-/* Has the core do one of the two, by the rules (run.c); a number that it refuses is wrong usage. */
-bool gis_layer_run(const gis_layer_input *input, gis_layer_work *work, gis_progress *progress, sunder_report **report,
-                   sunder_layer_summary *summary, gis_error *error);
+struct gis_trace;
+/* Has the core do one of the two, by the rules (run.c); a number that it refuses is wrong usage. trace: NULL, or what
+ * takes its events (trace.h). */
+bool gis_layer_run(const gis_layer_input *input, gis_layer_work *work, gis_progress *progress, struct gis_trace *trace,
+                   sunder_report **report, sunder_layer_summary *summary, gis_error *error);
 /* The same for what broke a rule between two layers, by the rules of `input`. */
 bool gis_layer_run_moves(const gis_layer_input *input, const sunder_layer *before, const sunder_layer *after,
                          gis_progress *progress, sunder_report **report, gis_error *error);

@@ -1,7 +1,7 @@
 /* run.c: a layer handed to the core, by the rules. That a number is out of range the core says; whoever gave it as an
  * option has called the program wrongly. */
 #include "base/resources.h"
-#include "layer/input.h"
+#include "layer/trace.h"
 
 static const double thin_metres = 0.01;
 
@@ -61,11 +61,13 @@ static bool ended(const gis_layer_input *input, sunder_status status, const sund
     return true;
 }
 
-bool gis_layer_run(const gis_layer_input *input, gis_layer_work *work, gis_progress *progress, sunder_report **report,
-                   sunder_layer_summary *summary, gis_error *error)
+bool gis_layer_run(const gis_layer_input *input, gis_layer_work *work, gis_progress *progress, gis_trace *trace,
+                   sunder_report **report, sunder_layer_summary *summary, gis_error *error)
 {
     watcher w = {progress, STRETCH};
     sunder_layer_options how = watched_options(input, &w);
+    how.trace = trace ? gis_trace_event : NULL;
+    how.trace_user = trace;
     sunder_error why;
     if (!ended(input, work(input->layer, &how, report, &why), &why, error)) return false;
     sunder_report_summary(*report, summary);

@@ -145,6 +145,8 @@ const gis_option gis_option_table[OPT_N] = {
                      "number of threads; the result is the same for every number"},
     [OPT_MAX_MEMORY] = {OPT_MAX_MEMORY, "--max-memory", GIS_TYPE_TEXT, GIS_SEPARATE | GIS_PLAN, GIS_GROUP_RUNNING,
                         "SIZE", NULL, "separate in parts kept on disk: 700M, 2G; the result is the same"},
+    [OPT_TRACE] = {OPT_TRACE, "--trace", GIS_TYPE_FILE, GIS_SEPARATE, GIS_GROUP_RUNNING, "FILE", NULL,
+                   "what each stage did, for developers: docs/trace.md"},
     [OPT_PROGRESS] = {OPT_PROGRESS, "--progress -progress", GIS_TYPE_OPTIONAL, GIS_EVERY, GIS_GROUP_RUNNING, "plain",
                       "on a terminal", "progress on stderr; plain: percentages, one a line"},
     [OPT_QUIET] = {OPT_QUIET, "--quiet -quiet -q", GIS_TYPE_FLAG, GIS_EVERY, GIS_GROUP_RUNNING, NULL, NULL,

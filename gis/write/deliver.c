@@ -71,12 +71,13 @@ typedef struct file_of {
     const char *option, *path; /* NULL: none is wanted */
 } file_of;
 
-enum { OF_REPORT, OF_PROOF, OF_STATS, N_FILES };
+enum { OF_REPORT, OF_PROOF, OF_TRACE, OF_STATS, N_FILES };
 
 static void list_files(const gis_destinations *to, file_of files[N_FILES])
 {
     files[OF_REPORT] = (file_of){"--report", to->report};
     files[OF_PROOF] = (file_of){"--proof", to->proof};
+    files[OF_TRACE] = (file_of){"--trace", to->trace};
     files[OF_STATS] = (file_of){"--stats", is_stdout(to->stats) ? NULL : to->stats};
 }
 
@@ -88,6 +89,8 @@ static bool check_files(const gis_destinations *to, gis_error *error)
         return gis_fail_usage(error, "--report -: the page goes to a file; give its name, as in --report out.html");
     if (is_stdout(to->proof))
         return gis_fail_usage(error, "--proof -: the proof goes to a file; give its name, as in --proof out.jsonl");
+    if (is_stdout(to->trace))
+        return gis_fail_usage(error, "--trace -: the trace goes to a file; give its name, as in --trace out.jsonl");
     for (size_t i = 0; i < N_FILES; i++)
         for (size_t k = i + 1; k < N_FILES; k++)
             if (files[i].path && files[k].path && gis_path_lies_in(files[i].path, files[k].path))
@@ -143,8 +146,9 @@ static bool write_text(const void *of, FILE *to, gis_error *error)
 static bool write_files(const gis_delivery *delivery, const file_of files[N_FILES], gis_text_file written[N_FILES],
                         gis_error *error)
 {
-    const gis_text *texts[N_FILES] = {
-        [OF_REPORT] = delivery->report, [OF_STATS] = delivery->stats ? &delivery->stats->text : NULL};
+    const gis_text *texts[N_FILES] = {[OF_REPORT] = delivery->report,
+                                      [OF_TRACE] = delivery->trace,
+                                      [OF_STATS] = delivery->stats ? &delivery->stats->text : NULL};
     for (size_t i = 0; i < N_FILES; i++) {
         const bool runs = i == OF_PROOF;
         if (files[i].path && !gis_text_file_write(&written[i], files[i].path, runs ? delivery->proof : write_text,

@@ -8,7 +8,7 @@
 #include <string.h>
 
 _Static_assert(SUNDER_I_ENDS_WITH(sunder_sum_options, threads), "a member more must not fill padding");
-_Static_assert(SUNDER_I_ENDS_WITH(sunder_layer_options, barrier_reach), "a member more must not fill padding");
+_Static_assert(SUNDER_I_ENDS_WITH(sunder_layer_options, trace_user), "a member more must not fill padding");
 _Static_assert(SUNDER_I_ENDS_WITH(sunder_route_options, progress_user), "a member more must not fill padding");
 _Static_assert(SUNDER_I_ENDS_WITH(sunder_layer_summary, seconds_verify), "a member more must not fill padding");
 

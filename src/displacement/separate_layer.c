@@ -5,10 +5,11 @@
  *            ^                                                           |
  *            +---- relations of what moved, exact <----------------------+
  *
- * That is one run of rounds (solve/clusters/settle.c). Here is the order of such runs, and of what comes before,
- * between and after them. */
+ * That is one run of rounds (solve/clusters/settle.c). The order of these runs is a table (solve_layer.c); here is what
+ * comes before and after them. */
 #include "displacement/prove/proofs/feasibility.h"
 #include "displacement/report/report.h"
+#include "displacement/solve_layer.h"
 #include "displacement/solve/clusters/stages.h"
 
 #include "base/clock.h"
@@ -18,22 +19,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Shares of the whole that are done, roughly: when all is related, when what was sought without limits is found, when
- * nothing is left but to report; and of the report, when bounds and pushes are known, when proofs are. */
-#define PREPARED 0.1
-#define FOUND_WITHOUT_LIMITS 0.4
-#define FOUND SUNDER_PROGRESS_SOLVED
+/* Shares of the whole that are done, roughly: when bounds and pushes are known, and when proofs are. */
 #define BOUNDED 0.84
 #define PROVED 0.9
-/* What was given up is looked at again, each time with what the search ran into since. */
-#define RECONSIDERED 4
-/* Pairs are asked about one by one so often: each time one in a cluster is solved. */
-#define ASKED_ALONE 16
-/* What was given up is asked once more so often: each time what is granted runs into others, and more is given up. */
-#define RETRIED 3
-/* Better sides are looked for so often, where clusters joined since the last time. */
-#define IMPROVED 3
-
 /* How all pairs stand; movers_only: all of which not both are fixed. */
 static sunder_status relate(sunder_i_solver *s, bool movers_only, sunder_error *err)
 {
@@ -56,6 +44,7 @@ static sunder_status start(sunder_i_solver *s, const sunder_layer *layer, const 
 {
     sunder_i_rules rules;
     sunder_status status = sunder_i_rules_of(options, &rules, err);
+    if (what_for != TO_SEPARATE) rules.trace = NULL;
     if (!status) status = sunder_i_barriers_make(layer, rules.gap, &s->barriers, err);
     if (!status) status = sunder_i_order_layer(layer, &s->barriers, what_for == TO_CHECK, &s->layer, err);
     if (!status) status = sunder_i_model_init(&s->layer, &s->barriers, &rules, &s->model, err);
@@ -68,12 +57,6 @@ static sunder_status start(sunder_i_solver *s, const sunder_layer *layer, const 
     (*report)->summary.pairs_tested = s->start.tested;
     sunder_i_count_relations(&s->model, &s->start, &(*report)->summary.before);
     return sunder_i_count_thin_overlaps(&s->model, &s->placement, &s->start, *report, err);
-}
-
-/* Most layers leave nothing to be proved, or little. */
-static sunder_status find_seams_for_proofs(sunder_i_solver *s, sunder_error *err)
-{
-    return s->model.given_up_n ? sunder_i_report_find_seams(s, err) : SUNDER_OK;
 }
 
 /* Relations now are those of the start. False if memory is out. */
@@ -98,120 +81,6 @@ static sunder_status prepare(sunder_i_solver *s, sunder_error *err)
     return begin_as_at_start(s) ? SUNDER_OK : sunder_i_no_memory(err);
 }
 
-static bool any_of(const sunder_i_solver *s, const bool *flag)
-{
-    for (size_t b = 0; b < s->model.bodies; b++)
-        if (flag[b]) return true;
-    return false;
-}
-
-/* Asks what was given up of clusters that are wanted once more, and again where that made others give up. */
-static sunder_status retry(sunder_i_solver *s, double from, double to, sunder_error *err)
-{
-    sunder_status status = SUNDER_OK;
-    memcpy(s->gave_up, s->wanted, s->model.bodies * sizeof *s->gave_up);
-    for (int round = 0; round < RETRIED && any_of(s, s->gave_up) && !status; round++) {
-        status = sunder_i_solver_retry(s, err);
-        memset(s->gave_up, 0, s->model.bodies * sizeof *s->gave_up);
-        if (!status) status = sunder_i_solver_settle(s, from, to, err);
-    }
-    return status;
-}
-
-/* What ran into others while it was improved is another cluster then. */
-static sunder_status improve(sunder_i_solver *s, double from, double to, sunder_error *err)
-{
-    bool improved;
-    sunder_status status = sunder_i_solver_is_improved(s, &improved, err);
-    for (int round = 0; round < IMPROVED && !status && !improved; round++) {
-        status = sunder_i_solver_improve(s, err);
-        if (!status) status = sunder_i_solver_settle(s, from + round * (to - from) / IMPROVED, to, err);
-        if (!status) status = sunder_i_solver_is_improved(s, &improved, err);
-    }
-    return status;
-}
-
-static sunder_status ask_one_by_one(sunder_i_solver *s, double from, double to, sunder_error *err)
-{
-    bool again = true;
-    sunder_status status = SUNDER_OK;
-    for (int round = 0; round < ASKED_ALONE && again && !status; round++) {
-        status = find_seams_for_proofs(s, err);
-        if (!status) status = sunder_i_solver_ask_one_by_one(s, &again, err);
-        if (!status && again) status = sunder_i_solver_settle(s, from, to, err);
-    }
-    return status;
-}
-
-/* Solves, looks again at what was given up, asks it once more, looks for better sides: of the clusters that are wanted,
- * and of those of which it turns out that they have a better solution. Progress goes from `from` to `to`.
- *
- * Rounds are the layer's: they end when no cluster has any use for one. A round does nothing to a cluster that had none
- * by itself, so that what becomes of one does not depend on how long others take, wherever they are. */
-static sunder_status seek(sunder_i_solver *s, double from, double to, sunder_error *err)
-{
-    const double step = (to - from) / 7;
-    bool again = true;
-    sunder_status status = sunder_i_solver_choose_holders(s, err);
-    if (!status) status = sunder_i_solver_settle(s, from, from + 3 * step, err);
-    for (int round = 0; round < RECONSIDERED && again && !status; round++) {
-        status = find_seams_for_proofs(s, err);
-        if (!status) status = sunder_i_solver_reconsider(s, &again, err);
-        if (!status && again) status = sunder_i_solver_settle(s, from + 3 * step, from + 4 * step, err);
-    }
-    if (!status) status = retry(s, from + 4 * step, from + 5 * step, err);
-    if (!status) status = improve(s, from + 5 * step, to, err);
-    if (!status) status = ask_one_by_one(s, from + 6 * step, to, err);
-    if (!status) status = sunder_i_solver_fit_exactly(s, err);
-    return status ? status : sunder_i_solver_settle(s, to, to, err);
-}
-
-/* What was solved is proved, and what is found to be cheaper is taken; then margins go, where doubles hold contact. */
-static sunder_status optimise(sunder_i_solver *s, sunder_error *err)
-{
-    sunder_status status = sunder_i_solver_optimise(s, err);
-    if (!status && !(s->model.rules.effort > 0)) status = sunder_i_solver_gather_groups(s, err);
-    return status ? status : sunder_i_solver_put_in_contact(s, err);
-}
-
-/* What has no solution as long as coarse bodies are held is solved once more, with these let go; the better of the two
- * layouts is taken. */
-static sunder_status solve_without_holding(sunder_i_solver *s, sunder_error *err)
-{
-    bool again = false;
-    sunder_i_held_layout held = {0};
-    if (!sunder_i_solver_any_held(s)) return SUNDER_OK;
-    sunder_status status = sunder_i_solver_keep_held(s, &held, err);
-    if (!status) status = sunder_i_solver_let_go(s, &again, err);
-    if (!status && again) status = seek(s, FOUND, FOUND, err);
-    if (!status && again) status = optimise(s, err);
-    if (!status && again) status = sunder_i_solver_uphold(s, err);
-    if (!status && again) status = sunder_i_solver_take_better(s, &held, err);
-    sunder_i_held_layout_free(&held);
-    return status;
-}
-
-/* Without limits first, and then, if one is overstepped, within them: what nothing oversteps changes nothing. */
-static sunder_status solve(sunder_i_solver *s, sunder_error *err)
-{
-    bool lifted = false;
-    sunder_status status = sunder_i_solver_lift_limits(s, &lifted, err);
-    if (!status && !lifted) status = sunder_i_solver_move_inside(s, err);
-    if (!status) status = seek(s, PREPARED, lifted ? FOUND_WITHOUT_LIMITS : FOUND, err);
-    if (!status) status = optimise(s, err);
-    if (!status && lifted) status = sunder_i_solver_restore_limits(s, err);
-    if (!status && lifted) status = sunder_i_solver_move_inside(s, err);
-    if (!status && lifted) status = seek(s, FOUND_WITHOUT_LIMITS, FOUND, err);
-    if (!status && lifted && any_of(s, s->wanted)) status = optimise(s, err);
-    if (!status) status = solve_without_holding(s, err);
-    if (!status) status = sunder_i_solver_uphold(s, err);
-    for (size_t b = 0; b < s->model.bodies; b++) s->wanted[b] = true;
-    /* What was mended, or settled about what was, is proved once more; nothing gets worse by that. */
-    if (!status) status = sunder_i_solver_optimise(s, err);
-    if (!status && !(s->model.rules.effort > 0)) status = sunder_i_solver_gather_groups(s, err);
-    return status ? status : sunder_i_solver_gather(s, err);
-}
-
 /* To where the report begins. */
 static sunder_status work(sunder_i_solver *s, const sunder_layer *layer, const sunder_layer_options *options,
                           sunder_report **report, sunder_error *err)
@@ -220,9 +89,10 @@ static sunder_status work(sunder_i_solver *s, const sunder_layer *layer, const s
     if (!status) status = sunder_i_solver_begin_holding(s, err);
     if (!status) status = sunder_i_solver_find_infeasible(s, NULL, err);
     if (!status) status = prepare(s, err);
-    if (!status && !sunder_i_progress(&s->model.rules, PREPARED)) status = sunder_i_no_memory(err);
-    if (!status) status = solve(s, err);
-    if (!status && !sunder_i_progress(&s->model.rules, FOUND)) status = sunder_i_no_memory(err);
+    if (!status) status = sunder_i_solver_begin_holding(s, err);
+    if (!status && !sunder_i_progress(&s->model.rules, SUNDER_I_PREPARED)) status = sunder_i_no_memory(err);
+    if (!status) status = sunder_i_layer_solve(s, err);
+    if (!status && !sunder_i_progress(&s->model.rules, SUNDER_PROGRESS_SOLVED)) status = sunder_i_no_memory(err);
     return status;
 }
 
@@ -301,6 +171,16 @@ static sunder_status reach(const sunder_i_solver *s, double fraction, sunder_sta
     return sunder_i_no_memory(err);
 }
 
+static void trace_conflicts(sunder_i_solver *s, const sunder_report *report)
+{
+    s->model.pass = "report";
+    for (size_t k = 0; k < report->conflicts; k++) {
+        const sunder_conflict *c = &report->conflict[k];
+        const char *reason = sunder_reason_string(c->reason);
+        sunder_i_trace_pair(&s->model, "why it remains", reason, (uint32_t)c->a, (uint32_t)c->b);
+    }
+}
+
 /* What remains, why, what would free it, and what no solution can beat. */
 static sunder_status explain(sunder_i_solver *s, const sunder_layer_options *options, sunder_report *report,
                              sunder_error *err)
@@ -315,6 +195,7 @@ static sunder_status explain(sunder_i_solver *s, const sunder_layer_options *opt
     if (!status) status = sunder_i_report_proofs(report, s, sunder_i_decide, err);
     if (!status) status = sunder_i_report_blockers(report, s, err);
     status = reach(s, PROVED, status, err);
+    if (!status) trace_conflicts(s, report);
     if (!status) status = sunder_i_report_crowd_needs(report, s, true, err);
     if (!status) status = sunder_i_report_needs(report, s, options, work_briefly, err);
     if (!status) status = sunder_i_report_crowd_needs(report, s, false, err);

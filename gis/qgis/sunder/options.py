@@ -186,7 +186,7 @@ LEFT_OUT = {
     "--allow-conflicts": "what remains is told as a warning, not as a failure",
     "--shard": _SHARDS,
     "--progress": _OURS, "--max-memory": "layers that memory does not hold are for the shell", "--quiet": _OURS, "--stats": _OURS, "--report": "an output", "--proof": "an output",
-    "--log": "an output", "--messages": _OURS, "--help": "the panel beside the dialog",
+    "--trace": "for developers, in a shell", "--log": "an output", "--messages": _OURS, "--help": "the panel beside the dialog",
 }
 
 

@@ -66,6 +66,8 @@ typedef struct sunder_i_rules {
     bool keep_trees, keep_pushes, keep_worlds, drop_proofs;
     sunder_progress progress; /* NULL: the distance is not needed */
     void *progress_user;
+    sunder_trace trace; /* NULL: no trace */
+    void *trace_user;
 } sunder_i_rules;
 
 sunder_status sunder_i_rules_of(const sunder_layer_options *options, sunder_i_rules *rules, sunder_error *err);

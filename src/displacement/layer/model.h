@@ -169,6 +169,9 @@ struct sunder_i_model {
     double *move;   /* [2 * bodies] where each stands now, relative to the start */
     double *lifted; /* [2 * bodies] where each stood when limits were lifted; NULL: they were not, or still are */
     bool *inexact;  /* [things] the translate was rounded */
+    /* For the trace: where the work is, in words of the tables of stages (solve_layer.c); NULL: before them. */
+    const char *pass, *stage;
+    int round; /* of the stage, from 1 on */
 };
 
 /* ---- Things ------------------------------------------------------------------------------------------------------ */

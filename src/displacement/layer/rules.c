@@ -65,6 +65,8 @@ sunder_status sunder_i_rules_of(const sunder_layer_options *options, sunder_i_ru
         options->threads ? options->threads > MOST_THREADS ? MOST_THREADS : options->threads : processors();
     rules->progress = options->progress;
     rules->progress_user = options->progress_user;
+    rules->trace = options->trace;
+    rules->trace_user = options->trace_user;
     return SUNDER_OK;
 }
 

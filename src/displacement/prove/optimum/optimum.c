@@ -27,6 +27,7 @@ void sunder_i_group_free(sunder_i_group *group)
     sunder_i_free(group->guests.item);
     sunder_i_free(group->joins.item);
     sunder_i_bound_trees_free(&group->trees);
+    sunder_i_trace_log_free(&group->log);
     *group = (sunder_i_group){0};
 }
 
@@ -253,68 +254,174 @@ static sunder_status prove_parts(const sunder_i_model *model, const sunder_i_wai
     return status;
 }
 
-/* known: what is proved already. If no more is to be proved, nothing is. Of a group that costs little more than when
- * all was asked of it (it was put back by a rounding error, or has lost or won a few bodies) neither blocks nor parts
- * are asked again. Of a crowd nothing but these is asked. */
-static sunder_status prove_afresh(const sunder_i_model *model, const sunder_i_waived *waived, const uint32_t *group_of,
-                                  sunder_i_group *g, double known, uint64_t steps, sunder_error *err)
+/* ---- The stages of a proof --------------------------------------------------------------------------------------- */
+
+/* What they share. */
+typedef struct proving {
+    const sunder_i_model *model;
+    const sunder_i_waived *waived;
+    const uint32_t *group_of;
+    sunder_i_group *g;
+    double known;               /* what is proved already: if no more is to be proved, nothing is */
+    double before;              /* the cost at the beginning: what is found to be cheaper may be put back */
+    size_t movers;              /* of its bodies */
+    bool asked;                 /* it costs little more than when everything was asked of it */
+    bool crowded, free_crowd;   /* only blocks and parts, or prices of area, prove much of it */
+    bool spent, exhausted_tree; /* of a large group, of a small one: the tree took all its steps */
+    bool over;                  /* there is nothing left to be done */
+} proving;
+
+static bool is_too_large(const proving *x) { return x->movers > MOST_TOGETHER; }
+
+static bool is_crowded(const proving *x) { return x->crowded; }
+
+static bool is_beyond_branching(const proving *x) { return x->movers > BRANCHED; }
+
+static bool is_large_free_crowd(const proving *x) { return x->free_crowd && x->movers > LARGE_FREE_CROWD; }
+
+static bool is_small(const proving *x) { return x->movers <= BRANCHED; }
+
+static bool is_worth_blocks(const proving *x) { return x->movers > FEW && !x->asked; }
+
+/* Of a group that costs little more than when everything was asked of it (it was put back by a rounding error, or has
+ * lost or won a few bodies) neither blocks nor parts are asked again. */
+static sunder_status prove_in_parts(proving *x, uint64_t steps, sunder_error *err)
+{
+    x->over = true;
+    if (x->asked || x->free_crowd) return SUNDER_OK;
+    return prove_parts(x->model, x->waived, x->g, x->crowded ? steps / CROWD_LOOK : steps, err);
+}
+
+static sunder_status polish(proving *x, uint64_t steps, sunder_error *err)
 {
     bool better;
-    g->done = true;
-    g->cost = cost_of(model, g->body, g->n, g->move);
-    if (!isfinite(g->cost)) return SUNDER_OK;
-    size_t movers = 0;
-    for (size_t k = 0; k < g->n; k++) movers += !model->body[g->body[k]].fixed;
-    const double before = g->cost; /* what is found to be cheaper may be put back */
-    const bool asked = g->asked >= ASKED_SHARE * before;
-    if (!asked) g->asked = movers > MOST_TOGETHER ? before : 0;
-    const bool crowded = sunder_i_group_is_crowded(model, waived, g);
-    const bool free_crowd = sunder_i_group_is_free_crowd(model, waived, g);
-    if (movers > MOST_TOGETHER)
-        return asked || free_crowd ? SUNDER_OK
-                                   : prove_parts(model, waived, g, crowded ? steps / CROWD_LOOK : steps, err);
-    const sunder_status polished = attempt(model, waived, g, g->body, g->move, g->n, false, &better, err);
-    if (polished || known >= goal_of(model, g)) return polished;
-    if (crowded) {
-        g->asked = asked ? g->asked : before;
-        return asked ? SUNDER_OK : prove_crowd(model, waived, g, steps, err);
-    }
-    if (movers > BRANCHED) {
-        const bool again = g->shaken_at >= ASKED_SHARE * before;
-        const sunder_status status = g->search->shake(model, waived, g, steps / (again ? 2 * AGAIN : 2), err);
-        if (!again) g->shaken_at = before;
-        /* Whoever patience has sent to another side stands among others now: the next round knows whom to ask. */
-        if (status || (g->shaken && g->improved)) return status;
-    }
-    if (free_crowd && movers > LARGE_FREE_CROWD) return SUNDER_OK;
+    (void)steps;
+    const sunder_status status =
+        attempt(x->model, x->waived, x->g, x->g->body, x->g->move, x->g->n, false, &better, err);
+    x->over = x->known >= goal_of(x->model, x->g);
+    return status;
+}
+
+static sunder_status prove_as_crowd(proving *x, uint64_t steps, sunder_error *err)
+{
+    x->over = true;
+    if (x->asked) return SUNDER_OK;
+    x->g->asked = x->before;
+    return prove_crowd(x->model, x->waived, x->g, steps, err);
+}
+
+/* A body that patience has sent to another side stands among others now: the next round knows which to ask. */
+static sunder_status shake_large(proving *x, uint64_t steps, sunder_error *err)
+{
+    const bool again = x->g->shaken_at >= ASKED_SHARE * x->before;
+    const sunder_status status = x->g->search->shake(x->model, x->waived, x->g, again ? steps / AGAIN : steps, err);
+    if (!again) x->g->shaken_at = x->before;
+    x->over = x->g->shaken && x->g->improved;
+    return status;
+}
+
+static sunder_status leave_to_prices(proving *x, uint64_t steps, sunder_error *err)
+{
+    (void)steps;
+    (void)err;
+    x->over = true;
+    return SUNDER_OK;
+}
+
+static sunder_status grow_tree(proving *x, uint64_t steps, sunder_error *err)
+{
+    sunder_i_group *g = x->g;
     const size_t n = g->n;
-    const sunder_i_task task = {.model = model,
-                                .waived = waived,
-                                .group_of = group_of,
+    const sunder_i_task task = {.model = x->model,
+                                .waived = x->waived,
+                                .group_of = x->group_of,
                                 .group = g->number,
                                 .body = g->body,
                                 .n = n,
-                                .goal = goal_of(model, g),
-                                .keep = model->rules.keep_trees};
+                                .goal = goal_of(x->model, g),
+                                .keep = x->model->rules.keep_trees};
     sunder_i_tree tree;
     sunder_status status = sunder_i_tree_init(&tree, &task) ? SUNDER_OK : sunder_i_no_memory(err);
-    if (!status) status = branch(model, waived, g, &tree, steps, movers > BRANCHED, err);
+    if (!status) status = branch(x->model, x->waived, g, &tree, steps, x->movers > BRANCHED, err);
     if (!status && !keep_guests(g, &tree, n)) status = sunder_i_no_memory(err);
     if (!status && task.keep && !sunder_i_tree_keep(&tree, &g->trees)) status = sunder_i_no_memory(err);
-    const bool spent = movers > BRANCHED && (tree.steps >= steps || blocks_are_dear(&tree, steps));
-    const bool small = movers <= BRANCHED && tree.steps >= steps;
+    x->spent = x->movers > BRANCHED && (tree.steps >= steps || blocks_are_dear(&tree, steps));
+    x->exhausted_tree = x->movers <= BRANCHED && tree.steps >= steps;
     sunder_i_tree_free(&tree);
-    if (status || g->joins.n || g->bound >= goal_of(model, g)) return status;
-    if (movers <= BRANCHED) status = g->search->shake(model, waived, g, steps / 2, err);
-    if (status || movers <= FEW || asked) return status;
-    g->asked = before;
-    bool promising = !spent;
+    x->over = g->joins.n || g->bound >= goal_of(x->model, g);
+    return status;
+}
+
+static sunder_status shake_small(proving *x, uint64_t steps, sunder_error *err)
+{
+    return x->g->search->shake(x->model, x->waived, x->g, steps, err);
+}
+
+static sunder_status prove_by_blocks(proving *x, uint64_t steps, sunder_error *err)
+{
+    sunder_i_group *g = x->g;
+    sunder_status status = SUNDER_OK;
+    bool promising = !x->spent;
     double priced = 0;
-    if (promising && free_crowd) status = sunder_i_group_ask_prices(model, g, &priced, err);
-    if (!status && promising && (small || priced > 0))
-        status =
-            look_at_blocks(model, waived, g, QUICK_AS_MUCH * sunder_i_max(g->bound, priced), steps, &promising, err);
-    return status || !promising ? status : prove_blocks(model, waived, g, steps, err);
+    g->asked = x->before;
+    if (promising && x->free_crowd) status = sunder_i_group_ask_prices(x->model, g, &priced, err);
+    if (!status && promising && (x->exhausted_tree || priced > 0))
+        status = look_at_blocks(x->model, x->waived, g, QUICK_AS_MUCH * sunder_i_max(g->bound, priced), steps,
+                                &promising, err);
+    return status || !promising ? status : prove_blocks(x->model, x->waived, g, steps, err);
+}
+
+typedef struct stage {
+    const char *name;
+    bool (*applies)(const proving *x); /* the precondition; NULL: none */
+    sunder_status (*run)(proving *x, uint64_t steps, sunder_error *err);
+    uint64_t share; /* budget: the steps of the group, divided by this; 0: none */
+} stage;
+
+static const stage stages[] = {
+    {"prove in parts", is_too_large, prove_in_parts, 1},
+    {"polish", NULL, polish, 0},
+    {"prove as crowd", is_crowded, prove_as_crowd, 1},
+    {"shake", is_beyond_branching, shake_large, 2},
+    {"leave to prices", is_large_free_crowd, leave_to_prices, 0},
+    {"grow tree", NULL, grow_tree, 1},
+    {"shake", is_small, shake_small, 2},
+    {"prove by blocks", is_worth_blocks, prove_by_blocks, 1},
+};
+
+/* Runs one stage; one that changed anything is noted, where the layer is traced. */
+static sunder_status run_stage(proving *x, const stage *y, uint64_t steps, sunder_error *err)
+{
+    sunder_i_group *g = x->g;
+    const double cost = g->cost, bound = g->bound;
+    const sunder_status status = y->run(x, y->share ? steps / y->share : 0, err);
+    if (status || !sunder_i_is_traced(x->model)) return status;
+    if (!(g->cost < cost) && !(g->bound > bound)) return SUNDER_OK;
+    const bool proved = sunder_i_group_is_optimal(g);
+    const char *outcome = g->cost < cost ? proved ? "cheaper, and proved to be the least" : "cheaper"
+                          : proved       ? "proved to be the least"
+                                         : "bound raised";
+    const sunder_i_trace_step step = {y->name, outcome, cost, g->cost};
+    return sunder_i_trace_note(&g->log, &step) ? SUNDER_OK : sunder_i_no_memory(err);
+}
+
+static sunder_status prove_afresh(const sunder_i_model *model, const sunder_i_waived *waived, const uint32_t *group_of,
+                                  sunder_i_group *g, double known, uint64_t steps, sunder_error *err)
+{
+    proving x = {.model = model, .waived = waived, .group_of = group_of, .g = g, .known = known};
+    g->done = true;
+    g->cost = cost_of(model, g->body, g->n, g->move);
+    if (!isfinite(g->cost)) return SUNDER_OK;
+    for (size_t k = 0; k < g->n; k++) x.movers += !model->body[g->body[k]].fixed;
+    x.before = g->cost;
+    x.asked = g->asked >= ASKED_SHARE * x.before;
+    if (!x.asked) g->asked = x.movers > MOST_TOGETHER ? x.before : 0;
+    x.crowded = sunder_i_group_is_crowded(model, waived, g);
+    x.free_crowd = sunder_i_group_is_free_crowd(model, waived, g);
+    sunder_status status = SUNDER_OK;
+    for (size_t k = 0; k < sizeof stages / sizeof *stages && !status && !x.over; k++)
+        if (!stages[k].applies || stages[k].applies(&x)) status = run_stage(&x, &stages[k], steps, err);
+    return status;
 }
 
 sunder_status sunder_i_group_prove(const sunder_i_model *model, const sunder_i_waived *waived, const uint32_t *group_of,

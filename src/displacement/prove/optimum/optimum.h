@@ -2,6 +2,7 @@
 #ifndef SUNDER_I_OPTIMUM_H
 #define SUNDER_I_OPTIMUM_H
 
+#include "displacement/layer/trace.h"
 #include "displacement/prove/optimum/forbidden.h"
 #include "sunder_proof.h"
 
@@ -43,6 +44,7 @@ typedef struct sunder_i_group {
     sunder_i_list joins;  /* bodies of other groups, in the way of what would be cheaper; owned */
     bool shaken, tired;   /* with patience: in this round; in one before, but for what costs little */
     uint64_t steps;
+    sunder_i_trace_log log;     /* what its stages did, where the layer is traced; owned */
     sunder_i_bound_trees trees; /* what the bound stands on, where that is kept; owned */
 } sunder_i_group;
 

@@ -31,6 +31,15 @@ sunder_status sunder_i_solver_is_improved(const sunder_i_solver *solver, bool *i
     return wanted ? SUNDER_OK : sunder_i_no_memory(err);
 }
 
+static sunder_status note_improved(const sunder_i_solver *s, sunder_i_cluster *c, double before, const double *move,
+                                   sunder_error *err)
+{
+    const double after = sunder_i_trace_cost(&s->model, c->body, c->n, move);
+    const sunder_i_trace_step step = {"better sides", "cheaper", before, after};
+    if (!(after < before)) return SUNDER_OK;
+    return sunder_i_trace_note(&c->log, &step) ? SUNDER_OK : sunder_i_no_memory(err);
+}
+
 static sunder_status improve_clusters(void *context, size_t begin, size_t end, sunder_error *err)
 {
     const sunder_i_solver *s = context;
@@ -41,8 +50,10 @@ static sunder_status improve_clusters(void *context, size_t begin, size_t end, s
         double *move = sunder_i_solver_load_moves(s, c);
         sunder_i_reading reading;
         sunder_i_reads_begin(&reading, &s->model, sunder_i_reader_for(s, c));
-        const sunder_status status = sunder_i_cluster_improve(&s->model, c, move, err);
+        const double before = sunder_i_is_traced(&s->model) ? sunder_i_trace_cost(&s->model, c->body, c->n, move) : 0;
+        sunder_status status = sunder_i_cluster_improve(&s->model, c, move, err);
         sunder_i_reads_end(&reading);
+        if (!status && sunder_i_is_traced(&s->model)) status = note_improved(s, c, before, move, err);
         if (status) return status;
     }
     return SUNDER_OK;
@@ -85,6 +96,7 @@ sunder_status sunder_i_solver_improve(sunder_i_solver *solver, sunder_error *err
     if (!status) status = join_guests(solver, err);
     if (!status) status = sunder_i_solver_unite_blocks(solver, err);
     if (!status) status = sunder_i_solver_for_clusters(solver, improve_clusters, solver, err);
+    if (!status) status = sunder_i_solver_trace_clusters(solver, err);
     if (status) return status;
     sunder_i_pieces_forget(&solver->model, SUNDER_I_PIECES_HELD);
     status = sunder_i_solver_commit(solver, err);

@@ -21,6 +21,7 @@ static void free_clusters(sunder_i_solver *s)
         sunder_i_relaxations_free(&s->cluster[k].relaxations);
         sunder_i_free(s->cluster[k].restored);
         sunder_i_free(s->cluster[k].guest);
+        sunder_i_trace_log_free(&s->cluster[k].log);
     }
     s->clusters = 0;
 }
@@ -327,6 +328,16 @@ sunder_status sunder_i_solver_for_clusters(const sunder_i_solver *solver, sunder
     const sunder_status status =
         sunder_i_parallel_largest_first(solver->model.rules.threads, size, solver->clusters, work, context, err);
     sunder_i_free(size);
+    return status;
+}
+
+sunder_status sunder_i_solver_trace_clusters(sunder_i_solver *solver, sunder_error *err)
+{
+    sunder_status status = SUNDER_OK;
+    for (size_t k = 0; k < solver->clusters && sunder_i_is_traced(&solver->model) && !status; k++) {
+        sunder_i_cluster *c = &solver->cluster[k];
+        status = sunder_i_trace_log_emit(&solver->model, "cluster", &c->log, c->body, c->n, err);
+    }
     return status;
 }
 

@@ -16,6 +16,8 @@ static bool restore(sunder_i_model *model, const sunder_i_cluster *cluster, size
     for (size_t k = 0; k < clusters; k++)
         for (size_t e = 0; e < cluster[k].restored_n; e++) restored[n++] = cluster[k].restored[e];
     qsort(restored, n, sizeof *restored, sunder_i_by_restored);
+    for (size_t k = 0; k < n && sunder_i_is_traced(model); k++)
+        sunder_i_trace_pair(model, "restore", "asked again, and solved", restored[k].feature.a, restored[k].feature.b);
     sunder_i_relaxations_restore(&model->relaxations, model, restored, n);
     sunder_i_free(restored);
     if (!sunder_i_relaxations_index(&model->relaxations, model)) return false;
@@ -65,6 +67,8 @@ static bool take_relaxations(sunder_i_solver *s)
                 continue;
             }
             s->gave_up[i] = s->gave_up[j] = true;
+            sunder_i_trace_pair(model, "give up", "no solution found: left as near as it stood", relaxation.a,
+                                relaxation.b);
             if (!sunder_i_relaxations_add(all, &relaxation)) return false;
         }
     sunder_i_sort_given_up(model);

@@ -68,6 +68,8 @@ static sunder_status note(sunder_i_solver *s, const sunder_i_relation *r, const 
     sunder_i_model *model = &s->model;
     if (relaxation->infeasible && is_known(&model->relaxations, relaxation)) return SUNDER_OK;
     if (relaxation->infeasible)
+        sunder_i_trace_pair(model, "limits", "proved: no solution of the two within their limits", r->a, r->b);
+    if (relaxation->infeasible)
         return sunder_i_relaxations_spread(&model->relaxations, model, relaxation, model->rules.gap)
                    ? SUNDER_OK
                    : sunder_i_no_memory(err);

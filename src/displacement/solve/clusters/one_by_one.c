@@ -374,6 +374,21 @@ static bool note_asked(sunder_i_solver *s, const asking *g, size_t questions)
     return true;
 }
 
+/* The pairs that were asked about, in the order of clusters: the last one of each has the verdict that is kept. */
+static void trace_questions(const sunder_i_solver *s, const asking *g, size_t clusters)
+{
+    for (size_t k = 0; k < clusters && sunder_i_is_traced(&s->model); k++)
+        for (size_t q = g->first[k]; q < g->first[k + 1] && g->asked[q]; q++) {
+            const sunder_i_relaxation *t = &s->model.relaxations.item[g->question[q].relaxation];
+            const bool last = q + 1 == g->first[k + 1] || !g->asked[q + 1];
+            const sunder_i_verdict verdict = last ? g->decision[k].verdict : SUNDER_I_UNKNOWN;
+            const char *outcome = verdict == SUNDER_I_FEASIBLE     ? "a solution was found"
+                                  : verdict == SUNDER_I_INFEASIBLE ? "proved: no solution"
+                                                                   : "no solution found";
+            sunder_i_trace_pair(&s->model, "branch and bound", outcome, t->a, t->b);
+        }
+}
+
 static sunder_status go_on(sunder_i_solver *s, const asking *asked, size_t clusters, bool *changed, sunder_error *err)
 {
     resuming g = {.solver = s, .asked = asked};
@@ -417,6 +432,7 @@ sunder_status sunder_i_solver_ask_one_by_one(sunder_i_solver *solver, bool *chan
         asking g = {solver,  list, first, required, list_requirements(solver, required), asked, solver->alone_work,
                     decision};
         status = sunder_i_parallel(solver->model.rules.threads, clusters, SUNDER_I_GRAIN_WHOLE, ask_clusters, &g, err);
+        if (!status) trace_questions(solver, &g, clusters);
         if (!status) status = go_on(solver, &g, clusters, changed, err);
     }
     for (size_t k = 0; k < clusters && decision; k++) sunder_i_decision_clear(&decision[k]);

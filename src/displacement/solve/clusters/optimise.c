@@ -391,12 +391,23 @@ static sunder_status prove_each(sunder_i_solver *s, sunder_error *err)
     return status;
 }
 
+static sunder_status trace_groups(sunder_i_solver *s, sunder_error *err)
+{
+    sunder_status status = SUNDER_OK;
+    for (size_t k = 0; k < s->groups.n && sunder_i_is_traced(&s->model) && !status; k++) {
+        sunder_i_group *g = &s->groups.group[k];
+        status = sunder_i_trace_log_emit(&s->model, "group", &g->log, g->body, g->n, err);
+    }
+    return status;
+}
+
 /* One round over the groups as they stand: *again, if there should be one more. */
 static sunder_status prove_all(sunder_i_solver *s, bool *again, sunder_error *err)
 {
     bool moved = false;
     hold(s);
     sunder_status status = prove_each(s, err);
+    if (!status) status = trace_groups(s, err);
     if (!status) charge(s);
     if (!status) status = join(s, again) ? take_over(s, &moved, err) : sunder_i_no_memory(err);
     *again = *again || moved;

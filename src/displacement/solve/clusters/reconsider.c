@@ -224,6 +224,16 @@ static bool go_on_from(sunder_i_solver *s, const component *c, const sunder_i_so
     return ok;
 }
 
+static sunder_status trace_verdict(const sunder_i_solver *s, const component *c, sunder_i_verdict verdict,
+                                   sunder_error *err)
+{
+    const char *outcome = verdict == SUNDER_I_FEASIBLE     ? "a solution of all pairs was found"
+                          : verdict == SUNDER_I_INFEASIBLE ? "proved: no solution of all pairs"
+                                                           : "undecided within the budget";
+    const sunder_i_trace_step step = {"branch and bound", outcome, NAN, NAN};
+    return sunder_i_trace_emit(&s->model, "cluster", &step, c->body, c->bodies, err);
+}
+
 sunder_status sunder_i_solver_reconsider(sunder_i_solver *solver, bool *changed, sunder_error *err)
 {
     *changed = false;
@@ -242,6 +252,7 @@ sunder_status sunder_i_solver_reconsider(sunder_i_solver *solver, bool *changed,
     }
     if (!status) sunder_i_changes_clear(&solver->changes);
     for (size_t k = 0; k < all.n && !status; k++) {
+        if (asked[k]) status = trace_verdict(solver, &all.component[k], decision[k].verdict, err);
         if (decision[k].verdict != SUNDER_I_FEASIBLE) {
             solver->reconsidered[all.component[k].root] |= asked[k];
             continue;

@@ -128,6 +128,15 @@ static size_t first_of(const retries *all, uint32_t root)
     return sunder_i_lower_bound(&key, all->retry, all->n, sizeof key, by_root);
 }
 
+static sunder_status note_retried(const sunder_i_solver *s, sunder_i_cluster *c, double before, const double *move,
+                                  sunder_error *err)
+{
+    const char *outcome = c->restored_n ? "pairs solved that were given up" : "no pair solved that was given up";
+    const sunder_i_trace_step step = {"ask again", outcome, before,
+                                      sunder_i_trace_cost(&s->model, c->body, c->n, move)};
+    return sunder_i_trace_note(&c->log, &step) ? SUNDER_OK : sunder_i_no_memory(err);
+}
+
 /* Of a cluster in which nothing was given up since it was last asked the same would be said again. */
 static sunder_status retry_clusters(void *context, size_t begin, size_t end, sunder_error *err)
 {
@@ -142,9 +151,11 @@ static sunder_status retry_clusters(void *context, size_t begin, size_t end, sun
         const uint32_t root = s->member[c->body - s->body].root;
         const size_t first = first_of(g->retries, root), last = first_of(g->retries, root + 1);
         sunder_i_reads_begin(&reading, &s->model, root);
-        if (first < last && sunder_i_solver_any_of(s, c->body, c->n, s->gave_up))
-            status = sunder_i_cluster_retry(&s->model, c, g->retries->retry + first, last - first, move, err);
+        const bool asked = first < last && sunder_i_solver_any_of(s, c->body, c->n, s->gave_up);
+        const double before = sunder_i_is_traced(&s->model) ? sunder_i_trace_cost(&s->model, c->body, c->n, move) : 0;
+        if (asked) status = sunder_i_cluster_retry(&s->model, c, g->retries->retry + first, last - first, move, err);
         sunder_i_reads_end(&reading);
+        if (asked && !status && sunder_i_is_traced(&s->model)) status = note_retried(s, c, before, move, err);
     }
     return status;
 }
@@ -232,6 +243,7 @@ sunder_status sunder_i_solver_retry(sunder_i_solver *solver, sunder_error *err)
                                    &g, err);
     sunder_i_free(all.retry);
     sunder_i_free(all.relaxation);
+    if (!status) status = sunder_i_solver_trace_clusters(solver, err);
     if (!status) status = sunder_i_solver_commit(solver, err);
     if (!status) status = sunder_i_solver_take_over(solver, err);
     return status ? status : sunder_i_solver_relate(solver, err);

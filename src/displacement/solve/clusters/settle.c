@@ -88,18 +88,22 @@ static sunder_status heed_relaxation(sunder_i_solver *s, const sunder_i_relation
     const sunder_status status = sunder_i_solver_is_worse(s, r, &worse, err);
     if (status || !worse) return status;
     *any = true;
+    sunder_i_trace_pair(&s->model, "check", "left in conflict, and worse than at the start: solved together", r->a,
+                        r->b);
     return sunder_i_solver_add_edge(s, i, j) ? SUNDER_OK : sunder_i_no_memory(err);
 }
 
 /* What a cluster's solution should have given two of its bodies, and by rounding did not: it is solved again with a
  * wider margin, if that may still grow. */
-static void widen(sunder_i_solver *s, uint32_t i, uint32_t j, bool *any)
+static void widen(sunder_i_solver *s, uint32_t a, uint32_t c, bool *any)
 {
+    const uint32_t i = s->model.body_of[a], j = s->model.body_of[c];
     const uint32_t b = s->model.body[i].fixed ? j : i;
     if (s->widened[b] >= MOST_MARGINS) return;
     if (s->dirty[b] && s->widened[b]) return; /* once a round */
     s->widened[b]++;
     s->dirty[b] = *any = true;
+    sunder_i_trace_pair(&s->model, "check", "in conflict within its cluster: solved with a wider margin", a, c);
 }
 
 /* Who jumped over one of another cluster joins it. */
@@ -110,10 +114,12 @@ static sunder_status find_jumps(sunder_i_solver *s, bool *any, sunder_error *err
         const uint32_t i = model->body_of[s->jumps.pair[k].a], j = model->body_of[s->jumps.pair[k].b];
         if (s->aside && (s->aside[i] || s->aside[j])) continue;
         if (are_together(s, i, j)) {
-            widen(s, i, j, any);
+            widen(s, s->jumps.pair[k].a, s->jumps.pair[k].b, any);
             continue;
         }
         if (!sunder_i_solver_add_edge(s, i, j)) return sunder_i_no_memory(err);
+        sunder_i_trace_pair(model, "check", "jumped over: solved together from now on", s->jumps.pair[k].a,
+                            s->jumps.pair[k].b);
         *any = true;
     }
     return SUNDER_OK;
@@ -140,6 +146,7 @@ static sunder_status find_work(sunder_i_solver *s, bool *any, sunder_error *err)
         }
         if (!are_together(s, i, j)) {
             if (!sunder_i_solver_add_edge(s, i, j)) return sunder_i_no_memory(err);
+            sunder_i_trace_pair(model, "check", "in conflict: solved together from now on", r->a, r->b);
             carry(s, r->a, r->b);
             *any = true;
             continue;
@@ -149,10 +156,11 @@ static sunder_status find_work(sunder_i_solver *s, bool *any, sunder_error *err)
         sunder_i_inclusion *inclusion = sunder_i_inclusion_find(model, r->a, r->b);
         if (inclusion && inclusion->state != SUNDER_I_LAPSED) {
             inclusion->state++;
+            sunder_i_trace_pair(model, "check", "not kept inside", r->a, r->b);
             s->dirty[b] = *any = true;
             continue;
         }
-        widen(s, i, j, any);
+        widen(s, r->a, r->b, any);
     }
     return find_jumps(s, any, err);
 }
@@ -176,6 +184,7 @@ sunder_status sunder_i_solver_settle(sunder_i_solver *solver, double from, doubl
         if (!status) status = sunder_i_solver_unite_blocks(solver, err);
         if (!status) status = sunder_i_solver_grow_crowds(solver, err);
         if (!status) status = sunder_i_solver_for_clusters(solver, solve_clusters, solver, err);
+        if (!status) status = sunder_i_solver_trace_clusters(solver, err);
         solver->hopeless = !status && is_hopeless(solver);
         if (status || solver->hopeless) return status;
         sunder_i_pieces_forget(&solver->model, SUNDER_I_PIECES_HELD);

@@ -149,6 +149,9 @@ static void list_conflicts(const sunder_i_solver *s, const sunder_i_id_pair *lis
 
 static sunder_status leave(sunder_i_model *model, const matter *m, sunder_i_relaxations *more, sunder_error *err)
 {
+    sunder_i_trace_pair(model, "jumps",
+                        m->shut ? "proved: no solution without a jump" : "left with a pair that is shut in",
+                        m->relaxation.a, m->relaxation.b);
     if (m->shut) {
         model->shut_in[model->shut_in_n++] = m->pair;
     } else {

@@ -84,8 +84,8 @@ typedef struct sunder_i_solver {
     bool *cheapest; /* [bodies] there are none: it stands where a solution had it that was known to be the cheapest */
     double *limit;  /* [bodies] the limits, while they are lifted */
     bool *aside;    /* [bodies] left as they are while limits are lifted; NULL: they never were */
-    unsigned char *holding; /* [bodies] sunder_i_holding (coarse_bodies.c); NULL: none is ever held */
-    double *went;   /* [2 * bodies] where those stood that were set aside because they went too far */
+    unsigned char *holding;          /* [bodies] sunder_i_holding (coarse_bodies.c); NULL: none is ever held */
+    double *went;                    /* [2 * bodies] where those stood that were set aside because they went too far */
     sunder_i_relaxations waiting;    /* of what was set aside */
     uint32_t *carrier;               /* [bodies] whose place to start from instead of its own, or SUNDER_I_NOBODY */
     sunder_i_cluster_member *member; /* cluster after cluster, bodies ascending */
@@ -94,11 +94,14 @@ typedef struct sunder_i_solver {
     double *move;   /* [2 * members] */
     sunder_i_cluster *cluster;
     size_t clusters;
-    size_t room, listed;    /* edges that there is room for here; and that member[] is of */
-    bool brief;             /* the first cluster without a solution ends it: nothing is given up */
-    bool hopeless;          /* there was one */
-    double refuted;         /* then: larger gaps have none, either, roughly */
-    sunder_i_groups groups; /* contact groups, and what is proved of them; with effort 0 nothing */
+    size_t room, listed;                      /* edges that there is room for here; and that member[] is of */
+    bool brief;                               /* the first cluster without a solution ends it: nothing is given up */
+    bool hopeless;                            /* there was one */
+    double refuted;                           /* then: larger gaps have none, either, roughly */
+    bool had_limits;                          /* limits were lifted at first */
+    bool any_let_go;                          /* bodies that were held were let go */
+    struct sunder_i_held_layout *held_layout; /* before that (stages.h); lent */
+    sunder_i_groups groups;                   /* contact groups, and what is proved of them; with effort 0 nothing */
 } sunder_i_solver;
 
 /* From solver->model, which has its bodies. Failure leaves what sunder_i_solver_free() takes. */
@@ -136,6 +139,8 @@ void sunder_i_solver_forget_clusters(sunder_i_solver *solver);
 /* Work on all clusters as they were last gathered, by their numbers. */
 sunder_status sunder_i_solver_for_clusters(const sunder_i_solver *solver, sunder_i_work work, void *context,
                                            sunder_error *err);
+/* Hands on what was noted of clusters, in their order, where the layer is traced. */
+sunder_status sunder_i_solver_trace_clusters(sunder_i_solver *solver, sunder_error *err);
 /* Clusters from the edges, afresh. */
 sunder_status sunder_i_solver_gather(sunder_i_solver *solver, sunder_error *err);
 /* Unites those blocks of clusters of which the search may ask for the union. A fixed one may be a member of several

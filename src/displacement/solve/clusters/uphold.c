@@ -397,6 +397,9 @@ sunder_status sunder_i_solver_uphold(sunder_i_solver *solver, sunder_error *err)
             if (is_held(solver, &held, i) || is_held(solver, &held, j)) continue;
             status = sunder_i_solver_mend(solver, &r, budget, &well, err);
             if (!status && !well) status = ease_either_way(solver, &r, &held, &well, err);
+            if (!status)
+                sunder_i_trace_pair(&solver->model, "worse than at the start",
+                                    well ? "mended" : "one of the two put back", r.a, r.b);
             if (status || well) continue;
             pinned = true;
             status = pin(solver, i, j, err);

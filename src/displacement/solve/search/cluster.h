@@ -2,7 +2,7 @@
 #ifndef SUNDER_I_CLUSTER_H
 #define SUNDER_I_CLUSTER_H
 
-#include "displacement/layer/model.h"
+#include "displacement/layer/trace.h"
 #include "sunder_proof.h"
 
 typedef struct sunder_i_cluster {
@@ -21,6 +21,7 @@ typedef struct sunder_i_cluster {
     sunder_i_relaxations relaxations; /* of pairs that its solution gave up, or in place of older ones; owned */
     sunder_i_restored *restored;      /* [restored_n] relaxations of the model that have ended; owned */
     size_t restored_n;
+    sunder_i_trace_log log;  /* what its stages did, where the layer is traced; owned */
     sunder_i_id_pair *guest; /* [guests] one of its bodies, and one that is in its way and might join it; owned */
     size_t guests, guest_capacity;
 } sunder_i_cluster;

@@ -1,5 +1,6 @@
-/* A cluster from start to rounded moves: descend, and where sides contradict each other jump, descend again; pairs that
- * find no solution are given up; then round. Of two features that are alone the exact core knows the answer. */
+/* A cluster from start to rounded moves: the stages in the order of a table. Descend, and where sides contradict each
+ * other jump, descend again; pairs that find no solution are given up; then round. Of two features that are alone the
+ * exact core knows the answer. */
 #include "displacement/layer/rounding.h"
 #include "displacement/prove/areas/areas.h"
 #include "displacement/solve/search/stages.h"
@@ -27,33 +28,23 @@ void sunder_i_search_hand_over(sunder_i_search *search, sunder_i_cluster *cluste
     search->restored_n = search->restored_capacity = 0;
 }
 
-/* Descends, and where sides contradict each other jumps and descends again; as long as jumps help, or once more. */
-static bool find_free(sunder_i_search *s, const sunder_i_cluster *cluster)
-{
-    bool done = !s->failed && sunder_i_search_descend(s);
-    for (int k = 0; k < MOST_JUMPS && !done && !s->failed; k++) {
-        const bool stuck = !sunder_i_search_jump(s) && cluster->limited;
-        if (stuck && !cluster->brief) break;
-        done = sunder_i_search_descend(s);
-        if (stuck) break;
-    }
-    return done;
-}
+/* ---- Preconditions ----------------------------------------------------------------------------------------------- */
+
+/* What the stages of one cluster share. */
+typedef struct solving {
+    sunder_i_search *s;
+    sunder_i_cluster *cluster;
+    const double *move; /* where the bodies began */
+    bool alone;         /* two features that need look at no other: their least translation is known */
+    bool done;          /* nothing clashes */
+    bool given_up;      /* but for pairs that were given up */
+} solving;
 
 static bool has_limits(const sunder_i_search *s)
 {
     for (size_t k = 0; k < s->n; k++)
         if (!s->model->body[s->body[k]].fixed && s->model->body[s->body[k]].limit < INFINITY) return true;
     return false;
-}
-
-/* Begins anew from where all began, with pairs that stood apart there, but not by the margin, held to that. */
-static bool find_free_but_for_margins(sunder_i_search *s, const sunder_i_cluster *cluster, const double *move)
-{
-    if (!sunder_i_search_waive_margins(s)) return false;
-    memcpy(s->t, move, 2 * s->n * sizeof *s->t);
-    s->program.n = 0;
-    return find_free(s, cluster);
 }
 
 /* Do all together go farther than within their limits they may? Then the sides that they found are of no use there. */
@@ -69,81 +60,222 @@ static bool is_beyond_use(const sunder_i_search *s, const double *t)
     return cost > most;
 }
 
-/* The same from where the bodies stood when limits were lifted: the sides that they had found there. */
-static bool find_free_from_lifted(sunder_i_search *s, const sunder_i_cluster *cluster)
+static bool may_give_up(const solving *x) { return x->cluster->limited && !x->cluster->brief; }
+
+static bool is_unsolved(const solving *x) { return !x->done; }
+
+static bool is_unsolved_crowd(const solving *x) { return !x->done && x->cluster->crowd; }
+
+static bool may_give_up_at_once(const solving *x) { return !x->done && may_give_up(x) && has_limits(x->s); }
+
+static bool is_unsolved_question(const solving *x) { return !x->done && x->cluster->brief; }
+
+static bool was_lifted(const solving *x)
 {
-    const sunder_i_model *model = s->model;
-    if (!model->lifted || !has_limits(s) || is_beyond_use(s, model->lifted)) return false;
-    for (size_t k = 0; k < s->n; k++)
-        if (s->mass[k] > 0) memcpy(s->t + 2 * k, model->lifted + 2 * (size_t)s->body[k], 2 * sizeof *s->t);
-    s->program.n = 0;
-    return find_free(s, cluster);
+    const double *lifted = x->s->model->lifted;
+    return !x->done && lifted && has_limits(x->s) && !is_beyond_use(x->s, lifted);
 }
 
-/* One body alone among barriers and what is fixed, without a limit, in the nearest free place in its sight, however far
- * that is: such as a symbol in a long arm of an area, whose room is where the arm begins. */
-static bool find_free_alone(sunder_i_search *s, const sunder_i_cluster *cluster)
+static uint32_t count_movers(const sunder_i_search *s, uint32_t *mover)
 {
-    uint32_t mover = 0, movers = 0;
-    double place[2];
+    uint32_t movers = 0;
     for (uint32_t k = 0; k < s->n; k++)
         if (s->mass[k] > 0) {
-            mover = k;
+            *mover = k;
             movers++;
         }
-    if (!s->model->barriers || s->model->barriers->parts == 0 || !cluster->limited || cluster->brief || movers != 1 ||
-        sunder_i_search_limit(s, mover) < INFINITY || !sunder_i_search_free_body_anywhere(s, mover, place))
-        return false;
-    memcpy(s->t + 2 * (size_t)mover, place, sizeof place);
-    s->program.n = 0;
-    return sunder_i_search_descend(s);
+    return movers;
 }
 
-/* A crowd begins apart as far as its area needs it to be, and nobody far from home by chance. */
-static sunder_status begin_crowd(sunder_i_search *s, const sunder_i_cluster *cluster, sunder_error *err)
+static bool is_unsolved_lone_body(const solving *x)
+{
+    const sunder_i_barriers *barriers = x->s->model->barriers;
+    uint32_t mover = 0;
+    return !x->done && barriers && barriers->parts > 0 && may_give_up(x) && count_movers(x->s, &mover) == 1 &&
+           !(sunder_i_search_limit(x->s, mover) < INFINITY);
+}
+
+static bool may_be_cheapest(const solving *x)
+{
+    return x->done && !x->alone && !x->given_up && !x->cluster->brief && sunder_i_search_goes_down(x->s);
+}
+
+static bool may_give_up_pairs(const solving *x) { return !x->done && may_give_up(x); }
+
+/* ---- Stages ------------------------------------------------------------------------------------------------------ */
+
+static sunder_status part_lone_pair(solving *x, int jumps, sunder_error *err)
+{
+    (void)jumps;
+    const sunder_status status = sunder_i_search_part_lone_pair(x->s, x->cluster, &x->alone, err);
+    x->done = x->cluster->cheapest = x->alone;
+    return status;
+}
+
+/* A crowd begins apart as far as its area needs it to be, and no body far from home by chance. */
+static sunder_status begin_crowd(solving *x, int jumps, sunder_error *err)
 {
     bool found;
-    if (s->failed || !cluster->crowd) return SUNDER_OK;
-    return sunder_i_areas_places(s->model, s->body, s->n, false, s->t, &found, err);
+    (void)jumps;
+    return sunder_i_areas_places(x->s->model, x->s->body, x->s->n, false, x->s->t, &found, err);
 }
 
-static bool may_give_up(const sunder_i_cluster *cluster) { return cluster->limited && !cluster->brief; }
-
-/* Down to where nothing clashes any more: *done. Of a cluster that may give up pairs and does so at once: *given_up. */
-static sunder_status find_solution(sunder_i_search *s, const sunder_i_cluster *cluster, const double *move, bool *done,
-                                   bool *given_up, sunder_error *err)
+static sunder_status mend_few(solving *x, int jumps, sunder_error *err)
 {
-    const sunder_status begun = begin_crowd(s, cluster, err);
-    if (begun) return begun;
-    *given_up = may_give_up(cluster) && has_limits(s) &&
-                (sunder_i_search_mend_few(s) || sunder_i_search_give_up_at_home(s, move));
-    *done = *given_up || find_free(s, cluster);
-    if (!*done && !s->failed && cluster->brief) *done = find_free_but_for_margins(s, cluster, move);
-    if (!*done && !s->failed) *done = find_free_from_lifted(s, cluster);
-    if (!*done && !s->failed) *done = sunder_i_search_spread(s);
-    if (!*done && !s->failed) *done = find_free_alone(s, cluster);
+    (void)jumps;
+    (void)err;
+    x->done = x->given_up = sunder_i_search_mend_few(x->s);
     return SUNDER_OK;
 }
 
-/* Is a solution the cheapest? */
-static bool is_cheapest(sunder_i_search *s, const sunder_i_cluster *cluster)
+static sunder_status give_up_at_home(solving *x, int jumps, sunder_error *err)
 {
-    return !s->failed && !cluster->brief && sunder_i_search_goes_down(s) && sunder_i_search_is_cheapest(s);
+    (void)jumps;
+    (void)err;
+    x->done = x->given_up = sunder_i_search_give_up_at_home(x->s, x->move);
+    return SUNDER_OK;
+}
+
+/* Descends, and where sides contradict each other jumps and descends again; as long as jumps help, or once more. */
+static bool find_free(solving *x, int jumps)
+{
+    sunder_i_search *s = x->s;
+    x->done = !s->failed && sunder_i_search_descend(s);
+    for (int k = 0; k < jumps && !x->done && !s->failed; k++) {
+        const bool stuck = !sunder_i_search_jump(s) && x->cluster->limited;
+        if (stuck && !x->cluster->brief) break;
+        x->done = sunder_i_search_descend(s);
+        if (stuck) break;
+    }
+    return x->done;
+}
+
+static sunder_status descend(solving *x, int jumps, sunder_error *err)
+{
+    (void)err;
+    find_free(x, jumps);
+    return SUNDER_OK;
+}
+
+/* Begins anew from where all began, with pairs that stood apart there, but not by the margin, held to that. */
+static sunder_status waive_margins(solving *x, int jumps, sunder_error *err)
+{
+    (void)err;
+    if (!sunder_i_search_waive_margins(x->s)) return SUNDER_OK;
+    memcpy(x->s->t, x->move, 2 * x->s->n * sizeof *x->s->t);
+    x->s->program.n = 0;
+    find_free(x, jumps);
+    return SUNDER_OK;
+}
+
+/* The same from where the bodies stood when limits were lifted: the sides that they had found there. */
+static sunder_status begin_from_lifted(solving *x, int jumps, sunder_error *err)
+{
+    sunder_i_search *s = x->s;
+    (void)err;
+    for (size_t k = 0; k < s->n; k++)
+        if (s->mass[k] > 0) memcpy(s->t + 2 * k, s->model->lifted + 2 * (size_t)s->body[k], 2 * sizeof *s->t);
+    s->program.n = 0;
+    find_free(x, jumps);
+    return SUNDER_OK;
+}
+
+static sunder_status spread(solving *x, int jumps, sunder_error *err)
+{
+    (void)jumps;
+    (void)err;
+    x->done = sunder_i_search_spread(x->s);
+    return SUNDER_OK;
+}
+
+/* One body alone among barriers and fixed features, without a limit, in the nearest free place in its sight, however
+ * far that is: such as a symbol in a long arm of an area, whose room is where the arm begins. */
+static sunder_status place_lone_body(solving *x, int jumps, sunder_error *err)
+{
+    sunder_i_search *s = x->s;
+    uint32_t mover = 0;
+    double place[2];
+    (void)jumps;
+    (void)err;
+    count_movers(s, &mover);
+    if (!sunder_i_search_free_body_anywhere(s, mover, place)) return SUNDER_OK;
+    memcpy(s->t + 2 * (size_t)mover, place, sizeof place);
+    s->program.n = 0;
+    x->done = sunder_i_search_descend(s);
+    return SUNDER_OK;
+}
+
+static sunder_status ask_whether_cheapest(solving *x, int jumps, sunder_error *err)
+{
+    (void)jumps;
+    (void)err;
+    x->cluster->cheapest = sunder_i_search_is_cheapest(x->s);
+    return SUNDER_OK;
+}
+
+static sunder_status give_up(solving *x, int jumps, sunder_error *err)
+{
+    (void)jumps;
+    (void)err;
+    sunder_i_search_give_up(x->s, x->move);
+    x->given_up = true;
+    return SUNDER_OK;
+}
+
+/* ---- The order --------------------------------------------------------------------------------------------------- */
+
+typedef struct stage {
+    const char *name;
+    bool (*applies)(const solving *x); /* the precondition; NULL: none */
+    sunder_status (*run)(solving *x, int jumps, sunder_error *err);
+    int jumps; /* budget: jumps out of clashes at most; the other stages have theirs in tuning.h */
+} stage;
+
+static const stage stages[] = {
+    {"part lone pair", NULL, part_lone_pair, 0},
+    {"begin crowd", is_unsolved_crowd, begin_crowd, 0},
+    {"mend few", may_give_up_at_once, mend_few, 0},
+    {"give up at home", may_give_up_at_once, give_up_at_home, 0},
+    {"descend", is_unsolved, descend, MOST_JUMPS},
+    {"waive margins", is_unsolved_question, waive_margins, MOST_JUMPS},
+    {"begin from lifted", was_lifted, begin_from_lifted, MOST_JUMPS},
+    {"spread", is_unsolved, spread, 0},
+    {"place lone body", is_unsolved_lone_body, place_lone_body, 0},
+    {"ask whether cheapest", may_be_cheapest, ask_whether_cheapest, 0},
+    {"give up", may_give_up_pairs, give_up, 0},
+};
+
+/* A stage that changed anything is noted, where the layer is traced. */
+static sunder_status note(const solving *before, const solving *x, const char *name, double cost, sunder_error *err)
+{
+    const double now = sunder_i_search_cost(x->s, x->s->t);
+    const char *outcome = x->given_up ? "solved but for pairs given up" : x->done ? "solved" : "not solved";
+    const sunder_i_trace_step step = {name, outcome, cost, now};
+    if (x->done == before->done && x->given_up == before->given_up && !(now < cost) && !(now > cost)) return SUNDER_OK;
+    return sunder_i_trace_note(&x->cluster->log, &step) ? SUNDER_OK : sunder_i_no_memory(err);
+}
+
+static sunder_status run_stage(solving *x, const stage *y, sunder_error *err)
+{
+    if (!sunder_i_is_traced(x->s->model)) return y->run(x, y->jumps, err);
+    const solving before = *x;
+    const double cost = sunder_i_search_cost(x->s, x->s->t);
+    const sunder_status status = y->run(x, y->jumps, err);
+    return status || x->s->failed ? status : note(&before, x, y->name, cost, err);
 }
 
 sunder_status sunder_i_cluster_solve(const sunder_i_model *model, sunder_i_cluster *cluster, double *move,
                                      sunder_error *err)
 {
     sunder_i_search s;
-    bool alone = false, done = false, given_up = false;
+    solving x = {.s = &s, .cluster = cluster, .move = move};
+    sunder_status status = SUNDER_OK;
+    cluster->cheapest = false;
     if (!sunder_i_search_init(&s, model, cluster->body, cluster->n, cluster->margin, move)) s.failed = true;
-    sunder_status status = sunder_i_search_part_lone_pair(&s, cluster, &alone, err);
-    if (!status && !alone && !s.failed) status = find_solution(&s, cluster, move, &done, &given_up, err);
+    for (size_t k = 0; k < sizeof stages / sizeof *stages && !status && !s.failed; k++)
+        if (!stages[k].applies || stages[k].applies(&x)) status = run_stage(&x, &stages[k], err);
     if (status) s.failed = true;
-    cluster->cheapest = alone || (done && !given_up && is_cheapest(&s, cluster));
-    done = done || alone;
-    if (!done && !s.failed && may_give_up(cluster)) sunder_i_search_give_up(&s, move);
-    cluster->hopeless = !done && cluster->brief;
+    cluster->hopeless = !x.done && cluster->brief;
     sunder_i_search_hand_over(&s, cluster);
     const bool failed = s.failed;
     if (!failed && !cluster->hopeless) sunder_i_search_round(&s, move);

@@ -1,0 +1,336 @@
+/* The order of the stages of one layer, as two tables.
+ *
+ * `passes` is the order of the whole work: a search without limits, and then, if a limit is overstepped, one within
+ * them (what oversteps no limit is not changed by it); after each, proofs of contact groups; at last the check that no
+ * pair stands worse than it stood.
+ *
+ * `seeking` is the order of one search. A stage is run again as long as it changes something, up to its budget of
+ * rounds; after each change clusters are settled (solve/clusters/settle.c), since a change makes new conflicts. A stage
+ * does nothing to a cluster that has no use for it, so that the result of a cluster does not depend on how long others
+ * take. */
+#include "displacement/solve_layer.h"
+
+#include "displacement/report/report.h"
+#include "displacement/solve/clusters/stages.h"
+
+#include <string.h>
+
+/* Shares of the whole that are done, roughly: when the search without limits ends; the other ones are in the headers.
+ */
+#define FOUND_WITHOUT_LIMITS 0.4
+#define FOUND SUNDER_PROGRESS_SOLVED
+
+typedef struct stage {
+    const char *name;
+    /* Precondition of each round; NULL: none. */
+    sunder_status (*applies)(const sunder_i_solver *s, bool *applies, sunder_error *err);
+    /* *changed: clusters are to be settled, and the stage may have one more round. */
+    sunder_status (*run)(sunder_i_solver *s, bool *changed, sunder_error *err);
+    int rounds;      /* budget: rounds at most */
+    double from, to; /* the share of the search that its settling takes, of 1 */
+} stage;
+
+/* ---- Preconditions ----------------------------------------------------------------------------------------------- */
+
+static bool any_of(const sunder_i_solver *s, const bool *flag)
+{
+    for (size_t b = 0; b < s->model.bodies; b++)
+        if (flag[b]) return true;
+    return false;
+}
+
+static sunder_status has_given_up(const sunder_i_solver *s, bool *applies, sunder_error *err)
+{
+    (void)err;
+    *applies = any_of(s, s->gave_up);
+    return SUNDER_OK;
+}
+
+static sunder_status is_not_improved(const sunder_i_solver *s, bool *applies, sunder_error *err)
+{
+    bool improved = false;
+    const sunder_status status = sunder_i_solver_is_improved(s, &improved, err);
+    *applies = !improved;
+    return status;
+}
+
+static sunder_status has_no_limits(const sunder_i_solver *s, bool *applies, sunder_error *err)
+{
+    (void)err;
+    *applies = !s->had_limits;
+    return SUNDER_OK;
+}
+
+static sunder_status has_limits(const sunder_i_solver *s, bool *applies, sunder_error *err)
+{
+    (void)err;
+    *applies = s->had_limits;
+    return SUNDER_OK;
+}
+
+static sunder_status is_wanted_within_limits(const sunder_i_solver *s, bool *applies, sunder_error *err)
+{
+    (void)err;
+    *applies = s->had_limits && any_of(s, s->wanted);
+    return SUNDER_OK;
+}
+
+static sunder_status has_held(const sunder_i_solver *s, bool *applies, sunder_error *err)
+{
+    (void)err;
+    *applies = sunder_i_solver_any_held(s);
+    return SUNDER_OK;
+}
+
+static sunder_status has_let_go(const sunder_i_solver *s, bool *applies, sunder_error *err)
+{
+    (void)err;
+    *applies = s->any_let_go;
+    return SUNDER_OK;
+}
+
+static sunder_status has_no_effort(const sunder_i_solver *s, bool *applies, sunder_error *err)
+{
+    (void)err;
+    *applies = !(s->model.rules.effort > 0);
+    return SUNDER_OK;
+}
+
+/* ---- Stages of one search ---------------------------------------------------------------------------------------- */
+
+/* Most layers leave nothing to be proved, or little. */
+static sunder_status find_seams_for_proofs(sunder_i_solver *s, sunder_error *err)
+{
+    return s->model.given_up_n ? sunder_i_report_find_seams(s, err) : SUNDER_OK;
+}
+
+static sunder_status choose_holders(sunder_i_solver *s, bool *changed, sunder_error *err)
+{
+    (void)changed;
+    return sunder_i_solver_choose_holders(s, err);
+}
+
+/* Settling alone. */
+static sunder_status settle(sunder_i_solver *s, bool *changed, sunder_error *err)
+{
+    (void)s;
+    (void)err;
+    *changed = true;
+    return SUNDER_OK;
+}
+
+/* Given up pairs are looked at again, each time with what the search ran into since. */
+static sunder_status reconsider(sunder_i_solver *s, bool *changed, sunder_error *err)
+{
+    const sunder_status status = find_seams_for_proofs(s, err);
+    return status ? status : sunder_i_solver_reconsider(s, changed, err);
+}
+
+static sunder_status mark_for_retry(sunder_i_solver *s, bool *changed, sunder_error *err)
+{
+    (void)changed;
+    (void)err;
+    memcpy(s->gave_up, s->wanted, s->model.bodies * sizeof *s->gave_up);
+    return SUNDER_OK;
+}
+
+/* Given up pairs are asked once more: each time what is granted runs into others, and more is given up. */
+static sunder_status retry(sunder_i_solver *s, bool *changed, sunder_error *err)
+{
+    const sunder_status status = sunder_i_solver_retry(s, err);
+    memset(s->gave_up, 0, s->model.bodies * sizeof *s->gave_up);
+    *changed = true;
+    return status;
+}
+
+/* Clusters that joined since better sides were last looked for are improved once more. */
+static sunder_status improve(sunder_i_solver *s, bool *changed, sunder_error *err)
+{
+    *changed = true;
+    return sunder_i_solver_improve(s, err);
+}
+
+/* Pairs are asked about one by one: each time one in a cluster is solved. */
+static sunder_status ask_one_by_one(sunder_i_solver *s, bool *changed, sunder_error *err)
+{
+    const sunder_status status = find_seams_for_proofs(s, err);
+    return status ? status : sunder_i_solver_ask_one_by_one(s, changed, err);
+}
+
+static sunder_status fit_exactly(sunder_i_solver *s, bool *changed, sunder_error *err)
+{
+    *changed = true;
+    return sunder_i_solver_fit_exactly(s, err);
+}
+
+static const stage seeking[] = {
+    {"choose holders", NULL, choose_holders, 1, 0, 0},       {"settle", NULL, settle, 1, 0, 3. / 7},
+    {"reconsider", NULL, reconsider, 4, 3. / 7, 4. / 7},     {"mark for retry", NULL, mark_for_retry, 1, 0, 0},
+    {"retry", has_given_up, retry, 3, 4. / 7, 5. / 7},       {"improve", is_not_improved, improve, 3, 5. / 7, 1},
+    {"ask one by one", NULL, ask_one_by_one, 16, 6. / 7, 1}, {"fit exactly", NULL, fit_exactly, 1, 1, 1},
+};
+
+/* ---- The driver -------------------------------------------------------------------------------------------------- */
+
+/* One stage, in its rounds. Progress of the walk goes from `from` to `to`. */
+static sunder_status run_stage(sunder_i_solver *s, const stage *x, double from, double to, sunder_error *err)
+{
+    sunder_status status = SUNDER_OK;
+    bool changed = true;
+    for (int round = 0; round < x->rounds && changed && !status; round++) {
+        bool applies = true;
+        if (x->applies) status = x->applies(s, &applies, err);
+        if (status || !applies) break;
+        changed = false;
+        s->model.round = x->rounds > 1 ? round + 1 : 0;
+        status = x->run(s, &changed, err);
+        if (!status && changed)
+            status = sunder_i_solver_settle(s, from + (to - from) * x->from, from + (to - from) * x->to, err);
+        if (!status) sunder_i_trace_layer(&s->model, changed ? "changed" : "done");
+    }
+    return status;
+}
+
+/* Runs the stages of a table. */
+static sunder_status walk(sunder_i_solver *s, const stage *table, size_t n, double from, double to, sunder_error *err)
+{
+    sunder_status status = SUNDER_OK;
+    for (size_t k = 0; k < n && !status; k++) {
+        *(table == seeking ? &s->model.stage : &s->model.pass) = table[k].name;
+        status = run_stage(s, &table[k], from, to, err);
+    }
+    s->model.stage = NULL;
+    return status;
+}
+
+#define LENGTH(table) (sizeof(table) / sizeof(table)[0])
+
+static sunder_status seek(sunder_i_solver *s, double from, double to, sunder_error *err)
+{
+    return walk(s, seeking, LENGTH(seeking), from, to, err);
+}
+
+/* ---- Passes ------------------------------------------------------------------------------------------------------ */
+
+static sunder_status lift_limits(sunder_i_solver *s, bool *changed, sunder_error *err)
+{
+    (void)changed;
+    return sunder_i_solver_lift_limits(s, &s->had_limits, err);
+}
+
+static sunder_status move_inside(sunder_i_solver *s, bool *changed, sunder_error *err)
+{
+    (void)changed;
+    return sunder_i_solver_move_inside(s, err);
+}
+
+static sunder_status seek_first(sunder_i_solver *s, bool *changed, sunder_error *err)
+{
+    (void)changed;
+    return seek(s, SUNDER_I_PREPARED, s->had_limits ? FOUND_WITHOUT_LIMITS : FOUND, err);
+}
+
+/* What was solved is proved, and what is found to be cheaper is taken; then margins go, where doubles hold contact. */
+static sunder_status optimise(sunder_i_solver *s, bool *changed, sunder_error *err)
+{
+    (void)changed;
+    sunder_status status = sunder_i_solver_optimise(s, err);
+    if (!status && !(s->model.rules.effort > 0)) status = sunder_i_solver_gather_groups(s, err);
+    return status ? status : sunder_i_solver_put_in_contact(s, err);
+}
+
+static sunder_status restore_limits(sunder_i_solver *s, bool *changed, sunder_error *err)
+{
+    (void)changed;
+    return sunder_i_solver_restore_limits(s, err);
+}
+
+static sunder_status seek_within_limits(sunder_i_solver *s, bool *changed, sunder_error *err)
+{
+    (void)changed;
+    return seek(s, FOUND_WITHOUT_LIMITS, FOUND, err);
+}
+
+static sunder_status keep_held(sunder_i_solver *s, bool *changed, sunder_error *err)
+{
+    (void)changed;
+    return sunder_i_solver_keep_held(s, s->held_layout, err);
+}
+
+/* Held bodies that still are in conflict may move: what has no solution with them is solved once more, and the better
+ * of the two layouts is taken. */
+static sunder_status let_go(sunder_i_solver *s, bool *changed, sunder_error *err)
+{
+    (void)changed;
+    return sunder_i_solver_let_go(s, &s->any_let_go, err);
+}
+
+static sunder_status seek_without_holding(sunder_i_solver *s, bool *changed, sunder_error *err)
+{
+    (void)changed;
+    return seek(s, FOUND, FOUND, err);
+}
+
+static sunder_status take_better(sunder_i_solver *s, bool *changed, sunder_error *err)
+{
+    (void)changed;
+    return sunder_i_solver_take_better(s, s->held_layout, err);
+}
+
+static sunder_status uphold(sunder_i_solver *s, bool *changed, sunder_error *err)
+{
+    (void)changed;
+    return sunder_i_solver_uphold(s, err);
+}
+
+/* What was mended, or settled about what was, is proved once more; nothing gets worse by that. */
+static sunder_status prove_all(sunder_i_solver *s, bool *changed, sunder_error *err)
+{
+    (void)changed;
+    for (size_t b = 0; b < s->model.bodies; b++) s->wanted[b] = true;
+    return sunder_i_solver_optimise(s, err);
+}
+
+static sunder_status gather_groups(sunder_i_solver *s, bool *changed, sunder_error *err)
+{
+    (void)changed;
+    return sunder_i_solver_gather_groups(s, err);
+}
+
+static sunder_status gather(sunder_i_solver *s, bool *changed, sunder_error *err)
+{
+    (void)changed;
+    return sunder_i_solver_gather(s, err);
+}
+
+/* No pass has more than one round. */
+static const stage passes[] = {
+    {"lift limits", NULL, lift_limits, 1, 0, 0},
+    {"move inside", has_no_limits, move_inside, 1, 0, 0},
+    {"seek", NULL, seek_first, 1, 0, 0},
+    {"optimise", NULL, optimise, 1, 0, 0},
+    {"restore limits", has_limits, restore_limits, 1, 0, 0},
+    {"move inside", has_limits, move_inside, 1, 0, 0},
+    {"seek within limits", has_limits, seek_within_limits, 1, 0, 0},
+    {"optimise", is_wanted_within_limits, optimise, 1, 0, 0},
+    {"keep held", has_held, keep_held, 1, 0, 0},
+    {"let go", has_held, let_go, 1, 0, 0},
+    {"seek without holding", has_let_go, seek_without_holding, 1, 0, 0},
+    {"optimise", has_let_go, optimise, 1, 0, 0},
+    {"uphold", has_let_go, uphold, 1, 0, 0},
+    {"take better", has_let_go, take_better, 1, 0, 0},
+    {"uphold", NULL, uphold, 1, 0, 0},
+    {"prove all", NULL, prove_all, 1, 0, 0},
+    {"gather groups", has_no_effort, gather_groups, 1, 0, 0},
+    {"gather", NULL, gather, 1, 0, 0},
+};
+
+sunder_status sunder_i_layer_solve(sunder_i_solver *solver, sunder_error *err)
+{
+    sunder_i_held_layout held = {0};
+    solver->held_layout = &held;
+    const sunder_status status = walk(solver, passes, LENGTH(passes), 0, 0, err);
+    solver->held_layout = NULL;
+    sunder_i_held_layout_free(&held);
+    return status;
+}
