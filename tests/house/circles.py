@@ -32,13 +32,15 @@ def objects(source, build, tree):
 def symbols(paths):
     """Defined and undefined symbols of each object."""
     defined, wanted = {}, {file: set() for file in paths}
-    for file, path in paths.items():
-        for line in subprocess.run(["nm", "-P", path], capture_output=True, text=True, check=True).stdout.splitlines():
-            name, kind = line.split()[:2]
-            if kind == "U":
-                wanted[file].add(name)
-            elif kind in "TDBRVWC":
-                defined[name] = file
+    file_of = {path: file for file, path in paths.items()}
+    told = subprocess.run(["nm", "-A", "-P", *file_of], capture_output=True, text=True, check=True).stdout
+    for line in told.splitlines():  # "PATH: NAME KIND ..."
+        path, _, rest = line.partition(": ")
+        name, kind = rest.split()[:2]
+        if kind == "U":
+            wanted[file_of[path]].add(name)
+        elif kind in "TDBRVWC":
+            defined[name] = file_of[path]
     return defined, wanted
 
 
