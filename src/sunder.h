@@ -512,7 +512,7 @@ typedef struct sunder_layer_options {
 
 /* How far about its box (xmin, ymin, xmax, ymax) barriers decide on which side of them a feature is: twice the width
  * and the height of the box together. */
-SUNDER_API double sunder_side_reach(const double box[4]);
+SUNDER_EXPERIMENTAL double sunder_side_reach(const double box[4]);
 
 /* Defaults: gap 0, tolerance a tenth of it, blocks on, one thread, no jumps, effort 1, seed 0. */
 SUNDER_API void sunder_layer_options_init_sized(sunder_layer_options *options, size_t size);
