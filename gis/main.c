@@ -37,8 +37,8 @@ const gis_command gis_commands[] = {
 };
 const size_t gis_n_commands = sizeof gis_commands / sizeof gis_commands[0];
 
-/* What GDAL says outside of the places that listen to it: warnings are passed on in our form; failures come back as
- * return values and are reported, once, by whoever asked. */
+/* GDAL's messages outside of the places that listen to it: warnings are passed on in our form; failures come back as
+ * return values and are reported, once, by the caller. */
 static void hear_gdal(CPLErr class, CPLErrorNum number, const char *words)
 {
     (void)number;
@@ -52,7 +52,7 @@ static const gis_command *find_command(const char *name)
     return NULL;
 }
 
-/* Mistakes in the arguments are told before these are understood, and in the form that is asked for among them. */
+/* Errors in the arguments are reported before the arguments are fully parsed, but in the form that they request. */
 static bool wants_json(int argc, char **argv)
 {
     for (int i = 1; i < argc && strcmp(argv[i], "--") != 0; i++)
@@ -137,8 +137,8 @@ static int no_command(void)
     return gis_say_failure(&error);
 }
 
-/* A standard stream that is closed leaves its number to the next file that is opened, and what is said would go into
- * that, a log or an output. What is opened in its place refuses, as a closed one does. */
+/* A standard stream that is closed leaves its number to the next file opened, and messages would go into that file, a
+ * log or an output. So a file that refuses everything is opened in its place. */
 static void hold_standard_streams(void)
 {
     for (int number = STDIN_FILENO; number <= STDERR_FILENO; number++)

@@ -1,4 +1,4 @@
-/* check.c: sunder check. The exact list of what overlaps or is too close, whoever made the layer. */
+/* check.c: sunder check. The exact list of overlaps and of pairs that are too close, in any layer. */
 #include "base/interrupt.h"
 #include "base/message.h"
 #include "commands/commands.h"
@@ -161,7 +161,7 @@ static bool print(const void *checked, gis_error *error)
     return true;
 }
 
-/* What --before found, by kind; a key that only who asks for it sees. */
+/* The findings of --before, by kind; a key that appears only with that option. */
 static void json_moves(gis_json *out, const gis_moves *moves)
 {
     gis_json_key(out, "moves");

@@ -23,7 +23,7 @@ void gis_resolve_original(const gis_options *options, const gis_layer_input_requ
                           gis_layer_input_request *out);
 /* Sum, pair: P and Q. That options select from a data source where there is none is wrong usage. */
 bool gis_resolve_operands(const gis_options *options, gis_operands_request *out, gis_error *error);
-/* Sum: the road to it. A planar map is refused where nobody would see it, or nothing makes it. */
+/* Sum: the road to it. A planar map is refused if no output shows it, or the road makes none. */
 bool gis_resolve_road(const gis_options *options, sunder_sum_options *out, gis_error *error);
 /* Buffer. What can be refused before anything is read is refused. */
 bool gis_resolve_buffer(const gis_options *options, gis_buffer_request *out, gis_error *error);

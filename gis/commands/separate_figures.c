@@ -10,7 +10,7 @@
 #include <math.h>
 #include <stdio.h>
 
-/* Whose move is the longest; OGRNullFID: nobody's, or it has no FID. */
+/* The feature with the longest move; OGRNullFID: none, or it has no FID. */
 static GIntBig longest_fid(const gis_separate_run *run)
 {
     const size_t feature = run->summary.max_feature;

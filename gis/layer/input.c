@@ -14,7 +14,7 @@
 #include <string.h>
 #include <unistd.h>
 
-/* Who writes OUTPUT INPUT, as with ogr2ogr, is told so. */
+/* Tells users who write OUTPUT INPUT, as with ogr2ogr. */
 static bool hint_at_order(const gis_layer_input_request *request, gis_error *error)
 {
     const char *input = request->source.path, *output = request->output;
@@ -119,8 +119,8 @@ static bool make_layer(gis_layer_input *input, gis_error *error)
     return set_sides(input, error);
 }
 
-/* Barriers are known for moves of so many times the longest limit: which longer one would free a conflict is asked,
- * too. */
+/* Barriers are read for moves of this many times the longest limit, since a longer limit that would solve a conflict is
+ * reported, too. */
 static const double limits_known = 4;
 
 double gis_layer_barrier_reach(double longest_limit) { return limits_known * longest_limit; }

@@ -12,14 +12,14 @@
  * given". */
 typedef struct gis_layer_input_request {
     gis_source_request source; /* what it takes is filled in */
-    const char *output;        /* for who gives OUTPUT INPUT, and is told so; and no input may be replaced by it */
+    const char *output;        /* to detect OUTPUT INPUT, which gets a message; and no input may be replaced by it */
     bool update;               /* ... which adding to it does not */
     gis_invalid_policy invalid;
     double scale; /* N of 1:N */
     const char *id_field;
     const char *symbol, *symbol_field; /* one of them given: the features are points, and these are drawn there */
     const char *symbol_size_field;     /* a factor for each of them */
-    bool may_have_symbols;             /* the command knows --symbol: who gives points without one is told of it */
+    bool may_have_symbols;             /* the command has --symbol: points without it get a message about it */
     gis_barrier_request *barrier;      /* [barriers] owned */
     size_t barriers;
     const double *also; /* a box that barriers can be in the way of, besides that of the features; NULL: none */
@@ -45,7 +45,7 @@ typedef struct gis_layer_input {
     sunder_shape **shape;    /* [n] NULL: nothing that could conflict */
     sunder_feature *feature; /* [n] */
     gis_barriers barriers;
-    double barrier_reach; /* who moves no farther comes near to none but these */
+    double barrier_reach; /* a feature that moves no farther only comes near these */
     sunder_layer *layer;
     gis_layer_shaping *shaping;
     int id_field, block_field, limit_field, weight_field; /* -1: none */
@@ -67,7 +67,7 @@ void gis_layer_box(const gis_layer_input *input, double box[4]);
 /* Warns where the layer's units are no lengths on the ground; gis_layer_input_read() does. */
 void gis_layer_warn_of_crs(const gis_layer_input *input);
 void gis_layer_input_clear(gis_layer_input *input);
-/* What was asked of each feature, which the core has a copy of: for who asks no more about it. */
+/* Frees the demands on features, which the core has a copy of, once they are no longer needed. */
 void gis_layer_forget_demands(gis_layer_input *input);
 
 /* "layer buildings, FID 12", with the user's own id if there is one. */
@@ -81,7 +81,7 @@ bool gis_layer_wrong_number(const gis_layer_input *input, size_t i, int field, c
 bool gis_layer_begin(const gis_layer_input_request *request, bool packed, gis_layer_input *out, gis_error *error);
 bool gis_layer_make_room(gis_layer_input *input, bool demands, gis_error *error);
 void gis_layer_drop_features(gis_layer_input *input);
-/* Demands of features of which no rule says anything. */
+/* Demands on features without a rule. */
 void gis_layer_default_demands(gis_layer_input *input);
 void gis_layer_warn_of_others(const gis_layer_input *input, bool any_points);
 void gis_layer_shaping_free(gis_layer_shaping *shaping);
@@ -90,12 +90,12 @@ void gis_layer_shaping_free(gis_layer_shaping *shaping);
 bool gis_layer_fields(gis_layer_input *input, gis_error *error); /* rules.c: those that the rules name are looked for */
 bool gis_layer_lengths(gis_layer_input *input, gis_error *error); /* rules.c */
 bool gis_layer_shapes(gis_layer_input *input, gis_error *error);  /* shapes.c */
-bool gis_layer_marks(gis_layer_input *input, gis_error *error);   /* rules.c: who is ignored, who is fixed */
+bool gis_layer_marks(gis_layer_input *input, gis_error *error);   /* rules.c: ignored and fixed features */
 bool gis_layer_blocks(gis_layer_input *input, gis_error *error);
 bool gis_layer_weights(gis_layer_input *input, gis_error *error);
 bool gis_layer_limits(gis_layer_input *input, gis_error *error);
 
-/* Blocks by the numbers that keys have so far, for who ranks them when all are known. */
+/* Block numbers by the order of first appearance; they are ranked once all keys are known. */
 bool gis_layer_number_blocks(gis_layer_input *input, gis_block_keys *keys, gis_error *error);
 /* The parts of weighing that layer_spooling.c needs apart: of an area beside the median of all (which sorts them), and
  * the factor of a field. */

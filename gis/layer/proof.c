@@ -5,7 +5,7 @@
 
 #include <stdlib.h>
 
-/* The FID, or, where FIDs tell nobody apart, the place in the input. */
+/* The FID or, if FIDs are not unique, the place in the input. */
 static int64_t call_feature(const void *of, size_t feature)
 {
     const gis_layer_input *input = of;

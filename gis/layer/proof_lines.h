@@ -1,9 +1,9 @@
-/* proof_lines.h: the file of --proof, line by line, as docs/PROOF.md has it: what the lower bound and the verdicts
- * stand on.
+/* proof_lines.h: the file of --proof, line by line, as docs/PROOF.md describes it: the proofs of the lower bound and of
+ * the verdicts.
  *
- * What is said of a conflict or of a tree is said without its number in the file, and so by any part of a layer that
- * knows it: numbers are given when all is put in order. That is conflicts by their features, and groups of trees by the
- * first of their features that moves, of which no two groups share one. */
+ * Statements about a conflict or a tree do not contain its number in the file, so any part of a layer that knows it can
+ * make them: numbers are assigned when everything is put in order, to conflicts by their features, and to groups of
+ * trees by the first of their movable features, which no two groups share. */
 #ifndef GIS_PROOF_LINES_H
 #define GIS_PROOF_LINES_H
 

@@ -1,5 +1,5 @@
-/* rows.h: the layers of results row by row: of a report (output.h), or of who keeps rows elsewhere until all of them
- * are there. A layer is begun, its rows written in order, and the next one begun. */
+/* rows.h: the layers of results row by row: from a report (output.h), or from rows kept elsewhere until all are there.
+ * A layer is begun, its rows are written in order, then the next one is begun. */
 #ifndef GIS_LAYER_ROWS_H
 #define GIS_LAYER_ROWS_H
 

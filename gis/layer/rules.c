@@ -1,5 +1,5 @@
-/* rules.c: what the rules make of each feature: lengths, who is fixed or ignored, blocks by a field, weights. What is
- * wrong with the data names the feature; what is wrong with a rule names the option. */
+/* rules.c: the rules applied to each feature: lengths, fixed and ignored features, blocks by a field, weights. Errors
+ * in the data name the feature; errors in a rule name the option. */
 #include "layer/rules.h"
 
 #include "layer/input.h"

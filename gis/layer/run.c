@@ -1,5 +1,5 @@
-/* run.c: a layer handed to the core, by the rules. That a number is out of range the core says; whoever gave it as an
- * option has called the program wrongly. */
+/* run.c: passes a layer to the core, by the rules. The core reports numbers out of range; for one given as an option
+ * that is a usage error. */
 #include "base/resources.h"
 #include "layer/trace.h"
 
@@ -27,7 +27,7 @@ sunder_layer_options gis_layer_core_options(const gis_layer_input *input)
     return core;
 }
 
-/* Who is told how far it is. */
+/* The receiver of progress. */
 typedef struct watcher {
     gis_progress *progress;
     double next; /* from there on memory goes back again */

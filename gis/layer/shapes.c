@@ -21,9 +21,9 @@ static const unsigned growth_segments = 16;
 
 #define SYMBOL_FORMS "WKT, @FILE, disc:R[:N], inside-disc:R[:N], square:SIDE or rectangle:WxH"
 
-/* What is added to the radius before growing. Rounding the sum to doubles may take it in by less than four units in the
- * last place of its largest coordinate: twice that is added. The arithmetic of the radius is off by some 1e-16 of it: a
- * billionth is added, which nobody can see. */
+/* An addition to the radius before growing. Rounding the sum to doubles may move it inward by less than four units in
+ * the last place of its largest coordinate: twice that is added. The arithmetic of the radius is off by some 1e-16 of
+ * it: a billionth of it is added, which is invisible. */
 static const double grown_ulps = 8, grown_part = 1e-9;
 
 /* S grown by a disc that contains the disc of `radius`, as a shape of doubles. */
@@ -57,7 +57,7 @@ static bool polygon_shape(gis_layer_input *input, size_t i, gis_polygonal_part *
     bool invalid;
     if (!gis_source_polygons(input->source, i, part, error)) return false;
     if (input->request->wound) gis_polygons_wind(&part->set);
-    /* Almost all are valid and without arcs: nobody asks what they are called. */
+    /* Almost all are valid and without arcs: their names are not needed. */
     if (gis_layer_plain_shape(input, part, i)) return true;
     gis_feature_name(input, i, who, sizeof who);
     if (!gis_shape_of_feature(&part->set, input->request->invalid, who, "invalid: ", &shape, &invalid, error))

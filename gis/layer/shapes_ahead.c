@@ -9,7 +9,7 @@
 
 #include <stdatomic.h>
 
-/* So many take longer than a thread to begin; and are taken at a time. */
+/* Below this number of features starting a thread takes longer than the work; also the size of a batch. */
 enum { MANY = 5000, AT_A_TIME = 512 };
 
 bool gis_layer_plain_shape(const gis_layer_input *input, const gis_polygonal_part *part, size_t i)
@@ -21,7 +21,7 @@ bool gis_layer_plain_shape(const gis_layer_input *input, const gis_polygonal_par
 
 typedef struct making {
     const gis_layer_input *input;
-    atomic_size_t next; /* feature that nobody has taken */
+    atomic_size_t next; /* the first feature not taken yet */
 } making;
 
 static void make(void *context)

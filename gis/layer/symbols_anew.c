@@ -1,4 +1,4 @@
-/* symbols_anew.c: the layer of symbols of a source whose shapes nobody kept: they are made once more, as they were when
+/* symbols_anew.c: the layer of symbols of a source whose shapes were not kept: they are made again, as they were when
  * the layer was read. */
 #include "layer/output.h"
 

@@ -87,11 +87,11 @@ typedef struct gis_barrier_common {
     double distance; /* that is kept from its edges */
 } gis_barrier_common;
 
-/* The feature is whoever takes it's to clear, whatever comes of it. */
+/* The function that takes the feature clears it, in any case. */
 typedef bool gis_barrier_take(void *user, const gis_barrier_common *common, gis_barrier_feature *feature,
                               gis_error *error);
-/* Those of one request that are within reach, in their order. batch: so many of the source are held at a time; 0: all.
- * *common: its name is owned, and NULL if it was not opened. */
+/* The features of one request that are within reach, in their order. batch: at most this many features of the source
+ * are held at a time; 0: all. *common: its name is owned, and NULL if it was not opened. */
 bool gis_barrier_visit(const gis_barrier_request *request, const gis_barrier_surroundings *around, size_t batch,
                        gis_barrier_take *take, void *user, gis_barrier_common *common, gis_error *error);
 void gis_barrier_feature_clear(gis_barrier_feature *feature);

@@ -17,7 +17,7 @@
 
 enum { CELLS_HELD = 2048 };
 
-/* Cells that were looked up: [CELLS_HELD] of them, the oldest of which goes first. */
+/* Cells that were looked up: a cache of CELLS_HELD, the oldest is evicted first. */
 typedef struct looked_up {
     gis_box_cells from;
     double (**box)[4]; /* [from.cells] NULL: not held */
@@ -181,7 +181,7 @@ void gis_barrier_targets_free(gis_barrier_targets *targets)
     free(targets);
 }
 
-/* A box grown by so much on all sides; rounded outward, as the sums are off by less. */
+/* A box grown by this much on all sides; rounded outward by more than the error of the sums. */
 static void grow(const double box[4], double by, double out[4])
 {
     for (int k = 0; k < 4; k++) {

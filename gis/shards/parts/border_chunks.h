@@ -1,6 +1,6 @@
-/* border_chunks.h: which chunks of the parts' files have to be held in memory while parts are joined: those with worlds
- * that are not complete, and those that meet a chunk of another run, or a world that was separated once more. All
- * others can have no world in common with another run, and none that wrote where another read. */
+/* border_chunks.h: which chunks of the parts' files have to be in memory while parts are joined: those with incomplete
+ * worlds, and those that meet a chunk of another run, or a world that was separated again. All other chunks share no
+ * world with another run, and none of their worlds wrote where another run's read. */
 #ifndef GIS_BORDER_CHUNKS_H
 #define GIS_BORDER_CHUNKS_H
 

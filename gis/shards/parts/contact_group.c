@@ -1,6 +1,6 @@
-/* contact_group.c: see contact_group.h. Cell by cell along the curve lots are made of features. Those features that
- * come near a cell that is still to be looked at are remembered until the last of these was. So what is remembered at a
- * time lies along the border between what was looked at and what was not. */
+/* contact_group.c: see contact_group.h. Features are joined to groups cell by cell along the curve. Features near a
+ * cell that is still to be visited are remembered until the last of these cells was visited. So the memory needed at a
+ * time lies along the border between visited and unvisited cells. */
 #include "shards/parts/contact_group.h"
 
 #include "base/array.h"
@@ -14,16 +14,16 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { LOTS = 1 << 12 }; /* so many are there before any are forgotten */
-/* So many pairs a feature: where more meet they lie in piles, and hang together by boxes alone. */
+enum { LOTS = 1 << 12 }; /* groups are forgotten once there are this many */
+/* Pairs for each feature: with more, features are stacked, and are connected by boxes alone. */
 static const size_t patience = 500;
 
 typedef struct member {
     double box[4]; /* with half the reach about it */
     uint64_t place;
     size_t lot;
-    sunder_shape *shape; /* owned; NULL: boxes alone are asked, or it is read when it is asked for */
-    bool inside;         /* its box lies in another one's, and boxes alone are asked */
+    sunder_shape *shape; /* owned; NULL: only boxes are compared, or it is read when needed */
+    bool inside;         /* its box lies in another one's, and only boxes are compared */
 } member;
 
 typedef struct members {
@@ -35,11 +35,11 @@ typedef struct looking {
     const gis_layout *layout;
     double reach;
     bool by_shapes;
-    size_t patience;        /* so many pairs of boxes that meet may still be looked at for their shapes */
+    size_t patience;        /* remaining budget of shape comparisons, for pairs with boxes that meet */
     gis_contact_group *lot; /* [lots], sums at the roots */
     size_t *parent;         /* [lots] */
     size_t lots, lot_room, parent_room, enough_lots;
-    gis_contact_group largest; /* of those that are complete, and forgotten */
+    gis_contact_group largest; /* of complete groups, which are forgotten */
     size_t *of_block;          /* [layout->blocks] a lot of it, or SIZE_MAX */
     size_t *beside;            /* [besides] the cells that come near the one that is looked at, by number */
     size_t besides, beside_room;
@@ -86,7 +86,7 @@ static void join(looking *l, size_t a, size_t b)
     gis_set_join(l->parent, x, y);
 }
 
-/* Whom the block's number joins. */
+/* Joins the members of a numbered block. */
 static void join_block(looking *l, int64_t number, size_t one)
 {
     const gis_part_block *block = gis_layout_block(l->layout, number);
@@ -108,7 +108,7 @@ static void keep_lot(const looking *l, size_t *to, size_t *lot)
     to[*lot] = 0;
 }
 
-/* Of lots that nobody remembers any more nothing but the largest is of interest. */
+/* Of groups that are not remembered any more only the largest counts. */
 static bool forget_lots(looking *l, gis_error *error)
 {
     const size_t cells = gis_spool_cells(l->layout->spool);
@@ -178,7 +178,7 @@ static gis_box_pairs_next join_boxes(looking *l, member *p, member *q, const gis
     return within ? GIS_BOX_PAIRS_B_ONLY : GIS_BOX_PAIRS_BOTH;
 }
 
-/* kind: is it one of those remembered? These have been asked among themselves. */
+/* kind: is it one of those remembered? These have been compared with each other. */
 static gis_box_pairs_next join_if_near(void *user, const gis_paired_box *a, const gis_paired_box *b)
 {
     looking *l = user;
@@ -296,7 +296,7 @@ static bool remember(looking *l, size_t cell, gis_error *error)
     return done;
 }
 
-/* By all boxes: where large features lie everywhere, a list of all that are beside each other would be no small one. */
+/* By boxes alone: where large features lie everywhere, a list of all neighbouring pairs would be long. */
 static bool find_beside(looking *l, size_t cell, gis_error *error)
 {
     double box[4], other[4];

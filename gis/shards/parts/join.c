@@ -25,8 +25,8 @@ static int by_holding(const void *a, const void *b)
 
 typedef struct joining {
     const gis_layout *layout;
-    gis_part_result *r; /* what is held */
-    size_t *parent;     /* [worlds] of those that are separated again, in lumps */
+    gis_part_result *r; /* the results in memory */
+    size_t *parent;     /* [worlds] worlds that are separated again, in groups */
     bool *again;        /* [worlds] */
     unsigned run;
 } joining;
@@ -89,7 +89,7 @@ static gis_box_pairs_next lump_if_met(void *user, const gis_paired_box *a, const
     return GIS_BOX_PAIRS_BOTH;
 }
 
-/* Worlds of different runs of which one wrote where the other read. */
+/* Worlds of different runs where one wrote where the other read. */
 static bool compare_footprints(joining *j, gis_error *error)
 {
     gis_box_pairs pairs = {0};
@@ -149,8 +149,8 @@ static bool separate_lump(joining *j, size_t root, size_t worlds, gis_error *err
     return done;
 }
 
-/* So many rounds go by lumps of their own. After them all that was ever separated again is separated again together:
- * then no two of it are of different runs, and each round takes in others, or is the last. */
+/* The first rounds separate each group by itself. After them everything that was ever separated again is separated
+ * again together: then no two worlds of it are of different runs, and each round takes in others, or is the last. */
 enum { APART = 12 };
 
 /* All that were separated again become one lump, if there is anything to be done. */

@@ -1,11 +1,12 @@
-/* join.h: what parts tell, as the whole layer's.
+/* join.h: the results of parts, joined to those of the whole layer.
  *
- * Worlds that are not complete, or of which one wrote where another read that was found in another run, are separated
- * again, with all that they saw and each other, until there are none: then what is left are the worlds of the whole
- * layer. A block is whoever is linked in some part.
+ * Worlds that are incomplete, or where one wrote where another read that was found in another run, are separated again,
+ * together and with all that they saw, until there are none: the remaining worlds are those of the whole layer.
+ * Features that are linked in any part are one block.
  *
- * Results of parts lie in files. In memory are chunks that meet others (border_chunks.h), what was separated again, and
- * a few numbers for each feature of a block; what is told of features and of pairs is put in order on disk. */
+ * Results of parts lie in files. In memory are the chunks that meet others (border_chunks.h), results that were
+ * separated again, and a few numbers for each feature of a block; the results for features and pairs are sorted on
+ * disk. */
 #ifndef GIS_SHARDS_JOIN_H
 #define GIS_SHARDS_JOIN_H
 
@@ -22,12 +23,12 @@ typedef struct gis_joined {
     gis_part_link *block;         /* a: a feature of a block, b: the block's first; by features */
     bool *fixed;                  /* [blocks] at the block's first: someone of it is fixed, and so all are */
     size_t blocks;
-    sunder_layer_summary summary; /* but for features, vertices and skipped, which are the layer's */
+    sunder_layer_summary summary; /* except features, vertices and skipped, which are the layer's */
     int64_t longest_fid;          /* of summary.max_feature */
     unsigned runs;
 } gis_joined;
 
-/* file: of all parts, open. directory: for what is sorted, until *out is cleared. */
+/* file: of all parts, open. directory: for sorting, until *out is cleared. */
 bool gis_parts_join(const gis_layout *layout, gis_part_file *file, size_t files, const char *directory, gis_joined *out,
                     gis_error *error);
 void gis_joined_clear(gis_joined *joined);

@@ -19,13 +19,13 @@ typedef struct gathering {
     size_t files;
     sunder_total proved, by_pairs, total, cost;
     size_t block;     /* how far features of blocks are, while rows go by */
-    uint64_t last[2]; /* keys of what was kept last */
+    uint64_t last[2]; /* keys of the last item kept */
     bool any, more;   /* something was; there is a row at which rows are, while conflicts go by */
 } gathering;
 
 /* ---- Things of a result, one by one ------------------------------------------------------------------------------ */
 
-/* Of a feature that has both, the row comes first. */
+/* If a feature has both, the row comes first. */
 enum { ROW, STILL };
 
 static bool put_row(gathering *g, const gis_part_result *r, size_t k, gis_error *error)
@@ -151,7 +151,7 @@ const gis_part_link *gis_joined_block(const gis_joined *joined, size_t feature)
     return joined->blocks ? bsearch(&key, joined->block, joined->blocks, sizeof key, by_feature) : NULL;
 }
 
-/* Whoever is linked is of one block, which is called by its first. */
+/* Linked features are one block, named by its first. */
 static bool gather_blocks(gis_joined *j, const gis_part_result *r, gis_error *error)
 {
     size_t n = 0, *index = malloc((2 * r->links + 1) * sizeof *index), *parent;
@@ -211,7 +211,7 @@ static void sum_row(gathering *g, const gis_part_row *row)
     g->out->longest_fid = row->fid;
 }
 
-/* One that is fixed fixes its block, of which no part may know both ends. */
+/* A fixed feature fixes its block; a part may know only some of the block. */
 static void sum_still(gathering *g, const gis_part_still *still)
 {
     gis_joined *j = g->out;

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* So many gaps, and features as large as they are in the mean. */
+/* In gaps, plus the mean size of features. */
 static const double gaps_about = 6, features_about = 2;
 
 static double halo_of(const gis_spool *spool, double gap)
@@ -46,7 +46,7 @@ static int by_block(const void *a, const void *b)
     return (p->block > q->block) - (p->block < q->block);
 }
 
-/* Each block once, with the box of all of it; sorted. */
+/* Each block once, with the box of all its features; sorted. */
 static size_t unite(gis_part_block *block, size_t n)
 {
     size_t out = 0;

@@ -1,9 +1,9 @@
-/* part_file.h: results of parts on disk: a file of chunks, each of which is told with the box of all that its worlds
- * read or wrote. A file is there whole, or not at all.
+/* part_file.h: results of parts on disk: a file of chunks, each with the box of all that its worlds read or wrote. A
+ * file exists completely, or not at all.
  *
- * A chunk holds some dozen worlds of one run that are near each other, so that most chunks have to do with none of
- * another run, and can stay where they are. What is of no world, is in a chunk of its own, without a box. Lines of
- * proofs, which are long, stay in the file until they are asked for. */
+ * A chunk holds some dozen neighbouring worlds of one run, so that most chunks do not meet any of another run, and can
+ * stay on disk. Results outside of worlds are in a chunk of their own, without a box. Lines of proofs, which are long,
+ * stay in the file until they are needed. */
 #ifndef GIS_PART_FILE_H
 #define GIS_PART_FILE_H
 
@@ -13,7 +13,7 @@
 /* What a file was made of. */
 typedef struct gis_part_stamp {
     char version[24];       /* of the program */
-    uint64_t options;       /* of what it was called with */
+    uint64_t options;       /* checksum of the command line */
     uint64_t spool;         /* the layer's checksum */
     uint32_t shard, shards; /* 1 to shards */
 } gis_part_stamp;
@@ -21,7 +21,7 @@ typedef struct gis_part_stamp {
 typedef struct gis_part_chunk {
     double box[4]; /* xmin ymin xmax ymax; box[0] > box[2]: no world of it read or wrote anything */
     uint64_t from, bytes, checksum;
-    uint64_t lines, lines_checksum; /* so many bytes of lines of proofs, ahead of it */
+    uint64_t lines, lines_checksum; /* bytes of the lines of proofs before it */
     uint32_t run;
     uint32_t incomplete; /* some world of it is */
 } gis_part_chunk;

@@ -4,8 +4,9 @@
 #include <math.h>
 
 static const double bytes_a_feature = 2000, bytes_a_vertex = 120;
-/* Of proofs, without search, and more with --effort 1. Where that proves all groups, as in towns, more effort takes no
- * more; else the tree of a single group may take hundreds of megabytes more, which nobody knows beforehand. */
+/* Bytes for proofs, without search, and more with --effort 1. If that proves all groups, as in towns, more effort takes
+ * no more memory; otherwise the tree of a single group may take hundreds of megabytes more, which cannot be
+ * predicted. */
 static const double bytes_a_proof = 3000, bytes_of_effort = 8000;
 
 double gis_part_bytes(bool proofs, double effort, double features, double vertices)

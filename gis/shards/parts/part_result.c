@@ -257,7 +257,7 @@ bool gis_part_result_load(gis_part_result *to, const unsigned char *from, size_t
 
 uint64_t gis_part_result_form(void)
 {
-    uint64_t form = 4; /* the version, for who changes what members mean */
+    uint64_t form = 4; /* version: to be raised when the meaning of members changes */
     for (int k = 0; k < LISTS; k++) form = gis_checksum_of(form, &lists[k].size, sizeof lists[k].size);
     return form;
 }

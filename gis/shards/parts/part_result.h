@@ -1,5 +1,5 @@
-/* part_result.h: what is told of parts of a layer, as plain lists, which a file can hold as they are. Features are
- * called by their places in the input, barriers by their numbers behind the last of these. */
+/* part_result.h: results of parts of layers, as plain lists, which a file can hold as they are. Features are identified
+ * by their places in the input, barriers by numbers behind the last of these. */
 #ifndef GIS_PART_RESULT_H
 #define GIS_PART_RESULT_H
 
@@ -30,8 +30,8 @@ typedef struct gis_part_row {
 typedef struct gis_part_world {
     size_t first;        /* the first of its features */
     bool complete, gone; /* gone: another world has its features now */
-    bool loose;          /* no world: conflicts inside a block that nothing happened to, of which `first` is one */
-    unsigned run;        /* of which run */
+    bool loose;          /* no world: conflicts inside a block that did not move, with `first` as a member */
+    unsigned run;        /* the run it belongs to */
     size_t row, rows;    /* in those of the result; likewise: */
     size_t footprint, footprints, bound, bounds, conflict, conflicts, push, pushes, tree, trees;
     sunder_conflict_counts before, after;
@@ -46,7 +46,7 @@ typedef struct gis_part_name {
 } gis_part_name;
 
 typedef struct gis_part_conflict {
-    sunder_conflict is; /* blocked_by: not here, but so many numbers, from this one on: */
+    sunder_conflict is; /* blocked_by: not here, but this many numbers, from this one on: */
     size_t blocker;
     size_t name, names; /* of all features that it names */
     gis_part_line line;
@@ -66,10 +66,10 @@ typedef struct gis_part_push {
     size_t layer;          /* a text: of a barrier the name of its layer */
 } gis_part_push;
 
-/* A feature that was asked for, is of no world, and not as it is by itself: it is of a block, or of one that stands for
+/* A requested feature that is in no world, and not as it is by itself: it is in a block, or the first of one with
  * conflicts inside it. */
 typedef struct gis_part_still {
-    size_t index, inside; /* pairs inside its block, of which it is the first, that are not the gap apart */
+    size_t index, inside; /* pairs inside its block that are not the gap apart, if it is the block's first feature */
     sunder_feature_status status;
 } gis_part_still;
 
@@ -113,9 +113,9 @@ void gis_part_result_empty(gis_part_result *result);
 bool gis_part_add_text(gis_part_result *to, const char *text, size_t *at, gis_error *error);
 const char *gis_part_text(const gis_part_result *result, size_t at);
 
-/* A line at the end of those that are there. */
+/* Appends a line. */
 bool gis_part_add_line(gis_part_result *to, const char *line, size_t bytes, gis_part_line *at, gis_error *error);
-/* Of one that is the result's own. */
+/* Clears one that the result owns. */
 const char *gis_part_line_of(const gis_part_result *result, const gis_part_line *line);
 
 /* Copies of one thing of another result, at the end of what is there. */
@@ -135,7 +135,7 @@ size_t gis_part_result_size(const gis_part_result *result);
 void gis_part_result_store(const gis_part_result *result, unsigned char *to);
 /* In place of what `to` held. False, with no error said: it is no result. */
 bool gis_part_result_load(gis_part_result *to, const unsigned char *from, size_t size, bool *sound, gis_error *error);
-/* Changes with what things are made of: who has another cannot load it. */
+/* Changes with the layout of the structs: files of another layout cannot be loaded. */
 uint64_t gis_part_result_form(void);
 
 #endif

@@ -1,6 +1,5 @@
-/* part_result_check.c: see part_result_check.h. Checksums tell bytes that were altered by chance; who alters them on
- * purpose writes checksums that agree. So every number by which something is looked up is held against how many of them
- * there are. */
+/* part_result_check.c: see part_result_check.h. Checksums detect accidental changes; a forger can write checksums that
+ * agree. So every number that is used as an index is checked against the number of items. */
 #include "shards/parts/part_result_check.h"
 
 #include <string.h>

@@ -4,8 +4,8 @@
 
 #include "shards/parts/part_result.h"
 
-/* A result that was read from a file of somebody's making. places: features of the layer and its barriers; 0: how many
- * there are is not asked. */
+/* Checks a result read from a file that may be forged. places: features of the layer and its barriers; 0: their number
+ * is not checked. */
 bool gis_part_result_is_sound(const gis_part_result *result, uint64_t places);
 
 #endif

@@ -214,8 +214,8 @@ static sunder_feature_status status_alone(const gis_part *p, size_t k)
     return demands->fixed || demands->max_shift == 0 ? SUNDER_FEATURE_FIXED : SUNDER_FEATURE_UNMOVED;
 }
 
-/* Who was asked for and is of no world, if that is not all there is to say; and whose block it is, by pairs with the
- * block's first. */
+/* Requested features outside of worlds, unless nothing has to be said of them; and their blocks, as pairs with the
+ * block's first feature. */
 bool gis_part_fill_others(gis_part *p, gis_error *error)
 {
     gis_part_result *out = p->out;

@@ -1,5 +1,5 @@
-/* parts_separate.c: see part.h. What is separated are the features in cells of these parts; features about them, as
- * far as layout->halo, are read along. */
+/* parts_separate.c: see part.h. Separates the features in cells of these parts; features around them, within
+ * layout->halo, are read along. */
 #include "shards/parts/part.h"
 
 #include <stdlib.h>

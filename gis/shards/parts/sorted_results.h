@@ -14,10 +14,10 @@ typedef struct gis_sorted_results {
     size_t n;
     unsigned char *record; /* one that is written */
     size_t room;
-    unsigned char *buffer; /* what of the file was read and not yet taken */
+    unsigned char *buffer; /* bytes of the file that were read and not yet taken */
     size_t used, filled, buffer_room;
     uint64_t from;
-    gis_sort_head head;  /* of what is read: its keys, and */
+    gis_sort_head head;  /* the record just read: its keys, and */
     gis_part_result one; /* the thing */
 } gis_sorted_results;
 
@@ -26,7 +26,7 @@ bool gis_sorted_results_begin(gis_sorted_results *sorted, const char *directory,
 bool gis_sorted_results_add(gis_sorted_results *sorted, uint64_t first, uint64_t second, const gis_part_result *one,
                             gis_error *error);
 
-/* Of things in order: is this one kept? */
+/* For items in order: is this one kept? */
 typedef bool gis_sorted_results_keep(void *user, const gis_sort_head *head, const gis_part_result *one, bool *keep,
                                      gis_error *error);
 /* Sorts what was added, as far as it is kept; nothing is added from then on. */

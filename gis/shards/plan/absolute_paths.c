@@ -1,6 +1,6 @@
-/* absolute_paths.c: see plan.h. A plan is made in one directory and merged in another, perhaps; what its call names is
- * found all the same. Of names that GDAL's drivers make sense of those forms are known in which a file stands by
- * itself. */
+/* absolute_paths.c: see plan.h. A plan may be made in one directory and merged in another; the files that its command
+ * line names must still be found. Names that GDAL's drivers interpret are handled in those forms where a file name can
+ * be recognised. */
 #include "shards/plan/plan.h"
 
 #include "base/path.h"

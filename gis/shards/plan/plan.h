@@ -27,13 +27,14 @@ void gis_plan_clear(gis_plan *plan);
 bool gis_plan_write(const gis_plan *plan, const char *directory, gis_error *error);
 /* Fails, naming the directory, where there is no plan, or one that another version made, or that was altered. */
 bool gis_plan_read(const char *directory, gis_plan *plan, gis_error *error);
-/* Do two ask for the same? */
+/* Are two of them equal? */
 bool gis_plan_same_call(const gis_plan *a, const gis_plan *b);
 
 /* ---- plan_checks.c: are the files that lie beside it those that it is about? ------------------------------------- */
 
 bool gis_plan_status_checksum(const char *directory, uint64_t *checksum, gis_error *error);
-/* Of a plan that was read, and parts that were resumed. status: is that asked about, too? It is read whole for it. */
+/* For a plan that was read, and parts that were resumed. status: check the file `status`, too? It is read entirely for
+ * that. */
 bool gis_plan_check(const gis_plan *plan, const gis_shard_run *parts, bool status, gis_error *error);
 
 /* ---- plan_description.c: the file `plan.json` -------------------------------------------------------------------- */
@@ -67,12 +68,12 @@ typedef struct gis_plan_place {
 bool gis_plan_place_begin(const char *directory, gis_plan_place *place, gis_error *error);
 /* *taken: something is there by that name already; else all of it is on the disk, under its name. */
 bool gis_plan_place_end(gis_plan_place *place, const char *directory, bool *taken, gis_error *error);
-/* What was begun and did not end goes. */
+/* Removes unfinished work. */
 void gis_plan_place_clear(gis_plan_place *place);
 
 /* ---- absolute_paths.c: paths that hold from wherever they are used ----------------------------------------------- */
 
-/* Of a file or a data source that is read: as it is, if it cannot be told to be one. Freed with CPLFree(). */
+/* For a file or a data source that is read: unchanged, if it is not recognised as a file. Freed with CPLFree(). */
 char *gis_plan_absolute_source(const char *source);
 /* Of the DATASET of a --barrier, with its keys; of a SHAPE; of a file that is written. */
 char *gis_plan_absolute_barrier(const char *barrier);

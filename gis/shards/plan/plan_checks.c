@@ -24,7 +24,7 @@ bool gis_plan_status_checksum(const char *directory, uint64_t *checksum, gis_err
     return done;
 }
 
-/* What is said of the whole layer is no more than its files hold: a byte of `status` for each feature. */
+/* Counts for the whole layer must not exceed what its files hold: a byte of `status` for each feature. */
 static bool holds_all(const gis_shard_run *parts, gis_error *error)
 {
     gis_disk_file file = {0};

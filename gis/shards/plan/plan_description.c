@@ -27,7 +27,7 @@ static void put_shards(gis_json *out, const gis_plan *plan, const gis_plan_load 
     gis_json_close(out, ']');
 }
 
-/* The most that a shard may want: for whoever asks for all of them at once. */
+/* The largest need of any shard, for running all of them at once. */
 static void put_most(gis_json *out, const gis_plan *plan, const gis_plan_load *load, const gis_layer_rules *rules)
 {
     gis_plan_estimate most = {0, 0};

@@ -5,8 +5,8 @@
 
 #include <math.h>
 
-/* Seconds on one core, of which a scheduler wants to hear more than enough: for nothing; for each feature, without any
- * search; and for each feature with --effort 1, where one in four is in conflict. */
+/* Seconds on one core, estimated generously for schedulers: fixed; for each feature, without any search; and for each
+ * feature with --effort 1, where one in four is in conflict. */
 static const double seconds_anyway = 2, seconds_a_feature = 2e-4, seconds_of_effort = 1e-3, seconds_merged = 1e-4;
 
 static double seconds_of(const gis_layer_rules *rules, double features)

@@ -1,6 +1,6 @@
-/* layer_spooling.c: see layer_spooling.h. Each batch goes through the stages of a layer that is read whole (input.h).
- * What these ask of all features is left open, and settled when the spool is sorted: weights by the median of areas,
- * and the numbers of blocks. */
+/* layer_spooling.c: see layer_spooling.h. Each batch goes through the stages of a layer that is read as a whole
+ * (input.h). Values that depend on all features are left open, and set when the spool is sorted: weights by the median
+ * of areas, and the numbers of blocks. */
 #include "shards/run/layer_spooling.h"
 
 #include "base/array.h"

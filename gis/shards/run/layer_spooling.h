@@ -1,5 +1,5 @@
 /* layer_spooling.h: a whole layer read a batch at a time, by the rules of separate: its features on disk
- * (shards/spool/spool.h), and what is known of all of them. */
+ * (shards/spool/spool.h), and the facts about all of them. */
 #ifndef GIS_LAYER_SPOOLING_H
 #define GIS_LAYER_SPOOLING_H
 
@@ -20,7 +20,7 @@ typedef struct gis_layer_facts {
     OGRFieldType id_type;
     size_t invalid, null, other;
     size_t skipped;          /* conflict with nothing: they are not in the spool */
-    size_t aside;            /* of these, so many lie in GIS_SPOOL_ASIDE */
+    size_t aside;            /* of these, the number in GIS_SPOOL_ASIDE */
     size_t vertices;         /* of all shapes, cleaned: as sunder_layer_summary counts them */
     double box[4];           /* of all that conflicts with anything; box[0] > box[2]: nothing does */
     bool multi;              /* a shape has several members: symbols are written as MultiPolygons */
@@ -32,10 +32,10 @@ typedef struct gis_layer_facts {
  * which is there if there is any. */
 #define GIS_SPOOL_ASIDE "aside"
 
-/* Reads the layer, with all that it warns of, into `features` and `cells` of the directory, which is there, dealt to so
- * many shards; and into `status` a byte for each feature, in the order of the input: the sunder_feature_status that it
- * has alone, if it does not move (of a block with a fixed member all are fixed, which is not known here). The ids in
- * the spool are the texts of integers, or of reals with 17 digits. Barriers go into `barriers`
+/* Reads the layer, with all its warnings, into the files `features` and `cells` of the directory, which exists, divided
+ * into `shards` shards. The file `status` gets a byte for each feature, in the order of the input: its
+ * sunder_feature_status by itself, if it does not move (a fixed member fixes its whole block, which is not known here).
+ * The ids in the spool are the texts of integers, or of reals with 17 digits. Barriers go into `barriers`
  * (shards/spool/barrier_spool.h). Memory is that of a batch, of a part of the spool, of the distinct values of
  * --block-field and, with --weight, of 8 bytes a feature. */
 bool gis_layer_spool(const gis_layer_input_request *request, unsigned shards, const char *directory,

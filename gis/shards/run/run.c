@@ -26,7 +26,8 @@ static const double bytes_anyway = GIS_PART_BYTES_ANYWAY;
 /* While a layer is written: of each feature, and what is sorted and written at a time, which fills up with the first
  * million. */
 static const double bytes_written = 32, bytes_filled = 30, bytes_full = 30e6;
-/* While it is drawn, when it is written: where each stands, and of which block it is; and what the page holds. */
+/* Bytes for each feature while the layer is written, and while it is drawn: its place and its block; and the page's
+ * data. */
 static const double bytes_drawn = 90, bytes_of_page = 60e6;
 /* Of barriers: their pieces, and the shapes of their parts. */
 static const double bytes_a_barrier = 1000, bytes_a_barrier_vertex = 300;
@@ -187,7 +188,7 @@ static gis_part_stamp stamp_of(const gis_shard_run *p, unsigned k, uint64_t opti
     return stamp;
 }
 
-/* How far the core is with a part tells nobody anything; but it hears of signals that way. */
+/* Per-part progress is not shown; the callback only polls for signals. */
 static void begin_listening(gis_shard_run *p, gis_progress *silent)
 {
     choose_options(p);

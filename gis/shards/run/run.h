@@ -33,8 +33,8 @@ typedef struct gis_shard_run {
     GIntBig *block_fid;     /* [joined.blocks] of the features there, from when they are written */
 } gis_shard_run;
 
-/* Bytes that a process takes, about: for a part of so much; for a layer while it is written, or drawn, when no part is
- * there. */
+/* Approximate bytes of a process: for a part of this size; and for a layer while it is written, or drawn, when no part
+ * is in memory. */
 double gis_shard_run_bytes(const gis_layer_rules *rules, double features, double vertices);
 double gis_shard_run_bytes_written(double features, bool drawn);
 
@@ -45,7 +45,7 @@ bool gis_shard_run_begin(const gis_layer_input_request *request, const char *dir
 /* As after gis_shard_run_begin() with a directory, which is as that left it; facts are copied. */
 bool gis_shard_run_resume(const gis_layer_input_request *request, const char *directory, const gis_layer_facts *facts,
                           unsigned shards, double memory, gis_shard_run *out, gis_error *error);
-/* Once more, by who comes to that piece of work. */
+/* Once more, for the caller that reaches that piece of work. */
 void gis_shard_run_warn_of_group(const gis_shard_run *parts);
 
 /* Shard k, 1 to shards, to its file in the directory, in place of one that is there. options: of the call, for the

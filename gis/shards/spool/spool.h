@@ -21,12 +21,12 @@
 typedef struct gis_spool_feature {
     size_t index;           /* place in the input, from 0 */
     int64_t fid;            /* OGRNullFID: none */
-    sunder_feature demands; /* the shape: who adds a feature lends it; who visits one owns it */
+    sunder_feature demands; /* the shape: lent when a feature is added; owned by the visitor of one */
     double start[2];        /* of a point feature: where its arrow starts; NAN otherwise */
     double area;            /* of the shape, where weights ask for it; else 0 */
     const char *id;         /* the user's own key as text; NULL: null */
     sunder_obstacle lines;  /* of a barrier (shards/spool/barrier_spool.h), lent; its shape is not asked for */
-    double reach;           /* its box is so much larger on all sides; 0, but of a barrier */
+    double reach;           /* its box is larger by this on all sides; 0 except for a barrier */
     uint64_t place;         /* where it lies in the spool that it is read from */
 } gis_spool_feature;
 

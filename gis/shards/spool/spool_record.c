@@ -13,7 +13,8 @@ _Static_assert(sizeof(gis_spool_head) % 8 == 0, "what follows a head is aligned"
 
 static size_t padded(size_t bytes) { return (bytes + 7) & ~(size_t)7; }
 
-/* What a record has, from the lowest bit up: yes or no; then, in this order behind the head, so many bytes. */
+/* Optional members of a record, a bit each from the lowest up; their data follow the head in this order, with these
+ * sizes. */
 enum {
     FIXED = 1 << 0,
     REPAIRED = 1 << 1,
@@ -81,7 +82,7 @@ static void lay_out(const gis_spool_head *head, content *c)
     c->bytes = padded(c->id + c->id_bytes);
 }
 
-/* Of a record of which so many bytes are there. False: it is none. */
+/* Parses a record of this many bytes. False: it is invalid. */
 static bool find_content(const unsigned char *record, size_t left, gis_spool_head *head, content *c)
 {
     *c = (content){0};

@@ -12,13 +12,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A cell is read whole: it has so many features, or so many vertices, unless one has more. */
+/* A cell is read as a whole: it has at most this many features, and vertices, unless a single feature has more. */
 enum { CELL_FEATURES = 1000, CELL_VERTICES = 20000 };
 
 /* A grid over a continent has cells of a tenth of a metre. */
 enum { CURVE_BITS = 26 };
 
-/* A frame is of no use where more than one in so many lies beyond it, or all within so small a part of its sides. */
+/* A frame is useless if more than one feature in this many lies beyond it, or if all lie within this small a part of
+ * its sides. */
 enum { MOST_STRAYS = 8, CORNER = 1024 };
 
 struct gis_spool_writer {

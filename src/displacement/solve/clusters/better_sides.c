@@ -1,11 +1,11 @@
-/* Better sides, for the clusters that were solved since they were last looked for: who is in the way joins first, then
- * each cluster is improved by itself. What ran into others by it is for the next round of settle.c. */
+/* Better sides, for the clusters that were solved since the last search: neighbours in the way join first, then each
+ * cluster is improved by itself. Conflicts that this causes are left to the next round of settle.c. */
 #include "displacement/solve/clusters/stages.h"
 
 #include "base/parallel.h"
 
-/* There is nothing to be done for it, or nobody wants it. Of clusters that came together each may have been the
- * cheapest: then they are so together. */
+/* Is there nothing to be done for it, or was it not requested? If each of several clusters that merged was the
+ * cheapest, so is their union. */
 static bool is_improved(const sunder_i_solver *s, const sunder_i_cluster *c)
 {
     bool improved = true, cheapest = true;
@@ -75,7 +75,7 @@ static sunder_status invite_to_clusters(void *context, size_t begin, size_t end,
     return SUNDER_OK;
 }
 
-/* Whoever is in the way of a cluster joins it. */
+/* Neighbours in the way of a cluster join it. */
 static sunder_status join_guests(sunder_i_solver *s, sunder_error *err)
 {
     bool any = false;

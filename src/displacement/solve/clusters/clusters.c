@@ -237,7 +237,7 @@ void sunder_i_solver_forget_clusters(sunder_i_solver *solver)
     solver->move = NULL;
 }
 
-/* Room for what comes of so many edges. What is there is lost where it is too small. */
+/* Allocates the results for this many edges. Old contents are lost if the memory is too small. */
 static bool make_room(sunder_i_solver *s)
 {
     if (s->room >= s->edges && s->cluster) return true;

@@ -105,7 +105,7 @@ static void hold(sunder_i_solver *solver, const sunder_i_relations *relations)
     }
 }
 
-/* Is the last place of some so much finer than that of others that these could be held? */
+/* Is the last place of some bodies so much finer than that of others that these could be held? */
 static bool may_hold(const sunder_i_model *model)
 {
     int finest = INT_MAX, coarsest = INT_MIN;
@@ -160,7 +160,7 @@ static void mark_let_go(sunder_i_solver *solver, bool *any)
     for (size_t b = 0; b < model->bodies; b++) *any = *any || solver->holding[b] == SUNDER_I_LET_GO;
 }
 
-/* root: [bodies] those of the sets that an edge leads to from who is let go, and its own. */
+/* root: [bodies] the sets connected by an edge with a released body, and its own. */
 static void mark_roots(sunder_i_solver *solver, bool *root)
 {
     for (uint32_t b = 0; b < solver->model.bodies; b++)
@@ -172,7 +172,7 @@ static void mark_roots(sunder_i_solver *solver, bool *root)
     }
 }
 
-/* What was proved infeasible at the start stays so, but beside who is let go. False if memory is out. */
+/* Pairs proved infeasible at the start stay so, except beside a released body. False if memory is out. */
 static bool keep_infeasible(sunder_i_solver *solver)
 {
     const sunder_i_model *model = &solver->model;

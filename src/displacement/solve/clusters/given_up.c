@@ -3,7 +3,7 @@
 
 #include <stdlib.h>
 
-/* Pairs of which the requirement is restored: they have no relaxation, and bodies between which none is left are not
+/* Pairs whose requirement is restored: they have no relaxation, and bodies without any relaxation between them are not
  * given up. */
 static bool restore(sunder_i_model *model, const sunder_i_cluster *cluster, size_t clusters)
 {

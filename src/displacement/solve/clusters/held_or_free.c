@@ -40,7 +40,7 @@ static void *copy_of(const void *from, size_t n, size_t size)
     return to;
 }
 
-/* Bodies of which features are in conflict, each pair as often as some are. NULL if memory is out. */
+/* Bodies with features in conflict, each pair once for every such pair of features. NULL if memory is out. */
 static sunder_i_id_pair *list_conflicts(const sunder_i_solver *solver, size_t *n)
 {
     sunder_i_id_pair *list = sunder_i_alloc(solver->now.n, sizeof *list);

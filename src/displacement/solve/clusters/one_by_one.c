@@ -1,13 +1,13 @@
-/* Has one pair of those that were given up a solution, if the others stay so?
+/* Has a single given-up pair a solution, if the others stay given up?
  *
- * A cluster gives up pairs until what is left has a solution that the search finds, and reconsider.c asks whether all
- * of them have one. Between the two lies what is asked here: a pair and all that is owed besides, the other conflicts
- * that there are now being held no worse (prove/proofs/feasibility.c). It is the question that the report will ask
- * (report/no_room.c); so what has a solution is not left to be told there that nothing is known of it. The search goes
- * on from a solution, one in each cluster at a time, and where it can, the pair is no longer given up; else all is left
- * as it was. A solution without room to spare, which the margins of the search close, is lined up to the last bit
- * (prove/optimum/tight_place.c): whether it holds is asked exactly, as of all that moved. No pair is asked about twice;
- * and of a crowd of which nothing is to be known fewer and fewer are. */
+ * A cluster gives up pairs until the search finds a solution for the rest, and reconsider.c asks whether all of them
+ * have one. This stage asks a question in between: one pair together with all unlisted pairs, while the other present
+ * conflicts stand no worse (prove/proofs/feasibility.c). It is the question that the report asks (report/no_room.c), so
+ * a pair with a solution is not reported as unresolved. The search continues from a solution, one in each cluster at a
+ * time, and if it succeeds the pair is no longer given up; otherwise all is left as it was. A solution without spare
+ * room, which the margins of the search exclude, is aligned to the last bit (prove/optimum/tight_place.c) and checked
+ * exactly, like all moves. No pair is asked about twice; and in a crowd where questions get no answer fewer and fewer
+ * are asked. */
 #include "displacement/layer/resolution.h"
 #include "displacement/prove/optimum/optimum.h"
 #include "displacement/prove/proofs/feasibility.h"
@@ -79,7 +79,7 @@ static void list_questions(const sunder_i_solver *s, const bool *wanted, questio
         if (t->infeasible || (model->body[i].fixed && model->body[j].fixed) || !is_conflict_now(s, t)) continue;
         if (last && last->a == t->a && sunder_i_whole_of(model, last->b) == sunder_i_whole_of(model, t->b)) continue;
         const uint32_t of = model->body[i].fixed ? j : i, root = sunder_i_union_find(s->parent, of);
-        /* Who was left before anybody moved, and met nobody, is of no cluster. */
+        /* A pair that was left before anything moved, and that met nothing, is in no cluster. */
         if (!wanted[of] || was_asked(s, t) || !sunder_i_solver_has_member(s, root, of)) continue;
         last = t;
         list[n++] = (question){root, (uint32_t)k};
@@ -135,9 +135,9 @@ static bool has_no_limit(const sunder_i_model *model, const sunder_i_relaxation 
            sunder_i_limit_of(&model->body[model->body_of[t->b]]) == INFINITY;
 }
 
-/* What one question may take, after so many, one after the other, that ended for want of effort: in a crowd that hangs
- * together by chains of dozens hardly any other ends otherwise, and one that does ends early. So each takes half of
- * what the one before it did then. */
+/* The effort of one question, after a number of questions in a row that ran out of effort: in a crowd connected by
+ * chains of dozens hardly any other ends otherwise, and one that does ends early. So each then gets half the effort of
+ * the one before. */
 static uint64_t effort_for(const sunder_i_model *model, const sunder_i_relaxation *t, unsigned in_vain)
 {
     if (has_no_limit(model, t)) return EFFORT_BRIEFLY_ALONE;
@@ -258,7 +258,7 @@ static bool join(sunder_i_solver *s, const sunder_i_solution *solution, bool *ta
     return true;
 }
 
-/* The first proposal of each cluster. Who was asked about and is in nobody's way now is asked about again. */
+/* The first proposal of each cluster. A pair that was asked about and is no longer in the way is asked about again. */
 static bool list_proposals(sunder_i_solver *s, const asking *g, size_t clusters, proposal *list, size_t *n)
 {
     bool *taken = sunder_i_calloc(s->model.bodies, sizeof *taken), ok = taken != NULL, fits;

@@ -1,14 +1,15 @@
-/* Contact groups of the layout: for each a proof of how little it could cost, and what is cheaper where such is found.
+/* Contact groups of the layout: for each a proof of how little it can cost, and a cheaper layout where one is found.
  *
- * Each is looked into by itself, all from the places at the round's start; what one finds to be cheaper is taken.
- * Whoever is in its way, of another group, belongs to it in the next round; so do two groups that have invited the same
- * guest. What did not change from one round to the next keeps its proof, and what was proved of bodies is known of the
- * group that they are in then, as long as the same is asked of their pairs. Rounds join groups, or better the layout by
- * what counts, so they end; there are only so many, and a body is worth only so many steps in all of them.
+ * Each group is examined separately, all from the positions at the round's start; a cheaper layout of one is taken. A
+ * body of another group in its way belongs to it in the next round; so do two groups that have invited the same guest.
+ * A group that did not change from one round to the next keeps its proof, and a bound proved for bodies is inherited by
+ * the group that they are in, as long as the demands on their pairs are the same. Rounds join groups, or improve the
+ * layout by a significant amount, so they end; their number is limited, and a body has a limited number of steps in all
+ * of them.
  *
- * Pairs that are left in conflict are to stand no worse than they stood, which is asked exactly of what is taken; what
- * rounding did to that is mended (uphold.c). So this comes once more after nothing stands worse, and nothing does after
- * it. */
+ * Pairs left in conflict must stand no worse than at the start, which is checked exactly for every layout taken;
+ * uphold.c repairs the effect of rounding on them. So this stage runs once more after nothing stands worse, and nothing
+ * does after it. */
 #include "displacement/layer/resolution.h"
 #include "displacement/prove/optimum/optimum.h"
 #include "displacement/solve/clusters/stages.h"
@@ -104,9 +105,8 @@ static void hold(sunder_i_solver *s)
             if (s->model.body[s->groups.group[k].body[m]].pinned) s->groups.group[k].held = true;
 }
 
-/* What the group's bodies have left, of which each is worth so many steps; a small group is worth as many as one of so
- * many bodies. Who has spent all gets a part once more: of a group that came about late something is to be proved, too.
- */
+/* The steps that the group's bodies have left, STEPS_EACH for each body; a small group counts as one of a minimum size.
+ * A body that has spent all gets a part again, so that something is proved of a group that forms late, too. */
 static uint64_t allowance(const sunder_i_solver *s, const sunder_i_group *g)
 {
     size_t movers = 0;
@@ -190,7 +190,7 @@ static bool takes_part(const sunder_i_group *g, uint32_t body)
     return false;
 }
 
-/* Takes back what the group found. known: it ran into nobody but its own. */
+/* Undoes the group's layout. known: it only ran into its own bodies. */
 static bool put_back(taking *t, uint32_t k, bool known)
 {
     sunder_i_solver *s = t->solver;
@@ -198,8 +198,8 @@ static bool put_back(taking *t, uint32_t k, bool known)
     if (!g || !g->improved) return false;
     g->improved = g->done = false;
     place(t, k, true);
-    /* What rounding ate into is looked for again with a wider margin; a place without room is looked for no more,
-     * unless it was somebody else who stood in it. */
+    /* A layout that rounding spoiled is sought again with a wider margin; a place without spare room is not, unless
+     * another body stood in it. */
     for (size_t m = 0; m < g->n; m++) {
         const uint32_t b = g->body[m];
         memcpy(g->move + 2 * m, t->before + 2 * (size_t)b, 2 * sizeof *g->move);
@@ -213,9 +213,9 @@ static bool put_back(taking *t, uint32_t k, bool known)
     return true;
 }
 
-/* Who moved the one or the other of two features goes back: *any, if somebody did. Of two groups that run into each
- * other the first one stays, if it can: they are looked at again, together. known: nothing is to be known of the two
- * but what their group was told. */
+/* Puts back the groups that moved one or the other of two features: *any, if there was one. Of two groups that run into
+ * each other the first stays, if possible: they are examined again, together. known: the two know nothing of each other
+ * beyond their group. */
 static void part(taking *t, uint32_t a, uint32_t b, bool known, bool *any)
 {
     const uint32_t p = t->solver->model.body_of[a], q = t->solver->model.body_of[b], i = t->by[p], j = t->by[q];
@@ -234,9 +234,9 @@ static bool note_joined(sunder_i_groups *groups, uint32_t one, uint32_t other)
     return true;
 }
 
-/* The same of a jump, which pieces may not tell of: an anchor that goes along a diagonal between two meets neither.
- * From now on these two have what covers theirs (layer/seams.c). And whom one jumps over may stand far from it now: so
- * two groups are taken together. False if memory is out. */
+/* The same for a jump, which pieces may not show: an anchor that moves along a diagonal between two pieces meets
+ * neither. From now on these two use the pieces that cover their diagonals (layer/seams.c). And the feature jumped over
+ * may now be far away: so the two groups are joined. False if memory is out. */
 static bool part_jump(taking *t, uint32_t a, uint32_t b, bool *any)
 {
     sunder_i_groups *groups = &t->solver->groups;
@@ -255,13 +255,13 @@ static bool has_moved(const taking *t, uint32_t thing)
     return t->by[t->solver->model.body_of[thing]] != SUNDER_I_NOBODY;
 }
 
-/* Has one of the two gone back since pairs were related? What ran into who went back may stay. */
+/* Has one of the two gone back since pairs were related? Bodies that ran into it may stay. */
 static bool is_outdated(const sunder_i_solver *s, uint32_t a, uint32_t b)
 {
     return s->changes.is[a] || s->changes.is[b];
 }
 
-/* A pair in conflict, of which one moved; may_stay: it is listed, and no overlap that had ended. */
+/* A pair in conflict with a moved member; may_stay: it is listed, and not an overlap that had ended. */
 static bool is_in_question(const taking *t, const sunder_i_relation *r, bool *may_stay)
 {
     sunder_i_solver *s = t->solver;
@@ -272,8 +272,8 @@ static bool is_in_question(const taking *t, const sunder_i_relation *r, bool *ma
     return true;
 }
 
-/* The first pair that is listed and stands worse than it stood: what rounding did may be mended, after which relations
- * are others; or who moved goes back. */
+/* The first listed pair that stands worse than at the start: either the effect of rounding is repaired, which changes
+ * relations; or the moved group goes back. */
 static sunder_status mend_first(taking *t, bool *any, sunder_error *err)
 {
     sunder_i_solver *s = t->solver;
@@ -292,8 +292,8 @@ static sunder_status mend_first(taking *t, bool *any, sunder_error *err)
     return status;
 }
 
-/* Does a conflict stand that did not, or worse, or did one jump over another? Then who moved goes back: *any. What
- * stands worse waits until nothing else is put back, so that others of the layer have no say in what is mended. */
+/* Is there a new conflict, or a worse one, or a jump? Then the moved group goes back: *any. Pairs that stand worse wait
+ * until nothing else is put back, so that other parts of the layer do not influence the repair. */
 static sunder_status put_back_offenders(taking *t, bool *any, sunder_error *err)
 {
     sunder_i_solver *s = t->solver;
@@ -350,7 +350,7 @@ static sunder_status take_over(sunder_i_solver *s, bool *any, sunder_error *err)
     return status;
 }
 
-/* Groups of which one is in the other's way, or that have a guest in common. */
+/* Groups where one is in the other's way, or that have a common guest. */
 static bool join(sunder_i_solver *s, bool *any)
 {
     sunder_i_groups *groups = &s->groups;
@@ -371,7 +371,7 @@ static bool join(sunder_i_solver *s, bool *any)
             ok = note_joined(groups, g->number, host[b]);
             *any = joined = true;
         }
-        /* Who is in nobody's group stays so: there is nothing new to be proved of this one. */
+        /* Bodies in no group stay so: nothing new is to be proved of them. */
         if (!joined) g->joins.n = 0;
     }
     ok = ok && host;

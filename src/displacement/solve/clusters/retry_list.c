@@ -1,4 +1,4 @@
-/* Whom to ask once more: the relaxed pairs of bodies that might have a solution, by the clusters they are of. */
+/* Which pairs to ask for once more: the relaxed pairs of bodies that might have a solution, by cluster. */
 #include "displacement/layer/reads.h"
 #include "displacement/solve/clusters/stages.h"
 
@@ -174,8 +174,8 @@ static bool join_relaxed(sunder_i_solver *s, const bool *asked)
     return true;
 }
 
-/* Who could be run into by body b, were it to move that far, becomes a member of its cluster, unless it is of another:
- * clusters stay what they are. */
+/* Bodies that body b could run into, if it moved that far, become members of its cluster, unless they are in another:
+ * clusters stay as they are. */
 static bool join_about(sunder_i_solver *s, bool *alone, uint32_t b, double far, sunder_i_list *near)
 {
     const sunder_i_model *model = &s->model;
@@ -199,7 +199,7 @@ static bool join_about(sunder_i_solver *s, bool *alone, uint32_t b, double far, 
     return true;
 }
 
-/* What is to be asked may take others to make way: those about a pair of which the relaxation might end. */
+/* A question may need others to make way: the bodies around a pair whose relaxation might end. */
 static bool join_neighbours(sunder_i_solver *s, const bool *asked)
 {
     const sunder_i_model *model = &s->model;

@@ -106,7 +106,7 @@ static void widen(sunder_i_solver *s, uint32_t a, uint32_t c, bool *any)
     sunder_i_trace_pair(&s->model, "check", "in conflict within its cluster: solved with a wider margin", a, c);
 }
 
-/* Who jumped over one of another cluster joins it. */
+/* A body that jumped over one of another cluster joins that cluster. */
 static sunder_status find_jumps(sunder_i_solver *s, bool *any, sunder_error *err)
 {
     const sunder_i_model *model = &s->model;

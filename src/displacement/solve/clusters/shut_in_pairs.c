@@ -1,9 +1,9 @@
 /* Conflicts that no moves resolve, with or without limits: one body stands in a yard of the other that is too small for
  * it, and would have to jump out (prove/optimum/shut_in.c). They are found before anything moves, so that no search
- * begins with asking for a solution: all conflicts of two such bodies are left. Those of which that holds feature by
- * feature, the rest of their blocks only minding its ways, are infeasible like those that limits leave no solution; of
- * the others one may have a solution where the rest is left, so they are given up, and asked for again at the end, but
- * for those that are proved to have none (shut_in_conflicts.c). */
+ * begins by looking for a solution: all conflicts of two such bodies are left. Conflicts where this holds feature by
+ * feature, with the rest of their blocks only adding shadows, are infeasible, like those that limits leave no solution.
+ * One of the others may have a solution if the rest is left, so they are given up, and asked for again at the end,
+ * except those that are proved to have none (shut_in_conflicts.c). */
 #include "displacement/solve/clusters/stages.h"
 
 #include "base/parallel.h"
@@ -55,7 +55,7 @@ static sunder_status suspect(void *context, size_t begin, size_t end, sunder_err
     return SUNDER_OK;
 }
 
-/* Of n pairs those of which that was said; how many. */
+/* Keeps, of n pairs, those for which that is known; returns how many. */
 static size_t keep_shut(sunder_i_id_pair *pair, const bool *shut, size_t n)
 {
     size_t out = 0;

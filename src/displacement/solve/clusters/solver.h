@@ -17,7 +17,7 @@ typedef struct sunder_i_cluster_member {
     uint32_t root, body;
 } sunder_i_cluster_member;
 
-/* Features a and b, of which the one is to get inside the other: a move of b that brings them there. */
+/* Features a and b, one of which is to get inside the other: a move of b that brings them there. */
 typedef struct sunder_i_entry {
     uint32_t a, b;
     bool a_inside;
@@ -59,7 +59,7 @@ typedef struct sunder_i_solver {
     sunder_i_relations start, now;
     sunder_i_depth *depth; /* [depths] of those pairs of start that were asked about, which are few ... */
     size_t depths, depth_capacity;
-    uint32_t *depth_at;    /* [start.n] ... where that of each is, and one more; 0: nobody asked. NULL: of none */
+    uint32_t *depth_at;    /* [start.n] ... index of that of each, plus one; 0: not computed. NULL: none */
     sunder_i_jumps jumps;  /* as the features stand */
     sunder_i_entry *entry; /* pairs that cannot be parted, but go inside */
     size_t entries, entry_capacity;
@@ -124,17 +124,17 @@ sunder_i_cluster *sunder_i_solver_cluster_with(const sunder_i_solver *solver, ui
 sunder_i_cluster *sunder_i_solver_cluster_of(const sunder_i_solver *solver, uint32_t body);
 /* Does any of them that may move have the flag? flag: [bodies] */
 bool sunder_i_solver_any_of(const sunder_i_solver *solver, const uint32_t *body, size_t n, const bool *flag);
-/* Who hangs together, by edges as they are now, with one that has the flag: [bodies], the caller's. A fixed body hangs
- * with nobody. NULL if memory is out. */
+/* [bodies] Is the body connected, by the present edges, with one that has the flag? The caller frees it. A fixed body
+ * is connected with none. NULL if memory is out. */
 bool *sunder_i_solver_who_hang_with(const sunder_i_solver *solver, const bool *flag);
 /* What is asked of these bodies beyond the gap. */
 double sunder_i_solver_margin(const sunder_i_solver *solver, const uint32_t *b, size_t n);
-/* Who stands for the cluster where it is noted what was looked at for it: one that is of no other. */
+/* The body for which the cluster's reads are recorded: one that is in no other cluster. */
 static inline uint32_t sunder_i_reader_for(const sunder_i_solver *solver, const sunder_i_cluster *cluster)
 {
     return solver->member[cluster->body - solver->body].root;
 }
-/* Clusters are not worked on any more: who their members are is all that is left of them, until they are gathered. */
+/* Frees the state of clusters except for their lists of members, until they are gathered again. */
 void sunder_i_solver_forget_clusters(sunder_i_solver *solver);
 /* Work on all clusters as they were last gathered, by their numbers. */
 sunder_status sunder_i_solver_for_clusters(const sunder_i_solver *solver, sunder_i_work work, void *context,
@@ -143,8 +143,8 @@ sunder_status sunder_i_solver_for_clusters(const sunder_i_solver *solver, sunder
 sunder_status sunder_i_solver_trace_clusters(sunder_i_solver *solver, sunder_error *err);
 /* Clusters from the edges, afresh. */
 sunder_status sunder_i_solver_gather(sunder_i_solver *solver, sunder_error *err);
-/* Unites those blocks of clusters of which the search may ask for the union. A fixed one may be a member of several
- * clusters: each body once, so that no two threads do the same. */
+/* Unites those blocks of clusters whose union the search may need. A fixed one may be a member of several clusters:
+ * each body is handled once, so that no two threads do the same. */
 sunder_status sunder_i_solver_unite_blocks(sunder_i_solver *solver, sunder_error *err);
 
 /* ---- body_moves.c: between the layer and its clusters ------------------------------------------------------------ */

@@ -175,8 +175,8 @@ typedef struct sunder_i_proving {
  * then roughly the least with which the same proof proves it. */
 sunder_status sunder_i_solver_prove(const sunder_i_solver *solver, const sunder_i_proving *how,
                                     sunder_i_verdict *verdict, double *gap, sunder_error *err);
-/* Puts all bodies that may move where a layout has them, [2 * bodies] rounded, and relates them. *well: that oversteps
- * no limit, and nobody jumps. */
+/* Puts all movable bodies at their places in a layout, [2 * bodies] rounded, and relates them. *well: no limit is
+ * exceeded, and nothing jumps. */
 sunder_status sunder_i_solver_stand(sunder_i_solver *solver, const double *move, bool *well, sunder_error *err);
 /* Relaxes those that are. Before the model is cut, so that nothing more is asked about them. */
 sunder_status sunder_i_solver_spare(sunder_i_solver *solver, const sunder_i_spared *spared, sunder_error *err);

@@ -18,7 +18,7 @@
  * this many of the body's own last places: a house of 10 m beside a vertex at 1e16, not at 1e15. */
 #define COARSE_BITS 10
 #define COARSE_PLACES 64
-/* A body is thrown if it moves farther than beside a held neighbour by so many times its size and the gap. */
+/* A body counts as thrown if it moves farther than beside a held neighbour, by this many times its size and the gap. */
 #define THROWN 16
 
 /* ---- Crowds (clusters.c) ----------------------------------------------------------------------------------------- */

@@ -1,20 +1,19 @@
-/* Nothing is made worse: the rule for pairs that stay in conflict, exactly, of the features as they will be written.
+/* Nothing is made worse: the rule for pairs that stay in conflict, exactly, for the features as they will be written.
  *
- * The search heeds relaxations (relaxation.c) up to its own rounding, and moves are rounded to what doubles hold; so
- * a pair may stand worse by a unit in the last place. Such pairs are mended one by one, the rest keeps its solution:
+ * The search keeps relaxations (relaxation.c) up to its own rounding, and moves are rounded to doubles; so a pair may
+ * stand worse by a unit in the last place. Such pairs are repaired one by one, while the rest keeps its solution:
  *
- * - one of the two is put a unit or a few beside its place; or takes the other's move, or one coordinate of it; or all
- *   that moved alike take one move, or one coordinate of it: where they are then in nobody's way;
- * - or the search is asked for places near by of the pair and those about it that leave a margin
- * (../search/pair_margin.c);
- * - where no such place will do (a slanted corridor of exact width has none), the one whose move is cheaper is pinned
- *   to where it came from. Its neighbours settle about it, and if they cannot, yield in their turn.
- *   A pair of the same cluster waits until they have: who was pinned stands in somebody's way meanwhile, and whoever
- *   that is need not be pinned as well. In a cluster of thousands, which takes long to settle, only pairs of these two
- *   wait.
+ * - one of the two moves by a unit or a few; or takes the other's move, or one coordinate of it; or all bodies with
+ *   nearly the same move take exactly one move, or one coordinate of it: if nothing is in the way there;
+ * - or the search finds places near by for the pair and the bodies around it that leave a margin
+ *   (../search/pair_margin.c);
+ * - if there are none (a slanted corridor of exact width has none), the body with the cheaper move is pinned to its
+ *   original place. Its neighbours settle around it, and if they cannot, yield in their turn. A pair of the same
+ *   cluster waits until they have: the pinned body is in the way of others meanwhile, and these need not be pinned as
+ *   well. In a cluster of thousands, which takes long to settle, only pairs of these two wait.
  *
- * A place that is taken breaks the rule for no pair, a body that is pinned stays so, and with all at home nothing
- * stands worse: the loop ends. */
+ * A place that is taken breaks the rule for no pair, a pinned body stays so, and with all bodies in their original
+ * places nothing stands worse: the loop ends. */
 #include "displacement/layer/barrier_pairs.h"
 #include "displacement/layer/reads.h"
 #include "displacement/layer/rounding.h"
@@ -152,7 +151,7 @@ static bool is_alike(const sunder_i_trial *t, uint32_t b, uint32_t other, double
     return true;
 }
 
-/* Those about body b who moved as it did. */
+/* The bodies around body b with the same move. */
 static sunder_status take_alike(sunder_i_trial *t, uint32_t b, double hair, sunder_error *err)
 {
     const sunder_i_model *model = &t->solver->model;
@@ -179,8 +178,8 @@ static sunder_status take_alike(sunder_i_trial *t, uint32_t b, double hair, sund
     return SUNDER_OK;
 }
 
-/* A row that was pushed along, each of which must not stand worse to the next, has to move as one to the last bit: all
- * take the move of the one whose coordinates are the coarsest. */
+/* In a pushed row no body may stand worse to the next, so the row has to move as one to the last bit: all take the move
+ * of the body with the coarsest coordinates. */
 static sunder_status try_together(sunder_i_trial *t, sunder_error *err)
 {
     double coarsest = 0, to[2] = {0, 0};
@@ -290,7 +289,8 @@ static sunder_status pin(sunder_i_solver *s, uint32_t i, uint32_t j, sunder_erro
     return status;
 }
 
-/* Who still jumps over another, since no margin made good what rounding took, stays where it came from. */
+/* A body that still jumps over another, since no margin repaired the effect of rounding, stays in its original
+ * place. */
 static sunder_status pin_jumps(sunder_i_solver *s, bool *pinned, sunder_error *err)
 {
     sunder_status status = SUNDER_OK;
@@ -304,7 +304,7 @@ static sunder_status pin_jumps(sunder_i_solver *s, bool *pinned, sunder_error *e
 /* Whose pairs wait until clusters have settled, and what was asked of clusters in vain. */
 typedef struct waiting {
     bool *body, *cluster; /* [bodies] the one; by roots, all of it */
-    size_t *vain;         /* [bodies] by roots: bodies of which a margin was asked in vain */
+    size_t *vain;         /* [bodies] by roots: number of bodies for which a margin was demanded without success */
     uint32_t *size;       /* [bodies] of clusters, by the roots that they had when the pass began */
 } waiting;
 
@@ -325,7 +325,7 @@ static void waiting_free(waiting *w)
     sunder_i_free(w->size);
 }
 
-/* Nobody waits; clusters are as large as they are. */
+/* No pair waits; clusters are as large as they are. */
 static void begin_pass(const sunder_i_solver *s, waiting *w)
 {
     const size_t n = s->model.bodies;

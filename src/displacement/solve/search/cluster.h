@@ -8,12 +8,12 @@
 typedef struct sunder_i_cluster {
     uint32_t *body; /* members, ascending; fixed ones too */
     size_t n;
-    double about;                     /* each looks so far about itself at least, so many times (surroundings.c) */
+    double about;                     /* each body looks at least this far, times a factor (surroundings.c) */
     double margin;                    /* what is demanded beyond the gap, to cover rounding */
     bool touching;                    /* two alone may stand without the margin: no exact check has failed yet */
     bool crowd;                       /* it begins from where prices of area put it */
     bool limited;                     /* by limits, fixed bodies, the rule against jumps: it may have no solution */
-    bool brief;                       /* where none is found nothing is given up, and nobody moves */
+    bool brief;                       /* if no solution is found nothing is given up, and nothing moves */
     bool hopeless;                    /* that was so */
     bool worked_on;                   /* its moves are to be taken over */
     bool cheapest;                    /* its solution is known to be the cheapest, whatever stands about it */
@@ -48,7 +48,8 @@ sunder_status sunder_i_cluster_solve(const sunder_i_model *model, sunder_i_clust
 
 /* ---- free_positions.c -------------------------------------------------------------------------------------------- */
 
-/* May a search ask for the shape of a body, whoever else is in its cluster? Only of those is it to be united. */
+/* May a search need the shape of a body, whatever else is in its cluster? Only the members of such bodies are
+ * united. */
 bool sunder_i_cluster_may_want_shape(const sunder_i_model *model, uint32_t body);
 
 /* ---- retry_cluster.c --------------------------------------------------------------------------------------------- */
@@ -81,9 +82,9 @@ sunder_status sunder_i_cluster_descend(const sunder_i_model *model, const sunder
 
 /* ---- pair_margin.c ----------------------------------------------------------------------------------------------- */
 
-/* A pair of things that is left in conflict, and of which rounding took a hair: *done, if it and those about it have
- * places where it stands better by the margin; rounded. All others keep what they owe or are held to; others: of those
- * that are left in conflict who has moved is to have the margin, too, else only who has it. */
+/* A pair of things that is left in conflict, and that rounding made slightly worse: *done, if it and the bodies around
+ * it have places where it stands better by the margin; rounded. All others keep what they owe or are held to; others:
+ * moved pairs that are left in conflict get the margin, too, otherwise only those that have it. */
 sunder_status sunder_i_cluster_ease(const sunder_i_model *model, const sunder_i_cluster *cluster, uint32_t a,
                                     uint32_t b, bool others, double *move, bool *done, sunder_error *err);
 
@@ -97,7 +98,7 @@ sunder_status sunder_i_cluster_fit(const sunder_i_model *model, const sunder_i_c
 
 /* ---- blocking_neighbours.c --------------------------------------------------------------------------------------- */
 
-/* Bodies of the cluster that would have a nearer place but for others who might move: pairs of the two go to
+/* Finds bodies of the cluster that would have a nearer place but for others that might move: pairs of the two go to
  * cluster->guest. False if memory is out. */
 bool sunder_i_cluster_invite(const sunder_i_model *model, sunder_i_cluster *cluster, const double *move);
 

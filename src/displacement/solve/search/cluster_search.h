@@ -97,7 +97,7 @@ double sunder_i_search_cost(const sunder_i_search *search, const double *t);
 bool sunder_i_search_init_about(sunder_i_search *search, const sunder_i_model *model, const sunder_i_cluster *cluster,
                                 const double *move);
 
-/* ---- near.c: who stands near whom -------------------------------------------------------------------------------- */
+/* ---- near.c: neighbours ------------------------------------------------------------------------------------------ */
 
 /* Called for every pair of bodies, one of them movable, that stand within reach of each other at t. */
 typedef void (*sunder_i_visit_pair)(sunder_i_search *search, uint32_t i, uint32_t j, void *context);
@@ -107,7 +107,7 @@ void sunder_i_search_near(sunder_i_search *search, const double *t, double reach
 /* The same for every pair that might, were one of them, or both, where it came from. */
 void sunder_i_search_near_or_home(sunder_i_search *search, double reach, sunder_i_visit_pair visit, void *context);
 
-/* ---- visited_boxes.c: who was where on the way ------------------------------------------------------------------- */
+/* ---- visited_boxes.c: where bodies have been --------------------------------------------------------------------- */
 
 /* The bodies that body i could meet or pass, anywhere within reach of its original place: a superset, as indices in
  * ascending order, in search->about. False if memory is out. */
@@ -166,7 +166,7 @@ const sunder_i_obstacle_edge *sunder_i_search_edges(sunder_i_search *search, con
 /* What pair (i, j) misses at relative position u: of the gap, or where it has none (*yields) of its relaxation. */
 double sunder_i_search_pair(sunder_i_search *search, uint32_t i, uint32_t j, const double u[2], bool *yields);
 
-/* ---- shadows.c: who may not pass whom ---------------------------------------------------------------------------- */
+/* ---- shadows.c: which bodies may not pass which ------------------------------------------------------------------ */
 
 /* All shadows of bodies i and j that may lie within reach of relative position u. */
 void sunder_i_search_shadows(sunder_i_search *search, uint32_t i, uint32_t j, const double u[2], double reach,
@@ -190,7 +190,7 @@ void sunder_i_search_passing(sunder_i_search *search, const double *t, double re
 /* Is it such a pair? */
 bool sunder_i_search_may_pass(const sunder_i_search *search, const double *t, uint32_t i, uint32_t j, double reach);
 
-/* ---- clashes.c: who clashes, and by how much --------------------------------------------------------------------- */
+/* ---- clashes.c: clashes, and by how much ------------------------------------------------------------------------- */
 
 /* Fills search->clash with the pairs that violate the gap at t, or their relaxation; returns the worst violation, of
  * a limit of moves too. */

@@ -127,7 +127,7 @@ void sunder_i_search_shadows(sunder_i_search *search, uint32_t i, uint32_t j, co
                                  u, reach, visit, context);
 }
 
-/* ---- Who may have passed whom ------------------------------------------------------------------------------------ */
+/* ---- Which bodies may have passed which -------------------------------------------------------------------------- */
 
 /* Where body k was on its way from home to t, from the first body's origin. */
 static void box_of_body(const sunder_i_search *s, const double *t, uint32_t k, double box[4])

@@ -86,7 +86,7 @@
 /* Capacity for constraints on the stack (constrain.c). */
 #define FEW_KNOWN 32
 
-/* ---- Who stands near whom (near.c) ------------------------------------------------------------------------------- */
+/* ---- Neighbours (near.c) ----------------------------------------------------------------------------------------- */
 
 /* Capacity for sorting bodies on the stack. */
 #define FEW_BODIES 64
@@ -263,7 +263,7 @@
         2, 8, 16                                                                                                       \
     }
 
-/* ---- A crowd of which few clash (mend_few.c) --------------------------------------------------------------------- */
+/* ---- A crowd with few clashes (mend_few.c) ----------------------------------------------------------------------- */
 
 /* A large crowd with at most one clash for this many bodies; each clash is then settled with this many bodies around
  * it. */
@@ -400,14 +400,14 @@
 #define SHAKE_WORK_MOST 100
 #define ONE_TURN 3
 
-/* ---- Who is in the way (blocking_neighbours.c) ------------------------------------------------------------------- */
+/* ---- Blocking neighbours (blocking_neighbours.c) ----------------------------------------------------------------- */
 
 /* Only bodies with this share of the cluster's cost, and for places this much nearer: a neighbour that joins makes the
  * cluster more expensive to solve. */
 #define COSTLY 0.1
 #define NEARER 0.9
 
-/* ---- Who stands about (surroundings.c) --------------------------------------------------------------------------- */
+/* ---- Surroundings (surroundings.c) ------------------------------------------------------------------------------- */
 
 /* A body looks this many times as far as it moved, or as the mean of its cluster did. */
 #define MOVES_ABOUT 3
