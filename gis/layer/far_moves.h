@@ -1,9 +1,9 @@
 /* far_moves.h: warns of moves that are longer than the layer is wide, if coordinates of it are corrupt.
  *
- * A coordinate is *sound* up to 2^43, where doubles hold it to a thousandth of a unit; beyond that a move is rounded
- * by more. The rule asks one feature at a time, so it is the same for a layer of two features and for one in parts. The
+ * A coordinate is *sound* up to 2^43, where doubles hold it to a thousandth of a unit; beyond that a move is rounded by
+ * more. The rule asks one feature at a time, so it is the same for a layer of two features and for one in parts. The
  * extent of the layer is the diagonal of the box of all features with sound coordinates only. A warning is given for
- * each feature that moves farther, in the order of the input; none if all features are sound, or none is: two features
+ * each feature that moves farther, in the order of the input. None if all features are sound, or none is: two features
  * in one place may have to move farther than a small layer is wide. */
 #ifndef GIS_FAR_MOVES_H
 #define GIS_FAR_MOVES_H

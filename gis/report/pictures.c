@@ -72,7 +72,7 @@ static bool add_path(picture_writer *writer, const char *class, double part, add
 /* How barriers are drawn, in one of the pictures' layers of paint. */
 typedef struct barrier_paint {
     const char *class, *wide_class; /* of lines as wide as `wide`; NULL: the same */
-    double wide, more;              /* units of the picture: as wide as they are and so much more */
+    double wide, more;              /* units of the picture: the stored width plus this */
     bool own_width;                 /* the path says how wide it is */
     double least_size;              /* smaller barriers are left out */
 } barrier_paint;

@@ -1,9 +1,9 @@
-/* What broke a rule on the way from one layer to another, whoever moved it.
+/* Which rules were broken between one layer and another, whatever moved the features?
  *
  * Features are matched by their places in the two layers. Each has to be a translate, as doubles hold it; its move is
- * then asked for its limit, with all others for the rule against jumps, and for the sides of barriers. No pair that is
- * in conflict afterwards may stand worse than it did. Blocks, limits and what is fixed are those of the layer as it
- * was. */
+ * then checked against its limit, together with all others against the rule against jumps, and against the sides of
+ * barriers. No pair that is in conflict afterwards may stand worse than before. Blocks, limits and fixed features are
+ * those of the layer before. */
 #include "displacement/layer/barrier_pairs.h"
 #include "displacement/layer/rounding.h"
 #include "displacement/report/report.h"
@@ -67,7 +67,7 @@ static sunder_status check_feature(comparison *c, uint32_t f, sunder_error *err)
     const double none[2] = {0, 0}, *t = c->move + 2 * (size_t)f;
     const bool there = was && !sunder_shape_is_empty(was), still = is && !sunder_shape_is_empty(is);
     c->translated[f] = there == still && (!there || sunder_i_move_between(was, is, c->move + 2 * f));
-    /* What was given is not what was written of a set that had to be repaired: then its move is not known. */
+    /* For a repaired set, the shape as given is not the one written: then its move is not known. */
     if (!c->translated[f] && there && still && sunder_shape_repaired(was)) return SUNDER_OK;
     if (!c->translated[f])
         return add(c, SUNDER_CONFLICT_NOT_A_TRANSLATE, f, SIZE_MAX) ? SUNDER_OK : sunder_i_no_memory(err);
@@ -112,7 +112,7 @@ static sunder_status tell_jump(comparison *c, uint32_t f, uint32_t g, sunder_err
     return SUNDER_OK;
 }
 
-/* Who crossed which sides; who jumped, and over whom: the one, or both over each other. */
+/* Crossed sides, and jumps of one feature over another, or of both. */
 static sunder_status check_ways(comparison *c, sunder_error *err)
 {
     c->jumps.ways.own = c->move;

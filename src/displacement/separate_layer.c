@@ -22,7 +22,7 @@
 /* Shares of the whole that are done, roughly: when bounds and pushes are known, and when proofs are. */
 #define BOUNDED 0.84
 #define PROVED 0.9
-/* How all pairs stand; movers_only: all of which not both are fixed. */
+/* Relates all pairs; movers_only: except pairs of two fixed ones. */
 static sunder_status relate(sunder_i_solver *s, bool movers_only, sunder_error *err)
 {
     if (!movers_only) return sunder_i_placement_relate(&s->model, &s->placement, NULL, &s->start, err);
@@ -96,7 +96,7 @@ static sunder_status work(sunder_i_solver *s, const sunder_layer *layer, const s
     return status;
 }
 
-/* To where it can be asked what proofs tell of it. */
+/* Prepares the layer up to the point where proofs can be asked for. */
 static sunder_status prepare_for_proofs(sunder_i_solver *s, const sunder_i_spared *list, sunder_error *err)
 {
     sunder_status status = sunder_i_inclusions_note_nested(&s->model, &s->start, err);
@@ -117,9 +117,9 @@ static sunder_status look_for_proof(sunder_i_solver *s, const sunder_i_spared *l
     return status;
 }
 
-/* A question about a conflict: a small layer of its own, of which nothing is reported. It is whether all of it has a
- * solution: a pair without one ends it, or a proof, or a cluster for which none is found, and nothing is given up or
- * improved. (Only who has to leave what it lies in finds that out by a search in vain.) */
+/* A question about a conflict: a small layer of its own, without a report. Does all of it have a solution? A pair
+ * without one, a proof, or a cluster without a result ends it, and nothing is given up or improved. (Only a feature
+ * that has to leave another one takes a failed search to find that out.) */
 static sunder_status work_briefly(const sunder_layer *layer, const sunder_layer_options *options,
                                   const sunder_i_id_pair *pair, size_t n, sunder_i_proof_found *proof,
                                   sunder_i_solver *s, sunder_error *err)
@@ -164,7 +164,7 @@ static sunder_status relate_last(sunder_i_solver *s, sunder_error *err)
     return status ? status : sunder_i_jumps_update(&s->jumps, &s->model, NULL, err);
 }
 
-/* Tells how far things are, if nothing went wrong so far. */
+/* Reports progress, if nothing failed so far. */
 static sunder_status reach(const sunder_i_solver *s, double fraction, sunder_status status, sunder_error *err)
 {
     if (status || sunder_i_progress(&s->model.rules, fraction)) return status;
@@ -214,8 +214,8 @@ static sunder_status fill_report(sunder_i_solver *s, sunder_report *report, sund
     return sunder_i_report_worlds(report, s, err);
 }
 
-/* All is related once more, the result is explained, and then it is asked whether it is true: that the pairs are what
- * was found is known since they were related. */
+/* Relates all pairs once more, explains the result, and then verifies it: that the pairs are as found is known since
+ * they were related. */
 static sunder_status conclude(sunder_i_solver *s, const sunder_layer_options *options, sunder_report *report,
                               double began, sunder_error *err)
 {

@@ -1,5 +1,5 @@
 /* Spools: what is read is what was put in, to the last bit; the order is one along the curve whatever is sorted at a
- * time; cells have the boxes of what is in them and are dealt in order; what was changed, cut off or is of another
+ * time. Cells have the boxes of what is in them and are dealt in order; what was changed, cut off or is of another
  * version is told. */
 #include <setjmp.h>
 #include <stdarg.h>

@@ -137,7 +137,7 @@ static bool forget_lots(looking *l, gis_error *error)
     return true;
 }
 
-/* ---- Who is within reach of whom --------------------------------------------------------------------------------- */
+/* ---- Neighbours -------------------------------------------------------------------------------------------------- */
 
 static bool keep_shape(void *user, const gis_spool_feature *feature, gis_error *error)
 {

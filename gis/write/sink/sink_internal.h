@@ -146,7 +146,7 @@ struct gis_sink {
     GDALDatasetH dataset; /* the one that holds all layers, unless each has its own */
     GDALDatasetH reader;  /* of a SQLite file in a transaction: holds everyone's commit back by its open result */
     OGRLayerH reading;
-    gis_leftover *journal; /* of the same: until the commit nothing is written into the file, and nobody needs it */
+    gis_leftover *journal; /* of the same: until the commit the file is not written, and nothing waits for it */
     bool in_transaction, published, set_date, set_rewind;
     gis_sink_layer **layers;
     size_t n_layers;

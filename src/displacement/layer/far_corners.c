@@ -1,16 +1,17 @@
-/* Corners out of all proportion: one vertex of a house or a road at 1e20, a line whose ends are at -1e300 and 1e300.
+/* Far corners: one vertex of a house or a road at 1e20, a line with ends at -1e300 and 1e300.
  *
- * The search reckons in doubles from an origin of each body. An origin at 1e20 leaves nothing of the other corners, a
- * line between two such corners passes kilometres beside where it is. So a body with a corner that is 2^20 times as far
- * from (0, 0) as its nearest place has *far corners*, and is seen from that place:
+ * The search computes in doubles relative to an origin of each body. An origin at 1e20 leaves nothing of the other
+ * corners, and a line between two such corners passes kilometres beside its true place. So a body with a corner that is
+ * 2^20 times as far from (0, 0) as its nearest point has *far corners*, and is represented relative to that point:
  *
- *     the origin         the corner that is nearest to (0, 0); where none of a line is near, the place of the line
- *     a far corner       goes, and its piece ends where the edges from near corners reach so far: convex still
- *     a far segment      of which both ends are far ends at places of it that are so far; they are the nearest doubles
- *                        but for some units
+ *     the origin         the corner nearest to (0, 0); for a line without near corners, its nearest place
+ *     a far corner       is dropped, and its piece ends where the edges from near corners reach that distance: it stays
+ *                        convex
+ *     a far segment      both its ends are far ends; they are replaced by its places at that distance, as the nearest
+ *                        doubles up to some units
  *
- * All of that depends on the body alone. It is for the search, and proofs that stand on such a piece allow for it;
- * exact questions and `sunder_i_piece_as_given()` see corners as given.
+ * All of that depends on the body alone. It is for the search, and proofs that use such a piece allow for it; exact
+ * questions and `sunder_i_piece_as_given()` use the corners as given.
  *
  *   pieces of three and more corners, none of them near    are drawn in towards the origin, whatever edges pass near:
  *                                                          the search does not see these, exact questions do */

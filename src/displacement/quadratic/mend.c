@@ -51,7 +51,7 @@ static bool mending_init(mending *m, sunder_i_quadratic *p)
     return m->ring && m->place && m->body && m->which && m->mass && m->part.t && m->part.constraint;
 }
 
-/* ---- Who takes part ---------------------------------------------------------------------------------------------- */
+/* ---- Participants ------------------------------------------------------------------------------------------------ */
 
 static bool moves(const mending *m, uint32_t body) { return body != SUNDER_I_GROUND && m->p->mass[body] > 0; }
 

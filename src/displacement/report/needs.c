@@ -1,10 +1,10 @@
-/* What would free a conflict that was left: a longer limit, a smaller gap, one feature less. Each is asked of a small
- * layer about it (question.c).
+/* What would solve a remaining conflict: a longer limit, a smaller gap, one feature less. Each question is answered by
+ * a small layer around it (question.c).
  *
- * In a crowd that has no room hardly any small layer has a solution, and there are thousands of conflicts: the pairs
- * of a cluster are asked about in turn until so much was asked in vain. And a question that is mostly in vain is put
- * to fewer and fewer of them. (One of a gap is answered beforehand where the result keeps one.) So what is known of a
- * pair is a matter of its cluster, never of the layer. */
+ * In a crowd without room hardly any small layer has a solution, and there are thousands of conflicts: the pairs of a
+ * cluster are examined in turn until the budget for failures is spent. And a kind of question that usually fails is
+ * asked for fewer and fewer of them. (A gap that the result keeps needs no question.) So what is reported of a pair
+ * depends on its cluster, never on the rest of the layer. */
 #include "displacement/layer/barrier_pairs.h"
 #include "displacement/layer/reads.h"
 #include "displacement/layer/resolution.h"
@@ -20,8 +20,8 @@
 
 /* ---- Questions in vain ------------------------------------------------------------------------------------------- */
 
-/* What may be asked in vain of a cluster yet: of which so many features take part, and each question by itself; proofs
- * that a question has no answer, too, which only spare looking for one. */
+/* The remaining budget of failures for a cluster: the number of features taking part, and the patience for each kind of
+ * question; also for proofs that a question has no answer, which only save the search for one. */
 typedef struct budget {
     uint64_t left;
     sunder_i_patience shift, gap, gone, proof;
@@ -29,7 +29,7 @@ typedef struct budget {
 
 /* ---- A gap that there is in the result --------------------------------------------------------------------------- */
 
-/* Is it asked what would free it? */
+/* Are its needs to be found? */
 static bool is_asked_about(const sunder_conflict *c) { return !c->inside_block && c->reason != SUNDER_REASON_KEPT; }
 
 /* Is the layer's gap owed between the two, and no other one of the barrier's own? */
@@ -38,8 +38,8 @@ static bool is_about_gap(const sunder_i_solver *s, const sunder_conflict *c)
     return c->b < s->model.features || s->layer.barrier[sunder_i_barrier_of(&s->model, (uint32_t)c->b)].gap < 0;
 }
 
-/* The gap that a conflict leaves where it stands: two that are nearer than the layer's have the one between them, and
- * beside a barrier what is left of it beyond the drawn width; -1: none. */
+/* The gap that a conflict keeps as it stands: the distance of two features nearer than the layer's gap, and beside a
+ * barrier the part of it beyond the drawn width; -1: none. */
 static double gap_of(const sunder_i_solver *s, const sunder_conflict *c)
 {
     if (c->depth > 0 || !is_about_gap(s, c)) return -1;
@@ -50,8 +50,8 @@ static double gap_of(const sunder_i_solver *s, const sunder_conflict *c)
     return c->distance - width - 0x1p-50 * (c->distance + c->required + gap);
 }
 
-/* The least gap of a pair and of all that are left of its two bodies: with that the result is a solution of it and its
- * neighbours, which need not be asked for. Only where it is one at all, and less than what is asked for. */
+/* The least gap kept by a pair and by all remaining pairs of its two bodies: for that gap the result solves it and its
+ * neighbours, without a question. Only if it is positive, and less than the gap asked for. */
 static sunder_status keep_what_there_is(const sunder_i_questions *g, sunder_error *err)
 {
     const sunder_i_model *model = &g->solver->model;
@@ -79,14 +79,14 @@ static sunder_status keep_what_there_is(const sunder_i_questions *g, sunder_erro
 
 /* ---- The three needs --------------------------------------------------------------------------------------------- */
 
-/* A question in vain. */
+/* A failed question. */
 static void note_in_vain(const sunder_i_surroundings *a, budget *left)
 {
     const uint64_t took = a->feature.n + a->part.n;
     left->left -= took < left->left ? took : left->left;
 }
 
-/* A question; one in vain takes of what is left as many features as took part. */
+/* A question; a failed one reduces the budget by the number of features that took part. */
 static sunder_status ask(const sunder_i_questions *g, const sunder_i_surroundings *a, const sunder_conflict *c,
                          const sunder_i_supposition *what, budget *left, sunder_i_answer *answer, sunder_error *err)
 {
@@ -110,7 +110,7 @@ static sunder_status need_shift(const sunder_i_questions *g, const sunder_i_surr
         const sunder_status status = ask(g, a, c, &what, left, &answer, err);
         if (status) return status;
         if (k == 0) sunder_i_patience_note(&left->shift, answer.yes);
-        /* One unit above what is rounded once holds the move. */
+        /* A value rounded once is covered by one unit in the last place more. */
         if (answer.yes)
             c->need_shift = sunder_i_min(c->need_shift, nextafter(answer.longest, INFINITY));
         else if (k == 0)
@@ -158,10 +158,10 @@ static sunder_status least_for_gap(const sunder_i_model *model, const sunder_con
     return status;
 }
 
-/* The largest gap up to `most` that the two can keep within their limits if they were alone, to within `step`: the
- * pair can keep *does, and no gap larger than *above. The least move that leaves a gap g is as a rule as long as the
- * one that parts them and g more: so the next g is what the limits leave of the last move, and mostly the second one
- * it is. */
+/* The largest gap up to `most` that the two could keep within their limits by themselves, to within `step`: the pair
+ * can keep *does, and no gap larger than *above. The least move that leaves a gap g is usually g longer than the one
+ * that separates the two: so the next g is what the limits leave after the last move, and usually the second is
+ * right. */
 static sunder_status gap_of_pair(const sunder_i_model *model, const sunder_conflict *c, double most, double step,
                                  double *does, double *above, sunder_error *err)
 {
@@ -193,8 +193,8 @@ static bool are_alone(const sunder_i_model *model, const sunder_i_surroundings *
     return alone;
 }
 
-/* What is asked about one conflict; high: no larger gap is asked about any more; all: what few are listed besides are
- * solved in all answers, too. */
+/* The questions about one conflict; high: no larger gap is examined any more; all: all answers also solve the few other
+ * listed pairs. */
 typedef struct asked {
     const sunder_i_questions *questions;
     const sunder_i_surroundings *about;
@@ -227,7 +227,7 @@ static void look_ahead_no_more(asked *g)
     g->foresight = NULL;
 }
 
-/* Makes the layer of which it is asked what can be proved, unless it is made. */
+/* Makes the layer for proofs, if it is not made yet. */
 static sunder_status look_ahead(asked *g, bool all, sunder_error *err)
 {
     if (g->foresight && g->foresight_of_all == all) return SUNDER_OK;
@@ -238,8 +238,8 @@ static sunder_status look_ahead(asked *g, bool all, sunder_error *err)
     return sunder_i_foresight_init(g->foresight, g->questions, g->about, g->conflict, all, err);
 }
 
-/* Narrows what the largest gap may be, as proofs have it, to `step`: low does, or might; high does not, or nothing is
- * known of it. What they refute is asked about no more. */
+/* Narrows the interval of the largest gap by proofs, to `step`: low is kept, or may be; high is not, or nothing is
+ * known of it. Gaps that they refute are not examined any more. */
 static sunder_status narrow(asked *g, bool in_plane, double step, double *low, double high, sunder_error *err)
 {
     sunder_status status = SUNDER_OK;
@@ -426,8 +426,8 @@ typedef struct asking {
     uint64_t most;       /* may be asked in vain of one */
 } asking;
 
-/* Of a crowd that has its answer as a whole few are asked about by themselves: what they need besides is found for some
- * of them only, but most have nobody who could leave, and no shorter way. */
+/* If a crowd has an answer as a whole, few of its pairs are examined by themselves: the other needs are then found for
+ * some of them only, but most have no feature to remove, and no shorter limit. */
 static sunder_i_patience patience_for(const asking *g, size_t cluster)
 {
     bool known = false;
@@ -459,7 +459,8 @@ static int by_matter(const void *a, const void *b)
     return (p->conflict > q->conflict) - (p->conflict < q->conflict);
 }
 
-/* What is asked about, cluster after cluster; first: where each begins, and the end. Returns how many clusters. */
+/* The conflicts to examine, cluster after cluster; first: where each cluster begins, and the end. Returns the number of
+ * clusters. */
 static size_t group(const sunder_i_solver *s, const sunder_report *report, matter *list, size_t *first)
 {
     const sunder_i_model *model = &s->model;

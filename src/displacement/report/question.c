@@ -1,14 +1,14 @@
-/* A question about a conflict that was left is a layer of its own, solved like any other:
+/* A question about a remaining conflict is a layer of its own, solved like any other:
  *
- *     the two bodies, and those about them, where they came from    as given, but for what is asked
- *     whoever stands about these                                    where they stand in the result, and stays there
+ *     the two bodies, and those around them, at their original places    as given, except for what is asked
+ *     all features around these                                          as in the result, and fixed
  *
- * and the answer is yes if nothing that moves there is left in conflict but pairs that are in the result, too, and are
- * no worse than they stood. None came to where somebody might be whom that layer does not know, and none jumps over
- * anybody as all of them moved. So what is said has a solution: with all others as in the result, the pair is solved,
- * and its neighbours are as is owed to them. That a smaller change would not do is not said. Neighbours are few, and so
- * are the questions; what it costs grows with the number of conflicts, and a conflict's answers depend on what stands
- * about it alone. */
+ * and the answer is yes if no movable body of it is left in conflict, except for pairs that are in conflict in the
+ * result, too, and are no worse than at the start. If none moved to a place where a feature might be that this layer
+ * does not have; and if none jumps over another. So a reported need has a solution: with all others as in the result,
+ * the pair is solved, and its neighbours keep what is owed to them. A smaller change may suffice. Neighbours are few,
+ * and so are the questions; the cost grows with the number of conflicts, and the answers for a conflict depend on its
+ * surroundings alone. */
 #include "displacement/report/question.h"
 #include "displacement/layer/barrier_pairs.h"
 #include "displacement/layer/reads.h"
@@ -25,7 +25,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- Who takes part ---------------------------------------------------------------------------------------------- */
+/* ---- Participants ------------------------------------------------------------------------------------------------ */
 
 void sunder_i_surroundings_clear(sunder_i_surroundings *surroundings)
 {
@@ -64,7 +64,7 @@ static bool look_about(const sunder_i_solver *s, uint32_t feature, double reach,
     return true;
 }
 
-/* Unless there are enough: two, and so many features. */
+/* Unless there are enough: the two, and the features around them. */
 static bool take_in(const sunder_i_model *model, uint32_t body, sunder_i_list *moving)
 {
     size_t features = model->body[body].members;
@@ -116,8 +116,8 @@ static sunder_status take_part(const sunder_i_solver *s, sunder_i_surroundings *
     return status;
 }
 
-/* The longer of the two features' moves so far: the answer may be a little longer. 0 beside barriers, where the gap
- * that is owed includes the drawn width and a larger surroundings would only take longer. */
+/* The longer of the two features' present moves: the answer may be a little longer. 0 beside barriers, where the gap
+ * owed includes the drawn width, and larger surroundings would only take longer. */
 static double gone_already(const sunder_i_model *model, const sunder_conflict *c)
 {
     if (c->b >= model->features) return 0;
@@ -266,7 +266,7 @@ static sunder_status cross(const sunder_i_model *model, uint32_t f, const double
     return status;
 }
 
-/* In that layer all who stand do so from the beginning. As they moved, is there a jump, or is a side crossed? */
+/* In that layer fixed features are so from the beginning. Is there a jump over one, or is a side crossed? */
 static sunder_status find_jump(const sunder_i_questions *g, const sunder_i_surroundings *a, const sunder_i_solver *x,
                                uint32_t gone, bool *jumps, sunder_error *err)
 {
@@ -313,7 +313,7 @@ static sunder_status set_barriers(const sunder_i_solver *s, const sunder_i_surro
     return status;
 }
 
-/* Of what moves those of the layer, which knows more barriers. */
+/* The sides crossed by movable features in the whole layer, which has more barriers. */
 static sunder_status set_side_anchors(const sunder_i_model *model, const sunder_i_surroundings *a, sunder_layer *layer,
                                       sunder_error *err)
 {
@@ -346,7 +346,7 @@ static bool spare_pair(const sunder_i_questions *g, const sunder_i_surroundings 
     return true;
 }
 
-/* What is listed besides the pair that is asked about, and may stay so; sorted. */
+/* The other listed pairs, which may stay in conflict; sorted. */
 static bool list_spared(const sunder_i_questions *g, const sunder_i_surroundings *a, const sunder_conflict *c,
                         uint32_t gone, sunder_i_id_pair **list, size_t *n)
 {
@@ -417,7 +417,7 @@ static sunder_status ask_sparing(const sunder_i_questions *g, const sunder_i_sur
         sunder_i_solver_free(&x);
     }
     sunder_layer_free(layer);
-    /* A solution is no proof in vain: nobody looked for it in vain. */
+    /* A question with a solution does not count as a failed search for a proof. */
     if (found == SUNDER_I_PROOF_FOUND || (found == SUNDER_I_PROOF_IN_VAIN && !answer->yes))
         sunder_i_patience_note(proof, found == SUNDER_I_PROOF_FOUND);
     return status;
@@ -434,8 +434,8 @@ sunder_status sunder_i_few_are_listed(const sunder_i_questions *questions, const
     return ok ? SUNDER_OK : sunder_i_no_memory(err);
 }
 
-/* Few that are listed besides are asked to be solved, too. Where that has no solution and need not have one, or where
- * they are many, as beside roads, they are left alone. */
+/* A few other listed pairs are to be solved, too. If that has no solution and is not required, or if they are many, as
+ * beside roads, they may stay. */
 sunder_status sunder_i_ask(const sunder_i_questions *questions, const sunder_i_surroundings *surroundings,
                            const sunder_conflict *conflict, const sunder_i_supposition *what, sunder_i_patience *proof,
                            sunder_i_answer *answer, sunder_error *err)

@@ -13,8 +13,8 @@ typedef struct sunder_i_surroundings {
     size_t moving;
     sunder_feature *as;      /* [feature.n] how each takes part */
     sunder_shape **standing; /* [feature.n] owned shapes, of those that moved; else NULL */
-    double known[4];         /* whoever reaches into this box is among them */
-    double farthest;         /* nobody may go farther than this */
+    double known[4];         /* all features that reach into this box are among them */
+    double farthest;         /* no feature may go farther than this */
 } sunder_i_surroundings;
 
 typedef struct sunder_i_questions {
@@ -23,13 +23,13 @@ typedef struct sunder_i_questions {
     const sunder_layer_options *options;
     sunder_i_solve_layer solve;
     int halvings;  /* between what does and what does not */
-    size_t leaves; /* of those in the way, by turns */
+    size_t leaves; /* features in the way, in turn */
 } sunder_i_questions;
 
-/* What is asked: a limit for all that move, the gap, and who is gone. */
+/* The question: a limit for all movable features, the gap, and a removed feature. */
 typedef struct sunder_i_supposition {
     double limit, gap;
-    uint32_t gone; /* SUNDER_I_NOBODY: nobody */
+    uint32_t gone; /* SUNDER_I_NOBODY: none */
     bool all;      /* few that are listed besides have to be solved, too */
 } sunder_i_supposition;
 
@@ -39,7 +39,7 @@ typedef struct sunder_i_answer {
     double refuted; /* else no gap above this has one, roughly: what is known without asking again */
 } sunder_i_answer;
 
-/* Who takes part in questions about a conflict. To be cleared, also on failure. */
+/* The participants of questions about a conflict. The caller clears it, also after a failure. */
 sunder_status sunder_i_surround(const sunder_i_solver *solver, const sunder_conflict *conflict,
                                 sunder_i_surroundings *surroundings, sunder_error *err);
 void sunder_i_surroundings_clear(sunder_i_surroundings *surroundings);
@@ -53,9 +53,9 @@ sunder_status sunder_i_ask(const sunder_i_questions *questions, const sunder_i_s
 
 /* ---- What proofs tell of smaller gaps ---------------------------------------------------------------------------- */
 
-/* A question about a conflict with the layer's gap and limits, of which nothing is solved: it is only asked what can be
- * proved of it with a smaller gap, or without one of its things. That takes a small part of what solving takes, and
- * what one such question tells is of use in the next. */
+/* A question about a conflict with the layer's gap and limits that is not solved: it only serves proofs, with a smaller
+ * gap, or without one of its features. That takes a small part of the work of solving, and results of one such question
+ * help the next. */
 typedef struct sunder_i_foresight {
     sunder_layer *layer;
     sunder_i_solver solver;

@@ -5,39 +5,38 @@
 
 /* ---- Proofs that there is no room (no_room.c) -------------------------------------------------------------------- */
 
-/* Effort, in constraints looked at (some hundred million a second). Searches that found no proof may take so much
- * together for all conflicts of a cluster, and so much for each of its bodies; what found one is not counted. */
+/* Effort, in constraints looked at (some hundred million a second). Searches without a result may together take EFFORT
+ * for all conflicts of a cluster, plus EFFORT_EACH for each of its bodies; successful ones are not counted. */
 #define EFFORT 20000000u
 #define EFFORT_EACH 10000u
-/* One conflict is allowed so much at first, if all that ends it is its effort eight times as much then, and so on, up
- * to the most. No more bodies than these take part in one: of all proofs found in the tests none had more
- * than 20. */
+/* One conflict gets FIRST_EFFORT at first; if it runs out, GROWTH times as much, and so on, up to MOST_EFFORT. At most
+ * MOST_BODIES bodies take part: no proof found in the tests had more than 20. */
 #define FIRST_EFFORT 10000u
 #define GROWTH 8
 #define MOST_EFFORT 8000000u
-/* After so many of a cluster, one after the other, of which more than the first effort tells nothing, no more are asked
- * about; after half as many, where that is eight times as much again, and so on. Terraces of 32 houses that have no
- * room for 18 of their pairs, each pair asked to the end of all effort, took a second each. */
+/* After this many conflicts of a cluster in a row without an answer at the second level of effort, no more are
+ * examined; after half as many at the third level, and so on. Terraces of 32 houses without room for 18 of their pairs,
+ * each pair examined with the full effort, took a second each. */
 #define PROOFS_IN_VAIN 32
-/* The same where the first effort told nothing of all, if they are so many. */
+/* The same if the first level gave no answer at all, for at least ALL_IN_VAIN conflicts. */
 #define ALL_IN_VAIN 64
 #define PROOFS_IN_VAIN_OF_CROWD 8
-/* And after so many of which the first effort tells nothing: in a field of 5,000 squares that have nowhere to go the
- * first effort of all its 17,000 conflicts took a second and a half. */
+/* And after this many without an answer at the first level: in a field of 5,000 squares without room the first level of
+ * all its 17,000 conflicts took a second and a half. */
 #define PROOFS_IN_VAIN_AT_FIRST 1024
-/* For each unit of --effort, up to so many, a cluster and one conflict are allowed so many times as much more. */
+/* For each unit of --effort, up to MORE_UP_TO, the effort of a cluster and of one conflict grows by this factor. */
 #define MORE_EFFORT 5
 #define MORE_UP_TO 1000
 #define MOST_BODIES 64
 /* What lines may be short by at first, as a share of how far two features may go. Tried at this value only. */
 #define COARSE 0x1p-8
-/* Chains of up to so many links are made irreducible as other proofs are. */
+/* Chains of up to this many links are made irreducible like other proofs. */
 #define REDUCED_LINKS 12
 /* Making a proof irreducible takes no more than this many times what finding it was allowed, or a little. */
 #define REDUCING 4
 #define LITTLE_EFFORT 1000000u
-/* Of all proofs together that pairs of a cluster are of a crowd (no_room.c) no more than this, and so much for each of
- * its bodies; of one question so much. */
+/* Effort for all proofs together that pairs of a cluster are crowded (no_room.c), for each of its bodies, and for one
+ * question. */
 #define CROWD_REDUCING 20000000u
 #define CROWD_REDUCING_EACH 30000u
 #define CROWD_EFFORT 30000u
@@ -58,13 +57,13 @@
 
 /* ---- What areas prove (area_bounds.c) ---------------------------------------------------------------------------- */
 
-/* Parts of so many bodies at least are asked, of which less than this share of the cost is proved. */
+/* Parts with at least this many bodies, and less than this share of the cost proved, are examined. */
 #define AREAS_FEWEST 4
 #define AREAS_ASKED 0.9
 
 /* ---- Trees for the bound of pairs (pair_trees.c) ----------------------------------------------------------------- */
 
-/* So much of the weights is left over, for rounding; steps for each pair. */
+/* The share of the weights left for rounding; and the steps for each pair. */
 #define SHARED 0x1p-40
 #define PAIR_STEPS 1000000u
 /* Trees of pairs prove less than the pairs by some 2^-31 of it: where these prove more than groups by no more than this
@@ -79,17 +78,18 @@
 
 /* ---- What would free a conflict (needs.c) ------------------------------------------------------------------------ */
 
-/* So many features move in a question at most, the two apart: it takes some milliseconds then. */
+/* Features that move in a question, including the pair: it then takes some milliseconds. */
 #define NEED_MOVING 8
-/* Up to so many pairs that are left besides are first asked to be solved, too. */
+/* Up to this many other remaining pairs are at first to be solved, too. */
 #define NEED_ALL 1
-/* Nothing is asked about larger blocks. */
+/* No questions about larger blocks. */
 #define NEED_MOST 24
-/* They may go so many gaps and so many times what the pair lacks, and who stands within that takes part. */
+/* They may move this many gaps plus this many times the pair's violation, and features within that distance take
+ * part. */
 #define NEED_GAPS 4
 #define NEED_MISSING 4
-/* For each unit of effort, up to so many, what lies between what does and what does not is halved once, and so many of
- * those in the way are let go by turns. */
+/* For each unit of effort, up to NEED_EFFORT, the interval between a sufficient and an insufficient value is halved
+ * once, and NEED_GONE of the features in the way are removed, one at a time. */
 #define NEED_EFFORT 16
 #define NEED_GONE 2
 /* A gap that would do is looked for to within this part of the gap asked for. Where neighbours are about, proofs narrow
@@ -105,28 +105,28 @@
  * a gap that is smaller by the first share, and with moves that are shorter by the second. */
 #define NEED_LESS 0x1p-16
 #define NEED_SHORTER 0x1p-32
-/* So many moves of two features by themselves are looked at for it. */
+/* Moves of two features by themselves that are examined for it. */
 #define PAIR_GAP_ROUNDS 24
-/* For each unit of effort so many features may take part in questions about a cluster that are in vain: seconds. */
+/* For each unit of effort, the features that may take part in failed questions about a cluster: seconds. */
 #define NEED_IN_VAIN 200000u
-/* So many pairs of a cluster are asked in vain what limit they need, or whose leaving, before fewer of them are; one
- * that has an answer makes good so many. On real layers with roads no more than 24 were asked in vain before one that
- * had an answer; of a town of terraces one in 16 pairs has one. */
+/* Failed questions about limits, or about features to remove, for a cluster before fewer are asked; one with an answer
+ * earns NEED_REGAINED back. On real layers with roads at most 24 failed before one that had an answer; in a town of
+ * terraces one in 16 pairs has one. */
 #define NEED_PATIENCE 32
 #define NEED_REGAINED 4
-/* The same of a crowd of which a layout tells what limit it needs, where answers make good nothing. Of 6,900 pairs of
- * terraces all were asked before, in 23 s: 97 do with less than the crowd, 1,100 with a larger gap, and 600 if somebody
- * leaves. */
+/* The same for a crowd whose layout gives the limit that it needs; answers earn nothing back there. Before, all of
+ * 6,900 pairs of terraces were examined, in 23 s: 97 need less than the crowd, 1,100 have a larger gap, and 600 are
+ * solved if a feature is removed. */
 #define CROWD_PATIENCE 4
 
-/* So many proofs that there is no solution are looked for in vain, of a cluster and one after the other, before fewer
- * are. Beside roads eleven of twelve questions without a solution have one, and it takes a hundredth of the search; of
- * a town of terraces three of 254, and to look for them took a third of all time that questions took. */
+/* Failed searches, in a row for a cluster, for proofs that there is no solution, before fewer are made. Beside roads
+ * eleven of twelve questions without a solution have such a proof, and it takes a hundredth of the search. In a town of
+ * terraces three of 254 have, and the searches took a third of the time of all questions. */
 #define PROOF_PATIENCE 8
 
-/* By so much more than has to be, as a share, a cluster is stretched (spread_out.c): what roundings take. */
+/* A cluster is stretched by this share more than necessary (spread_out.c), to cover rounding. */
 #define SPREAD_MARGIN 0x1p-20
-/* It takes so many times its bodies with it, and so many. */
+/* It includes at most this many times its bodies, and this many. */
 #define SPREAD_TIMES 8
 #define SPREAD_MOST 256
 

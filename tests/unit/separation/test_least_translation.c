@@ -478,7 +478,7 @@ static void memory_runs_out(void **state)
     sunder_set_allocator(NULL, NULL, NULL);
 }
 
-/* A bound that is asked for without the translation is the one that comes with it; and it matters to neither whether
+/* A bound that is asked for without the translation is the one that comes with it. It matters to neither whether
  * coordinates are short, or as long as those of a map, whose numbers go another way onto the lattice. */
 static void bound_alone(void **state)
 {

@@ -1,9 +1,9 @@
-/* A contact group: what is proved of it, and what its branching finds.
+/* A contact group: the bound proved for it, and what its branch and bound finds.
  *
- * Any layout costs at least the sum over disjoint groups of what each alone cannot do without. So a group whose layout
- * costs what is proved of it cannot be bettered, wherever the others go. What a branching finds that is cheaper goes
- * down from there to where it is free of all neighbours, as they stand, and is taken. If it runs into one the two
- * belong together. What the branching does not end with is bounded by blocks (blocks.c). */
+ * Any layout costs at least the sum, over disjoint groups, of the bound of each. So a group whose layout costs as much
+ * as its bound cannot be improved, wherever the others go. A cheaper layout found by branching descends from there
+ * until it is free of all neighbours, as they stand, and is taken. If it runs into another group the two belong
+ * together. Groups where branching does not complete are bounded by blocks (blocks.c). */
 #include "displacement/prove/optimum/optimum.h"
 #include "displacement/prove/optimum/blocks.h"
 #include "displacement/prove/optimum/tree.h"
@@ -40,10 +40,9 @@ static double cost_of(const sunder_i_model *model, const uint32_t *body, size_t 
     return cost * (1 + ((double)n + 8) * 0x1p-50);
 }
 
-/* What is to be proved of a group that costs so much: less than that by half of what still counts as optimal, and by
- * what a small part of the gap amounts to; or, where that is 0, of the least that moves. (What stands may be a road,
- * miles long.) No length that is not the layer's own takes part, so that a layer on another scale gets the same moves.
- */
+/* The bound to be proved for a group of this cost: the cost less half of what still counts as optimal, and less a small
+ * part of the gap or, if that is 0, of the smallest movable body. (A fixed one may be a road, miles long.) Only lengths
+ * of the layer itself are used, so that a layer on another scale gets the same moves. */
 static double goal_of(const sunder_i_model *model, const sunder_i_group *g)
 {
     double length = INFINITY, weight = 0;
@@ -79,7 +78,7 @@ static sunder_status settle(const sunder_i_model *model, const sunder_i_waived *
     return SUNDER_OK;
 }
 
-/* Takes what is cheaper, with the guests that moved. */
+/* Takes the cheaper layout, with the guests that moved. */
 static sunder_status attempt(const sunder_i_model *model, const sunder_i_waived *waived, sunder_i_group *g,
                              const uint32_t *body, const double *t, size_t n, bool tight, bool *better,
                              sunder_error *err)
@@ -130,8 +129,8 @@ static bool blocks_are_dear(const sunder_i_tree *tree, uint64_t steps)
     return tree->pair_steps > steps / BLOCKS_ASKED;
 }
 
-/* The tree of a large group that has taken `taken` of the steps: how many it may take in all, which is no more where it
- * promises nothing. At a higher effort it takes no fewer than at effort 1. */
+/* The total steps for the tree of a large group that has taken `taken` of them: no more if it promises nothing. At a
+ * higher effort it gets at least those of effort 1. */
 static uint64_t steps_of_large(const sunder_i_tree *tree, uint64_t taken, uint64_t steps)
 {
     const double share = taken ? sunder_i_tree_bound(tree) / tree->task.goal : 0;
@@ -181,7 +180,7 @@ static bool keep_guests(sunder_i_group *g, const sunder_i_tree *tree, size_t fro
     return true;
 }
 
-/* Blocks are asked in earnest only where a quick look at them proves so much: of what is small enough for a tree that
+/* Blocks are evaluated fully only if a quick trial proves at least this much: for a group small enough for a tree that
  * ended without a proof they seldom prove more than the tree. */
 static sunder_status look_at_blocks(const sunder_i_model *model, const sunder_i_waived *waived, const sunder_i_group *g,
                                     double enough, uint64_t steps, bool *promising, sunder_error *err)
@@ -211,8 +210,8 @@ static sunder_status prove_blocks(const sunder_i_model *model, const sunder_i_wa
     return status;
 }
 
-/* Blocks of a crowd: a look at them proves most of what they can; where it proves little, it was too short for as many
- * pieces as they have. */
+/* Blocks of a crowd: a quick trial proves most of what they can; if it proves little, it was too short for their number
+ * of pieces. */
 static sunder_status prove_crowd(const sunder_i_model *model, const sunder_i_waived *waived, sunder_i_group *g,
                                  uint64_t steps, sunder_error *err)
 {
@@ -221,9 +220,8 @@ static sunder_status prove_crowd(const sunder_i_model *model, const sunder_i_wai
     return prove_blocks(model, waived, g, steps, err);
 }
 
-/* Blocks of a part, in earnest only where a quick look at them proves a good share of what it costs: where all have
- * come far, since everybody pushes, what few of them cannot do without is next to nothing, however long they are
- * asked. */
+/* Blocks of a part, evaluated fully only if a quick trial proves a good share of its cost: where all bodies have moved
+ * far, pushed by all others, few of them by themselves can be bounded only weakly, at any effort. */
 static sunder_status prove_part(const sunder_i_model *model, const sunder_i_waived *waived, const sunder_i_group *part,
                                 uint64_t steps, double *bound, sunder_i_bound_trees *trees, sunder_error *err)
 {
@@ -283,8 +281,8 @@ static bool is_small(const proving *x) { return x->movers <= BRANCHED; }
 
 static bool is_worth_blocks(const proving *x) { return x->movers > FEW && !x->asked; }
 
-/* Of a group that costs little more than when everything was asked of it (it was put back by a rounding error, or has
- * lost or won a few bodies) neither blocks nor parts are asked again. */
+/* If a group costs little more than when it was fully examined (it was put back by a rounding error, or has lost or won
+ * a few bodies), neither blocks nor parts are evaluated again. */
 static sunder_status prove_in_parts(proving *x, uint64_t steps, sunder_error *err)
 {
     x->over = true;

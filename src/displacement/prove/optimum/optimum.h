@@ -25,8 +25,8 @@ typedef struct sunder_i_layout_search {
                            uint64_t steps, sunder_error *err);
 } sunder_i_layout_search;
 
-/* Bodies that are in contact in a layout, and what is proved of them. No other group has a body of it that may move, so
- * that the bounds of all groups add up. */
+/* Bodies that are in contact in a layout, and what is proved of them. No movable body is in two groups, so the bounds
+ * of all groups add up. */
 typedef struct sunder_i_group {
     uint32_t *body; /* [n] ascending; fixed ones that are touched too; owned */
     size_t n;
@@ -34,8 +34,8 @@ typedef struct sunder_i_group {
     const sunder_i_layout_search *search;
     double margin;        /* what is demanded of a layout beyond the gap, to cover rounding */
     double *move;         /* [2 * n] as they stand; better ones, rounded, where such are found; owned */
-    double cost, bound;   /* of the moves, rounded upwards; what no layout beats, rounded downwards */
-    double asked;         /* what it cost when all that is of use was asked of those whose bound it has */
+    double cost, bound;   /* of the moves, rounded upwards; a proved lower bound, rounded downwards */
+    double asked;         /* its cost when the groups whose bounds it has were fully examined */
     double shaken_at;     /* what it cost when it, or those it is made of, were shaken with all the steps */
     bool held;            /* its moves are to stay */
     bool tight, blunt;    /* its moves leave no room for rounding; such did not hold, and are not looked for again */
@@ -60,12 +60,12 @@ bool sunder_i_tight_place(const sunder_i_model *model, const sunder_i_waived *wa
                           double margin, double *move, bool *found);
 /* *may: their coordinates have a common step, so that there may be such places. False if memory is out. */
 bool sunder_i_may_be_tight(const sunder_i_model *model, const uint32_t *body, size_t n, bool *may);
-/* crowded.c: are so many pairs of its bodies left in conflict that neither shaking nor a tree is of any use? */
+/* crowded.c: are enough pairs of its bodies left in conflict that neither perturbation nor a tree is of any use? */
 bool sunder_i_group_is_crowded(const sunder_i_model *model, const sunder_i_waived *waived, const sunder_i_group *group);
 /* Pairs of its bodies that are left in conflict. */
 size_t sunder_i_group_listed(const sunder_i_model *model, const sunder_i_waived *waived, const sunder_i_group *group);
-/* free_crowd.c: may all of so many bodies go anywhere, and owe every two each other the gap, so that the report will
- * ask for prices of area? Then what these prove of the group alone: *bound. */
+/* free_crowd.c: is the group large, without limits, and do all its pairs owe each other the gap, so that the report
+ * will use prices of area? If so, the bound that these prove for the group alone: *bound. */
 bool sunder_i_group_is_free_crowd(const sunder_i_model *model, const sunder_i_waived *waived,
                                   const sunder_i_group *group);
 sunder_status sunder_i_group_ask_prices(const sunder_i_model *model, const sunder_i_group *group, double *bound,

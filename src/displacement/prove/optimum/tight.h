@@ -33,7 +33,7 @@ typedef struct sunder_i_tight {
     size_t corners;
 } sunder_i_tight;
 
-/* ---- tight_step.c: how far apart places are, and who takes part -------------------------------------------------- */
+/* ---- tight_step.c: the step of coordinates, and the participants ------------------------------------------------- */
 
 /* One more body, which stands there. */
 bool sunder_i_tight_add(sunder_i_tight *f, uint32_t body, const double t[2]);

@@ -92,7 +92,7 @@ size_t sunder_i_chain_ways(sunder_i_branching *branching, size_t n, double reach
     return n + 1;
 }
 
-/* ---- Who is linked to whom --------------------------------------------------------------------------------------- */
+/* ---- Links ------------------------------------------------------------------------------------------------------- */
 
 static uint32_t *find(const sunder_i_chains *g, uint32_t body)
 {

@@ -2,16 +2,16 @@
  *
  * The shadow O = { s k : k in K, s >= 1 } of a convex K that does not contain the origin is closed, convex, and bounded
  * by the sides of K that face the origin and by two rays. As in half_planes.c: if half-planes contain every point of
- * that boundary, the set of points in none of them is convex and misses it; so if one of its points is in O, all are,
+ * that boundary, the set of points in none of them is convex and misses it. So if one of its points is in O, all are,
  * and every point outside O, or on its boundary, is in one of the half-planes.
  *
  * A side that faces the origin, or seems to, gives n.u >= d with d at most n.P and n.Q, whatever n. A ray from the
  * corner L consists of all s L, s >= 1: so its line goes through the origin (d = 0), and n is tilted towards L until
- * n.C > 0 for every corner C that may be the true tangent corner in place of L, each in its direction up to rounding;
- * and for the sides between the two, which lie between such corners.
+ * n.C > 0 for every corner C that may be the true tangent corner in place of L, each in its direction up to rounding.
+ * For the sides between the two, which lie between such corners.
  *
  * Rounding: corners of K are off by less than the slack of half_planes.c in each coordinate. Two corners that are taken
- * for one direction, although their cross product has the other sign, satisfy that by at most 4 slack (|C| + |L|); so C
+ * for one direction, although their cross product has the other sign, satisfy that by at most 4 slack (|C| + |L|). So C
  * is beside the line of L by at most 8 slack (1 + |C| / |L|), which is less than the tilt times |C| where that is 2^6
  * slack / m, m the least distance of a corner. If m is below 2^16 slack, there is no answer. */
 #include "displacement/geometry/obstacle_shadow.h"

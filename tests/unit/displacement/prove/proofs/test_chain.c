@@ -1,5 +1,5 @@
 /* displacement/proofs/chain: of a long row each pair that is left is proved to have no room, by the fewest links, in
- * steps that grow with the row and no faster; and the one line for what several ways have in common. */
+ * steps that grow with the row and no faster. The one line for what several ways have in common. */
 #include "polyset.h"
 #include "scene_model.h"
 
