@@ -5,8 +5,8 @@
 #   site.sh FOLDER [MANUAL]      replaces FOLDER; MANUAL has the manual pages of single commands, which a build makes;
 #                                `cmake --build build/release --target docs` calls it
 #
-# Links from page to page become links to .html; what is linked to and is no page (pictures, scripts, sources) is copied to
-# the place that it has in the repository. tests/docs/test_site.sh looks for links that lead nowhere.
+# Links from page to page become links to .html. Linked files that are no pages (pictures, scripts, sources) are copied
+# to the place that they have in the repository. tests/docs/test_site.sh looks for links that lead nowhere.
 set -euo pipefail
 [ $# -eq 1 ] || [ $# -eq 2 ] || { sed -n '2,9s/^# \{0,1\}//p' "$0" >&2; exit 2; }
 source=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd -P)

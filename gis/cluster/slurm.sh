@@ -52,7 +52,7 @@ submit() {
     job=${job%%;*} # of several clusters its name follows
 }
 
-# So much, with room for another machine; whole megabytes, whole minutes.
+# The estimates with a margin for other machines, in whole megabytes and whole minutes.
 megabytes() { awk -v bytes="$1" 'BEGIN { printf "%d", bytes / 1048576 * 1.25 + 64 }'; }
 minutes() { awk -v s="$1" -v slow="${SUNDER_SLOW:-4}" 'BEGIN { printf "%d", s * slow / 60 + 10 }'; }
 

@@ -1,4 +1,5 @@
-# Where the project is found, and who answers. All are empty until a release is published; none is invented. Whoever
+# The addresses of the project, and of its maintainer. All are empty until a release is published; none is invented.
+# Whoever
 # publishes fills them in here, or passes -DSUNDER_HOMEPAGE=https://... and so on. From here they go into packages,
 # pkg-config's file and the plug-in; `cmake -P gis/package/fill_addresses.cmake` writes them into README.md and
 # SECURITY.md. What is empty is left out.

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Buffers beside their peers in the same run: GEOS (buffer with 8 quadrant segments beside our 32-gon, mitred beside the square;
-# unary union) and CGAL (the best of its Minkowski sums; join), compute only; huts closed and opened by discs of 8 to 128
-# segments; then whole programs, and opening and closing a large outline.
+# Buffers beside their peers in the same run: GEOS (buffer with 8 quadrant segments beside our 32-gon, mitred beside the
+# square; unary union) and CGAL (the best of its Minkowski sums; join), compute only. Then huts closed and opened by
+# discs of 8 to 128 segments, whole programs, and opening and closing of a large outline.
 #
 #   buffers.sh [each] [dissolve] [huts] [programs] [coast]     all unless some are named
 #

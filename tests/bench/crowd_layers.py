@@ -1,4 +1,4 @@
-"""Layers of which nearly everything is in conflict: crowds for DISPLACEMENT.md.
+"""Layers in which nearly all features are in conflict: crowds for DISPLACEMENT.md.
 
     /usr/bin/python3 crowd_layers.py terraces OUT.gpkg N    N houses back to back in blocks of 2 x 16, that share walls
     /usr/bin/python3 crowd_layers.py grid OUT.gpkg N        N squares of 10 m, 12 m, and up to 0.3 either way, from middle to middle

@@ -3,9 +3,9 @@
 #
 #   hard.sh [--instructions] [ROW ...]     all rows unless some are named, as in the first column
 #
-# Seconds are of processor time (user and system) of the whole command; with --instructions what is printed are millions of
-# instructions instead, counted by callgrind, less those of a command that has nothing to do: the same on every machine, loaded
-# or not. Growth is the exponent in the size between a row and
+# Seconds are processor time (user and system) of the whole command. With --instructions it prints millions of
+# instructions instead, counted by callgrind, minus those of a command that has nothing to do: they are the same on
+# every machine, loaded or not. Growth is the exponent in the size between a row and
 # the one above it. `times` is the ratio to the row's plain twin: the same shapes without the defect, the same layer without
 # the feature that must go far. hard_inputs.py draws the inputs and says what is hard about them.
 #

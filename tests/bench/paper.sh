@@ -28,7 +28,7 @@
 #   SUNDER_PAPER_ALL            largest size on which every order is tried with every decomposition (10)
 #   SUNDER_PAPER_COMPARED       largest size on which the exact results of all runs are compared (50)
 #   SUNDER_PAPER_BASE           decomposition of the comparison of roads (angle-bisector)
-#   SUNDER_PAPER_REPEAT         runs of which the median counts, where they are short (3)
+#   SUNDER_PAPER_REPEAT         number of runs whose median counts, if they are short (3)
 set -euo pipefail
 source=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd -P)
 if [[ -z ${SUNDER_BUILD:-} ]]; then

@@ -1,4 +1,4 @@
-"""A road network around a town, for displacement_rows.py: many polylines, of which few are near."""
+"""A road network around a town, for displacement_rows.py: many polylines, few of them near."""
 import math
 import os
 import random

@@ -19,7 +19,7 @@ X
 expect 0 separate two.gpkg two_out.gpkg --report two.html -q
 expect 3 separate "$town" town_out.gpkg -l buildings --gap 3 --max-shift 5 --fixed-where "kind = 'monument'" --id-field id \
     --report town.html --stats town.json -q
-# A town of which much stays blocked, beside its roads, with lengths on the sheet.
+# A town with many blocked features, beside its roads, with lengths on the sheet.
 "$SUNDER_BUILD/sunder-town" --buildings 1500 --seed 5 quarter_in.gpkg >/dev/null || fail "no quarter"
 expect 3 separate quarter_in.gpkg quarter.gpkg -l buildings --scale 25000 --gap 0.2mm --max-shift 1 --effort 0 \
     --barrier quarter_in.gpkg,layer=roads,width=0.3mm,gap=0.1mm --report quarter.html --stats quarter.json -q

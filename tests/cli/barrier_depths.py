@@ -1,7 +1,8 @@
 """Features beside lines, points and areas, each pair far from the next: python3 barrier_depths.py SUNDER CASES SEED
 
-What `check` says of each pair is asked again by brute force in fractions (exact_plane.py): is it met, or nearer than half the
-width and the gap, how far is it, how long is the least translation that parts it. Then features are shifted, and what
+The report of `check` on each pair is computed again by brute force in fractions (exact_plane.py): do they meet, are
+they nearer than half the width plus the gap, the distance, and the length of the least translation that separates them.
+Then features are shifted, and what
 `check --before` calls worse is asked likewise: between stored geometries, without width and gap; disjoint is better than met;
 a feature inside an area before and after is no worse."""
 import math

@@ -208,7 +208,7 @@ def triangle(draw, x, y, unit):
 
 
 def whole(polygons):
-    """The same, so much larger that all numbers are whole."""
+    """The same, scaled up so that all numbers are whole."""
     scale = max([F(v).denominator for p in polygons for ring in p for at in ring for v in at], default=1)
     return [[[(int(x * scale), int(y * scale)) for x, y in ring] for ring in p] for p in polygons]
 

@@ -38,7 +38,7 @@ READ = {
 
 
 def parts_of(length, name, tag):
-    """Directories of which, with the name, a path of so many bytes is made."""
+    """Nested directories that, with the name, form a path of the wanted number of bytes."""
     parts, left = [tag], length - len(tag) - 1 - len(name)
     while left > 0:
         n = left if left <= 101 else min(100, left - 2)

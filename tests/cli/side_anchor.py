@@ -1,6 +1,6 @@
-"""The side anchor of a feature cut by lines, by the rule as it is documented (src/displacement/layer/side_anchor.c), in
-fractions and by other means: the plane in horizontal slabs between all corners, ends and crossings, cells between edges,
-cells that share a piece of a slab's border that no edge covers as one part.
+"""The side anchor of a feature cut by lines, by the documented rule (src/displacement/layer/side_anchor.c), in
+fractions and by another algorithm. The plane is cut into horizontal slabs between all corners, ends and crossings, and
+the slabs into cells between edges. Cells that share an uncovered piece of a slab's border are one part.
 """
 import math
 from fractions import Fraction

@@ -147,7 +147,7 @@ expect 3 separate in.gpkg o.gpkg -l houses -q --overwrite --max-shift 0.5 --barr
 same "$(value o.gpkg houses_conflicts 1 barrier) $(value o.gpkg houses_conflicts 1 barr_fid)" 'roads 1'
 same "$(value o.gpkg houses_conflicts 1 kind) $(value o.gpkg houses_conflicts 1 reason)" 'barrier_near max_shift'
 same "$(value o.gpkg houses_conflicts 1 fid_b)" '(null)'
-# Between a road and a fixed house there is no room; who blocks is told.
+# Between a road and a fixed house there is no room; the conflict lists what blocks it.
 layer squeeze.gpkg s POLYGON <<'X'
 id,WKT
 1,"POLYGON((0 1,10 1,10 9,0 9,0 1))"

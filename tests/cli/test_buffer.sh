@@ -150,8 +150,8 @@ for operation in dilate erode open close; do
     done
 done
 
-# --align: each feature by a shape turned to its walls, of which a rectangle stays one; dissolved, block by block, and what
-# does not hang together has directions of its own.
+# --align: each feature by a shape turned to its walls, so that a rectangle stays one. Dissolved, block by block: parts
+# that are not connected have directions of their own.
 layer turned.gpkg turned POLYGON <<'CSV'
 WKT,a
 "POLYGON ((0 0, 10 0, 10 10, 0 10, 0 0))",1

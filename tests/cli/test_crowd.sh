@@ -1,6 +1,6 @@
 # shellcheck shell=bash disable=SC1091
-# Houses pressed together between roads, of which some have to stay in conflict: that rounding leaves one of these a
-# hair worse than it stood costs no pair its solution. (By sending one of the two home, and whoever stood there after
+# Houses pressed together between roads; some have to stay in conflict. If rounding makes one of these slightly worse
+# than at the start, no other pair loses its solution. (By sending one of the two home, and whoever stood there after
 # it, 18 pairs were left of this town, where 11 are now.)
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 command -v python3 >/dev/null || { echo "skipped: no python3"; exit 77; }

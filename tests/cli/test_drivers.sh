@@ -1,7 +1,7 @@
 # shellcheck shell=bash
-# Every driver of GDAL that can create vector data is asked to write the layers of separate, check and buffer of a small layer with
-# awkward fields: the run succeeds, reads back and tells all that was lost, or it is refused before the work with a sentence that
-# names the cause.
+# Every driver of GDAL that can create vector data writes the layers of separate, check and buffer of a small layer with
+# awkward fields. The run succeeds, reads back and reports all losses, or it is refused before the work with a message
+# that names the cause.
 . "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
 command -v jq >/dev/null || { echo "skipped: jq is not installed"; exit 77; }
 

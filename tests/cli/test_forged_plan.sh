@@ -1,5 +1,5 @@
 # shellcheck shell=bash disable=SC1091
-# Plans one number of which was changed, with all checksums made anew (forged_plan.py): merge and shards end with a
+# Plans with one number changed and all checksums computed again (forged_plan.py): merge and shards end with a
 # result or a sentence. None crashes, asks for memory that the files of the plan do not account for, or goes on without
 # end.
 #

@@ -5,7 +5,7 @@
 command -v jq >/dev/null && command -v python3 >/dev/null || { echo "skipped: jq or python3 is not installed"; exit 77; }
 losses() { jq -r '.losses[]' "$1"; }
 names() { ogrinfo -ro -so "$1" "$2" | sed -n 's/^\([A-Za-z0-9_]*\): [A-Z][A-Za-z0-9]*\(([A-Za-z0-9]*)\)* ([0-9.]*).*/\1/p'; }
-# A layer of squares in GeoJSON, two of which overlap: properties are written by the Python expression in $1, of i.
+# A layer of squares in GeoJSON; two of them overlap: properties are written by the Python expression in $1, of i.
 squares() {
     python3 -c "
 import json, sys

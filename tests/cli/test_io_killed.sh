@@ -15,7 +15,7 @@ echo mine >old/o_notes.txt
 files() { (cd "$1" && find . -name '.sunder-*' -prune -o -type f -print0 | sort -z | xargs -0 cksum); }
 again=(separate in.gpkg dir/o.shp -q --lco DBF_DATE_LAST_UPDATE=2024-01-01)
 
-# Every rename of a replaced set, each in a fresh directory; `new` is what a run comes to that nobody kills.
+# Every rename of a replaced set, each in a fresh directory; `new` is the result of a run that is not killed.
 rm -rf dir && cp -a old dir
 expect 0 "${again[@]}" --gap 1 --overwrite
 new=$(files dir)

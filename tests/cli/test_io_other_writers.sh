@@ -1,6 +1,7 @@
 # shellcheck shell=bash disable=SC1091
-# A GeoPackage that others have open. --update and --overwrite write into the database itself, in one transaction under its
-# lock; what cannot have the lock says so; nobody's work is lost, and the mode of the journal stays.
+# A GeoPackage that other processes have open. --update and --overwrite write into the database itself, in one
+# transaction under its lock. A run that cannot get the lock says so. No other process loses work, and the mode of the
+# journal stays.
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 command -v python3 >/dev/null && python3 -c 'import sqlite3' 2>/dev/null || { echo "skipped: no Python with SQLite"; exit 77; }
 

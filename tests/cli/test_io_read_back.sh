@@ -34,7 +34,7 @@ for in in in.gpkg high.gpkg; do
     struck real "1 2 3 4" "$in" main
 done
 
-# Four pairs, of which the last two lie within what the first two span: their lines go past GDAL, too. There are eight
+# Four pairs; the last two lie within the extent of the first two. Their lines bypass GDAL, too. There are eight
 # features with three numbers each, then eight lines with as many.
 layer pairs.gpkg houses POLYGON <<'X'
 id,WKT

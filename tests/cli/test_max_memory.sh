@@ -117,7 +117,7 @@ run merge one.plan o.gpkg
 same "$(grep -c 'hang together as they stand' err)" 1 'times that merge tells of a block of 30000 features'
 expect 0 plan large.gpkg none.plan -l buildings --shards 3 --max-memory 99M
 grep -q 'hang together' err && fail "plan tells that a town hangs together"
-# Long houses aslant in rows of which nearly all boxes meet, and no two houses: shapes decide.
+# Long houses aslant in rows: nearly all boxes meet, but no two houses do, so that shapes decide.
 ogr2ogr -q aslant.gpkg large.gpkg -nln buildings -dialect SQLite -sql "select st_translate(st_geomfromtext(
         'POLYGON((0 0,30 30,28 32,-2 2,0 0))', 25832), 400000 + 9 * (fid % 200) + 31 * (fid / 200), 5500000 + 31 * (fid / 200), 0) as geom from buildings" ||
     fail "no houses aslant are made"

@@ -1,6 +1,6 @@
 # shellcheck shell=bash disable=SC1091
-# A layer that is cut into shards and merged is written as one that one process separates: the same bytes, the same
-# figures, for every number of shards, in whatever order and how often they are done, and whatever was killed on the way.
+# A layer that is cut into shards and merged gives the same bytes and statistics as one process. This holds for every
+# number of shards, in any order, if shards are repeated, and if steps are killed on the way.
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 export SOURCE_DATE_EPOCH=1700000000
 

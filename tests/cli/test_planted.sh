@@ -1,7 +1,7 @@
 # shellcheck shell=bash disable=SC1091
-# What somebody else may have put beside an output, or into a directory in which all may write, and what only looks like
-# the program's own: stages and records of killed runs (planted.py makes them of every owner, mode, kind and choice of
-# names), what was begun and abandoned, links in the place of files to be written, journals beside databases, plans. None
+# Files that another user may have put beside an output, or into a directory in which all may write, and that look like
+# the program's own. They are stages and records of killed runs (planted.py makes them with every owner, mode, kind and
+# choice of names), abandoned files, links in the place of files to be written, journals beside databases, plans. None
 # of it has a file read, replaced or removed that is not the run's. What belongs to another user is made by root alone.
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 command -v python3 >/dev/null || { echo "skipped: python3 is not installed"; exit 77; }
@@ -50,7 +50,7 @@ expect 0 separate --shard 1 x.plan
 expect 0 separate --shard 2 x.plan
 same "$(cat victim)" mine "what a planted link leads to"
 
-# ---- a plan of another user, or one that all may write into, is a call that nobody here made
+# ---- a plan of another user, or one that all may write into, is not trusted
 chmod o+w x.plan
 refused 1 'all users may write into it' merge x.plan o.gpkg
 refused 1 'all users may write into it' separate --shard 1 x.plan

@@ -24,7 +24,7 @@ row=$(ogrinfo -q -al two_out.gpkg two_pushes | tr -d '\n')
 case $row in *'fid_a (Integer64) = 1'*'fid_b (Integer64) = 2'*'force (Real) = 0.5'*'nx (Real) = 1 '*'ny (Real) = 0 '*) ;; *) fail "two squares: $row" ;; esac
 case $row in *'barrier (String) = (null)'*'LINESTRING (0.25 0.5,1.25 0.5)'*) ;; *) fail "two squares: $row" ;; esac
 
-# Against a wall: fid_b is nobody's, and the wall has its name.
+# Against a wall: fid_b is null, and the wall has its name.
 printf 'WKT,w\n"LINESTRING(0 -5,0 5)",1\n' | layer wall.gpkg wall LINESTRING
 printf 'WKT,w\n"POLYGON((0.5 0,1.5 0,1.5 1,0.5 1))",1\n' | layer one.gpkg one POLYGON
 expect 0 separate one.gpkg one_out.gpkg --barrier wall.gpkg,width=2 -q

@@ -1,6 +1,6 @@
 # shellcheck shell=bash disable=SC1091
-# --update into a database whose triggers swallow or change what registers the new layer: the run fails and the file is
-# the old one, byte by byte, or a reader finds the layer with all its features, its type and its CRS.
+# --update into a database whose triggers drop or change the rows that register the new layer. Either the run fails and
+# the file is the old one, byte by byte, or a reader finds the layer with all its features, its type and its CRS.
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 command -v sqlite3 >/dev/null || { echo "skipped: no shell of SQLite"; exit 77; }
 export SOURCE_DATE_EPOCH=1700000000

@@ -58,7 +58,7 @@ for file in two.gpkg two.shp; do
     two $file Date 2020-01-01 2020-01-02
     refused 1 'is of type Date; numbers are needed' separate $file never.gpkg --weight-field w
     refused 1 'no field weight' separate $file never.gpkg --weight-field weight
-    # Who cannot be in conflict is not asked for a weight.
+    # A feature that cannot be in conflict needs no weight.
     two $file Real 1 0
     expect 0 separate $file o.gpkg -q --weight-field w --ignore-where 'w = 0'
     rm o.gpkg

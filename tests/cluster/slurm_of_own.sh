@@ -25,7 +25,7 @@ slurm_begin() {
     (umask 277 && head -c 1024 /dev/urandom >"$slurm/munge/key")
     munged --force --socket="$slurm/munge/sock" --key-file="$slurm/munge/key" --pid-file="$slurm/munge/pid" \
         --log-file="$slurm/munge/log" --seed-file="$slurm/munge/seed" 2>"$slurm/munge/said" || { cat "$slurm/munge/said"; return 1; }
-    # Ports that nobody listens on.
+    # Ports that no process listens on.
     port=$((20000 + $$ % 10000))
     while (exec 3<>"/dev/tcp/127.0.0.1/$port" || exec 3<>"/dev/tcp/127.0.0.1/$((port + 1))" ||
         exec 3<>"/dev/tcp/127.0.0.1/$((port + 2))") 2>/dev/null; do port=$((port + 3)); done

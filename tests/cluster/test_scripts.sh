@@ -59,7 +59,8 @@ for way in "${ways[@]}"; do
     rm -rf "a room"/other*
 done
 
-# Two hosts that are this one, by an ssh that notes whom it was asked for. As sshd does it says what the shell is: parallel's
+# Two names of this host, by an ssh that notes the name that it was called with. As sshd does it says what the shell is:
+# parallel's
 # worker starts what it was sent by $SHELL, and a service that runs tests need not have one.
 if command -v parallel >/dev/null; then
     cat >ssh <<EOF

@@ -24,8 +24,8 @@ wanted=0
     "$SUNDER" separate "${words[@]}" --stats "a room/whole.json" "$town" "a room/whole/o.gpkg" || wanted=$?
 cat whole.time 2>/dev/null
 
-# The program as the nodes run it: the third shard is killed the first time, at a random moment of its work; and when a
-# quarter of the shards are there, what n2 has begun does not come to an end before n2 does.
+# The program as the nodes run it: the third shard is killed the first time, at a random moment of its work. When a
+# quarter of the shards are there, shards that n2 has begun do not end before n2 is lost.
 cat >"a room/slow sunder" <<EOF
 #!/usr/bin/env bash
 if [ "\$1" = separate ]; then

@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # Does the program compile with the headers of GDAL 3.13? The headers that are installed are given what changed there
 # (GDAL's migration guide): GDALGetMetadata() returns a list of constants, OGR_G_SetPoint() and its like an error, and
-# the macros MIN, MAX, ABS and M_PI are gone. In C the type of a list of constants is char ** up to now; here it is what
-# it is in C++, so that a list that GDAL lends is seen where it is kept in, or given to, what may change it.
+# the macros MIN, MAX, ABS and M_PI are gone. In C the type of a list of constants has been char ** up to now; here it
+# is the type of C++. So the compiler warns if a list that GDAL lends is stored in, or passed to, something that may
+# change it.
 set -euo pipefail
 build=${SUNDER_BUILD:?}
 source=${SUNDER_SOURCE:?}

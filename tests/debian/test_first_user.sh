@@ -1,6 +1,6 @@
 # shellcheck shell=bash
-# Somebody who has QGIS and has never seen Sunder, on a clean Debian 12: clones, types what the README's "Install" says, installs
-# the zip, and separates the town from its roads in QGIS.
+# The steps of a first user, on a clean Debian 12 with QGIS: clone, the commands of the README's "Install", the zip, and
+# the separation of the town from its roads in QGIS.
 . "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
 git -C "$source" rev-parse --git-dir >/dev/null 2>&1 || skip "the sources are no clone of a repository"
 make_root bookworm "$scratch/root"

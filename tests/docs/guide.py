@@ -4,8 +4,9 @@
     guide.py PAGE.md FOLDER              runs it in FOLDER, which is empty; status 1, and what differs, if it is not as it says
     guide.py PAGE.md FOLDER --record     the same, and puts into the page what was printed
 
-Fenced blocks of `sh` are given, one after another, to one bash -eu (with pipefail), so that a `cd` or an `export` holds for
-those that follow; a block of `text` that comes next says what it prints, on standard output and standard error. A block of
+Fenced blocks of `sh` are run, one after another, by one bash -eu (with pipefail), so that a `cd` or an `export` holds
+for later blocks. A block of `text` that follows has the printed output, of standard output and standard error. A block
+of
 another language is a file: the last word in backticks before it is its name. Seconds are no result: of "1.29 s" at the end
 of a line only the words before it are compared. <address of the repository> is SUNDER_SOURCE.
 

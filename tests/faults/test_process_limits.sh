@@ -1,6 +1,7 @@
 # shellcheck shell=bash disable=SC1091
-# A limit of the size of files (ulimit -f, SIGXFSZ) that is met anywhere in a run: the run ends with 1 and a sentence, and
-# nothing is left but the old output; above the largest file that it makes the run is done. And SIGHUP: nothing is left
+# A limit on the size of files (ulimit -f, SIGXFSZ) that is reached anywhere in a run: the run ends with 1 and a
+# message, and only the old output is left. With a limit above its largest file the run succeeds. And SIGHUP: nothing is
+# left
 # behind, unless it is ignored, as under nohup: then the run goes on. (At system calls all over: test_signals.sh.)
 #
 #   SUNDER_FAULTS=N   limits for each way of writing, spread from SUNDER_SEED on (default 1; all: 60)

@@ -92,8 +92,8 @@ judge() {
         completed=$((completed + 1))
         ;;
     signals*-130 | signals*-143 | signals*-[013])
-        # In the midst of a commit nobody knows which it will be, nor whether the statistics, the proof or the report
-        # belong to it.
+        # During a commit the result may be either output, and the statistics, the proof or the report may belong to
+        # either.
         case $now in "$new" | "$old" | "${new%?s.json}" | "$(grep -v ' \./r\.html$' <<<"$new")" | \
             "$(grep -v ' \./r\.\(html\|jsonl\)$' <<<"$new")") ;; *) false ;; esac || fail "$name $way $place ($call): status $status, left: $now"
         ended=$((ended + (status > 100)))

@@ -73,10 +73,10 @@ piece() { # NAME SECONDS
     # and what leads somewhere is found sooner so. Which of them are rare is hardly asked: with some thousand inputs of some
     # thousand features each that takes more time than what is asked of them. Nor is the folder looked through each second
     # for what others may have put there.
-    # The time that an input may take is by the clock, of which other work may leave little.
-    # Stacks of allocations are one frame deep: who looks into a finding runs it by itself. What was freed is held back up
-    # to 1 MB: with 8 MB a reader's target makes a third fewer executions. Nor is memory given back to the system; and of
-    # what is allocated the first 256 bytes are filled with what nobody expects, not the first four thousand.
+    # The time limit of an input is by the clock, and other work on the machine slows the run down.
+    # Stacks of allocations are one frame deep; run a finding by itself to see more. What was freed is held back up
+    # to 1 MB: with 8 MB a reader's target makes a third fewer executions. Memory is not returned to the system, and
+    # only the first 256 bytes of an allocation are filled with a pattern, not the first four thousand.
     local checks=malloc_context_size=1:quarantine_size_mb=1:thread_local_quarantine_size_kb=64
     checks=$checks:allocator_release_to_os_interval_ms=-1:max_malloc_fill_size=256
     local schedule=(-entropic=1 -entropic_scale_per_exec_time=1

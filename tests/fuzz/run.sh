@@ -18,7 +18,8 @@ rm -rf "$corpus"
 mkdir -p "$corpus/kept" "$corpus/new"
 if [ -f "$kept" ]; then
     tar -xzf "$kept" -C "$corpus/kept"
-    # An ordinary run takes two thousand of them at most, every so many in the order of their names, which are as good as drawn.
+    # An ordinary run takes at most two thousand of them, at regular steps in the order of their names, which are
+    # hashes.
     inputs=("$corpus/kept"/*) every=$((${#inputs[@]} / 2000 + 1))
     for ((k = 0; ${SUNDER_TEST_SCALE:-1} == 1 && k < ${#inputs[@]}; ++k)); do ((k % every == 0)) || rm "${inputs[k]}"; done
     "$program" "$corpus/kept" -runs=0 -max_len=600 -entropic=0 -timeout=100 -rss_limit_mb=4096 >"$corpus/log" 2>&1 || { tail -n 60 "$corpus/log"; exit 1; }

@@ -1,6 +1,6 @@
-"""Is the plug-in written so that it runs with Qt 5 and with Qt 6, in QGIS 3 and 4? What QGIS's own script for the
-move from PyQt5 to PyQt6 looks for is looked for here, without QGIS: enumerators without the name of their enumeration,
-modules and names that are gone. tests/qgis/plugin.py asks QGIS itself which names are enumerators."""
+"""Is the plug-in written so that it runs with Qt 5 and with Qt 6, in QGIS 3 and 4? Searches, without QGIS, for what
+QGIS's own script for the move from PyQt5 to PyQt6 reports: enumerators without the name of their enumeration, removed
+modules and names. tests/qgis/plugin.py asks QGIS itself which names are enumerators."""
 import ast
 import configparser
 import glob

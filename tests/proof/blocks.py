@@ -1,9 +1,10 @@
 """The blocks of a layer, from the layer and the options alone: which features join, all of them.
 
-Two join by an equal value of --block-field; by a touch, that is no overlap and a distance of which the nearest double is
-no more than the tolerance; where one lies in the other up to the tolerance and --contained is `block`; or by an overlap
-that is thin: some translation no longer than the tolerance parts the two, or no disc of that diameter (inside-disc:, 16
-corners) fits in what they share. Doubles propose places here, and nothing more; what is decided is decided in fractions.
+Two join by an equal value of --block-field; by a touch, that is no overlap and a distance whose nearest double is no
+more than the tolerance; or if one lies in the other up to the tolerance and --contained is `block`. They also join by a
+thin overlap: some translation no longer than the tolerance separates the two, or no disc of that diameter
+(inside-disc:, 16 corners) fits into the overlap. Doubles propose places here, and nothing more; what is decided is
+decided in fractions.
 """
 import math
 from fractions import Fraction

@@ -1,8 +1,9 @@
 """The corners of the program's discs, from how they are documented (src/shape/standard.c), and asked of the circle.
 
-Corner i of n lies at i / n of a turn, the first on the x axis, to a multiple of 2^-26 of the power of two above the radius;
-those of an inside disc lie in the disc, on the axes at the radius exactly, and each that does not goes inwards by a growing share of
-the radius until it does; the edges' lines of the other kind lie outside, and all its corners go outwards together.
+Corner i of n lies at i / n of a turn, the first on the x axis, rounded to a multiple of 2^-26 of the power of two above
+the radius. Corners of an inside disc lie in the disc, and on the axes at exactly the radius; a corner outside moves
+inwards by a growing share of the radius until it lies in the disc. For the other kind the lines of edges lie outside
+the disc, and all corners move outwards together.
 """
 import math
 from fractions import Fraction
@@ -53,7 +54,7 @@ def inside(radius, n):
 
 
 def outside(radius, n):
-    """Of which no edge's line is nearer to the middle than the radius."""
+    """No edge's line is nearer to the centre than the radius."""
     ideal = 1 / math.cos(math.pi / n)
     tries = ([corner_at(i, n, radius, ideal * (1 + give), unit_of(radius, n)) for i in range(n)] for give in shares(n))
     return next(corners for corners in tries if is_outside([tuple(map(Fraction, p)) for p in corners], Fraction(radius) ** 2))

@@ -3,9 +3,10 @@
     python3 forgeries.py RUNS [--draw N] [--seed S] [--need-all] [--own-alone]
 
 RUNS: a JSON list of runs, each with `proof` and the `words` of check_proof.py (--result among them), perhaps `only`: words of the
-lines that are forged. In each file every number is changed, up and down, by a little and by much, to zero, negative, subnormal, huge,
-infinite, no number; every line, member and element is dropped, doubled, swapped with the next, emptied, or made a thing of another
-kind; indices become -1 and as many as there are; and the file is handed in for another layer, and with other options. N of all of
+lines that are forged. In each file every number is changed: up and down, by a little and by much, to zero, negative,
+subnormal, huge, infinite, no number. Every line, member and element is dropped, doubled, swapped with the next,
+emptied, or replaced by one of another type. Indices become -1 and the count. The file is checked against another layer,
+and with other options. N of all of
 these are drawn by the seed, or all are tried. What is accepted is judged: the conflicts that are claimed, the blocks and the sum of
 the bounds here, what each line says by judge.py. With --need-all the runs together have to use every member and every kind of cut
 that the form has.

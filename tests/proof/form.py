@@ -1,7 +1,7 @@
 """The form of a file of --proof (docs/PROOF.md, section 2): its lines, the members of each, and what kind of value each is.
 
-What comes out has numbers as doubles, indices and FIDs as whole numbers, and no member that the form has not; so what
-checks the claims need not ask again whether a member is there, or whether `true` was written for a number. Indices are
+The result has numbers as doubles, indices and FIDs as whole numbers, and no unknown members. So the checks of claims
+need not test again whether a member is there, or whether `true` was written for a number. Indices are
 no less than 0; whether they are in range is asked where they are used (index()).
 """
 import json

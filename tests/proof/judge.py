@@ -328,7 +328,7 @@ class VerdictOf:
         return self.places.pair_may(a, b, u, None if self.crowded or {a, b} == self.own else self.places.kind(a, b))
 
     def paths(self):
-        """[(node, its way)] down to each leaf, of which the way is None."""
+        """[(node, its way)] down to each leaf; the way of a leaf is None."""
         todo = [[(0, None)]]
         while todo:
             path = todo.pop()

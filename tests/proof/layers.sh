@@ -83,8 +83,8 @@ for k in range(int(sys.argv[1])):
     print(f"\"POLYGON(({ring}))\",{1 if k in (2, 3, 7) else 100 + k}")' "$1" | layer lying.gpkg buildings POLYGON
 }
 
-# Ten houses: one in another, which may be (--contained ignore); two that stand fast in each other (w = 3); two of one block by k
-# that overlap; one that its limit m holds in another; and three in a row that make room.
+# Ten houses: one in another, which --contained ignore allows; two fixed ones that overlap (w = 3); two of one block by
+# k that overlap; one that its limit m keeps in another; three in a row that make room.
 make_mixed() {
     printf '%s\n' WKT,w,k,m '"POLYGON((0 0,9 0,9 9,0 9))",1,,9' '"POLYGON((2 2,5 2,5 5,2 5))",1,,9' \
         '"POLYGON((30 0,36 0,36 6,30 6))",3,,9' '"POLYGON((34 3,40 3,40 9,34 9))",3,,9' \
@@ -102,8 +102,8 @@ make_through() {
     printf 'WKT,w\n"LINESTRING(-30 3,40 3)",1\n' | layer through.gpkg through LINESTRING
 }
 
-# PLACE: pairs of which one lies in the other, but for a corner where that one, grown by the tolerance (0.3), has one: `at` that corner, whose
-# coordinates are the nearest doubles, or `beyond` it by one unit in the last place.
+# PLACE: pairs in which one lies in the other except for one corner. That corner is `at` a corner of the other grown by
+# the tolerance (0.3), with the nearest doubles as coordinates, or `beyond` it by one unit in the last place.
 make_hanging() {
     PYTHONPATH=$here python3 -c '
 import sys
@@ -125,7 +125,8 @@ for k in range(6):
     put([at] + [(x + 0.6 * (u - x), y + 0.6 * (v - y)) for u, v in (big[(k + 1) % 4], big[k % 4 - 1])])' "$1" | layer "$1.gpkg" buildings POLYGON
 }
 
-# HOW MANY MEMBERS FILE: buildings, of so many members at most, which overlap each other or share walls; half of them are turned.
+# HOW MANY MEMBERS FILE: buildings of at most MEMBERS members, which overlap each other or share walls; half of the
+# buildings are turned.
 make_members() {
     python3 -c '
 import sys
@@ -185,7 +186,7 @@ make_wedge() {
     [ -f wedged.gpkg ] || make_rings wedged.gpkg '1000.1 2000.2,1002.3 2000.4,1002.1 2002.6,999.9 2002.4'
 }
 
-# Two houses, of which one goes as far as its limit.
+# Two houses; one moves as far as its limit.
 make_short() {
     printf 'WKT,m\n"POLYGON((0 0,10 0,10 10,0 10))",0.1\n"POLYGON((3 10.5,9 10.5,6 20))",9\n' | layer short.gpkg buildings POLYGON
 }

@@ -1,5 +1,6 @@
-"""What a body occupies of the squares of a grid, in integers: the integrals of the nodes' hats (1 at the node, 0 at all
-others, bilinear between) over the union of its members, grown by a polygon of 32 corners in the disc of half the gap.
+"""The area that a body occupies on a grid, in integers: the integrals of the nodes' hats (1 at the node, 0 at all
+others, bilinear between). The integrals are over the union of its members, grown by a polygon of 32 corners in the disc
+of half the gap.
 
 The squares are swept column by column. Between two neighbouring places where anything ends or crosses no edge crosses
 another, or a row: there the union is trapezoids. Such places and the corners of trapezoids are rounded to the lattice of
@@ -19,7 +20,8 @@ MOST_SPAN = 4096  # what spans more squares is not asked about, and pays nothing
 
 
 class Lattice:
-    """Of a problem and a grid: units of which all of the problem's, half of the gap, and the side are whole numbers."""
+    """A unit for a problem and a grid: the coordinates of the problem, half of the gap, and the side are multiples of
+    it."""
 
     def __init__(self, problem, side):
         own = problem.lattice

@@ -5,7 +5,7 @@ FALLS_SHORT = "the prices prove"
 
 
 def raise_node(line):
-    """A price so high that nobody goes there, so that its worth is lost."""
+    """A price so high that no body moves there, so that the bound loses its value."""
     row = max(line["prices"]["rows"], key=lambda r: max(r[1:], default=0))
     at = max(range(1, len(row)), key=row.__getitem__)
     row[at] *= 1000

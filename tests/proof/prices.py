@@ -53,7 +53,7 @@ class Prices(Bodies):
             problem.occupied[body, side] = masses(squares, lattice) if squares else None
         return problem.occupied[body, side]
 
-    # ---- Who owes whom
+    # ---- Which bodies owe the gap to each other
 
     def demand_strangers(self):
         """Every feature owes the gap to those of all other bodies."""

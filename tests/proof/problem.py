@@ -231,8 +231,9 @@ class Problem:
         demand(a not in self.skipped and b not in self.skipped, a, "or", b, "is ignored, or nothing")
 
     def clearance(self, a, b, told):
-        """How far apart the two are held, in units of the lattice: listed ones to no more than the distance that they had; where
-        their interiors met, to 0 if the list says that they do no more, else to no less than their depth, negative."""
+        """The clearance of the two, in units of the lattice. A listed pair has at most the distance at the start. If
+        its interiors met, the clearance is 0 if the list says that they no longer do, otherwise minus at least their
+        depth."""
         required, pair = self.required(a, b), tuple(sorted((str(a), str(b))))
         if told is None:
             demand(pair not in self.listed, a, "and", b, "are listed")
@@ -344,8 +345,8 @@ class Problem:
         return math.inf if None in limits else 4 * max(limits, default=0.0)
 
     def demand_side(self, key, corners, feature, anchor):
-        """A segment of a line of the barrier, none of which the side anchor lies on; or an edge of an area, with the area on
-        its left and the side anchor on its right."""
+        """A segment of a line of the barrier, if the side anchor lies on no line; or an edge of an area, with the area
+        on its left and the side anchor on its right."""
         demand(key in self.sides, key, "has no sides")
         demand(len(corners) == 2 and len(anchor) == 1, "a side is a segment, and has an anchor")
         p, q = (self.lattice.point(c) for c in corners)
@@ -362,8 +363,9 @@ class Problem:
         return p, q
 
     def demand_chord(self, node):
-        """Of sides of two barriers (or one) that share a corner, on either side of the anchor's way through it: a segment from the
-        shadow of the one to that of the other, which that way passes no nearer than the corner."""
+        """A chord of two sides (of two barriers, or one) that share a corner and lie on either side of the anchor's
+        path through it: a segment from the shadow of one to that of the other. The path meets it no nearer than the
+        corner."""
         a, b, c, anchor = node["a"], node["b"], node["c"], node["A"]
         demand(all(self.is_barrier(k) for k in (b, c)) and not self.is_barrier(a), "a chord of what are no barriers")
         self.demand_owed(a, c)

@@ -2,7 +2,7 @@
 
 Edges are cut where they meet. Of what lies on each other an odd number is boundary, for the inside changes across it. From there
 rings are followed with the inside on their left, at a place where several meet to the next edge of the same inside; corners
-on straight ways are left out. A polygon of which no edges cross or lie on each other has its rings already.
+on straight ways are left out. A polygon whose edges neither cross nor overlap has its rings already.
 """
 from fractions import Fraction
 

@@ -1,7 +1,7 @@
 # shellcheck shell=bash disable=SC1091
-# What a forger changes in a file of --proof is refused, or claims no more than is true (forgeries.py): of fifteen runs on layers of at
-# most ten features, which together use every kind of line and member, 2,000 forgeries by seed (SUNDER_SEED), all of them with
-# SUNDER_LAWS=all; and of three maps, where they are beside the repository, a thousand.
+# A forged file of --proof is refused, or claims no more than is true (forgeries.py). Fifteen runs on layers of at most
+# ten features use together every kind of line and member; 2,000 forgeries of these are drawn by seed (SUNDER_SEED), all
+# of them with SUNDER_LAWS=all. A thousand are of three maps, if these are beside the repository.
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 command -v python3 >/dev/null || { echo "skipped: no python3"; exit 77; }
 . "$SUNDER_SOURCE/tests/proof/forged_runs.sh"

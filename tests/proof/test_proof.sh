@@ -1,7 +1,7 @@
 # shellcheck shell=bash disable=SC1091
-# --proof: what it writes holds, asked by code that shares nothing with the program (check_proof.py), on towns with
-# barriers, sides, limits, fixed features, jumps, and on maps where they are beside the repository; and every untruth is refused
-# (mutations.py). SUNDER_LAWS=all asks about more towns.
+# --proof: its output is valid, by a checker that shares no code with the program (check_proof.py), on towns with
+# barriers, sides, limits, fixed features and jumps, and on maps if they are beside the repository. Every false
+# statement is refused (mutations.py). SUNDER_LAWS=all asks about more towns.
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 command -v python3 >/dev/null || { echo "skipped: no python3"; exit 77; }
 export PYTHONDONTWRITEBYTECODE=1
@@ -55,8 +55,8 @@ refuted tight "$town" --gap 3 --no-blocks --max-shift 2 --fixed-where "$monument
     --need clearance --need blamed
 proved jumps "$town" --gap 2 --allow-jumps --contained separate
 
-# A grid of squares that lack a metre each, two of which may go three together: nothing is told of one pair, but that the
-# pairs of a few cannot all be solved.
+# A grid of squares that lack a metre each, with limits of three metres for two together. No single pair is infeasible,
+# but the pairs of a few cannot all be solved.
 make_squares 8 8
 crowd=(--gap 3 --no-blocks --max-shift 1.5)
 proved squares squares.gpkg "${crowd[@]}"
@@ -141,8 +141,8 @@ proved side wall.gpkg --no-blocks --fixed-where 'w = 1 AND fid = 2' --barrier si
 grep -q 'bound 16[89]' said || fail "through the line: $(cat said)"
 refuted side wall.gpkg --no-blocks --fixed-where 'w = 1 AND fid = 2' --barrier side.gpkg --need side --need "side anchor"
 
-# A house between two walls that want all of the room between them, each of two lines, or of one, with a corner where
-# the house would have to pass: no line of either side shuts it, a chord across both does.
+# A house between two walls that need all the room between them. Each wall has two lines, or one, with a corner where
+# the house would have to pass. No line of either side excludes that; a chord across both does.
 corners() { # NAME FILE
     proved "$1" held.gpkg --gap 3 --max-shift 10 --barrier "$2"
     grep -q '"reason": "no_room".*"side_c"' "$1.jsonl" || fail "a corner of $2 has no chord: $(cat "$1.jsonl")"
@@ -153,8 +153,8 @@ make_corners
 corners corners corners.gpkg
 corners bends bends.gpkg
 
-# A house on the bend of a road, by an edge that wants it to go east: either leg of the road lets it, but no one
-# translation as long as what parted it from the road at the start would part it from both.
+# A house on the bend of a road, beside an edge that pushes it east. Each leg of the road by itself allows the move, but
+# no single translation as long as the first least one separates it from both.
 make_bend
 bend=(--gap 1 --max-shift 1 --barrier bend.gpkg,side=no --barrier edge.gpkg,side=no)
 proved bend bent.gpkg "${bend[@]}"
@@ -186,8 +186,9 @@ proved short yard.gpkg "${yard[@]}" --max-shift 0.5
 grep -q '"reason": "max_shift".*"proof": ' short.jsonl || fail "a limit by itself: $(cat short.jsonl)"
 refuted short yard.gpkg "${yard[@]}" --max-shift 0.5 --need leaf
 
-# A house that is in a yard by its anchor, and nearer to the way out, for another house is in its way in there; along the wall that the
-# two halves of the yard share the anchor would run between the shadows of both, for less than half of what it has to pay. What covers
+# A house whose anchor is in a yard, near the way out; another house blocks the way further in. Along the wall between
+# the two halves of the yard the anchor could pass between the shadows of both, for less than half of the true cost.
+# What covers
 # that wall lies in both halves and in neither.
 make_halves
 proved halves halves.gpkg --gap 1 --max-shift 25
@@ -287,8 +288,8 @@ not_asked 'there is no field' degrees degrees.gpkg --weight-field nothing
 not_asked 'no such column' degrees degrees.gpkg --where 'colour = 1'
 not_asked 'No such file' symbols symbols.gpkg --symbol @nowhere.wkt
 
-# A crowd on one place, of which the price of ground proves more than trees do: symbols; and buildings that lie on each
-# other, some with a corner cut out, three of them one block, some pairs given up.
+# A crowd at one place, for which prices of area prove more than trees do: symbols; and buildings on top of each other,
+# some with a corner cut out, three of them one block, some pairs given up.
 make_pile 14
 proved pile pile.gpkg --symbol square:10
 refuted pile pile.gpkg --symbol square:10 --need price --need "price below 0" --need "priced border" --need "priced side" --need "wide row" \

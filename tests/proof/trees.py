@@ -205,8 +205,8 @@ class Tree(Bodies):
 
 
 class Discs:
-    """What is left of the relative moves at a node by forces that prove `value`: a disc for each pair, of which the place in
-    the middle is rounded, and the square of the radius is rounded up."""
+    """The relative moves that forces proving `value` leave at a node: a disc for each pair, with its centre rounded and
+    the square of its radius rounded up."""
 
     def __init__(self, tree, value, net):
         self.tree, self.value, self.net, self.found = tree, value, net, {}

@@ -25,7 +25,7 @@ def end():
 
 
 def guarded(step):
-    """A step that ends all with its error, since nobody would see it."""
+    """A step whose error ends the whole run, since it would not be seen otherwise."""
 
     def run(*arguments):
         try:

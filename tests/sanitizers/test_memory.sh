@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Is memory read that nobody wrote, or that was given back, or kept for ever? valgrind's memcheck on the golden cases, on every tenth
-# program of the unit tests, and of each test of the command on its first call of the program and every tenth after it. It sees
+# Is uninitialised or freed memory read, or does memory leak? valgrind's memcheck runs on the golden cases, on every
+# tenth program of the unit tests, and on the first call of the program and every tenth after it in each test of the
+# command. It sees
 # what the address sanitizer does not: memory that GDAL, GMP and SQLite hand over, and what was never written.
 #
 # SUNDER_MEMORY_PART=N takes every Nth in place of every tenth, SUNDER_MEMORY_ONLY=REGEX only tests of these names; then a

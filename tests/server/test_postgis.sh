@@ -1,6 +1,7 @@
 # shellcheck shell=bash
-# PostGIS: layers appear in one transaction, and a refused run leaves the database as it was; what is read there is what is
-# read from a file; a server that goes away ends the run, and what was there is there. Starts a server of its own, without
+# PostGIS: layers appear in one transaction, and a refused run leaves the database as it was. Reading from it gives the
+# same as reading a file. A server that stops ends the run, and the former layers are still there. Starts a server of
+# its own, without
 # a network port, in a scratch directory.
 set -eu
 . "$(dirname "${BASH_SOURCE[0]}")/../cli/io_layers.sh"

@@ -73,7 +73,7 @@ OPTIONS = (
            advanced=False),
     Option("--scale", SCALE, EVERY, "Scale of the map",
            "For lengths in millimetres on the sheet: 25000 for a map at 1:25 000.", advanced=False),
-    # ---- Who moves how far ----
+    # ---- Which features move, and how far ----
     Option("--max-shift-field", NUMERIC_FIELD, LAYERS, "Field: longest move of each feature",
            "In the units of the layer. 0 is fixed, null is the longest move above."),
     Option("--weight", CHOICE, ("separate",), "What a move costs",

@@ -141,9 +141,9 @@ def _named(line):
 
 
 def plain(line, names):
-    """A line of the program for the user of a dialog: options by the labels of their parameters, or by a noun where
-    they stand within a sentence; files that the plug-in made by the names of their layers (names: path to name); no
-    name of the program before it. Commands for a terminal, between backticks, stay as they are."""
+    """A line of the program for the user of a dialog. Options are replaced by the labels of their parameters, or by a
+    noun within a sentence. Files that the plug-in made are replaced by the names of their layers (names: path to name).
+    The name of the program is removed. Commands for a terminal, between backticks, stay as they are."""
     line = re.sub(r"^sunder: (error: |warning: |note: )?", "", line)
     line = line.replace("(ogr2ogr -t_srs)", "(Reproject layer, in the toolbox)")
     for path in sorted(names, key=len, reverse=True):

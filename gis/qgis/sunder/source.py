@@ -1,9 +1,9 @@
 """Layers of QGIS to what the program reads.
 
-A plain file, of which QGIS shows what lies in it, is read where it lies. All else - memory, virtual and database
-layers, filtered, edited, joined ones, selections, layers whose CRS was changed in QGIS - is copied into a GeoPackage:
-geometries as they are, doubles as doubles, FIDs kept where QGIS's ids may be FIDs, and the id in a field of its own,
-since ids of features that are not saved yet are negative.
+A plain file that QGIS shows unchanged is read in place. All other layers are copied into a GeoPackage: memory, virtual
+and database layers, filtered, edited and joined ones, selections, and layers whose CRS was changed in QGIS. Geometries
+and doubles are unchanged. FIDs are kept if QGIS's ids may be FIDs. The id is also copied to a field of its own, since
+ids of features that are not saved yet are negative.
 
 Expressions of the dialog are QGIS's and are asked while copying; the ids for which one is true go into a table of their
 own, beside the layer, which the SQL of --fixed-where and --ignore-where asks. That holds for selections of any size,
