@@ -180,11 +180,11 @@ static bool check_before(const gis_options *options, gis_error *error)
     if (options->command->bit != GIS_CHECK) return true;
     for (size_t i = 0; !before && i < sizeof of_moves / sizeof *of_moves; i++)
         if (options->given[of_moves[i]])
-            return gis_fail_usage(error, "%s is about moves, of which a check knows by --before ORIGINAL",
+            return gis_fail_usage(error, "%s is about moves; check needs --before ORIGINAL for it",
                                   gis_option_table[of_moves[i]].names);
     for (size_t i = 0; before && i < sizeof of_results / sizeof *of_results; i++)
         if (options->given[of_results[i]])
-            return gis_fail_usage(error, "--before: with %.*s nobody knows what was selected before",
+            return gis_fail_usage(error, "--before: with %.*s the former selection is unknown",
                                   (int)strcspn(gis_option_table[of_results[i]].names, " "),
                                   gis_option_table[of_results[i]].names);
     return true;

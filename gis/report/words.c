@@ -27,22 +27,22 @@ static const struct {
     bool proved;
 } reasons[] = {
     [SUNDER_REASON_MAX_SHIFT] = {"moves too short",
-                                 "proved: the two alone cannot be parted within the limits of their moves", true},
+                                 "proved: the two alone cannot be separated within the limits of their moves", true},
     [SUNDER_REASON_FIXED] = {"both fixed", "neither of the two may move", true},
     [SUNDER_REASON_SIDE] = {"side of a barrier",
-                            "proved: the two alone cannot be parted unless one crosses a barrier to its other side",
+                            "proved: the two alone cannot be separated unless one crosses a barrier to its other side",
                             true},
-    [SUNDER_REASON_JUMP] = {"no jumps", "proved: the two alone cannot be parted unless one jumps over the other", true},
+    [SUNDER_REASON_JUMP] = {"no jumps", "proved: the two alone cannot be separated unless one jumps over the other", true},
     [SUNDER_REASON_NO_ROOM] = {"no room",
-                               "proved: together with what stands in the way, the two have no solution; none of these "
-                               "could be left out of the proof",
+                               "proved: together with the features that block them, the two have no solution; none of these "
+                               "features can be left out of the proof",
                                true},
     [SUNDER_REASON_SAME_BLOCK] = {"same block", "the two move as one", true},
     [SUNDER_REASON_KEPT] = {"kept", "the two are allowed to overlap", true},
-    [SUNDER_REASON_UNRESOLVED] = {"unresolved", "neither a solution nor a proof that there is none was found", false},
+    [SUNDER_REASON_UNRESOLVED] = {"unresolved", "neither a solution was found, nor a proof that there is none", false},
     [CROWDED] = {"crowded",
-                 "proved: of the pairs of these two and of what stands in the way some have to stay in conflict, "
-                 "whatever is done elsewhere; none of them could be left out of the proof",
+                 "proved: among these two and the features that block them some pair has to stay in conflict, "
+                 "whatever is done elsewhere; none of these features can be left out of the proof",
                  true},
 };
 

@@ -141,5 +141,5 @@ run separate in.gpkg o.gpkg --overwrite -q
 [ "$status" -eq 0 ] && [ ! -e o.gpkg-journal ] || fail "a journal stays beside a new file"
 interrupted
 rm o.gpkg
-refused 1 'o.gpkg-journal is left of another database' separate in.gpkg o.gpkg
+refused 1 'o.gpkg-journal belongs to a former database' separate in.gpkg o.gpkg
 finish

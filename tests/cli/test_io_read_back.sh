@@ -66,6 +66,6 @@ rm -f out.gpkg
 status=0
 ALTER=extent ALTER_AT=1 LD_PRELOAD=$alter "$SUNDER" separate town.gpkg out.gpkg --input-layer buildings --gap 1 --allow-conflicts -q >said 2>&1 ||
     status=$?
-[ "$status" -eq 1 ] && [ ! -e out.gpkg ] && grep -q 'layer buildings: the extent that is told of it leaves features out' said ||
+[ "$status" -eq 1 ] && [ ! -e out.gpkg ] && grep -q 'layer buildings: its registered extent leaves features out' said ||
     fail "an extent that is too small: status $status, $(head -1 said)"
 finish

@@ -6,9 +6,9 @@ from .algorithm import LINES, POINTS, POLYGONS, Algorithm, Input, Output
 class Check(Algorithm):
     command = "check"
     title = "Check for overlaps and gaps"
-    text = """Lists pairs of features that overlap or stand nearer than a gap, exactly.
+    text = """Lists pairs of features that overlap or are nearer than a gap, exactly.
 
-Works on any layer, whoever made it. With the layer before it was moved, also lists what broke a rule since then."""
+Works on any layer. With the layer before it was moved, also lists moves that break a rule."""
     main = "conflicts"
     inputs = (Input("INPUT", "Layer to check", (POLYGONS, POINTS), None, None),)
     outputs = (Output("OUTPUT", "", "Conflicts", LINES, True, None),)

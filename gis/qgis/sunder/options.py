@@ -1,9 +1,9 @@
-"""The table of what the dialogs ask, once: options of the program, in the words of a dialog. No QGIS in here.
+"""The table of options of the program, in the words of a dialog. It does not use QGIS.
 
-Parameters are made of it (parameters.py), command lines (command_line.py), help texts, and the plain words in which
-messages of the program are told. A test compares it with `sunder --options-json`: every option of every command stands
-here or in LEFT_OUT, with the same choices and defaults. So the plug-in needs no program to be loaded, and its words may
-be those of a dialog.
+It is the source of the parameters (parameters.py), command lines (command_line.py), help texts, and of the words for
+options in messages. A test compares it with `sunder --options-json`: every option of every command is here or in
+LEFT_OUT, with the same choices and defaults. So the plug-in can be loaded without the program, and its texts can be
+those of a dialog.
 """
 from collections import namedtuple
 
@@ -35,12 +35,12 @@ class Option(namedtuple("Option", "flag kind commands label help default choices
 OPTIONS = (
     # ---- What is always asked ----
     Option("--gap", LENGTH, ("separate", "check", "pair", "route"), "Gap (least distance between features)",
-           "Features shall be at least this far apart. With 0 only overlaps count.", 0.0, advanced=False),
+           "Least distance between features. With 0 only overlaps count.", 0.0, advanced=False),
     Option("--shape", TEXT, ("buffer",), "Shape to grow or shrink by",
            "square:6m, rectangle:4x3, disc:3m (around the true disc), inside-disc:3m (within it), or WKT of a polygon. "
            "Lengths without a unit are in the layer's.", "disc:1", advanced=False, needed=True),
     Option("--operation", CHOICE, ("buffer",), "Operation",
-           "Opening removes what is narrower than the shape; closing fills gaps that are.",
+           "Opening removes parts that are narrower than the shape; closing fills gaps that are narrower.",
            0, ("dilate", "erode", "open", "close"),
            ("Grow (dilate)", "Shrink (erode)", "Open: shrink, then grow", "Close: grow, then shrink"), False),
     Option("--dissolve", FLAG, ("buffer",), "Dissolve (all features as one set)",
@@ -48,14 +48,14 @@ OPTIONS = (
     Option("--robot", TEXT, ("route",), "Robot (what is moved)",
            "square:2, rectangle:4x3, disc:1.5, or WKT of a polygon around its reference point (0 0). It does not turn.",
            "disc:1", advanced=False, needed=True),
-    Option("--from", POINT, ("route",), "Start", "Where the robot's reference point starts.", advanced=False,
+    Option("--from", POINT, ("route",), "Start", "The start of the robot's reference point.", advanced=False,
            needed=True),
-    Option("--to", POINT, ("route",), "Goal", "Where it is to go.", advanced=False, needed=True),
+    Option("--to", POINT, ("route",), "Goal", "The destination of the robot's reference point.", advanced=False, needed=True),
     Option("--before", SOURCE, ("check",), "The layer before it was moved",
-           "Also lists what broke a rule since then: what stands worse, moved too far, changed its side of a barrier, "
-           "jumped, or is no translate. Features are matched by the key field, else by FID.", advanced=False),
+           "Also lists moves that break a rule: conflicts that got worse, and features that moved too far, crossed a barrier, "
+           "jumped, or changed their shape. Features are matched by the key field, otherwise by FID.", advanced=False),
     Option("--reflect", FLAG, ("sum",), "Sum of P and the reflected Q",
-           "The sum of P and -Q: where Q may not stand, if it is not to meet P.", False, advanced=False),
+           "The sum of P and -Q: the positions in which Q would overlap P.", False, advanced=False),
     Option("--barrier", BARRIER_LAYERS, LAYERS, "Barriers (layers that never move)",
            "Roads, rivers, parcels: features stay clear of them and do not change their side.", advanced=False,
            key="-layers"),
@@ -65,52 +65,52 @@ OPTIONS = (
     Option("--barrier", BARRIER_LENGTH, LAYERS, "Barriers: gap from the drawn edge",
            "For the chosen layers. Empty: the gap between features.", advanced=False, key="-gap"),
     Option("--barrier", BARRIERS, LAYERS, "Barriers as a table (widths, filters, sides of each)",
-           "Besides the layers chosen above, one row a layer. Layer: the name of a layer of the project, or a file. "
+           "In addition to the layers chosen above, one row for each layer. Layer: the name of a layer of the project, or a file. "
            "Width or field: the full drawn width, or the field that holds it. Gap: from the drawn edge, the gap "
            "between features where empty. Filter: an expression. Side: no lets features cross it. As: boundary takes a "
            "polygon's rings as lines."),
-    Option("--max-shift", LENGTH, LAYERS, "Longest move", "No feature is moved further. Empty: no limit.",
+    Option("--max-shift", LENGTH, LAYERS, "Longest move", "No feature moves farther. Empty: no limit.",
            advanced=False),
     Option("--scale", SCALE, EVERY, "Scale of the map",
            "For lengths in millimetres on the sheet: 25000 for a map at 1:25 000.", advanced=False),
     # ---- Which features move, and how far ----
     Option("--max-shift-field", NUMERIC_FIELD, LAYERS, "Field: longest move of each feature",
-           "In the units of the layer. 0 is fixed, null is the longest move above."),
+           "In the units of the layer. 0: fixed; null: the longest move above."),
     Option("--weight", CHOICE, ("separate",), "What a move costs",
-           "The sum of weight times the square of each move is made least; areas are relative to their median.",
+           "The sum of weight times squared length of the moves is minimised; areas are relative to their median.",
            0, ("1", "area", "sqrt-area"), ("The same for every feature", "By area", "By the square root of the area")),
     Option("--weight-field", NUMERIC_FIELD, ("separate",), "Field: weight of each feature",
-           "Multiplies the weight; must be above 0, null is 1."),
+           "A factor of the weight, above 0; null: 1."),
     Option("--fixed-where", EXPRESSION, LAYERS, "Features that never move",
-           "An expression. Features for which it is true stay, and are obstacles."),
+           "An expression. Features for which it is true never move; the others keep clear of them."),
     Option("--ignore-where", EXPRESSION, LAYERS, "Features to leave out of it",
            "An expression. Features for which it is true are written unchanged, and conflict with nothing."),
     # ---- Blocks ----
     Option("--touch-tolerance", LENGTH, LAYERS, "Features so near are one block",
-           "Features that touch, or overlap or gape by no more than this, move as one. Empty: a tenth of the gap."),
+           "Features that touch, or whose overlap or distance is at most this, move as one. Empty: a tenth of the gap."),
     Option("--block-field", FIELD, LAYERS, "Field: features of equal values are one block",
-           "Equal values that are not null move as one, besides those that touch."),
+           "Features with equal values, not null, move as one, in addition to features that touch."),
     Option("--no-blocks", FLAG, LAYERS, "Nothing joins by touch or containment", "Each feature moves by itself.",
            False),
     Option("--contained", CHOICE, LAYERS, "A feature that lies in another",
-           "A building part in its building, say. Symbols of points are always taken apart.",
+           "For example a building part in its building. Symbols of points are always separated.",
            0, ("block", "ignore", "separate"), ("Moves with it", "May overlap it", "Is taken out of it")),
     Option("--allow-jumps", FLAG, LAYERS, "Features may jump over others, and out of yards", "Points always may.",
            False),
     Option("--list-inside", FLAG, LAYERS, "List conflicts inside blocks, too",
-           "Members of one block owe each other no gap; this lists where they would.", False),
+           "Members of one block need no gap; this lists their conflicts all the same.", False),
     # ---- Symbols ----
     Option("--symbol", TEXT, LAYERS, "Points: the symbol drawn at each",
            "disc:4m, square:5m, rectangle:8x3, or WKT of a polygon relative to the point."),
     Option("--symbol-field", FIELD, LAYERS, "Points: field that holds each one's symbol",
-           "As text, like the symbol above, which stands in for null."),
+           "As text, written like the symbol above. Null: the symbol above."),
     Option("--symbol-size-field", NUMERIC_FIELD, LAYERS, "Points: field that each symbol is multiplied by",
-           "Must be above 0, null is 1."),
+           "A factor above 0; null: 1."),
     # ---- Buffers ----
     Option("--dissolve-field", FIELD, ("buffer",), "Field: features of equal values as one set each",
            "The result has one feature for each value."),
     Option("--explode", FLAG, ("buffer",), "Each polygon of the result a feature of its own",
-           "Dissolved, these are the blocks.", False),
+           "With Dissolve these are the blocks.", False),
     Option("--align", FLAG, ("buffer",), "Turn the shape to the main direction of each feature or block",
            "So that a square follows the walls.", False),
     # ---- Sums ----
@@ -118,17 +118,17 @@ OPTIONS = (
            0, ("auto", "convolution", "arrangement", "incremental", "divide"),
            ("Chosen for these", "Convolution", "Arrangement of convex subsums", "Convex subsums one after another",
             "Convex subsums, halves joined")),
-    Option("--decomposition", CHOICE, ("sum",), "Convex pieces", "How operands are cut, on roads that cut them.",
+    Option("--decomposition", CHOICE, ("sum",), "Convex pieces", "How operands are cut, by algorithms that cut them.",
            0, ("angle-bisector", "vertical", "triangulation", "hertel-mehlhorn", "optimal", "mixed"),
            ("Angle bisectors", "Vertical cuts", "Triangulation", "Hertel and Mehlhorn", "Fewest pieces", "Mixed")),
-    Option("--order", CHOICE, ("sum",), "Order of the subsums", "On roads that join one subsum after another.",
+    Option("--order", CHOICE, ("sum",), "Order of the subsums", "For algorithms that join one subsum after another.",
            0, ("random", "fat", "given"), ("Random", "Fat ones first", "As they come")),
     # ---- All ----
     Option("--id-field", FIELD, ("separate", "check", "buffer"), "Key field, for lists and messages",
-           "Copied into the id columns. Empty: the id that QGIS shows, where the layer had to be copied."),
-    Option("--effort", NUMBER, ("separate",), "Effort", "How hard to look for better sides and for proofs: 0 not at "
-           "all, 10 ten times as hard.", 1.0),
-    Option("--seed", COUNT, ("separate", "sum"), "Seed", "For what is drawn at random.", 0),
+           "Copied to the id columns. Empty: the id that QGIS shows, if the layer had to be copied."),
+    Option("--effort", NUMBER, ("separate",), "Effort", "A factor of the work spent on better layouts and on proofs. "
+           "0: none, 10: ten times the default.", 1.0),
+    Option("--seed", COUNT, ("separate", "sum"), "Seed", "Seed of the random choices; the same seed gives the same result.", 0),
     Option("--invalid", CHOICE, EVERY, "Invalid geometries", "Polygons that cross themselves, for example.",
            0, ("repair", "skip", "fail"), ("Repair", "Skip", "Stop with a message")),
     Option("--threads", COUNT, EVERY, "Threads", "Results are the same for every number. 0: all processors.", 0),

@@ -8,7 +8,7 @@ class Pair(Algorithm):
     title = "Least move that parts two shapes"
     text = """The shortest translation of Q that takes its interior off P, exactly.
 
-Each of P and Q is a layer, all polygons of which are one set, or a shape: square:6, rectangle:4x3, disc:3, or WKT of a
+Each of P and Q is a layer, whose polygons are one set together, or a shape: square:6, rectangle:4x3, disc:3, or WKT of a
 polygon. The layer has that translation as a line."""
     main = "pair"
     group_name = "Shapes"

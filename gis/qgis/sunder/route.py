@@ -5,9 +5,9 @@ from .algorithm import ANY, LINES, POINTS, POLYGONS, Algorithm, Input, Output
 class Route(Algorithm):
     command = "route"
     title = "Route among obstacles"
-    text = """The shortest way of a robot that does not turn among obstacles, contact allowed.
+    text = """The shortest route of a robot among obstacles. The robot does not turn; contact is allowed.
 
-Passages that it exactly fits are passages; one that is narrower by a unit in the last place is none. Obstacles are
+The robot can go through passages that it exactly fits, but not through one that is narrower by a unit in the last place. Obstacles are
 polygons, lines or points. Start and goal are where the robot's reference point, the origin of its shape, is."""
     main = "route"
     group_name = "Shapes"

@@ -9,10 +9,10 @@ class Separate(Algorithm):
     text = """Moves overlapping features apart by the least amount, so that they are a gap apart.
 
 Buildings, or symbols of points, keep their shape and are only moved. Roads and other barriers never move. Every
-result is checked exactly on the coordinates as written, and a proved lower bound stands beside the cost.
+result is checked exactly on the coordinates as written, and comes with a proved lower bound of the cost.
 
 Layers: the features, moved, with their attributes; the moves as lines; the conflicts that remain, each with its
-reason; what presses on what; for points their symbols. The report is a page for the browser: the map before and
+reason; the contact forces; for points their symbols. The report is a page for the browser: the map before and
 after."""
     main = "separated"
     movable = True

@@ -9,9 +9,9 @@ class Sum(Algorithm):
     title = "Minkowski sum"
     text = """The Minkowski sum of two polygonal sets, exactly: all points p + q.
 
-Each of P and Q is a layer, all polygons of which are one set, or a shape: square:6, rectangle:4x3, disc:3, or WKT of a
+Each of P and Q is a layer, whose polygons are one set together, or a shape: square:6, rectangle:4x3, disc:3, or WKT of a
 polygon. Segments and points where one exactly fits the other are layers of their own, and so is the planar map
-beneath."""
+of the sum."""
     main = "sum"
     group_name = "Shapes"
     inputs = (Input("P", "P: a layer", (POLYGONS,), "P_SHAPE", "or P as a shape: " + SHAPES),

@@ -134,7 +134,7 @@ static bool check_database_file(const gis_sink *sink, gis_error *error)
     if (!check_companions(path, error)) return false;
     bool there = gis_sink_exists(path);
     if (!there && (gis_sqlite_has_journal(path) || gis_sqlite_has_log(path)))
-        return gis_fail(error, "%s%s is left of another database and would count as part of the new one; move it away",
+        return gis_fail(error, "%s%s belongs to a former database and would be read as part of the new one; move it away",
                         path, gis_sqlite_has_log(path) ? "-wal" : "-journal");
     if (there && gis_sqlite_has_journal(path) && !gis_sqlite_being_written(path)) settle_journal(sink);
     if (there && sink->request.overwrite && !gis_source_lies_in(sink->source, path) && !gis_sqlite_can_replace(path) &&

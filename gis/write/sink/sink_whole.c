@@ -93,6 +93,6 @@ bool gis_sink_check_whole(const gis_sink_layer *layer, OGRLayerH as_written, gis
     if (OGR_L_GetExtent(as_written, &box, FALSE) == OGRERR_NONE && reaches(box.MinX, all->MinX, -1) &&
         reaches(box.MinY, all->MinY, -1) && reaches(box.MaxX, all->MaxX, 1) && reaches(box.MaxY, all->MaxY, 1))
         return true;
-    return gis_fail(error, "%s, layer %s: the extent that is told of it leaves features out", layer->sink->request.path,
+    return gis_fail(error, "%s, layer %s: its registered extent leaves features out", layer->sink->request.path,
                     layer->name);
 }
