@@ -397,7 +397,7 @@ static bool spare_named(const gis_options *options, const char *log, gis_error *
         named = gis_barrier_parse(*each, &barrier, &ignored) && gis_path_lies_in(barrier.dataset, log);
         gis_barrier_request_clear(&barrier);
     }
-    return !named || gis_fail_usage(error, "--log %s: that is used otherwise; give another file", log);
+    return !named || gis_fail_usage(error, "--log %s: that file has another use in this run; give another one", log);
 }
 
 bool gis_resolve_messages(const gis_options *options, gis_messages_request *out, gis_error *error)

@@ -38,7 +38,7 @@ static gis_sort_head *head_of(unsigned char *record) { return (void *)record; }
 
 static bool fail_content(const gis_disk_file *file, gis_error *error)
 {
-    return gis_fail(error, "%s: it is not what was written", file->path);
+    return gis_fail(error, "%s: the file was damaged or changed", file->path);
 }
 
 /* ---- Parts ------------------------------------------------------------------------------------------------------- */

@@ -146,8 +146,8 @@ bool gis_shape_of_wkt(const char *text, const char *who, gis_invalid_policy poli
     ok = ok && gis_shape_of_polygons(&set, policy, who, out, &invalid, &reason, error);
     *building += gis_clock() - begin;
     if (ok && invalid)
-        gis_say_warning(GIS_MESSAGE_INVALID, "%s: %s; taken as what its rings enclose by the even-odd rule", who,
-                        reason.message);
+        gis_say_warning(GIS_MESSAGE_INVALID, "%s: %s; read as the region that its rings enclose by the even-odd rule",
+                        who, reason.message);
     gis_polygons_clear(&set);
     return ok;
 }

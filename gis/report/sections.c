@@ -93,7 +93,8 @@ bool gis_page_figures(const gis_page_model *model, const gis_thinning *thinning,
 
     open_figure(to, model->request->verified ? " good" : " bad", "verified");
     gis_text_add(to, model->request->verified ? "yes" : "no");
-    close_figure(to, model->request->verified ? "on the coordinates as written" : "not all was proved of the file");
+    close_figure(to,
+                 model->request->verified ? "on the coordinates as written" : "the file was not checked completely");
     bool ok = !detail.failed || gis_no_memory(error);
     gis_text_clear(&detail);
     return ok;
@@ -244,7 +245,6 @@ bool gis_page_colophon(const gis_page_model *model, const gis_thinning *thinning
     struct tm day;
     char date[64] = "";
     if (gmtime_r(&now, &day)) strftime(date, sizeof date, ", %Y-%m-%d", &day);
-    gis_text_print(to, "sunder %s%s. This page is one file, and asks for nothing from elsewhere.", sunder_version(),
-                   date);
+    gis_text_print(to, "sunder %s%s. This page is one file and loads nothing from elsewhere.", sunder_version(), date);
     return true;
 }

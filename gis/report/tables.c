@@ -222,7 +222,10 @@ static void add_proof(const gis_page_model *model, gis_text *to)
     close_term(to);
     open_term(to, "proved lower bound");
     gis_report_area_or_less(to, summary->lower_bound, &model->unit);
-    gis_text_add(to, " <span class=\"aside\">no placement that solves every pair not listed costs less</span>");
+    gis_text_add(
+        to,
+        " <span class=\"aside\">any layout that solves the same pairs, and makes no remaining conflict worse, costs "
+        "at least this much</span>");
     close_term(to);
     open_term(to, "optimality gap");
     gis_report_share_or_more(to, request->optimality_gap);
@@ -233,12 +236,12 @@ static void add_proof(const gis_page_model *model, gis_text *to)
     close_term(to);
     open_term(to, "proved optimal");
     gis_report_count(to, summary->clusters_optimal);
-    gis_text_add(to, " <span class=\"aside\">of the groups: nothing costs less</span>");
+    gis_text_add(to, " <span class=\"aside\">of the groups: no layout costs less</span>");
     close_term(to);
     open_term(to, "verified");
     gis_text_print(to, "%s <span class=\"aside\">%s</span>", request->verified ? "yes" : "no",
-                   request->verified ? "every pair not listed was proved apart, on the coordinates as written"
-                                     : "the coordinates as written were not all proved");
+                   request->verified ? "every pair not listed was checked exactly, on the coordinates as written"
+                                     : "not all coordinates were checked as written");
     close_term(to);
     open_term(to, "blocks");
     gis_report_count(to, summary->blocks);

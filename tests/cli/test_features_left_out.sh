@@ -52,7 +52,7 @@ WKT,name
 "POLYGON ((0 0,10 10,10 0,0 10,0 0))",bow
 CSV
 expect 0 check bow.gpkg
-says err 'taken as what its rings enclose by the even-odd rule'
+says err 'read as the region that its rings enclose by the even-odd rule'
 says out '(skipped 0, invalid 1, null 0)'
 
 # ---- Coordinates that are no finite numbers, at any vertex, as any kind: --invalid skip lets the features through. Drivers do

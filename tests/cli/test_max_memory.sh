@@ -98,31 +98,31 @@ alike o.shp 99M --symbol disc:4 --effort 0 --layers main,symbols
 # What hangs together is one part, and if that is too large it is said.
 "$SUNDER_BUILD/sunder-town" --buildings 30000 --seed 6 large.gpkg >/dev/null || fail "no town is made"
 run separate large.gpkg o.gpkg -l buildings --effort 0 --max-memory 99M --overwrite
-grep -q 'one piece of work' err && fail "a town is told to be one piece"
+grep -q 'as one piece' err && fail "a town is told to be one piece"
 ogrinfo -q large.gpkg -sql 'alter table buildings add column one integer default 1' >/dev/null || fail "no block is made"
 run separate large.gpkg o.gpkg -l buildings --effort 0 --max-memory 99M --overwrite --block-field one
-grep -q '30000 features may have to do with each other, and are one piece of work: it takes about' err ||
+grep -q '30000 features may depend on each other and are separated as one piece: it takes about' err ||
     fail "nothing is said of a block of 30000 features"
 # ... and that before anything is separated, by a plan, too.
-grep -q '30000 features hang together as they stand, from (.*) to (.*), and are one piece of work' err ||
+grep -q '30000 features form one connected group, from (.*) to (.*), which is separated as one piece' err ||
     fail "a block of 30000 features is not told of beforehand"
 expect 0 plan large.gpkg one.plan -l buildings --shards 3 --max-memory 99M --block-field one
-grep -q '30000 features hang together as they stand' err || fail "plan does not tell of a block of 30000 features"
+grep -q '30000 features form one connected group' err || fail "plan does not tell of a block of 30000 features"
 same "$(jq '.largest_group.features' one.plan/plan.json)" 30000 'largest_group of plan.json'
 jq -e '.largest_group.memory_bytes > 1.5 * .max_memory_bytes and .merge.memory_bytes >= .largest_group.memory_bytes' one.plan/plan.json >/dev/null ||
     fail "the merge is not estimated by what it has to hold"
 for k in 1 2 3; do run separate --shard $k one.plan -q; done
 rm -f o.gpkg
 run merge one.plan o.gpkg
-same "$(grep -c 'hang together as they stand' err)" 1 'times that merge tells of a block of 30000 features'
+same "$(grep -c 'form one connected group' err)" 1 'times that merge tells of a block of 30000 features'
 expect 0 plan large.gpkg none.plan -l buildings --shards 3 --max-memory 99M
-grep -q 'hang together' err && fail "plan tells that a town hangs together"
+grep -q "one connected group" err && fail "plan tells that a town hangs together"
 # Long houses aslant in rows: nearly all boxes meet, but no two houses do, so that shapes decide.
 ogr2ogr -q aslant.gpkg large.gpkg -nln buildings -dialect SQLite -sql "select st_translate(st_geomfromtext(
         'POLYGON((0 0,30 30,28 32,-2 2,0 0))', 25832), 400000 + 9 * (fid % 200) + 31 * (fid / 200), 5500000 + 31 * (fid / 200), 0) as geom from buildings" ||
     fail "no houses aslant are made"
 expect 0 plan aslant.gpkg aslant.plan -l buildings --shards 3 --max-memory 99M --gap 1
-grep -q 'hang together' err && fail "houses whose boxes meet are told to hang together"
+grep -q "one connected group" err && fail "houses whose boxes meet are told to hang together"
 same "$(jq '.largest_group.features' aslant.plan/plan.json)" 1 'largest_group of houses that stand aslant'
 rm -rf o.gpkg ./*.plan aslant.gpkg
 

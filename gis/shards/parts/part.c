@@ -100,11 +100,10 @@ static void warn_if_large(const gis_part *p)
     }
     const double bytes = gis_part_bytes(how->keep_trees, how->effort, (double)p->n, (double)vertices);
     if (p->layout->memory > 0 && bytes > GIS_PART_LARGE * p->layout->memory)
-        gis_say_warning(
-            GIS_MESSAGE_MEMORY,
-            "%zu features may have to do with each other, and are one piece of work: it takes about %.0f MB, "
-            "more than --max-memory has it",
-            p->n, ceil(bytes / 1e6));
+        gis_say_warning(GIS_MESSAGE_MEMORY,
+                        "%zu features may depend on each other and are separated as one piece: it takes about %.0f MB, "
+                        "more than --max-memory",
+                        p->n, ceil(bytes / 1e6));
 }
 
 /* ---- Names in lines of proofs ------------------------------------------------------------------------------------ */

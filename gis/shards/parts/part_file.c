@@ -207,7 +207,7 @@ static bool read_list(gis_part_file *file, const stored_stamp *head, gis_error *
     file->chunks = (size_t)end.chunks;
     if (!gis_disk_file_read(f, end.from, file->chunk, file->chunks * sizeof *file->chunk, error)) return false;
     return checksum_of(file, head) == end.checksum ||
-           gis_fail(error, "%s: it is not what was written: its checksum is another", f->path);
+           gis_fail(error, "%s: checksum mismatch; the file was damaged or changed", f->path);
 }
 
 bool gis_part_file_open(gis_part_file *file, const char *directory, const gis_part_stamp *stamp, gis_error *error)
@@ -226,7 +226,7 @@ bool gis_part_file_open(gis_part_file *file, const char *directory, const gis_pa
 
 static bool altered(const gis_part_file *file, gis_error *error)
 {
-    return gis_fail(error, "%s: it is not what was written: a checksum is another", file->file.path);
+    return gis_fail(error, "%s: checksum mismatch; the file was damaged or changed", file->file.path);
 }
 
 bool gis_part_file_read(gis_part_file *file, size_t k, gis_part_result *to, gis_error *error)

@@ -52,7 +52,7 @@ static bool load(gis_sorted_results *s, const unsigned char *record, gis_error *
     memcpy(&s->head, record, sizeof s->head);
     return gis_part_result_load(&s->one, record + sizeof s->head, (size_t)s->head.bytes - sizeof s->head, &sound,
                                 error) &&
-           (sound || gis_fail(error, "%s/%s: it is not what was written", s->directory, s->name));
+           (sound || gis_fail(error, "%s/%s: the file was damaged or changed", s->directory, s->name));
 }
 
 static bool take(void *user, const unsigned char *record, gis_error *error)
@@ -97,7 +97,7 @@ static bool fill(gis_sorted_results *s, size_t needed, gis_error *error)
     memmove(s->buffer, s->buffer + s->used, have);
     const uint64_t left = s->file.size - s->from;
     const size_t more = left < wanted - have ? (size_t)left : wanted - have;
-    if (have + more < needed) return gis_fail(error, "%s: it is not what was written", s->file.path);
+    if (have + more < needed) return gis_fail(error, "%s: the file was damaged or changed", s->file.path);
     if (!gis_disk_file_read(&s->file, s->from, s->buffer + have, more, error)) return false;
     s->from += more;
     s->used = 0;

@@ -133,10 +133,11 @@ void gis_shard_run_warn_of_group(const gis_shard_run *parts)
     const gis_contact_group *t = &parts->facts.group;
     const double bytes = gis_shard_run_bytes(&parts->request->rules, (double)t->features, (double)t->vertices);
     if (bytes > GIS_PART_LARGE * parts->layout.memory)
-        gis_say_warning(GIS_MESSAGE_MEMORY,
-                        "%zu features hang together as they stand, from (%.12g, %.12g) to (%.12g, %.12g), and are one "
-                        "piece of work: it takes about %.0f MB, more than --max-memory has it",
-                        t->features, t->box[0], t->box[1], t->box[2], t->box[3], ceil(bytes / 1e6));
+        gis_say_warning(
+            GIS_MESSAGE_MEMORY,
+            "%zu features form one connected group, from (%.12g, %.12g) to (%.12g, %.12g), which is separated "
+            "as one piece: it takes about %.0f MB, more than --max-memory",
+            t->features, t->box[0], t->box[1], t->box[2], t->box[3], ceil(bytes / 1e6));
 }
 
 bool gis_shard_run_begin(const gis_layer_input_request *request, const char *directory, unsigned shards, double memory,

@@ -137,7 +137,7 @@ static bool read_content(gis_spool_index *index, gis_disk_file *file, gis_error 
         return false;
     index->parts = (unsigned)head.parts;
     return checksum == index->checksum ||
-           gis_fail(error, "%s: it is not what was written: its checksum is another", file->path);
+           gis_fail(error, "%s: checksum mismatch; the file was damaged or changed", file->path);
 }
 
 bool gis_spool_index_read(gis_spool_index *index, const char *directory, gis_error *error)

@@ -38,7 +38,7 @@ static bool open_features(gis_spool *spool, const char *directory, gis_error *er
     for (size_t k = 0; k < spool->index.n; k++) {
         const gis_spool_entry *entry = &spool->index.entry[k];
         if (!is_possible(spool, entry, end))
-            return gis_fail(error, "%s: cell %zu of it is not what was written", file->path, k);
+            return gis_fail(error, "%s: cell %zu was damaged or changed", file->path, k);
         spool->features += entry->cell.features;
         spool->vertices += entry->cell.vertices;
         end += entry->bytes;
@@ -86,7 +86,7 @@ static bool load(gis_spool *spool, size_t cell, gis_error *error)
     if (!gis_disk_file_read(&spool->file, entry->from, records->at, entry->bytes, error)) return false;
     records->used = entry->bytes;
     return gis_checksum_of(0, records->at, records->used) == entry->checksum ||
-           gis_fail(error, "%s: cell %zu of it is not what was written: its checksum is another", spool->file.path,
+           gis_fail(error, "%s: checksum mismatch in cell %zu; the file was damaged or changed", spool->file.path,
                     cell);
 }
 
@@ -100,7 +100,7 @@ static bool visit_record(gis_spool *spool, uint64_t from, size_t at, gis_spool_v
     sunder_error why;
     if (!gis_go_on(error)) return false;
     if (!gis_spool_record_feature(record, spool->records.used - at, &feature))
-        return gis_fail(error, "%s: at %llu it is not what was written", spool->file.path,
+        return gis_fail(error, "%s: damaged or changed at byte %llu", spool->file.path,
                         (unsigned long long)(from + at));
     if (!gis_spool_record_shape(record, &spool->rings, &shape, &why))
         return gis_core_failed(error, spool->file.path, &why);
@@ -127,7 +127,7 @@ bool gis_spool_read_one(gis_spool *spool, uint64_t place, gis_spool_visit *visit
     gis_spool_head head;
     if (!gis_disk_file_read(&spool->file, place, &head, sizeof head, error)) return false;
     if (head.bytes > spool->file.size - place)
-        return gis_fail(error, "%s: at %llu it is not what was written", spool->file.path, (unsigned long long)place);
+        return gis_fail(error, "%s: damaged or changed at byte %llu", spool->file.path, (unsigned long long)place);
     if (!gis_array_reserve(&records->at, &records->capacity, (size_t)head.bytes, 1)) return gis_no_memory(error);
     records->used = (size_t)head.bytes;
     return gis_disk_file_read(&spool->file, place, records->at, records->used, error) &&
@@ -143,7 +143,7 @@ bool gis_spool_skim(gis_spool *spool, size_t cell, gis_spool_glance *glance, voi
         gis_spool_feature feature;
         double box[4];
         if (!gis_spool_record_feature(record, spool->records.used - at, &feature))
-            return gis_fail(error, "%s: cell %zu of it is not what was written", spool->file.path, cell);
+            return gis_fail(error, "%s: cell %zu was damaged or changed", spool->file.path, cell);
         feature.place = from + at;
         gis_spool_record_box(record, box);
         const gis_spool_head *head = gis_spool_record_head(record);

@@ -104,7 +104,7 @@ static bool settle_record(gis_spool_writer *writer, unsigned char *record, gis_e
     gis_spool_feature feature;
     if (!writer->settle) return true;
     if (!gis_spool_record_feature(record, (size_t)gis_spool_record_head(record)->bytes, &feature))
-        return gis_fail(error, "%s/features: it is not what was written", writer->directory);
+        return gis_fail(error, "%s/features: the file was damaged or changed", writer->directory);
     gis_error why;
     if (writer->settle(writer->settle_user, &feature, &why)) {
         gis_spool_record_settle(record, &feature.demands);

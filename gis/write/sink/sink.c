@@ -184,7 +184,7 @@ void gis_sink_free(gis_sink *sink)
     if (sink->place == GIS_PLACE_DATABASE && !sink->published && sink->format.sqlite &&
         gis_sqlite_has_journal(sink->request.path) && !gis_sqlite_being_written(sink->request.path))
         gis_say_warning(GIS_MESSAGE_REMAINS,
-                        "%s-journal holds what the database was; SQLite brings it back when it is next written",
+                        "%s-journal holds the former content of the database; SQLite restores it at the next write",
                         sink->request.path);
     for (size_t i = 0; i < sink->n_layers; i++) free_layer(sink->layers[i]);
     free(sink->layers);

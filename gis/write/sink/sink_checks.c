@@ -134,7 +134,8 @@ static bool check_database_file(const gis_sink *sink, gis_error *error)
     if (!check_companions(path, error)) return false;
     bool there = gis_sink_exists(path);
     if (!there && (gis_sqlite_has_journal(path) || gis_sqlite_has_log(path)))
-        return gis_fail(error, "%s%s belongs to a former database and would be read as part of the new one; move it away",
+        return gis_fail(error,
+                        "%s%s belongs to a former database and would be read as part of the new one; move it away",
                         path, gis_sqlite_has_log(path) ? "-wal" : "-journal");
     if (there && gis_sqlite_has_journal(path) && !gis_sqlite_being_written(path)) settle_journal(sink);
     if (there && sink->request.overwrite && !gis_source_lies_in(sink->source, path) && !gis_sqlite_can_replace(path) &&
@@ -190,11 +191,11 @@ bool gis_sink_check_geometries(const gis_sink *sink, gis_error *error)
     if (!sink->request.features || !(sink->format.abilities & GIS_NEEDS_GEOMETRY)) return true;
     const size_t n =
         gis_source_content_count(sink->source, GIS_NOTHING) + gis_source_content_count(sink->source, GIS_BROKEN);
-    return n == 0 || gis_fail(error,
-                              "%s: %s drops features without geometry, and %zu of layer %s ha%s none: select the "
-                              "others with --where, or write another format",
-                              sink->request.path, sink->format.name, n, gis_source_name(sink->source),
-                              n == 1 ? "s" : "ve");
+    return n == 0 ||
+           gis_fail(error,
+                    "%s: %s drops features without geometry, and %zu of layer %s ha%s none: select the "
+                    "others with --where, or write another format",
+                    sink->request.path, sink->format.name, n, gis_source_name(sink->source), n == 1 ? "s" : "ve");
 }
 
 /* ---- Formats that cannot hold the coordinates -------------------------------------------------------------------- */
@@ -214,12 +215,12 @@ bool gis_sink_check_reprojection(const gis_sink *sink, gis_error *error)
                         sink->request.path, sink->format.name);
     if (sink->format.only_written && !sink->request.allow_inexact && !sink->format.reprojects)
         return gis_fail(error,
-                        "%s: %s is only written, so that nothing could be said of the written features; write "
+                        "%s: %s is only written, so that the written features could not be verified; write "
                         "another format, or give --allow-inexact-output",
                         sink->request.path, sink->format.name);
     if (!sink->format.reprojects || sink->request.allow_inexact || !crs || is_wgs84(crs)) return true;
     return gis_fail(error,
-                    "%s: %s would reproject the coordinates to WGS 84, so that nothing could be said of the written "
-                    "features; write another format, or give --allow-inexact-output",
+                    "%s: %s would reproject the coordinates to WGS 84, so that the written features could not "
+                    "be verified; write another format, or give --allow-inexact-output",
                     sink->request.path, sink->format.name);
 }
