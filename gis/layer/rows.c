@@ -32,7 +32,8 @@ bool gis_main_begin(gis_sink *sink, gis_sink_layer **layer, gis_error *error)
                                             .style = GIS_STYLE_STATUS};
     if (!gis_sink_add(sink, &request, layer, error)) return false;
     if (!gis_sink_has_null(*layer))
-        gis_sink_tell_loss(*layer, "the format has no null: a feature in no block has its own FID in sunder_blk and block");
+        gis_sink_tell_loss(*layer,
+                           "the format has no null: a feature in no block has its own FID in sunder_blk and block");
     return true;
 }
 

@@ -32,11 +32,13 @@ static const struct {
     [SUNDER_REASON_SIDE] = {"side of a barrier",
                             "proved: the two alone cannot be separated unless one crosses a barrier to its other side",
                             true},
-    [SUNDER_REASON_JUMP] = {"no jumps", "proved: the two alone cannot be separated unless one jumps over the other", true},
-    [SUNDER_REASON_NO_ROOM] = {"no room",
-                               "proved: together with the features that block them, the two have no solution; none of these "
-                               "features can be left out of the proof",
-                               true},
+    [SUNDER_REASON_JUMP] = {"no jumps", "proved: the two alone cannot be separated unless one jumps over the other",
+                            true},
+    [SUNDER_REASON_NO_ROOM] =
+        {"no room",
+         "proved: together with the features that block them, the two have no solution; none of these "
+         "features can be left out of the proof",
+         true},
     [SUNDER_REASON_SAME_BLOCK] = {"same block", "the two move as one", true},
     [SUNDER_REASON_KEPT] = {"kept", "the two are allowed to overlap", true},
     [SUNDER_REASON_UNRESOLVED] = {"unresolved", "neither a solution was found, nor a proof that there is none", false},
