@@ -137,7 +137,7 @@ for end in tab mif csv shp geojson nc gmt jml; do
     same "$(counts .conflicts c.json)" "$(counts .conflicts.after s.json)" "$end: conflicts"
     case $end in
         tab | mif | nc)
-            losses s.json | grep -q 'no null: what stands alone has its own FID in sunder_blk' || fail "$end: not told"
+            losses s.json | grep -q 'no null: a feature in no block has its own FID in sunder_blk' || fail "$end: not told"
             losses s.json | grep -q '_conflicts: null reads back as a value in .*barr_fid' || fail "$end: of barr_fid nobody is told"
             ;;
     esac
