@@ -219,7 +219,8 @@ bool gis_layer_spool_barriers(const gis_layer_input *input, double reach, gis_sp
                               gis_error *error)
 {
     const gis_layer_input_request *request = input->request;
-    gis_barrier_targets *targets = gis_barrier_targets_of_spool(features, reach);
+    /* A point has the side that it stands on: barriers farther away than its moves do not matter to it. */
+    gis_barrier_targets *targets = gis_barrier_targets_of_spool(features, input->points ? INFINITY : reach);
     const gis_barrier_surroundings around = {
         .crs = gis_source_crs(input->source),
         .units = &input->units,
