@@ -2,7 +2,7 @@
 #ifndef GIS_CORE_ERROR_H
 #define GIS_CORE_ERROR_H
 
-#include "base/error.h"
+#include "base/gis_error.h"
 #include "sunder.h"
 
 /* Sets the error to the library's sentence, after "WHO: " unless who is NULL, and returns false. For work that was

@@ -12,7 +12,7 @@
 #ifndef GIS_INTERRUPT_H
 #define GIS_INTERRUPT_H
 
-#include "base/error.h"
+#include "base/gis_error.h"
 
 /* Signals are caught from here on, by the thread that calls this: the main thread. */
 void gis_catch_signals(void);

@@ -8,7 +8,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "base/error.h"
+#include "base/gis_error.h"
 
 typedef enum gis_length_unit {
     GIS_LAYER_UNIT,

@@ -4,7 +4,7 @@
 #ifndef GIS_MESSAGE_H
 #define GIS_MESSAGE_H
 
-#include "base/error.h"
+#include "base/gis_error.h"
 
 #include <stdint.h>
 

@@ -7,7 +7,7 @@
 #ifndef GIS_PATH_H
 #define GIS_PATH_H
 
-#include "base/error.h"
+#include "base/gis_error.h"
 
 /* As printf() prints it; memory that runs out ends the program, as in all functions of GDAL's that allocate. What these
  * functions give is freed with CPLFree(). */

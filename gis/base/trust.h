@@ -8,7 +8,7 @@
 #ifndef GIS_TRUST_H
 #define GIS_TRUST_H
 
-#include "base/error.h"
+#include "base/gis_error.h"
 
 /* Is what is open a directory of the effective user, for that user alone? Mode 0700; the bit by which a directory hands
  * its group on may be set. */

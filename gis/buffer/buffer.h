@@ -3,7 +3,7 @@
 #define GIS_BUFFER_H
 
 #include "geometry/round/round.h"
-#include "layer/input.h"
+#include "layer/layer_input.h"
 #include "write/sink/sink.h"
 
 /* The request. Strings are borrowed until the buffer is cleared. */

@@ -1,9 +1,9 @@
 /* buffer.c: sunder buffer. Read, grow or shrink, round, write. */
 #include "base/message.h"
 #include "base/resources.h"
+#include "commands/command_report.h"
 #include "commands/commands.h"
 #include "commands/progress_shares.h"
-#include "commands/report.h"
 #include "commands/resolve.h"
 #include "read/source_files.h"
 

@@ -1,9 +1,9 @@
 /* check.c: sunder check. The exact list of overlaps and of pairs that are too close, in any layer. */
 #include "base/interrupt.h"
 #include "base/message.h"
+#include "commands/command_report.h"
 #include "commands/commands.h"
 #include "commands/progress_shares.h"
-#include "commands/report.h"
 #include "commands/resolve.h"
 #include "layer/moves.h"
 #include "read/source_files.h"

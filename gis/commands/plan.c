@@ -4,7 +4,7 @@
 #include "commands/commands.h"
 #include "commands/planned.h"
 #include "commands/resolve.h"
-#include "layer/checksum.h"
+#include "layer/layer_checksum.h"
 
 #include <stdio.h>
 #include <unistd.h>

@@ -8,7 +8,7 @@
 #include "base/progress.h"
 #include "buffer/buffer.h"
 #include "options/options.h"
-#include "route/input.h"
+#include "route/route_input.h"
 #include "sum/operands.h"
 #include "write/deliver.h"
 

@@ -1,11 +1,11 @@
 /* route.c: sunder route. A shortest way for a robot among obstacles, contact allowed, as JSON, or as layers. */
 #include "base/core_error.h"
 #include "base/message.h"
+#include "commands/command_report.h"
 #include "commands/commands.h"
-#include "commands/report.h"
 #include "commands/resolve.h"
 #include "read/source_files.h"
-#include "route/layers.h"
+#include "route/route_layers.h"
 
 #include <math.h>
 #include <stdio.h>

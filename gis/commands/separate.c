@@ -1,9 +1,9 @@
 /* separate.c: sunder separate. Read, separate, write, say what came of it. */
 #include "base/message.h"
 #include "base/resources.h"
+#include "commands/command_report.h"
 #include "commands/commands.h"
 #include "commands/progress_shares.h"
-#include "commands/report.h"
 #include "commands/resolve.h"
 #include "commands/separate_run.h"
 #include "layer/far_moves.h"

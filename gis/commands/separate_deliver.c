@@ -1,7 +1,7 @@
 /* separate_deliver.c: the end of a separation: its output, --stats, --report, --proof, --trace and the summary, all of
  * them or none. */
 #include "commands/call.h"
-#include "commands/report.h"
+#include "commands/command_report.h"
 #include "commands/resolve.h"
 #include "commands/separate_run.h"
 

@@ -1,7 +1,7 @@
 /* separate_figures.c: what came of a separation, in figures: for --stats, and in words on standard output. Keys stand
  * in the order in which the interface lists them; scripts may rely on the keys. */
 #include "base/resources.h"
-#include "commands/report.h"
+#include "commands/command_report.h"
 #include "commands/resolve.h"
 #include "commands/separate_run.h"
 #include "read/crs_units.h"

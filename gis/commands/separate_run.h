@@ -5,9 +5,9 @@
 
 #include "base/json.h"
 #include "layer/result.h"
-#include "layer/trace.h"
+#include "layer/trace_file.h"
 #include "options/options.h"
-#include "shards/run/run.h"
+#include "shards/run/shard_run.h"
 #include "write/deliver.h"
 
 /* Bits of --layers. */

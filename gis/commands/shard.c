@@ -3,9 +3,9 @@
 #include "base/json.h"
 #include "base/message.h"
 #include "base/resources.h"
+#include "commands/command_report.h"
 #include "commands/commands.h"
 #include "commands/planned.h"
-#include "commands/report.h"
 #include "commands/resolve.h"
 
 #include <stdio.h>

@@ -3,10 +3,10 @@
 #include "base/interrupt.h"
 #include "base/message.h"
 #include "base/resources.h"
+#include "commands/command_report.h"
 #include "commands/commands.h"
-#include "commands/report.h"
 #include "commands/resolve.h"
-#include "sum/layers.h"
+#include "sum/sum_layers.h"
 
 #include <math.h>
 

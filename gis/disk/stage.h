@@ -7,7 +7,7 @@
 #ifndef GIS_STAGE_H
 #define GIS_STAGE_H
 
-#include "base/error.h"
+#include "base/gis_error.h"
 
 typedef struct gis_stage gis_stage;
 

@@ -8,7 +8,7 @@
 
 #include <ogr_api.h>
 
-#include "base/error.h"
+#include "base/gis_error.h"
 #include "base/value.h"
 #include "geometry/geometry.h"
 #include "sunder.h"

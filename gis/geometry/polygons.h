@@ -2,7 +2,7 @@
 #ifndef GIS_POLYGONS_H
 #define GIS_POLYGONS_H
 
-#include "base/error.h"
+#include "base/gis_error.h"
 #include "sunder.h"
 
 /* Laid out for sunder_shape_from_rings(). Start zeroed. */

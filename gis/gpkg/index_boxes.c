@@ -4,7 +4,7 @@
 #include "base/array.h"
 #include "base/keyed_sort.h"
 #include "disk/external_sort.h"
-#include "geometry/curve.h"
+#include "geometry/hilbert.h"
 
 #include <math.h>
 #include <stdlib.h>

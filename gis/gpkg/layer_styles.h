@@ -5,7 +5,7 @@
 #include <gdal.h>
 #include <ogr_api.h>
 
-#include "base/error.h"
+#include "base/gis_error.h"
 #include "base/text.h"
 
 /* Styles that a GeoPackage layer can carry. */

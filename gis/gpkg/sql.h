@@ -2,7 +2,7 @@
 #ifndef GIS_GPKG_SQL_H
 #define GIS_GPKG_SQL_H
 
-#include "base/error.h"
+#include "base/gis_error.h"
 #include "gpkg/sqlite_names.h"
 
 #include <gdal.h>

@@ -6,7 +6,7 @@
 #ifndef GIS_SQLITE_CALLS_H
 #define GIS_SQLITE_CALLS_H
 
-#include "base/error.h"
+#include "base/gis_error.h"
 
 /* A statement of any database that is opened from here on, until GDAL closes one, is cut short when a signal has come:
  * to be asked for before each opening. */

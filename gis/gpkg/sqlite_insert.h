@@ -8,7 +8,7 @@
 #ifndef GIS_SQLITE_INSERT_H
 #define GIS_SQLITE_INSERT_H
 
-#include "base/error.h"
+#include "base/gis_error.h"
 #include "base/side_thread.h"
 #include "base/value.h"
 

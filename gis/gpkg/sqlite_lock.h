@@ -6,7 +6,7 @@
 #ifndef GIS_SQLITE_LOCK_H
 #define GIS_SQLITE_LOCK_H
 
-#include "base/error.h"
+#include "base/gis_error.h"
 
 /* How long is waited for a lock, in milliseconds: GDAL's own SQLITE_BUSY_TIMEOUT. */
 int gis_sqlite_patience(void);

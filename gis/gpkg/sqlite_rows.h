@@ -5,7 +5,7 @@
 #ifndef GIS_SQLITE_ROWS_H
 #define GIS_SQLITE_ROWS_H
 
-#include "base/error.h"
+#include "base/gis_error.h"
 
 #include <stdint.h>
 

@@ -2,7 +2,7 @@
 #ifndef GIS_LAYER_BLOCK_KEYS_H
 #define GIS_LAYER_BLOCK_KEYS_H
 
-#include "base/error.h"
+#include "base/gis_error.h"
 
 #include <stdint.h>
 

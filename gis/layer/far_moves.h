@@ -8,7 +8,7 @@
 #ifndef GIS_FAR_MOVES_H
 #define GIS_FAR_MOVES_H
 
-#include "layer/input.h"
+#include "layer/layer_input.h"
 
 /* Zeroed: no feature was seen. */
 typedef struct gis_far_moves {

@@ -1,5 +1,5 @@
-/* feature_name.c: see input.h. */
-#include "layer/input.h"
+/* feature_name.c: see layer_input.h. */
+#include "layer/layer_input.h"
 
 #include "base/message.h"
 

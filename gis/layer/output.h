@@ -2,7 +2,7 @@
 #ifndef GIS_LAYER_OUTPUT_H
 #define GIS_LAYER_OUTPUT_H
 
-#include "layer/input.h"
+#include "layer/layer_input.h"
 #include "layer/rows.h"
 
 /* Where the arrow of a feature starts: at the point itself (gis_layer_point()), or the anchor of a polygon. */

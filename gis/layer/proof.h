@@ -2,7 +2,7 @@
 #ifndef GIS_LAYER_PROOF_H
 #define GIS_LAYER_PROOF_H
 
-#include "layer/input.h"
+#include "layer/layer_input.h"
 #include "layer/proof_lines.h"
 
 /* The first line, but for the counts. */

@@ -7,7 +7,7 @@
 #ifndef GIS_PROOF_LINES_H
 #define GIS_PROOF_LINES_H
 
-#include "base/error.h"
+#include "base/gis_error.h"
 #include "base/json.h"
 #include "sunder_proof.h"
 

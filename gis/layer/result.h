@@ -4,7 +4,7 @@
 #ifndef GIS_RESULT_H
 #define GIS_RESULT_H
 
-#include "layer/input.h"
+#include "layer/layer_input.h"
 #include "layer/result_view.h"
 #include "layer/rows.h"
 

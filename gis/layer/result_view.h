@@ -3,7 +3,7 @@
 #ifndef GIS_RESULT_VIEW_H
 #define GIS_RESULT_VIEW_H
 
-#include "base/error.h"
+#include "base/gis_error.h"
 #include "sunder.h"
 
 #include <ogr_core.h>

@@ -1,6 +1,6 @@
 /* result_view_held.c: see result.h. A layer that is held in memory, with its report, to be drawn. */
 #include "base/interrupt.h"
-#include "geometry/box.h"
+#include "geometry/gis_box.h"
 #include "layer/result_held.h"
 
 #include <math.h>

@@ -1,7 +1,7 @@
 /* shapes.c: from features to shapes. Polygons are taken as they are, arcs as polylines grown by what they may be
  * off, points as the symbol drawn at them. What cannot conflict (null, empty, of another kind, invalid with --invalid
  * skip) has no shape and passes through as skipped. */
-#include "layer/input.h"
+#include "layer/layer_input.h"
 #include "layer/shapes_ahead.h"
 
 #include "base/core_error.h"

@@ -2,7 +2,7 @@
 #ifndef GIS_SHAPES_AHEAD_H
 #define GIS_SHAPES_AHEAD_H
 
-#include "layer/input.h"
+#include "layer/layer_input.h"
 
 /* The shape of feature i, if nothing is to be said of it: it has no arcs, and is valid. Else it has none, and nothing
  * is said. */

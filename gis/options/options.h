@@ -3,7 +3,7 @@
 #ifndef GIS_OPTIONS_H
 #define GIS_OPTIONS_H
 
-#include "base/error.h"
+#include "base/gis_error.h"
 #include "base/length.h"
 
 /* Commands, as bits. */

@@ -10,7 +10,7 @@
 #include <ogr_api.h>
 #include <ogr_srs_api.h>
 
-#include "base/error.h"
+#include "base/gis_error.h"
 #include "base/value.h"
 #include "geometry/geometry.h"
 
@@ -59,7 +59,7 @@ typedef struct gis_source_request {
                    * wants */
     const gis_source_facts *facts; /* NULL, or the result of an earlier reading of the same source */
     gis_not_finite not_finite;
-    bool fids_mean_nothing;        /* FIDs are known not to be unique: gis_source_mark() does not go by them */
+    bool fids_mean_nothing; /* FIDs are known not to be unique: gis_source_mark() does not go by them */
 } gis_source_request;
 
 typedef struct gis_source gis_source;

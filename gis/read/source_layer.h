@@ -5,7 +5,7 @@
 #include <gdal.h>
 #include <ogr_api.h>
 
-#include "base/error.h"
+#include "base/gis_error.h"
 #include "read/source.h"
 
 /* The layer that the request names; if it names none, the only layer of an accepted kind; else NULL, and a sentence

@@ -5,7 +5,7 @@
 #include <gdal.h>
 #include <ogr_api.h>
 
-#include "base/error.h"
+#include "base/gis_error.h"
 
 /* GIS_USAGE: the option and the condition, the reason that GDAL gives, and what helps: which words the layer's format
  * has for sizes, where the condition has another format's, and which fields the layer has. dataset: of the layer; NULL:

@@ -2,7 +2,7 @@
 #ifndef GIS_REPORT_DRAWING_H
 #define GIS_REPORT_DRAWING_H
 
-#include "base/error.h"
+#include "base/gis_error.h"
 #include "base/text.h"
 #include "sunder.h"
 

@@ -20,7 +20,7 @@
 #include "base/interrupt.h"
 #include "base/json.h"
 #include "report/escape.h"
-#include "report/words.h"
+#include "report/page_words.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -3,7 +3,7 @@
 #define GIS_REPORT_PAGE_H
 
 #include "base/text.h"
-#include "layer/input.h"
+#include "layer/layer_input.h"
 #include "layer/result_view.h"
 
 /* An option of the run, as it was given; value "": it takes none. */

@@ -3,7 +3,7 @@
 #include "report/pictures.h"
 
 #include "base/interrupt.h"
-#include "report/words.h"
+#include "report/page_words.h"
 
 #include <math.h>
 #include <stdlib.h>

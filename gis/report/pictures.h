@@ -3,7 +3,7 @@
 #define GIS_REPORT_PICTURES_H
 
 #include "report/drawing.h"
-#include "report/model.h"
+#include "report/page_model.h"
 
 /* The whole layer, before or after. */
 bool gis_page_add_overview(const gis_page_model *model, bool after, gis_text *to, gis_error *error);

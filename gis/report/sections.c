@@ -3,8 +3,8 @@
 
 #include "base/json.h"
 #include "report/escape.h"
+#include "report/page_words.h"
 #include "report/pictures.h"
-#include "report/words.h"
 
 #include <math.h>
 #include <stdlib.h>

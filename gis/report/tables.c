@@ -2,8 +2,8 @@
  * data-value; what is unknown carries none, and sorts last. */
 #include "base/json.h"
 #include "report/escape.h"
+#include "report/page_words.h"
 #include "report/sections.h"
-#include "report/words.h"
 
 #include <math.h>
 #include <stdlib.h>

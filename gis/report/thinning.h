@@ -3,7 +3,7 @@
 #define GIS_REPORT_THINNING_H
 
 #include "report/drawing.h"
-#include "report/model.h"
+#include "report/page_model.h"
 
 typedef enum gis_drawn {
     GIS_DRAWN_NOT,     /* nothing to draw, or too small to draw among so large a number */

@@ -2,7 +2,7 @@
 #ifndef GIS_OPERANDS_H
 #define GIS_OPERANDS_H
 
-#include "read/shape.h"
+#include "read/read_shape.h"
 
 /* Strings and lists are borrowed for the call. */
 typedef struct gis_operands_request {

@@ -9,8 +9,8 @@
  * comes before and after them. */
 #include "displacement/prove/proofs/feasibility.h"
 #include "displacement/report/report.h"
+#include "displacement/solve/clusters/cluster_stages.h"
 #include "displacement/solve_layer.h"
-#include "displacement/solve/clusters/stages.h"
 
 #include "base/clock.h"
 #include "base/sized_struct.h"

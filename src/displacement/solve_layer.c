@@ -11,7 +11,7 @@
 #include "displacement/solve_layer.h"
 
 #include "displacement/report/report.h"
-#include "displacement/solve/clusters/stages.h"
+#include "displacement/solve/clusters/cluster_stages.h"
 
 #include <string.h>
 

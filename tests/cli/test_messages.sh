@@ -69,10 +69,10 @@ expect 0 check sound.gpkg --log all.log
 [ -f all.log ] && [ ! -s all.log ] || fail 'a log of nothing is not empty'
 echo 'sunder: important' >notes.txt
 refused 2 'is no log' check sound.gpkg --log notes.txt
-refused 2 'is used otherwise' check sound.gpkg --log sound.gpkg
-refused 2 'is used otherwise' separate sound.gpkg new.gpkg --log ./new.gpkg
-refused 2 'is used otherwise' separate sound.gpkg new.gpkg --stats all.log --log all.log
-refused 2 'is used otherwise' separate sound.gpkg new.gpkg --barrier in.gpkg,width=2 --log in.gpkg
+refused 2 'has another use in this run' check sound.gpkg --log sound.gpkg
+refused 2 'has another use in this run' separate sound.gpkg new.gpkg --log ./new.gpkg
+refused 2 'has another use in this run' separate sound.gpkg new.gpkg --stats all.log --log all.log
+refused 2 'has another use in this run' separate sound.gpkg new.gpkg --barrier in.gpkg,width=2 --log in.gpkg
 refused 1 'cannot write no/such/a.log' check sound.gpkg --log no/such/a.log
 if [ -w /dev/full ]; then
     expect 1 check in.gpkg --log /dev/full -q

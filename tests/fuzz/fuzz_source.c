@@ -1,8 +1,8 @@
 /* Hostile files of layers, read by GDAL from memory. What a file says is asked twice, of features as GDAL has them and
  * of packed ones: both are refused, or both have the same. GDAL itself is not what is asked; it is taken as it is
  * installed. */
-#include "base/error.h"
-#include "geometry/lines.h"
+#include "base/gis_error.h"
+#include "geometry/line_arrays.h"
 #include "read/fields.h"
 #include "read/source.h"
 #include "read/validity.h"

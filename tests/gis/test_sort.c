@@ -7,7 +7,7 @@
 #include <cmocka.h>
 
 #include "disk/external_sort.h"
-#include "geometry/curve.h"
+#include "geometry/hilbert.h"
 #include "random.h"
 #include "scratch.h"
 

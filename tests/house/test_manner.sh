@@ -27,10 +27,10 @@ while read -r line; do
 done < <(cd "$root" && find src gis tests datasets-synthetic -name '*.[ch]' | sort |
     LC_ALL=C.UTF-8 xargs grep -nE '^.{121,}' | cut -d: -f1,2)
 
-# ---- No two sources of the library share a base name: each is qualified by what it acts on ----
+# ---- No two sources share a base name: each is qualified by what it acts on; commands have the names that users type ----
 while read -r name; do
-    say "src: $name names several files: $(cd "$root/src" && find . -name "$name" | sort | tr '\n' ' ')"
-done < <(sources src | grep '\.c$' | sed 's#.*/##' | sort | uniq -d)
+    say "$name names several files: $(cd "$root" && find src gis -name "$name" | sort | tr '\n' ' ')"
+done < <({ sources src; sources gis; } | grep '\.c$' | grep -v '^commands/' | sed 's#.*/##' | sort | uniq -d)
 
 # ---- Public enumerators carry the name of their type ----
 while read -r line; do

@@ -5,7 +5,7 @@
 
 #include "scene_model.h"
 
-#include "displacement/solve/clusters/stages.h"
+#include "displacement/solve/clusters/cluster_stages.h"
 
 /* For a model with relations, which the scene keeps; bodies that are too close are joined, and no clusters are
  * gathered. */

@@ -6,7 +6,7 @@
 #define GIS_BARRIER_H
 
 #include "base/length.h"
-#include "geometry/lines.h"
+#include "geometry/line_arrays.h"
 #include "read/crs_units.h"
 #include "read/source.h"
 #include "read/validity.h"

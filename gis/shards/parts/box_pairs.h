@@ -2,7 +2,7 @@
 #ifndef GIS_BOX_PAIRS_H
 #define GIS_BOX_PAIRS_H
 
-#include "base/error.h"
+#include "base/gis_error.h"
 
 #include <stddef.h>
 

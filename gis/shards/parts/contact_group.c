@@ -6,7 +6,7 @@
 #include "base/array.h"
 #include "base/core_error.h"
 #include "base/interrupt.h"
-#include "geometry/box.h"
+#include "geometry/gis_box.h"
 #include "shards/parts/box_pairs.h"
 #include "shards/parts/disjoint_sets.h"
 #include "shards/parts/part_memory.h"

@@ -4,7 +4,7 @@
 #include "base/array.h"
 #include "base/core_error.h"
 #include "base/message.h"
-#include "geometry/box.h"
+#include "geometry/gis_box.h"
 #include "shards/parts/part_memory.h"
 
 #include <math.h>

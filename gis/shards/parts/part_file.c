@@ -5,7 +5,7 @@
 #include "base/array.h"
 #include "disk/checksum.h"
 #include "disk/temporary.h"
-#include "geometry/box.h"
+#include "geometry/gis_box.h"
 #include "shards/parts/part_result_check.h"
 #include "shards/spool/spool_index.h"
 #include "shards/spool/spool_record.h"

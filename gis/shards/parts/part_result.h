@@ -3,7 +3,7 @@
 #ifndef GIS_PART_RESULT_H
 #define GIS_PART_RESULT_H
 
-#include "base/error.h"
+#include "base/gis_error.h"
 #include "sunder_parts.h"
 
 #include <stdint.h>

@@ -2,7 +2,7 @@
 #include "shards/parts/part_internal.h"
 
 #include "base/array.h"
-#include "geometry/box.h"
+#include "geometry/gis_box.h"
 
 #include <stdint.h>
 #include <stdlib.h>

@@ -3,7 +3,7 @@
 #define GIS_SHARDS_PLAN_H
 
 #include "base/json.h"
-#include "shards/run/run.h"
+#include "shards/run/shard_run.h"
 
 /* More shards than this want their files another way. */
 enum { GIS_PLAN_MOST_SHARDS = 100000 };

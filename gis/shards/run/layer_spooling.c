@@ -1,13 +1,13 @@
 /* layer_spooling.c: see layer_spooling.h. Each batch goes through the stages of a layer that is read as a whole
- * (input.h). Values that depend on all features are left open, and set when the spool is sorted: weights by the median
- * of areas, and the numbers of blocks. */
+ * (layer/layer_input.h). Values that depend on all features are left open, and set when the spool is sorted: weights
+ * by the median of areas, and the numbers of blocks. */
 #include "shards/run/layer_spooling.h"
 
 #include "base/array.h"
 #include "base/message.h"
 #include "disk/file.h"
-#include "geometry/box.h"
-#include "layer/checksum.h"
+#include "geometry/gis_box.h"
+#include "layer/layer_checksum.h"
 #include "layer/output.h"
 #include "read/crs_units.h"
 #include "shards/run/barrier_spooling.h"

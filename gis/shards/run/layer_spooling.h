@@ -3,7 +3,7 @@
 #ifndef GIS_LAYER_SPOOLING_H
 #define GIS_LAYER_SPOOLING_H
 
-#include "layer/input.h"
+#include "layer/layer_input.h"
 #include "shards/parts/contact_group.h"
 #include "shards/spool/spool.h"
 
@@ -24,8 +24,8 @@ typedef struct gis_layer_facts {
     size_t vertices;         /* of all shapes, cleaned: as sunder_layer_summary counts them */
     double box[4];           /* of all that conflicts with anything; box[0] > box[2]: nothing does */
     bool multi;              /* a shape has several members: symbols are written as MultiPolygons */
-    uint64_t checksum;       /* of all that decides the moves, as it was read (checksum.h) */
-    gis_contact_group group; /* the largest as the layer stands, or more than that (run.c) */
+    uint64_t checksum;       /* of all that decides the moves, as it was read (layer/layer_checksum.h) */
+    gis_contact_group group; /* the largest as the layer stands, or more than that (shard_run.c) */
 } gis_layer_facts;
 
 /* Where in the directory what conflicts with nothing lies, and has a shape, if it is to be drawn: a spool of its own,

@@ -1,6 +1,6 @@
 /* run_proof.c: the file of --proof, of a layer that was separated in parts: lines that lie in order on disk. */
 #include "layer/proof.h"
-#include "shards/run/run.h"
+#include "shards/run/shard_run.h"
 
 #include <stdlib.h>
 

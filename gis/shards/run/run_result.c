@@ -1,12 +1,12 @@
 /* run_result.c: see layer/result.h. The results of a layer that was separated in parts lie in order on disk; features
  * are read once more beside them. */
-#include "shards/run/run.h"
+#include "shards/run/shard_run.h"
 
 #include "base/array.h"
 #include "base/interrupt.h"
 #include "disk/file.h"
-#include "layer/checksum.h"
 #include "layer/far_moves.h"
+#include "layer/layer_checksum.h"
 #include "layer/output.h"
 #include "layer/result.h"
 

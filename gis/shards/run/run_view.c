@@ -3,7 +3,7 @@
 #include "base/array.h"
 #include "base/text.h"
 #include "disk/file.h"
-#include "shards/run/run.h"
+#include "shards/run/shard_run.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -5,7 +5,7 @@
 #include "base/array.h"
 #include "base/core_error.h"
 #include "disk/file.h"
-#include "geometry/box.h"
+#include "geometry/gis_box.h"
 
 #include <errno.h>
 #include <math.h>

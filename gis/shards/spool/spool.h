@@ -13,7 +13,7 @@
 #ifndef GIS_SPOOL_H
 #define GIS_SPOOL_H
 
-#include "base/error.h"
+#include "base/gis_error.h"
 #include "sunder.h"
 
 #include <stdint.h>

@@ -2,8 +2,8 @@
 #include "base/array.h"
 #include "disk/checksum.h"
 #include "disk/external_sort.h"
-#include "geometry/box.h"
-#include "geometry/curve.h"
+#include "geometry/gis_box.h"
+#include "geometry/hilbert.h"
 #include "shards/spool/spool_index.h"
 #include "shards/spool/spool_record.h"
 

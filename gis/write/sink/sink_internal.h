@@ -33,7 +33,7 @@
 
 #include "base/interrupt.h"
 #include "disk/stage.h"
-#include "gpkg/rtree.h"
+#include "gpkg/gpkg_rtree.h"
 #include "gpkg/sqlite_insert.h"
 #include "write/sink/digest_list.h"
 #include "write/sink/format.h"
@@ -117,11 +117,11 @@ struct gis_sink_layer {
     bool keep_sent;
     gis_sent *sent;
     size_t n_sent, capacity;
-    bool can_rewrite;          /* numbers are decimals, and how many digits they get is ours to choose */
-    bool more_digits;          /* than tell a double: the layer is written for the second time */
-    gis_value *sent_values;    /* with keep_sent: n_fields for each that was sent, texts owned */
-    size_t values_room;        /* for so many features */
-    gis_field_change *changes; /* by field of the source; NULL: not looked for */
+    bool can_rewrite;              /* numbers are decimals, and how many digits they get is ours to choose */
+    bool more_digits;              /* than tell a double: the layer is written for the second time */
+    gis_value *sent_values;        /* with keep_sent: n_fields for each that was sent, texts owned */
+    size_t values_room;            /* for so many features */
+    gis_field_change *changes;     /* by field of the source; NULL: not looked for */
     gis_field_change *own_changes; /* the same of the program's own fields, by field of the request */
     gis_field_change fid_change;   /* the same of FIDs, wherever they were written */
 };

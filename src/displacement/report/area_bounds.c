@@ -8,7 +8,7 @@
 #include "displacement/layer/resolution.h"
 #include "displacement/report/report.h"
 #include "displacement/report/tuning.h"
-#include "displacement/solve/clusters/stages.h"
+#include "displacement/solve/clusters/cluster_stages.h"
 
 #include "base/list.h"
 #include "base/union_find.h"

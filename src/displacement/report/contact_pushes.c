@@ -13,7 +13,7 @@
 #include "displacement/quadratic/quadratic.h"
 #include "displacement/report/report.h"
 #include "displacement/report/tuning.h"
-#include "displacement/solve/clusters/stages.h"
+#include "displacement/solve/clusters/cluster_stages.h"
 
 #include "base/extremes.h"
 #include "base/parallel.h"

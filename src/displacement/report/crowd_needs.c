@@ -12,7 +12,7 @@
  * which is then done for fewer of them (needs.c); of other clusters only what these questions left open. */
 #include "displacement/report/report.h"
 #include "displacement/report/tuning.h"
-#include "displacement/solve/clusters/stages.h"
+#include "displacement/solve/clusters/cluster_stages.h"
 #include "displacement/solve/clusters/trial.h"
 
 #include "base/extremes.h"

@@ -14,7 +14,7 @@
 #include "displacement/prove/optimum/tree.h"
 #include "displacement/report/report.h"
 #include "displacement/report/tuning.h"
-#include "displacement/solve/clusters/stages.h"
+#include "displacement/solve/clusters/cluster_stages.h"
 
 #include "base/union_find.h"
 

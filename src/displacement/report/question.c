@@ -14,7 +14,7 @@
 #include "displacement/layer/reads.h"
 #include "displacement/layer/sides.h"
 #include "displacement/report/tuning.h"
-#include "displacement/solve/clusters/stages.h"
+#include "displacement/solve/clusters/cluster_stages.h"
 
 #include "separation/separation.h"
 #include "shape/shape.h"

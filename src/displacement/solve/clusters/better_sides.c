@@ -1,6 +1,6 @@
 /* Better sides, for the clusters that were solved since the last search: neighbours in the way join first, then each
  * cluster is improved by itself. Conflicts that this causes are left to the next round of settle.c. */
-#include "displacement/solve/clusters/stages.h"
+#include "displacement/solve/clusters/cluster_stages.h"
 
 #include "base/parallel.h"
 

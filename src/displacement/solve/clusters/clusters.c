@@ -3,7 +3,7 @@
  * An edge is a pair of bodies that came into conflict, or into each other's way, at some time. Clusters are the
  * components of the edges over bodies that are not fixed; a fixed body is a member of every cluster that has an edge to
  * it, and joins none. */
-#include "displacement/solve/clusters/stages.h"
+#include "displacement/solve/clusters/cluster_stages.h"
 #include "displacement/solve/clusters/tuning.h"
 
 #include "base/extremes.h"

@@ -16,7 +16,7 @@
  * there is that of pairs, in which all bodies may move. */
 #include "displacement/layer/far_corners.h"
 #include "displacement/layer/resolution.h"
-#include "displacement/solve/clusters/stages.h"
+#include "displacement/solve/clusters/cluster_stages.h"
 #include "displacement/solve/clusters/tuning.h"
 
 #include "base/extremes.h"

@@ -4,8 +4,8 @@
  * Fixed bodies connect nothing, and are members of every group that they touch, as obstacles. A group is identified by
  * the least of its movable bodies, so its identity does not depend on others, and a group that did not change from one
  * round to the next keeps its proof. */
+#include "displacement/solve/clusters/cluster_stages.h"
 #include "displacement/solve/clusters/contact_flood.h"
-#include "displacement/solve/clusters/stages.h"
 #include "displacement/solve/clusters/tuning.h"
 #include "displacement/solve/search/shake.h"
 

@@ -7,7 +7,7 @@
  * (../search/fit_given_up.c), these are moved to the lattice (../../prove/optimum/tight_place.c), and are taken if they
  * hold, exactly, and solve the pair. Elsewhere a fit to the last bit would be mere chance. */
 #include "displacement/layer/barrier_pairs.h"
-#include "displacement/solve/clusters/stages.h"
+#include "displacement/solve/clusters/cluster_stages.h"
 #include "displacement/solve/clusters/trial.h"
 #include "displacement/solve/clusters/tuning.h"
 

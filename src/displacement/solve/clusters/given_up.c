@@ -1,5 +1,5 @@
 /* What clusters gave up, and what they found a solution for after all: their relaxations become the model's. */
-#include "displacement/solve/clusters/stages.h"
+#include "displacement/solve/clusters/cluster_stages.h"
 
 #include <stdlib.h>
 

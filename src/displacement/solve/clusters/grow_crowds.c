@@ -10,7 +10,7 @@
  * and a body that is missed joins in the next round, as always. Only bodies that may go anywhere are absorbed, with all
  * of their clusters: a crowd with limited bodies does not start where prices put it. */
 #include "displacement/prove/areas/areas.h"
-#include "displacement/solve/clusters/stages.h"
+#include "displacement/solve/clusters/cluster_stages.h"
 #include "displacement/solve/clusters/tuning.h"
 
 #include "base/extremes.h"

@@ -7,7 +7,7 @@
  * is what the margin of a coarse neighbour does. Nor is one that bends a body that was held: whose near corners move,
  * and the far ones are rounded back. So what stands beside a corrupt vertex costs no more than beside the
  * same feature fixed, unless that leaves more conflicts; and it is never thrown. */
-#include "displacement/solve/clusters/stages.h"
+#include "displacement/solve/clusters/cluster_stages.h"
 #include "displacement/solve/clusters/tuning.h"
 
 #include "base/extremes.h"

@@ -1,7 +1,7 @@
 /* What lies in two features that have to part, with leave to overlap both, is kept in one of them; which one, is for
  * layer/inclusion.c. */
 #include "displacement/layer/resolution.h"
-#include "displacement/solve/clusters/stages.h"
+#include "displacement/solve/clusters/cluster_stages.h"
 
 /* Was one that may move in a cluster for which better sides were looked for? It has a place that it keeps, and its
  * holder. */

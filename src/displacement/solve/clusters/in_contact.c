@@ -6,7 +6,7 @@
  * group takes these places if they cost less and hold exactly (trial.c). Two isolated features are in contact already
  * (../search/lone_pair.c). */
 #include "displacement/prove/optimum/optimum.h"
-#include "displacement/solve/clusters/stages.h"
+#include "displacement/solve/clusters/cluster_stages.h"
 #include "displacement/solve/clusters/trial.h"
 
 #include <string.h>

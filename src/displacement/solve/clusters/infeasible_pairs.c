@@ -1,7 +1,7 @@
 /* What limits and fixed bodies leave no solution for by itself: pairs that no admissible moves resolve, found exactly
  * before anything moves. (What clusters give up later: given_up.c.) */
 #include "displacement/layer/barrier_pairs.h"
-#include "displacement/solve/clusters/stages.h"
+#include "displacement/solve/clusters/cluster_stages.h"
 
 #include "base/extremes.h"
 #include "base/parallel.h"

@@ -12,7 +12,7 @@
  *
  * With barriers limits are kept from the start: in a road network the free place beyond a limit is usually several
  * blocks away, and finding it takes long (measured; and the limit would undo the gain). */
-#include "displacement/solve/clusters/stages.h"
+#include "displacement/solve/clusters/cluster_stages.h"
 #include "displacement/solve/clusters/tuning.h"
 
 #include "base/union_find.h"

@@ -2,7 +2,7 @@
  * like a feature that lay in it at the start (inclusion.c). If that fails it is released, and the pair becomes one like
  * any other. */
 #include "displacement/layer/rounding.h"
-#include "displacement/solve/clusters/stages.h"
+#include "displacement/solve/clusters/cluster_stages.h"
 
 #include <math.h>
 #include <string.h>

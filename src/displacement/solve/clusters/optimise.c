@@ -12,7 +12,7 @@
  * does after it. */
 #include "displacement/layer/resolution.h"
 #include "displacement/prove/optimum/optimum.h"
-#include "displacement/solve/clusters/stages.h"
+#include "displacement/solve/clusters/cluster_stages.h"
 #include "displacement/solve/clusters/tuning.h"
 
 #include "base/extremes.h"

@@ -4,7 +4,7 @@
  * is for report/no_room.c. */
 #include "displacement/layer/rounding.h"
 #include "displacement/prove/proofs/feasibility.h"
-#include "displacement/solve/clusters/stages.h"
+#include "displacement/solve/clusters/cluster_stages.h"
 #include "displacement/solve/clusters/tuning.h"
 
 #include "base/parallel.h"

@@ -1,6 +1,6 @@
 /* Which pairs to ask for once more: the relaxed pairs of bodies that might have a solution, by cluster. */
 #include "displacement/layer/reads.h"
-#include "displacement/solve/clusters/stages.h"
+#include "displacement/solve/clusters/cluster_stages.h"
 
 #include "base/extremes.h"
 #include "base/parallel.h"

@@ -4,7 +4,7 @@
  * state further (layer/inclusion.h), or widens the margin of a cluster whose result failed the exact check (a limited
  * number of times), or is the last: the loop ends. */
 #include "displacement/layer/resolution.h"
-#include "displacement/solve/clusters/stages.h"
+#include "displacement/solve/clusters/cluster_stages.h"
 #include "displacement/solve/clusters/tuning.h"
 
 #include "base/union_find.h"

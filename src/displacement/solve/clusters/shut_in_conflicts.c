@@ -7,7 +7,7 @@
  * for again, in clusters of dozens of bodies. An overlap may still be separated by less than the gap: the stage that
  * asks for that (../search/retry_cluster.c) asks in any case. */
 #include "displacement/prove/proofs/feasibility.h"
-#include "displacement/solve/clusters/stages.h"
+#include "displacement/solve/clusters/cluster_stages.h"
 #include "displacement/solve/clusters/tuning.h"
 
 #include <stdlib.h>

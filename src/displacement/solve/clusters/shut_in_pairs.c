@@ -4,7 +4,7 @@
  * feature, with the rest of their blocks only adding shadows, are infeasible, like those that limits leave no solution.
  * One of the others may have a solution if the rest is left, so they are given up, and asked for again at the end,
  * except those that are proved to have none (shut_in_conflicts.c). */
-#include "displacement/solve/clusters/stages.h"
+#include "displacement/solve/clusters/cluster_stages.h"
 
 #include "base/parallel.h"
 

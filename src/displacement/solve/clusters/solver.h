@@ -100,7 +100,7 @@ typedef struct sunder_i_solver {
     double refuted;                           /* then: larger gaps have none, either, roughly */
     bool had_limits;                          /* limits were lifted at first */
     bool any_let_go;                          /* bodies that were held were let go */
-    struct sunder_i_held_layout *held_layout; /* before that (stages.h); lent */
+    struct sunder_i_held_layout *held_layout; /* before that (cluster_stages.h); lent */
     sunder_i_groups groups;                   /* contact groups, and what is proved of them; with effort 0 nothing */
 } sunder_i_solver;
 

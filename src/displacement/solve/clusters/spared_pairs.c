@@ -4,7 +4,7 @@
 #include "displacement/layer/requirement.h"
 #include "displacement/layer/rounding.h"
 #include "displacement/prove/proofs/feasibility.h"
-#include "displacement/solve/clusters/stages.h"
+#include "displacement/solve/clusters/cluster_stages.h"
 #include "displacement/solve/clusters/tuning.h"
 
 #include <math.h>

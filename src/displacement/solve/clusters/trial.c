@@ -2,7 +2,7 @@
 #include "displacement/solve/clusters/trial.h"
 #include "displacement/layer/resolution.h"
 #include "displacement/layer/rounding.h"
-#include "displacement/solve/clusters/stages.h"
+#include "displacement/solve/clusters/cluster_stages.h"
 
 #include <string.h>
 

@@ -4,7 +4,7 @@
  * sent far because a neighbour, which could have moved a little, stood in the nearer place. Therefore the nearest place
  * of each body is found once as if these neighbours were absent; a neighbour that clashes with it there joins the
  * cluster. */
-#include "displacement/solve/search/stages.h"
+#include "displacement/solve/search/search_stages.h"
 #include "displacement/solve/search/tuning.h"
 
 #include <math.h>

@@ -13,7 +13,7 @@
  * these. On the side of an obstacle that is a single edge within the disc the line is the constraint itself; about a
  * round corner it lies the closer to it, the smaller the disc is. All of it is in doubles: it saves work, and proves
  * nothing in the report. Its cost is not counted as work, so that it takes nothing from a search that goes on. */
-#include "displacement/solve/search/stages.h"
+#include "displacement/solve/search/search_stages.h"
 #include "displacement/solve/search/tuning.h"
 
 #include "base/extremes.h"

@@ -6,7 +6,7 @@
  * them. In a row of hundreds these differences add up: the violation at its ends is then repaired by pushing the row.
  * If anything is in the way after that, all bodies keep their moves. */
 #include "displacement/solve/search/pushed.h"
-#include "displacement/solve/search/stages.h"
+#include "displacement/solve/search/search_stages.h"
 #include "displacement/solve/search/tuning.h"
 
 #include "base/extremes.h"

@@ -4,7 +4,7 @@
  * For such a pair every relative move is forbidden, by the distances owed or by shadows, which are never waived. So the
  * only moves that may be free are those where two of their features, held to less than the full distance, are nearer
  * than that. Two features that were nearer than they owe at the start bound how far that is. */
-#include "displacement/solve/search/stages.h"
+#include "displacement/solve/search/search_stages.h"
 
 #include "base/extremes.h"
 

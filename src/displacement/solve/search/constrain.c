@@ -1,6 +1,6 @@
 /* The constraints of a program: what bodies that stand near each other at a position owe each other, as half-planes of
  * their relative moves, and what a solution ran into beyond those. */
-#include "displacement/solve/search/stages.h"
+#include "displacement/solve/search/search_stages.h"
 #include "displacement/solve/search/tuning.h"
 
 #include "base/extremes.h"

@@ -10,7 +10,7 @@
  *
  * Pairs that clash may demand contradictory sides. Then the program is solved softly, and the compromise is the next
  * reference position. */
-#include "displacement/solve/search/stages.h"
+#include "displacement/solve/search/search_stages.h"
 #include "displacement/solve/search/tuning.h"
 
 #include "base/extremes.h"

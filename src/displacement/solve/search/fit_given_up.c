@@ -4,7 +4,7 @@
  * places that miss a little of everything. ../clusters/exact_fits.c, which knows the coordinates, decides whether a
  * place beside them misses nothing. */
 #include "displacement/solve/search/neighbourhood.h"
-#include "displacement/solve/search/stages.h"
+#include "displacement/solve/search/search_stages.h"
 #include "displacement/solve/search/tuning.h"
 
 #include <stdlib.h>

@@ -1,7 +1,7 @@
 /* Where is room in a cluster as it stands: for one body of a pair beside the other, or for a body among all? */
 #include "displacement/geometry/free_places.h"
 #include "displacement/layer/reads.h"
-#include "displacement/solve/search/stages.h"
+#include "displacement/solve/search/search_stages.h"
 #include "displacement/solve/search/tuning.h"
 
 #include "base/extremes.h"

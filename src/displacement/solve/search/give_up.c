@@ -10,7 +10,7 @@
  * clashes; at worst all are in their original places, where every relaxation holds. From there the cluster descends as
  * from any other solution: no body is moved to ease a pair that stays in conflict. (retry_cluster.c asks for the
  * relaxed pairs again.) */
-#include "displacement/solve/search/stages.h"
+#include "displacement/solve/search/search_stages.h"
 #include "displacement/solve/search/tuning.h"
 
 #include "base/extremes.h"

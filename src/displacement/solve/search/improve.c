@@ -1,6 +1,6 @@
 /* Better sides: from a free start, cheaper places of single bodies and other sides of pairs, while they are found. */
 #include "displacement/solve/search/neighbourhood.h"
-#include "displacement/solve/search/stages.h"
+#include "displacement/solve/search/search_stages.h"
 #include "displacement/solve/search/tuning.h"
 
 #include "base/extremes.h"

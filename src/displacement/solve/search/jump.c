@@ -1,5 +1,5 @@
 /* Out of clashes: bodies that clash jump, one at a time, to the nearest place where they clash with nothing. */
-#include "displacement/solve/search/stages.h"
+#include "displacement/solve/search/search_stages.h"
 #include "displacement/solve/search/tuning.h"
 
 #include "base/invariant.h"

@@ -1,6 +1,6 @@
 /* Limits of moves, as constraints of the programs. A limit is a disc; the program has tangents of it, each of which is
  * valid wherever the body is, and gets further ones where its solution exceeds one. */
-#include "displacement/solve/search/stages.h"
+#include "displacement/solve/search/search_stages.h"
 #include "displacement/solve/search/tuning.h"
 
 #include "base/extremes.h"

@@ -5,7 +5,7 @@
  * at the computed places, and the search begins as for all other clusters. */
 #include "displacement/layer/barrier_pairs.h"
 #include "displacement/layer/rounding.h"
-#include "displacement/solve/search/stages.h"
+#include "displacement/solve/search/search_stages.h"
 #include "displacement/solve/search/tuning.h"
 
 #include "separation/separation.h"

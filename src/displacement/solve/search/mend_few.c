@@ -10,7 +10,7 @@
  * It is no way to solve a crowd: parts that ran into each other, settled like this before any body was sent back, leave
  * 1,204 pairs of Germany's symbols within 6 km, where solving all together leaves 349. */
 #include "displacement/solve/search/neighbourhood.h"
-#include "displacement/solve/search/stages.h"
+#include "displacement/solve/search/search_stages.h"
 #include "displacement/solve/search/tuning.h"
 
 #include <string.h>

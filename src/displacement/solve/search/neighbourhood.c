@@ -4,7 +4,7 @@
  * that it could run into, and those that these could, up to the number that the caller allows. This search does not
  * know bodies farther off; so the moved bodies are checked against all before the result is accepted. */
 #include "displacement/solve/search/neighbourhood.h"
-#include "displacement/solve/search/stages.h"
+#include "displacement/solve/search/search_stages.h"
 #include "displacement/solve/search/tuning.h"
 
 #include <math.h>

@@ -6,7 +6,7 @@
  * relative to each other move along, and rounding would make these slightly worse, too: so they get the margin, too; or
  * only those that have it. */
 #include "displacement/solve/search/neighbourhood.h"
-#include "displacement/solve/search/stages.h"
+#include "displacement/solve/search/search_stages.h"
 #include "displacement/solve/search/tuning.h"
 
 #include <math.h>

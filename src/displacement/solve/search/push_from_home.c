@@ -7,7 +7,7 @@
  * straight on, and leaves more pairs than necessary; so its result is accepted only if it leaves so many that the crowd
  * is of that kind. Between such rounds all bodies descend to their least cost, which spreads the remaining slack of the
  * limits. */
-#include "displacement/solve/search/stages.h"
+#include "displacement/solve/search/search_stages.h"
 #include "displacement/solve/search/tuning.h"
 
 #include <math.h>

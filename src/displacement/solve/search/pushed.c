@@ -19,7 +19,7 @@
  * elsewhere are still true, they only demand more than necessary, and are recomputed after long moves. Bodies give way
  * along v only, though a small step aside might suffice: that is left to programs (neighbourhood.c). */
 #include "displacement/solve/search/pushed.h"
-#include "displacement/solve/search/stages.h"
+#include "displacement/solve/search/search_stages.h"
 #include "displacement/solve/search/tuning.h"
 
 #include "base/extremes.h"

@@ -5,7 +5,7 @@
  * order. All bodies descend from there, and a cheaper result is kept. Sides are uncertain for bodies that overlapped
  * another deeply, for which another side is hardly farther, and for bodies that moved much farther than any pair was in
  * conflict. */
-#include "displacement/solve/search/stages.h"
+#include "displacement/solve/search/search_stages.h"
 #include "displacement/solve/search/tuning.h"
 
 #include "base/extremes.h"

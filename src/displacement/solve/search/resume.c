@@ -1,6 +1,6 @@
 /* A cluster from where branch and bound has put some of its bodies: is that a solution for the search as well, and the
  * least moves about it? */
-#include "displacement/solve/search/stages.h"
+#include "displacement/solve/search/search_stages.h"
 #include "displacement/solve/search/tuning.h"
 
 #include <stdlib.h>

@@ -9,7 +9,7 @@
  * of bodies and of pairs only. A stage ends early after a number of failures in a row, or after a certain amount of
  * work. */
 #include "displacement/solve/search/neighbourhood.h"
-#include "displacement/solve/search/stages.h"
+#include "displacement/solve/search/search_stages.h"
 #include "displacement/solve/search/tuning.h"
 
 #include <math.h>

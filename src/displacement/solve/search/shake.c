@@ -20,7 +20,7 @@
  *
  * It proves nothing; a tree that starts from a cheaper layout proves more of it (prove/optimum/tree.c). */
 #include "displacement/solve/search/shake.h"
-#include "displacement/solve/search/stages.h"
+#include "displacement/solve/search/search_stages.h"
 #include "displacement/solve/search/tuning.h"
 
 #include "base/extremes.h"

@@ -3,7 +3,7 @@
  * exact core knows the answer. */
 #include "displacement/layer/rounding.h"
 #include "displacement/prove/areas/areas.h"
-#include "displacement/solve/search/stages.h"
+#include "displacement/solve/search/search_stages.h"
 #include "displacement/solve/search/tuning.h"
 
 #include "base/invariant.h"

@@ -6,7 +6,7 @@
  * from it they descend as near as their sides let them. It is the last resort, before pairs are given up: moving one
  * body at a time out of clashes may leave no way between neighbours. If it fails too (something stands in a yard), the
  * layout with the fewest clashes is taken, and the clashing pairs are given up. */
-#include "displacement/solve/search/stages.h"
+#include "displacement/solve/search/search_stages.h"
 #include "displacement/solve/search/tuning.h"
 
 #include <math.h>

@@ -9,7 +9,7 @@
  * needs no program. */
 #include "displacement/solve/search/neighbourhood.h"
 #include "displacement/solve/search/pushed.h"
-#include "displacement/solve/search/stages.h"
+#include "displacement/solve/search/search_stages.h"
 #include "displacement/solve/search/tuning.h"
 
 #include "base/extremes.h"

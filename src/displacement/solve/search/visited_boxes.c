@@ -3,7 +3,7 @@
  * A body, at its origin or anywhere within reach of it, can meet another, or be kept from passing it, only where that
  * one stands, stood, or moved: within the box of its path. In a large cluster that rules out most bodies at once; in a
  * small one all are looked at. */
-#include "displacement/solve/search/stages.h"
+#include "displacement/solve/search/search_stages.h"
 #include "displacement/solve/search/tuning.h"
 
 #include "base/extremes.h"

@@ -1,6 +1,6 @@
 /* Where nothing else leads: what clashes, and clashed at home, is relaxed; what came into a clash besides, and no pair
  * is left to relax for, goes home. With all at home every relaxation holds, so it ends. */
-#include "displacement/solve/search/stages.h"
+#include "displacement/solve/search/search_stages.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -6,7 +6,7 @@
 
 #include "displacement/prove/proofs/feasibility.h"
 #include "displacement/report/question.h"
-#include "displacement/solve/clusters/stages.h"
+#include "displacement/solve/clusters/cluster_stages.h"
 #include "displacement/solve/clusters/tuning.h"
 
 #include <math.h>

@@ -2,7 +2,7 @@
  * no solution if the others stay as they are? */
 #include "scene_model.h"
 
-#include "displacement/solve/clusters/stages.h"
+#include "displacement/solve/clusters/cluster_stages.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

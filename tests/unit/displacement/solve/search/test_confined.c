@@ -4,7 +4,7 @@
 #include "scene_model.h"
 
 #include "displacement/prove/optimum/forbidden.h"
-#include "displacement/solve/search/stages.h"
+#include "displacement/solve/search/search_stages.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

@@ -3,7 +3,7 @@
  * in the end to the last digit, and has nothing left to gain. */
 #include "scene_field.h"
 
-#include "displacement/solve/search/stages.h"
+#include "displacement/solve/search/search_stages.h"
 #include "displacement/solve/search/tuning.h"
 
 #include <math.h>

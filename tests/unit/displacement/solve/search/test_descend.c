@@ -2,7 +2,7 @@
  * elsewhere. */
 #include "scene.h"
 
-#include "displacement/solve/search/stages.h"
+#include "displacement/solve/search/search_stages.h"
 
 #include <math.h>
 #include <setjmp.h>

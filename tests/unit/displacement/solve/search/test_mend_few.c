@@ -3,7 +3,7 @@
  * was. */
 #include "scene_field.h"
 
-#include "displacement/solve/search/stages.h"
+#include "displacement/solve/search/search_stages.h"
 
 #include <math.h>
 #include <setjmp.h>

@@ -3,7 +3,7 @@
 #include "scene_board.h"
 
 #include "displacement/solve/search/pushed.h"
-#include "displacement/solve/search/stages.h"
+#include "displacement/solve/search/search_stages.h"
 
 #include <math.h>
 #include <setjmp.h>

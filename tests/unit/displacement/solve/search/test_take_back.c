@@ -3,7 +3,7 @@
  * room for one. */
 #include "scene_board.h"
 
-#include "displacement/solve/search/stages.h"
+#include "displacement/solve/search/search_stages.h"
 #include "displacement/solve/search/tuning.h"
 
 #include <math.h>

@@ -1,0 +1,19 @@
+/* command_report.h: pieces that the reports of several commands share. */
+#ifndef GIS_COMMAND_REPORT_H
+#define GIS_COMMAND_REPORT_H
+
+#include "base/json.h"
+#include "options/options.h"
+#include "sunder.h"
+
+/* A time, to the nanosecond: more digits would be noise. */
+void gis_json_seconds(gis_json *out, const char *key, double seconds);
+void gis_json_operations(gis_json *out, const sunder_counts *counts);
+void gis_json_conflict_counts(gis_json *out, const sunder_conflict_counts *counts);
+
+/* Is anything in conflict between blocks? */
+bool gis_any_conflict(const sunder_conflict_counts *counts);
+/* The exit status of a run that is complete; `unresolved`: what was wanted is not so (GIS_UNRESOLVED). */
+int gis_complete_status(const gis_options *options, bool unresolved);
+
+#endif

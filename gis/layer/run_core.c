@@ -1,0 +1,84 @@
+/* run_core.c: passes a layer to the core, by the rules. The core reports numbers out of range; for one given as an
+ * option that is a usage error. */
+#include "base/resources.h"
+#include "layer/trace_file.h"
+
+static const double thin_metres = 0.01;
+
+double gis_layer_thin(const gis_layer_input *input)
+{
+    if (!input->request->rules.count_thin || input->units.geographic) return 0;
+    double thin = input->units.has_crs ? thin_metres / input->units.unit_metres : thin_metres;
+    return input->gap == 0 || thin < input->gap ? thin : 0;
+}
+
+/* Symbols join by touch where a tolerance is asked for, and not else: they are meant to be told apart. */
+sunder_layer_options gis_layer_core_options(const gis_layer_input *input)
+{
+    const gis_layer_rules *rules = &input->request->rules;
+    sunder_layer_options core = rules->core;
+    core.gap = input->gap;
+    core.touch_tolerance = input->tolerance;
+    core.no_touch = input->points && !rules->touch_tolerance.text;
+    core.thin = gis_layer_thin(input);
+    core.drop_proofs = !core.keep_trees;
+    core.barrier_reach = input->barrier_reach;
+    core.allow_jumps = input->points || core.allow_jumps;
+    return core;
+}
+
+/* The receiver of progress. */
+typedef struct watcher {
+    gis_progress *progress;
+    double next; /* from there on memory goes back again */
+} watcher;
+
+/* A fifth of the work after the other, and what one of them freed goes back before the next takes its own. */
+#define STRETCH 0.2
+
+static bool go_on(double fraction, void *user)
+{
+    watcher *w = user;
+    if (fraction >= w->next) {
+        gis_memory_back();
+        w->next = fraction + STRETCH;
+    }
+    return gis_progress_call(fraction, w->progress);
+}
+
+static sunder_layer_options watched_options(const gis_layer_input *input, watcher *w)
+{
+    sunder_layer_options how = gis_layer_core_options(input);
+    how.progress = go_on;
+    how.progress_user = w;
+    return how;
+}
+
+static bool ended(const gis_layer_input *input, sunder_status status, const sunder_error *why, gis_error *error)
+{
+    if (status == SUNDER_EARG) return gis_fail_usage(error, "%s", why->message);
+    if (status != SUNDER_OK) return gis_fail(error, "layer %s: %s", gis_source_name(input->source), why->message);
+    return true;
+}
+
+bool gis_layer_run(const gis_layer_input *input, gis_layer_work *work, gis_progress *progress, gis_trace *trace,
+                   sunder_report **report, sunder_layer_summary *summary, gis_error *error)
+{
+    watcher w = {progress, STRETCH};
+    sunder_layer_options how = watched_options(input, &w);
+    how.trace = trace ? gis_trace_event : NULL;
+    how.trace_user = trace;
+    sunder_error why;
+    if (!ended(input, work(input->layer, &how, report, &why), &why, error)) return false;
+    sunder_report_summary(*report, summary);
+    return true;
+}
+
+bool gis_layer_run_moves(const gis_layer_input *input, const sunder_layer *before, const sunder_layer *after,
+                         gis_progress *progress, sunder_report **report, gis_error *error)
+{
+    watcher w = {progress, STRETCH};
+    sunder_layer_options how = watched_options(input, &w);
+    sunder_error why;
+    return ended(input, sunder_layer_check_moves(before, after, &how, report, &why), &why, error);
+}
