@@ -39,11 +39,13 @@ bool gis_decide(gis_error *error);
 /* A file that lies about half done, as the handler knows it. */
 typedef struct gis_leftover gis_leftover;
 
-/* A file, or a directory with all in it, that goes. */
+/* A file, or a directory with all in it, that the handler removes. */
 gis_leftover *gis_leftover_temporary(const char *path);
-/* A file that goes until then: a new one until the outcome is decided, a journal until it is being decided. */
+/* A file that the handler removes before outcome_then: a new output until the outcome is decided, a journal until it is
+ * being decided. */
 gis_leftover *gis_leftover_until(gis_outcome outcome_then, const char *path);
-/* A former file that goes back to where it was; when the outcome is decided, it goes. */
+/* A former file, kept until the outcome is decided. An interruption before that moves it back to `back_to`;
+ * afterwards it is removed. */
 gis_leftover *gis_leftover_former(const char *path, const char *back_to);
 /* The file is gone, or in its place: the handler leaves it alone. NULL is fine. */
 void gis_leftover_forget(gis_leftover *leftover);

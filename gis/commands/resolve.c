@@ -378,8 +378,8 @@ gis_progress gis_resolve_progress(const gis_options *options)
     return gis_progress_new(options->given[OPT_QUIET] ? GIS_PROGRESS_NONE : kind);
 }
 
-/* May the log be put there? It is opened before all else, and so is looked after here: what the call names is none of
- * its places. */
+/* Refuses a log whose path is also an operand, the value of another option, or the dataset of a barrier. This is
+ * checked here since the log is opened before anything else. */
 static bool spare_named(const gis_options *options, const char *log, gis_error *error)
 {
     bool named = false;

@@ -21,7 +21,8 @@ bool gis_resolve_layer(const gis_options *options, gis_layer_input_request *out,
  * the rest. Barriers and strings are that one's. */
 void gis_resolve_original(const gis_options *options, const gis_layer_input_request *now, const char *name,
                           gis_layer_input_request *out);
-/* Sum, pair: P and Q. That options select from a data source where there is none is wrong usage. */
+/* For the commands sum and pair: the requests for P and Q. An option that selects features (--where, --bbox) is
+ * refused if neither operand is a data source. */
 bool gis_resolve_operands(const gis_options *options, gis_operands_request *out, gis_error *error);
 /* Sum: the road to it. A planar map is refused if no output shows it, or the road makes none. */
 bool gis_resolve_road(const gis_options *options, sunder_sum_options *out, gis_error *error);

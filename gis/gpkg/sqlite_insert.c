@@ -9,9 +9,9 @@
 
 /* ---- Statements -------------------------------------------------------------------------------------------------- */
 
-/* Rows of one statement: more rows do not make a row cheaper. Parameters of one statement: the number that every SQLite
- * accepts. At most this many of these statements, and bytes, are held back: with fewer, the cost of waking threads
- * shows. */
+/* ROWS_AT_ONCE: rows of one statement; with more a row is no cheaper. MOST_PARAMETERS: the number of parameters that
+ * every SQLite accepts. MOST_STATEMENTS, MOST_HELD: a batch for the other thread has at most this many statements,
+ * and bytes; smaller batches cost more, since the thread is woken more often. */
 enum { ROWS_AT_ONCE = 64, MOST_PARAMETERS = 999, MOST_STATEMENTS = 32, MOST_HELD = 1 << 20 };
 
 static void *prepare(void *database, const char *sql)

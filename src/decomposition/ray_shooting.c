@@ -12,7 +12,8 @@
 
 #include <string.h>
 
-/* Through half-edge h (its origin on the right) one sees what lies between the vertices right and left. */
+/* What can be seen from a vertex through half-edge h: the part of the plane between the rays to vertices right and
+ * left. The origin of h is on the viewer's right. */
 typedef struct sunder_i_window {
     uint32_t h, right, left;
 } sunder_i_window;

@@ -1,6 +1,7 @@
-/* Crossings along a line. Numerator and denominator have degree 2 (below 2^124 on a narrow lattice, 2^126 of plain
- * points elsewhere); comparing two fractions has degree 4 (256 bits). A fraction with handles among the points that it
- * is made of is a ratio of the pool: den is 0 and num its handle. */
+/* Parameters of crossings along a line, as fractions. Numerator and denominator have degree 2: they are below 2^124
+ * on a narrow lattice, and below 2^126 elsewhere if all points are plain. Comparing two fractions has degree 4 (256
+ * bits). If one of the points is a handle, so is the fraction: den is 0, and num is the handle of a ratio in the
+ * pool. */
 #include "predicate/narrow.h"
 
 #include <math.h>

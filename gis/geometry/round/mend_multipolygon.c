@@ -209,7 +209,8 @@ static bool unite(const gis_polygons *group, sunder_validity validity, sunder_su
     return ok;
 }
 
-/* The group bent, united and rounded, if it is not well as it is; *bad says so. */
+/* Mends a group of polygons that rounding has made invalid; *bad tells whether it has. The group is united again
+ * with its edges bent through the vertices near them (gis_bend_set()), and rounded. */
 static bool mend_group(const gis_polygons *group, int round, bool *bad, gis_rounded *mended, gis_suspects *suspects,
                        double *moved, gis_error *error)
 {

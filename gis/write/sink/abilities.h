@@ -31,9 +31,9 @@ enum {
 typedef struct gis_abilities {
     const char *driver;
     unsigned has;
-    const char *refused; /* why nothing is written with it; NULL: something is */
-    const char *own_field; /* a name that it takes for its own column; NULL: there is none */
-    const char *endings; /* the file's name has to end in one of these; NULL: in anything */
+    const char *refused;   /* why nothing is written with it; NULL: something is */
+    const char *own_field; /* the name of a column of the format itself, which no field may have; NULL: none */
+    const char *endings;   /* the file's name has to end in one of these; NULL: in anything */
 } gis_abilities;
 
 /* Of the driver with GDAL's short name; of one that is not listed all members are 0. */

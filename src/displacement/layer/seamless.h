@@ -5,12 +5,13 @@
 #include "shape/shape.h"
 
 typedef struct sunder_i_seamless {
-    sunder_shape *shape; /* NULL: the set's own pieces do */
-    sunder_shape *whole; /* what some of its pieces are borrowed from, or NULL */
-    double *corner;      /* ... and others */
+    sunder_shape *shape; /* owned, with such pieces; NULL: the pieces of the set itself are such */
+    sunder_shape *whole; /* owned: the shape that has some of these pieces, or NULL */
+    double *corner;      /* owned: the corners of the other ones */
 } sunder_i_seamless;
 
-/* For a shape, which is borrowed. On failure the caller still calls sunder_i_seamless_free(). */
+/* Makes such pieces for a shape. The shape is borrowed and has to outlive *out. On failure, too, the caller frees
+ * *out with sunder_i_seamless_free(). */
 sunder_status sunder_i_seamless_make(const sunder_shape *shape, sunder_i_seamless *out, sunder_error *err);
 /* A quadrilateral that covers a diagonal, counter-clockwise; and that by which it is found again: the numbers of the
  * diagonal's ends and of the corners beside it, as sunder_i_diagonals has them. */

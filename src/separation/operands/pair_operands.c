@@ -85,7 +85,7 @@ static void hold(plain *u, const double *v, size_t n, double *most)
     }
 }
 
-/* Is the operand as it stands less than 2^58 units from the origin, in a coordinate? */
+/* Is coordinate k of every vertex of the shifted operand less than 2^58 units from the origin? */
 static bool is_near(const sunder_shape *s, int k, const plain *u, const double *shift)
 {
     const double by = shift ? shift[k] : 0;

@@ -25,9 +25,10 @@ static sunder_i_point negative(sunder_i_operands *g, sunder_i_point u)
     return g->placed.lattice.narrow ? (sunder_i_point){-u.x, -u.y} : sunder_i_point_neg(&g->placed.lattice, u);
 }
 
-typedef enum where { OFF, BESIDE, ON } where; /* OFF: by more than what doubles get wrong twice */
+typedef enum where { OFF, BESIDE, ON } where; /* OFF: by more than twice the error of doubles */
 
-/* Where the point is to a subsum; the cone of that at the point if it is on its boundary. */
+/* Where is the point relative to the subsum? ON its boundary: then *out is the cone that the subsum covers there.
+ * BESIDE: not on it, but too near for doubles to tell. OFF: farther away. */
 static where cone_of(sunder_i_operands *g, const sunder_i_free_point *f, sunder_i_subsum *s, cone *out)
 {
     if (!sunder_i_box_near_point(s->box, f->x, f->y, 4 * g->error)) return OFF;

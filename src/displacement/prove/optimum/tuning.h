@@ -194,8 +194,9 @@
 /* The most places looked at, and pieces on one side of a region; with more the result is an estimate. */
 #define MOST_EXTREME 512
 #define MOST_SPANS 128
-/* A place this near to a piece, as a share of the set's size, is on its boundary; the most legs of a descent to a
- * reflex corner, and the least share of a leg that has to lead down. */
+/* The descent to a reflex corner (free_hull.c). A point is on the boundary of a piece if its distance from it is
+ * less than WALL_HAIR times the size of the set. A descent has at most MOST_LEGS legs. It ends where the wall
+ * descends by less than LEAST_SLOPE, the sine of the angle between the wall and the contour line. */
 #define WALL_HAIR 0x1p-34
 #define MOST_LEGS 6
 #define LEAST_SLOPE 0.02

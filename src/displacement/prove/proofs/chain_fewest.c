@@ -128,7 +128,8 @@ static void begin(const sunder_i_chains *g, reach *r, uint32_t body, double nx, 
 
 /* ---- Does any stretch of it win by itself? ----------------------------------------------------------------------- */
 
-/* A chain from end to end: the distances of its links, their lines, and the things they connect. */
+/* A chain of bodies from one end to the other: d and n are the length and the direction of the half-plane of each
+ * link; limit is how far each of the bodies may move. */
 typedef struct row {
     double d[2 * FEWEST_MOST + 1], n[2 * FEWEST_MOST + 1][2], limit[2 * FEWEST_MOST + 2];
     size_t links;

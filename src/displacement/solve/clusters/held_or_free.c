@@ -160,7 +160,8 @@ static bool is_held_better(const tally *t)
     return !(t->free_cost < t->held_cost);
 }
 
-/* back: the bodies of clusters that were better with held ones: *any. */
+/* Finds the clusters whose result was better while some bodies were held. back[b] is set for each of their bodies
+ * that can move; *any tells whether there is one. */
 static bool find_better_held(const sunder_i_solver *solver, const sunder_i_held_layout *layout, bool *back, bool *any)
 {
     const size_t bodies = solver->model.bodies;

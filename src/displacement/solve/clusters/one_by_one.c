@@ -103,8 +103,8 @@ static double far_for(const sunder_i_model *model, const uint32_t *body, size_t 
     return far;
 }
 
-/* One question, with a margin; and without one, where there may be a place that just fits. *work grows by what it
- * took. */
+/* Asks for a solution with a margin for rounding. If there is none, asks again without the margin, since a place may
+ * just fit. Adds the effort of both to *work. */
 static sunder_status ask(sunder_i_subproblem *p, sunder_i_decision *decision, uint64_t *work, sunder_error *err)
 {
     bool tight = false;

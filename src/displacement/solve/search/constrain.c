@@ -47,8 +47,9 @@ void sunder_i_search_add_constraint(sunder_i_search *search, size_t first, const
     p->constraint[p->n++] = *constraint;
 }
 
-/* The constraints of pair (i, j): of the pieces that stand no farther apart than gap + reach at relative position near,
- * with the sides of position u. Those that `known` holds are left as they are. */
+/* Adds the constraints of pair (i, j). They are made for those pairs of pieces that are at most gap + reach apart at
+ * the relative position `near`; which separating side each gets is decided at position u. Pairs of pieces that
+ * `known` has already keep their constraints. */
 typedef struct sighting {
     const double *near, *u;
     double reach;

@@ -80,9 +80,10 @@ static bool push_on(const sunder_i_search *s, size_t before, uint32_t k, double 
     return acts;
 }
 
-/* Tangents where s->next exceeds limits: in the direction of the move, which is right where neighbours determine it;
- * and in the direction of the push, which is right where nothing else holds the body. With either alone the other case
- * takes one tangent for each halving of the error. Returns whether there were any. */
+/* Adds tangents of the limit circle for bodies whose proposed move s->next is longer than their limit: one in the
+ * direction of the move, which converges fast if neighbours determine the move, and one in the direction in which
+ * constraints push the body, which converges fast if nothing else holds it. With only one of the two, the error is
+ * halved by each tangent in the other case. Returns whether any was added. */
 bool sunder_i_search_constrain_limits(sunder_i_search *search)
 {
     const size_t before = search->program.n;

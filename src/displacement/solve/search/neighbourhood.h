@@ -19,15 +19,17 @@ typedef struct sunder_i_neighbourhood {
 /* For a search without clashes. False if memory is out; the caller frees it in any case. */
 bool sunder_i_neighbourhood_init(sunder_i_neighbourhood *neighbourhood, sunder_i_search *all);
 void sunder_i_neighbourhood_free(sunder_i_neighbourhood *neighbourhood);
-/* Is there a layout without clashes for bodies i and j and those around them, `most` in all, while all others stand?
- * They are put there. reach: how far away a body may be run into. */
+/* Looks for a layout without clashes of bodies i and j and those around them, at most `most` bodies, while all
+ * others stay where they are. If there is one, the bodies are moved there. reach: of the bodies farther than this
+ * from a moved one none takes part, either as moved or as an obstacle. */
 bool sunder_i_neighbourhood_settle(sunder_i_neighbourhood *neighbourhood, uint32_t i, uint32_t j, size_t most,
                                    double reach);
-/* The same from places that miss no more than hairs, which are made good near by. */
+/* The same from a layout whose constraints are violated by rounding only; the solution is looked for near it. */
 bool sunder_i_neighbourhood_make_good(sunder_i_neighbourhood *neighbourhood, uint32_t i, uint32_t j, size_t most,
                                       double reach);
-/* From a solution, `best`, which all stand at but for i and j, down with those about these, everybody else standing.
- * What is cheaper by more than `least` is kept; returns by how much, or 0: then all are as in `best`. */
+/* Starts from the solution `best`, with i and j at other places, and descends with i, j and the bodies around them,
+ * while all others stay. A solution that is cheaper than `best` by more than `least` is kept, and the difference is
+ * returned; otherwise all bodies are put back to `best`, and 0 is returned. */
 double sunder_i_neighbourhood_descend(sunder_i_neighbourhood *neighbourhood, uint32_t i, uint32_t j, size_t most,
                                       double reach, const double *best, double least);
 /* Puts the n bodies of `place` at their given places, if no body around them is in the way. After that they are in no
