@@ -224,14 +224,21 @@ static bool go_on_from(sunder_i_solver *s, const component *c, const sunder_i_so
     return ok;
 }
 
+/* The line names all bodies that were asked about: the component alone may well have a solution. */
 static sunder_status trace_verdict(const sunder_i_solver *s, const component *c, sunder_i_verdict verdict,
                                    sunder_error *err)
 {
+    if (!sunder_i_is_traced(&s->model)) return SUNDER_OK;
     const char *outcome = verdict == SUNDER_I_FEASIBLE     ? "a solution of all pairs was found"
                           : verdict == SUNDER_I_INFEASIBLE ? "proved: no solution of all pairs"
                                                            : "undecided within the budget";
     const sunder_i_trace_step step = {"branch and bound", outcome, NAN, NAN};
-    return sunder_i_trace_emit(&s->model, "cluster", &step, c->body, c->bodies, err);
+    uint32_t *body = NULL;
+    size_t n = 0;
+    sunder_status status = gather_bodies(s, c, &body, &n, err);
+    if (!status) status = sunder_i_trace_emit(&s->model, "cluster", &step, body, n, err);
+    sunder_i_free(body);
+    return status;
 }
 
 sunder_status sunder_i_solver_reconsider(sunder_i_solver *solver, bool *changed, sunder_error *err)
