@@ -32,15 +32,15 @@ typedef struct sunder_i_body {
     double limit;               /* the strictest of its members' */
     const sunder_i_extras *has; /* besides; never NULL */
     bool fixed;                 /* limit 0 counts too */
-    bool held;        /* fixed for now: its possible moves are coarse beside a neighbour's
+    bool held;                  /* fixed for now: its possible moves are coarse beside a neighbour's
                        * (solve/clusters/coarse_bodies.c) */
-    bool has_seams;   /* they were looked for */
-    bool pinned;      /* stays where it came from: rounding would make a pair of it stand worse (uphold.c) */
-    bool far;         /* it has corners out of all proportion (far_corners.c) */
-    double reach;     /* for the search no corner is farther from the origin, along either axis */
-    double origin[2]; /* its corners are stored relative to this */
-    double box[4];    /* of its pieces, relative to the origin */
-    double clear;     /* the least of its members', in sunder_i_model.clear; INFINITY where jumps are allowed */
+    bool has_seams;             /* they were looked for */
+    bool pinned;                /* stays where it came from: rounding would make a pair of it stand worse (uphold.c) */
+    bool far;                   /* it has corners out of all proportion (far_corners.c) */
+    double reach;               /* for the search no corner is farther from the origin, along either axis */
+    double origin[2];           /* its corners are stored relative to this */
+    double box[4];              /* of its pieces, relative to the origin */
+    double clear; /* the least of its members', in sunder_i_model.clear; INFINITY where jumps are allowed */
 } sunder_i_body;
 
 /* One convex piece of a body, counter-clockwise; a wall is one without area, of two corners. */
@@ -104,8 +104,8 @@ static inline void sunder_i_body_box(const sunder_i_body *body, const double t[2
     for (size_t c = 0; c < 4; c++) box[c] = body->box[c] + body->origin[c & 1] + t[c & 1] + (c < 2 ? -reach : reach);
 }
 
-/* Where it was looked on behalf of a body: the box of the places, and that of the bodies that stood there at the start,
- * whole. */
+/* What a search on behalf of a body has read: `place` bounds the boxes that it queried, and `seen` bounds the whole
+ * bodies found there, at their original places. */
 typedef struct sunder_i_read {
     double place[4], seen[4];
 } sunder_i_read;
@@ -343,8 +343,8 @@ bool sunder_i_is_held(const sunder_i_model *model, uint32_t f, uint32_t g);
 
 /* Is there a barrier without area that owes nothing, so that it could hide on a diagonal? */
 bool sunder_i_has_bare_barriers(const sunder_i_model *model);
-/* Makes the seams of all bodies, or of these, that are not known yet; after the pieces are cut. Proofs need them, the
- * search does not. Pointers to seams become invalid. */
+/* Makes all missing seams, of all bodies or of the n bodies in `body`. The pieces must have been cut. Proofs need
+ * seams, the search does not. Pointers to seams become invalid. */
 sunder_status sunder_i_model_find_seams(sunder_i_model *model, sunder_error *err);
 sunder_status sunder_i_model_find_seams_of(sunder_i_model *model, const uint32_t *body, size_t n, sunder_error *err);
 

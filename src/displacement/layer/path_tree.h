@@ -8,7 +8,7 @@
 typedef struct sunder_i_path_tree {
     double *hull;          /* [4 * nodes] of all nodes that are no leaves; NULL: there is no tree */
     const double *own;     /* [2 * features] lent: each feature's move; NULL: they move with their bodies */
-    sunder_i_rtree longer; /* the order that was found when ways had grown long; else it is that of the model's tree */
+    sunder_i_rtree longer; /* of the ways, built when they had grown long; empty: the model's tree is used */
     double sprawl, packed; /* as sunder_i_rtree has them */
 } sunder_i_path_tree;
 

@@ -17,7 +17,7 @@ typedef struct sunder_i_relation {
     uint32_t a, b;  /* things, a < b; a is a feature */
     bool near;      /* not the gap apart */
     bool overlap;   /* interiors meet */
-    bool drawn;     /* they do not, b is of a barrier, and a is nearer to it than half its width */
+    bool drawn;     /* ... do not, but a is nearer to b, a part of a barrier, than half its width */
     bool contained; /* one lies in the other, up to the tolerance */
     bool a_in_b;    /* which: a in b */
     bool duplicate; /* equal sets */

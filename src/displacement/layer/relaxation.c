@@ -117,8 +117,8 @@ static void join_relaxed(sunder_i_relaxed_bodies *between, const sunder_i_relaxe
 }
 
 #ifndef NDEBUG
-/* Pairs with the lesser first, sorted, and counted between their bodies, which are sorted, too. (A pair that was asked
- * about with others and by itself may be there twice, alike.) */
+/* Checks that each pair has its lesser number first, that pairs are sorted, and that each is counted between its two
+ * bodies, which are sorted, too. (A pair may occur twice, alike, if it was asked about by itself and with others.) */
 static const char *check(const sunder_i_relaxations *list, const sunder_i_model *model)
 {
     size_t n = 0;

@@ -27,8 +27,8 @@ typedef struct sunder_i_side_cut {
     bool any; /* some line meets a member's interior */
 } sunder_i_side_cut;
 
-/* All parts, in the order of the members. Shape and lines are borrowed. Failure leaves what sunder_i_side_cut_free()
- * takes. */
+/* Computes all parts, in the order of the members. `out` borrows `shape` and the lines, and must be freed by
+ * sunder_i_side_cut_free() even after failure. */
 sunder_status sunder_i_side_cut_make(const sunder_shape *shape, const sunder_i_side *const *side, size_t n,
                                      sunder_i_side_cut *out, sunder_error *err);
 void sunder_i_side_cut_free(sunder_i_side_cut *cut);

@@ -178,7 +178,7 @@ static sunder_status free_by(crowd *g, const double *layout, const sunder_i_id_p
     return status;
 }
 
-/* spread: of all bodies, where they stand in the result, before and behind. */
+/* Before and after the call, `spread` holds the moves of all bodies in the result. */
 static sunder_status free_cluster(crowd *g, const sunder_i_id_pair *item, size_t n, double *spread, sunder_error *err)
 {
     const sunder_i_model *model = &g->trial.solver->model;

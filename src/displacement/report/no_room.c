@@ -220,8 +220,8 @@ static bool has_no_limit(const asking *g, const matter *m)
     return p > 0 && r > 0 && p + r == INFINITY;
 }
 
-/* The same of one that is of a crowd. One straight chain is irreducible as it comes; the rest is made so, or is no
- * reason where the budget of the cluster is spent. */
+/* Keeps the proof of a conflict in a crowd. A proof by one straight chain is already irreducible. Any other is
+ * reduced, or dropped when the cluster's `budget` is used up. */
 static sunder_status keep_crowded(const asking *g, const matter *m, const sunder_i_subproblem *q,
                                   sunder_i_decision *decision, uint64_t *budget, sunder_error *err)
 {

@@ -78,7 +78,7 @@ static sunder_status prove(const sunder_i_solver *s, const sunder_bound_pair *pa
     return ok ? SUNDER_OK : sunder_i_no_memory(err);
 }
 
-/* The pair of features, or of a feature and a barrier: the body that moves, or one of the two. */
+/* Returns the body of pair->a or, if that body is fixed, the body of pair->b. */
 static uint32_t mover_of(const sunder_i_model *model, const sunder_bound_pair *pair)
 {
     const uint32_t a = model->body_of[pair->a];

@@ -273,7 +273,7 @@ static sunder_status describe(void *context, size_t begin, size_t end, sunder_er
     return SUNDER_OK;
 }
 
-/* Members of a block owe each other nothing, nor do two that may overlap. */
+/* Computes the missing distance plus `depth`; NAN inside a block or for a pair that may overlap. */
 static double missing_of(const sunder_conflict *c)
 {
     if (c->inside_block || c->reason == SUNDER_REASON_KEPT) return NAN;

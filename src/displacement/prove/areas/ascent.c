@@ -182,7 +182,7 @@ static bool find_shares(asking *a, double stays)
     return true;
 }
 
-/* Where there is nothing to pay it stays whole. False if memory is out. */
+/* Finds the payer's parts: one whole part if staying costs nothing. False if memory is out. */
 static bool ask_payer(asking *a)
 {
     answer *s = a->answer;

@@ -104,7 +104,7 @@ static void balance(sunder_i_lagrangian *d)
     }
 }
 
-/* What was found of the block is a cut for the next proposals. */
+/* Adds the result for the block to the bundle, as a cut for later proposals. */
 static bool note_cut(sunder_i_lagrangian *d, size_t block, double value)
 {
     const size_t n = d->first[block + 1] - d->first[block];

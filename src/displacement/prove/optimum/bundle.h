@@ -7,7 +7,8 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/* A cut of one block: its least value at x is at most `at_rest` - 2 x.t, the product over the copies of the block. */
+/* A cut of one block: the block's least value at x is at most `at_rest` - 2 x.t, where x.t is the scalar product
+ * over all copies of the block. */
 typedef struct sunder_i_bundle_cut {
     uint32_t block, before; /* the cut of that block before it */
     double at_rest;

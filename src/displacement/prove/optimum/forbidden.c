@@ -316,7 +316,7 @@ static bool add_seams(listing *l, const sunder_i_body_piece *anchor, const sunde
     return true;
 }
 
-/* Shadows of pieces of `other` from the anchors of `p`; swapped: p is the second of the two. */
+/* Adds shadows of the pieces of `other` for the anchors of `p`; swapped: `p` is the second body of the pair. */
 static bool add_shadows_from(listing *l, const sunder_i_body *p, const sunder_i_body *other, bool swapped)
 {
     const sunder_i_model *model = l->model;

@@ -42,7 +42,7 @@ static void cut(area *p, const double n[2], double d)
     *p = out;
 }
 
-/* What limits and claims leave of the relative moves of a pair, roughly. */
+/* Returns an approximate polygon of the relative moves that limits and claims leave to a pair. */
 static area room_of(const sunder_i_branching *c, const sunder_i_violation *o)
 {
     area room = {.n = DISC_SIDES};

@@ -82,8 +82,9 @@ bool sunder_i_chain_fewest(sunder_i_chains *chains, const sunder_i_chain_link *p
 
 /* ---- chain_proof.c ----------------------------------------------------------------------------------------------- */
 
-/* The proof that the pair's pieces have no way: those that the limits leave have a chain each, n of them in order, and
- * one more of no way behind them. NULL: it is none, by a hair, or memory is out (*failed). */
+/* Builds the proof that all ways of the pair are closed. Each way that the limits leave open has one of the n
+ * chains, in the order of ways; chain[n] belongs to no way. NULL: a chain fails by a hair, or memory is out
+ * (*failed). */
 sunder_proof *sunder_i_chain_prove(sunder_i_chains *chains, const sunder_i_subproblem *subproblem,
                                    const sunder_i_chain_link *pair, const sunder_i_half_plane *way, size_t ways,
                                    const sunder_i_pushing *chain, size_t n, bool *failed);

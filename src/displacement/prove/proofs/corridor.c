@@ -136,7 +136,8 @@ typedef struct facing {
     double a[2 * WALL_CORNERS], b[2 * WALL_CORNERS]; /* their corners as given */
 } facing;
 
-/* The normal of an edge of A - B: the k-th edge of A, or behind these of B; not scaled. False: not of doubles. */
+/* Computes in `n` the unscaled normal of edge k of A - B: the edges of A come first, then those of B. False if
+ * doubles cannot hold it exactly. */
 static bool normal_of(const facing *f, size_t k, double n[2])
 {
     const size_t na = f->wall.a->corners, nb = f->wall.b->corners;

@@ -49,7 +49,7 @@ typedef struct sunder_i_subproblem {
     const sunder_i_requirement *required; /* sorted */
     size_t required_n;
     double less;             /* of the layer's gap so much is not asked for: what is told then is of a smaller gap */
-    double margin;           /* to be kept beyond what is owed: 0 where a proof is looked for */
+    double margin;           /* extra distance to be kept beyond what is owed; it is 0 when a proof is sought */
     const uint32_t *feature; /* NULL, or the only things to be heeded, likewise, ascending */
     size_t features;
     /* Lines between pairs may be short by this share of how far the two may go: then proofs are smaller, and a

@@ -175,7 +175,8 @@ bool sunder_i_plane_index_list(const struct sunder_i_plane_kept *kept, const sun
 bool sunder_i_plane_choices_begin(sunder_i_plane *plane);
 /* The choice made earlier for a region, if it is still the best of the pieces forbidden then; NULL: not known. */
 const sunder_i_plane_choice *sunder_i_plane_choices_known(const sunder_i_plane *plane, uint32_t region);
-/* The first of the regions that what was chosen for one in the known question leaves, if that is this obstacle. */
+/* Returns the first subregion left by the choice that the known question made for `region`, if that choice is
+ * `obstacle`; else SUNDER_I_NO_CHOICE. */
 uint32_t sunder_i_plane_choices_below(const sunder_i_plane *plane, uint32_t region, uint32_t obstacle);
 /* Notes a choice for a region of the question at hand; *below: the first of those that its ways leave. False if memory
  * is out. */

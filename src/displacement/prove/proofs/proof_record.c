@@ -53,7 +53,7 @@ static size_t copy_chord(copying *g, const sunder_i_chord *chord)
     return at;
 }
 
-/* The sides of a chord, each from one of its ends to the other. */
+/* Copies both sides of a chord as pairs of end points; returns their index. */
 static size_t copy_sides(copying *g, const sunder_i_chord *chord)
 {
     const size_t at = g->proof->corners;

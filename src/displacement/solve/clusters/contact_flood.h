@@ -11,7 +11,8 @@ typedef struct sunder_i_flood {
     size_t touches, touch_capacity;
 } sunder_i_flood;
 
-/* From the solver's moves and relations, with what its groups have joined; to be freed in any case. */
+/* Floods contacts from bodies that moved, are in conflict, or were joined by groups. The caller frees `out` even
+ * after failure. */
 sunder_status sunder_i_flood_contacts(sunder_i_solver *solver, sunder_i_flood *out, sunder_error *err);
 void sunder_i_flood_free(sunder_i_flood *flood);
 

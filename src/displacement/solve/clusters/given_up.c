@@ -38,8 +38,8 @@ void sunder_i_sort_given_up(sunder_i_model *model)
     model->given_up_n = out;
 }
 
-/* The clusters' relaxations, in place of what the model had for the same features; those that were not proved
- * infeasible are given up. */
+/* Merges the clusters' relaxations into those of the model and replaces those of the same features. Pairs that were
+ * not proved infeasible are noted as given up. */
 static bool take_relaxations(sunder_i_solver *s)
 {
     sunder_i_model *model = &s->model;

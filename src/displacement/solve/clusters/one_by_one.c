@@ -34,8 +34,8 @@ typedef struct asking {
     const size_t *first;                  /* [clusters + 1] questions, cluster after cluster */
     const sunder_i_requirement *required; /* what conflicts are held to that there are now */
     size_t required_n;
-    bool *asked;                 /* [questions] */
-    uint64_t *work;              /* [bodies] what questions took in vain so far: of the bodies of each cluster */
+    bool *asked;    /* [questions] */
+    uint64_t *work; /* [bodies] spent on questions without a solution; a cluster's is the sum over its bodies */
     sunder_i_decision *decision; /* [clusters] */
 } asking;
 

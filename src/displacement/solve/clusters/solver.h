@@ -124,8 +124,8 @@ sunder_i_cluster *sunder_i_solver_cluster_with(const sunder_i_solver *solver, ui
 sunder_i_cluster *sunder_i_solver_cluster_of(const sunder_i_solver *solver, uint32_t body);
 /* Does any of them that may move have the flag? flag: [bodies] */
 bool sunder_i_solver_any_of(const sunder_i_solver *solver, const uint32_t *body, size_t n, const bool *flag);
-/* [bodies] Is the body connected, by the present edges, with one that has the flag? The caller frees it. A fixed body
- * is connected with none. NULL if memory is out. */
+/* Returns an array [bodies]: is the body connected, by the present edges, with a movable body whose `flag` is set?
+ * It is false for fixed bodies. The caller frees the array. NULL if memory is out. */
 bool *sunder_i_solver_who_hang_with(const sunder_i_solver *solver, const bool *flag);
 /* What is asked of these bodies beyond the gap. */
 double sunder_i_solver_margin(const sunder_i_solver *solver, const uint32_t *b, size_t n);

@@ -26,7 +26,7 @@ typedef struct sunder_i_cluster {
     size_t guests, guest_capacity;
 } sunder_i_cluster;
 
-/* Two bodies of a cluster with relaxations between them, and what is to be asked for them. */
+/* Two bodies of a cluster with relaxations between their members, and the request to be made for these relaxations. */
 typedef struct sunder_i_retry {
     uint32_t root; /* of the cluster */
     sunder_i_id_pair body;
@@ -41,8 +41,8 @@ typedef struct sunder_i_retry {
 
 /* ---- solve_cluster.c --------------------------------------------------------------------------------------------- */
 
-/* Least moves of a cluster's bodies from where they stand, others disregarded; rounded. Where limits leave no solution,
- * pairs are given up, and the rest is solved. */
+/* Computes the least moves of a cluster's bodies from their present places, rounded; it ignores all other bodies.
+ * Where limits leave no solution, it gives pairs up and solves the rest. */
 sunder_status sunder_i_cluster_solve(const sunder_i_model *model, sunder_i_cluster *cluster, double *move,
                                      sunder_error *err);
 

@@ -66,8 +66,8 @@ typedef struct sunder_i_search {
     uint64_t patience;      /* a descent gives up when the work reaches this ... */
     const double *lead;     /* [2 n] pairs that are free here get the sides that they have here; NULL */
     const double *back;     /* [2 n] ... or when it comes back to here; NULL */
-    double hope;            /* ... or, from a free position, when it is not going to cost less than this; INFINITY */
-    bool failed;            /* memory is out */
+    double hope; /* ... or, from a free position, when its projected cost exceeds this; INFINITY: no such test */
+    bool failed; /* memory is out */
 } sunder_i_search;
 
 /* Looks at the bodies as they stand at move (two doubles a body, copied). */

@@ -81,8 +81,9 @@ static double solve(sunder_i_search *s, double softness)
     return v;
 }
 
-/* The same for a hard program that was solved except for the constraints in s->next. Within limits the effect of these
- * fades; without, chains of contacts carry it on, and the layout that a crowd ends in is arbitrary. */
+/* Solves a hard program again, of which s->next violates only the latest constraints; returns the violation left.
+ * With limits the effect of these fades, and the solution is mended. Without limits chains of contacts carry it on,
+ * and the layout that a crowd ends in is arbitrary. */
 static double solve_further(sunder_i_search *s)
 {
     sunder_i_quadratic *p = &s->program;

@@ -360,7 +360,7 @@ static void measure_part(sunder_i_search *s, const sunder_i_piece_pair *part, vo
     if (edge) m->worst = sunder_i_max(m->worst, gap - sunder_i_search_support(part, edge, n, m->u).distance);
 }
 
-/* As if no pair were relaxed: that is the same whenever they stand so. */
+/* Returns the shortfall of pair (i, j) at `u` as if no pair were relaxed. It depends on `u` alone, so it is kept. */
 static double measure(sunder_i_search *s, uint32_t i, uint32_t j, const double u[2])
 {
     missing m = {u, 0};

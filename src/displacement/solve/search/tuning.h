@@ -248,8 +248,9 @@
 /* If more than FEW_RETRIES are to be tried and none succeeded at the previous stage, one in SHARE_OF_RETRIES is. */
 #define FEW_RETRIES 64
 #define SHARE_OF_RETRIES 24
-/* Nor is any tried after this much failed work, or this share of all effort if that is more. Of 54 crowds of terraces,
- * with a hundred pairs each, almost none succeeded with dozens of movable bodies. */
+/* Nor is any pair tried at a stage after failed work of WORK_IN_VAIN or, if that is more, all effort divided by
+ * SHARE_IN_VAIN. Of 54 crowds of terraces, with a hundred pairs each, almost none succeeded with dozens of movable
+ * bodies. */
 #define WORK_IN_VAIN 2000000u
 #define SHARE_IN_VAIN 8
 /* Overlaps are separated at the expense of other pairs in clusters with at most this many movable bodies. */
