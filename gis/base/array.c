@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Room of an array that had none yet: most hold a few elements, or very many. */
+/* Least capacity of an array after its first growth: most arrays hold a few elements, or very many. */
 enum { FIRST = 16 };
 
 bool gis_array_grow(void *array, size_t *capacity, size_t needed, size_t size)

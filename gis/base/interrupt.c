@@ -70,7 +70,8 @@ static void end_at_once(int number)
     pthread_sigmask(SIG_UNBLOCK, &this_one, NULL);
 }
 
-/* A limit of the process is met again with each write, or each second: that is no second request. */
+/* A process limit raises its signal again at each write, or each second; such a repetition is no second request to
+ * end. */
 static bool is_limit(int number) { return number == SIGXFSZ || number == SIGXCPU; }
 
 static void hear(int number)

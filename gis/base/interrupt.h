@@ -39,7 +39,7 @@ bool gis_decide(gis_error *error);
 /* A file that lies about half done, as the handler knows it. */
 typedef struct gis_leftover gis_leftover;
 
-/* A file, or a directory with all in it, that the handler removes. */
+/* Registers a file, or a directory with its contents, for the handler to remove. */
 gis_leftover *gis_leftover_temporary(const char *path);
 /* A file that the handler removes before outcome_then: a new output until the outcome is decided, a journal until it is
  * being decided. */

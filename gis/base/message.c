@@ -46,7 +46,7 @@ typedef struct tally {
     size_t n;
 } tally;
 
-/* What is said anywhere is said by the one process on its one stderr; threads take turns. */
+/* State of all messages: the process has one stderr, and threads take turns to use this state. */
 static struct {
     pthread_mutex_t turn;
     gis_messages_request how;

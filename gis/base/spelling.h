@@ -13,7 +13,7 @@ typedef struct gis_spelling {
 } gis_spelling;
 
 gis_spelling gis_spelling_of(const char *word, size_t n);
-/* Small and capital letters are alike; of equally near words the first stays. */
+/* Offers `word` to the search. Case is ignored; of equally near words, the first one offered is kept. */
 void gis_spelling_offer(gis_spelling *search, const char *word, size_t n);
 
 #endif

@@ -1,4 +1,4 @@
-/* buffer.h: what sunder buffer makes of a layer: sets of features, each grown or shrunk, in doubles. */
+/* buffer.h: the command sunder buffer deals a layer's features to sets and grows or shrinks each set, in doubles. */
 #ifndef GIS_BUFFER_H
 #define GIS_BUFFER_H
 

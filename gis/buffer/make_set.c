@@ -1,5 +1,5 @@
-/* make_set.c: one set of features grown or shrunk: joined as they stand, made by the core exactly, rounded. What
- * rounding moves is added up, never estimated. */
+/* make_set.c: grows or shrinks one set of features. They are joined as they stand, the core computes the result
+ * exactly, and it is then rounded. The deviations by rounding are added up, never estimated. */
 #include "buffer/buffer.h"
 
 #include "base/core_error.h"

@@ -1,4 +1,4 @@
-/* call.h: what a command was asked to do, in words: for reports, and for a plan. */
+/* call.h: lists the options that a command was given, as text for reports and for a plan. */
 #ifndef GIS_CALL_H
 #define GIS_CALL_H
 

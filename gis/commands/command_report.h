@@ -13,7 +13,8 @@ void gis_json_conflict_counts(gis_json *out, const sunder_conflict_counts *count
 
 /* Is anything in conflict between blocks? */
 bool gis_any_conflict(const sunder_conflict_counts *counts);
-/* The exit status of a run that is complete; `unresolved`: what was wanted is not so (GIS_UNRESOLVED). */
+/* Returns the exit status of a complete run: GIS_UNRESOLVED if `unresolved` (the goal was missed) and
+ * OPT_ALLOW_CONFLICTS is not given. */
 int gis_complete_status(const gis_options *options, bool unresolved);
 
 #endif

@@ -1,6 +1,5 @@
-/* resolve.h: the program's door. What options say, with what holds where they say nothing, as the typed requests of the
- * folders below, which know of no option. Everything in a request is borrowed from the options but for what is said to
- * be owned. */
+/* resolve.h: turns the program's options, with defaults for those not given, into typed requests for the folders
+ * below, which know no options. A request borrows everything from the options, except what is said to be owned. */
 #ifndef GIS_RESOLVE_H
 #define GIS_RESOLVE_H
 

@@ -1,4 +1,5 @@
-/* route.c: sunder route. A shortest way for a robot among obstacles, contact allowed, as JSON, or as layers. */
+/* route.c: the command sunder route. It finds a shortest way for a robot among obstacles, with contact allowed, and
+ * writes it as JSON or as layers. */
 #include "base/core_error.h"
 #include "base/message.h"
 #include "commands/command_report.h"

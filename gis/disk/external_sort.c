@@ -163,7 +163,7 @@ static bool merge_heap(gis_sorter *s, run **heap, size_t share, gis_sort_take *t
     return true;
 }
 
-/* Reading less at once would cost a seek for every few records. */
+/* Least bytes read of a run at once: fewer would cost a seek for every few records. */
 enum { LEAST_SHARE = 1 << 16 };
 
 static bool merge(gis_sorter *s, gis_sort_take *take, void *user, gis_error *error)

@@ -144,7 +144,7 @@ const char *gis_stage_main(const gis_stage *stage) { return stage->main; }
 
 /* ---- Copying in -------------------------------------------------------------------------------------------------- */
 
-/* A piece at a time, so that a signal is heard in between. */
+/* Bytes copied at a time, so that a signal is noticed between two pieces. */
 enum { PIECE = 1 << 20 };
 
 static bool write_all(int to, const char *bytes, size_t n)
@@ -183,7 +183,8 @@ static bool copy_file(const char *from, const char *to, mode_t mode, gis_error *
     return done || gis_fail(error, "%s: cannot be copied: %s", from, strerror(reason));
 }
 
-/* Datasets nest directories a few levels deep; what nests them deeper than this is none, or goes in circles. */
+/* Datasets nest directories only a few levels deep. A tree that is deeper than this is no dataset, or contains a
+ * cycle. */
 enum { DEEPEST = 8 };
 
 /* Recurses at most DEEPEST deep. */

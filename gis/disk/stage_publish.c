@@ -201,7 +201,8 @@ static int make_aside(const gis_stage *stage, gis_error *error)
     return opened;
 }
 
-/* The renames, and the outcome: no signal comes between them. One that has come before is heard now or never. */
+/* Performs the renames and sets the outcome while signals are held. An earlier signal is heeded before the first
+ * rename or not at all. */
 static bool rename_all(const gis_stage *stage, char **names, bool in_one_step, gis_error *error)
 {
     const size_t most = (size_t)(CSLCount(names) + CSLCount(stage->superseded)) + 1;

@@ -18,7 +18,7 @@ enum { OK = 0, BUSY = 5, LOCKED = 6, READONLY = 8, CORRUPT = 11, NOTADB = 26, DO
 enum { OPEN_READONLY = 1, OPEN_READWRITE = 2 };
 enum { RESULT = 0xff }; /* beyond it: what kind of that result */
 
-/* (That a pointer to data can hold one to a function is POSIX's word.) */
+/* (POSIX guarantees that a pointer to data can hold a pointer to a function.) */
 bool gis_sqlite_find(const char *name, void *function)
 {
     void *found = dlsym(RTLD_DEFAULT, name);

@@ -18,8 +18,8 @@ bool gis_sqlite_in_use(const char *path);
 /* Is a write transaction of another process under way? */
 bool gis_sqlite_being_written(const char *path);
 
-/* The whole lock, which keeps everyone out, waited for. The handle to be closed in the end, or -1 with an error; -2:
- * the file system has no locks. */
+/* Waits for the lock that excludes all other processes. Returns the handle, which the caller closes; -1 with an
+ * error; or -2 if the file is not writable or has no locks. */
 int gis_sqlite_lock(const char *path, gis_error *error);
 
 /* Fails with the sentence that says that somebody did not let go of it. */

@@ -1,6 +1,5 @@
-/* table.h: the features of a GeoPackage's table as records (packed.h), past GDAL.
- *
- * Of each feature GDAL makes a dozen pieces of memory, which a record then is made of: where rows are plain it can be
+/* table.h: reads the features of a GeoPackage's table as records (packed.h) without GDAL. GDAL allocates a dozen
+ * pieces of memory for each feature, and a record is then made of these. Where rows are plain, the record can be
  * made of the row itself. */
 #ifndef GIS_GPKG_TABLE_H
 #define GIS_GPKG_TABLE_H

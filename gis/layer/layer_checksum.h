@@ -6,8 +6,9 @@
 #include "layer/layer_input.h"
 
 /* Sums of FIDs and geometries (gis_source_checksum()), of whether --ignore-where and --fixed-where hold, and of the
- * values of --id-field, --block-field, --max-shift-field, --weight-field, --symbol-field and --symbol-size-field: each
- * goes from feature to feature, so that it does not matter how many of them are read at a time. Zeroed: of nothing. */
+ * values of --id-field, --block-field, --max-shift-field, --weight-field, --symbol-field and --symbol-size-field.
+ * Each sum is continued from feature to feature, so the number of features read at a time does not matter. A zeroed
+ * struct holds the sums of no features. */
 enum { GIS_LAYER_CHECKSUMS = 9 };
 typedef struct gis_layer_checksums {
     uint64_t of[GIS_LAYER_CHECKSUMS];

@@ -61,8 +61,8 @@ bool gis_layer_shapes_read(const gis_layer_input_request *request, gis_layer_inp
 double gis_layer_barrier_reach(double longest_limit);
 /* The point of a feature of points; of several the smallest by x, then y. *any: there is one. */
 bool gis_layer_point(const gis_layer_input *input, size_t i, double xy[2], bool *any, gis_error *error);
-/* Around all shapes; around those that conflict with something, once features are made. box[0] > box[2]: there is
- * none. */
+/* Sets `box` to the box around all shapes or, once features are made, around those that are not ignored. If there is
+ * none, box[0] > box[2]. */
 void gis_layer_box(const gis_layer_input *input, double box[4]);
 /* Warns where the layer's units are no lengths on the ground; gis_layer_input_read() does. */
 void gis_layer_warn_of_crs(const gis_layer_input *input);

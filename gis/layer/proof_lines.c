@@ -1,4 +1,5 @@
-/* proof_lines.c: see proof_lines.h. Numbers are the shortest decimals that read back as the doubles they are. */
+/* proof_lines.c: see proof_lines.h. Each double is written as the shortest decimal that reads back as the same
+ * double. */
 #include "layer/proof_lines.h"
 
 #include "base/interrupt.h"

@@ -37,7 +37,8 @@ typedef struct gis_result_view {
     bool (*fill_barriers)(void *of, gis_view_barrier *barrier, gis_error *error);
     /* The conflicts that remain, in any order; they live as long as `of`. */
     bool (*conflicts)(void *of, const sunder_conflict **conflict, size_t *n, gis_error *error);
-    /* For an item that has something to draw. Lent data is valid until the next item is fetched. */
+    /* Call these only for an item that has something to draw. The data that they lend is valid until the next item
+     * is fetched. */
     bool (*shape)(void *of, size_t feature, uint64_t place, const sunder_shape **shape, gis_error *error);
     bool (*geometry)(void *of, uint64_t place, sunder_obstacle *geometry, gis_error *error);
     /* FIDs (OGRNullFID: none) and texts: the user's own id, NULL: none; of a barrier the name of its layer. */

@@ -124,7 +124,7 @@ static bool read_symbol(const gis_layer_input *input, const char *text, const ch
     return true;
 }
 
-/* What makes the shapes: part is room for those of one feature; the rest is for points. */
+/* State for making shapes: `part` holds the polygons of one feature at a time; the other members serve points. */
 struct gis_layer_shaping {
     gis_polygonal_part part;
     sunder_shape *symbol; /* NULL: every point has its own */
@@ -223,7 +223,7 @@ void gis_layer_shaping_free(gis_layer_shaping *shaping)
     free(shaping);
 }
 
-/* What symbols are asked for is read once, whatever the number of batches. */
+/* Reads the symbols that the options ask for only once, whatever the number of batches. */
 static bool begin_shaping(gis_layer_input *input, gis_error *error)
 {
     if (input->shaping) return true;

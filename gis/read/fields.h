@@ -16,8 +16,8 @@ bool gis_field_find_numbers(const gis_source *source, const char *option, const 
 /* Null, or a text that says nothing: formats without nulls have empty texts in their place. */
 bool gis_field_is_blank(OGRFeatureH feature, int field);
 
-/* A copy of a field's value as text, freed by the caller: equal for equal values, and different for different ones.
- * NULL: memory is out. Not for lists, whose texts are cut. */
+/* Returns a copy of a field's value as text, which the caller frees, or NULL if memory is out. Equal values give
+ * equal texts, different values different ones. It is not for lists, since their texts are cut. */
 char *gis_field_key(OGRFeatureH feature, int field);
 
 /* Is it a list? And the list of a field that is not null as a JSON array. */

@@ -124,7 +124,8 @@ size_t gis_source_content_count(const gis_source *source, gis_content content);
 /* Is there a MultiPolygon? */
 bool gis_source_has_multipolygons(const gis_source *source);
 
-/* Name for messages and for the output layer: the layer's name; with --sql, the stem of the source's file. */
+/* Returns the name for messages and for the output layer. It is the layer's name or, with --sql, the stem of the
+ * source's file. */
 const char *gis_source_name(const gis_source *source);
 const char *gis_source_path(const gis_source *source);
 GDALDatasetH gis_source_dataset(const gis_source *source);

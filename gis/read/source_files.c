@@ -29,9 +29,9 @@ static const char *without_driver(const char *path)
     return *path == '"' ? path + 1 : path;
 }
 
-/* The file in the ordinary file system behind a virtual path: prefixes (a driver's name, /vsizip/, /vsigzip/ within it,
- * /vsisubfile/0_100,) and the braces that may enclose an archive's name are removed, then the shortest prefix that is a
- * file is the archive. NULL: there is none (/vsimem/, a network). CPLFree(). */
+/* Returns the file in the ordinary file system behind a virtual path, to be freed with CPLFree(), or NULL if there
+ * is none (/vsimem/, a network). Prefixes (a driver's name, /vsizip/, /vsigzip/ within it, /vsisubfile/0_100,) and
+ * the braces that may enclose an archive's name are removed. Then the shortest prefix that is a file is the archive. */
 static char *real_file(const char *name)
 {
     const char *path = without_driver(name);

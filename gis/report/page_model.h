@@ -49,7 +49,7 @@ bool gis_page_name(const gis_page_model *model, size_t thing, gis_text *to, gis_
 
 /* ---- Boxes ------------------------------------------------------------------------------------------------------- */
 
-/* A feature's box, moved by a part of its move: 0 before, 1 after. */
+/* Sets `box` to the feature's box after the fraction `part` of its move: 0 before, 1 after. */
 void gis_page_box(const gis_view_feature *feature, double part, double box[4]);
 /* How long its move is. */
 double gis_page_length(const gis_view_feature *feature);

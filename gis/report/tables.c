@@ -32,7 +32,7 @@ static void add_length_cell(const gis_page_model *model, double value, gis_text 
 
 /* ---- Conflicts --------------------------------------------------------------------------------------------------- */
 
-/* The features in the way besides the two; where there are many, their number. */
+/* Adds a cell that names up to MOST_NAMED other features in the pair's way and counts the rest. */
 static bool add_blockers(const gis_page_model *model, const sunder_conflict *conflict, gis_text *to, gis_error *error)
 {
     enum { MOST_NAMED = 6 };

@@ -118,7 +118,7 @@ bool sunder_i_components_find(const sunder_i_free_space *space, sunder_i_corners
         sunder_i_union_join(corners->parent, space->stretch[i].from, space->stretch[i].to);
     for (uint32_t v = 0; ok && v < corners->vertices; v++) {
         const uint32_t r = curve[v] = sunder_i_union_find(corners->parent, v);
-        /* A root is the least number of its tree, so it comes first. */
+        /* A root has the least number in its tree, so the loop meets it first there. */
         if (r == v || sunder_i_filtered_cmp(&space->filter, &corners->place[v], &corners->place[least[r]]) < 0)
             least[r] = v;
     }

@@ -174,7 +174,8 @@ static sunder_i_sector directions(const sunder_i_visibility *view, uint32_t v, u
     if (!leg_span(at, view->at[beside[left ? 1 : 0]], &along)) return all;
     const sunder_i_sector *low = left ? &on : &along, *high = left ? &along : &on;
     double width = sunder_i_turn_between(low->low, high->low + high->width);
-    /* It is half of all directions at most, and what is more is less than nothing: both are one direction. */
+    /* The turn is at most half of all directions, so a value above 3 (of 4) stands for one just below 0: both are
+     * one direction. */
     if (width > 3) width = low->width + high->width;
     return width < 2.5 ? (sunder_i_sector){low->low, width} : all;
 }

@@ -93,9 +93,9 @@ static uint32_t number_walk(sunder_i_graph *g, uint32_t walk, uint32_t start)
     return least;
 }
 
-/* Whether the walk has its face inside: at its smallest vertex all rays point into the right half-plane, and the region
- * beyond the lowest one is outside the walk. If that ray leaves, the covered side (its left) is above it, inside; if it
- * arrives, below. */
+/* Decides whether the walk has its face inside. At `least`, its smallest vertex, all rays point into the right
+ * half-plane, and the region below the lowest ray is outside the walk. If that ray leaves, the covered side (its
+ * left) is above it, inside; if it arrives, the covered side is below it. */
 static void judge_walk(sunder_i_graph *g, uint32_t walk, uint32_t least)
 {
     const uint32_t first = sunder_i_first_ray(g, least);

@@ -123,7 +123,8 @@ static bool is_half_plane_known(builder *b, half *h, uint32_t part, uint32_t sid
     return true;
 }
 
-/* Records how one part meets one half: the runs that pass follow the half's list, n of them with `sides` sides. */
+/* Records how part `part` meets half `h`: n runs with `sides` sides in total pass through the half, and they lie
+ * behind the half's list of runs. */
 static void settle_entry(builder *b, half *h, uint32_t part, uint32_t n, uint32_t sides)
 {
     if (n == 0) {
@@ -148,7 +149,7 @@ static int side_of_half(const builder *b, const half *h, const approx_side *s, c
     return c + reach < -error ? BEYOND : c - reach > error ? WITHIN : ACROSS;
 }
 
-/* What of a run passes through a half: how many runs, and sides in them. */
+/* What pass_run() keeps of a run in a half: n runs, with `sides` sides in total. */
 typedef struct passed {
     bool beyond; /* all of the half is beyond the part */
     uint32_t n, sides;

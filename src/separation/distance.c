@@ -86,7 +86,7 @@ static void offer(sunder_i_operands *g, uint32_t i, uint32_t j, link *best)
         *best = (link){square, i, j};
 }
 
-/* Edges from .. to - 1 of P against edges first .. last - 1 of Q; all within `box` of Q. */
+/* Compares edges from .. to - 1 of P with edges first .. last - 1 of Q, which all lie in `box`; updates *best. */
 static void compare_edges(sunder_i_operands *g, uint32_t from, uint32_t to, uint32_t first, uint32_t last,
                           const double box[4], link *best)
 {

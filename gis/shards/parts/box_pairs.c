@@ -1,4 +1,5 @@
-/* box_pairs.c: see box_pairs.h. Boxes that the line has reached and not left lie at the front of the same list. */
+/* box_pairs.c: see box_pairs.h. The boxes that the sweep line has reached and not yet left are kept at the front of
+ * the same list. */
 #include "shards/parts/box_pairs.h"
 
 #include "base/array.h"

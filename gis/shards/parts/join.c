@@ -59,7 +59,8 @@ static bool are_alike(const gis_part_result *r, const gis_part_world *a, const g
     return true;
 }
 
-/* Worlds that have a feature in common: one, found in two parts; else they are separated together. */
+/* Two worlds that share a feature are one if both are complete and alike: the second is dropped. Else they are
+ * separated together. */
 static bool compare_holdings(joining *j, gis_error *error)
 {
     size_t n;

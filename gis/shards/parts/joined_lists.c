@@ -1,4 +1,5 @@
-/* joined_lists.c: what worlds tell, as lists by features, and as sums. Sums are exact until they are rounded once. */
+/* joined_lists.c: gathers the results of worlds into lists ordered by feature, and into sums. Sums are exact until
+ * they are rounded once. */
 #include "shards/parts/border_chunks.h"
 #include "shards/parts/disjoint_sets.h"
 #include "shards/parts/join.h"

@@ -4,9 +4,9 @@
 #include <math.h>
 
 static const double bytes_a_feature = 2000, bytes_a_vertex = 120;
-/* Bytes for proofs, without search, and more with --effort 1. If that proves all groups, as in towns, more effort takes
- * no more memory; otherwise the tree of a single group may take hundreds of megabytes more, which cannot be
- * predicted. */
+/* Bytes per feature that proofs take without search, and the additional bytes with --effort 1. If that effort proves
+ * all groups, as in towns, more effort takes no more memory. Otherwise the tree of a single group may take hundreds
+ * of megabytes more, which cannot be predicted. */
 static const double bytes_a_proof = 3000, bytes_of_effort = 8000;
 
 double gis_part_bytes(bool proofs, double effort, double features, double vertices)

@@ -40,8 +40,9 @@ typedef struct gis_spool_cell {
 
 typedef struct gis_spool_writer gis_spool_writer;
 
-/* In a directory that is there; a spool in it stays until the new one is complete. frame: where features are said to
- * lie, NULL if nothing is said. Where they do not, or all in a corner of it, they are put in order again at the end. */
+/* Creates a spool in an existing directory; an old spool in it stays until the new one is complete. frame: the box
+ * in which features are said to lie, or NULL. If many lie outside it, or all in a small corner of it, they are
+ * sorted again at the end. */
 bool gis_spool_create(const char *directory, const double frame[4], gis_spool_writer **out, gis_error *error);
 /* Each index once; the order does not matter. The shape's rings are kept as they were given (sunder_shape_given()). */
 bool gis_spool_add(gis_spool_writer *writer, const gis_spool_feature *feature, gis_error *error);

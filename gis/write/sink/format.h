@@ -25,7 +25,8 @@ typedef struct gis_format {
     bool sqlite; /* a file that is a SQLite database, GeoPackages among them */
 } gis_format;
 
-/* The format called `name`, or with name NULL the one that the path's ending or prefix tells. */
+/* Sets *out to the format called `name` or, if name is NULL, to the one that the extension or prefix of `path`
+ * tells. */
 bool gis_format_find(const char *path, const char *name, const char *const *layer_options, gis_format *out,
                      gis_error *error);
 

@@ -48,7 +48,7 @@ static bool is_in_geopackage(const gis_sink_layer *layer, const char *name)
     return found;
 }
 
-/* As far as the layer's CRS has an authority, by which a GeoPackage tells it. */
+/* Checks that the GeoPackage lists `name` with its CRS's authority and code; true if it has none. */
 static bool has_its_crs(const gis_sink_layer *layer, const char *name)
 {
     OGRSpatialReferenceH crs = OGR_L_GetSpatialRef(layer->layer);

@@ -108,7 +108,7 @@ static bool suits(const gis_value *value, const gis_plain_field *field)
     }
 }
 
-/* A text with a width is one that GDAL counts the signs of: bytes of UTF-8 that begin one. */
+/* Checks that a text fits the field's width, which GDAL counts in characters: UTF-8 bytes that begin one. */
 static bool value_is_plain(const gis_value *value, const gis_plain_field *field)
 {
     if (value->kind != GIS_TEXT || field->width <= 0) return true;
@@ -144,9 +144,9 @@ static char *blob_statement(const gis_sink_layer *layer, GIntBig fid)
     sql = gis_sql_append_name(gis_sql_append(sql, " FROM "), OGR_L_GetName(layer->layer));
     sql = gis_sql_append_name(gis_sql_append(sql, " WHERE "), OGR_L_GetFIDColumn(layer->layer));
     char *rest = gis_printed(" = %" PRId64 " AND NOT EXISTS (SELECT 1 FROM sqlite_master WHERE type = "
-                                      "'trigger' AND lower(tbl_name) = lower('%s') AND sql LIKE '%%INSERT ON%%') AND "
-                                      "EXISTS (SELECT 1 FROM sqlite_master WHERE name = 'gpkg_ogr_contents')",
-                                      (int64_t)fid, name);
+                             "'trigger' AND lower(tbl_name) = lower('%s') AND sql LIKE '%%INSERT ON%%') AND "
+                             "EXISTS (SELECT 1 FROM sqlite_master WHERE name = 'gpkg_ogr_contents')",
+                             (int64_t)fid, name);
     sql = gis_sql_append(sql, rest);
     CPLFree(rest);
     CPLFree(name);

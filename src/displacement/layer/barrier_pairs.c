@@ -48,7 +48,8 @@ static sunder_status find_near(const sunder_i_model *model, const sunder_i_trans
 
 /* ---- One part ---------------------------------------------------------------------------------------------------- */
 
-/* Is the feature, which is nearer than is required and meets nothing of the part, nearer than half the width? */
+/* Is the feature nearer to the part than `half`, half the barrier's width? It is known to be nearer than `required`
+ * and to meet nothing of the part. */
 static sunder_status is_on_drawn(const sunder_i_barriers *barriers, uint32_t barrier, const sunder_shape *part,
                                  const sunder_shape *feature, const double t[2], bool *drawn, sunder_error *err)
 {

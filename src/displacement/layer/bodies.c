@@ -22,8 +22,8 @@ static void box_of_far_pieces(const sunder_shape *shape, const sunder_i_body *bo
     }
 }
 
-/* The box of a thing's pieces from that origin. Most are made of corners as given, and so is their box: rounding keeps
- * order, so that box less the origin is the box of the corners less the origin. */
+/* Sets box to the box of a thing's pieces, relative to the body's origin. Most pieces have corners as given, and so
+ * has their box: rounding keeps order, so that this box less the origin is the box of the corners less the origin. */
 static void box_of_pieces(const sunder_i_model *model, uint32_t thing, const sunder_i_body *body, double box[4])
 {
     const sunder_shape *shape = sunder_i_thing_shape(model, thing);

@@ -63,8 +63,8 @@ static uint64_t ordered_bits(double v)
     return bits >> 63 ? ~bits : bits | (uint64_t)1 << 63;
 }
 
-/* A key of each: its number, behind as many leading bits of its lower edge, less the lowest, as there is room for. Of
- * two the one with the greater key lies no lower. */
+/* Makes a key for each feature. It consists of as many leading bits of the feature's lower edge, less the lowest, as
+ * there is room for, and of the feature's number. A feature whose leading bits are greater lies no lower. */
 static void make_keys(const sunder_layer *layer, uint64_t *key)
 {
     uint64_t lowest = UINT64_MAX, highest = 0;

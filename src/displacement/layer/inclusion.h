@@ -24,7 +24,7 @@ typedef struct sunder_i_inclusion {
 sunder_status sunder_i_inclusions_init(sunder_i_model *model, const sunder_i_relations *relations, sunder_error *err);
 /* One more: a, or else b, is to get inside the other. Before the walls are made. */
 sunder_status sunder_i_inclusions_add(sunder_i_model *model, uint32_t a, uint32_t b, bool a_inside, sunder_error *err);
-/* Records the pairs in conflict where one lies in the other, and which limits may force to stay so. */
+/* Records the pairs in conflict where one feature lies in the other, and where limits may force it to stay there. */
 sunder_status sunder_i_inclusions_note_nested(sunder_i_model *model, const sunder_i_relations *relations,
                                               sunder_error *err);
 /* The walls, for the search; after the pieces are cut. */

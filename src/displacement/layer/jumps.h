@@ -19,7 +19,7 @@ static inline bool sunder_i_jumps_begun(const sunder_i_jumps *jumps) { return su
 /* What changed (sorted; NULL: all) stands elsewhere now, by model->move. Of no effect where no way is forbidden. */
 sunder_status sunder_i_jumps_update(sunder_i_jumps *jumps, const sunder_i_model *model, const sunder_i_changes *changes,
                                     sunder_error *err);
-/* Did the anchor of f pass g; or if g is part of a barrier, its side anchor a side of that? */
+/* *over: did the anchor of f pass g? If g is part of a barrier: did the side anchor of f pass a side of g? */
 sunder_status sunder_i_jumps_over(const sunder_i_jumps *jumps, const sunder_i_model *model, uint32_t f, uint32_t g,
                                   bool *over, sunder_error *err);
 /* One body stands elsewhere for now; the pairs stay what they were. */

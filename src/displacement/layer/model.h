@@ -283,7 +283,8 @@ uint32_t sunder_i_body_of_piece(const sunder_i_model *model, uint32_t piece);
 double sunder_i_farthest_near(const sunder_i_model *model, uint32_t p, uint32_t q);
 /* Unites the members of these bodies, those that are blocks and have not been. */
 sunder_status sunder_i_model_unite(sunder_i_model *model, const uint32_t *body, size_t n, sunder_error *err);
-/* The shape of a body: its only member's, or the union. NULL if it was not united or is empty. */
+/* Returns the shape of a body: that of its only member, or the union of all. NULL if they were not united or are
+ * empty. */
 const sunder_shape *sunder_i_model_shape(const sunder_i_model *model, uint32_t body);
 /* A lower bound of the weight of a body. */
 double sunder_i_weight_below(const sunder_i_model *model, const sunder_i_body *body);
@@ -319,8 +320,8 @@ size_t sunder_i_outline_of(const sunder_i_model *model, uint32_t thing, double *
 /* None are made yet, of bodies that are known. False if memory is out: sunder_i_pieces_end() frees what is there. */
 bool sunder_i_pieces_begin(sunder_i_model *model);
 void sunder_i_pieces_end(sunder_i_model *model);
-/* Called when no code refers to pieces, between two stages or two questions: frees all pieces if they take more bytes
- * than that; they are made again when needed. */
+/* Frees all pieces if they take more than `most` bytes; they are made again when needed. It is called when no code
+ * refers to pieces: between two stages or two questions. */
 void sunder_i_pieces_forget(sunder_i_model *model, size_t most);
 /* Less is not worth forgetting. */
 #define SUNDER_I_PIECES_HELD ((size_t)4 << 20)

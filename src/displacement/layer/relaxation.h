@@ -19,7 +19,7 @@ typedef struct sunder_i_relaxation {
                         search gave up */
 } sunder_i_relaxation;
 
-/* Bodies i < j with n relaxations between members of theirs; no shift is longer than `reach`. */
+/* Bodies i < j that have n relaxations between their members. No shift of these is longer than `reach`. */
 typedef struct sunder_i_relaxed_bodies {
     uint32_t i, j;
     double reach;
@@ -61,7 +61,7 @@ void sunder_i_relaxations_remove(sunder_i_relaxations *relaxations, const sunder
 /* Is it a conflict between two bodies? And one that is to be resolved, with no relaxation? */
 bool sunder_i_is_conflict_of_bodies(const sunder_i_model *model, const sunder_i_relation *r);
 bool sunder_i_is_open_conflict(const sunder_i_model *model, const sunder_i_relation *r);
-/* Takes out those of the n pairs, sorted, which owe all again; to be indexed again. */
+/* Removes the relaxations of the n sorted pairs, which owe all again. The caller has to index the rest again. */
 void sunder_i_relaxations_restore(sunder_i_relaxations *relaxations, const sunder_i_model *model,
                                   const sunder_i_restored *restored, size_t n);
 /* The place, or insertion point, among n of them, sorted. */

@@ -137,10 +137,10 @@ static double farthest_of(const sunder_i_model *model, const uint32_t *body, siz
     return farthest;
 }
 
-/* The next way to ask: first with slightly coarse lines, which make smaller proofs; if that has a solution, with the
- * finest lines; if that has one, with a slack for pairs that are held to overlaps. That is all that real arithmetic
- * tells; whether one of the two is held between two lines, without a place that doubles can represent, is asked
- * later. */
+/* Sets the next way to ask; false if there is none. It asks first with slightly coarse lines, which make smaller
+ * proofs; if that has a solution, with the finest lines; if that has one, with a slack for pairs that are held to
+ * overlaps. Real arithmetic tells no more. Whether one of the two is held between two lines, without a place that
+ * doubles can represent, is asked later. */
 static bool ask_closer(const sunder_i_subproblem *q, matter *m)
 {
     m->still = m->slack || (m->fine && !sunder_i_may_have_slack(q));

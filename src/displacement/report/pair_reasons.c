@@ -144,7 +144,7 @@ static sunder_status find_reason(const sunder_i_model *model, sunder_conflict *c
 
 /* ---- All of them ------------------------------------------------------------------------------------------------- */
 
-/* A conflict, and the two bodies that it is of: of a barrier's the ground stands for all. */
+/* A conflict and its two bodies. The ground stands as the body of every barrier. */
 typedef struct matter {
     sunder_i_id_pair bodies;
     uint32_t conflict;
@@ -164,7 +164,7 @@ static int by_bodies(const void *a, const void *b)
     return order ? order : (p->conflict > q->conflict) - (p->conflict < q->conflict);
 }
 
-/* Those of the same two bodies one after the other: what forbids their moves is the same. */
+/* Finds the reasons. Conflicts of the same two bodies follow one another and share `both`: what forbids their moves. */
 static sunder_status find_reasons(void *context, size_t begin, size_t end, sunder_error *err)
 {
     const asking *g = context;

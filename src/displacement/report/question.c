@@ -116,8 +116,8 @@ static sunder_status take_part(const sunder_i_solver *s, sunder_i_surroundings *
     return status;
 }
 
-/* The longer of the two features' present moves: the answer may be a little longer. 0 beside barriers, where the gap
- * owed includes the drawn width, and larger surroundings would only take longer. */
+/* Returns the longer of the present moves of the conflict's two features: the answer may be a little longer. Returns
+ * 0 beside barriers: there the gap owed includes the drawn width, and larger surroundings would only take longer. */
 static double gone_already(const sunder_i_model *model, const sunder_conflict *c)
 {
     if (c->b >= model->features) return 0;
@@ -487,7 +487,7 @@ void sunder_i_foresight_clear(sunder_i_foresight *foresight)
     sunder_i_free(foresight->at);
 }
 
-/* All things of the layer of the question but one. False if memory is out. */
+/* Lists in `heeded` all things of the question's layer except `gone`. False if memory is out. */
 static bool list_others(const sunder_i_foresight *f, uint32_t gone, sunder_i_list *heeded)
 {
     const sunder_i_model *there = &f->solver.model, *model = &f->questions->solver->model;

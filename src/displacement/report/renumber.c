@@ -149,8 +149,8 @@ static void find_longest(sunder_report *report)
         if (hypot(report->move[2 * f], report->move[2 * f + 1]) == most) report->summary.max_feature = f;
 }
 
-/* What is known of each feature, n values of `size` bytes, by what the features were: in an array that takes the place
- * of the one before. False if memory is out. */
+/* Reorders n values of `size` bytes, one for each feature, by the features' original numbers: value k goes to place
+ * number[k]. A new array replaces the old one, which is freed. False if memory is out. */
 static bool number_values(void *array, size_t n, size_t size, const uint32_t *number)
 {
     unsigned char *old, *fresh = sunder_i_alloc(n, size);

@@ -50,8 +50,8 @@
 
 /* ---- The lower bound (bound.c) ----------------------------------------------------------------------------------- */
 
-/* Sweeps of coordinate ascent, and the share of the lengths that a sweep has to move the solution by to go on: the
- * bound holds wherever it ends. */
+/* At most SWEEPS sweeps of coordinate ascent are made. They end when a sweep moves no pair by more than STILL of the
+ * greatest length required. The bound holds wherever they end. */
 #define SWEEPS 400
 #define STILL 1e-7
 
@@ -132,7 +132,8 @@
 
 /* ---- What stands in the way (blockers.c) ------------------------------------------------------------------------- */
 
-/* Two that are apart by the gap and this share of the gap or of a feature's size still rest against each other. */
+/* Two features still rest against each other if their distance exceeds the gap by at most RESTING times the gap or a
+ * feature's size (the greater). */
 #define RESTING 0x1p-20
 
 #endif

@@ -251,7 +251,7 @@ static sunder_world_bound bound_of(const sunder_report *report, uint32_t body)
 
 static bool is_any(sunder_world_bound bound) { return bound.proved > 0 || bound.by_pairs > 0; }
 
-/* Contact groups, and what is proved of the parts of each world. */
+/* Counts each world's contact groups and lists the bounds proved of its parts. */
 static sunder_status count_proved(sunder_report *report, const gathering *g, sunder_error *err)
 {
     const sunder_i_groups *groups = &g->solver->groups;

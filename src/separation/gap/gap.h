@@ -22,7 +22,8 @@ typedef struct sunder_i_gap_curve {
     sunder_i_point a, d;
 } sunder_i_gap_curve;
 
-/* A point of the plane of translations, exactly: (x / w, y / w) in lattice units, w > 0. At most two roots. */
+/* An exact point (x / w, y / w) of the plane of translations, in lattice units, with w > 0. Its coordinates share at
+ * most two square roots. */
 typedef struct sunder_i_surd_point {
     sunder_i_roots roots;
     sunder_i_surd x, y;

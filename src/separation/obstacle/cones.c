@@ -99,8 +99,8 @@ static uint32_t sectors_of(sunder_i_cone cone, int shift, uint32_t *n)
     return first;
 }
 
-/* Chooses the number of sectors, a power of two, such that a cone is in a few sectors on average; returns the shift
- * that gives a sector, or 0: sectors do not pay. */
+/* Chooses the number of sectors, a power of two, such that a cone lies in at most LISTED_MOST sectors on average.
+ * Returns the shift that turns a direction into its sector, or 0 if sectors do not pay. */
 static int choose_sectors(const sunder_i_cones *c)
 {
     if (c->n < SECTORS_FROM) return 0;

@@ -63,9 +63,9 @@ static inline void take_edge(edge *e, uint32_t tail, const double *p, const doub
     e->inverse = 1 / (square[0] + square[1]);
 }
 
-/* The edge at vertex v, to stand at `at`; whether it stays there is returned: whether it comes near enough. Without
- * branches, which would wait for a long chain of doubles. It is that of sunder_i_segment_square(), both coordinates at
- * a time. */
+/* Writes to `at` the candidate for the edge at vertex v. Returns 1 if it comes near enough to be kept, else 0.
+ * Branches are avoided, since they would wait for a long chain of doubles. The formula is that of
+ * sunder_i_segment_square(), for both coordinates at a time. */
 static inline size_t put(const sunder_i_operands *g, const edge *e, uint32_t v, sunder_i_candidate *at)
 {
     const sunder_i_doubles a = e->from + sunder_i_doubles_at(e->other + 2 * (size_t)v), along = a * e->d;
@@ -80,8 +80,8 @@ static inline size_t put(const sunder_i_operands *g, const edge *e, uint32_t v, 
 /* Edges handled between two checks of whether the work may go on. */
 #define EDGES_AT_ONCE 32
 
-/* The edges of operand `side` at the corners of the other, which has few. What is in doubt about their directions is
- * let in, since a superset of the boundary serves as well. */
+/* Pairs the edges of operand `side` with the corners of the other operand, which has few. Pairs whose directions are
+ * in doubt are included, since a superset of the boundary serves as well. */
 static bool pair_edges_with_few(sunder_i_operands *g, int side, const sunder_i_cones *own, const sunder_i_cones *c,
                                 double limit, sunder_i_candidates *h)
 {

@@ -35,7 +35,8 @@ double sunder_i_float_scale(const sunder_i_operands *operands);
 sunder_i_dop sunder_i_dop_nowhere(void);
 void sunder_i_dop_add(sunder_i_dop *extents, float x, float y);
 
-/* A tree of n convex sets with these extents. False if memory is out; the caller frees it in any case. */
+/* Builds *tree over n convex sets with the extents extent[n]. Returns false if memory is out; the caller frees the
+ * tree in any case. */
 bool sunder_i_dop_tree_build(sunder_i_dop_tree *tree, const sunder_i_dop *extent, uint32_t n);
 void sunder_i_dop_tree_free(sunder_i_dop_tree *tree);
 

@@ -13,7 +13,7 @@ static const sunder_i_cone *corner_of(sunder_i_squares *q, int side, uint32_t v)
     return q->state[side][v] == CORNER ? &q->corner[side][v] : NULL;
 }
 
-/* Does the segment from (x, y) along (dx, dy) come near the square? */
+/* Does the box of the segment from (x, y) to (x + dx, y + dy) come within e of square `at`? */
 static bool comes_near(const double at[4], double e, double x, double y, double dx, double dy)
 {
     return sunder_i_min(x, x + dx) <= at[2] + e && sunder_i_max(x, x + dx) >= at[0] - e &&

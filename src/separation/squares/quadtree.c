@@ -136,7 +136,8 @@ static bool quarter_all(builder *b)
     return true;
 }
 
-/* Marks nodes with no full node below them: queries need not descend into them. Children come after their parents. */
+/* Marks nodes with no full node below them, so that queries do not descend into them. The loop runs backwards
+ * because children come after their parents. */
 static void drop_rest(sunder_i_quadtree *o)
 {
     for (size_t k = o->nodes; k-- > 0;) {

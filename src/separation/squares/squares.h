@@ -23,8 +23,9 @@ bool sunder_i_squares_worth(const sunder_i_operands *operands, uint64_t pairs);
 sunder_i_squares *sunder_i_squares_new(sunder_i_operands *operands, double reach, double gap);
 void sunder_i_squares_free(sunder_i_squares *squares);
 
-/* The next open square that comes within `limit` units of the origin. The operands' subsums become those whose boxes
- * come near it, and *candidates those that pass through it; both in the lattice's arena, above *mark. */
+/* Finds the next open square within `limit` units of the origin and copies it to `box`. The operands' subsums become
+ * those whose boxes come near the square. *candidates receives the segments that pass through it. Both lie in the
+ * lattice's arena, above *mark. */
 sunder_i_squares_next sunder_i_squares_pop(sunder_i_squares *squares, double limit, double box[4], sunder_i_mark *mark,
                                            sunder_i_candidates *candidates);
 /* The operands' subsums become those that may cover the origin, unless *covered says that one does. False if memory is

@@ -101,7 +101,8 @@ static int64_t reach_of(const asking *a, double stays, double heat)
     return (int64_t)sunder_i_min(sunder_i_min(reach, beyond), a->payer->limit / a->ascent->grid->side);
 }
 
-/* Way and price of one place; the way alone where that is too dear to count. Nothing is beyond its limit. */
+/* Returns the cost of the way to place (dx, dy) plus its price, or the cost of the way alone if this is >= `most`.
+ * Beyond the limit: INFINITY. */
 static double paid_at(const asking *a, int64_t dx, int64_t dy, double most)
 {
     const double square = (double)(dx * dx + dy * dy), way = a->payer->weight * square;

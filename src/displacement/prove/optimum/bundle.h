@@ -34,7 +34,8 @@ typedef struct sunder_i_bundle {
 /* The caller sets the numbers and the lent arrays. False if memory is out; the caller frees it in any case. */
 bool sunder_i_bundle_init(sunder_i_bundle *bundle);
 void sunder_i_bundle_free(sunder_i_bundle *bundle);
-/* A cut from the block's value at x, and where its bodies are for that: t, of its copies. False if memory is out. */
+/* Adds a cut of the block, made from its value at x and from t: the places of the block's copies that give this
+ * value. False if memory is out. */
 bool sunder_i_bundle_add(sunder_i_bundle *bundle, size_t block, double value, const double *x, const double *t);
 /* The x with sums over each member's copies as at the centre, at which the cuts promise most, less |x - centre|^2 /
  * (2 stride): *promise is that much. False if the work is to stop. */

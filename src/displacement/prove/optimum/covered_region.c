@@ -41,7 +41,7 @@ static bool is_in(covering *c, const sunder_i_forbidden_piece *p, const double u
     return true;
 }
 
-/* How many corners of the region are in it; all of them: it holds the region. */
+/* Counts the region's corners in piece p. If all are in it, p holds the region and is marked as used. */
 static uint32_t corners_in(covering *c, const sunder_i_forbidden_piece *p, const sunder_i_region *r)
 {
     uint32_t n = 0;

@@ -100,7 +100,8 @@ double sunder_i_dual_missing(const sunder_i_dual_program *program, const sunder_
 
 /* ---- The factor -------------------------------------------------------------------------------------------------- */
 
-/* row := the row that the cut would have; returns its diagonal squared, and the cut's own square. */
+/* Sets row to the row that cut c would have, and *square to the cut's own square. Returns the square of the row's
+ * diagonal. */
 static double make_row(sunder_i_dual_program *p, const sunder_i_move_cut *c, double *row, double *square)
 {
     double left = *square = product(p, c, c);
@@ -115,7 +116,7 @@ static double make_row(sunder_i_dual_program *p, const sunder_i_move_cut *c, dou
     return left;
 }
 
-/* Solves transposed: out such that sum over k of out_k L_km = row_m. */
+/* Solves the transposed system: sets out so that sum over k of out_k L_km = row_m for each m. */
 static void solve_back(const sunder_i_dual_program *p, const double *row, double *out)
 {
     memcpy(out, row, p->acting_n * sizeof *out);

@@ -70,7 +70,8 @@ static bool owe(const listing *l, uint32_t f, uint32_t g, const sunder_i_waiver 
                                     nextafter(l->reach, INFINITY));
 }
 
-/* S of one coordinate sum: of a piece, and what its coordinates were before they were reckoned from the origin. */
+/* Returns S of one coordinate sum: the size of the piece's coordinates and, for far or rational shapes, of those
+ * before the origin was subtracted. */
 static double size_of(const listing *l, const sunder_i_body *body, const sunder_i_body_piece *piece)
 {
     const sunder_shape *shape = sunder_i_thing_shape(l->model, piece->feature);

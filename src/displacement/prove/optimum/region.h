@@ -28,9 +28,9 @@ double sunder_i_region_beyond(const sunder_i_region *region, const double u[2], 
 
 /* ---- covered_region.c -------------------------------------------------------------------------------------------- */
 
-/* Is the true region within the forbidden set? Only if that is proved. used: NULL, or [forbidden->pieces], where those
- * that the proof stands on are marked. gap: NULL, or for a place of it that is in no piece, or next to one that is in
- * none, by which it is not covered; NAN: none was met. steps: grows by the work done. */
+/* Is the true region proved to be within the forbidden set? used: NULL, or [forbidden->pieces], where the pieces
+ * that the proof uses are marked. gap: NULL, or receives a place of the region that shows why it is not covered.
+ * This place is in no piece, or next to a place in none; it is NAN if none was met. steps: grows by the work done. */
 bool sunder_i_region_is_covered(const sunder_i_region *region, const sunder_i_forbidden *forbidden, bool *used,
                                 double gap[2], uint64_t *steps);
 

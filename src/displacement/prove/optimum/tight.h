@@ -46,8 +46,8 @@ bool sunder_i_tight_find_outside(sunder_i_tight *f);
 
 /* ---- tight_rows.c: what moves as one, and how far ---------------------------------------------------------------- */
 
-/* Of all that take part: rows, drawn apart where they have room, and within limits. The step is known. False if memory
- * is out. */
+/* Finds the rows of all bodies that take part. Draws them apart where they have room, within limits. The exponent of
+ * the step is known before. False if memory is out. */
 bool sunder_i_tight_draw_rows(sunder_i_tight *f);
 /* These rows, from where they are. */
 void sunder_i_tight_draw_apart(sunder_i_tight *f);

@@ -240,7 +240,7 @@ static sunder_status search_cases(sunder_i_branching *c, const sunder_i_violatio
             break;
         }
         for (size_t k = 0; k < sizeof used.bit / sizeof *used.bit; k++) levels->bit[k] |= used.bit[k];
-        /* What comes now is behind this line; one beyond everybody's limits need not be said to be so. */
+        /* The next ways are searched behind this line. A line beyond the limits of all needs no such claim. */
         c->claims = before;
         if (!dead && !sunder_i_branching_push(c, i, j, node, way, true, level)) status = sunder_i_no_memory(err);
     }

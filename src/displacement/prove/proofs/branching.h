@@ -159,7 +159,7 @@ void sunder_i_branching_begin(sunder_i_branching *branching, size_t first);
 bool sunder_i_branching_widen(sunder_i_branching *branching);
 /* What is asked of two things that are not held to less, rounded down. */
 double sunder_i_branching_owed(const sunder_i_subproblem *subproblem, uint32_t f, uint32_t g);
-/* What features f and g of two bodies owe each other; false if nothing. */
+/* Do features f and g of two bodies owe each other a distance? Then *clearance is set to it. */
 bool sunder_i_branching_owe(const sunder_i_branching *branching, uint32_t f, uint32_t g, double *clearance);
 /* Is f heeded, or are its ways? */
 bool sunder_i_branching_is_way_heeded(const sunder_i_branching *branching, uint32_t f);

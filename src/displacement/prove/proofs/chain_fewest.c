@@ -68,7 +68,8 @@ static void keep(reach *r, size_t k, const reached *found)
     if (found->won > item[least].won) item[least] = *found;
 }
 
-/* From a place of round k, or the pair, to all that the body there may push. False if memory is out. */
+/* Extends chain `at` of round k (0: the pair itself) by the bodies that its last body may push, except `other`.
+ * False if memory is out. */
 static bool push_on(sunder_i_chains *g, reach *r, size_t k, size_t at, uint32_t other)
 {
     const uint32_t body = k ? g->link[r->item[at].link].j : r->body;

@@ -47,7 +47,7 @@ static double size_of(const sunder_i_parting *p)
     return size;
 }
 
-/* The corner with no other to its right (sign +1) or left (-1), seen from the origin. */
+/* Returns the corner that, seen from the origin, has no other corner to its right (sign +1) or left (sign -1). */
 static size_t tangent(const sunder_i_parting *p, size_t n, double sign)
 {
     size_t best = 0;

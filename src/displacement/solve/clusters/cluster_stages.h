@@ -60,7 +60,7 @@ void sunder_i_solver_end_holding(sunder_i_solver *solver);
 
 /* ---- held_or_free.c ---------------------------------------------------------------------------------------------- */
 
-/* A layout with held bodies, and what it stands on. Zeroed: none. */
+/* A layout that has held bodies, and the state it depends on. All zero: no layout. */
 typedef struct sunder_i_held_layout {
     double *move;               /* [2 * bodies] */
     bool *held, *improved;      /* [bodies] */
@@ -183,7 +183,8 @@ sunder_status sunder_i_solver_spare(sunder_i_solver *solver, const sunder_i_spar
 
 /* ---- uphold.c ---------------------------------------------------------------------------------------------------- */
 
-/* Is it a conflict that is listed whatever the options? Members of a block may gape and touch. */
+/* Is r a conflict that is listed whatever the options? Two members of one block count only if they overlap and do
+ * not just touch. */
 bool sunder_i_solver_is_always_listed(const sunder_i_solver *solver, const sunder_i_relation *r);
 /* Is it one, and does it stand worse than it stood? */
 sunder_status sunder_i_solver_breaks_rule(sunder_i_solver *solver, const sunder_i_relation *r, bool *breaks,

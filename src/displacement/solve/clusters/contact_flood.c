@@ -126,7 +126,7 @@ static bool join(flooding *f, const sunder_i_id_pair *pair)
     return count(f, pair->b);
 }
 
-/* As many as there are lots for, or are left, in the order of the queue. */
+/* Handles the queue's next bodies in order: as many as LOTS_AT_ONCE lots hold, or all that are left. */
 static sunder_status take_turn(flooding *f, sunder_error *err)
 {
     const size_t all = (size_t)BODIES_OF_A_LOT * LOTS_AT_ONCE, left = f->out->body.n - f->turn;

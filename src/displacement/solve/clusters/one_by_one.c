@@ -45,7 +45,8 @@ static bool is_conflict_now(const sunder_i_solver *s, const sunder_i_relaxation 
     return r && sunder_i_is_conflict(r);
 }
 
-/* Those of the relaxations that are conflicts, ascending: by feature and whole barrier, each once. */
+/* Lists the requirements of the relaxations that are conflicts now, ascending. Barriers count as a whole; each pair
+ * is listed once. */
 static size_t list_requirements(const sunder_i_solver *s, sunder_i_requirement *required)
 {
     const sunder_i_model *model = &s->model;

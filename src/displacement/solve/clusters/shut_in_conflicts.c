@@ -25,8 +25,8 @@ static uint32_t *members_of(const sunder_i_model *model, const sunder_i_id_pair 
     return set;
 }
 
-/* What all conflicts between the two are held to: those at hand, and those that limits leave no solution. NULL if
- * memory is out. */
+/* Lists what all conflicts between the two bodies are held to: the n conflicts of `relaxation`, and those of the
+ * model, for which limits leave no solution. NULL if memory is out. */
 static sunder_i_requirement *list_required(const sunder_i_model *model, const sunder_i_id_pair *bodies,
                                            const sunder_i_relaxation *relaxation, size_t n, size_t *required)
 {

@@ -113,7 +113,7 @@ void sunder_i_solver_free(sunder_i_solver *solver);
 /* [bodies] The components of the conflicts at the start, by their roots, lent; a fixed body joins none. NULL if memory
  * is out. Not for several threads at a time: they are found when somebody first asks. */
 const uint32_t *sunder_i_solver_conflict_roots(sunder_i_solver *solver);
-/* An edge between bodies, which makes them dirty. False if memory is out. */
+/* Adds the edge (i, j) and marks its movable bodies as dirty. False if memory is out. */
 bool sunder_i_solver_add_edge(sunder_i_solver *solver, uint32_t i, uint32_t j);
 /* Was the body a member of the cluster of that root when they were last gathered? */
 bool sunder_i_solver_has_member(const sunder_i_solver *solver, uint32_t root, uint32_t body);
@@ -139,7 +139,7 @@ void sunder_i_solver_forget_clusters(sunder_i_solver *solver);
 /* Work on all clusters as they were last gathered, by their numbers. */
 sunder_status sunder_i_solver_for_clusters(const sunder_i_solver *solver, sunder_i_work work, void *context,
                                            sunder_error *err);
-/* Hands on what was noted of clusters, in their order, where the layer is traced. */
+/* Emits the log of each cluster, in the order of the clusters, if the layer is traced. */
 sunder_status sunder_i_solver_trace_clusters(sunder_i_solver *solver, sunder_error *err);
 /* Clusters from the edges, afresh. */
 sunder_status sunder_i_solver_gather(sunder_i_solver *solver, sunder_error *err);

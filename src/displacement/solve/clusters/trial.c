@@ -6,7 +6,7 @@
 
 #include <string.h>
 
-/* What body k of the trial is to move by, if they are all to move by `to`. */
+/* Sets `goal` to the move that body k of the trial gets if the trial moves to `to`. */
 static void goal_of(const sunder_i_trial *t, size_t k, const double to[2], double goal[2])
 {
     for (unsigned c = 0; c < 2; c++)

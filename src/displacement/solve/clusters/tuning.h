@@ -100,7 +100,7 @@
 
 /* Rounds of proofs, in which groups join. */
 #define OPTIMISED 24
-/* A group's margin is widened no further for what is only cheaper. */
+/* The margin for a layout that is only cheaper is widened at most this many times. */
 #define MOST_MARGINS_AGAIN 6
 /* Steps for each body of a group at effort 1; a smaller group gets as many as one of this size; and a group whose
  * bodies have spent theirs in other groups gets a part again. */
@@ -112,7 +112,7 @@
 
 /* ---- Nothing worse (uphold.c) ------------------------------------------------------------------------------------ */
 
-/* Moves count as equal if they differ by at most this many units: the rounding that accumulates along a pushed row. */
+/* Two moves count as equal if they differ by at most ALIKE units. Rounding accumulates that much along a pushed row. */
 #define ALIKE 16
 /* Bodies of a cluster that may be moved together without success: rows of a few hundred, some dozens of them. */
 #define IN_VAIN 20000

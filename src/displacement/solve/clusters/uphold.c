@@ -336,7 +336,8 @@ static void begin_pass(const sunder_i_solver *s, waiting *w)
         if (!s->model.body[b].fixed) w->size[sunder_i_union_find(s->parent, b)]++;
 }
 
-/* What stands about a body that was pinned stands in its way for now: its cluster has to settle first. */
+/* Holds a pinned body, and with it a cluster of at most MOST_HELD bodies. What stands about the body is in its way
+ * until the cluster settles. */
 static void hold(sunder_i_solver *s, waiting *w, uint32_t body)
 {
     const uint32_t root = sunder_i_union_find(s->parent, body);

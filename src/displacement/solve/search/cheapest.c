@@ -186,8 +186,8 @@ static bool covers(const covering *o, size_t obstacle, const between *b)
     return true;
 }
 
-/* For a strip that runs out, from `left` to `right` across: the corners of the part that the tangents of the arcs in
- * its middle leave, or more where one of these and a line meet in it. */
+/* Sets `corner` for a strip that runs outwards, from `left` to `right` across: to the part between the tangents of
+ * the arcs in its middle. Where a tangent passes a line in the strip, the line replaces it, which leaves more. */
 static void find_strip(const between *b, double left, double right, double corner[4][2])
 {
     const double radius = b->disc->radius, middle = (left + right) / 2;

@@ -163,7 +163,8 @@ size_t sunder_i_search_obstacle(sunder_i_search *search, const sunder_i_piece_pa
 const sunder_i_obstacle_edge *sunder_i_search_edges(sunder_i_search *search, const sunder_i_piece_pair *part, size_t *n,
                                                     double *gap);
 
-/* What pair (i, j) misses at relative position u: of the gap, or where it has none (*yields) of its relaxation. */
+/* Returns by how much pair (i, j) violates the gap at relative position u. If it does and is relaxed, *yields is set
+ * and its relaxation counts instead. */
 double sunder_i_search_pair(sunder_i_search *search, uint32_t i, uint32_t j, const double u[2], bool *yields);
 
 /* ---- shadows.c: which bodies may not pass which ------------------------------------------------------------------ */

@@ -1,5 +1,5 @@
-/* The constraints of a program: what bodies that stand near each other at a position owe each other, as half-planes of
- * their relative moves, and what a solution ran into beyond those. */
+/* Makes the constraints of a program, as half-planes of relative moves. They state what bodies that stand near each
+ * other at a position owe each other, and what a solution ran into beyond that. */
 #include "displacement/solve/search/search_stages.h"
 #include "displacement/solve/search/tuning.h"
 
@@ -78,8 +78,9 @@ static void constrain_part(sunder_i_search *s, const sunder_i_piece_pair *part, 
     if (at->near != at->u) h = sunder_i_search_support(part, edge, n, at->u);
     const sunder_i_constraint *before = look_up(s->old, s->old_n, part->key);
     double d = h.support + gap;
-    /* What the position misses by less than counts as a miss is forgiven: else an exact fit, missed by a hair on two
-     * sides, would be a contradiction. (What is missed roughly is made good: forgiven each round it would add up.) */
+    /* If the position violates d by at most the tolerance, d is lowered to the present value. Otherwise an exact
+     * fit, missed by a hair on two sides, would be a contradiction. (While `roughly` is set, nothing is forgiven:
+     * forgiven each round, it would add up.) */
     const double now = h.n[0] * at->u[0] + h.n[1] * at->u[1];
     if (!s->roughly && now < d && now >= d - s->tolerance) d = now;
     /* A body that does not move counts at its place. */

@@ -242,8 +242,8 @@ static bool descent_init(descent *d, sunder_i_search *s)
     return d->best && (d->lead || !large);
 }
 
-/* The next round's sides are those of where this way leads: as much farther as it has come. Round things roll along
- * each other, so that sides turn a little each round, and always the same way. */
+/* If its steps are free, the next round takes its sides at `lead`: as far beyond s->next as this step was long.
+ * Round things roll along each other, so that sides turn a little each round, and always the same way. */
 static void lead_on(descent *d, bool is_free)
 {
     const sunder_i_search *s = d->s;

@@ -301,7 +301,7 @@ static void improve(sunder_i_search *s, rank *order, double *best, double *near)
         memcpy(best, s->t, size);
         return;
     }
-    /* From here, and from a start that keeps all near: of two ways down the cheaper end. */
+    /* Descends from here, and from a start that keeps all bodies near, and keeps the cheaper of the two ends. */
     memcpy(near, best, size);
     double near_cost = cost;
     const double start = cost;

@@ -283,8 +283,8 @@ static bool grant_from_home(retrying *p, size_t k)
     return granted;
 }
 
-/* What still overlaps, and cannot but at the cost of pairs that keep their gap, is parted at that cost: an overlap
- * counts for more than any number of pairs. */
+/* Separates remaining overlaps that end only if other pairs give up their gap. An overlap counts for more than any
+ * number of such pairs. */
 static void trade(retrying *p)
 {
     sunder_i_search *s = p->search;

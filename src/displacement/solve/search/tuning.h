@@ -33,8 +33,8 @@
 /* Two tangents whose normals have a greater cosine count as one: between them the limit is exceeded by at most that
  * share. */
 #define SAME_TANGENT (1 - 0x1p-40)
-/* Programs are solved to this part of the tolerance; soft ones to this part of the gap, or of a small part of a body: a
- * compromise need not be exact. */
+/* Programs are solved to the tolerance / SOLVED_TO. Soft programs are solved to COMPROMISE_TO of the gap or of a
+ * small part of a body (the greater): a compromise need not be exact. */
 #define SOLVED_TO 8
 #define COMPROMISE_TO 1e-4
 /* A solved program with a few more constraints is repaired around these, if that raises the cost by at most this part
@@ -50,7 +50,7 @@
 #define NO_SOLUTION 1e-3
 /* A compromise that violates at most this share of the moves' length may have a full solution. */
 #define NEARLY_SOLVED 0.03
-/* A path that is free up to some point is followed to just before it. */
+/* If a path is free up to some point, it is followed for JUST_BEFORE of the way there. */
 #define JUST_BEFORE 0.999
 /* In a crowd with more movable bodies a small part is larger: programs with all constraints that bodies might meet
  * allow less, but need not be solved again for each violation. 1,750 of Italy's places, in the first descent: with 50,
@@ -202,8 +202,8 @@
 
 /* ---- Away from one another (spread.c) ---------------------------------------------------------------------------- */
 
-/* The fractions of the way from the centre that are tried, doubled each time; from ENOUGH_SPREAD on, bodies that still
- * clash look for a place by themselves. */
+/* The shares of the way from the centre that are tried, from LEAST_SPREAD to MOST_SPREAD, each twice the one before.
+ * From ENOUGH_SPREAD on, bodies that still clash look for a place by themselves. */
 #define LEAST_SPREAD 0x1p-5
 #define MOST_SPREAD 8
 #define ENOUGH_SPREAD 0.5
@@ -360,7 +360,8 @@
 #define ORDER_IN_VAIN 4
 #define MOST_TIMES 1
 #define MOST_MOVING 32
-/* The same if no body's side is uncertain: all bodies are put back then, if there are at most SURE_MOVING. */
+/* If no body's side is uncertain, all bodies are put back, if at most SURE_MOVING can move. The limits are
+ * SURE_USELESS and work / SURE_SHARE then. */
 #define SURE_USELESS 3
 #define SURE_SHARE 4
 #define SURE_MOVING 16
