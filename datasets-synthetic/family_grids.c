@@ -22,7 +22,7 @@ void family_fat_grid(family_set *p, family_set *q, size_t m, size_t n, family_st
 }
 
 /* blocks and long bars + a ladder of plates: the sum of a block and a plate is stout, and overlaps its neighbours in
- * the row a little. That of a bar and a plate is long, thin by any measure of shape, and covers the whole row of those.
+ * the row a little. The sum of a bar and a plate is long, thin by any measure of shape, and covers a row of blocks.
  * All rows together leave no gap, so the sum has order m + n vertices.
  *
  * Stoutest first arranges the m n / 32 blocks, each with its neighbours, before the first bar buries them. A random
