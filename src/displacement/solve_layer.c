@@ -13,6 +13,8 @@
 #include "displacement/report/report.h"
 #include "displacement/solve/clusters/cluster_stages.h"
 
+#include "base/stage_switch.h"
+
 #include <string.h>
 
 /* Shares of the whole that are done, roughly: when the search without limits ends; the other ones are in the headers.
@@ -197,7 +199,8 @@ static sunder_status walk(sunder_i_solver *s, const stage *table, size_t n, doub
     sunder_status status = SUNDER_OK;
     for (size_t k = 0; k < n && !status; k++) {
         *(table == seeking ? &s->model.stage : &s->model.pass) = table[k].name;
-        status = run_stage(s, &table[k], from, to, err);
+        if (sunder_i_stage_is_on(table == seeking ? "search" : "layer", table[k].name))
+            status = run_stage(s, &table[k], from, to, err);
     }
     s->model.stage = NULL;
     return status;

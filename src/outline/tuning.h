@@ -3,6 +3,9 @@
 #ifndef SUNDER_I_OUTLINE_TUNING_H
 #define SUNDER_I_OUTLINE_TUNING_H
 
+/* The version of these values; raised with each change of one, so that a record can name it (tests/house/TUNING). */
+#define SUNDER_I_OUTLINE_TUNING_VERSION 1
+
 /* ---- Cells (culling.c) ------------------------------------------------------------------------------------------- */
 
 /* A cell with at most this many pairs of a line and a part other than its own becomes a leaf: looking at the pairs then
@@ -28,7 +31,7 @@
 /* Candidates count as equally long along both axes, in proportion to the cell, where the ratio is at most this. */
 #define AXES_EVEN 1.3
 /* At most this many parts with one side in the cell are tried in pairs; more are rare. */
-#define SINGLES 8
+#define SINGLES 8 /* fixed: the size of an array */
 /* The table of recently pushed pairs: 64 KB, which fits the second-level cache; a larger one finds hardly more
  * repeats. */
 #define RECENT_BITS_MOST 13

@@ -1,7 +1,10 @@
 /* Numbers of this room that are no error bounds: they decide how good a result is and how long it takes to find, never
  * whether what is said of it is true. */
-#ifndef SUNDER_I_OBSTACLES_TUNING_H
-#define SUNDER_I_OBSTACLES_TUNING_H
+#ifndef SUNDER_I_GEOMETRY_TUNING_H
+#define SUNDER_I_GEOMETRY_TUNING_H
+
+/* The version of these values; raised with each change of one, so that a record can name it (tests/house/TUNING). */
+#define SUNDER_I_GEOMETRY_TUNING_VERSION 1
 
 /* ---- Free places ------------------------------------------------------------------------------------------------- */
 
@@ -28,11 +31,11 @@
 #define CELLS_ACROSS 2
 #define CELLS_EACH 8
 /* Walls are visited by distance, in this many shelves. */
-#define SHELVES 256
+#define SHELVES 256 /* fixed: the size of an array */
 /* Cells are grown by this share, far above rounding, so that a point need not know in which of two it is. */
 #define CELL_MARGIN 1e-6
 /* The most places that are ever requested at once. */
-#define MOST_PLACES 16
+#define MOST_PLACES 16 /* fixed: the size of an array */
 /* Places that may be free are tested against obstacles, most of them briefly: a test counts as this part of a
  * constraint looked at, and as this part of a step of the watch. */
 #define TESTS_A_STEP 2

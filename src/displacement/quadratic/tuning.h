@@ -1,7 +1,10 @@
 /* Numbers of this room that are no error bounds: they decide how good a result is and how long it takes to find, never
  * whether what is said of it is true. Where no trial is named, what a number balances is all that is known. */
-#ifndef SUNDER_I_PROGRAMS_TUNING_H
-#define SUNDER_I_PROGRAMS_TUNING_H
+#ifndef SUNDER_I_QUADRATIC_TUNING_H
+#define SUNDER_I_QUADRATIC_TUNING_H
+
+/* The version of these values; raised with each change of one, so that a record can name it (tests/house/TUNING). */
+#define SUNDER_I_QUADRATIC_TUNING_VERSION 1
 
 /* ---- Which method (quadratic.c) ---------------------------------------------------------------------------------- */
 
@@ -9,7 +12,7 @@
  * contacts of almost every cluster, but did not end within minutes for one of 300 blocks of a dense old town. */
 #define MOST_QUICK 1500
 /* Bytes on the stack for a small program: most have a dozen constraints. */
-#define ON_THE_STACK 4096
+#define ON_THE_STACK 4096 /* fixed: the size of an array */
 /* Passes of Hildreth's method, every fourth over all constraints, the others over those that act: enough to tell which
  * act, the forces are left to what follows. */
 #define SWEEPS 40

@@ -3,6 +3,9 @@
 #ifndef SUNDER_I_REPORT_TUNING_H
 #define SUNDER_I_REPORT_TUNING_H
 
+/* The version of these values; raised with each change of one, so that a record can name it (tests/house/TUNING). */
+#define SUNDER_I_REPORT_TUNING_VERSION 1
+
 /* ---- Proofs that there is no room (no_room.c) -------------------------------------------------------------------- */
 
 /* Effort, in constraints looked at (some hundred million a second). Searches without a result may together take EFFORT

@@ -4,6 +4,9 @@
 #ifndef SUNDER_I_SQUARES_TUNING_H
 #define SUNDER_I_SQUARES_TUNING_H
 
+/* The version of these values; raised with each change of one, so that a record can name it (tests/house/TUNING). */
+#define SUNDER_I_SQUARES_TUNING_VERSION 1
+
 /* ---- Is it worth while? ---- */
 
 /* Below this many pairs of whole pieces nothing is cut up: listing all pairs is cheap then. The callers decide from how
@@ -46,7 +49,7 @@
 /* ---- Boxes inside an operand (quadtree.c, inner_convex.c) ---- */
 
 /* The quadtree is no deeper than this; a box there has 2^-14 of the operand's width and holds little. */
-#define DEEPEST_BOX 14
+#define DEEPEST_BOX 14 /* fixed: the size of an array */
 /* The quadtree is no deeper than the depth at which the boundary passes through more than this many boxes for each
  * edge: edges that are long in proportion to the operand, as of a star, pass through nearly all boxes. */
 #define BOXES_EACH 16

@@ -10,6 +10,7 @@
 #include "displacement/prove/optimum/tuning.h"
 
 #include "base/extremes.h"
+#include "base/stage_switch.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -418,7 +419,8 @@ static sunder_status prove_afresh(const sunder_i_model *model, const sunder_i_wa
     x.free_crowd = sunder_i_group_is_free_crowd(model, waived, g);
     sunder_status status = SUNDER_OK;
     for (size_t k = 0; k < sizeof stages / sizeof *stages && !status && !x.over; k++)
-        if (!stages[k].applies || stages[k].applies(&x)) status = run_stage(&x, &stages[k], steps, err);
+        if (sunder_i_stage_is_on("group", stages[k].name) && (!stages[k].applies || stages[k].applies(&x)))
+            status = run_stage(&x, &stages[k], steps, err);
     return status;
 }
 

@@ -3,6 +3,9 @@
 #ifndef SUNDER_I_OPTIMUM_TUNING_H
 #define SUNDER_I_OPTIMUM_TUNING_H
 
+/* The version of these values; raised with each change of one, so that a record can name it (tests/house/TUNING). */
+#define SUNDER_I_OPTIMUM_TUNING_VERSION 1
+
 /* ---- Contacts (body_contact.c) ----------------------------------------------------------------------------------- */
 
 /* Bodies are in contact if their distance exceeds the distance owed by at most this share of the gap; at gap 3 that is
@@ -88,7 +91,7 @@
  * evaluated at least. In dense groups of 40 to 100 bodies blocks of 6, evaluated four times, prove 20 to 50 % more than
  * blocks of 9 and more, or than twice as many evaluations, since their trees complete. */
 #define BLOCK 6
-#define MOST_IN_BLOCK 64
+#define MOST_IN_BLOCK 64 /* fixed: the size of an array */
 #define ROUNDS 4
 /* The share of each weight reserved for rounding. */
 #define SPARED 0x1p-30
@@ -192,8 +195,8 @@
 /* ---- Hulls (free_hull.c) ----------------------------------------------------------------------------------------- */
 
 /* The most places looked at, and pieces on one side of a region; with more the result is an estimate. */
-#define MOST_EXTREME 512
-#define MOST_SPANS 128
+#define MOST_EXTREME 512 /* fixed: the size of an array */
+#define MOST_SPANS 128 /* fixed: the size of an array */
 /* The descent to a reflex corner (free_hull.c). A point is on the boundary of a piece if its distance from it is
  * less than WALL_HAIR times the size of the set. A descent has at most MOST_LEGS legs. It ends where the wall
  * descends by less than LEAST_SLOPE, the sine of the angle between the wall and the contour line. */

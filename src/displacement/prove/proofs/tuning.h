@@ -3,6 +3,9 @@
 #ifndef SUNDER_I_PROOFS_TUNING_H
 #define SUNDER_I_PROOFS_TUNING_H
 
+/* The version of these values; raised with each change of one, so that a record can name it (tests/house/TUNING). */
+#define SUNDER_I_PROOFS_TUNING_VERSION 1
+
 /* ---- A node's program (program.c) -------------------------------------------------------------------------------- */
 
 /* The program is solved to this part of a hair, with at most this many rounds of tangents. */
@@ -22,7 +25,7 @@
 /* Sides of the polygon that approximates the disc of limits in measurements, and the most corners that cuts of it may
  * make; further cuts are skipped, which only makes an estimate worse. */
 #define DISC_SIDES 16
-#define MOST_CORNERS 96
+#define MOST_CORNERS 96 /* fixed: the size of an array */
 
 /* ---- Chains (chain.c, chain_links.c) ----------------------------------------------------------------------------- */
 
@@ -44,8 +47,8 @@
 
 /* If every pair owes its full distance (chain_fewest.c): the most links besides the pair's, and for each length the
  * number of best chains that are extended. */
-#define FEWEST_MOST 32
-#define FEWEST_KEPT 8
+#define FEWEST_MOST 32 /* fixed: the size of an array */
+#define FEWEST_KEPT 8 /* fixed: the size of an array */
 /* Links of a straight chain follow the pair's line up to this cosine. */
 #define CHAIN_STRAIGHT 0.9
 
@@ -63,12 +66,12 @@
 /* How far from the way through the corner, as a share of it, a move may be that a chord is looked for. */
 #define BESIDE 0x1p-20
 /* At most this many sides with an end there are examined. */
-#define SPOKES 32
+#define SPOKES 32 /* fixed: the size of an array */
 
 /* ---- Between two lines (corridor.c) ------------------------------------------------------------------------------ */
 
 /* Parts of more corners are passed by. */
-#define WALL_CORNERS 64
+#define WALL_CORNERS 64 /* fixed: the size of an array */
 /* No other edge turns by less from one that is taken for a line. */
 #define NEARLY_PARALLEL 0x1p-14
 
@@ -76,7 +79,7 @@
 
 /* Sides of the polygon around the limits, and the most corners of a region. */
 #define PLANE_SIDES 24
-#define PLANE_CORNERS 48
+#define PLANE_CORNERS 48 /* fixed: the size of an array */
 /* The search ends after this much work: some ten milliseconds. Finding what covers a place counts as this much, plus
  * this part of a constraint for each obstacle. */
 #define PLANE_EFFORT 4000000u

@@ -3,6 +3,9 @@
 #ifndef SUNDER_I_CLUSTERS_TUNING_H
 #define SUNDER_I_CLUSTERS_TUNING_H
 
+/* The version of these values; raised with each change of one, so that a record can name it (tests/house/TUNING). */
+#define SUNDER_I_CLUSTERS_TUNING_VERSION 1
+
 /* ---- Rounds (settle.c) ------------------------------------------------------------------------------------------- */
 
 /* How often a cluster's margin, which grows fourfold each time, may grow: 28 bits, which leaves half of a double. */

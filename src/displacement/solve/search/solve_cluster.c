@@ -7,6 +7,7 @@
 #include "displacement/solve/search/tuning.h"
 
 #include "base/invariant.h"
+#include "base/stage_switch.h"
 
 #include <string.h>
 
@@ -273,7 +274,8 @@ sunder_status sunder_i_cluster_solve(const sunder_i_model *model, sunder_i_clust
     cluster->cheapest = false;
     if (!sunder_i_search_init(&s, model, cluster->body, cluster->n, cluster->margin, move)) s.failed = true;
     for (size_t k = 0; k < sizeof stages / sizeof *stages && !status && !s.failed; k++)
-        if (!stages[k].applies || stages[k].applies(&x)) status = run_stage(&x, &stages[k], err);
+        if (sunder_i_stage_is_on("cluster", stages[k].name) && (!stages[k].applies || stages[k].applies(&x)))
+            status = run_stage(&x, &stages[k], err);
     if (status) s.failed = true;
     cluster->hopeless = !x.done && cluster->brief;
     sunder_i_search_hand_over(&s, cluster);

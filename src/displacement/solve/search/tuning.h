@@ -5,6 +5,9 @@
 #ifndef SUNDER_I_SEARCH_TUNING_H
 #define SUNDER_I_SEARCH_TUNING_H
 
+/* The version of these values; raised with each change of one, so that a record can name it (tests/house/TUNING). */
+#define SUNDER_I_SEARCH_TUNING_VERSION 1
+
 /* ---- One descent (descend.c) ------------------------------------------------------------------------------------- */
 
 /* Total rounds: far more than a descent takes, which converges or gives up earlier. */
@@ -81,22 +84,22 @@
 /* How often the margin beyond the least translation of a pair is doubled (lone_pair.c). */
 #define MOST_LENGTHENED 4
 /* Descents after jumps, before pairs are given up. */
-#define MOST_JUMPS 3
+#define MOST_JUMPS 3 /* fixed: in a table */
 
 /* Capacity for constraints on the stack (constrain.c). */
-#define FEW_KNOWN 32
+#define FEW_KNOWN 32 /* fixed: the size of an array */
 
 /* ---- Neighbours (near.c) ----------------------------------------------------------------------------------------- */
 
 /* Capacity for sorting bodies on the stack. */
-#define FEW_BODIES 64
+#define FEW_BODIES 64 /* fixed: the size of an array */
 
 /* ---- Pieces that face each other (piece_pairs.c) ----------------------------------------------------------------- */
 
 /* Parts of one body examined in one pass, and the most pieces of the other listed beforehand: both are kept on the
  * stack. */
-#define PARTS_AT_ONCE 32
-#define MOST_FACING 256
+#define PARTS_AT_ONCE 32 /* fixed: the size of an array */
+#define MOST_FACING 256 /* fixed: the size of an array */
 /* Below this number listing beforehand gains nothing. */
 #define FEW_PARTS 12
 
@@ -195,7 +198,7 @@
 /* A distance beyond everything, as a multiple of the total size. */
 #define BEYOND_ALL 4
 /* Places tried for a body that is alone among fixed things. */
-#define MOST_PLACES 16
+#define MOST_PLACES 16 /* fixed: the size of an array */
 /* Where jumps are not allowed, the visible part of the plane between a body's neighbours narrows with the distance:
  * places are searched up to this many times the body, or the mean body of the cluster, plus the gap. */
 #define FARTHEST_LEAP 8
@@ -312,7 +315,7 @@
 #define NEARER_PLACE 0.98
 /* Another side of a pair differs from the present one by this share of the distance; at most MOST_SIDES are tried. */
 #define OTHER_SIDE 0.3
-#define MOST_SIDES 4
+#define MOST_SIDES 4 /* fixed: the size of an array */
 /* Without proofs, in clusters with at most MOST_FORESEEN movable bodies: if, with the two at their nearest place, the
  * total cost is not below the solution's, that place is skipped; other places if it is not below CHEAP_OTHER times
  * that. Of 5,667 descents of a town of 100,000, those that start cheaper than the solution took half of the time, and
@@ -342,7 +345,7 @@
 #define LINE_HALVINGS 16
 /* If pieces of two bodies together cover a part of the disc: the most pairs of them, in strips, and how often a strip
  * is halved. */
-#define MOST_COVERING 24
+#define MOST_COVERING 24 /* fixed: the size of an array */
 #define STRIP_HALVINGS 3
 
 /* ---- Other orders of putting back (reinsert.c) ------------------------------------------------------------------- */
@@ -355,7 +358,7 @@
  * before, or cannot be better, counts as ORDER_IN_VAIN; at most MOST_TIMES the previous work; and in clusters with at
  * most MOST_MOVING movable bodies. Without these limits real layers took up to two thirds longer (Saint-Jean at gap 3:
  * 729 million instructions instead of 443), and were no better. */
-#define MOST_ORDERS 64
+#define MOST_ORDERS 64 /* fixed: the size of an array */
 #define MOST_USELESS 32
 #define ORDER_IN_VAIN 4
 #define MOST_TIMES 1
