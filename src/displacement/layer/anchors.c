@@ -1,10 +1,10 @@
-/* Anchors, the features that contain them, and how much room they have: a feature whose anchor lies in another, closed,
- * feature may leave that feature. A feature that moves by less than the distance to its nearest neighbour cannot jump
- * over any.
+/* Finds the anchors of all features, the features that contain them, and the free room around them. A feature whose
+ * anchor lies in another feature (as a closed set) may leave that feature. A feature that moves by less than the
+ * distance from its anchor to the nearest other feature cannot jump over any.
  *
- * An anchor is the nearest doubles to an interior point (sunder_shape_anchor()); for a sliver they may lie beside it.
- * The rule refers to the anchor as those doubles give it, so it is exact in any case; an anchor never lies outside its
- * feature's box, since rounding is monotone. */
+ * An anchor is an interior point of its feature, rounded to doubles (sunder_shape_anchor()); for a sliver the rounded
+ * point may lie beside the feature. The rules on jumps refer to the rounded point, so they are exact in any case. An
+ * anchor never lies outside its feature's box, since rounding is monotone. */
 #include "displacement/layer/sides.h"
 
 #include "base/extremes.h"
@@ -14,10 +14,10 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Runs of the tree that are handed to a thread together: some hundred features. */
+/* The number of runs of the R-tree that one thread takes at a time: together some hundred features. */
 #define RUNS_OF_A_LOT 16
 
-/* Pairs such that the anchor of the first lies in the second, for some runs of the tree. */
+/* Pairs of features, collected by one task: the anchor of the first lies in the second. */
 typedef struct held_pairs {
     sunder_i_id_pair *pair;
     size_t n, capacity;
@@ -25,14 +25,15 @@ typedef struct held_pairs {
 
 typedef struct looking {
     const sunder_i_model *model;
-    sunder_i_list near, about; /* leaves of the tree: about a run, and of those about one feature */
+    sunder_i_list near, about; /* `near`: leaves of the tree near a run; `about`: those of them near one feature */
     held_pairs *held;
-    double *outline; /* of one that is near, and scratch */
+    double *outline; /* the outline of one neighbouring feature, and scratch */
     size_t room;
 } looking;
 
-/* At most how far the outline of g, of a body with that origin, is from a: 0 where it holds it. Beyond one of its sides
- * it is as far at least. Less than 0 if memory is out. */
+/* Returns a lower bound of the distance from point a to the convex hull of feature g, relative to the origin of g's
+ * body: the largest distance of a beyond the line of a side of the hull. Returns 0 if the hull contains a, and a
+ * negative number if memory is out. */
 static double distance_to_outline(looking *l, uint32_t g, const double a[2])
 {
     const sunder_i_model *model = l->model;
@@ -50,7 +51,8 @@ static double distance_to_outline(looking *l, uint32_t g, const double a[2])
     return most;
 }
 
-/* Does g hold the anchor of f? Then the pair is noted; else *clear is brought down to the distance of g. */
+/* If feature g contains the anchor of feature f, appends the pair to l->held. Otherwise lowers *clear to the distance
+ * of the anchor from g, if that is less. */
 static sunder_status look_at(looking *l, uint32_t f, uint32_t g, double *clear, sunder_error *err)
 {
     const sunder_i_model *model = l->model;
@@ -73,7 +75,8 @@ static sunder_status look_at(looking *l, uint32_t f, uint32_t g, double *clear, 
     return SUNDER_OK;
 }
 
-/* What is looked at about the anchor of f: as far from it as its own edges, and two gaps beyond. */
+/* Sets box to the square around the anchor of feature f in which other features are looked for, and returns half its
+ * width: half of the longer side of f's own box plus two gaps. */
 static double box_about(const sunder_i_model *model, uint32_t f, double box[4])
 {
     const double *a = model->anchor_at + 2 * (size_t)f, *own = sunder_i_home_box(model, f);
@@ -82,7 +85,7 @@ static double box_about(const sunder_i_model *model, uint32_t f, double box[4])
     return reach;
 }
 
-/* Those of l->near whose boxes meet the box, to l->about, which has room for them. */
+/* Sets l->about to the leaves of l->near whose boxes meet `box`. l->about must have room for all of them. */
 static void pick(looking *l, const double box[4])
 {
     const double *boxes = l->model->tree.box;
@@ -95,7 +98,8 @@ static void pick(looking *l, const double box[4])
     l->about.n = n;
 }
 
-/* Which of l->near contain the anchor. */
+/* Tests which features near feature f contain its anchor. Sets model->clear[f] to a lower bound of the distance from the
+ * anchor to all others of other bodies. */
 static sunder_status look_about(looking *l, uint32_t f, sunder_error *err)
 {
     const sunder_i_model *model = l->model;
@@ -135,10 +139,10 @@ static sunder_status look_about_run(looking *l, size_t run, sunder_error *err)
 
 typedef struct looking_about {
     const sunder_i_model *model;
-    held_pairs *held; /* [lots] */
+    held_pairs *held; /* [batches of runs] */
 } looking_about;
 
-/* Lots of runs. */
+/* Task of a thread: finds the pairs of the batches of runs `begin` to `end` - 1 of the tree. */
 static sunder_status look_about_lots(void *context, size_t begin, size_t end, sunder_error *err)
 {
     const looking_about *all = context;
@@ -156,7 +160,7 @@ static sunder_status look_about_lots(void *context, size_t begin, size_t end, su
     return status;
 }
 
-/* All lots' pairs, sorted. */
+/* Merges the pairs of all batches into model->held and sorts them. Returns false if memory is out. */
 static bool gather_held(sunder_i_model *model, const held_pairs *held, size_t lots)
 {
     size_t n = 0;

@@ -1,9 +1,10 @@
-/* A feature and a barrier, exactly.
+/* Exact questions about a pair of a feature and a barrier.
  *
- * Whether they are near or overlap is asked of one part; everything else of the whole barrier, since a feature that
- * leaves one part may be inside another. The whole is represented by the pieces within a reach of the feature's box. If
- * the distance is at most the reach, or the least translation (plus the gap) at most as long, the pieces left out
- * cannot have changed it, since no translation that short meets them. Otherwise the reach grows. */
+ * Whether the two are near or overlap is asked of one part of the barrier. All other questions are asked of the whole
+ * barrier, since a feature that leaves one part may be inside another. The whole barrier is represented by its pieces
+ * within a certain reach of the feature's box. A distance is final if it is at most the reach, and so is a least
+ * translation if its length plus the gap is: pieces farther away cannot have changed the result, since no translation
+ * of that length meets them. Otherwise the reach is multiplied by GROWTH. */
 #include "displacement/layer/barrier_pairs.h"
 
 #include "separation/separation.h"
@@ -13,15 +14,16 @@
 
 #include <math.h>
 
-/* From one reach to the next. */
+/* The factor by which the reach grows from one attempt to the next. */
 #define GROWTH 4
-/* More than a length as doubles give it, by what they may be off. */
+/* A length in doubles, multiplied by this, is at least the true length. */
 #define ABOVE (1 + 0x1p-20)
 
-/* A length is near another, as a share of it, by far more than what bounds of lengths are off by. */
+/* Two lengths are nearly equal if their relative difference is at most this. The errors of the bounds of lengths are
+ * far smaller. */
 #define NEARLY 0x1p-28
 
-/* ---- The feature, and what of the barrier is near ---------------------------------------------------------------- */
+/* ---- The feature, and the pieces of the barrier near it ---------------------------------------------------------- */
 
 static void box_of(const sunder_i_translate *feature, double box[4])
 {
@@ -31,7 +33,8 @@ static void box_of(const sunder_i_translate *feature, double box[4])
 
 static double extent_of(const double box[4]) { return sunder_i_max(box[2] - box[0], box[3] - box[1]); }
 
-/* The feature in the form that the question needs: against a barrier without area, pieces that cover its interior. */
+/* Returns the feature in the form that a test against `other` needs: against a barrier without area its interior cover
+ * (pieces whose interiors cover the whole interior), if it has one; else its shape. */
 static const sunder_shape *facing(const sunder_i_translate *feature, const sunder_shape *other)
 {
     return other->flat && feature->seamless ? feature->seamless : feature->shape;
@@ -48,8 +51,8 @@ static sunder_status find_near(const sunder_i_model *model, const sunder_i_trans
 
 /* ---- One part ---------------------------------------------------------------------------------------------------- */
 
-/* Is the feature nearer to the part than `half`, half the barrier's width? It is known to be nearer than `required`
- * and to meet nothing of the part. */
+/* Sets *drawn if the feature is nearer to the part than half the barrier's width. The caller knows that the feature is
+ * nearer to the part than the required distance and that their interiors do not meet. */
 static sunder_status is_on_drawn(const sunder_i_barriers *barriers, uint32_t barrier, const sunder_shape *part,
                                  const sunder_shape *feature, const double t[2], bool *drawn, sunder_error *err)
 {
@@ -81,7 +84,7 @@ sunder_status sunder_i_barrier_relate(const sunder_i_model *model, const sunder_
     return is_on_drawn(model->barriers, barrier, shape, own, feature->t, &relation->drawn, err);
 }
 
-/* ---- All of it --------------------------------------------------------------------------------------------------- */
+/* ---- The whole barrier ------------------------------------------------------------------------------------------- */
 
 sunder_status sunder_i_barrier_least(const sunder_i_model *model, const sunder_i_translate *feature, uint32_t part,
                                      double gap, double upper, sunder_separation *out, bool *beyond, sunder_error *err)
@@ -123,7 +126,7 @@ static sunder_status find_distance(const sunder_i_model *model, const sunder_i_t
             status =
                 sunder_i_distance(feature->shape, feature->t, near, NULL, &out->distance, out->on[0], out->on[1], err);
         found = near && out->distance <= reach;
-        /* The result so far bounds how far to look. */
+        /* The distance found so far is an upper bound: no reach beyond it is needed. */
         if (near && !found) reach = sunder_i_max(reach, out->distance * ABOVE / GROWTH);
         sunder_shape_free(near);
         if (status) return status;
@@ -145,7 +148,7 @@ sunder_status sunder_i_barrier_stand(const sunder_i_model *model, const sunder_i
                         : find_distance(model, feature, part, out, err);
 }
 
-/* ---- Worse ------------------------------------------------------------------------------------------------------- */
+/* ---- Is a pair worse than at the start? -------------------------------------------------------------------------- */
 
 sunder_status sunder_i_barrier_holds(const sunder_i_model *model, const sunder_i_translate *feature, uint32_t part,
                                      bool *holds, sunder_error *err)
@@ -204,9 +207,11 @@ sunder_status sunder_i_barrier_worsened(const sunder_i_model *model, const sunde
     return compare(model, was, is, part, reach * ABOVE, worse, err);
 }
 
-/* ---- By parts ---------------------------------------------------------------------------------------------------- */
+/* ---- Parts of the two, compared with the whole pair -------------------------------------------------------------- */
 
-/* The shape of what stands there of `other`: all of a feature, or of a barrier what is as near as the parts. */
+/* Sets *worse if the pair of `feature` and `other`, both at their original places, stands worse than the pair of the
+ * two given shapes, which are parts of them. If `other` is a barrier it is represented by the pieces as near as its
+ * part. */
 static sunder_status compare_to_parts(const sunder_i_model *model, uint32_t feature, uint32_t other,
                                       const sunder_shape *part, const sunder_shape *of_other, bool *worse,
                                       sunder_error *err)
@@ -229,7 +234,8 @@ static sunder_status compare_to_parts(const sunder_i_model *model, uint32_t feat
     return status;
 }
 
-/* The whole pair stands no better than parts of it; so it stands as these do, unless it stands worse. */
+/* Sets *so if the whole pair stands exactly as its two convex parts do. The whole pair never stands better than parts
+ * of it, so *so is set unless the whole pair stands worse. */
 sunder_status sunder_i_parts_stand_so(const sunder_i_model *model, uint32_t feature, uint32_t other,
                                       const sunder_i_piece_of *part, const sunder_i_piece_of *of_other, bool *so,
                                       sunder_error *err)
@@ -245,7 +251,7 @@ sunder_status sunder_i_parts_stand_so(const sunder_i_model *model, uint32_t feat
     return status;
 }
 
-/* ---- Any two things ---------------------------------------------------------------------------------------------- */
+/* ---- Two things, of which the second may be a part of a barrier -------------------------------------------------- */
 
 sunder_status sunder_i_resolve_things(const sunder_i_model *model, size_t a, size_t b, double upper,
                                       sunder_i_resolution *out, sunder_error *err)

@@ -1,11 +1,12 @@
-/* Barriers in parts.
+/* Barriers, cut into parts.
  *
- * A barrier may be one long road, or a landuse of a hundred thousand corners, while a feature near it is near some
- * metres of it. So a barrier is taken as convex pieces (a line's segments, points, the pieces of a polygonal set), and
- * a few neighbouring pieces form a part. Features have relations to parts, parts are indexed by boxes, and the search
- * treats them as fixed bodies. Statements about a feature and a barrier, however, are about the whole barrier: how deep
- * the one lies in the other, which least translation separates them, whether that is worse than before. None of these
- * looks farther than its own length, so the pieces that near decide for all (barrier_pairs.c).
+ * A barrier may be one long road, or a land use area of a hundred thousand corners, while a feature near it is close to
+ * only a few metres of it. So a barrier is stored as convex pieces (segments of a line, points, the convex pieces of a
+ * polygonal set), and a few neighbouring pieces form a *part*. Features are related to parts, parts are indexed by
+ * their boxes, and the search treats each part as a fixed body. The report on a feature and a barrier, however, is
+ * about the whole barrier: how deep the one lies in the other, which least translation separates them, whether the pair
+ * is worse than before. Each of these questions has an answer of some length, and only pieces within that length can
+ * influence it (barrier_pairs.c).
  *
  *   a point repeated in a line    it is kept once; a line with one distinct point is a point
  *   no area, no points            a barrier without parts, which obstructs nothing */
@@ -19,8 +20,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Pieces of a part: few enough that a feature beside one of them seldom has to look at the others, and enough that a
- * town's roads make no more bodies than its houses do. */
+/* The number of pieces per part. It is small, so that a feature near one piece seldom has to test the others; and large
+ * enough that the roads of a town give no more bodies than its houses do. */
 #define PIECES 8
 
 void sunder_i_barriers_free(sunder_i_barriers *barriers)
@@ -50,7 +51,7 @@ static bool add_piece(making *m, const sunder_i_piece_of *piece)
     return sunder_i_step();
 }
 
-/* Ends a part, if there are pieces for one. */
+/* Ends the current part of a barrier, if it has pieces. */
 static bool end_part(making *m, uint32_t barrier)
 {
     sunder_i_barriers *b = m->out;
@@ -64,7 +65,7 @@ static bool end_part(making *m, uint32_t barrier)
     return true;
 }
 
-/* The same for a full part. */
+/* Ends the current part if it has PIECES pieces. */
 static bool end_full_part(making *m, uint32_t barrier)
 {
     const size_t first = m->out->parts ? m->out->piece_end[m->out->parts - 1] : 0;
@@ -84,7 +85,8 @@ static bool add_line(making *m, uint32_t barrier, const double *xy, size_t n)
     return end_part(m, barrier);
 }
 
-/* The pieces of a polygonal set along a curve, so that neighbours come together. */
+/* Adds the pieces of a polygonal set in the order of a space-filling curve, so that neighbouring pieces are in the same
+ * part. */
 static bool add_shape(making *m, uint32_t barrier, const sunder_shape *shape)
 {
     const uint32_t n = shape->pieces;
@@ -121,7 +123,8 @@ static bool add_barrier(making *m, uint32_t k, const sunder_obstacle *o)
 
 /* ---- Parts ------------------------------------------------------------------------------------------------------- */
 
-/* half the width, and the gap: what rounding the sum leaves is a double [Knu97, 4.2.2]. */
+/* Sets out to half + gap as a sum of two doubles: the rounded sum, and the rounding error, which is a double itself
+ * [Knu97, 4.2.2]. */
 static void require(double half, double gap, double out[2])
 {
     const double sum = half + gap, back = sum - half;
@@ -168,7 +171,7 @@ sunder_status sunder_i_barriers_make(const sunder_layer *layer, double gap, sund
     return make_shapes(out, err);
 }
 
-/* ---- What is near ------------------------------------------------------------------------------------------------ */
+/* ---- Pieces near a box ------------------------------------------------------------------------------------------- */
 
 sunder_status sunder_i_barrier_near(const sunder_i_barriers *barriers, const sunder_i_rtree *tree, uint32_t first,
                                     uint32_t barrier, const double box[4], double reach, bool areas, sunder_shape **out,

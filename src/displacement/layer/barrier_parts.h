@@ -1,4 +1,4 @@
-/* Barriers as things that features stand near: in parts, and what of each lies about a feature; see barrier_parts.c. */
+/* Barriers, cut into parts of a few convex pieces, and the pieces of a barrier near a box; see barrier_parts.c. */
 #ifndef SUNDER_I_BARRIER_PARTS_H
 #define SUNDER_I_BARRIER_PARTS_H
 
@@ -6,33 +6,35 @@
 #include "shape/of_pieces.h"
 #include "spatial/rtree.h"
 
-/* The barriers of a layer in parts: a few convex pieces each that lie together, of one barrier. */
+/* All barriers of a layer, cut into parts. A part consists of a few neighbouring convex pieces of one barrier. */
 typedef struct sunder_i_barriers {
     uint32_t n, parts;
-    sunder_i_piece_of *piece; /* of all parts, one after the other */
-    uint32_t *piece_end;      /* [parts] index past the last piece of each */
-    uint32_t *barrier;        /* [parts] whose they are; those of one barrier follow each other */
+    sunder_i_piece_of *piece; /* the pieces of all parts, one part after the other */
+    uint32_t *piece_end;      /* [parts] index past the last piece of each part */
+    uint32_t *barrier;        /* [parts] the number of the barrier that each belongs to; parts of one barrier are
+                               * consecutive */
     uint32_t *part_end;       /* [n] index past the last part of each barrier */
-    sunder_shape **shape;     /* [parts] */
-    double *half;             /* [n] half the width */
-    double (*required)[2];    /* [n] half the width, and the gap: the sum of two doubles, rounded and the rest */
-    double farthest;          /* the greatest of these, rounded up */
-    bool flat;                /* some piece has no area */
+    sunder_shape **shape;     /* [parts] the pieces of each as a shape */
+    double *half;             /* [n] half of each barrier's width */
+    double (*required)[2];    /* [n] half the width plus the gap, as a sum of two doubles: the rounded sum and its
+                               * error */
+    double farthest;          /* the greatest required distance, rounded up */
+    bool flat;                /* at least one piece has no area */
 } sunder_i_barriers;
 
-/* The parts of the layer's barriers, whose geometry is borrowed; gap: for barriers without their own. On failure the
- * caller still calls sunder_i_barriers_free(). */
+/* Cuts the layer's barriers into parts; their geometry is borrowed. `gap` is the gap of barriers that have none of
+ * their own. After a failure, too, the caller has to call sunder_i_barriers_free(). */
 sunder_status sunder_i_barriers_make(const sunder_layer *layer, double gap, sunder_i_barriers *out, sunder_error *err);
 void sunder_i_barriers_free(sunder_i_barriers *barriers);
 
-/* The first part of the barrier that a part is of. */
+/* Returns the first part of the barrier that `part` belongs to. */
 static inline uint32_t sunder_i_first_part(const sunder_i_barriers *b, uint32_t part)
 {
     const uint32_t k = b->barrier[part];
     return k ? b->part_end[k - 1] : 0;
 }
 
-/* What features are to keep from a barrier, rounded down, and up. */
+/* The distance that features have to keep from the barrier, rounded down. */
 static inline double sunder_i_required_below(const sunder_i_barriers *b, uint32_t barrier)
 {
     const double *r = b->required[barrier];
@@ -45,8 +47,8 @@ static inline double sunder_i_required_above(const sunder_i_barriers *b, uint32_
     return r[1] > 0 ? nextafter(r[0], INFINITY) : r[0];
 }
 
-/* The pieces of one barrier that come within reach of a box, as a shape; NULL: none do. areas: of those that have an
- * area. tree: holds parts as items from `first` on. */
+/* Sets *out to a shape of those pieces of one barrier whose boxes come within `reach` of `box`; NULL if there are none.
+ * With `areas` only pieces that have an area count. `tree` holds part k as item `first` + k. */
 sunder_status sunder_i_barrier_near(const sunder_i_barriers *barriers, const sunder_i_rtree *tree, uint32_t first,
                                     uint32_t barrier, const double box[4], double reach, bool areas, sunder_shape **out,
                                     sunder_error *err);

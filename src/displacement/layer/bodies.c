@@ -1,4 +1,5 @@
-/* Bodies as the search sees them: how their pieces are numbered, their boxes in doubles, and whole blocks as shapes. */
+/* The bodies that the search moves: the numbering of their pieces, their boxes in doubles, and whole blocks as
+ * shapes. */
 #include "displacement/layer/far_corners.h"
 
 #include "base/extremes.h"
@@ -22,8 +23,9 @@ static void box_of_far_pieces(const sunder_shape *shape, const sunder_i_body *bo
     }
 }
 
-/* Sets box to the box of a thing's pieces, relative to the body's origin. Most pieces have corners as given, and so
- * has their box: rounding keeps order, so that this box less the origin is the box of the corners less the origin. */
+/* Sets box to the box of a thing's pieces, relative to the body's origin. Most pieces have the corners of the shape as
+ * given. Rounding is monotone, so for these the shape's box less the origin is the box of the corners less the
+ * origin. */
 static void box_of_pieces(const sunder_i_model *model, uint32_t thing, const sunder_i_body *body, double box[4])
 {
     const sunder_shape *shape = sunder_i_thing_shape(model, thing);
@@ -41,7 +43,7 @@ static void box_of_pieces(const sunder_i_model *model, uint32_t thing, const sun
     if (beyond > 0) sunder_i_box_grow(box, beyond, box);
 }
 
-/* Where bodies are, and how many pieces each has. */
+/* Task of a thread: computes box and number of pieces of the bodies `begin` to `end` - 1, and resets their `clear`. */
 static sunder_status measure_some(void *context, size_t begin, size_t end, sunder_error *err)
 {
     (void)err;
@@ -64,7 +66,8 @@ static sunder_status measure_some(void *context, size_t begin, size_t end, sunde
     return SUNDER_OK;
 }
 
-/* Pieces are numbered one body after the other. False if there are more than can be numbered. */
+/* Numbers the pieces of all bodies consecutively, body after body, and sets *pieces to their number. Returns false if
+ * there are more than 32 bits can number. */
 static bool number_pieces(sunder_i_model *model, size_t *pieces)
 {
     *pieces = 0;
@@ -91,7 +94,8 @@ sunder_status sunder_i_model_cut(sunder_i_model *model, sunder_error *err)
 
 uint32_t sunder_i_body_of_piece(const sunder_i_model *model, uint32_t piece)
 {
-    size_t low = 0, high = model->bodies; /* the last one that begins no later: those without pieces come before it */
+    size_t low = 0, high = model->bodies; /* the last body whose first piece is at most `piece`; bodies without pieces
+                                           * come before it */
     while (high - low > 1) {
         const size_t middle = low + (high - low) / 2;
         if (model->body[middle].piece <= piece)
@@ -111,7 +115,8 @@ const sunder_shape *sunder_i_model_shape(const sunder_i_model *model, uint32_t b
     return model->present[model->member[b->member]] ? sunder_i_thing_shape(model, model->member[b->member]) : NULL;
 }
 
-/* The members' rings as given, one after the other: a polygonal set may have members that touch and overlap. */
+/* Sets model->whole[b] to the union of the members of body b. The members' rings are passed as given, one after the
+ * other: the members of a polygonal set may touch and overlap. */
 static sunder_status unite(sunder_i_model *model, uint32_t b, sunder_error *err)
 {
     const sunder_i_body *body = &model->body[b];
@@ -184,7 +189,7 @@ sunder_status sunder_i_model_unite(sunder_i_model *model, const uint32_t *body, 
     return sunder_i_parallel(model->rules.threads, n, SUNDER_I_GRAIN_SHAPES, unite_some, &u, err);
 }
 
-/* Members' weights are added, and what that may round by taken off. */
+/* The sum of the members' weights, less the greatest possible rounding error of the sum. */
 double sunder_i_weight_below(const sunder_i_model *model, const sunder_i_body *body)
 {
     double w = 0;

@@ -1,11 +1,13 @@
-/* The search's view of a body: its convex pieces in doubles, its members' anchors, their convex outlines.
+/* The data of a body that the search uses: its convex pieces in doubles, the anchors of its members, and their convex
+ * hulls.
  *
- * Pieces of a whole layer would take more memory than its shapes do, and most bodies of a large layer never need them:
- * they take part in no conflict and are near none that does. So a body's pieces are made at their first use. They
- * depend on the body alone, so it does not matter which thread asks first; if several do at a time, one of them
- * publishes its own. Pieces stay until the model is freed, or, if they take much memory, until a stage ends and no code
- * refers to them (sunder_i_pieces_forget): the next stage needs only part of them, and making them again is cheap
- * beside searching for a place. They lie in chunks that are freed at once. */
+ * The pieces of a whole layer would take more memory than its shapes. Most bodies of a large layer never need their
+ * pieces, since they are in no conflict and near none that is. So the pieces of a body are made at their first use.
+ * They depend on the body alone, so it does not matter which thread makes them; if several threads make them at the
+ * same time, the first one publishes its result and the others use that. Pieces remain until the model is freed. If
+ * they take much memory they are freed when a stage ends and no code refers to them (sunder_i_pieces_forget()): the
+ * next stage needs only some of them, and making these again costs little compared with the search. They are allocated
+ * from an arena, which is freed at once. */
 #include "displacement/layer/far_corners.h"
 
 #include "base/invariant.h"
@@ -32,13 +34,13 @@ static int by_place(const void *a, const void *b)
     return p[1] < q[1] ? -1 : p[1] > q[1];
 }
 
-/* Does it turn left at b, in doubles? */
+/* Do the corners a, b, c make a left turn at b, as computed in doubles? */
 static inline bool turns(const double *a, const double *b, const double *c)
 {
     return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]) > 0;
 }
 
-/* Andrew's monotone chain. */
+/* By Andrew's monotone chain. */
 size_t sunder_i_convex_hull(double *point, size_t n, double *out)
 {
     sunder_i_sort_few(point, n, 2 * sizeof *point, by_place);
@@ -50,13 +52,13 @@ size_t sunder_i_convex_hull(double *point, size_t n, double *out)
             while (m >= bottom + 2 && !turns(out + 2 * (m - 2), out + 2 * (m - 1), c)) m--;
             memcpy(out + 2 * m++, c, 2 * sizeof *c);
         }
-        m--; /* the last is the first of the other chain */
+        m--; /* the last point is also the first of the other chain */
     }
     return m;
 }
 
-/* A corner of a shape relative to that origin. Both coordinates are computed before either is stored, so that one store
- * writes both: a later load of both at once would stall on two separate stores. */
+/* Sets out to vertex v of a shape, relative to the body's origin. Both coordinates are computed before either is
+ * stored, so that one store writes both: a later load of both at once would stall on two separate stores. */
 static inline void from_origin(const sunder_shape *shape, uint32_t v, const sunder_i_body *body, double out[2])
 {
     const double x = sunder_i_from_origin(body, shape->xy[2 * (size_t)v], 0),
@@ -65,7 +67,8 @@ static inline void from_origin(const sunder_shape *shape, uint32_t v, const sund
     out[1] = y;
 }
 
-/* Most features are convex, and their piece is their outline: it has all corners, and turns at each in doubles, too. */
+/* Is the convex piece `corner` of the shape its own convex hull? It is if it has all vertices of the shape and turns
+ * left at each of them, also as computed in doubles. This holds for most features, as they are convex. */
 static bool is_its_outline(const sunder_shape *shape, const double *corner)
 {
     const uint32_t n = shape->vertices;
@@ -105,7 +108,8 @@ static uint32_t corners_of(const sunder_shape *shape)
     return shape->pieces ? shape->piece_end[shape->pieces - 1] : 0;
 }
 
-/* The corners of piece p of a body with far ones: returns how many. */
+/* Writes the corners of piece p of a body with far corners (far_corners.c) to `corner` and extends `box` by them.
+ * Returns the number of corners. */
 static uint32_t take_far_corners(const sunder_i_body *body, const sunder_shape *shape, uint32_t p, double *corner,
                                  double box[4])
 {
@@ -116,7 +120,7 @@ static uint32_t take_far_corners(const sunder_i_body *body, const sunder_shape *
     return n;
 }
 
-/* The pieces of a member, and their corners; they come behind those. */
+/* Makes the convex pieces of member f of the body. Advances *piece and *corner past what was written. */
 static void cut_member(const sunder_i_model *model, const sunder_i_body *body, uint32_t f, sunder_i_body_piece **piece,
                        double **corner)
 {
@@ -146,7 +150,8 @@ static void put_anchor(const sunder_i_model *model, const sunder_i_body *body, u
     for (int c = 0; c < 4; c++) anchor->box[c] = model->anchor_at[2 * (size_t)f + (c & 1)] - body->origin[c & 1];
 }
 
-/* The number of runs that lie within the body's pieces. */
+/* Returns the number of runs of SUNDER_I_RUN pieces that lie entirely within the body's pieces. *first is the number of
+ * the first of them. */
 static uint32_t count_runs(const sunder_i_body *body, uint32_t *first)
 {
     const uint32_t end = (body->piece + body->pieces) / SUNDER_I_RUN;
@@ -176,7 +181,7 @@ static const char *check(const sunder_i_body *body, const sunder_i_body_pieces *
 }
 #endif
 
-/* NULL if memory is out. */
+/* Allocates `bytes` from the store's arena, under its lock. Returns NULL if memory is out. */
 static void *take_room(struct sunder_i_pieces_store *store, size_t bytes)
 {
     pthread_mutex_lock(&store->lock);
@@ -186,7 +191,8 @@ static void *take_room(struct sunder_i_pieces_store *store, size_t bytes)
     return room;
 }
 
-/* All in one block: the struct, pieces, anchors, corners, runs. NULL if memory is out. */
+/* Makes the struct, the pieces, anchors, corners and boxes of runs of a body, in one allocation. Returns NULL if memory
+ * is out. */
 static sunder_i_body_pieces *make(const sunder_i_model *model, const sunder_i_body *body)
 {
     size_t corners = 0;
@@ -195,7 +201,7 @@ static sunder_i_body_pieces *make(const sunder_i_model *model, const sunder_i_bo
     const uint32_t *member = model->member + body->member;
     for (uint32_t m = 0; m < body->members; m++)
         if (model->present[member[m]]) corners += corners_of(sunder_i_thing_shape(model, member[m]));
-    if (body->far) corners += body->pieces; /* one more of each */
+    if (body->far) corners += body->pieces; /* a piece with far corners may get one corner more */
     const size_t of_pieces = ((size_t)body->pieces + anchors) * sizeof(sunder_i_body_piece),
                  of_doubles = (2 * corners + 4 * (size_t)runs) * sizeof(double);
     sunder_i_body_pieces *made = take_room(model->store, sizeof *made + of_pieces + of_doubles);
@@ -220,7 +226,8 @@ const sunder_i_body_pieces *sunder_i_pieces_make(const sunder_i_model *model, co
     return before;
 }
 
-/* In one block: pieces, corners, and scratch. */
+/* Makes the convex hulls of the body's members: structs, corners and scratch in one allocation. Returns NULL if memory
+ * is out. */
 static sunder_i_body_piece *make_outlines(const sunder_i_model *model, const sunder_i_body *body)
 {
     const uint32_t *member = model->member + body->member;
@@ -256,7 +263,7 @@ const sunder_i_body_piece *sunder_i_outlines_of(const sunder_i_model *model, con
     return before;
 }
 
-/* ---- Kept, and forgotten ----------------------------------------------------------------------------------------- */
+/* ---- Storage: when pieces are kept and freed --------------------------------------------------------------------- */
 
 bool sunder_i_pieces_begin(sunder_i_model *model)
 {
@@ -295,9 +302,10 @@ void sunder_i_pieces_end(sunder_i_model *model)
     sunder_i_free(model->store);
 }
 
-/* ---- As given ---------------------------------------------------------------------------------------------------- */
+/* ---- Corners as they were given ---------------------------------------------------------------------------------- */
 
-/* The corners of an anchor, a side, a seam or a joint; false if it is a piece of a shape. */
+/* If `piece` is an anchor, a side, or the cover of a diagonal or of a shared wall, writes its corners as they were
+ * given to `out`. Returns false if it is a convex piece of a shape. */
 static bool anchor_as_given(const sunder_i_model *model, const sunder_i_body_piece *piece, double *out)
 {
     const uint32_t f = piece->feature;
@@ -327,8 +335,8 @@ static bool anchor_as_given(const sunder_i_model *model, const sunder_i_body_pie
     return at;
 }
 
-/* The corners of a piece of its feature's shape, [from, end) of its pieces'. They are in the order of the shape's; and
- * whoever has one had them made. */
+/* Sets [*from, *end) to the corners of a convex piece among those of its feature's shape. Pieces are in the order of
+ * the shape's pieces; and since the caller has a piece of this body, the body's pieces have been made. */
 static void find_corners(const sunder_i_model *model, const sunder_i_body_piece *piece, uint32_t *from, uint32_t *end)
 {
     const uint32_t f = piece->feature;

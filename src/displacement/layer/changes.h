@@ -9,9 +9,9 @@
 
 typedef struct sunder_i_changes {
     bool *is;           /* [things] */
-    sunder_i_list list; /* these, once each; in no order until it is sorted */
+    sunder_i_list list; /* the things that are set in `is`, each once; unordered until sunder_i_changes_sort() */
     size_t things;
-    bool failed; /* memory was out: the list is not all */
+    bool failed; /* memory was out: the list is incomplete */
 } sunder_i_changes;
 
 /* An empty set over `things` things. On failure the caller still frees it. */
@@ -43,7 +43,7 @@ static inline void sunder_i_changes_add(sunder_i_changes *changes, uint32_t f)
     if (!sunder_i_list_push(&changes->list, f)) changes->failed = true;
 }
 
-/* Ascending. False if memory was out when some were added. */
+/* Sorts the list in ascending order. Returns false if memory was out when a thing was added. */
 static inline bool sunder_i_changes_sort(sunder_i_changes *changes)
 {
     if (!changes->failed) changes->list.n = sunder_i_set_make(changes->list.item, changes->list.n);

@@ -1,7 +1,8 @@
-/* What few bodies of a layer have, kept apart from what all have: layers have a million bodies. */
+/* Data that only few bodies of a layer have. It is stored apart from the bodies, since a layer may have a million
+ * bodies. */
 #include "displacement/layer/model.h"
 
-/* The anchors of so few members are looked at whenever they are asked for. */
+/* For at most this many members the box of their anchors is computed at each call instead of being stored. */
 #define FEW_ANCHORS 4
 
 const sunder_i_extras sunder_i_no_extras;

@@ -1,20 +1,22 @@
-/* Far corners: one vertex of a house or a road at 1e20, a line with ends at -1e300 and 1e300.
+/* Far corners: for instance one vertex of a house or a road at 1e20, or a line with ends at -1e300 and 1e300.
  *
- * The search computes in doubles relative to an origin of each body. An origin at 1e20 leaves nothing of the other
- * corners, and a line between two such corners passes kilometres beside its true place. So a body with a corner that is
- * 2^20 times as far from (0, 0) as its nearest point has *far corners*, and is represented relative to that point:
+ * The search computes in doubles relative to an origin of each body. Relative to an origin at 1e20 all near corners
+ * would round to the same place, and a line between two such corners would pass kilometres beside its true place. So a
+ * body with a corner that is 2^20 times as far from (0, 0) as the body's nearest point has *far corners*, and is
+ * represented relative to that nearest point:
  *
- *     the origin         the corner nearest to (0, 0); for a line without near corners, its nearest place
- *     a far corner       is dropped, and its piece ends where the edges from near corners reach that distance: it stays
- *                        convex
- *     a far segment      both its ends are far ends; they are replaced by its places at that distance, as the nearest
- *                        doubles up to some units
+ *     the origin         the corner nearest to (0, 0); for a line without near corners, the point of it nearest to (0, 0)
+ *     a far corner       is dropped, and its piece ends where the edges from near corners reach a certain distance; the
+ *                        piece stays convex
+ *     a far segment      has two far ends; they are replaced by the points of the segment at that distance, rounded to
+ *                        doubles with an error of some units in the last place
  *
- * All of that depends on the body alone. It is for the search, and proofs that use such a piece allow for it; exact
- * questions and `sunder_i_piece_as_given()` use the corners as given.
+ * All of this depends on the body alone. It is done for the search, and proofs that use such a piece allow for it.
+ * Exact questions and sunder_i_piece_as_given() use the corners as given.
  *
- *   pieces of three and more corners, none of them near    are drawn in towards the origin, whatever edges pass near:
- *                                                          the search does not see these, exact questions do */
+ *   a piece of three or more corners without a near one    its corners are moved towards the origin, even if an edge
+ *                                                          passes near it: the search does not see that edge, exact
+ *                                                          questions do */
 #include "displacement/layer/far_corners.h"
 
 #include "shape/shape.h"
@@ -22,14 +24,15 @@
 #include <math.h>
 #include <string.h>
 
-/* A corner is far if it is farther from the body's origin than this, and than some times the distance of the origin
- * from (0, 0): in metres, feet and degrees the Earth is smaller. Doubles hold coordinates there to some 1e-8; and with
- * corners at 2^36 the search took rows of houses apart at ten times the cost. */
+/* A corner is far if its distance from the body's origin exceeds NEAR and also NEAR_TIMES the distance of the origin
+ * from (0, 0). In metres, feet and degrees the Earth is smaller than NEAR. Doubles resolve coordinates of that size to
+ * about 1e-8. With corners at 2^36 the search needed ten times as much work for rows of houses. */
 #define NEAR 0x1p27
 #define NEAR_TIMES 8
-/* How many times as far as the nearest place of its body a far corner is. */
+/* A body has far corners if one of its corners is this many times as far from (0, 0) as its nearest point. */
 #define OUT_OF_PROPORTION 0x1p20
-/* Products of two coordinates, scaled to this, are doubles, and what is lost of them is none. */
+/* Coordinates are scaled down to this exponent, so that the product of two is finite and its rounding error is not
+ * subnormal. */
 #define LARGE_EXPONENT 500
 
 static double norm(const double p[2]) { return sunder_i_max(fabs(p[0]), fabs(p[1])); }
@@ -41,17 +44,18 @@ static double distance(const double p[2], const double q[2])
 
 /* ---- Segments ---------------------------------------------------------------------------------------------------- */
 
-/* The coordinate along which a segment is longer. */
+/* Returns the axis, 0 or 1, along which the segment ab is longer. */
 static size_t longer_axis(const double a[2], const double b[2])
 {
     return fabs(b[0] / 2 - a[0] / 2) >= fabs(b[1] / 2 - a[1] / 2) ? 0 : 1;
 }
 
-/* Coordinate 1 - k of the line through a and b where coordinate k is u:
+/* Returns coordinate 1 - k of the line through a and b at the point whose coordinate k is u:
  *
- *     ((a' b_k - b' a_k) + u (b' - a')) / (b_k - a_k)
+ * ((a' b_k - b' a_k) + u (b' - a')) / (b_k - a_k)
  *
- * The difference of products, of which next to nothing may be left, is right to 1.5 units [Kahan's, see JLM13]. */
+ * where a', b' are the coordinates 1 - k of a and b. The difference of products may cancel almost completely; it is
+ * computed with an error of at most 1.5 units in the last place (Kahan's method, see [JLM13]). */
 static double other_coordinate(const double a[2], const double b[2], size_t k, double u)
 {
     int exponent;
@@ -75,14 +79,15 @@ static void place_at(const double a[2], const double b[2], size_t k, double u, d
 
 static double clamp(double v, double low, double high) { return sunder_i_max(low, sunder_i_min(v, high)); }
 
-/* A place of the segment that is about as near to (0, 0) as any. */
+/* Sets out to a point of the segment ab that is about as near to (0, 0) as any of its points. */
 static void nearest_place(const double a[2], const double b[2], double out[2])
 {
     const size_t k = longer_axis(a, b);
     place_at(a, b, k, clamp(0, sunder_i_min(a[k], b[k]), sunder_i_max(a[k], b[k])), out);
 }
 
-/* The ends of the part of a segment that is within `half` of the origin, from there; false if there is none. */
+/* Clips the segment `corner` to the square with half width `half` around the origin and makes its ends relative to the
+ * origin. Returns false if no part of it, of positive length, remains. */
 static bool cut_off(const double origin[2], double half, double corner[4])
 {
     const double a[2] = {corner[0], corner[1]}, b[2] = {corner[2], corner[3]};
@@ -103,7 +108,7 @@ static void take_nearer(const double p[2], double origin[2])
     if (norm(p) < norm(origin)) memcpy(origin, p, 2 * sizeof *origin);
 }
 
-/* The place of a thing's pieces that is nearest to (0, 0), if it is nearer than the origin. */
+/* Replaces `origin` by the point of the shape's pieces nearest to (0, 0), if that is nearer than `origin`. */
 static void look_for_origin(const sunder_shape *shape, double origin[2])
 {
     uint32_t from = 0;
@@ -123,7 +128,7 @@ void sunder_i_find_far_corners(const sunder_i_model *model, sunder_i_body *body)
     const uint32_t *member = model->member + body->member;
     double farthest = 0, nearest[2] = {INFINITY, INFINITY};
     memcpy(body->origin, sunder_i_home_box(model, member[0]), sizeof body->origin);
-    body->reach = 0x1p400; /* products of two such lengths are doubles */
+    body->reach = 0x1p400; /* the product of two such lengths is finite */
     body->far = false;
     for (uint32_t m = 0; m < body->members; m++) {
         if (!model->present[member[m]]) continue;
@@ -145,8 +150,8 @@ static bool is_far(const sunder_i_body *body, const double p[2])
     return distance(p, body->origin) > half_window(body);
 }
 
-/* A far corner of a set without a near one, drawn in along the way from the origin. Differences of the largest doubles
- * are none. */
+/* Makes p relative to the body's origin. A far p is moved along the ray from the origin to the distance half_window().
+ * Coordinates are halved first, since the difference of two of the largest doubles is not finite. */
 static void draw_in(const sunder_i_body *body, double p[2])
 {
     const bool far = is_far(body, p);
@@ -155,7 +160,8 @@ static void draw_in(const sunder_i_body *body, double p[2])
     for (size_t c = 0; c < 2 && far; c++) p[c] = p[c] / longest * half_window(body);
 }
 
-/* The place where an edge from a near corner to a far one is cut off. */
+/* Sets out to the point where the edge from the near corner `near` to the far corner `far` is cut off, relative to the
+ * origin. */
 static void cut_edge(const sunder_i_body *body, const double near[2], const double far[2], double out[2])
 {
     const double half = half_window(body);

@@ -1,18 +1,20 @@
-/* Bodies with corners out of all proportion to where the rest of them is; see far_corners.c. */
+/* Bodies with corners that are far out of proportion to the rest of the body; see far_corners.c. */
 #ifndef SUNDER_I_FAR_CORNERS_H
 #define SUNDER_I_FAR_CORNERS_H
 
 #include "displacement/layer/model.h"
 
-/* Sets the body's origin, its reach, and whether it has far corners. */
+/* Sets the body's origin, its reach, and `far`: whether it has far corners. */
 void sunder_i_find_far_corners(const sunder_i_model *model, sunder_i_body *body);
-/* What corner k of a shape's pieces, which is one of piece p, becomes from the origin of its body, which has far ones:
- * returns how many corners. out: room for two; of a whole piece there is one more than it has, or fewer. */
+/* Writes to `out` what replaces corner k of piece p of a shape in a body with far corners, relative to the body's
+ * origin, and returns the number of corners written: 0, 1 or 2, so `out` needs room for two. A whole piece gets at most
+ * one corner more than it has. */
 size_t sunder_i_far_corner(const sunder_i_body *body, const sunder_shape *shape, uint32_t p, uint32_t k, double *out);
-/* The same in place of n corners of one convex set as given. */
+/* Replaces the n corners of a convex set, as given, by their substitutes relative to the body's origin. The body has
+ * far corners. */
 void sunder_i_draw_in(const sunder_i_body *body, double *corner, uint32_t n);
 
-/* The same of any body. */
+/* Makes n corners of a convex set relative to the body's origin, whether it has far corners or not. */
 static inline void sunder_i_reckon_from_origin(const sunder_i_body *body, double *corner, uint32_t n)
 {
     if (body->far)

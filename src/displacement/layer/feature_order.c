@@ -32,7 +32,7 @@ static int by_demands(const sunder_feature *a, const sunder_feature *b)
     return order ? order : a->block < b->block ? -1 : a->block > b->block;
 }
 
-/* Where a feature lies, from below; what is absent lies beyond everything. */
+/* Sets box to the box of feature f. The box of an absent feature is at infinity, so that it sorts behind all others. */
 static void place_of(const sunder_layer *layer, uint32_t f, double box[4])
 {
     const sunder_feature feature = sunder_i_given_feature(layer, f);
@@ -40,7 +40,8 @@ static void place_of(const sunder_layer *layer, uint32_t f, double box[4])
     if (sunder_i_is_present(&feature)) sunder_shape_box(feature.shape, box);
 }
 
-/* What is alike in everything stays in the order of the list. */
+/* Compares two features by place, then corners, then demands. Features that are equal in all of these remain in the
+ * order of the list, since the sort is stable. */
 static int by_place(void *context, uint32_t x, uint32_t y)
 {
     static const int side[4] = {1, 0, 3, 2};
@@ -54,7 +55,7 @@ static int by_place(void *context, uint32_t x, uint32_t y)
     return order ? order : by_demands(sunder_i_demands(layer, x), sunder_i_demands(layer, y));
 }
 
-/* Doubles and these are in the same order; both zeros are one. */
+/* Maps a double to an integer such that integers are ordered as the doubles are. Both zeros map to the same integer. */
 static uint64_t ordered_bits(double v)
 {
     const double sum = v + 0.0;
@@ -84,7 +85,7 @@ static void make_keys(const sunder_layer *layer, uint64_t *key)
     }
 }
 
-/* All by their lower edges at first, in one go; then those whose keys are alike by everything. */
+/* Sorts the features by their lower edges first, by radix sort; then those with equal keys by all criteria. */
 static bool sort_by_place(const sunder_layer *layer, uint32_t *number)
 {
     uint64_t *key = sunder_i_alloc(layer->n, sizeof *key);
@@ -100,7 +101,7 @@ static bool sort_by_place(const sunder_layer *layer, uint32_t *number)
     return ok;
 }
 
-/* Parts of barriers behind the features, in the order of the barriers. */
+/* Appends the parts of barriers, as fixed features, behind the features, in the order of the barriers. */
 static void append_parts(const sunder_i_barriers *barriers, sunder_layer *out)
 {
     for (uint32_t k = 0; k < barriers->parts; k++) {

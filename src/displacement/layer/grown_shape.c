@@ -1,20 +1,21 @@
-/* A shape grown by the tolerance: Q + D as a shape, for a polygon D in the disc whose radius is the tolerance. */
+/* Grows a shape by the tolerance: computes Q + D as a shape, where D is a polygon inscribed in the disc whose radius is
+ * the tolerance. */
 #include "displacement/layer/relate.h"
 
 #include "sum/to_shape.h"
 
 #include <math.h>
 
-/* D: corners at multiples of a 32nd of the power of two below the tolerance, cut towards the centre, so that they lie
- * in the disc. Few bits keep the sum's lattice narrow. With a radius of 32 units or more the sides are never nearer to
- * the centre than cos(pi / 16) - sqrt(2) / 32 of it, which is 0.93. */
+/* Makes D. Its corners are multiples of 1/32 of the power of two below the tolerance, rounded towards the centre, so
+ * that they lie in the disc. Corners of few bits keep the lattice of the sum narrow. As the radius is at least 32 such
+ * units, the distance of each side from the centre is at least cos(pi / 16) - sqrt(2) / 32 = 0.93 of the radius. */
 static sunder_status small_disc(double tolerance, sunder_shape **out, sunder_error *err)
 {
     enum { CORNERS = 16 };
     int exponent;
     frexp(tolerance, &exponent);
     const double unit = ldexp(1, exponent - 6), r = tolerance / unit;
-    /* Cosines of multiples of pi / 8, a little less than the true ones. */
+    /* Cosines of multiples of pi / 8, rounded down. */
     static const double cosine[5] = {1, 0.9238, 0.7071, 0.3826, 0};
     double xy[2 * CORNERS];
     for (int k = 0; k < CORNERS; k++) {

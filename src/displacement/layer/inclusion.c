@@ -1,12 +1,13 @@
-/* A feature that lies in another and may overlap it: how it is kept inside.
+/* Keeps a feature inside another one that it lies in and may overlap.
  *
- * Such a pair owes no gap, but if the holder's edge cut through the inner feature the two would be in conflict. So the
- * edges of the holder are walls to it: convex pieces without area, which it must not cross. As long as no wall crosses
- * it, it is inside, where it was. In the programs walls are constraints like all others; a pair that cannot be kept in
- * the end lapses, and is separated.
+ * Such a pair owes no gap, but if an edge of the holder cut through the inner feature the two would be in conflict. So
+ * the edges of the holder are walls for the inner feature: convex pieces without area that it must not cross. It lies
+ * inside at the start, and remains inside as long as no wall crosses it. In the quadratic programs walls are
+ * constraints like all others. If an inner feature cannot be kept inside, its inclusion lapses and the pair is
+ * separated.
  *
- * Many inner features touch their holder's edge, and with a tolerance they may overstep it: a wall never demands more
- * of a pair than held at the start. */
+ * Many inner features touch the edge of their holder, and with a tolerance they may overstep it. So a wall never
+ * demands more of a pair than held at the start. */
 #include "displacement/layer/far_corners.h"
 
 #include "base/extremes.h"
@@ -94,13 +95,13 @@ sunder_status sunder_i_inclusions_add(sunder_i_model *model, uint32_t a, uint32_
     return SUNDER_OK;
 }
 
-/* ---- Which holder ------------------------------------------------------------------------------------------------ */
+/* ---- Which of two holders ---------------------------------------------------------------------------------------- */
 
 static uint32_t holder_of(const sunder_i_inclusion *pair) { return pair->a_inside ? pair->b : pair->a; }
 
 static uint32_t inner_of(const sunder_i_inclusion *pair) { return pair->a_inside ? pair->a : pair->b; }
 
-/* The squared distance of the middle of feature f's box from the nearest edge of a feature that it lies in. */
+/* Returns the squared distance from the middle of feature f's box to the nearest edge of `holder`, in which f lies. */
 static double depth_in(const sunder_i_model *model, uint32_t f, uint32_t holder)
 {
     const sunder_shape *shape = sunder_i_thing_shape(model, holder);
@@ -120,7 +121,7 @@ sunder_status sunder_i_inclusions_choose(sunder_i_model *model, const sunder_i_r
                                          const bool *conflict, sunder_error *err)
 {
     const size_t n = model->inclusions;
-    /* Inner feature and number of the pair, sorted: what one feature lies in stands together. */
+    /* Pairs (inner feature, number of the inclusion), sorted, so that the holders of one feature are consecutive. */
     sunder_i_id_pair *by_inner = sunder_i_alloc(n, sizeof *by_inner);
     if (!by_inner) return sunder_i_no_memory(err);
     for (uint32_t k = 0; k < n; k++) by_inner[k] = (sunder_i_id_pair){inner_of(&model->inclusion[k]), k};
@@ -171,7 +172,7 @@ sunder_status sunder_i_inclusion_walls(sunder_i_model *model, sunder_error *err)
     for (size_t f = 0; f < model->features; f++)
         if (holds[f]) edges += sunder_i_thing_shape(model, f)->vertices;
     sunder_status status = SUNDER_OK;
-    /* Walls are told apart in the keys of constraints by 30 bits. */
+    /* A key of a constraint has 30 bits for the number of the wall. */
     if (edges >= UINT32_C(1) << 30) status = sunder_i_fail(err, SUNDER_ESIZE, "too many corners: %zu", edges);
     if (!status) {
         model->wall = sunder_i_alloc(edges, sizeof *model->wall);

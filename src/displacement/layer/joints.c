@@ -1,11 +1,12 @@
-/* Pieces that cover the walls shared by members of a block.
+/* Convex pieces that cover the walls shared by members of a block.
  *
- * The case is that of the diagonals within a feature (seams.c): an anchor that moves straight along a wall where two
- * members touch runs between the shadows of both, on the boundary of each. Each such wall, or the common part of it,
- * gets a quadrilateral with a corner in either member. Members touch where an edge of one lies exactly along an edge of
- * the other; where there is the least distance between them, there is a slit through which an anchor may pass.
+ * The problem is the same as for the diagonals within a feature (seams.c): an anchor that moves straight along a wall
+ * where two members touch passes between the shadows of both, on the boundary of each. So each such wall, or the part
+ * of it that the two edges have in common, gets a quadrilateral with one further corner in each member. Members touch
+ * where an edge of one lies exactly along an edge of the other. If there is a distance between them, there is a slit
+ * through which an anchor may pass.
  *
- * Both members block the anchor; an anchor that lies in one of them is exempt. */
+ * Both members block the anchor, unless the anchor lies in one of them. */
 #include "displacement/layer/far_corners.h"
 
 #include "base/watch.h"
@@ -21,12 +22,12 @@ typedef struct joining {
     bool failed;
 } joining;
 
-/* A convex piece of a feature, as given: the edge from corner k, and the corner behind that. */
+/* An edge of a convex piece of a feature, with corners as given: the edge from corner k, and the corner after it. */
 typedef struct edge {
     sunder_point from, to, beyond;
 } edge;
 
-/* Is that vertex a double? */
+/* Are the coordinates of vertex v doubles? */
 static bool is_exact(const sunder_shape *shape, uint32_t v)
 {
     return !shape->rational || !shape->form->numbers->exact[v].den.size;
@@ -37,7 +38,8 @@ static sunder_point point_of(const sunder_shape *shape, uint32_t v)
     return (sunder_point){shape->xy[2 * (size_t)v], shape->xy[2 * (size_t)v + 1]};
 }
 
-/* Of the piece with these vertices; false if one of the three is no double. */
+/* Sets *e to edge k of the convex piece with the n corners `vertex`. Returns false if one of the three corners is not a
+ * double. */
 static bool edge_of(const sunder_shape *shape, const uint32_t *vertex, uint32_t n, uint32_t k, edge *e)
 {
     const uint32_t v[3] = {vertex[k], vertex[(k + 1) % n], vertex[(k + 2) % n]};
@@ -47,14 +49,15 @@ static bool edge_of(const sunder_shape *shape, const uint32_t *vertex, uint32_t 
     return true;
 }
 
-/* How far along the edge's line, by the coordinate in which it is longer. */
+/* Returns the position of p along the line of edge e: its coordinate on the axis along which the edge is longer. */
 static double along(const edge *e, sunder_point p)
 {
     const double x = e->to.x - e->from.x, y = e->to.y - e->from.y;
     return fabs(x) >= fabs(y) ? (x > 0 ? p.x : -p.x) : (y > 0 ? p.y : -p.y);
 }
 
-/* What e and f, of pieces on either side, have in common: from u to v, along e. */
+/* Finds the common part of edge e and edge f of pieces on opposite sides of their line: from u to v, in the direction
+ * of e. Returns false if they have no segment in common. */
 static bool find_common(const edge *e, const edge *f, sunder_point *u, sunder_point *v)
 {
     if (sunder_orient(&e->from, &e->to, &f->from) != 0 || sunder_orient(&e->from, &e->to, &f->to) != 0 ||
@@ -87,7 +90,7 @@ static void add(joining *j, uint32_t f, uint32_t g, const edge *e, const edge *o
     for (size_t k = 0; k < 4; k++) sunder_i_box_include(joint->piece.box, joint->corner + 2 * k);
 }
 
-/* Edge e of feature f, and those of g. */
+/* Adds a cover for each edge of feature g that lies along edge e of feature f. */
 static void look_along(joining *j, uint32_t f, uint32_t g, const edge *e)
 {
     const sunder_shape *shape = sunder_i_thing_shape(j->model, g);

@@ -1,10 +1,10 @@
-/* The rule against jumps, and the rule of sides, exactly, for features as they moved.
+/* Tests exactly which features that moved break the rule against jumps or the rule of sides.
  *
- * A feature's anchor a moves straight from a to a + (t - s), relative to another feature that moves by s: it may not
- * meet the old outline of that other, unless it lay in it at the start. If it does, then at some moment of both moves,
- * at constant speed, the anchor lies in the other as it stands then; so the boxes of their paths meet. A tree of these
- * boxes gives the candidate pairs; separation/passes.c decides. The model's tree gives the parts of barriers that the
- * path of a side anchor comes near, and sides.c decides. */
+ * A feature's anchor a moves straight from a to a + (t - s) relative to another feature, where t and s are the moves of
+ * the two. It must not meet the other feature's original outline, unless the other feature contained it at the start.
+ * If it does, then at some moment of both moves, made at constant speed, the anchor lies in the other feature, so the
+ * boxes of the two paths meet. A tree of these boxes gives candidate pairs, and separation/passes.c decides. For the
+ * rule of sides the model's tree gives the parts of barriers near the path of a side anchor, and sides.c decides. */
 #include "displacement/layer/jumps.h"
 
 #include "base/invariant.h"
@@ -24,7 +24,7 @@ void sunder_i_jumps_free(sunder_i_jumps *jumps)
     memset(jumps, 0, sizeof *jumps);
 }
 
-/* ---- Ways -------------------------------------------------------------------------------------------------------- */
+/* ---- Paths ------------------------------------------------------------------------------------------------------- */
 
 static const double *move_of(const sunder_i_jumps *jumps, const sunder_i_model *model, uint32_t f)
 {
@@ -37,7 +37,7 @@ static bool has_moved(const sunder_i_jumps *jumps, const sunder_i_model *model, 
     return t[0] != 0 || t[1] != 0;
 }
 
-/* Whose way came near that of f. */
+/* Sets near to the features whose paths come near the path of f. */
 static bool find_near(const sunder_i_jumps *jumps, const sunder_i_model *model, uint32_t f, sunder_i_list *near)
 {
     double way[4];
@@ -68,7 +68,7 @@ static sunder_status ask_both(const sunder_i_jumps *jumps, const sunder_i_model 
 
 /* ---- Sides ------------------------------------------------------------------------------------------------------- */
 
-/* Parts of barriers that the side anchor of f may have come near: appended. */
+/* Appends to `near` the parts of barriers that the side anchor of f may have come near on its path. */
 static bool find_parts(const sunder_i_jumps *jumps, const sunder_i_model *model, uint32_t f, sunder_i_list *near)
 {
     const double *a = model->side_at + 2 * (size_t)f, *t = move_of(jumps, model, f);
@@ -85,7 +85,7 @@ static bool find_parts(const sunder_i_jumps *jumps, const sunder_i_model *model,
     return true;
 }
 
-/* Those whose side it crossed: appended. near: scratch. */
+/* Appends to `found` the parts of barriers whose side the side anchor of f crossed. near: scratch. */
 static sunder_status find_crossed(const sunder_i_jumps *jumps, const sunder_i_model *model, uint32_t f,
                                   sunder_i_list *near, sunder_i_list *found, sunder_error *err)
 {
@@ -107,16 +107,18 @@ typedef struct pair_search {
     const sunder_i_model *model;
     const bool *changed;
     const uint32_t *asked;
-    sunder_i_list *found; /* [asked] partners that broke the rule; with both in question, the lesser has the pair */
+    sunder_i_list *found; /* [asked] the partners with which each breaks a rule; if both features of a pair are asked
+                           * about, only the lesser has the other as partner */
 } pair_search;
 
-/* The present features that changed; if that is unknown, those that moved: two that did not move break no rule. */
+/* Did the present feature f change? If the changes are unknown (changed is NULL): has it moved? Two features that have
+ * not moved break no rule. */
 static bool is_asked(const pair_search *s, uint32_t f)
 {
     return s->changed ? s->changed[f] : has_moved(s->jumps, s->model, f);
 }
 
-/* near: scratch. */
+/* Sets list to the features with which f breaks the rule against jumps. near: scratch. */
 static sunder_status find_jumped(const pair_search *s, uint32_t f, sunder_i_list *near, sunder_i_list *list,
                                  sunder_error *err)
 {
@@ -152,7 +154,7 @@ static sunder_status find_partners(void *context, size_t begin, size_t end, sund
     return status;
 }
 
-/* The pairs that remain, and those that were found. */
+/* Replaces jumps->pair by the old pairs without a changed feature and the pairs that were found. */
 static bool collect(sunder_i_jumps *jumps, const pair_search *s, size_t asked)
 {
     size_t n = 0, kept = 0;

@@ -12,7 +12,7 @@ static bool are_alike(const sunder_feature *f, const sunder_feature *g)
            f->ignored == g->ignored;
 }
 
-/* The number of runs of consecutive features with equal demands. */
+/* Returns the number of runs of consecutive features with equal demands. */
 static size_t count_demands(const sunder_feature *feature, size_t n)
 {
     size_t demands = 1;
@@ -20,7 +20,7 @@ static size_t count_demands(const sunder_feature *feature, size_t n)
     return demands;
 }
 
-/* False if memory is out. */
+/* Stores shapes and demands of the features. Returns false if memory is out. */
 static bool take_features(sunder_layer *layer, const sunder_feature *feature, size_t n)
 {
     const size_t demands = count_demands(feature, n);

@@ -1,4 +1,5 @@
-/* The layer as the caller gives it, the rules that it is to keep, and the order in which it is worked on. */
+/* The layer as the caller gives it, the rules that it has to keep, and the order in which its features are
+ * processed. */
 #ifndef SUNDER_I_LAYER_H
 #define SUNDER_I_LAYER_H
 
@@ -8,23 +9,26 @@
 
 #define SUNDER_I_NOBODY UINT32_MAX
 
-/* Demands on a feature. Most features of a layer have the same, so each distinct value is stored once for a run of
- * features. */
+/* A layer. The demands on a feature are its members other than the shape. Most features of a layer have the same
+ * demands, so they are stored once for each run of consecutive features with equal demands. */
 struct sunder_layer {
     const sunder_shape **shape; /* [n] */
-    uint32_t *demand;           /* [n] which of `demands`; NULL: the first, for all */
-    sunder_feature *demands;    /* features without their shapes */
+    uint32_t *demand;           /* [n] the index of each feature's demands in `demands`; NULL: all have the first */
+    sunder_feature *demands;    /* features without their shapes, one for each run */
     size_t n;
     sunder_barrier *barrier;
     size_t barriers;
-    double *side_anchor; /* [2 n] the caller's, not finite where the rule is to find it; NULL: of none */
-    /* Of a layer in the order of work (feature_order.c), which has no features of its own; else NULL: */
-    const sunder_layer *given; /* as it was given, in its order */
-    uint32_t *number; /* [n + parts] what each was: of a part of a barrier n + the barrier, as the interface counts */
-    sunder_feature *part; /* [parts] */
+    double *side_anchor; /* [2 n] side anchors from the caller, not finite where the rule has to find one; NULL: none
+                          * are given */
+    /* A layer in processing order (feature_order.c) stores no features of its own but has the next three; otherwise
+     * they are NULL: */
+    const sunder_layer *given; /* the layer in the caller's order */
+    uint32_t *number; /* [n + parts] the caller's number of each feature; for a part of a barrier, n plus the number of
+                       * the barrier */
+    sunder_feature *part; /* [parts] the parts of barriers, as fixed features */
 };
 
-/* The demands on feature k of a layer as it was given, without its shape; and with it. */
+/* The demands on feature k of a layer in the caller's order, without its shape. */
 static inline const sunder_feature *sunder_i_demands(const sunder_layer *given, size_t k)
 {
     return &given->demands[given->demand ? given->demand[k] : 0];
@@ -37,14 +41,14 @@ static inline sunder_feature sunder_i_given_feature(const sunder_layer *given, s
     return feature;
 }
 
-/* The same of a feature of a layer in the order of work, or of a part behind them. */
+/* A feature of a layer in processing order, or a part of a barrier, numbered after the features. */
 static inline sunder_feature sunder_i_feature(const sunder_layer *layer, size_t thing)
 {
     return thing < layer->n ? sunder_i_given_feature(layer->given, layer->number[thing])
                             : layer->part[thing - layer->n];
 }
 
-/* Is the feature there at all (not ignored, not empty)? */
+/* Does the feature take part, being neither ignored nor empty? */
 static inline bool sunder_i_is_present(const sunder_feature *feature)
 {
     return !feature->ignored && feature->shape && !sunder_shape_is_empty(feature->shape);
@@ -55,32 +59,33 @@ static inline bool sunder_i_is_present(const sunder_feature *feature)
 /* The options with every default filled in. */
 typedef struct sunder_i_rules {
     double gap, tolerance;
-    const sunder_shape *disc; /* with the tolerance's diameter, for sunder_i_overlap_is_thin(); the model's */
+    const sunder_shape *disc; /* a polygon in the disc with diameter `tolerance`, for sunder_i_overlap_is_thin(); owned
+                               * by the model */
     bool touch_joins, containment_joins, list_inside;
-    double thin; /* 0: joining by tolerance is not needed */
+    double thin; /* the thickness below which overlaps are counted; 0: do not count */
     bool jumps;  /* features may jump over others */
     sunder_containment contained;
     unsigned threads;
     double effort; /* >= 0 */
     uint64_t seed;
     bool keep_trees, keep_pushes, keep_worlds, drop_proofs;
-    sunder_progress progress; /* NULL: the distance is not needed */
+    sunder_progress progress; /* NULL: the caller wants no progress reports */
     void *progress_user;
     sunder_trace trace; /* NULL: no trace */
     void *trace_user;
 } sunder_i_rules;
 
 sunder_status sunder_i_rules_of(const sunder_layer_options *options, sunder_i_rules *rules, sunder_error *err);
-/* Tells how far it is; false when the caller asked to stop. */
+/* Reports the progress to the caller. Returns false if the caller asked to stop. */
 bool sunder_i_progress(const sunder_i_rules *rules, double fraction);
 
 /* ---- feature_order.c --------------------------------------------------------------------------------------------- */
 
 typedef struct sunder_i_barriers sunder_i_barriers;
 
-/* The layer in processing order (or as given). Behind its n features it has a fixed one for each part of its barriers,
- * in their order. It borrows from the layer, which must outlive it; sunder_i_ordered_clear() clears it, also after a
- * failure. */
+/* Sets *out to the layer in processing order, or in the given order if as_given. Behind its n features it has a fixed
+ * feature for each part of its barriers, in their order. It borrows from the layer, which must outlive it.
+ * sunder_i_ordered_clear() frees it, also after a failure. */
 sunder_status sunder_i_order_layer(const sunder_layer *layer, const sunder_i_barriers *barriers, bool as_given,
                                    sunder_layer *out, sunder_error *err);
 void sunder_i_ordered_clear(sunder_layer *ordered);

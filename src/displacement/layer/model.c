@@ -1,4 +1,5 @@
-/* The model: features with their boxes, the near pairs, and the bodies that the rules make of them. */
+/* The model: the features with their boxes and the tree over these, and the bodies that the rules make of the
+ * features. */
 #include "displacement/layer/model.h"
 
 #include "base/extremes.h"
@@ -102,7 +103,7 @@ static sunder_status find_some_present(void *context, size_t begin, size_t end, 
     return SUNDER_OK;
 }
 
-/* The present features, and the tree over them. */
+/* Finds which features are present, and builds the tree over the boxes of all things. */
 static sunder_status build_tree(sunder_i_model *model, sunder_error *err)
 {
     presence p = {model, sunder_i_alloc(4 * model->things, sizeof *p.box), 0};
@@ -150,7 +151,7 @@ static int by_label(const void *a, const void *b)
     return p->feature < q->feature ? -1 : p->feature > q->feature;
 }
 
-/* Equal block numbers of the caller's. */
+/* Joins the features to which the caller gave equal block numbers. Returns false if memory is out. */
 static bool unite_labelled(const sunder_layer *layer, uint32_t *parent)
 {
     label *labels = sunder_i_alloc(layer->n, sizeof *labels);
@@ -170,14 +171,14 @@ static bool unite_labelled(const sunder_layer *layer, uint32_t *parent)
     return true;
 }
 
-/* Numbers the sets by their least members and fills the bodies; there may be far fewer bodies than things. False if
- * memory is out. */
+/* Numbers the sets of joined things by their least members, and fills in the bodies; there may be far fewer bodies than
+ * things. Returns false if memory is out. */
 static bool number_bodies(sunder_i_model *model, uint32_t *parent)
 {
     uint32_t bodies = 0;
     for (size_t f = 0; f < model->things; f++) {
         const uint32_t root = sunder_i_union_find(parent, (uint32_t)f);
-        /* The least member is its own root, and comes first. */
+        /* The root of a set is its least member, so it comes first. */
         model->body_of[f] = root == f ? bodies++ : model->body_of[root];
     }
     model->body = sunder_i_calloc(bodies, sizeof *model->body);
@@ -206,7 +207,8 @@ static bool number_bodies(sunder_i_model *model, uint32_t *parent)
 }
 
 #ifndef NDEBUG
-/* Each feature is in one body; bodies are numbered by their first members, and members ascend. */
+/* Checks that each thing is in one body, that bodies are numbered in the order of their first members, and that the
+ * members of a body ascend. */
 static const char *check(const sunder_i_model *model)
 {
     size_t members = 0;
@@ -223,7 +225,7 @@ static const char *check(const sunder_i_model *model)
 }
 #endif
 
-/* The boxes in which each will look, and into which it will move. */
+/* Allocates, for each body, the boxes that bound what was read for it and where it moved. */
 static bool keep_reads(sunder_i_model *model)
 {
     model->read = sunder_i_alloc(model->bodies, sizeof *model->read);

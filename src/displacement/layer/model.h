@@ -1,6 +1,5 @@
-/* The layer as bodies that move: blocks, their convex pieces, pairs of one in another, pairs left in conflict, and
- * where each body stands. What is in doubles here is for the search, which decides nothing: what it finds is checked
- * exactly. */
+/* The layer as bodies that move: blocks, their convex pieces, inclusions, pairs left in conflict, and the present
+ * position of each body. Data in doubles is for the search, whose results are always verified exactly. */
 #ifndef SUNDER_I_MODEL_H
 #define SUNDER_I_MODEL_H
 
@@ -15,52 +14,59 @@
 #include <stdatomic.h>
 #include <stdlib.h>
 
-/* What few bodies have (extras.c). */
+/* Data that only few bodies have (extras.c). */
 typedef struct sunder_i_extras {
-    uint32_t wall, walls;   /* the edges of its members that keep others inside, in sunder_i_model.wall */
-    uint32_t seam, seams;   /* pieces that cover what is between its pieces, in sunder_i_model.seam */
-    uint32_t joint, joints; /* what covers the walls that its members share, in sunder_i_model.joint */
-    uint32_t side, sides;   /* of a part of a barrier: its lines that may not be crossed, in sunder_i_model.side */
-    double anchors[4];      /* the box of its members' anchors, where these are many (sunder_i_anchors()) */
+    uint32_t wall, walls;   /* the edges of its members that hold other features inside, in sunder_i_model.wall */
+    uint32_t seam, seams;   /* pieces that cover the diagonals between its convex pieces, in sunder_i_model.seam */
+    uint32_t joint, joints; /* pieces that cover the walls that its members share, in sunder_i_model.joint */
+    uint32_t side, sides;   /* if the body is a part of a barrier: the lines of it that may not be crossed, in
+                             * sunder_i_model.side */
+    double anchors[4];      /* if it has many members: the box of their anchors (sunder_i_anchors()) */
 } sunder_i_extras;
 
-/* A body is what moves as one: a block, or a feature that stands alone. Bodies are numbered by their first members. */
+/* A body is a block, or a feature in no block, or a part of a barrier; its members move together. Bodies are numbered
+ * in the order of their first members. */
 typedef struct sunder_i_body {
-    uint32_t member, members;   /* its features: members of them in sunder_i_model.member from there */
-    uint32_t piece, pieces;     /* its convex pieces: how they are numbered among all, from that one on */
-    double weight;              /* the sum of its members' */
-    double limit;               /* the strictest of its members' */
-    const sunder_i_extras *has; /* besides; never NULL */
-    bool fixed;                 /* limit 0 counts too */
-    bool held;                  /* fixed for now: its possible moves are coarse beside a neighbour's
-                       * (solve/clusters/coarse_bodies.c) */
-    bool has_seams;             /* they were looked for */
-    bool pinned;                /* stays where it came from: rounding would make a pair of it stand worse (uphold.c) */
-    bool far;                   /* it has corners out of all proportion (far_corners.c) */
-    double reach;               /* for the search no corner is farther from the origin, along either axis */
-    double origin[2];           /* its corners are stored relative to this */
-    double box[4];              /* of its pieces, relative to the origin */
-    double clear; /* the least of its members', in sunder_i_model.clear; INFINITY where jumps are allowed */
+    uint32_t member, members;   /* its features: `members` entries of sunder_i_model.member, from index `member` on */
+    uint32_t piece, pieces;     /* its convex pieces have the numbers from `piece` on, among the pieces of all bodies */
+    double weight;              /* the sum of its members' weights */
+    double limit;               /* the least of its members' limits */
+    const sunder_i_extras *has; /* data that only few bodies have; never NULL */
+    bool fixed;                 /* it never moves; so too if its limit is 0 */
+    bool held;                  /* it does not move for now, as its exact moves are coarser than those of a neighbour
+                                 * (solve/clusters/coarse_bodies.c) */
+    bool has_seams;             /* the covers of its diagonals have been made */
+    bool pinned;                /* it stays at its original position, as rounding its move would make a pair worse than
+                                 * at the start (uphold.c) */
+    bool far;                   /* it has far corners, out of proportion to the rest of it (far_corners.c) */
+    double reach;               /* the search moves corners farther from the origin than this, along either axis, to
+                                 * this distance */
+    double origin[2];           /* the point that its corners are stored relative to */
+    double box[4];              /* the box of its pieces, relative to the origin */
+    double clear; /* the least of its members' entries in sunder_i_model.clear; INFINITY if jumps are allowed */
 } sunder_i_body;
 
-/* One convex piece of a body, counter-clockwise; a wall is one without area, of two corners. */
+/* One convex piece of a body, counter-clockwise. A wall is a piece of two corners, without area; an anchor is one of
+ * one corner. */
 typedef struct sunder_i_body_piece {
-    const double *corner; /* [2 * corners] relative to the body's origin, as is the box; of an anchor that is it */
+    const double *corner; /* [2 * corners] relative to the body's origin, as the box is; an anchor's points to its
+                           * box */
     uint32_t corners, feature;
     double box[4];
 } sunder_i_body_piece;
 
-/* Pieces that share a box, besides their own boxes: a query among a body's hundreds of pieces skips the others by whole
- * runs. */
+/* The number of consecutive pieces that share a box, in addition to their own boxes. A query among hundreds of pieces
+ * of a body skips whole runs whose boxes are out of reach. */
 #define SUNDER_I_RUN 8u
 
-/* The search's view of one body, made at its first use (body_pieces.c). In a large layer most bodies never need it.
+/* The pieces of one body for the search, made at their first use (body_pieces.c); in a large layer most bodies never
+ * need them.
  *
- *     piece    [pieces] convex; those of a feature in the order of its shape's
- *     anchor   [members] each as a piece of one corner, of none where there is none; NULL: jumps are allowed
- *     run      [4 * runs] boxes of those runs of SUNDER_I_RUN that belong to this body entirely: they begin at
- *              multiples of that, from first_run of it on
- *     outline  [members] their convex hulls, where they were needed */
+ *     piece    [pieces] convex; those of one feature are in the order of its shape's pieces
+ *     anchor   [members] each as a piece of one corner, or of none if there is no anchor; NULL: jumps are allowed
+ *     run      [4 * runs] the boxes of those runs of SUNDER_I_RUN pieces that lie entirely in this body. Runs begin at
+ *              numbers that are multiples of SUNDER_I_RUN; first_run is the first such number, divided by SUNDER_I_RUN
+ *     outline  [members] the convex hulls of the members; NULL until they are needed */
 typedef struct sunder_i_body_pieces {
     const sunder_i_body_piece *piece, *anchor;
     const double *run;
@@ -68,115 +74,128 @@ typedef struct sunder_i_body_pieces {
     _Atomic(sunder_i_body_piece *) outline;
 } sunder_i_body_pieces;
 
-/* What covers a wall that two members of a block share, within the two. */
+/* A convex piece, within two members of a block, that covers a wall that they share. */
 typedef struct sunder_i_joint {
-    sunder_i_body_piece piece; /* its feature is the one, `other` the other */
+    sunder_i_body_piece piece; /* its feature is one of the two members */
     uint32_t other;
-    double at[8], corner[8]; /* its four corners as they are, and from the body's origin */
+    double at[8], corner[8]; /* its four corners in coordinates of the layer, and relative to the body's origin */
 } sunder_i_joint;
 
 /* A line of a barrier that features may not cross. */
 typedef struct sunder_i_side {
-    sunder_i_body_piece piece; /* of two corners; its feature is the part of the barrier */
-    const double *from, *to;   /* its ends; of a rational area the nearest doubles */
-    double corner[4];          /* the same from the body's origin */
+    sunder_i_body_piece piece; /* a piece of two corners; its feature is the part of the barrier */
+    const double *from, *to;   /* its ends; those of an area with rational corners are rounded to doubles */
+    double corner[4];          /* the ends relative to the body's origin */
     const sunder_shape
-        *area; /* which has it as the edge from that vertex, and lies on its left; NULL: it bounds none */
+        *area; /* if the line bounds an area: this area, which lies on the left of the edge from corner `vertex`; else
+                * NULL */
     uint32_t vertex;
 } sunder_i_side;
 
-/* A coordinate from the body's origin, along axis c. One that is farther than `reach` is drawn in. Proofs see corners
- * as given. */
+/* Returns coordinate v on axis c relative to the body's origin, clamped to the body's reach. Only the search clamps;
+ * proofs use the corners as given. */
 static inline double sunder_i_from_origin(const sunder_i_body *body, double v, size_t c)
 {
     return sunder_i_max(-body->reach, sunder_i_min(v - body->origin[c], body->reach));
 }
 
-/* May it move at all? */
+/* May the body move at all? */
 static inline bool sunder_i_may_move(const sunder_i_body *body) { return !body->fixed && !body->pinned; }
 
-/* How far the body may go. */
+/* Returns the longest move that the body may make; 0 if it is fixed. */
 static inline double sunder_i_limit_of(const sunder_i_body *body) { return body->fixed ? 0 : body->limit; }
 
-/* The box of the body, moved by t and grown by reach. */
+/* Sets box to the box of the body at its original position plus t, grown by `reach`. */
 static inline void sunder_i_body_box(const sunder_i_body *body, const double t[2], double reach, double box[4])
 {
     for (size_t c = 0; c < 4; c++) box[c] = body->box[c] + body->origin[c & 1] + t[c & 1] + (c < 2 ? -reach : reach);
 }
 
-/* What a search on behalf of a body has read: `place` bounds the boxes that it queried, and `seen` bounds the whole
- * bodies found there, at their original places. */
+/* What was read on behalf of a body: `place` bounds the boxes that were queried, and `seen` bounds the whole bodies
+ * found there, at their original positions. */
 typedef struct sunder_i_read {
     double place[4], seen[4];
 } sunder_i_read;
 
-/* Everything that the search looks at, in doubles. It decides nothing: what it finds is checked exactly afterwards. */
+/* All that the search works with, in doubles. Results of the search are always verified exactly. */
 struct sunder_i_model {
     const sunder_layer *layer;
     sunder_i_rules rules;
-    sunder_shape *disc; /* rules.disc */
+    sunder_shape *disc; /* the polygon rules.disc, owned */
     const sunder_i_barriers *barriers;
     size_t bodies;
-    size_t features, things; /* features come first, then parts of barriers, which are fixed bodies each */
-    size_t vertices;         /* of the features */
-    uint32_t *body_of;       /* [things] */
-    uint32_t *member;        /* [things] things by body */
+    size_t features, things; /* the numbers of both; features come first, then the parts of barriers, which are fixed
+                              * bodies */
+    size_t vertices;         /* the number of vertices of all features */
+    uint32_t *body_of;       /* [things] the body of each thing */
+    uint32_t *member;        /* [things] the things, sorted by body */
     sunder_i_body *body;
-    sunder_i_arena extras;                 /* what bodies have besides */
-    _Atomic(sunder_i_body_pieces *) *made; /* [bodies] see sunder_i_pieces_of() */
-    struct sunder_i_pieces_store *store;   /* where these are */
-    /* Where jumps are not allowed; else NULL: */
-    double *anchor_at;         /* [2 * features] the anchors as they are */
-    double *clear;             /* [features] nothing of another body that does not hold the anchor is nearer to it */
-    sunder_i_body_piece *seam; /* convex pieces of features about the diagonals between their pieces; seams.c */
-    double *seam_corner;       /* [8 * seams] their four corners, from the bodies' origins */
-    uint32_t *seam_diagonal;   /* [4 * seams] by which the corners as they are are found (sunder_i_seam_again()) */
+    sunder_i_arena extras;                 /* holds the extras of bodies */
+    _Atomic(sunder_i_body_pieces *) *made; /* [bodies] the pieces of each, or NULL until they are made; see
+                                            * sunder_i_pieces_of() */
+    struct sunder_i_pieces_store *store;   /* the memory of the pieces */
+    /* anchor_at, clear and held are set only if jumps are not allowed, and covers (seam, joint) also if a barrier owes
+     * no distance; otherwise they are NULL. */
+    double *anchor_at;         /* [2 * features] the anchors in coordinates of the layer */
+    double *clear;             /* [features] a lower bound of the distance from each anchor to the nearest feature of
+                                * another body that does not contain it */
+    sunder_i_body_piece *seam; /* convex pieces of features that cover the diagonals between their pieces; seams.c */
+    double *seam_corner;       /* [8 * seams] the four corners of each, relative to the body's origin */
+    uint32_t *seam_diagonal;   /* [4 * seams] the vertices from which sunder_i_seam_again() recomputes the corners as
+                                * given */
     size_t seams;
-    bool has_seams;        /* of all bodies */
-    sunder_i_joint *joint; /* of the bodies that were asked for; joints.c */
+    bool has_seams;        /* the covers of diagonals have been made for all bodies */
+    sunder_i_joint *joint; /* covers of walls that members share, for the bodies they were requested for; joints.c */
     size_t joints;
-    sunder_i_id_pair *held; /* a feature, and one of another body that holds its anchor; sorted */
+    sunder_i_id_pair *held; /* pairs of a feature and a feature of another body that contains its anchor; sorted */
     size_t held_n;
-    /* Where barriers have sides; else NULL: */
+    /* The next five are set only if barriers have sides: */
     sunder_i_side *side;
     size_t sides;
     sunder_i_body_piece *side_anchor; /* [features] each side anchor as a piece of one corner */
-    double *side_at;                  /* [2 * features] the side anchors as they are */
-    double *side_anchors;             /* [4 * bodies] the box of its members' side anchors, relative to its origin */
-    sunder_shape **whole;        /* [bodies] the union of a block's members, where wanted; NULL for what stands alone */
-    uint32_t most_pieces;        /* that a body has */
-    bool *present;               /* [things] */
-    sunder_i_seamless *seamless; /* [features] where there are barriers without area; else NULL */
-    sunder_i_rtree tree;         /* the boxes as they stood at the start; see sunder_i_reach_beyond() */
-    sunder_i_read *read;         /* [bodies] (layer/reads.h); NULL: reads are not recorded */
-    double *went;                /* [4 * bodies] the box of all moves that each ever had, likewise */
-    const sunder_i_rtree *standing; /* positions as they are now: the placement's; lent */
-    sunder_i_body_piece *wall;      /* edges of features that hold others; see inclusion.c */
-    double *wall_corner;            /* [4 * walls] */
+    double *side_at;                  /* [2 * features] the side anchors in coordinates of the layer */
+    double *side_anchors;             /* [4 * bodies] the box of each body's side anchors, relative to the body's
+                                       * origin */
+    sunder_shape **whole;        /* [bodies] the union of a block's members, if it was made; NULL if not, and for single
+                                  * features */
+    uint32_t most_pieces;        /* the largest number of pieces of one body */
+    bool *present;               /* [things] the thing is neither ignored nor empty */
+    sunder_i_seamless *seamless; /* [features] their interior covers, if there are barriers without area; else NULL */
+    sunder_i_rtree tree;         /* over the boxes of things at their original positions, grown by
+                                  * sunder_i_reach_beyond() */
+    sunder_i_read *read;         /* [bodies] what was read for each (layer/reads.h); NULL: reads are not recorded */
+    double *went;                /* [4 * bodies] the box of all moves that each body ever had; NULL: reads are not
+                                  * recorded */
+    const sunder_i_rtree *standing; /* borrowed: the placement's tree over the present positions */
+    sunder_i_body_piece *wall;      /* edges of features that hold others inside; see inclusion.c */
+    double *wall_corner;            /* [4 * walls] the two ends of each */
     size_t walls;
-    sunder_i_inclusion *inclusion; /* pairs that may overlap, because one lies in the other; sorted */
+    sunder_i_inclusion *inclusion; /* pairs that may overlap, because one feature lies in the other; sorted */
     size_t inclusions;
-    sunder_i_inclusion *nested; /* pairs in conflict where one lay in the other at the start; sorted */
+    sunder_i_inclusion *nested; /* pairs in conflict in which one feature lay in the other at the start; sorted */
     size_t nested_n;
     sunder_i_relaxations relaxations;
-    sunder_i_id_pair *given_up; /* bodies given up: no solution was found that resolves this pair, too; sorted */
+    sunder_i_id_pair *given_up; /* pairs of bodies for which no solution was found that resolves this pair as well as
+                                 * the others; sorted */
     size_t given_up_n;
-    sunder_i_id_pair *shut_in; /* features, a < b, that nothing but a jump takes clear of each other: proved; sorted */
+    sunder_i_id_pair *shut_in; /* pairs of features a < b for which it is proved that only a jump would separate them;
+                                * sorted */
     size_t shut_in_n;
-    sunder_i_id_pair *confined; /* bodies i < j for which that is proved, whichever of their members are in conflict;
-                                 * sorted */
+    sunder_i_id_pair *confined; /* pairs of bodies i < j for which that is proved for all of their members, whichever
+                                 * are in conflict; sorted */
     size_t confined_n;
-    double *move;   /* [2 * bodies] where each stands now, relative to the start */
-    double *lifted; /* [2 * bodies] where each stood when limits were lifted; NULL: they were not, or still are */
-    bool *inexact;  /* [things] the translate was rounded */
-    /* For the trace: where the work is, in words of the tables of stages (solve_layer.c); NULL: before them. */
+    double *move;   /* [2 * bodies] the present position of each, relative to the start */
+    double *lifted; /* [2 * bodies] the position of each when it was solved without limits; NULL: there was no such run,
+                     * or it is not over */
+    bool *inexact;  /* [things] the feature's translate is not exact, so it is written rounded */
+    /* For the trace: the present stage, in the words of the tables of stages (solve_layer.c); NULL: before the first */
     const char *pass, *stage;
-    int round; /* of the stage, from 1 on */
+    int round; /* the round of the stage, from 1 on */
 };
 
 /* ---- Things ------------------------------------------------------------------------------------------------------ */
 
-/* Is the thing a part of a barrier, which has no anchor and no outline? Is the body one? Of which barrier? */
+/* Is the thing a part of a barrier? Such a thing has no anchor and no outline. */
 static inline bool sunder_i_is_barrier(const sunder_i_model *model, uint32_t thing) { return thing >= model->features; }
 
 static inline bool sunder_i_is_barrier_body(const sunder_i_model *model, const sunder_i_body *body)
@@ -189,36 +208,37 @@ static inline uint32_t sunder_i_barrier_of(const sunder_i_model *model, uint32_t
     return model->barriers->barrier[part - model->features];
 }
 
-/* The shape of a thing, as it is given. */
+/* Returns the shape of a thing at its original position. */
 static inline const sunder_shape *sunder_i_thing_shape(const sunder_i_model *model, size_t thing)
 {
     const sunder_layer *layer = model->layer;
     return thing < layer->n ? layer->given->shape[layer->number[thing]] : layer->part[thing - layer->n].shape;
 }
 
-/* The box of a thing as it stood at the start; of one that was not there no more than zeros. */
+/* Returns the box of a thing at its original position; zeros if the thing is not present. */
 static inline const double *sunder_i_home_box(const sunder_i_model *model, uint32_t thing)
 {
     return sunder_i_rtree_box(&model->tree, thing);
 }
 
-/* May some relative moves not be made, wherever that leads? */
+/* Are some relative moves forbidden regardless of where they end (jumps, crossed sides)? */
 static inline bool sunder_i_forbids_ways(const sunder_i_model *model) { return !model->rules.jumps || model->sides; }
 
-/* The box of the side anchors of one of the model's bodies, where barriers have sides. */
+/* Returns the box of the side anchors of one of the model's bodies. There must be barriers with sides. */
 static inline const double *sunder_i_side_anchors(const sunder_i_model *model, const sunder_i_body *body)
 {
     return model->side_anchors + 4 * (size_t)(body - model->body);
 }
 
-/* A thing by which all parts of a barrier are known: their first; else the thing itself. */
+/* Returns the thing that represents a whole barrier in place of one of its parts: the first part. Returns a feature
+ * unchanged. */
 static inline uint32_t sunder_i_whole_of(const sunder_i_model *model, uint32_t thing)
 {
     if (!sunder_i_is_barrier(model, thing)) return thing;
     return (uint32_t)model->features + sunder_i_first_part(model->barriers, thing - (uint32_t)model->features);
 }
 
-/* What the two owe each other, rounded down and up; of two features both are the gap. */
+/* The distance that two things have to keep from each other, rounded down; for two features it is the gap. */
 static inline double sunder_i_owed_below(const sunder_i_model *model, uint32_t f, uint32_t g)
 {
     const uint32_t part = f > g ? f : g;
@@ -233,28 +253,29 @@ static inline double sunder_i_owed_above(const sunder_i_model *model, uint32_t f
     return sunder_i_required_above(model->barriers, sunder_i_barrier_of(model, part));
 }
 
-/* Do they owe each other the layer's gap? A barrier may have one of its own. */
+/* Do two things have to keep the layer's gap from each other? A barrier may have a gap of its own. */
 static inline bool sunder_i_owe_gap(const sunder_i_model *model, uint32_t f, uint32_t g)
 {
     const uint32_t part = f > g ? f : g;
     return !sunder_i_is_barrier(model, part) || model->layer->barrier[sunder_i_barrier_of(model, part)].gap < 0;
 }
 
-/* The distance owed to a thing beyond the gap. All boxes of barriers, of bodies and pieces too, are grown by it: so a
- * query with the gap finds everything to which a distance is owed. */
+/* Returns by how much the distance that features keep from the thing exceeds the gap. The boxes of barriers, and of
+ * their bodies and pieces, are grown by it, so that a query with the gap finds everything that a distance has to be
+ * kept from. */
 static inline double sunder_i_reach_beyond(const sunder_i_model *model, uint32_t thing)
 {
     return sunder_i_max(0, sunder_i_owed_above(model, thing, thing) - model->rules.gap);
 }
 
-/* Are these two features, f < g, known to be shut in? */
+/* Is it proved that only a jump would separate the features f < g? */
 static inline bool sunder_i_are_shut_in(const sunder_i_model *model, uint32_t f, uint32_t g)
 {
     const sunder_i_id_pair pair = {f, g};
     return model->shut_in_n && bsearch(&pair, model->shut_in, model->shut_in_n, sizeof pair, sunder_i_by_id_pair);
 }
 
-/* The same for two bodies. */
+/* Is it proved that only a jump would separate the bodies i and j? */
 static inline bool sunder_i_are_confined(const sunder_i_model *model, uint32_t i, uint32_t j)
 {
     const sunder_i_id_pair pair = {i < j ? i : j, i < j ? j : i};
@@ -263,100 +284,107 @@ static inline bool sunder_i_are_confined(const sunder_i_model *model, uint32_t i
 
 /* ---- model.c ----------------------------------------------------------------------------------------------------- */
 
-/* The boxes of the layer's features, behind which stand parts of barriers (layer.h), and the tree over them as they
- * were. On failure the model can be given to sunder_i_model_free() all the same. */
+/* Sets up the model of a layer, behind whose features are the parts of its barriers (layer.h), with the tree over the
+ * original boxes. After a failure, too, the caller frees it by sunder_i_model_free(). */
 sunder_status sunder_i_model_init(const sunder_layer *layer, const sunder_i_barriers *barriers,
                                   const sunder_i_rules *rules, sunder_i_model *model, sunder_error *err);
-/* A feature at its original place. */
+/* Returns a feature at its original position. */
 sunder_i_translate sunder_i_at_home(const sunder_i_model *model, uint32_t feature);
-/* Joins what the rules join. */
+/* Makes the bodies: joins the features that the rules join. */
 sunder_status sunder_i_model_join(sunder_i_model *model, const sunder_i_relations *relations, sunder_error *err);
 void sunder_i_model_free(sunder_i_model *model);
 
 /* ---- bodies.c ---------------------------------------------------------------------------------------------------- */
 
-/* The numbers of the convex pieces, and the bodies' boxes. */
+/* Numbers the convex pieces of all bodies, and computes the bodies' boxes. */
 sunder_status sunder_i_model_cut(sunder_i_model *model, sunder_error *err);
-/* The body that has the piece with this number. */
+/* Returns the body that has the piece with this number. */
 uint32_t sunder_i_body_of_piece(const sunder_i_model *model, uint32_t piece);
-/* A relative move of two bodies that is longer leaves them apart by more than the gap. */
+/* Returns a length such that any relative move of bodies p and q that is longer leaves them more than the gap apart. */
 double sunder_i_farthest_near(const sunder_i_model *model, uint32_t p, uint32_t q);
-/* Unites the members of these bodies, those that are blocks and have not been. */
+/* Makes the unions of the members of these n bodies, if they are blocks and have none yet. */
 sunder_status sunder_i_model_unite(sunder_i_model *model, const uint32_t *body, size_t n, sunder_error *err);
-/* Returns the shape of a body: that of its only member, or the union of all. NULL if they were not united or are
- * empty. */
+/* Returns the shape of a body: that of its only member, or the union of all members. Returns NULL if the union was not
+ * made or the member is not present. */
 const sunder_shape *sunder_i_model_shape(const sunder_i_model *model, uint32_t body);
-/* A lower bound of the weight of a body. */
+/* Returns a lower bound of the weight of a body. */
 double sunder_i_weight_below(const sunder_i_model *model, const sunder_i_body *body);
 
 /* ---- extras.c ---------------------------------------------------------------------------------------------------- */
 
-/* What a body without any of it has. */
+/* The extras of a body that has none. */
 extern const sunder_i_extras sunder_i_no_extras;
-/* A body's own, to be written to; NULL if memory is out. */
+/* Returns the extras of a body, to be written to; allocates them if it has none. Returns NULL if memory is out. */
 sunder_i_extras *sunder_i_own_extras(sunder_i_model *model, sunder_i_body *body);
-/* The box of the anchors of a body's members, from its origin; where jumps are not allowed. */
+/* Sets box to the box of the anchors of a body's members, relative to its origin. Only if jumps are not allowed. */
 void sunder_i_anchors(const sunder_i_model *model, const sunder_i_body *body, double box[4]);
-/* Sees to it that sunder_i_anchors() has little to do for this body, once the anchors are known. False if memory is
- * out. */
+/* Stores the box for sunder_i_anchors() if the body has many members. To be called once the anchors are known. Returns
+ * false if memory is out. */
 bool sunder_i_keep_anchors(sunder_i_model *model, sunder_i_body *body);
 
 /* ---- body_pieces.c ----------------------------------------------------------------------------------------------- */
 
-/* Makes them for sunder_i_pieces_of(). */
+/* Makes the pieces that sunder_i_pieces_of() returns. */
 const sunder_i_body_pieces *sunder_i_pieces_make(const sunder_i_model *model, const sunder_i_body *body);
-/* The pieces of a body, after all are cut and anchored; they stay until they are forgotten. NULL if memory is out. Any
- * number of threads may ask at a time. */
+/* Returns the pieces of a body; they remain until sunder_i_pieces_forget(). Pieces must have been numbered and anchors
+ * found before. Returns NULL if memory is out. Any number of threads may call it at the same time. */
 static inline const sunder_i_body_pieces *sunder_i_pieces_of(const sunder_i_model *model, const sunder_i_body *body)
 {
     const sunder_i_body_pieces *made = atomic_load_explicit(&model->made[body - model->body], memory_order_acquire);
     return made ? made : sunder_i_pieces_make(model, body);
 }
-/* The same of the outlines of its members, one of each, for where their pieces are too many: convex hulls. */
+/* Returns the convex hulls of a body's members, one for each, for use where the pieces are too many. The conditions are
+ * those of sunder_i_pieces_of(). */
 const sunder_i_body_piece *sunder_i_outlines_of(const sunder_i_model *model, const sunder_i_body *body);
-/* The outline of a thing that is there from its body's origin, how many corners; out: room for one more than its shape
- * has, point: scratch for all of these. */
+/* Writes the convex hull of a present thing, relative to its body's origin, to `out` and returns the number of corners.
+ * `out` has room for one corner more than the shape has vertices; `point` is scratch for all vertices. */
 size_t sunder_i_outline_of(const sunder_i_model *model, uint32_t thing, double *point, double *out);
-/* None are made yet, of bodies that are known. False if memory is out: sunder_i_pieces_end() frees what is there. */
+/* Sets up the store of pieces, without any. Returns false if memory is out; sunder_i_pieces_end() frees it, also
+ * then. */
 bool sunder_i_pieces_begin(sunder_i_model *model);
 void sunder_i_pieces_end(sunder_i_model *model);
-/* Frees all pieces if they take more than `most` bytes; they are made again when needed. It is called when no code
- * refers to pieces: between two stages or two questions. */
+/* Frees all pieces if they take more than `most` bytes; they are made again when needed. Must be called only when no
+ * code refers to pieces: between two stages or two questions. */
 void sunder_i_pieces_forget(sunder_i_model *model, size_t most);
-/* Less is not worth forgetting. */
+/* The number of bytes below which freeing pieces does not pay. */
 #define SUNDER_I_PIECES_HELD ((size_t)4 << 20)
-/* How many corners a piece, an anchor or a side had as given; the search may look at one more or at fewer, where some
- * are far (far_corners.h). */
+/* Returns the number of corners that a piece, an anchor or a side has as given. The search may use one more or fewer,
+ * if some are far (far_corners.h). */
 size_t sunder_i_corners_as_given(const sunder_i_model *model, const sunder_i_body_piece *piece);
-/* Where they stood in the layer; of repaired shapes the nearest doubles. out: room for all of them. */
+/* Writes the corners of a piece in coordinates of the layer to `out`, which has room for all of them; corners of
+ * repaired shapes are rounded to doubles. */
 void sunder_i_piece_as_given(const sunder_i_model *model, const sunder_i_body_piece *piece, double *out);
-/* The convex hull of n points, counter-clockwise, in out (room for n + 1), in doubles. The points are sorted. */
+/* Writes the convex hull of n points, counter-clockwise, to `out`, which has room for n + 1, and returns the number of
+ * corners. It is computed in doubles. Sorts `point`. */
 size_t sunder_i_convex_hull(double *point, size_t n, double *out);
 
 /* ---- anchors.c --------------------------------------------------------------------------------------------------- */
 
-/* The anchors, where they matter, and the side anchors (sides.h); after the pieces are cut. */
+/* Finds the anchors, if jumps are not allowed, and the side anchors (sides.h). Pieces must have been numbered
+ * before. */
 sunder_status sunder_i_model_anchor(sunder_i_model *model, sunder_error *err);
-/* Does g, of another body, hold the anchor of f? Then f may leave it. */
+/* Does feature g, of another body, contain the anchor of feature f? Then f may leave g. */
 bool sunder_i_is_held(const sunder_i_model *model, uint32_t f, uint32_t g);
 
 /* ---- seams.c ----------------------------------------------------------------------------------------------------- */
 
-/* Is there a barrier without area that owes nothing, so that it could hide on a diagonal? */
+/* Is there a barrier without area that owes no distance? A feature could meet it along a diagonal without meeting a
+ * piece. */
 bool sunder_i_has_bare_barriers(const sunder_i_model *model);
-/* Makes all missing seams, of all bodies or of the n bodies in `body`. The pieces must have been cut. Proofs need
- * seams, the search does not. Pointers to seams become invalid. */
+/* Makes the covers of diagonals that are still missing, for all bodies or for the n bodies in `body`. Pieces must have
+ * been numbered before. Proofs need these covers, the search does not. Pointers to covers become invalid. */
 sunder_status sunder_i_model_find_seams(sunder_i_model *model, sunder_error *err);
 sunder_status sunder_i_model_find_seams_of(sunder_i_model *model, const uint32_t *body, size_t n, sunder_error *err);
 
 /* ---- joints.c ---------------------------------------------------------------------------------------------------- */
 
-/* The joints of these bodies, ascending; once. Pointers to joints are void then. */
+/* Makes the covers of the walls that members of these n bodies share; `body` ascends. To be called once for a body.
+ * Pointers to such covers become invalid. */
 sunder_status sunder_i_model_find_joints(sunder_i_model *model, const uint32_t *body, size_t n, sunder_error *err);
 
 /* ---- within_limit.c ---------------------------------------------------------------------------------------------- */
 
-/* |t| <= limit? Exact. limit may be infinite. */
+/* Is |t| <= limit? Exact. limit may be infinite. */
 bool sunder_i_is_within_limit(const double t[2], double limit);
 
 #endif

@@ -1,11 +1,12 @@
-/* The move that took a shape from one place to another, if it is a translate, rounded to doubles.
+/* Finds the move that took a shape from one place to another, if it is a translate whose vertices were rounded to
+ * doubles.
  *
- * If some t makes every sum x + t exact, it is the move: no vertex was rounded. It is found first, since a shorter t
- * that rounds to the same vertices would hide a rule broken by a unit in the last place. Where sums were rounded, each
+ * If some t makes every sum x + t exact, it is the move: no vertex was rounded. This t is tried first, since a shorter
+ * t that rounds to the same vertices would hide a rule broken by a unit in the last place. If sums were rounded, each
  * vertex allows an interval of t, about as wide as a unit in the last place of x + t. Candidates are the ends and the
  * middle of the common interval of all vertices, and the difference at the vertex with the smallest unit. The shortest
- * that fits is the move, so that rounding alone never counts as a broken rule. Each candidate is tested at every
- * vertex. */
+ * candidate that fits is the move, so that rounding alone never counts as a broken rule. Each candidate is tested at
+ * every vertex. */
 #include "displacement/layer/rounding.h"
 
 #include "shape/shape.h"
@@ -15,7 +16,7 @@
 #include <math.h>
 #include <string.h>
 
-/* Do the two have the same rings, but for where they stand? */
+/* Do the two shapes have the same numbers of polygons, rings and vertices? */
 static bool same_rings(const sunder_shape *p, const sunder_shape *q)
 {
     if (p->form->given.polygons != q->form->given.polygons) return false;
@@ -26,7 +27,7 @@ static bool same_rings(const sunder_shape *p, const sunder_shape *q)
            memcmp(p->form->given.ring_end, q->form->given.ring_end, rings * sizeof *p->form->given.ring_end) == 0;
 }
 
-/* Coordinate c of every vertex, before and after. */
+/* Coordinate c of each of the n vertices, before and after the move. */
 typedef struct coordinates {
     const double *before, *after;
     size_t n, c;
@@ -51,7 +52,8 @@ static bool is_exact_move(const coordinates *k, double t)
     return true;
 }
 
-/* What all vertices allow, roughly: the sum is rounded to x' from half a unit on either side of it. */
+/* Sets [*low, *high] approximately to the moves that all vertices allow: a sum is rounded to x' if it is within half a
+ * unit of x'. *finest is the difference at the vertex with the smallest coordinates. */
 static void find_common(const coordinates *k, double *low, double *high, double *finest)
 {
     double least = INFINITY;

@@ -1,14 +1,15 @@
-/* A tree of ways that keeps no way: each is known from where the feature was at home and how far it moved. So only the
- * hulls above the leaves are kept, a sixteenth of what a tree takes, in the order of the tree of the homes, which there
- * is already. Ways that are long beside their homes lie in other places than these: then they get an order of their
- * own. Parts of barriers have no ways, and count for nothing. */
+/* A tree over the paths of features that does not store the paths: each is computed from the feature's original box and
+ * its move. Only the boxes of inner nodes ("hulls") are stored, a sixteenth of the memory of an R-tree. The order of
+ * the leaves is that of the tree over the original boxes, which exists already. If paths are long compared with the
+ * boxes, an order of their own is better and is computed. Parts of barriers have no paths and are left out. */
 #include "displacement/layer/path_tree.h"
 
 #include "displacement/layer/reads.h"
 
 #include <string.h>
 
-/* Another order is worth it as with any tree (spatial/rtree.c). */
+/* The tree is built in a new order when the total size of its hulls exceeds this multiple of the size when it was
+ * packed, as in spatial/rtree.c. */
 #define WORN 1.5
 
 void sunder_i_path_tree_free(sunder_i_path_tree *ways)
@@ -18,7 +19,7 @@ void sunder_i_path_tree_free(sunder_i_path_tree *ways)
     ways->hull = NULL;
 }
 
-/* Is that the order? Then its leaves are the homes. */
+/* Are the leaves in the order of the model's tree? Then its leaves have the original boxes. */
 static bool is_by_homes(const sunder_i_path_tree *ways) { return ways->longer.levels == 0; }
 
 static const sunder_i_rtree *order_of(const sunder_i_path_tree *ways, const sunder_i_model *model)
@@ -28,7 +29,7 @@ static const sunder_i_rtree *order_of(const sunder_i_path_tree *ways, const sund
 
 static bool has_moved(const double t[2]) { return t[0] != 0 || t[1] != 0; }
 
-/* The way from that home by t. */
+/* Sets box to the box of the path from the box `home` by the move t. */
 static void way_from(const double home[4], const double t[2], double box[4])
 {
     memcpy(box, home, 4 * sizeof *box);
@@ -52,14 +53,14 @@ static double *hull_of(const sunder_i_path_tree *ways, const sunder_i_rtree *ord
 
 static double size_of(const double box[4]) { return box[2] - box[0] + (box[3] - box[1]); }
 
-/* Where the feature of a leaf was at home. */
+/* Returns the original box of the feature of a leaf. */
 static const double *home_of(const sunder_i_path_tree *ways, const sunder_i_model *model, const sunder_i_rtree *order,
                              size_t leaf)
 {
     return is_by_homes(ways) ? order->box + 4 * leaf : sunder_i_home_box(model, order->item[leaf]);
 }
 
-/* Recomputes the hull of a node's children. */
+/* Computes the hull of a node from its children. */
 static void make_hull(const sunder_i_path_tree *ways, const sunder_i_model *model, unsigned level, size_t node,
                       double hull[4])
 {
@@ -86,7 +87,7 @@ static void make_hulls(sunder_i_path_tree *ways, const sunder_i_model *model)
         for (size_t node = order->level[l]; node < order->level[l + 1]; node++) {
             double *hull = hull_of(ways, order, node);
             make_hull(ways, model, l, node, hull);
-            if (hull[0] <= hull[2]) ways->sprawl += size_of(hull); /* for barriers alone it is nothing */
+            if (hull[0] <= hull[2]) ways->sprawl += size_of(hull); /* a node with parts of barriers alone is empty */
         }
 }
 
@@ -110,8 +111,8 @@ sunder_status sunder_i_path_tree_begin(sunder_i_path_tree *ways, const sunder_i_
 
 /* ---- Moving ------------------------------------------------------------------------------------------------------ */
 
-/* Extends the hulls above a leaf by its path. Hulls never shrink by that: the paths themselves reject what a hull holds
- * in vain. */
+/* Extends the hulls above a leaf by the path of its feature. Hulls never shrink here; a query tests the paths
+ * themselves, so too large a hull only costs time. */
 static void widen(sunder_i_path_tree *ways, const sunder_i_model *model, size_t leaf)
 {
     const sunder_i_rtree *order = order_of(ways, model);
@@ -153,7 +154,7 @@ sunder_status sunder_i_path_tree_follow(sunder_i_path_tree *ways, const sunder_i
     return is_worn(ways) ? reorder(ways, model, err) : SUNDER_OK;
 }
 
-/* ---- Asking ------------------------------------------------------------------------------------------------------ */
+/* ---- Queries ----------------------------------------------------------------------------------------------------- */
 
 static bool takes_way(const sunder_i_path_tree *ways, const sunder_i_model *model, const sunder_i_rtree *order,
                       size_t leaf, const double box[4])
@@ -176,7 +177,8 @@ static bool take_leaves(const sunder_i_path_tree *ways, const sunder_i_model *mo
     return true;
 }
 
-/* What the node has, as the tree itself finds it. */
+/* Appends the features below a node whose paths meet the box, in the order in which the R-tree finds them. Returns
+ * false if memory is out. */
 static bool query(const sunder_i_path_tree *ways, const sunder_i_model *model, unsigned level, size_t node,
                   const double box[4], sunder_i_list *hits)
 {

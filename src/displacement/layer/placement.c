@@ -1,5 +1,5 @@
-/* A placement: how the features stand at one moment, and which pairs of them are near. What is found here is exact
- * and is what the report stands on. */
+/* A placement: the positions of the features at one moment, and which pairs of them are near. All relations found here
+ * are exact; the report is based on them. */
 #include "displacement/layer/placement.h"
 #include "displacement/layer/barrier_pairs.h"
 
@@ -13,7 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- Standing ---------------------------------------------------------------------------------------------------- */
+/* ---- Positions --------------------------------------------------------------------------------------------------- */
 
 sunder_status sunder_i_placement_init(const sunder_i_model *model, sunder_i_placement *placement, sunder_error *err)
 {
@@ -25,7 +25,7 @@ sunder_status sunder_i_placement_init(const sunder_i_model *model, sunder_i_plac
     placement->was_rounded = sunder_i_calloc(n, sizeof *placement->was_rounded);
     if (!placement->move || !placement->rounded || (model->seamless && !placement->seamless) || !placement->was_rounded)
         return sunder_i_no_memory(err);
-    placement->tree = sunder_i_rtree_lend(&model->tree); /* all stand at home */
+    placement->tree = sunder_i_rtree_lend(&model->tree); /* every feature is at its original position */
     return SUNDER_OK;
 }
 
@@ -41,7 +41,7 @@ void sunder_i_placement_free(const sunder_i_model *model, sunder_i_placement *pl
     memset(placement, 0, sizeof *placement);
 }
 
-/* Its tree has boxes of its own. */
+/* Puts feature f at its body's present position. The placement's tree must own its boxes. */
 static sunder_status stand_feature(sunder_i_model *model, sunder_i_placement *placement, size_t f, sunder_error *err)
 {
     const double *t = model->move + 2 * (size_t)model->body_of[f];
@@ -53,7 +53,7 @@ static sunder_status stand_feature(sunder_i_model *model, sunder_i_placement *pl
     placement->rounded[f] = NULL;
     for (size_t c = 0; c < 2; c++) placement->move[2 * f + c] = rounded ? 0 : t[c];
     if (rounded) {
-        /* It stands as it will be written. */
+        /* The shape that will be written is the rounded translate. */
         bool exact;
         placement->was_rounded[f] = true;
         const sunder_status status = sunder_shape_translate(shape, t[0], t[1], &placement->rounded[f], &exact, err);
@@ -66,7 +66,7 @@ static sunder_status stand_feature(sunder_i_model *model, sunder_i_placement *pl
     const double *home = sunder_i_home_box(model, (uint32_t)f);
     for (int c = 0; c < 4; c++) {
         const double v = home[c] + t[c & 1];
-        /* Corners plus t are exact, but the box of a repaired shape is not made of corners. */
+        /* The sums of corners and t are exact, but a repaired shape's box is not made of its corners. */
         box[c] = shape->rational ? nextafter(v, c < 2 ? -INFINITY : INFINITY) : v;
     }
     sunder_i_rtree_move(&placement->tree, (uint32_t)f, box);
@@ -105,7 +105,7 @@ sunder_status sunder_i_placement_move_body(sunder_i_model *model, sunder_i_place
 
 /* ---- Near pairs -------------------------------------------------------------------------------------------------- */
 
-/* The partners of one feature: n of those near its run. */
+/* The partners of one feature: n features, from index `first` on, in the list of its run. */
 typedef struct partners {
     uint32_t run, first, n;
 } partners;
@@ -113,12 +113,14 @@ typedef struct partners {
 typedef struct pair_search {
     const sunder_i_model *model;
     const sunder_i_placement *placement;
-    const bool *changed;   /* NULL: all did */
+    const bool *changed;   /* the features that changed; NULL: all did */
     const uint32_t *asked; /* features that changed, ascending */
-    partners *found;       /* [asked] of two that changed the greater is the lesser's partner */
-    uint32_t **partner;    /* [runs] */
-    const uint64_t *place; /* [asked] the leaf of one, and behind it which; sorted: by runs of the tree ... */
-    const uint32_t *first; /* ... that begin there */
+    partners *found;       /* [asked] the partners of each; if both features of a pair changed, the greater is a partner
+                            * of the lesser */
+    uint32_t **partner;    /* [runs] the list of partners of each run */
+    const uint64_t *place; /* [asked] sorted pairs (leaf of the tree, index in asked), so that features of a run are
+                            * consecutive */
+    const uint32_t *first; /* [runs + 1] index in `place` of the first feature of each run */
     double reach;
 } pair_search;
 
@@ -133,7 +135,7 @@ static void box_about(const pair_search *s, uint32_t f, double box[4])
         memcpy(box, own, 4 * sizeof *box);
 }
 
-/* Of leaves that are about its run, the partners of f; sorted, behind those of others in `near`. */
+/* Appends to `near` the partners of feature f, sorted. Candidates are the leaves near its run. */
 static bool pick_partners(const pair_search *s, uint32_t f, const sunder_i_list *leaves, sunder_i_list *near)
 {
     const sunder_i_rtree *tree = &s->placement->tree;
@@ -150,7 +152,8 @@ static bool pick_partners(const pair_search *s, uint32_t f, const sunder_i_list 
     return true;
 }
 
-/* For the features in question that lie in some runs of the tree: the neighbours of a run are looked up once. */
+/* Task of a thread: finds the partners of the features of the runs `begin` to `end` - 1. The neighbours of a run are
+ * looked up once for all its features. */
 static sunder_status find_partners(void *context, size_t begin, size_t end, sunder_error *err)
 {
     const pair_search *s = context;
@@ -179,8 +182,8 @@ static sunder_status find_partners(void *context, size_t begin, size_t end, sund
     return ok ? SUNDER_OK : sunder_i_no_memory(err);
 }
 
-/* Those asked by where they lie in the tree, and where its runs begin among them; how many runs. False if memory is
- * out. */
+/* Sorts the n features asked about by their leaves in the tree, and finds where each run of leaves begins among them;
+ * *runs is the number of runs. Returns false if memory is out. */
 static bool order_by_runs(const pair_search *s, size_t n, uint64_t *place, uint32_t *first, size_t *runs)
 {
     const uint32_t *leaf = s->placement->tree.leaf;
@@ -211,8 +214,9 @@ typedef struct classification {
     sunder_i_relation *pair;
 } classification;
 
-/* Did nothing happen to the pair since `before`? Then it is what it was; if it is not listed there it was not near.
- * Members of a body move together; unless one is ever rounded nothing changes between them. */
+/* Is the relation of the pair r the same as in c->before? It is if both members belong to one body, neither was ever
+ * rounded, and both or neither changed, since members of a body move together. A pair that is not listed in c->before
+ * was not near. */
 static bool is_as_before(const classification *c, const sunder_i_relation *r)
 {
     return c->before && c->model->body_of[r->a] == c->model->body_of[r->b] && !c->placement->was_rounded[r->a] &&
@@ -268,7 +272,8 @@ sunder_status sunder_i_placement_visit(const sunder_i_model *model, const sunder
     return status;
 }
 
-/* All pairs of partners, the lesser before the greater, in order. NULL if memory is out. */
+/* Makes a relation for each pair of partners, sorted, with the lesser feature first; sets *pairs to their number.
+ * Returns NULL if memory is out. */
 static sunder_i_relation *collect(const pair_search *s, size_t asked, size_t *pairs)
 {
     size_t total = 0, k = 0;
@@ -304,7 +309,8 @@ static uint32_t *list_asked(const sunder_i_model *model, const sunder_i_changes 
     return asked;
 }
 
-/* Every pair of boxes within reach of each other, in the present positions, where at least one feature changed. */
+/* Finds every pair of things whose boxes are within reach of each other in the present positions, if at least one of
+ * the two changed. */
 static sunder_status find_pairs(const sunder_i_model *model, const sunder_i_placement *placement,
                                 const sunder_i_changes *changes, sunder_i_relation **pair, size_t *pairs,
                                 sunder_error *err)
@@ -353,13 +359,13 @@ static const char *check(const sunder_i_relations *relations)
 }
 #endif
 
-/* Does it come behind the other, both being sorted as sunder_i_by_id_pair() does it? */
+/* Does r come after `other` in the order of sunder_i_by_id_pair()? */
 static inline bool comes_behind(const sunder_i_relation *r, const sunder_i_relation *other)
 {
     return r->a != other->a ? r->a > other->a : r->b > other->b;
 }
 
-/* Of pairs that were looked at, in order, those that matter; how many. */
+/* Keeps those of the n tested pairs that are near, touch or are `kept`, in order, and returns their number. */
 static size_t keep_related(sunder_i_relation *pair, size_t n)
 {
     size_t out = 0;
@@ -368,7 +374,7 @@ static size_t keep_related(sunder_i_relation *pair, size_t n)
     return out;
 }
 
-/* Takes out the pairs of what changed. */
+/* Removes the pairs with a changed feature. */
 static void drop_changed(const bool *changed, sunder_i_relations *relations)
 {
     sunder_i_relation *pair = relations->pair;
@@ -381,8 +387,8 @@ static void drop_changed(const bool *changed, sunder_i_relations *relations)
     relations->n = n;
 }
 
-/* Puts in n pairs that are not there, from the last one on. They are few beside all: so nothing before the first of
- * them is touched. */
+/* Inserts n sorted pairs that are not in the list, beginning with the last. They are few compared with the list, so no
+ * entry before the first insertion is moved. Returns false if memory is out. */
 static bool put_in(sunder_i_relations *relations, const sunder_i_relation *pair, size_t n)
 {
     if (!sunder_i_reserve(&relations->pair, &relations->room, relations->n + n, sizeof *pair)) return false;
@@ -396,7 +402,8 @@ static bool put_in(sunder_i_relations *relations, const sunder_i_relation *pair,
     return true;
 }
 
-/* The pairs of what changed that matter, in c->pair, which is the caller's even where that failed. */
+/* Relates the pairs with a changed feature. c->pair gets the *n pairs that are near, touch or are `kept`; the caller
+ * frees it, also after a failure. *tested is the number of pairs that were tested. */
 static sunder_status relate_changed(classification *c, const sunder_i_changes *changes, size_t *n, size_t *tested,
                                     sunder_error *err)
 {
@@ -417,16 +424,16 @@ sunder_status sunder_i_placement_relate(const sunder_i_model *model, const sunde
         sunder_i_free(c.pair);
         return status;
     }
-    /* It is kept for long: without the room of pairs that turned out not to matter. */
+    /* The list is kept for long, so the memory of pairs that were left out is returned. */
     sunder_i_relation *fits = sunder_i_realloc(c.pair, n, sizeof *fits);
     *relations = (sunder_i_relations){fits ? fits : c.pair, n, fits ? n : tested, tested};
     SUNDER_I_CHECK(check(relations), n);
     return SUNDER_OK;
 }
 
-/* Replaces the listed pairs between `things` where one changed by these, provided that they are all such pairs.
- * Rounding changes few features, by tiny amounts, at places far apart: their neighbours stay the same, and all other
- * pairs are left alone. */
+/* Replaces the listed pairs among `things` with a changed feature by the n given ones, provided that both are the same
+ * pairs. Returns false otherwise. This is the usual case after rounding, which changes few features, by tiny amounts,
+ * at places far apart: all other pairs are left as they are. */
 static bool replace(const sunder_i_changes *changes, const sunder_i_list *things, const sunder_i_relation *pair,
                     size_t n, sunder_i_relations *relations)
 {

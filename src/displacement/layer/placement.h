@@ -1,21 +1,24 @@
-/* How the features stand at one moment, exactly, and which pairs of them are near. */
+/* The positions of the features at one moment, exactly, and which pairs of them are near. */
 #ifndef SUNDER_I_PLACEMENT_H
 #define SUNDER_I_PLACEMENT_H
 
 #include "displacement/layer/changes.h"
 #include "displacement/layer/model.h"
 
-/* How the features stand at one moment. */
+/* The positions of the features at one moment. */
 typedef struct sunder_i_placement {
-    double *move;                /* [2 * things] zeros of those that stand as a shape of their own */
-    sunder_shape **rounded;      /* [things] owned shapes of features whose translate was rounded; else NULL */
-    const sunder_layer *given;   /* NULL, or features are the shapes that they have there, with no move */
-    sunder_i_seamless *seamless; /* [things] of both, where there are barriers without area; else NULL */
-    bool *was_rounded;           /* [things] at any time */
+    double *move;                /* [2 * things] the move of each; zeros if it has a shape of its own in `rounded` or
+                                  * `given` */
+    sunder_shape **rounded;      /* [things] the rounded translate of a feature whose translate is not exact, owned;
+                                  * else NULL */
+    const sunder_layer *given;   /* NULL, or: features have the shapes of this layer, with no move */
+    sunder_i_seamless *seamless; /* [things] the interior covers of these shapes, if there are barriers without area;
+                                  * else NULL */
+    bool *was_rounded;           /* [things] the feature was rounded at some time */
     sunder_i_rtree tree;
 } sunder_i_placement;
 
-/* A thing as it stands. */
+/* Returns a thing at its present position. */
 static inline sunder_i_translate sunder_i_standing(const sunder_i_model *model, const sunder_i_placement *placement,
                                                    uint32_t thing)
 {
@@ -30,35 +33,34 @@ static inline sunder_i_translate sunder_i_standing(const sunder_i_model *model, 
     return home;
 }
 
-/* The placement at the start, and after bodies moved: every feature that changed (sorted) is placed anew by
- * model->move. Failure leaves a placement that can be freed. */
+/* Sets up the placement at the original positions. */
 sunder_status sunder_i_placement_init(const sunder_i_model *model, sunder_i_placement *placement, sunder_error *err);
 sunder_status sunder_i_placement_move(sunder_i_model *model, sunder_i_placement *placement,
                                       const sunder_i_changes *changes, sunder_error *err);
-/* The same for one body. */
+/* Puts the members of one body at its present position in model->move. */
 sunder_status sunder_i_placement_move_body(sunder_i_model *model, sunder_i_placement *placement, uint32_t body,
                                            sunder_error *err);
 void sunder_i_placement_free(const sunder_i_model *model, sunder_i_placement *placement);
 
 /* ---- Near pairs -------------------------------------------------------------------------------------------------- */
 
-/* All pairs that are near, touch or are kept, as the features stand; exact. changes: NULL, or those alone (sorted) of
- * whose pairs it is asked. */
+/* Finds all pairs that are near, touch or are `kept` in the present positions; exact. changes: NULL, or only pairs with
+ * one of these features (sorted) are asked for. */
 sunder_status sunder_i_placement_relate(const sunder_i_model *model, const sunder_i_placement *placement,
                                         const sunder_i_changes *changes, sunder_i_relations *relations,
                                         sunder_error *err);
-/* Updates relations that are right except for these features (sorted), which have moved since. things: NULL, or every
- * thing that is or was near one of these, once each: then the rest is not looked at. On failure relations may lack
- * some. */
+/* Updates relations that are right except for pairs with a feature in `changes` (sorted). things: NULL, or all things
+ * that are or were near one of these, once each; then no other pairs are looked at. After a failure some relations may
+ * be missing. */
 sunder_status sunder_i_placement_relate_again(const sunder_i_model *model, const sunder_i_placement *placement,
                                               const sunder_i_changes *changes, const sunder_i_list *things,
                                               sunder_i_relations *relations, sunder_error *err);
-/* Appends what stands near a thing, itself among it. False if memory is out. */
+/* Appends the things near a thing, including itself. Returns false if memory is out. */
 bool sunder_i_placement_near(const sunder_i_model *model, const sunder_i_placement *placement, uint32_t thing,
                              sunder_i_list *near);
 
-/* Called for the relations of one body's members to those of others, as they stand, until *on is false; near:
- * scratch. */
+/* Calls `visit` for the relations of one body's members to members of other bodies, in the present positions, until *on
+ * is false. near: scratch. */
 typedef sunder_status (*sunder_i_visit_relation)(void *context, const sunder_i_relation *r, bool *on,
                                                  sunder_error *err);
 

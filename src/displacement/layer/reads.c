@@ -1,4 +1,4 @@
-/* See reads.h. Two threads may read for one body, each about another conflict of it. */
+/* See reads.h. Two threads may read on behalf of the same body, for two conflicts of it. */
 #include "displacement/layer/reads.h"
 
 #include <pthread.h>

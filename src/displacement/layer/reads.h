@@ -1,9 +1,9 @@
-/* Read sets: which places of the layer a result depends on, for layers in parts.
+/* Read sets: which places of the layer a result depends on, needed for layers that are processed in parts.
  *
- * Between begin and end, every query of the thread to a tree of things is recorded for a body, if the model records
- * reads: the place queried, and the bodies there, as a whole. This is state of the thread, since the code that asks is
- * ten calls above the code that looks. Within a question that is a layer of its own, whose model does not record,
- * recording continues for the outer one. */
+ * Between begin and end, each query of a tree of things by this thread is recorded for a body, if the model records
+ * reads: the box that was queried, and the bodies found there, as a whole. The state belongs to the thread, since the
+ * code that begins a question is ten calls above the code that queries. If a question is answered by means of a layer
+ * of its own, whose model does not record, its queries are recorded for the outer layer. */
 #ifndef SUNDER_I_READS_H
 #define SUNDER_I_READS_H
 
@@ -22,14 +22,15 @@ void sunder_i_reads_begin(sunder_i_reading *reading, const sunder_i_model *model
 void sunder_i_reads_end(sunder_i_reading *reading);
 void sunder_i_reads_note(const sunder_i_model *model, const double box[4], const sunder_i_list *hits, size_t before);
 
-/* The owner of the record for the features a and b, one of which may not move, or be a part of a barrier. */
+/* Returns the body for which reads on the pair of things a and b are recorded: that of a, unless a is fixed and b is a
+ * feature that is not. */
 static inline uint32_t sunder_i_reader_of(const sunder_i_model *model, size_t a, size_t b)
 {
     const uint32_t i = model->body_of[a];
     return model->body[i].fixed && b < model->features && !model->body[model->body_of[b]].fixed ? model->body_of[b] : i;
 }
 
-/* sunder_i_rtree_query() of a tree of the model's things, noted. */
+/* Calls sunder_i_rtree_query() for a tree of the model's things, and records the read. */
 static inline bool sunder_i_look_about(const sunder_i_model *model, const sunder_i_rtree *tree, const double box[4],
                                        sunder_i_list *hits)
 {
@@ -39,7 +40,7 @@ static inline bool sunder_i_look_about(const sunder_i_model *model, const sunder
     return ok;
 }
 
-/* The bodies that the things in a list are of, in order of number. */
+/* Replaces the things in a list by their bodies, ascending and without duplicates. */
 static inline void sunder_i_things_to_bodies(const sunder_i_model *model, sunder_i_list *list)
 {
     for (size_t k = 0; k < list->n; k++) list->item[k] = model->body_of[list->item[k]];

@@ -1,15 +1,15 @@
-/* What two features are to each other. Every answer is exact.
+/* The relation of two features, exactly.
  *
  *   near       their interiors meet, or their distance is less than the gap
  *   touch      their interiors are disjoint and their distance, as the nearest double, is at most the tolerance; or
- *              their interiors meet in no more than the tolerance (thin_overlap.c)
+ *              their interiors meet, but the overlap is at most the tolerance (thin_overlap.c)
  *   contained  their interiors meet, and P lies in Q; or, with a tolerance, P lies in Q + D, where D is a polygon of
- *              16 corners in the disc whose radius is the tolerance (a point of P may then stand outside Q by the
- *              tolerance at most, and by 0.93 of it in any direction), and the corners of Q + D are taken as the
+ *              16 corners in the disc whose radius is the tolerance (a point of P may then lie outside Q by the
+ *              tolerance at most, and by 0.93 of it in any direction), and the corners of Q + D are rounded to the
  *              nearest doubles
  *   duplicate  each lies in the other, with no tolerance
  *
- * Distance 0 with disjoint interiors is a touch at tolerance 0: the nearest double of a positive distance is
+ * Disjoint interiors at distance 0 touch even with the tolerance 0: the nearest double of a positive distance is
  * positive. */
 #include "displacement/layer/resolution.h"
 
@@ -19,8 +19,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Cheap and one-sided: false only if P's box surely leaves Q's by more than reach somewhere. 8 units in the last place
- * cover the four roundings on each side. */
+/* A cheap test: returns false only if P's box certainly exceeds Q's box by more than `reach` in some direction. 8 units
+ * in the last place cover the four roundings on each side. */
 static bool box_may_lie_in(const sunder_i_translate *p, const sunder_i_translate *q, double reach)
 {
     double a[4], b[4];
@@ -35,7 +35,7 @@ static bool box_may_lie_in(const sunder_i_translate *p, const sunder_i_translate
     return true;
 }
 
-/* Does P lie in Q up to the tolerance? exact_in: it does with none. */
+/* Sets *in if P lies in Q up to the tolerance, and *exact_in if it does so with no tolerance. */
 static sunder_status lies_in(const sunder_i_translate *p, const sunder_i_translate *q, double tolerance, bool *exact_in,
                              bool *in, sunder_error *err)
 {
@@ -68,7 +68,7 @@ static sunder_status relate_overlapping(const sunder_i_rules *rules, const sunde
     return sunder_i_overlap_is_thin(a, b, rules->tolerance, rules->disc, &r->touch, err);
 }
 
-/* The distance of two disjoint sets that may stand translated. */
+/* Sets *distance to the distance of two disjoint sets, each of which may be translated. */
 static sunder_status distance_between(const sunder_i_translate *a, const sunder_i_translate *b, double *distance,
                                       sunder_error *err)
 {
@@ -96,7 +96,7 @@ sunder_status sunder_i_relate(const sunder_i_rules *rules, const sunder_i_transl
     if (m.overlap) return relate_overlapping(rules, a, b, relation, err);
     relation->near = !m.apart;
     relation->touch = m.touch;
-    /* The tolerance is less than the gap, unless that is 0. */
+    /* The tolerance is less than the gap, or the gap is 0. */
     if (m.touch || !m.may_touch || (m.apart && rules->gap > 0)) return SUNDER_OK;
     double distance;
     status = distance_between(a, b, &distance, err);

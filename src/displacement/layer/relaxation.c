@@ -1,17 +1,17 @@
-/* Pairs that are left in conflict, and what is demanded of them instead of the gap: to stand no worse than at the
- * start.
+/* Relaxations: pairs that are left in conflict, and the weaker demand on them in place of the gap, to be no worse than
+ * at the start.
  *
  * The search knows one kind of demand, a distance from a convex obstacle, and a relaxation is expressed in it:
  *
  *   disjoint at the start   the pair keeps its distance, which is less than the gap
- *   overlapping             with v the least translation of b that separates them: b + v stays off a. Then v, or less,
- *                           still separates them, so they overlap no deeper than before.
+ *   overlapping             let v be the least translation of b that separates them: b + v must not meet a. Then v, or
+ *                           a shorter one, still separates them, so they overlap no deeper than before
  *   one inside the other    where that is allowed: it stays inside
  *
  * At the start every relaxation holds, so leaving everything in place is always feasible. (The second demands more than
- * necessary: another translation of the same length might separate them. The exact check, uphold.c, demands only what
- * is necessary. A solution found under the exact rule may separate the pair in another direction: then the pair is held
- * to the direction that it has there, and bodies that are sent back are relaxed anew, as all stood there.) */
+ * necessary: another translation of the same length might separate the two. The exact check, uphold.c, demands only
+ * what is necessary. A solution found under the exact rule may separate the pair in another direction. Then the pair
+ * keeps that direction, and bodies that are sent back to their original positions get new relaxations from these.) */
 #include "displacement/layer/barrier_pairs.h"
 #include "displacement/layer/model.h"
 #include "displacement/layer/resolution.h"
@@ -25,11 +25,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Below this number of relaxed bodies a linear search is as fast; and the bits of the filter for each. */
+/* With fewer relaxed pairs of bodies than MARKED_FROM no filter is used, as a search in the list is as fast. The filter
+ * has BITS_EACH bits for each pair. */
 #define MARKED_FROM 16
 #define BITS_EACH 16
 
-/* A way out of an overlap is shorter than the one it takes the place of by this share, far above rounding. */
+/* A new separating translation is made shorter than the one that it replaces by this relative amount, far above
+ * rounding errors. */
 #define HAIR 0x1p-40
 
 void sunder_i_relaxations_free(sunder_i_relaxations *relaxations)
@@ -46,9 +48,9 @@ const sunder_i_relaxation *sunder_i_relaxations_find(const sunder_i_relaxations 
     return relaxations->n ? bsearch(&key, relaxations->item, relaxations->n, sizeof key, sunder_i_by_id_pair) : NULL;
 }
 
-/* ---- Marks: most that are asked for are not there ---------------------------------------------------------------- */
+/* ---- A filter: most pairs that are looked up are not in the list ------------------------------------------------- */
 
-/* The word, and the bit in it, of bodies i < j. */
+/* Returns the word of the filter for bodies i < j, and sets *bit to the bit in it. */
 static uint64_t *mark_of(const sunder_i_relaxations *relaxations, uint32_t i, uint32_t j, uint64_t *bit)
 {
     const uint64_t mixed = ((uint64_t)i << 32 | j) * SUNDER_I_MIXER;
@@ -62,7 +64,7 @@ static void mark(sunder_i_relaxations *relaxations, const sunder_i_relaxed_bodie
     if (relaxations->marks) *mark_of(relaxations, relaxed->i, relaxed->j, &bit) |= bit;
 }
 
-/* False if memory is out. */
+/* Builds the filter from the list of relaxed pairs of bodies. Returns false if memory is out. */
 static bool mark_all(sunder_i_relaxations *relaxations)
 {
     size_t words = 1;
@@ -109,7 +111,7 @@ static sunder_i_relaxed_bodies relaxed_bodies_of(const sunder_i_model *model, co
     return (sunder_i_relaxed_bodies){i < j ? i : j, i < j ? j : i, t->inside ? 0 : hypot(t->shift[0], t->shift[1]), 1};
 }
 
-/* One more between its bodies. */
+/* Adds one relaxation to the entry of its two bodies. */
 static void join_relaxed(sunder_i_relaxed_bodies *between, const sunder_i_relaxed_bodies *more)
 {
     between->reach = sunder_i_max(between->reach, more->reach);
@@ -117,8 +119,9 @@ static void join_relaxed(sunder_i_relaxed_bodies *between, const sunder_i_relaxe
 }
 
 #ifndef NDEBUG
-/* Checks that each pair has its lesser number first, that pairs are sorted, and that each is counted between its two
- * bodies, which are sorted, too. (A pair may occur twice, alike, if it was asked about by itself and with others.) */
+/* Checks that each pair has its lesser number first, that pairs are sorted, and that each is counted in the entry of
+ * its two bodies; these are sorted, too. (A pair may occur twice, with equal values, if it was relaxed once by itself
+ * and once with others.) */
 static const char *check(const sunder_i_relaxations *list, const sunder_i_model *model)
 {
     size_t n = 0;
@@ -194,14 +197,14 @@ void sunder_i_relaxations_remove(sunder_i_relaxations *relaxations, const sunder
     const size_t of = sunder_i_lower_bound(&relaxed, relaxations->relaxed, relaxations->relaxed_n, sizeof relaxed,
                                            sunder_i_by_id_pair);
     memmove(relaxations->item + at, relaxations->item + at + 1, (--relaxations->n - at) * sizeof *relaxation);
-    /* What remains between the bodies may reach less far than is said then. */
+    /* The shifts that remain may be shorter than `reach`, which is an upper bound. */
     if (--relaxations->relaxed[of].n == 0)
         memmove(relaxations->relaxed + of, relaxations->relaxed + of + 1,
                 (--relaxations->relaxed_n - of) * sizeof relaxed);
     SUNDER_I_CHECK(check(relaxations, model), relaxations->n);
 }
 
-/* ---- Those that were restored ------------------------------------------------------------------------------------ */
+/* ---- Restored pairs: their relaxation has ended ------------------------------------------------------------------ */
 
 int sunder_i_by_restored(const void *a, const void *b)
 {
@@ -243,9 +246,10 @@ bool sunder_i_is_open_conflict(const sunder_i_model *model, const sunder_i_relat
     return sunder_i_is_conflict_of_bodies(model, r) && !sunder_i_relaxations_find(&model->relaxations, r->a, r->b);
 }
 
-/* ---- What is demanded -------------------------------------------------------------------------------------------- */
+/* ---- The demand -------------------------------------------------------------------------------------------------- */
 
-/* A feature and a part of a barrier: what is demanded is of the whole barrier, as it is what may not stand worse. */
+/* Makes the relaxation of a feature and a part of a barrier. It is about the whole barrier, since the rule that nothing
+ * gets worse is. */
 static sunder_status relaxation_of_barrier(const sunder_i_model *model, sunder_i_relaxation *out, sunder_error *err)
 {
     const sunder_i_translate home = sunder_i_at_home(model, out->a);
@@ -287,7 +291,8 @@ sunder_status sunder_i_relaxation_of(const sunder_i_model *model, uint32_t f, ui
     return SUNDER_OK;
 }
 
-/* The least translation of b that parts the two, moved by ta and tb, if it is no longer than `upper`. */
+/* Sets `way` to the least translation of b that separates the two, moved by ta and tb, if it is no longer than `upper`;
+ * otherwise sets *beyond. */
 static sunder_status way_out(const sunder_i_model *model, const sunder_i_relaxation *t, const double ta[2],
                              const double tb[2], double upper, double way[2], bool *beyond, sunder_error *err)
 {
@@ -306,7 +311,7 @@ static sunder_status way_out(const sunder_i_model *model, const sunder_i_relaxat
     return SUNDER_OK;
 }
 
-/* It is as long as the former one, or slightly shorter: a pair may be as deep as before. */
+/* The new shift gets the length of the old one less a tiny share, since the pair may be as deep as before. */
 sunder_status sunder_i_relaxation_turn(const sunder_i_model *model, const double ta[2], const double tb[2],
                                        sunder_i_relaxation *relaxation, bool *fits, sunder_error *err)
 {

@@ -1,8 +1,8 @@
-/* How a pair stood at the start, as the least that it may be held to.
+/* Computes how a pair stood at the start, as a bound that proofs may hold it to.
  *
- * A distance is known as a nearby double, which may be too large: so lengths just below it are tested exactly. The
- * length of a least translation is the nearest double: one step up is not less. A feature inside another may go deeper,
- * so a depth would demand more than the rule does (solve/clusters/uphold.c). */
+ * A distance is known as a nearby double, which may be too large, so lengths just below it are tested exactly. The
+ * length of a least translation is the nearest double, so the next double is an upper bound. The rule lets a feature
+ * inside another go deeper, so nothing is demanded of such a pair (solve/clusters/uphold.c). */
 #include "displacement/layer/requirement.h"
 #include "displacement/layer/barrier_pairs.h"
 
@@ -12,12 +12,13 @@
 
 #include <math.h>
 
-/* A length below a distance is taken 2^-51 of it below, and 2^8 times as far at each failure, down to 2^-10. */
+/* The length tested first is smaller than the distance by a share of 2^-FIRST_BITS. If the test fails the share is
+ * multiplied by 2^BITS_A_STEP, while it is less than 2^-LAST_BITS. */
 #define FIRST_BITS 51
 #define BITS_A_STEP 8
 #define LAST_BITS 10
 
-/* Are the two, which stand disjoint, at least that far apart? */
+/* Sets *apart if the distance of the disjoint things a and b is at least `length`. */
 static sunder_status are_apart(const sunder_i_model *model, uint32_t a, uint32_t b, double length, bool *apart,
                                sunder_error *err)
 {
@@ -29,7 +30,8 @@ static sunder_status are_apart(const sunder_i_model *model, uint32_t a, uint32_t
     return sunder_i_barrier_apart(model, &home, b, length, apart, err);
 }
 
-/* A length just below the distance, which is near to that, and no more than is owed. */
+/* Sets out->clearance to a length just below the pair's distance, which is about `near`, but at most the distance that
+ * the pair owes. Sets it to 0 if no such length is found. */
 static sunder_status below_distance(const sunder_i_model *model, double near, sunder_i_requirement *out,
                                     sunder_error *err)
 {

@@ -1,10 +1,9 @@
-/* Which relative moves resolve the pair.
+/* Finds which relative moves resolve a pair.
  *
- * The moves of Q that take it off P are the complement of an open set, and the least of them is known from the
- * separation of two shapes. The moves that take Q into P are the erosion { x : Q + x in P }, exact too; up to the
- * tolerance, into P + D (grown_shape.c). What resolves the pair is in the union of the three sets (Q off P, Q in P, P
- * in Q), so the least length is the least of theirs. Boxes tell beforehand where an erosion is empty or too far
- * away. */
+ * The moves of Q that take it off P are the complement of an open set; the least of them is found by the separation of
+ * two shapes. The moves that take Q into P are the erosion { x : Q + x in P }, also exact; with a tolerance, into P + D
+ * (grown_shape.c). The pair is resolved by the union of three sets of moves (Q off P, Q into P, P into Q), so the least
+ * length is the least of the three. Boxes tell beforehand where an erosion is empty or too far away. */
 #include "displacement/layer/resolution.h"
 
 #include "separation/separation.h"
@@ -13,10 +12,10 @@
 
 #include <math.h>
 
-/* ---- By boxes ---------------------------------------------------------------------------------------------------- */
+/* ---- Bounds from boxes ------------------------------------------------------------------------------------------- */
 
-/* No move shorter than this takes a set with the box `inner` into one with the box `outer`; INFINITY: none does. The
- * slack covers the rounding of a tolerance's corners, of boxes and of what is computed here. */
+/* Returns a length such that no shorter move takes a set with the box `inner` into one with the box `outer`; INFINITY
+ * if no move does. The slack covers the rounding of the corners of Q + D, of boxes and of this computation. */
 static double least_by_boxes(const double inner[4], const double outer[4], double tolerance)
 {
     double shift[2];
@@ -36,19 +35,22 @@ bool sunder_i_may_get_inside(const sunder_i_rules *rules, const double a[4], con
            (least_by_boxes(a, b, rules->tolerance) <= reach || least_by_boxes(b, a, rules->tolerance) <= reach);
 }
 
-/* ---- By erosion -------------------------------------------------------------------------------------------------- */
+/* ---- Erosion ----------------------------------------------------------------------------------------------------- */
 
-/* The place of an erosion that is nearest to the origin, so far. */
+/* The point of an erosion nearest to the origin among those examined. */
 typedef struct nearest {
-    double least;    /* proved: no place is nearer */
-    double distance; /* of `place` */
+    double least;    /* proved: no point of the erosion is nearer */
+    double distance; /* the distance of `place` */
     double place[2];
 } nearest;
 
-/* The foot p + s e of the perpendicular from the origin, e = q - p, s cut to 0 .. 1. With u = 2^-53 and ends of no more
- * than M each way: the ends are off by u M (they are nearest doubles). E is a rounded difference, off by u |e|, so s
- * |e| is off by 6 u M at most, and the place by 3 u M more. Together less than 16 u M; the distance is off by no more,
- * as a wrong foot can only be farther. */
+/* Updates *n by the point of the segment pq nearest to the origin.
+ *
+ * This is the foot p + s e of the perpendicular, e = q - p, with s clamped to 0 .. 1. Let u = 2^-53, and let no
+ * coordinate of the ends exceed M in magnitude. Each coordinate of the ends has an error of at most u M (nearest
+ * doubles). e is a rounded difference, with a relative error of u, so s |e| has an error of at most 6 u M, and the foot
+ * of 3 u M more. Together this is less than 16 u M. The error of the distance is no larger, as a wrong foot can only be
+ * farther away. */
 static void take_segment(nearest *n, const double p[2], const double q[2])
 {
     const double e[2] = {q[0] - p[0], q[1] - p[1]}, square = e[0] * e[0] + e[1] * e[1];
@@ -71,8 +73,8 @@ static void take_vertices(nearest *n, const sunder_sum *sum, uint32_t from, uint
     take_segment(n, p, q);
 }
 
-/* Is the origin in it? By the sides that a ray upward crosses; on a side, and by a hair beside it, that may err, but
- * there the nearest side says as much. */
+/* Does the sum contain the origin? Counts the sides that an upward ray crosses. The answer may be wrong if the origin
+ * is on a side or very near to one, but there the distance to that side gives the same bound. */
 static bool holds_origin(const sunder_sum *sum, size_t polygons)
 {
     bool in = false;
@@ -108,8 +110,8 @@ static void take_sum(nearest *n, const sunder_sum *sum)
         take_vertices(n, sum, sunder_sum_point(sum, k), sunder_sum_point(sum, k));
 }
 
-/* Moves of `inner` into `outer`, without and with the tolerance: as doubles round the corners of what is grown by it,
- * the one set need not hold the other. */
+/* Finds the least move that takes `inner` into `outer`, both without and with the tolerance. Both are needed: the
+ * corners of the grown shape are rounded to doubles, so it need not contain the other. */
 static sunder_status least_inside(const sunder_shape *inner, const sunder_shape *outer, double tolerance, nearest *n,
                                   sunder_error *err)
 {
@@ -128,7 +130,7 @@ static sunder_status least_inside(const sunder_shape *inner, const sunder_shape 
     return status;
 }
 
-/* ---- Any way ----------------------------------------------------------------------------------------------------- */
+/* ---- All three sets ---------------------------------------------------------------------------------------------- */
 
 sunder_status sunder_i_resolve(const sunder_i_rules *rules, const sunder_shape *a, const sunder_shape *b, double upper,
                                sunder_i_resolution *out, sunder_error *err)
@@ -157,7 +159,7 @@ sunder_status sunder_i_resolve(const sunder_i_rules *rules, const sunder_shape *
         nearest_place = n.distance;
         out->inside = true;
         out->a_inside = k == 0;
-        /* Moves of b: where a goes into b, b comes the other way. */
+        /* `place` is a move of b: if a moves into b, b moves the opposite way. */
         for (int c = 0; c < 2; c++) out->place[c] = k ? n.place[c] : -n.place[c];
     }
     return status;

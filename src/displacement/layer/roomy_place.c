@@ -1,6 +1,6 @@
-/* Proposes, in doubles, a place with room in the intersection of two features: squares are visited best first, by the
- * distance of their centres from the sides of both, and quartered while there may be more room in them. The caller
- * checks the proposal; if there is none, nothing follows. */
+/* Proposes, in doubles, a point with much room around it in the intersection of two features. Squares are examined in
+ * the order of the greatest possible distance of a point in them from the sides of both features, and quartered while
+ * they may contain a point with more room. The caller verifies the proposal; if there is none, nothing follows. */
 #include "displacement/layer/relate.h"
 
 #include "base/extremes.h"
@@ -10,14 +10,15 @@
 
 #include <math.h>
 
-/* Squares that are looked at, at most: most overlaps are simple, and the first few do. */
+/* The greatest number of squares that are examined. Most overlaps are simple, and the first few squares suffice. */
 enum { MOST_SQUARES = 96 };
 
 typedef struct square {
-    double middle[2], half, room; /* room of the middle: not inside both if negative */
+    double middle[2], half, room; /* room: the distance of the middle from the nearest side; negative if the middle is
+                                   * not inside both features */
 } square;
 
-/* Sides of one of the two, from a to b, with the interior on the left. */
+/* A side of feature `which` (0 or 1), from a to b, with the interior on its left. */
 typedef struct overlap_side {
     double a[2], b[2];
     int which;
@@ -26,7 +27,7 @@ typedef struct overlap_side {
 typedef struct overlap_sides {
     overlap_side *side;
     size_t n;
-    double box[4]; /* what the boxes of the two have in common */
+    double box[4]; /* the intersection of the boxes of the two features */
 } overlap_sides;
 
 static bool has_more(const void *a, const void *b)
@@ -43,7 +44,8 @@ static double distance_to(const overlap_side *s, const double at[2])
     return hypot(d[0] - k * e[0], d[1] - k * e[1]);
 }
 
-/* Winding by the sides that a ray to the right crosses: members may overlap. */
+/* Returns the room at a point. Whether a feature contains the point is found from its winding number, as members may
+ * overlap: the sides are counted that a ray to the right crosses. */
 static double room_at(const overlap_sides *sides, const double at[2])
 {
     int winding[2] = {0, 0};
@@ -59,7 +61,8 @@ static double room_at(const overlap_sides *sides, const double at[2])
     return winding[0] > 0 && winding[1] > 0 ? nearest : -nearest;
 }
 
-/* The sides that a square in the common box can be near, or a ray from there can cross. */
+/* Collects the sides of both features that may be nearest to a square in the common box, or may be crossed by a ray
+ * from it. Returns false if memory is out. */
 static bool collect(const sunder_i_translate *const of[2], overlap_sides *out)
 {
     double box[2][4];
@@ -89,7 +92,8 @@ static bool collect(const sunder_i_translate *const of[2], overlap_sides *out)
     return out->side != NULL;
 }
 
-/* A square that may have the room is kept; true if its middle has. */
+/* Pushes a square onto the heap if it may contain a point with the room `radius`. Returns true if its middle has that
+ * room. */
 static bool look_at(const overlap_sides *sides, square *heap, size_t *n, square s, double radius)
 {
     s.room = room_at(sides, s.middle);
@@ -103,7 +107,7 @@ static bool search(const overlap_sides *sides, double radius, double place[2])
     size_t n = 0, looked = 0;
     const double *box = sides->box, size[2] = {box[2] - box[0], box[3] - box[1]};
     if (!(sunder_i_min(size[0], size[1]) >= 2 * radius) || !isfinite(size[0] + size[1])) return false;
-    /* A row of squares as wide as the narrower way; of a very long row, larger ones. */
+    /* The first squares form a row along the box, as wide as its shorter side; for a very long box they are larger. */
     const double half = sunder_i_max(sunder_i_min(size[0], size[1]), sunder_i_max(size[0], size[1]) / 16) / 2;
     const int along = size[0] < size[1], row = (int)ceil(size[along] / (2 * half));
     for (int i = 0; i < row; i++) {

@@ -1,12 +1,12 @@
-/* Moves that doubles can hold.
+/* Moves for which the moved coordinates are doubles.
  *
- * x + t is a double, exactly, when it is a multiple of the unit in the last place of its binade. x is a multiple of its
- * own unit, so if x + t lies in no higher a binade than x and t is a multiple of x's unit, the sum is exact. For a body
- * t must do so for every coordinate of every member: a multiple of the coarsest unit among them, old places and new.
- * That fails only where a coordinate climbs into a higher binade and has bits below the unit there: then no move of
- * about that length is exact, and the feature is written rounded.
+ * x + t is a double, exactly, if it is a multiple of the unit in the last place of its binade. x is a multiple of its
+ * own unit. So if x + t lies in no higher a binade than x, and t is a multiple of x's unit, the sum is exact. For a
+ * body this has to hold for every coordinate of every member: t must be a multiple of the coarsest unit among them, at
+ * the old and the new position. This fails only if a coordinate enters a higher binade and has bits below the unit
+ * there. Then no move of about that length is exact, and the feature is written rounded.
  *
- * Coordinates are those given (raw), since these are written, repeated and collinear vertices too. */
+ * The coordinates are those of the raw input, with repeated and collinear vertices, since these are written. */
 #include "displacement/layer/rounding.h"
 
 #include "base/extremes.h"
@@ -16,11 +16,12 @@
 #include <float.h>
 #include <math.h>
 
-/* A move that is longer is none. Its squared length times the greatest weight, summed over all bodies that there can
- * be, is a double: so no cost is beyond all doubles. */
+/* The greatest length of a move; a longer one is replaced by no move. The square of this length times the greatest
+ * weight, summed over the greatest number of bodies, is finite, so the cost always is. */
 #define LONGEST_MOVE 0x1p200
 
-/* Exponent of the unit in the last place of v: |v| = m * 2^e with 2^52 <= m < 2^53, or the least for tiny ones. */
+/* Returns the exponent of the unit in the last place of v: |v| = m * 2^e with 2^52 <= m < 2^53, or the least exponent
+ * for subnormal v. */
 static int unit_exponent(double v)
 {
     if (fabs(v) < DBL_MIN) return DBL_MIN_EXP - DBL_MANT_DIG;
@@ -43,7 +44,7 @@ static size_t raw_vertices(const sunder_shape *shape)
     return rings ? shape->form->given.ring_end[rings - 1] : 0;
 }
 
-/* The coarsest unit of one coordinate (0 or 1) of the body's corners, where they are and after t. */
+/* Returns the exponent of the coarsest unit of coordinate c of the body's corners, before and after the move t. */
 static int coarsest(const sunder_i_model *model, const sunder_i_body *body, size_t c, double t)
 {
     double largest = fabs(t);
@@ -82,13 +83,14 @@ bool sunder_i_round_move(const sunder_i_model *model, uint32_t b, const double m
 {
     const sunder_i_body *body = &model->body[b];
     double u[2];
-    /* What a program made of nothing is no move: home. */
+    /* A longer "move" comes from a quadratic program without a meaningful solution: the body stays at its original
+     * position. */
     const bool is_move = fabs(move[0]) <= LONGEST_MOVE && fabs(move[1]) <= LONGEST_MOVE;
     for (size_t c = 0; c < 2; c++) {
         u[c] = 0;
         out[c] = 0;
         if (move[c] == 0 || !is_move) continue;
-        /* Rounding may carry a coordinate into the next binade: then once more with the unit there. */
+        /* Rounding may carry a coordinate into the next binade. Then it is repeated with the unit there. */
         for (int again = 0; again < 2; again++) {
             u[c] = ldexp(1, coarsest(model, body, c, again ? out[c] : move[c]));
             out[c] = u[c] * rint(move[c] / u[c]);
@@ -101,7 +103,7 @@ bool sunder_i_round_move(const sunder_i_model *model, uint32_t b, const double m
             if (move[c] == 0 || !is_move) continue;
             out[c] = u[c] * trunc(move[c] / u[c]);
         }
-    /* A move that still is too long came in too long; shrink it towards zero by whole units. */
+    /* If the move is still too long, it was too long before rounding: it is shortened by whole units. */
     for (int k = 0; k < 64 && !sunder_i_is_within_limit(out, body->limit); k++) {
         const double length = hypot(out[0], out[1]), shrink = body->limit / length * (1 - ldexp(1, k - 52));
         for (size_t c = 0; c < 2; c++)

@@ -1,4 +1,4 @@
-/* The options of a layer: their defaults, what they may be, and the rules that they make. */
+/* The options of a layer: their defaults, their ranges, and the rules made from them. */
 #include "displacement/layer/layer.h"
 
 #include "base/error.h"
@@ -8,7 +8,7 @@
 #include <math.h>
 #include <unistd.h>
 
-/* More threads would wait for each other: no layer has that many clusters of significant size. */
+/* The greatest number of threads. More would only wait, as no layer has that many clusters of significant size. */
 #define MOST_THREADS 256
 
 void sunder_layer_options_init_sized(sunder_layer_options *options, size_t size)
@@ -48,7 +48,7 @@ sunder_status sunder_i_rules_of(const sunder_layer_options *options, sunder_i_ru
                              options->barrier_reach);
     rules->gap = options->gap;
     rules->tolerance = tolerance;
-    rules->disc = NULL; /* until there is a model */
+    rules->disc = NULL; /* set when the model is made */
     rules->touch_joins = !options->no_blocks && !options->no_touch;
     rules->containment_joins = !options->no_blocks && options->contained == SUNDER_CONTAINMENT_BLOCK;
     rules->thin = rules->touch_joins && !(tolerance > 0) ? options->thin : 0;

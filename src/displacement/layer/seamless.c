@@ -1,16 +1,17 @@
-/* A set whose pieces leave nothing out.
+/* The interior cover of a set: convex pieces whose interiors cover its whole interior.
  *
  * The interiors of the convex pieces of a shape leave out the diagonals between them, and walls that members share.
- * Against a set with area this does not matter, since it also meets the neighbourhood of a diagonal. But a segment or a
- * point could lie along a diagonal and meet no piece (motion/diagonals.h, which finds diagonals, and handles lattices
- * that can be made finer). Here members are united first, and each diagonal uv gets a convex quadrilateral u - q - v -
- * p, of doubles: p is a corner w of the piece on its right, or a double near the middle m of uv on the way to w, and q
- * likewise on its left. That p and q lie in the triangles that the diagonal makes with these corners, and that the
- * quadrilateral is strictly convex, is decided exactly; so its interior lies in the set's, and holds the diagonal
- * except its ends.
+ * Against a set with area this does not matter, since such a set also meets the neighbourhood of a diagonal. But a
+ * segment or a point could lie along a diagonal and meet no piece (motion/diagonals.h, which finds diagonals, and
+ * handles lattices that can be made finer). Here members are united first, and each diagonal uv gets a convex
+ * quadrilateral u - q - v - p with corners in doubles. p is a corner w of the piece on the right of uv, or a double
+ * between w and the middle m of uv; q is such a point on the left. It is decided exactly that p and q lie in the
+ * triangles that the diagonal makes with these corners, and that the quadrilateral is strictly convex. So its interior
+ * lies in that of the set, and contains the diagonal except for its ends.
  *
- * Where no doubles qualify, in triangles thinner than the unit in the last place, and at corners that are not doubles
- * (of sets that crossed themselves), a diagonal is left uncovered: it hides a segment that lies entirely along it. */
+ * A diagonal is left uncovered if no doubles qualify: in triangles thinner than the unit in the last place, and at
+ * corners that are not doubles (of sets that crossed themselves). A segment that lies entirely along such a diagonal
+ * meets no piece. */
 #include "displacement/layer/seamless.h"
 
 #include "base/error.h"
@@ -22,10 +23,10 @@
 #include <math.h>
 #include <string.h>
 
-/* From the corner half way to the middle, and half again, this many times: the last is the middle itself, up to
- * rounding. */
+/* The candidates for p and q divide the way from the middle m to the corner w by powers of two, down to this one; the
+ * last is m itself, up to rounding. */
 #define HALVINGS 60
-/* What a quadrilateral counts for, in steps. */
+/* The number of steps (base/watch.h) that one quadrilateral counts as. */
 #define SEAM_STEPS 64
 
 void sunder_i_seamless_free(sunder_i_seamless *seamless)
@@ -41,7 +42,7 @@ static sunder_point point_of(const double *xy, uint32_t v)
     return (sunder_point){xy[2 * (size_t)v], xy[2 * (size_t)v + 1]};
 }
 
-/* Near the middle of uv on the way to w, the nearer the greater j is; for j = 0 it is w. */
+/* Returns the point m + (w - m) 2^-j, rounded, where m is the middle of uv; for j = 0 it is w. */
 static sunder_point towards(sunder_point u, sunder_point v, sunder_point w, int j)
 {
     if (j == 0) return w;
@@ -50,22 +51,23 @@ static sunder_point towards(sunder_point u, sunder_point v, sunder_point w, int 
     return (sunder_point){m.x + (w.x - m.x) * part, m.y + (w.y - m.y) * part};
 }
 
-/* Does p, which is towards(u, v, w, j), lie in the triangle u, v, w, which is on the left of uv, and not on uv? */
+/* Does p = towards(u, v, w, j) lie in the triangle u, v, w, which is on the left of uv, and not on uv? */
 static bool is_within(sunder_point u, sunder_point v, sunder_point w, sunder_point p, int j)
 {
     if (!(sunder_orient(&u, &v, &p) > 0)) return false;
     return j == 0 || (sunder_orient(&v, &w, &p) >= 0 && sunder_orient(&w, &u, &p) >= 0);
 }
 
-/* The quadrilateral u - q - v - p about the diagonal, counter-clockwise; false if no doubles make one. corner: as of
- * sunder_i_diagonals, u, a corner on the right of uv, v, one on its left. */
+/* Finds the quadrilateral u - q - v - p around a diagonal, counter-clockwise. corner: the numbers of u, a corner on the
+ * right of uv, v, and a corner on the left of uv, as in sunder_i_diagonals. Returns false if no doubles make one. */
 static bool find_quadrilateral(const double *xy, const uint32_t corner[4], double out[8])
 {
     const sunder_point u = point_of(xy, corner[0]), v = point_of(xy, corner[2]);
     const sunder_point right = point_of(xy, corner[1]), left = point_of(xy, corner[3]);
     for (int sum = 0; sum <= 2 * HALVINGS; sum++)
         for (int j = sum > HALVINGS ? sum - HALVINGS : 0; j <= sum && j <= HALVINGS; j++) {
-            if (sum > 4 && j != sum / 2 && j != 0 && j != sum) continue; /* both alike, or one a corner */
+            /* beyond the first few, only equal halvings on both sides are tried, and those with a corner itself */
+            if (sum > 4 && j != sum / 2 && j != 0 && j != sum) continue;
             const sunder_point q = towards(u, v, right, j), p = towards(u, v, left, sum - j);
             if (!is_within(v, u, right, q, j) || !is_within(u, v, left, p, sum - j)) continue;
             if (sunder_orient(&p, &u, &q) <= 0 || sunder_orient(&q, &v, &p) <= 0) continue;
@@ -113,7 +115,7 @@ void sunder_i_seam_again(const sunder_shape *shape, const uint32_t diagonal[4], 
     find_quadrilateral(shape->xy, diagonal, corner);
 }
 
-/* The pieces of the shape, and the quadrilaterals. */
+/* Makes out->shape of the pieces of the shape and the quadrilaterals around its diagonals. */
 static sunder_status assemble(const sunder_shape *shape, const sunder_i_diagonals *diagonals, sunder_i_seamless *out,
                               sunder_error *err)
 {

@@ -1,12 +1,12 @@
-/* Pieces that cover the diagonals between a feature's convex pieces.
+/* Convex pieces that cover the diagonals between the convex pieces of a feature.
  *
- * A barrier's segment or point, which features may touch but not meet, has no width: on a diagonal it would lie between
- * the pieces, and meet neither. The same holds for an anchor, which is a point, too:
+ * A barrier's segment or point has no width. Features may touch it but their interiors may not meet it; along a
+ * diagonal it would lie between two pieces and meet neither.
  *
- * An anchor that moves straight along a diagonal, or through a corner where two pieces end, runs between the shadows of
- * the pieces (geometry/obstacle_shadow.h), on the boundary of both, although the feature blocks it. So proofs, which
- * test pieces one by one and may pass on the boundary of each, get one more piece around each diagonal: a convex
- * quadrilateral that lies in the feature (seamless.c). */
+ * The same holds for an anchor, which is a point. An anchor that moves straight along a diagonal, or through a corner
+ * where two pieces end, passes between the shadows of the pieces (geometry/obstacle_shadow.h), on the boundary of both,
+ * although the feature blocks it. So proofs, which test pieces one by one and may pass on the boundary of each, get one
+ * more piece around each diagonal: a convex quadrilateral that lies in the feature (seamless.c). */
 #include "displacement/layer/far_corners.h"
 
 #include "spatial/box.h"
@@ -18,7 +18,7 @@ typedef struct gathering {
     size_t capacity, of_diagonals, of_corners;
 } gathering;
 
-/* The seam's corners from its body's origin, and their box. */
+/* Appends the cover of a diagonal of feature f, with its corners relative to the body's origin. */
 static void put(sunder_i_model *model, uint32_t f, const sunder_i_seam *seam)
 {
     sunder_i_body_piece *piece = &model->seam[model->seams];
@@ -46,7 +46,7 @@ static bool add_seams(gathering *g, uint32_t f)
     return ok;
 }
 
-/* No more memory than all seams take; large layers have many. */
+/* Shrinks an array to n elements, since large layers have many covers. Returns false if memory is out. */
 static bool fit(void *array, size_t n, size_t size)
 {
     void *had, *fits;
@@ -57,7 +57,7 @@ static bool fit(void *array, size_t n, size_t size)
     return fits != NULL;
 }
 
-/* Where their corners are, now that these are all there. */
+/* Sets the pointers of all covers to their corners, once the array of corners no longer moves. */
 static sunder_status settle_seams(sunder_i_model *model, sunder_error *err)
 {
     const size_t n = model->seams;
@@ -78,7 +78,8 @@ bool sunder_i_has_bare_barriers(const sunder_i_model *model)
     return false;
 }
 
-/* Are seams useless for this body? */
+/* Are covers of diagonals useless in this layer? They are if jumps are allowed and no barrier could lie along a
+ * diagonal. */
 static bool are_idle(const sunder_i_model *model) { return model->rules.jumps && !sunder_i_has_bare_barriers(model); }
 
 static bool add_body(gathering *g, sunder_i_body *body)

@@ -1,37 +1,39 @@
-/* The side anchor of a feature to which the caller gave none: a point of the largest part that lines leave of it.
+/* The side anchor of a feature to which the caller gave none: a point of the largest part that the lines of barriers
+ * leave of it.
  *
- * The parts are those of its members, each cut by the lines by itself: what is connected in a member's interior without
- * them. So a line that ends inside parts nothing there, and a ring inside parts what is in it from the rest. The rule,
- * whoever applies it:
+ * Each member of the feature is cut by the lines separately. A part is a connected component of a member's interior
+ * without the lines. So a line that ends inside cuts off nothing, and a ring inside separates its interior from the
+ * rest. The rule:
  *
  *   no line meets a member's interior        the plain anchor (sunder_shape_anchor())
- *   else, of the parts with the most area,   those with the most room (side_room.c)
- *     and those to whose area no more than
- *     the tolerance times the width and
- *     height of the feature's box together
- *     is missing
- *   of these, of those with the most area    the plain anchor, if one of them holds it, off all lines
- *   else                                     on the horizontal line through the middle of a part's height, the middle
- *                                            of the widest interval that the part, without the lines, has there, the
- *                                            first from the left of equal ones; of several parts the smallest such
- *                                            point by x, then y. The nearest doubles to it, if the part that it is of
- *                                            holds them, off all lines
- *   else                                     the plain anchor: a part that holds no doubles there is a few units wide
+ *   else: take the parts whose area is at    keep those with the most room (side_room.c)
+ *     most the tolerance, times width plus
+ *     height of the feature's box, less
+ *     than the largest area
+ *   among these, take those of the largest   the plain anchor, if one of them contains it, off all lines
+ *   area
+ *   else                                     on the horizontal line at the middle of a part's height, the middle of the
+ *                                            widest interval that the part, without the lines, has there, the first
+ *                                            from the left of equal ones; of several parts the smallest such point by
+ *                                            x, then y. It is rounded to doubles; the part must contain the rounded
+ *                                            point, off all lines
+ *   else                                     the plain anchor: a part that contains no doubles there is a few units in
+ *                                            the last place wide
  *
- * All of it is exact (side_cut.c). */
+ * All of this is exact (side_cut.c). */
 #include "displacement/layer/side_cut.h"
 
 #include "base/error.h"
 #include "base/sort.h"
 #include "shape/shape.h"
 
-/* ---- A point of a part ------------------------------------------------------------------------------------------- */
+/* ---- The point of one part --------------------------------------------------------------------------------------- */
 
-/* What of the boundary is at one height: sorted in the end. */
+/* The points of a part's boundary at one height. */
 typedef struct level {
-    sunder_i_rational_point low, high; /* corners of the least and the greatest height */
+    sunder_i_rational_point low, high; /* corners with the least and the greatest height */
     bool any;
-    sunder_i_rational_point height; /* any point of it */
+    sunder_i_rational_point height; /* a point at this height */
     sunder_i_rational_point *at;
     size_t n, capacity;
     bool failed;
@@ -55,8 +57,8 @@ static void append(level *l, sunder_i_rational_point at)
         l->at[l->n++] = at;
 }
 
-/* Where the edge meets the height: its beginning, or inside. With the heights' differences p < 0 < q (or the other way
- * round) that is a + (b - a) p / (p - q). */
+/* Appends the point where the edge ab meets the height of l: its beginning a, or a point inside it. If p and q are the
+ * heights of a and b relative to that of l, with opposite signs, the point is a + (b - a) p / (p - q). */
 static void add_crossing(sunder_i_side_cut *c, const sunder_i_rational_point *a, const sunder_i_rational_point *b,
                          void *context)
 {
@@ -67,7 +69,7 @@ static void add_crossing(sunder_i_side_cut *c, const sunder_i_rational_point *a,
     if (below * above >= 0) return;
     const sunder_i_rational_point p = sunder_i_rational_sub(m, *a, l->height),
                                   q = sunder_i_rational_sub(m, *b, l->height);
-    /* Both over one denominator: p and q times these. */
+    /* p and q as numerators over one denominator. */
     const sunder_i_big py = sunder_i_times(m, p.y, q.w), qy = sunder_i_times(m, q.y, p.w);
     const sunder_i_big den = sunder_i_big_sub(m, py, qy);
     const sunder_i_rational_point u = sunder_i_rational_sub(m, *b, *a);
@@ -97,7 +99,8 @@ static sunder_i_rational_point middle_of(sunder_i_side_cut *c, const sunder_i_ra
     return sum;
 }
 
-/* The middle of the widest interval of the part at that height; it has one, and where none is found memory was out. */
+/* Sets *out to the middle of the widest interval that the part has at the height of l. There always is one; if none is
+ * found memory was out. */
 static sunder_status widest_interval(sunder_i_side_cut *c, const sunder_i_cut_part *p, const level *l,
                                      const uint32_t *order, sunder_i_rational_point *out, sunder_error *err)
 {
@@ -137,9 +140,10 @@ static sunder_status point_of(sunder_i_side_cut *c, const sunder_i_cut_part *p, 
     return status;
 }
 
-/* ---- All of it --------------------------------------------------------------------------------------------------- */
+/* ---- The side anchor --------------------------------------------------------------------------------------------- */
 
-/* Among the remaining parts, which are equal. */
+/* Sets `anchor` to the point of one of the remaining parts, which have equal areas, unless one of them contains the
+ * plain anchor. */
 static sunder_status choose(sunder_i_side_cut *c, double anchor[2], sunder_error *err)
 {
     const sunder_i_rational_point plain = sunder_i_side_cut_point(c, anchor);
@@ -168,7 +172,8 @@ static sunder_status choose(sunder_i_side_cut *c, double anchor[2], sunder_error
     return status;
 }
 
-/* Has a line all of the shape strictly on one side? Corners that are no doubles are left to what comes after. */
+/* Does the line lie beside the shape, with all its vertices strictly on one side? Returns false if corners are not
+ * doubles; these cases are decided later. */
 static bool misses(const sunder_shape *s, const sunder_i_side *side)
 {
     const sunder_point a = {side->from[0], side->from[1]}, b = {side->to[0], side->to[1]};
@@ -183,7 +188,7 @@ static bool misses(const sunder_shape *s, const sunder_i_side *side)
     return true;
 }
 
-/* Leaves only the parts with the most room. */
+/* Keeps only the parts with the most room. */
 static sunder_status keep_roomiest(sunder_i_side_cut *c, const sunder_i_side_scope *scope, sunder_error *err)
 {
     const double reach = sunder_side_reach(c->shape->box);
@@ -209,7 +214,7 @@ static sunder_status keep_roomiest(sunder_i_side_cut *c, const sunder_i_side_sco
     return SUNDER_OK;
 }
 
-/* With the lines that may meet its interior. */
+/* Chooses the side anchor, given the n lines that may meet the shape's interior. */
 static sunder_status choose_of(const sunder_shape *shape, const sunder_i_side *const *side, size_t n,
                                const sunder_i_side_scope *scope, double anchor[2], sunder_error *err)
 {

@@ -1,9 +1,9 @@
-/* A feature cut by lines into parts.
+/* Cuts a feature by lines into parts.
  *
- * Each member, with the lines about it, is a planar map, and its parts are the faces of that within the member: a face
- * is connected, and what ends inside it bounds it on both sides and parts nothing. Areas are compared in doubles with a
- * bound first, and exactly where that does not tell. Corners that are no doubles, of the feature or of an area of a
- * barrier, stand on the lattice as what they are. */
+ * Each member with the lines near it gives a planar map. The member's parts are the faces of the map inside the member:
+ * a face is connected, and a line that ends inside it bounds it on both sides and separates nothing. Areas are compared
+ * in doubles with an error bound first, and exactly if that does not decide. Corners of the feature or of a barrier's
+ * area that are not doubles are put on the lattice exactly. */
 #include "displacement/layer/side_cut.h"
 
 #include "base/error.h"
@@ -20,7 +20,8 @@
 
 static bool is_exact(const sunder_shape *s, uint32_t v) { return s->rational && s->form->numbers->exact[v].den.size; }
 
-/* A line's ends; those that are no doubles lie within a unit of the nearest ones. */
+/* Extends the extent by the ends of a line. Ends that are not doubles lie within one unit in the last place of the
+ * rounded ones. */
 static void add_extent(sunder_i_extent *all, const sunder_i_side *side)
 {
     const bool rational = side->area && side->area->rational;
@@ -48,7 +49,7 @@ static void begin(sunder_i_side_cut *c)
     sunder_i_arena_init(&c->arena);
 }
 
-/* Vertex v of a shape, or two doubles. */
+/* Puts vertex v of shape s on the lattice, or, if s is NULL or the vertex is a double, the point xy. */
 static sunder_i_rational_point put(sunder_i_side_cut *c, const sunder_shape *s, uint32_t v, const double *xy)
 {
     sunder_i_point at;
@@ -73,7 +74,7 @@ static void put_line(sunder_i_side_cut *c, const sunder_i_side *side, sunder_i_r
     end[1] = put(c, s, s ? s->form->cleaned.next[side->vertex] : 0, side->to);
 }
 
-/* Any doubles, which need not be multiples of the lattice's unit. */
+/* The coordinates need not be multiples of the lattice's unit. */
 sunder_i_rational_point sunder_i_side_cut_point(sunder_i_side_cut *cut, const double xy[2])
 {
     sunder_i_arena *m = &cut->arena;
@@ -92,7 +93,7 @@ sunder_i_rational_point sunder_i_side_cut_point(sunder_i_side_cut *cut, const do
         at[0], at[1], sunder_i_big_shl(m, sunder_i_big_i64(m, 1), (unsigned long)(cut->lattice.exponent - unit))};
 }
 
-/* A length, or with power 2 an area. */
+/* Converts a length, or with power 2 an area, into units of the lattice. */
 sunder_i_ratio sunder_i_side_cut_in_units(sunder_i_side_cut *cut, double size, int power)
 {
     const long by = power * cut->lattice.exponent;
@@ -104,7 +105,7 @@ sunder_i_ratio sunder_i_side_cut_in_units(sunder_i_side_cut *cut, double size, i
     return r;
 }
 
-/* The nearest doubles to a point. */
+/* Rounds a point to the nearest doubles. */
 void sunder_i_side_cut_doubles(sunder_i_side_cut *cut, const sunder_i_rational_point *at, double xy[2])
 {
     sunder_i_arena *m = &cut->arena;
@@ -136,8 +137,9 @@ void sunder_i_side_cut_boundary(sunder_i_side_cut *cut, const sunder_i_cut_part 
     }
 }
 
-/* In doubles each coordinate is off by 2^-53 of itself, and a cross product by less than 2^-50 of its two products; a
- * sum of n terms by n 2^-53 of the sum of their magnitudes. */
+/* An area estimated in doubles. Each coordinate has a relative error of 2^-53, and a cross product an error of less
+ * than 2^-50 of the magnitudes of its two products. A sum of n terms has an error of n 2^-53 of the sum of the terms'
+ * magnitudes. */
 typedef struct estimate {
     double sum, size;
     size_t n;
@@ -191,8 +193,8 @@ static bool add_part(sunder_i_side_cut *c, sunder_i_planar_map *map, uint32_t fa
     return true;
 }
 
-/* Is the edge a piece of a line inside the member? Those of the member have it on one side, lines along them do not
- * count. */
+/* Is edge e a piece of a line inside the member? Edges of the member have the member on one side only; lines along
+ * these do not count. */
 static bool is_inside(const sunder_i_planar_map *map, uint32_t e)
 {
     return sunder_i_planar_map_sides(map, 2 * e) == 0 && sunder_i_planar_map_sides(map, 2 * e + 1) == 0 &&
@@ -208,10 +210,10 @@ static sunder_status take_parts(sunder_i_side_cut *c, sunder_i_planar_map *map, 
     return SUNDER_OK;
 }
 
-/* One after the other into a map, in random order. */
+/* A segment to be inserted into the map; segments are inserted in random order. */
 typedef struct segment {
     sunder_i_rational_point from, to;
-    bool line; /* else an edge, with the member on its left */
+    bool line; /* it is a line; otherwise an edge with the member on its left */
 } segment;
 
 static sunder_status draw(sunder_i_planar_map *map, const segment *list, size_t n, sunder_error *err)
@@ -230,7 +232,7 @@ static sunder_status draw(sunder_i_planar_map *map, const segment *list, size_t 
     return status;
 }
 
-/* Vertices first .. last - 1 are a member's: its map, with the lines. */
+/* Makes the planar map of the member with the vertices first .. last - 1, with the lines, and appends its parts. */
 static sunder_status cut_member(sunder_i_side_cut *c, uint32_t first, uint32_t last, sunder_i_planar_map **map,
                                 sunder_error *err)
 {
@@ -252,7 +254,7 @@ static sunder_status cut_member(sunder_i_side_cut *c, uint32_t first, uint32_t l
     return status ? status : take_parts(c, *map, err);
 }
 
-/* The end of a polygon's vertices. */
+/* Returns the end of the vertices of a polygon. */
 static uint32_t vertices_to(const sunder_shape *s, uint32_t polygon)
 {
     return s->form->cleaned.ring_end[s->form->cleaned.poly_end[polygon] - 1];

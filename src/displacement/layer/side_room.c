@@ -1,22 +1,25 @@
-/* How much room has a feature on the side of one of its parts? Straight on from the middle of the feature's box through
- * the part's point it is asked which line comes first, and how far that is from the point, up to sunder_side_reach(). A
- * line farther off counts as at that distance, and so does the case that the point is the middle itself. The reach
- * depends on the feature's box alone: the side of a feature is the same for all limits of moves. The reach is computed
- * in doubles, and of ends of lines that are none the nearest doubles count; the rest is exact. */
+/* Finds how much room a feature has on the side of one of its parts. A ray runs from the part's point p, away from the
+ * middle of the feature's box. The room is the distance from p to the first line that the ray meets, at most
+ * sunder_side_reach(). If it meets none, or if p is the middle itself, the room is that greatest distance. The greatest
+ * distance depends on the feature's box alone, so the side of a feature is the same for all limits of moves. It is
+ * computed in doubles, and ends of lines that are not doubles are rounded; everything else is exact. */
 #include "displacement/layer/side_cut.h"
 
 #include "shape/shape.h"
 
-/* From p on along d, where the line from a to b is met, in parts of d; false where it is not, beyond p. */
+/* Intersects the ray from p in the direction d with the segment ab. Sets *at to the parameter k of the point p + k d, k
+ * > 0. Returns false if they do not meet. */
 static bool meet(sunder_i_arena *m, sunder_i_rational_point p, sunder_i_rational_point d, sunder_i_rational_point a,
                  sunder_i_rational_point b, sunder_i_ratio *at)
 {
     const sunder_i_rational_point u = sunder_i_rational_sub(m, b, a), v = sunder_i_rational_sub(m, a, p);
-    /* With denominators u.w = U, v.w = V, d.w = D: d x u / (D U), v x u / (V U), v x d / (V D). */
+    /* The denominators are u.w = U, v.w = V, d.w = D, so d x u has D U, v x u has V U, and v x d has V D. */
     const sunder_i_big den = sunder_i_rational_cross(m, d, u), along = sunder_i_rational_cross(m, v, u),
                        across = sunder_i_rational_cross(m, v, d);
     const int sign = sunder_i_big_sign(den);
-    if (sign == 0) return false; /* along the way: its ends are those of other lines, or of none */
+    if (sign == 0)
+        return false; /* parallel to the ray: an end of it on the ray is an end of another line, too, or of
+                                  * none */
     sunder_i_ratio x = {sunder_i_big_mul(m, along, d.w), sunder_i_big_mul(m, den, v.w)},
                    y = {sunder_i_big_mul(m, across, u.w), sunder_i_big_mul(m, den, v.w)};
     if (sign < 0) {

@@ -1,21 +1,21 @@
 /* Sides: a feature stays on its side of a barrier's lines.
  *
  * The lines are the segments of a barrier's lines and the edges of its areas; points have none. A feature's side anchor
- * moves straight from a to a + t, and may meet none of them, with two exceptions:
+ * moves straight from a to a + t, and may meet none of the lines, with two exceptions:
  *
  *   an edge with `a` on its inner side  a feature in a polygon may leave it. So only edges whose area lies behind them,
  *                                       as seen from `a`, block the path: a path that enters the polygon, from outside
  *                                       or again, meets one of those, and a path that leaves it meets none of them
- *   a line that `a` lies on             a side anchor lies on no line where doubles hold such a point (side_anchor.c);
- *                                       elsewhere neither side of the line is its own
+ *   a line that `a` lies on             a side anchor lies on no line if doubles have such a point (side_anchor.c);
+ *                                       otherwise it belongs to neither side of the line
  *
  * Why a path that enters meets an edge facing the start: just before it enters, it is outside, in a sector bounded by
- * two edges. If the sector is less than half a plane, its inner points are on the outer sides of both edges' lines; if
- * more, of at least one: and the start is on the same ray. A path that touches an edge facing its start, and stays
- * inside, counts as entering: touching is meeting.
+ * two edges. If the sector is less than half a plane, its inner points are on the outer sides of both edges' lines;
+ * otherwise on the outer side of at least one, and the start lies on the same ray. A path that touches an edge facing
+ * its start, and stays inside, counts as entering: touching is meeting.
  *
- * In the model the lines are pieces of two corners, in the order of the barriers' parts, and a part's body has those of
- * the part. */
+ * In the model each line is a piece of two corners. Lines are stored in the order of the barriers' parts, and the body
+ * of a part refers to the lines of that part. */
 #include "displacement/layer/sides.h"
 #include "displacement/layer/far_corners.h"
 #include "displacement/layer/reads.h"
@@ -30,7 +30,7 @@
 
 /* ---- Lines ------------------------------------------------------------------------------------------------------- */
 
-/* The lines that piece `of` of a part has: into side, or only counted where that is NULL. */
+/* Returns the number of lines of a convex piece of a barrier, and writes them to `side` unless that is NULL. */
 static size_t take_lines(const sunder_i_piece_of *of, sunder_i_side *side)
 {
     const sunder_shape *s = of->shape;
@@ -51,7 +51,7 @@ static size_t take_lines(const sunder_i_piece_of *of, sunder_i_side *side)
     return lines;
 }
 
-/* The same of a part; none where its barrier has no sides. */
+/* Does the same for a whole part of a barrier; there are none if the barrier has no sides. */
 static size_t take_part(const sunder_i_model *model, uint32_t part, sunder_i_side *side)
 {
     const sunder_i_barriers *b = model->barriers;
@@ -68,7 +68,7 @@ static void box_of_line(const sunder_i_side *side, double box[4])
     if (side->area && side->area->rational) sunder_i_box_grow(box, 0, box);
 }
 
-/* As a piece of its part's body. */
+/* Stores a line as a piece of the body of its part. */
 static void put_piece(const sunder_i_model *model, const sunder_i_body *body, uint32_t part, sunder_i_side *side)
 {
     sunder_i_body_piece *piece = &side->piece;
@@ -104,13 +104,13 @@ static sunder_status take_all_lines(sunder_i_model *model, sunder_error *err)
 
 /* ---- Side anchors ------------------------------------------------------------------------------------------------ */
 
-/* Lines that were asked for. */
+/* The lines that meet a box, and the buffers for finding them. */
 typedef struct line_list {
     const sunder_i_model *model;
     sunder_i_list near;
     const sunder_i_side **line;
     size_t n, capacity;
-    uint32_t body; /* on whose behalf it is looked farther than about a feature */
+    uint32_t body; /* the body on whose behalf lines beyond the feature's box are read */
 } line_list;
 
 static void free_lines(line_list *l)
@@ -119,7 +119,7 @@ static void free_lines(line_list *l)
     sunder_i_free(l->near.item);
 }
 
-/* Those that meet the box. */
+/* Finds the lines whose boxes meet `box`. Returns false if memory is out. */
 static bool find_lines(line_list *l, const double box[4])
 {
     const sunder_i_model *model = l->model;
@@ -154,7 +154,7 @@ static bool find_more(void *user, const double box[4], const sunder_i_side *cons
     return true;
 }
 
-/* The side anchor that the caller gave; NULL if it has to be computed. */
+/* Returns the side anchor that the caller gave to feature f; NULL if it has to be computed. */
 static const double *given_anchor(const sunder_i_model *model, size_t f)
 {
     const sunder_layer *given = model->layer->given;
@@ -185,7 +185,7 @@ static sunder_status find_some_anchors(void *context, size_t begin, size_t end, 
     return status;
 }
 
-/* Each as a piece of one corner; and their boxes, by bodies. */
+/* Stores each side anchor as a piece of one corner, and the box of these for each body. */
 static void put_anchors(sunder_i_model *model)
 {
     for (size_t b = 0; b < model->bodies; b++) {
@@ -218,9 +218,9 @@ sunder_status sunder_i_model_find_sides(sunder_i_model *model, sunder_error *err
     return status;
 }
 
-/* ---- Ways -------------------------------------------------------------------------------------------------------- */
+/* ---- Paths ------------------------------------------------------------------------------------------------------- */
 
-/* Does the way meet a line on which it does not begin? */
+/* Does the path meet the line from-to, and not begin on it? */
 static bool meets_line(const sunder_i_passage *way, const double from[2], const double to[2])
 {
     const sunder_i_passage stay = {.from = {way->from[0], way->from[1]}};
@@ -258,7 +258,8 @@ bool sunder_i_side_faces(const sunder_i_model *model, const sunder_i_side *side,
         const sunder_point at = {a[0], a[1]}, from = {p[0], p[1]}, to = {q[0], q[1]};
         return sunder_orient(&from, &to, &at) < 0;
     }
-    /* Corners may be off by an ulp: that is 2^-52 of each, in differences that are rounded besides. */
+    /* Corners may be off by a unit in the last place, 2^-52 of their magnitude, and the differences are rounded as
+     * well. */
     const double size = fabs(a[0]) + fabs(a[1]) + fabs(p[0]) + fabs(p[1]) + fabs(q[0]) + fabs(q[1]);
     const double d[2] = {q[0] - p[0], q[1] - p[1]}, e[2] = {a[0] - p[0], a[1] - p[1]};
     const double slack = 0x1p-49 * size * (fabs(d[0]) + fabs(d[1]) + fabs(e[0]) + fabs(e[1]) + 0x1p-49 * size);

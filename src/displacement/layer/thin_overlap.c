@@ -1,7 +1,8 @@
-/* How thin is an overlap? By the least translation that separates the two, and by the disc that fits into it: for two
- * that interlock, such as a house in the notch of another, the translation is as long as the notch is deep, however
- * thin the sliver. The translation is tried first, since it is usually the cheaper test; and before the erosion, a
- * place where the disc may fit is proposed in doubles and tested exactly: overlaps that are not thin have one. */
+/* Is an overlap at most the tolerance? Two measures are tested: the least translation that separates the two features,
+ * and the disc that fits into their intersection. For two that interlock, such as a house in the notch of another, the
+ * translation is as long as the notch is deep, however thin the overlap is. The translation is tested first, since that
+ * is usually cheaper. Before the erosion is computed, a place where the disc may fit is proposed in doubles and tested
+ * exactly; thick overlaps have one. */
 #include "displacement/layer/relate.h"
 
 #include "morphology/morphology.h"
@@ -37,7 +38,7 @@ sunder_status sunder_i_overlap_is_thin(const sunder_i_translate *a, const sunder
     if (status) return status;
     sunder_separation_clear(&least);
     *thin = !beyond;
-    if (*thin || !disc) return SUNDER_OK; /* a point, as far as doubles go, and there is one */
+    if (*thin || !disc) return SUNDER_OK; /* a NULL disc is a point in doubles, and a point fits */
     status = fits_where_proposed(a, b, disc, tolerance / 2, &fits, err);
     if (!status && !fits) status = sunder_i_fits_in_both(a->shape, a->t, b->shape, b->t, disc, &fits, err);
     if (!status) *thin = !fits;

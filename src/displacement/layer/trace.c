@@ -1,4 +1,4 @@
-/* The trace: steps that are noted, and events that are handed on in the caller's numbers. */
+/* The trace: stores steps in logs, and passes events to the caller with the caller's numbers of features. */
 #include "displacement/layer/trace.h"
 
 #include "base/memory.h"
@@ -40,7 +40,8 @@ static sunder_trace_event event_of(const sunder_i_model *model, const char *scop
                                 .cost_after = step->after};
 }
 
-/* The members of the bodies in the caller's numbers, ascending, each once; the caller's. NULL: memory is out. */
+/* Returns the members of the n bodies by the caller's numbers, ascending and without duplicates; the caller frees it.
+ * Returns NULL if memory is out. */
 static uint32_t *list_things(const sunder_i_model *model, const uint32_t *body, size_t n, size_t *things)
 {
     size_t most = 0, out = 0;

@@ -1,6 +1,6 @@
-/* Is a move no longer than its limit? |t|^2 <= limit^2: by doubles where their rounding cannot matter, else in big
- * integers. Whatever gives a body a move asks this, or rounds it by sunder_i_round_move(), which does: so none goes
- * farther than its limit. */
+/* Is a move no longer than its limit: |t|^2 <= limit^2? It is decided in doubles if their rounding cannot matter, and
+ * else in big integers. All code that gives a body a move calls this function or sunder_i_round_move(), which calls it;
+ * so no move exceeds its limit. */
 #include "displacement/layer/model.h"
 
 #include "number/big.h"
@@ -9,8 +9,9 @@
 
 bool sunder_i_is_within_limit(const double t[2], double limit)
 {
-    if (limit == INFINITY || (t[0] == 0 && t[1] == 0)) return true; /* a limit is not negative; no memory is needed */
-    /* t^2 and limit^2 in doubles are right to 2^-52 each, their sum to 2^-51 of itself; short of overflow and
+    /* a limit is never negative; this path needs no memory */
+    if (limit == INFINITY || (t[0] == 0 && t[1] == 0)) return true;
+    /* In doubles t^2 and limit^2 have relative errors of at most 2^-52, and their sum of 2^-51, without overflow and
      * underflow. */
     const double a = t[0] * t[0] + t[1] * t[1], b = limit * limit;
     if (a > 0x1p-900 && a < 0x1p900 && b > 0x1p-900 && b < 0x1p900) {
@@ -33,5 +34,5 @@ bool sunder_i_is_within_limit(const double t[2], double limit)
     const bool within = sunder_i_big_cmp(sunder_i_big_add(&arena, m[0], m[1]), m[2]) <= 0;
     const bool failed = arena.failed;
     sunder_i_arena_free(&arena);
-    return within && !failed; /* without memory for the proof the longer move is refused */
+    return within && !failed; /* if memory is out the move is refused */
 }
