@@ -115,7 +115,7 @@ static sunder_status tell_jump(comparison *c, uint32_t f, uint32_t g, sunder_err
 /* Crossed sides, and jumps of one feature over another, or of both. */
 static sunder_status check_ways(comparison *c, sunder_error *err)
 {
-    c->jumps.ways.own = c->move;
+    c->jumps.paths.own = c->move;
     sunder_status status = sunder_i_jumps_update(&c->jumps, &c->model, NULL, err);
     for (size_t k = 0; k < c->jumps.n && !status; k++) {
         const uint32_t a = c->jumps.pair[k].a, b = c->jumps.pair[k].b;
@@ -140,8 +140,8 @@ static sunder_status place_after(comparison *c, sunder_error *err)
         c->model.present[f] = c->model.present[f] && shape && !sunder_shape_is_empty(shape);
         if (!c->model.present[f]) continue;
         sunder_shape_box(shape, box + 4 * (size_t)f);
-        if (!c->model.seamless) continue;
-        status = sunder_i_seamless_make(shape, &p->seamless[f], err);
+        if (!c->model.interior_cover) continue;
+        status = sunder_i_interior_cover_make(shape, &p->interior_cover[f], err);
     }
     p->given = c->after;
     sunder_i_rtree_free(&p->tree);

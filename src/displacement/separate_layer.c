@@ -74,7 +74,7 @@ static sunder_status prepare(sunder_i_solver *s, sunder_error *err)
 {
     sunder_status status = sunder_i_model_cut(&s->model, err);
     if (!status) status = sunder_i_model_anchor(&s->model, err);
-    if (!status && sunder_i_has_bare_barriers(&s->model)) status = sunder_i_model_find_seams(&s->model, err);
+    if (!status && sunder_i_has_bare_barriers(&s->model)) status = sunder_i_model_cover_diagonals(&s->model, err);
     if (!status) status = sunder_i_solver_find_shut_in(s, err);
     if (!status) status = sunder_i_solver_init(s, err);
     if (status) return status;
@@ -186,7 +186,7 @@ static sunder_status explain(sunder_i_solver *s, const sunder_layer_options *opt
                              sunder_error *err)
 {
     sunder_i_count_relations(&s->model, &s->now, &report->summary.after);
-    sunder_status status = sunder_i_report_find_seams(s, err);
+    sunder_status status = sunder_i_report_cover_diagonals(s, err);
     if (!status) status = sunder_i_report_conflicts(report, &s->model, &s->placement, &s->now, true, err);
     if (!status) status = sunder_i_report_bound(report, s, err);
     if (!status) status = sunder_i_report_optimality(report, s, err);

@@ -101,9 +101,9 @@ static sunder_status has_no_effort(const sunder_i_solver *s, bool *applies, sund
 /* ---- Stages of one search ---------------------------------------------------------------------------------------- */
 
 /* Most layers leave nothing to be proved, or little. */
-static sunder_status find_seams_for_proofs(sunder_i_solver *s, sunder_error *err)
+static sunder_status cover_diagonals_for_proofs(sunder_i_solver *s, sunder_error *err)
 {
-    return s->model.given_up_n ? sunder_i_report_find_seams(s, err) : SUNDER_OK;
+    return s->model.given_up_n ? sunder_i_report_cover_diagonals(s, err) : SUNDER_OK;
 }
 
 static sunder_status choose_holders(sunder_i_solver *s, bool *changed, sunder_error *err)
@@ -124,7 +124,7 @@ static sunder_status settle(sunder_i_solver *s, bool *changed, sunder_error *err
 /* Given up pairs are looked at again, each time with what the search ran into since. */
 static sunder_status reconsider(sunder_i_solver *s, bool *changed, sunder_error *err)
 {
-    const sunder_status status = find_seams_for_proofs(s, err);
+    const sunder_status status = cover_diagonals_for_proofs(s, err);
     return status ? status : sunder_i_solver_reconsider(s, changed, err);
 }
 
@@ -155,7 +155,7 @@ static sunder_status improve(sunder_i_solver *s, bool *changed, sunder_error *er
 /* Pairs are asked about one by one: each time one in a cluster is solved. */
 static sunder_status ask_one_by_one(sunder_i_solver *s, bool *changed, sunder_error *err)
 {
-    const sunder_status status = find_seams_for_proofs(s, err);
+    const sunder_status status = cover_diagonals_for_proofs(s, err);
     return status ? status : sunder_i_solver_ask_one_by_one(s, changed, err);
 }
 

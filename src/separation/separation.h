@@ -3,7 +3,7 @@
  *
  * P may also be flat, made of pieces without area, segments and points (shape/of_pieces.h): then statements about its
  * interior hold for all of P, which the interior of Q may not meet. And Q's interior is taken as the union of the
- * interiors of its pieces, which have to cover it (displacement/layer/seamless.h). */
+ * interiors of its pieces, which have to cover it (displacement/layer/interior_cover.h). */
 #ifndef SUNDER_I_SEPARATION_H
 #define SUNDER_I_SEPARATION_H
 

@@ -51,7 +51,7 @@ void scene_model_related_features(scene_model *m, const sunder_feature *feature,
     m->placed = true;
     assert_int_equal(sunder_i_placement_relate(&m->model, &m->placement, NULL, &m->start, &err), SUNDER_OK);
     join(m, &m->start);
-    assert_int_equal(sunder_i_model_find_seams(&m->model, &err), SUNDER_OK);
+    assert_int_equal(sunder_i_model_cover_diagonals(&m->model, &err), SUNDER_OK);
 }
 
 void scene_model_end(scene_model *m)

@@ -15,7 +15,7 @@
 #include <stdlib.h>
 
 /* The number of runs of the R-tree that one thread takes at a time: together some hundred features. */
-#define RUNS_OF_A_LOT 16
+#define RUNS_OF_A_BATCH 16
 
 /* Pairs of features, collected by one task: the anchor of the first lies in the second. */
 typedef struct held_pairs {
@@ -23,18 +23,18 @@ typedef struct held_pairs {
     size_t n, capacity;
 } held_pairs;
 
-typedef struct looking {
+typedef struct holder_search {
     const sunder_i_model *model;
     sunder_i_list near, about; /* `near`: leaves of the tree near a run; `about`: those of them near one feature */
     held_pairs *held;
     double *outline; /* the outline of one neighbouring feature, and scratch */
     size_t room;
-} looking;
+} holder_search;
 
 /* Returns a lower bound of the distance from point a to the convex hull of feature g, relative to the origin of g's
  * body: the largest distance of a beyond the line of a side of the hull. Returns 0 if the hull contains a, and a
  * negative number if memory is out. */
-static double distance_to_outline(looking *l, uint32_t g, const double a[2])
+static double distance_to_outline(holder_search *l, uint32_t g, const double a[2])
 {
     const sunder_i_model *model = l->model;
     const size_t vertices = sunder_i_thing_shape(model, g)->vertices;
@@ -53,7 +53,7 @@ static double distance_to_outline(looking *l, uint32_t g, const double a[2])
 
 /* If feature g contains the anchor of feature f, appends the pair to l->held. Otherwise lowers *clear to the distance
  * of the anchor from g, if that is less. */
-static sunder_status look_at(looking *l, uint32_t f, uint32_t g, double *clear, sunder_error *err)
+static sunder_status test_neighbour(holder_search *l, uint32_t f, uint32_t g, double *clear, sunder_error *err)
 {
     const sunder_i_model *model = l->model;
     held_pairs *held = l->held;
@@ -86,7 +86,7 @@ static double box_about(const sunder_i_model *model, uint32_t f, double box[4])
 }
 
 /* Sets l->about to the leaves of l->near whose boxes meet `box`. l->about must have room for all of them. */
-static void pick(looking *l, const double box[4])
+static void keep_near_leaves(holder_search *l, const double box[4])
 {
     const double *boxes = l->model->tree.box;
     size_t n = 0;
@@ -98,24 +98,24 @@ static void pick(looking *l, const double box[4])
     l->about.n = n;
 }
 
-/* Tests which features near feature f contain its anchor. Sets model->clear[f] to a lower bound of the distance from the
- * anchor to all others of other bodies. */
-static sunder_status look_about(looking *l, uint32_t f, sunder_error *err)
+/* Tests which features near feature f contain its anchor. Sets model->clear[f] to a lower bound of the distance from
+ * the anchor to all others of other bodies. */
+static sunder_status find_holders(holder_search *l, uint32_t f, sunder_error *err)
 {
     const sunder_i_model *model = l->model;
     sunder_status status = SUNDER_OK;
     double box[4], clear = box_about(model, f, box);
-    pick(l, box);
+    keep_near_leaves(l, box);
     for (size_t k = 0; k < l->about.n && !status; k++) {
         const uint32_t g = model->tree.item[l->about.item[k]];
         if (!sunder_i_is_barrier(model, g) && model->body_of[f] != model->body_of[g])
-            status = look_at(l, f, g, &clear, err);
+            status = test_neighbour(l, f, g, &clear, err);
     }
     model->clear[f] = clear;
     return status;
 }
 
-static sunder_status look_about_run(looking *l, size_t run, sunder_error *err)
+static sunder_status find_holders_of_run(holder_search *l, size_t run, sunder_error *err)
 {
     const sunder_i_rtree *tree = &l->model->tree;
     sunder_status status = SUNDER_OK;
@@ -133,26 +133,26 @@ static sunder_status look_about_run(looking *l, size_t run, sunder_error *err)
         !sunder_i_reserve(&l->about.item, &l->about.capacity, l->near.n + 1, sizeof *l->about.item))
         return sunder_i_no_memory(err);
     for (size_t leaf = first; leaf < end && !status; leaf++)
-        if (!sunder_i_is_barrier(l->model, tree->item[leaf])) status = look_about(l, tree->item[leaf], err);
+        if (!sunder_i_is_barrier(l->model, tree->item[leaf])) status = find_holders(l, tree->item[leaf], err);
     return status;
 }
 
-typedef struct looking_about {
+typedef struct holder_search_task {
     const sunder_i_model *model;
     held_pairs *held; /* [batches of runs] */
-} looking_about;
+} holder_search_task;
 
 /* Task of a thread: finds the pairs of the batches of runs `begin` to `end` - 1 of the tree. */
-static sunder_status look_about_lots(void *context, size_t begin, size_t end, sunder_error *err)
+static sunder_status find_holders_of_batches(void *context, size_t begin, size_t end, sunder_error *err)
 {
-    const looking_about *all = context;
-    looking l = {.model = all->model};
+    const holder_search_task *all = context;
+    holder_search l = {.model = all->model};
     const size_t runs = sunder_i_rtree_runs(&l.model->tree);
     sunder_status status = SUNDER_OK;
-    for (size_t lot = begin; lot < end && !status; lot++) {
-        l.held = &all->held[lot];
-        for (size_t run = lot * RUNS_OF_A_LOT; run < (lot + 1) * RUNS_OF_A_LOT && run < runs && !status; run++)
-            status = look_about_run(&l, run, err);
+    for (size_t batch = begin; batch < end && !status; batch++) {
+        l.held = &all->held[batch];
+        for (size_t run = batch * RUNS_OF_A_BATCH; run < (batch + 1) * RUNS_OF_A_BATCH && run < runs && !status; run++)
+            status = find_holders_of_run(&l, run, err);
     }
     sunder_i_free(l.near.item);
     sunder_i_free(l.about.item);
@@ -161,27 +161,27 @@ static sunder_status look_about_lots(void *context, size_t begin, size_t end, su
 }
 
 /* Merges the pairs of all batches into model->held and sorts them. Returns false if memory is out. */
-static bool gather_held(sunder_i_model *model, const held_pairs *held, size_t lots)
+static bool merge_held(sunder_i_model *model, const held_pairs *held, size_t batches)
 {
     size_t n = 0;
-    for (size_t k = 0; k < lots; k++) n += held[k].n;
+    for (size_t k = 0; k < batches; k++) n += held[k].n;
     model->held = sunder_i_alloc(n, sizeof *model->held);
     if (!model->held) return false;
-    for (size_t k = 0; k < lots; k++)
+    for (size_t k = 0; k < batches; k++)
         for (size_t i = 0; i < held[k].n; i++) model->held[model->held_n++] = held[k].pair[i];
     if (n) qsort(model->held, n, sizeof *model->held, sunder_i_by_id_pair);
     return true;
 }
 
-static sunder_status look_about_all(sunder_i_model *model, sunder_error *err)
+static sunder_status find_all_holders(sunder_i_model *model, sunder_error *err)
 {
-    const size_t lots = (sunder_i_rtree_runs(&model->tree) + RUNS_OF_A_LOT - 1) / RUNS_OF_A_LOT;
-    looking_about all = {model, sunder_i_calloc(lots, sizeof *all.held)};
+    const size_t batches = (sunder_i_rtree_runs(&model->tree) + RUNS_OF_A_BATCH - 1) / RUNS_OF_A_BATCH;
+    holder_search_task all = {model, sunder_i_calloc(batches, sizeof *all.held)};
     if (!all.held) return sunder_i_no_memory(err);
     sunder_status status =
-        sunder_i_parallel(model->rules.threads, lots, SUNDER_I_GRAIN_WHOLE, look_about_lots, &all, err);
-    if (!status && !gather_held(model, all.held, lots)) status = sunder_i_no_memory(err);
-    for (size_t k = 0; k < lots; k++) sunder_i_free(all.held[k].pair);
+        sunder_i_parallel(model->rules.threads, batches, SUNDER_I_GRAIN_WHOLE, find_holders_of_batches, &all, err);
+    if (!status && !merge_held(model, all.held, batches)) status = sunder_i_no_memory(err);
+    for (size_t k = 0; k < batches; k++) sunder_i_free(all.held[k].pair);
     sunder_i_free(all.held);
     for (size_t f = 0; f < model->features && !status; f++) {
         sunder_i_body *body = &model->body[model->body_of[f]];
@@ -210,7 +210,7 @@ sunder_status sunder_i_model_anchor(sunder_i_model *model, sunder_error *err)
     status = sunder_i_parallel(model->rules.threads, n, SUNDER_I_GRAIN_BOXES, find_anchors, model, err);
     for (size_t b = 0; b < model->bodies && !status; b++)
         if (!sunder_i_keep_anchors(model, &model->body[b])) status = sunder_i_no_memory(err);
-    return status ? status : look_about_all(model, err);
+    return status ? status : find_all_holders(model, err);
 }
 
 bool sunder_i_is_held(const sunder_i_model *model, uint32_t f, uint32_t g)

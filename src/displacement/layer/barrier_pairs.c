@@ -35,9 +35,9 @@ static double extent_of(const double box[4]) { return sunder_i_max(box[2] - box[
 
 /* Returns the feature in the form that a test against `other` needs: against a barrier without area its interior cover
  * (pieces whose interiors cover the whole interior), if it has one; else its shape. */
-static const sunder_shape *facing(const sunder_i_translate *feature, const sunder_shape *other)
+static const sunder_shape *form_against(const sunder_i_translate *feature, const sunder_shape *other)
 {
-    return other->flat && feature->seamless ? feature->seamless : feature->shape;
+    return other->flat && feature->interior_cover ? feature->interior_cover : feature->shape;
 }
 
 static sunder_status find_near(const sunder_i_model *model, const sunder_i_translate *feature, uint32_t part,
@@ -68,7 +68,7 @@ static sunder_status is_on_drawn(const sunder_i_barriers *barriers, uint32_t bar
 sunder_status sunder_i_barrier_relate(const sunder_i_model *model, const sunder_i_translate *feature, uint32_t part,
                                       sunder_i_relation *relation, sunder_error *err)
 {
-    const sunder_shape *shape = sunder_i_thing_shape(model, part), *own = facing(feature, shape);
+    const sunder_shape *shape = sunder_i_thing_shape(model, part), *own = form_against(feature, shape);
     const uint32_t barrier = sunder_i_barrier_of(model, part);
     const double *required = model->barriers->required[barrier];
     bool apart = false;
@@ -101,7 +101,8 @@ sunder_status sunder_i_barrier_least(const sunder_i_model *model, const sunder_i
         sunder_status status = find_near(model, feature, part, reach * ABOVE + gap, false, &near, err);
         if (status) return status;
         bool far = false;
-        if (near) status = sunder_i_separate(near, NULL, facing(feature, near), feature->t, gap, reach, out, &far, err);
+        if (near)
+            status = sunder_i_separate(near, NULL, form_against(feature, near), feature->t, gap, reach, out, &far, err);
         sunder_shape_free(near);
         if (status) return status;
         if (!far) return SUNDER_OK;
@@ -140,7 +141,8 @@ sunder_status sunder_i_barrier_stand(const sunder_i_model *model, const sunder_i
     *out = (sunder_i_barrier_stance){.overlap = false};
     sunder_shape *near = NULL;
     sunder_status status = find_near(model, feature, part, 0, false, &near, err);
-    if (!status && near) status = sunder_i_overlap(near, NULL, facing(feature, near), feature->t, &out->overlap, err);
+    if (!status && near)
+        status = sunder_i_overlap(near, NULL, form_against(feature, near), feature->t, &out->overlap, err);
     sunder_shape_free(near);
     bool beyond;
     if (status) return status;
@@ -167,20 +169,22 @@ sunder_status sunder_i_barrier_apart(const sunder_i_model *model, const sunder_i
     sunder_shape *near = NULL;
     *apart = true;
     sunder_status status = find_near(model, feature, part, length, false, &near, err);
-    if (!status && near) status = sunder_i_apart(near, NULL, facing(feature, near), feature->t, length, apart, err);
+    if (!status && near)
+        status = sunder_i_apart(near, NULL, form_against(feature, near), feature->t, length, apart, err);
     sunder_shape_free(near);
     return status;
 }
 
-static sunder_status compare(const sunder_i_model *model, const sunder_i_translate *was, const sunder_i_translate *is,
-                             uint32_t part, double reach, bool *worse, sunder_error *err)
+static sunder_status compare_stances(const sunder_i_model *model, const sunder_i_translate *was,
+                                     const sunder_i_translate *is, uint32_t part, double reach, bool *worse,
+                                     sunder_error *err)
 {
     sunder_shape *then = NULL, *now = NULL;
     sunder_status status = find_near(model, was, part, reach, false, &then, err);
     if (!status) status = find_near(model, is, part, reach, false, &now, err);
     if (!status && then && now) {
-        const sunder_i_pair before = {then, facing(was, then), NULL, was->t},
-                            after = {now, facing(is, now), NULL, is->t};
+        const sunder_i_pair before = {then, form_against(was, then), NULL, was->t},
+                            after = {now, form_against(is, now), NULL, is->t};
         status = sunder_i_pair_worsened(&before, &after, worse, err);
     }
     sunder_shape_free(then);
@@ -204,7 +208,7 @@ sunder_status sunder_i_barrier_worsened(const sunder_i_model *model, const sunde
     if (then.overlap != now.overlap) return SUNDER_OK;
     const double reach = then.overlap ? sunder_i_max(then.least.distance, now.least.distance)
                                       : sunder_i_max(then.distance, now.distance);
-    return compare(model, was, is, part, reach * ABOVE, worse, err);
+    return compare_stances(model, was, is, part, reach * ABOVE, worse, err);
 }
 
 /* ---- Parts of the two, compared with the whole pair -------------------------------------------------------------- */
@@ -229,7 +233,8 @@ static sunder_status compare_to_parts(const sunder_i_model *model, uint32_t feat
     const double reach = stance.overlap ? stance.least.distance : stance.distance;
     if (!status) status = find_near(model, &home, other, reach * ABOVE, false, &near, err);
     if (!status && near)
-        status = sunder_i_pair_worsened(&parts, &(sunder_i_pair){near, facing(&home, near), NULL, home.t}, worse, err);
+        status =
+            sunder_i_pair_worsened(&parts, &(sunder_i_pair){near, form_against(&home, near), NULL, home.t}, worse, err);
     sunder_shape_free(near);
     return status;
 }

@@ -39,12 +39,12 @@ void sunder_i_barriers_free(sunder_i_barriers *barriers)
 
 /* ---- Pieces ------------------------------------------------------------------------------------------------------ */
 
-typedef struct making {
+typedef struct parts_maker {
     sunder_i_barriers *out;
     size_t pieces, piece_capacity, part_capacity, barrier_capacity;
-} making;
+} parts_maker;
 
-static bool add_piece(making *m, const sunder_i_piece_of *piece)
+static bool add_piece(parts_maker *m, const sunder_i_piece_of *piece)
 {
     if (!sunder_i_reserve(&m->out->piece, &m->piece_capacity, m->pieces + 1, sizeof *piece)) return false;
     m->out->piece[m->pieces++] = *piece;
@@ -52,7 +52,7 @@ static bool add_piece(making *m, const sunder_i_piece_of *piece)
 }
 
 /* Ends the current part of a barrier, if it has pieces. */
-static bool end_part(making *m, uint32_t barrier)
+static bool end_part(parts_maker *m, uint32_t barrier)
 {
     sunder_i_barriers *b = m->out;
     const size_t first = b->parts ? b->piece_end[b->parts - 1] : 0;
@@ -66,13 +66,13 @@ static bool end_part(making *m, uint32_t barrier)
 }
 
 /* Ends the current part if it has PIECES pieces. */
-static bool end_full_part(making *m, uint32_t barrier)
+static bool end_full_part(parts_maker *m, uint32_t barrier)
 {
     const size_t first = m->out->parts ? m->out->piece_end[m->out->parts - 1] : 0;
     return m->pieces - first < PIECES || end_part(m, barrier);
 }
 
-static bool add_line(making *m, uint32_t barrier, const double *xy, size_t n)
+static bool add_line(parts_maker *m, uint32_t barrier, const double *xy, size_t n)
 {
     bool any = false;
     for (size_t k = 1; k < n; k++) {
@@ -87,7 +87,7 @@ static bool add_line(making *m, uint32_t barrier, const double *xy, size_t n)
 
 /* Adds the pieces of a polygonal set in the order of a space-filling curve, so that neighbouring pieces are in the same
  * part. */
-static bool add_shape(making *m, uint32_t barrier, const sunder_shape *shape)
+static bool add_shape(parts_maker *m, uint32_t barrier, const sunder_shape *shape)
 {
     const uint32_t n = shape->pieces;
     double *middle = sunder_i_alloc(2 * (size_t)n, sizeof *middle);
@@ -112,7 +112,7 @@ static bool add_shape(making *m, uint32_t barrier, const sunder_shape *shape)
     return ok && end_part(m, barrier);
 }
 
-static bool add_barrier(making *m, uint32_t k, const sunder_obstacle *o)
+static bool add_barrier(parts_maker *m, uint32_t k, const sunder_obstacle *o)
 {
     if (o->shape && !add_shape(m, k, o->shape)) return false;
     for (size_t i = 0, from = 0; i < o->lines; from = o->line_end[i++])
@@ -125,7 +125,7 @@ static bool add_barrier(making *m, uint32_t k, const sunder_obstacle *o)
 
 /* Sets out to half + gap as a sum of two doubles: the rounded sum, and the rounding error, which is a double itself
  * [Knu97, 4.2.2]. */
-static void require(double half, double gap, double out[2])
+static void set_required(double half, double gap, double out[2])
 {
     const double sum = half + gap, back = sum - half;
     out[0] = sum;
@@ -150,7 +150,7 @@ static sunder_status make_shapes(sunder_i_barriers *b, sunder_error *err)
 sunder_status sunder_i_barriers_make(const sunder_layer *layer, double gap, sunder_i_barriers *out, sunder_error *err)
 {
     memset(out, 0, sizeof *out);
-    making m = {.out = out};
+    parts_maker m = {.out = out};
     out->n = (uint32_t)layer->barriers;
     out->part_end = sunder_i_alloc(layer->barriers, sizeof *out->part_end);
     out->half = sunder_i_alloc(layer->barriers, sizeof *out->half);
@@ -159,7 +159,7 @@ sunder_status sunder_i_barriers_make(const sunder_layer *layer, double gap, sund
     for (uint32_t k = 0; k < out->n; k++) {
         const sunder_barrier *barrier = &layer->barrier[k];
         out->half[k] = barrier->width / 2;
-        require(out->half[k], barrier->gap < 0 ? gap : barrier->gap, out->required[k]);
+        set_required(out->half[k], barrier->gap < 0 ? gap : barrier->gap, out->required[k]);
         if (!isfinite(out->required[k][0]))
             return sunder_i_fail(err, SUNDER_EARG, "barrier %u: half the width and the gap are too much for a double",
                                  k);

@@ -117,7 +117,7 @@ const sunder_shape *sunder_i_model_shape(const sunder_i_model *model, uint32_t b
 
 /* Sets model->whole[b] to the union of the members of body b. The members' rings are passed as given, one after the
  * other: the members of a polygonal set may touch and overlap. */
-static sunder_status unite(sunder_i_model *model, uint32_t b, sunder_error *err)
+static sunder_status unite_members(sunder_i_model *model, uint32_t b, sunder_error *err)
 {
     const sunder_i_body *body = &model->body[b];
     size_t polygons = 0, rings = 0, corners = 0;
@@ -166,18 +166,18 @@ double sunder_i_farthest_near(const sunder_i_model *model, uint32_t p, uint32_t 
     return reach + 2 * model->rules.gap;
 }
 
-typedef struct uniting {
+typedef struct unions_task {
     sunder_i_model *model;
     const uint32_t *body;
-} uniting;
+} unions_task;
 
 static sunder_status unite_some(void *context, size_t begin, size_t end, sunder_error *err)
 {
-    const uniting *u = context;
+    const unions_task *u = context;
     for (size_t k = begin; k < end; k++) {
         const uint32_t b = u->body[k];
         if (u->model->body[b].members < 2 || u->model->whole[b]) continue;
-        const sunder_status status = unite(u->model, b, err);
+        const sunder_status status = unite_members(u->model, b, err);
         if (status) return status;
     }
     return SUNDER_OK;
@@ -185,7 +185,7 @@ static sunder_status unite_some(void *context, size_t begin, size_t end, sunder_
 
 sunder_status sunder_i_model_unite(sunder_i_model *model, const uint32_t *body, size_t n, sunder_error *err)
 {
-    uniting u = {model, body};
+    unions_task u = {model, body};
     return sunder_i_parallel(model->rules.threads, n, SUNDER_I_GRAIN_SHAPES, unite_some, &u, err);
 }
 

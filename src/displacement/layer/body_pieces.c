@@ -35,7 +35,7 @@ static int by_place(const void *a, const void *b)
 }
 
 /* Do the corners a, b, c make a left turn at b, as computed in doubles? */
-static inline bool turns(const double *a, const double *b, const double *c)
+static inline bool turns_left(const double *a, const double *b, const double *c)
 {
     return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]) > 0;
 }
@@ -49,7 +49,7 @@ size_t sunder_i_convex_hull(double *point, size_t n, double *out)
         const size_t bottom = m;
         for (size_t k = 0; k < n; k++) {
             const double *c = point + 2 * (pass ? n - 1 - k : k);
-            while (m >= bottom + 2 && !turns(out + 2 * (m - 2), out + 2 * (m - 1), c)) m--;
+            while (m >= bottom + 2 && !turns_left(out + 2 * (m - 2), out + 2 * (m - 1), c)) m--;
             memcpy(out + 2 * m++, c, 2 * sizeof *c);
         }
         m--; /* the last point is also the first of the other chain */
@@ -76,7 +76,7 @@ static bool is_its_outline(const sunder_shape *shape, const double *corner)
     const double *b = corner + 2 * (size_t)(n - 1), *a = b - 2;
     for (uint32_t k = 0; k < n; k++) {
         const double *c = corner + 2 * (size_t)k;
-        if (!turns(a, b, c)) return false;
+        if (!turns_left(a, b, c)) return false;
         a = b;
         b = c;
     }
@@ -170,7 +170,7 @@ static void box_runs(const sunder_i_body *body, const sunder_i_body_piece *piece
 }
 
 #ifndef NDEBUG
-static const char *check(const sunder_i_body *body, const sunder_i_body_pieces *made)
+static const char *check_pieces(const sunder_i_body *body, const sunder_i_body_pieces *made)
 {
     double box[4];
     sunder_i_box_clear(box);
@@ -193,7 +193,7 @@ static void *take_room(struct sunder_i_pieces_store *store, size_t bytes)
 
 /* Makes the struct, the pieces, anchors, corners and boxes of runs of a body, in one allocation. Returns NULL if memory
  * is out. */
-static sunder_i_body_pieces *make(const sunder_i_model *model, const sunder_i_body *body)
+static sunder_i_body_pieces *make_pieces(const sunder_i_model *model, const sunder_i_body *body)
 {
     size_t corners = 0;
     uint32_t first_run;
@@ -215,13 +215,13 @@ static sunder_i_body_pieces *make(const sunder_i_model *model, const sunder_i_bo
         if (anchors) put_anchor(model, body, member[m], &anchor[m]);
     }
     box_runs(body, piece, first_run, runs, run);
-    SUNDER_I_CHECK(check(body, made), body->pieces);
+    SUNDER_I_CHECK(check_pieces(body, made), body->pieces);
     return made;
 }
 
 const sunder_i_body_pieces *sunder_i_pieces_make(const sunder_i_model *model, const sunder_i_body *body)
 {
-    sunder_i_body_pieces *made = make(model, body), *before = NULL;
+    sunder_i_body_pieces *made = make_pieces(model, body), *before = NULL;
     if (!made || atomic_compare_exchange_strong(&model->made[body - model->body], &before, made)) return made;
     return before;
 }
@@ -275,7 +275,7 @@ bool sunder_i_pieces_begin(sunder_i_model *model)
     return true;
 }
 
-static void forget(sunder_i_model *model)
+static void forget_pieces(sunder_i_model *model)
 {
     for (size_t b = 0; b < model->bodies; b++) {
         sunder_i_body_pieces *pieces = atomic_load_explicit(&model->made[b], memory_order_relaxed);
@@ -289,13 +289,13 @@ static void forget(sunder_i_model *model)
 
 void sunder_i_pieces_forget(sunder_i_model *model, size_t most)
 {
-    if (model->store->held > most) forget(model);
+    if (model->store->held > most) forget_pieces(model);
 }
 
 void sunder_i_pieces_end(sunder_i_model *model)
 {
     if (model->made && model->store) {
-        forget(model);
+        forget_pieces(model);
         pthread_mutex_destroy(&model->store->lock);
     }
     sunder_i_free(model->made);
@@ -322,14 +322,16 @@ static bool anchor_as_given(const sunder_i_model *model, const sunder_i_body_pie
         memcpy(out + 2, side->to, 2 * sizeof *out);
         at = out;
     }
-    for (uint32_t k = body->has->seam; !at && k < body->has->seam + body->has->seams; k++) {
-        if (piece != &model->seam[k]) continue;
-        sunder_i_seam_again(sunder_i_thing_shape(model, f), model->seam_diagonal + 4 * (size_t)k, out);
+    for (uint32_t k = body->has->diagonal_cover; !at && k < body->has->diagonal_cover + body->has->diagonal_covers;
+         k++) {
+        if (piece != &model->diagonal_cover[k]) continue;
+        sunder_i_diagonal_cover_corners(sunder_i_thing_shape(model, f), model->diagonal_cover_vertices + 4 * (size_t)k,
+                                        out);
         at = out;
     }
-    for (uint32_t k = body->has->joint; !at && k < body->has->joint + body->has->joints; k++) {
-        if (piece != &model->joint[k].piece) continue;
-        memcpy(out, model->joint[k].at, sizeof model->joint[k].at);
+    for (uint32_t k = body->has->wall_cover; !at && k < body->has->wall_cover + body->has->wall_covers; k++) {
+        if (piece != &model->wall_cover[k].piece) continue;
+        memcpy(out, model->wall_cover[k].at, sizeof model->wall_cover[k].at);
         at = out;
     }
     return at;

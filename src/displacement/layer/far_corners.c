@@ -5,7 +5,7 @@
  * body with a corner that is 2^20 times as far from (0, 0) as the body's nearest point has *far corners*, and is
  * represented relative to that nearest point:
  *
- *     the origin         the corner nearest to (0, 0); for a line without near corners, the point of it nearest to (0, 0)
+ *     the origin         the corner nearest to (0, 0); for a line without near corners, its point nearest to (0, 0)
  *     a far corner       is dropped, and its piece ends where the edges from near corners reach a certain distance; the
  *                        piece stays convex
  *     a far segment      has two far ends; they are replaced by the points of the segment at that distance, rounded to
@@ -35,9 +35,9 @@
  * subnormal. */
 #define LARGE_EXPONENT 500
 
-static double norm(const double p[2]) { return sunder_i_max(fabs(p[0]), fabs(p[1])); }
+static double max_norm(const double p[2]) { return sunder_i_max(fabs(p[0]), fabs(p[1])); }
 
-static double distance(const double p[2], const double q[2])
+static double max_distance(const double p[2], const double q[2])
 {
     return sunder_i_max(fabs(p[0] - q[0]), fabs(p[1] - q[1]));
 }
@@ -59,7 +59,7 @@ static size_t longer_axis(const double a[2], const double b[2])
 static double other_coordinate(const double a[2], const double b[2], size_t k, double u)
 {
     int exponent;
-    frexp(sunder_i_max(norm(a), norm(b)), &exponent);
+    frexp(sunder_i_max(max_norm(a), max_norm(b)), &exponent);
     const int shift = exponent > LARGE_EXPONENT ? exponent - LARGE_EXPONENT : 0;
     double p[2], q[2];
     for (size_t c = 0; c < 2; c++) {
@@ -105,7 +105,7 @@ static bool cut_off(const double origin[2], double half, double corner[4])
 
 static void take_nearer(const double p[2], double origin[2])
 {
-    if (norm(p) < norm(origin)) memcpy(origin, p, 2 * sizeof *origin);
+    if (max_norm(p) < max_norm(origin)) memcpy(origin, p, 2 * sizeof *origin);
 }
 
 /* Replaces `origin` by the point of the shape's pieces nearest to (0, 0), if that is nearer than `origin`. */
@@ -133,21 +133,21 @@ void sunder_i_find_far_corners(const sunder_i_model *model, sunder_i_body *body)
     for (uint32_t m = 0; m < body->members; m++) {
         if (!model->present[member[m]]) continue;
         const double *box = sunder_i_thing_shape(model, member[m])->box;
-        farthest = sunder_i_max(farthest, sunder_i_max(norm(box), norm(box + 2)));
+        farthest = sunder_i_max(farthest, sunder_i_max(max_norm(box), max_norm(box + 2)));
     }
     if (!(farthest > NEAR)) return;
     for (uint32_t m = 0; m < body->members; m++)
         if (model->present[member[m]]) look_for_origin(sunder_i_thing_shape(model, member[m]), nearest);
-    if (!(farthest / OUT_OF_PROPORTION > norm(nearest))) return;
+    if (!(farthest / OUT_OF_PROPORTION > max_norm(nearest))) return;
     memcpy(body->origin, nearest, sizeof body->origin);
     body->far = true;
 }
 
-static double half_window(const sunder_i_body *body) { return sunder_i_max(NEAR, NEAR_TIMES * norm(body->origin)); }
+static double half_window(const sunder_i_body *body) { return sunder_i_max(NEAR, NEAR_TIMES * max_norm(body->origin)); }
 
 static bool is_far(const sunder_i_body *body, const double p[2])
 {
-    return distance(p, body->origin) > half_window(body);
+    return max_distance(p, body->origin) > half_window(body);
 }
 
 /* Makes p relative to the body's origin. A far p is moved along the ray from the origin to the distance half_window().
@@ -156,7 +156,7 @@ static void draw_in(const sunder_i_body *body, double p[2])
 {
     const bool far = is_far(body, p);
     for (size_t c = 0; c < 2; c++) p[c] = far ? p[c] / 2 - body->origin[c] / 2 : p[c] - body->origin[c];
-    const double longest = norm(p);
+    const double longest = max_norm(p);
     for (size_t c = 0; c < 2 && far; c++) p[c] = p[c] / longest * half_window(body);
 }
 

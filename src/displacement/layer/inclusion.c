@@ -18,7 +18,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static sunder_i_inclusion *find(sunder_i_inclusion *list, size_t n, uint32_t f, uint32_t g)
+static sunder_i_inclusion *find_inclusion(sunder_i_inclusion *list, size_t n, uint32_t f, uint32_t g)
 {
     const sunder_i_inclusion key = {.a = f < g ? f : g, .b = f < g ? g : f};
     return n ? bsearch(&key, list, n, sizeof key, sunder_i_by_id_pair) : NULL;
@@ -26,7 +26,7 @@ static sunder_i_inclusion *find(sunder_i_inclusion *list, size_t n, uint32_t f, 
 
 sunder_i_inclusion *sunder_i_inclusion_find(const sunder_i_model *model, uint32_t f, uint32_t g)
 {
-    return find(model->inclusion, model->inclusions, f, g);
+    return find_inclusion(model->inclusion, model->inclusions, f, g);
 }
 
 bool sunder_i_is_included(const sunder_i_model *model, uint32_t f, uint32_t g)
@@ -38,7 +38,7 @@ bool sunder_i_is_included(const sunder_i_model *model, uint32_t f, uint32_t g)
 bool sunder_i_is_inner(const sunder_i_model *model, uint32_t inner, uint32_t holder)
 {
     const sunder_i_inclusion *pair = sunder_i_inclusion_find(model, holder, inner);
-    if (!pair) pair = find(model->nested, model->nested_n, holder, inner);
+    if (!pair) pair = find_inclusion(model->nested, model->nested_n, holder, inner);
     return pair && pair->a_inside == (inner < holder);
 }
 

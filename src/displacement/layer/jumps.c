@@ -20,7 +20,7 @@
 void sunder_i_jumps_free(sunder_i_jumps *jumps)
 {
     sunder_i_free(jumps->pair);
-    sunder_i_path_tree_free(&jumps->ways);
+    sunder_i_path_tree_free(&jumps->paths);
     memset(jumps, 0, sizeof *jumps);
 }
 
@@ -28,7 +28,7 @@ void sunder_i_jumps_free(sunder_i_jumps *jumps)
 
 static const double *move_of(const sunder_i_jumps *jumps, const sunder_i_model *model, uint32_t f)
 {
-    return sunder_i_move_of(&jumps->ways, model, f);
+    return sunder_i_move_of(&jumps->paths, model, f);
 }
 
 static bool has_moved(const sunder_i_jumps *jumps, const sunder_i_model *model, uint32_t f)
@@ -40,9 +40,9 @@ static bool has_moved(const sunder_i_jumps *jumps, const sunder_i_model *model, 
 /* Sets near to the features whose paths come near the path of f. */
 static bool find_near(const sunder_i_jumps *jumps, const sunder_i_model *model, uint32_t f, sunder_i_list *near)
 {
-    double way[4];
-    sunder_i_path_box(&jumps->ways, model, f, way);
-    return sunder_i_path_tree_look_about(&jumps->ways, model, way, near);
+    double path[4];
+    sunder_i_path_box(&jumps->paths, model, f, path);
+    return sunder_i_path_tree_look_about(&jumps->paths, model, path, near);
 }
 
 /* ---- Pairs ------------------------------------------------------------------------------------------------------- */
@@ -52,8 +52,8 @@ sunder_status sunder_i_jumps_over(const sunder_i_jumps *jumps, const sunder_i_mo
 {
     if (sunder_i_is_barrier(model, g)) return sunder_i_crosses_side(model, f, move_of(jumps, model, f), g, over, err);
     const double *a = model->anchor_at + 2 * (size_t)f, *t = move_of(jumps, model, f), *s = move_of(jumps, model, g);
-    const sunder_i_passage way = {{a[0], a[1]}, {t[0], t[1]}, {s[0], s[1]}};
-    return sunder_i_passes(&way, sunder_i_thing_shape(model, g), over, err);
+    const sunder_i_passage path = {{a[0], a[1]}, {t[0], t[1]}, {s[0], s[1]}};
+    return sunder_i_passes(&path, sunder_i_thing_shape(model, g), over, err);
 }
 
 static sunder_status ask_both(const sunder_i_jumps *jumps, const sunder_i_model *model, uint32_t f, uint32_t g,
@@ -72,11 +72,11 @@ static sunder_status ask_both(const sunder_i_jumps *jumps, const sunder_i_model 
 static bool find_parts(const sunder_i_jumps *jumps, const sunder_i_model *model, uint32_t f, sunder_i_list *near)
 {
     const double *a = model->side_at + 2 * (size_t)f, *t = move_of(jumps, model, f);
-    const sunder_i_passage way = {{a[0], a[1]}, {t[0], t[1]}, {0, 0}};
+    const sunder_i_passage path = {{a[0], a[1]}, {t[0], t[1]}, {0, 0}};
     const size_t before = near->n;
     double box[4];
     if (t[0] == 0 && t[1] == 0) return true;
-    sunder_i_passage_box(&way, box);
+    sunder_i_passage_box(&path, box);
     if (!sunder_i_look_about(model, &model->tree, box, near)) return false;
     size_t kept = before;
     for (size_t k = before; k < near->n; k++)
@@ -155,7 +155,7 @@ static sunder_status find_partners(void *context, size_t begin, size_t end, sund
 }
 
 /* Replaces jumps->pair by the old pairs without a changed feature and the pairs that were found. */
-static bool collect(sunder_i_jumps *jumps, const pair_search *s, size_t asked)
+static bool collect_pairs(sunder_i_jumps *jumps, const pair_search *s, size_t asked)
 {
     size_t n = 0, kept = 0;
     for (size_t k = 0; k < asked; k++) n += s->found[k].n;
@@ -178,10 +178,10 @@ static bool collect(sunder_i_jumps *jumps, const pair_search *s, size_t asked)
 sunder_status sunder_i_jumps_update(sunder_i_jumps *jumps, const sunder_i_model *model, const sunder_i_changes *changes,
                                     sunder_error *err)
 {
-    if (!sunder_i_forbids_ways(model)) return SUNDER_OK;
+    if (!sunder_i_forbids_paths(model)) return SUNDER_OK;
     sunder_status status = sunder_i_jumps_begun(jumps) || model->rules.jumps
                                ? SUNDER_OK
-                               : sunder_i_path_tree_begin(&jumps->ways, model, err);
+                               : sunder_i_path_tree_begin(&jumps->paths, model, err);
     const size_t most = changes ? changes->list.n : model->features;
     uint32_t *asked = sunder_i_alloc(most, sizeof *asked);
     if (!status && !asked) status = sunder_i_no_memory(err);
@@ -190,7 +190,7 @@ sunder_status sunder_i_jumps_update(sunder_i_jumps *jumps, const sunder_i_model 
         const uint32_t f = changes ? changes->list.item[k] : (uint32_t)k;
         if (f < model->features && model->present[f]) asked[n++] = f;
     }
-    if (!status && sunder_i_jumps_begun(jumps)) status = sunder_i_path_tree_follow(&jumps->ways, model, asked, n, err);
+    if (!status && sunder_i_jumps_begun(jumps)) status = sunder_i_path_tree_follow(&jumps->paths, model, asked, n, err);
     pair_search s = {jumps, model, changes ? changes->is : NULL, asked, NULL};
     const size_t present = n;
     n = 0;
@@ -199,7 +199,7 @@ sunder_status sunder_i_jumps_update(sunder_i_jumps *jumps, const sunder_i_model 
     sunder_i_list *found = s.found = sunder_i_calloc(n, sizeof *found);
     if (!status && !found) status = sunder_i_no_memory(err);
     if (!status) status = sunder_i_parallel(model->rules.threads, n, SUNDER_I_GRAIN_TESTS, find_partners, &s, err);
-    if (!status && !collect(jumps, &s, n)) status = sunder_i_no_memory(err);
+    if (!status && !collect_pairs(jumps, &s, n)) status = sunder_i_no_memory(err);
     for (size_t k = 0; k < n && found; k++) sunder_i_free(found[k].item);
     sunder_i_free(found);
     sunder_i_free(asked);
@@ -211,10 +211,11 @@ sunder_status sunder_i_jumps_follow(sunder_i_jumps *jumps, const sunder_i_model 
 {
     const sunder_i_body *b = &model->body[body];
     if (model->rules.jumps) return SUNDER_OK;
-    sunder_status status = sunder_i_jumps_begun(jumps) ? SUNDER_OK : sunder_i_path_tree_begin(&jumps->ways, model, err);
+    sunder_status status =
+        sunder_i_jumps_begun(jumps) ? SUNDER_OK : sunder_i_path_tree_begin(&jumps->paths, model, err);
     for (uint32_t m = 0; m < b->members && !status; m++) {
         const uint32_t f = model->member[b->member + m];
-        if (model->present[f]) status = sunder_i_path_tree_follow(&jumps->ways, model, &f, 1, err);
+        if (model->present[f]) status = sunder_i_path_tree_follow(&jumps->paths, model, &f, 1, err);
     }
     return status;
 }

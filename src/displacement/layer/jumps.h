@@ -9,14 +9,14 @@
  * which one jumped over the other, or a feature and a part of a barrier whose side it crossed. Zeroed: nothing has
  * moved. */
 typedef struct sunder_i_jumps {
-    sunder_i_path_tree ways; /* each from the original position straight to the present one */
-    sunder_i_id_pair *pair;  /* things, a < b, of different bodies; sorted */
+    sunder_i_path_tree paths; /* each from the original position straight to the present one */
+    sunder_i_id_pair *pair;   /* things, a < b, of different bodies; sorted */
     size_t n;
 } sunder_i_jumps;
 
 void sunder_i_jumps_free(sunder_i_jumps *jumps);
 /* Has the tree of paths been built? It has not before the first move, and never if jumps are allowed. */
-static inline bool sunder_i_jumps_begun(const sunder_i_jumps *jumps) { return sunder_i_path_tree_begun(&jumps->ways); }
+static inline bool sunder_i_jumps_begun(const sunder_i_jumps *jumps) { return sunder_i_path_tree_begun(&jumps->paths); }
 /* Updates the pairs after the features in `changes` (sorted; NULL: all) were given new positions in model->move. Does
  * nothing if no relative moves are forbidden. */
 sunder_status sunder_i_jumps_update(sunder_i_jumps *jumps, const sunder_i_model *model, const sunder_i_changes *changes,

@@ -25,10 +25,10 @@ void sunder_i_model_free(sunder_i_model *model)
     sunder_i_free(model->anchor_at);
     sunder_i_free(model->held);
     sunder_i_free(model->clear);
-    sunder_i_free(model->seam);
-    sunder_i_free(model->seam_diagonal);
-    sunder_i_free(model->seam_corner);
-    sunder_i_free(model->joint);
+    sunder_i_free(model->diagonal_cover);
+    sunder_i_free(model->diagonal_cover_vertices);
+    sunder_i_free(model->diagonal_cover_corner);
+    sunder_i_free(model->wall_cover);
     sunder_i_free(model->side);
     sunder_i_free(model->side_anchor);
     sunder_i_free(model->side_at);
@@ -36,8 +36,9 @@ void sunder_i_model_free(sunder_i_model *model)
     for (size_t b = 0; model->whole && b < model->bodies; b++) sunder_shape_free(model->whole[b]);
     sunder_i_free(model->whole);
     sunder_i_free(model->present);
-    for (size_t f = 0; model->seamless && f < model->features; f++) sunder_i_seamless_free(&model->seamless[f]);
-    sunder_i_free(model->seamless);
+    for (size_t f = 0; model->interior_cover && f < model->features; f++)
+        sunder_i_interior_cover_free(&model->interior_cover[f]);
+    sunder_i_free(model->interior_cover);
     sunder_i_free(model->inclusion);
     sunder_i_free(model->nested);
     sunder_i_free(model->wall);
@@ -53,29 +54,29 @@ void sunder_i_model_free(sunder_i_model *model)
     memset(model, 0, sizeof *model);
 }
 
-static sunder_status make_some_seamless(void *context, size_t begin, size_t end, sunder_error *err)
+static sunder_status make_some_interior_covers(void *context, size_t begin, size_t end, sunder_error *err)
 {
     const sunder_i_model *model = context;
     sunder_status status = SUNDER_OK;
     for (size_t f = begin; f < end && !status; f++)
         if (model->present[f])
-            status = sunder_i_seamless_make(sunder_i_thing_shape(model, f), &model->seamless[f], err);
+            status = sunder_i_interior_cover_make(sunder_i_thing_shape(model, f), &model->interior_cover[f], err);
     return status;
 }
 
-static sunder_status make_seamless(sunder_i_model *model, sunder_error *err)
+static sunder_status make_interior_covers(sunder_i_model *model, sunder_error *err)
 {
     if (!model->barriers->flat) return SUNDER_OK;
-    model->seamless = sunder_i_calloc(model->features, sizeof *model->seamless);
-    if (!model->seamless) return sunder_i_no_memory(err);
-    return sunder_i_parallel(model->rules.threads, model->features, SUNDER_I_GRAIN_SHAPES, make_some_seamless, model,
-                             err);
+    model->interior_cover = sunder_i_calloc(model->features, sizeof *model->interior_cover);
+    if (!model->interior_cover) return sunder_i_no_memory(err);
+    return sunder_i_parallel(model->rules.threads, model->features, SUNDER_I_GRAIN_SHAPES, make_some_interior_covers,
+                             model, err);
 }
 
 sunder_i_translate sunder_i_at_home(const sunder_i_model *model, uint32_t feature)
 {
     return (sunder_i_translate){.shape = sunder_i_thing_shape(model, feature),
-                                .seamless = model->seamless ? model->seamless[feature].shape : NULL};
+                                .interior_cover = model->interior_cover ? model->interior_cover[feature].shape : NULL};
 }
 
 typedef struct presence {
@@ -134,7 +135,7 @@ sunder_status sunder_i_model_init(const sunder_layer *layer, const sunder_i_barr
     sunder_status status = build_tree(model, err);
     if (!status) status = sunder_i_thin_disc(rules->tolerance, &model->disc, err);
     model->rules.disc = model->disc;
-    return status ? status : make_seamless(model, err);
+    return status ? status : make_interior_covers(model, err);
 }
 
 /* ---- Bodies ------------------------------------------------------------------------------------------------------ */
@@ -209,7 +210,7 @@ static bool number_bodies(sunder_i_model *model, uint32_t *parent)
 #ifndef NDEBUG
 /* Checks that each thing is in one body, that bodies are numbered in the order of their first members, and that the
  * members of a body ascend. */
-static const char *check(const sunder_i_model *model)
+static const char *check_bodies(const sunder_i_model *model)
 {
     size_t members = 0;
     for (size_t b = 0; b < model->bodies; b++) {
@@ -252,7 +253,7 @@ sunder_status sunder_i_model_join(sunder_i_model *model, const sunder_i_relation
                                                                 : sunder_i_no_memory(err);
     if (!status && !number_bodies(model, parent)) status = sunder_i_no_memory(err);
     if (!status && model->rules.keep_worlds && !keep_reads(model)) status = sunder_i_no_memory(err);
-    SUNDER_I_CHECK(status ? NULL : check(model), model->things);
+    SUNDER_I_CHECK(status ? NULL : check_bodies(model), model->things);
     sunder_i_free(parent);
     return status;
 }

@@ -5,8 +5,8 @@
 
 #include "displacement/layer/barrier_parts.h"
 #include "displacement/layer/inclusion.h"
+#include "displacement/layer/interior_cover.h"
 #include "displacement/layer/relaxation.h"
-#include "displacement/layer/seamless.h"
 #include "spatial/rtree.h"
 
 #include "base/extremes.h"
@@ -16,12 +16,13 @@
 
 /* Data that only few bodies have (extras.c). */
 typedef struct sunder_i_extras {
-    uint32_t wall, walls;   /* the edges of its members that hold other features inside, in sunder_i_model.wall */
-    uint32_t seam, seams;   /* pieces that cover the diagonals between its convex pieces, in sunder_i_model.seam */
-    uint32_t joint, joints; /* pieces that cover the walls that its members share, in sunder_i_model.joint */
-    uint32_t side, sides;   /* if the body is a part of a barrier: the lines of it that may not be crossed, in
+    uint32_t wall, walls; /* the edges of its members that hold other features inside, in sunder_i_model.wall */
+    uint32_t diagonal_cover,
+        diagonal_covers; /* pieces that cover the diagonals between its convex pieces, in sunder_i_model.seam */
+    uint32_t wall_cover, wall_covers; /* pieces that cover the walls that its members share, in sunder_i_model.joint */
+    uint32_t side, sides;             /* if the body is a part of a barrier: the lines of it that may not be crossed, in
                              * sunder_i_model.side */
-    double anchors[4];      /* if it has many members: the box of their anchors (sunder_i_anchors()) */
+    double anchors[4];                /* if it has many members: the box of their anchors (sunder_i_anchors()) */
 } sunder_i_extras;
 
 /* A body is a block, or a feature in no block, or a part of a barrier; its members move together. Bodies are numbered
@@ -35,7 +36,7 @@ typedef struct sunder_i_body {
     bool fixed;                 /* it never moves; so too if its limit is 0 */
     bool held;                  /* it does not move for now, as its exact moves are coarser than those of a neighbour
                                  * (solve/clusters/coarse_bodies.c) */
-    bool has_seams;             /* the covers of its diagonals have been made */
+    bool has_diagonal_covers;   /* the covers of its diagonals have been made */
     bool pinned;                /* it stays at its original position, as rounding its move would make a pair worse than
                                  * at the start (uphold.c) */
     bool far;                   /* it has far corners, out of proportion to the rest of it (far_corners.c) */
@@ -75,11 +76,11 @@ typedef struct sunder_i_body_pieces {
 } sunder_i_body_pieces;
 
 /* A convex piece, within two members of a block, that covers a wall that they share. */
-typedef struct sunder_i_joint {
+typedef struct sunder_i_wall_cover {
     sunder_i_body_piece piece; /* its feature is one of the two members */
     uint32_t other;
     double at[8], corner[8]; /* its four corners in coordinates of the layer, and relative to the body's origin */
-} sunder_i_joint;
+} sunder_i_wall_cover;
 
 /* A line of a barrier that features may not cross. */
 typedef struct sunder_i_side {
@@ -136,17 +137,20 @@ struct sunder_i_model {
     struct sunder_i_pieces_store *store;   /* the memory of the pieces */
     /* anchor_at, clear and held are set only if jumps are not allowed, and covers (seam, joint) also if a barrier owes
      * no distance; otherwise they are NULL. */
-    double *anchor_at;         /* [2 * features] the anchors in coordinates of the layer */
-    double *clear;             /* [features] a lower bound of the distance from each anchor to the nearest feature of
+    double *anchor_at; /* [2 * features] the anchors in coordinates of the layer */
+    double *clear;     /* [features] a lower bound of the distance from each anchor to the nearest feature of
                                 * another body that does not contain it */
-    sunder_i_body_piece *seam; /* convex pieces of features that cover the diagonals between their pieces; seams.c */
-    double *seam_corner;       /* [8 * seams] the four corners of each, relative to the body's origin */
-    uint32_t *seam_diagonal;   /* [4 * seams] the vertices from which sunder_i_seam_again() recomputes the corners as
-                                * given */
-    size_t seams;
-    bool has_seams;        /* the covers of diagonals have been made for all bodies */
-    sunder_i_joint *joint; /* covers of walls that members share, for the bodies they were requested for; joints.c */
-    size_t joints;
+    sunder_i_body_piece *
+        diagonal_cover; /* convex pieces of features that cover the diagonals between their pieces; diagonal_covers.c */
+    double *diagonal_cover_corner; /* [8 * seams] the four corners of each, relative to the body's origin */
+    uint32_t *
+        diagonal_cover_vertices; /* [4 * seams] the vertices from which sunder_i_diagonal_cover_corners() recomputes the
+                                  * corners as given */
+    size_t diagonal_covers;
+    bool has_diagonal_covers; /* the covers of diagonals have been made for all bodies */
+    sunder_i_wall_cover
+        *wall_cover; /* covers of walls that members share, for the bodies they were requested for; wall_covers.c */
+    size_t wall_covers;
     sunder_i_id_pair *held; /* pairs of a feature and a feature of another body that contains its anchor; sorted */
     size_t held_n;
     /* The next five are set only if barriers have sides: */
@@ -156,15 +160,16 @@ struct sunder_i_model {
     double *side_at;                  /* [2 * features] the side anchors in coordinates of the layer */
     double *side_anchors;             /* [4 * bodies] the box of each body's side anchors, relative to the body's
                                        * origin */
-    sunder_shape **whole;        /* [bodies] the union of a block's members, if it was made; NULL if not, and for single
+    sunder_shape **whole; /* [bodies] the union of a block's members, if it was made; NULL if not, and for single
                                   * features */
-    uint32_t most_pieces;        /* the largest number of pieces of one body */
-    bool *present;               /* [things] the thing is neither ignored nor empty */
-    sunder_i_seamless *seamless; /* [features] their interior covers, if there are barriers without area; else NULL */
-    sunder_i_rtree tree;         /* over the boxes of things at their original positions, grown by
+    uint32_t most_pieces; /* the largest number of pieces of one body */
+    bool *present;        /* [things] the thing is neither ignored nor empty */
+    sunder_i_interior_cover
+        *interior_cover; /* [features] their interior covers, if there are barriers without area; else NULL */
+    sunder_i_rtree tree; /* over the boxes of things at their original positions, grown by
                                   * sunder_i_reach_beyond() */
-    sunder_i_read *read;         /* [bodies] what was read for each (layer/reads.h); NULL: reads are not recorded */
-    double *went;                /* [4 * bodies] the box of all moves that each body ever had; NULL: reads are not
+    sunder_i_read *read; /* [bodies] what was read for each (layer/reads.h); NULL: reads are not recorded */
+    double *went;        /* [4 * bodies] the box of all moves that each body ever had; NULL: reads are not
                                   * recorded */
     const sunder_i_rtree *standing; /* borrowed: the placement's tree over the present positions */
     sunder_i_body_piece *wall;      /* edges of features that hold others inside; see inclusion.c */
@@ -222,7 +227,7 @@ static inline const double *sunder_i_home_box(const sunder_i_model *model, uint3
 }
 
 /* Are some relative moves forbidden regardless of where they end (jumps, crossed sides)? */
-static inline bool sunder_i_forbids_ways(const sunder_i_model *model) { return !model->rules.jumps || model->sides; }
+static inline bool sunder_i_forbids_paths(const sunder_i_model *model) { return !model->rules.jumps || model->sides; }
 
 /* Returns the box of the side anchors of one of the model's bodies. There must be barriers with sides. */
 static inline const double *sunder_i_side_anchors(const sunder_i_model *model, const sunder_i_body *body)
@@ -366,21 +371,22 @@ sunder_status sunder_i_model_anchor(sunder_i_model *model, sunder_error *err);
 /* Does feature g, of another body, contain the anchor of feature f? Then f may leave g. */
 bool sunder_i_is_held(const sunder_i_model *model, uint32_t f, uint32_t g);
 
-/* ---- seams.c ----------------------------------------------------------------------------------------------------- */
+/* ---- diagonal_covers.c ------------------------------------------------------------------------------------------- */
 
 /* Is there a barrier without area that owes no distance? A feature could meet it along a diagonal without meeting a
  * piece. */
 bool sunder_i_has_bare_barriers(const sunder_i_model *model);
 /* Makes the covers of diagonals that are still missing, for all bodies or for the n bodies in `body`. Pieces must have
  * been numbered before. Proofs need these covers, the search does not. Pointers to covers become invalid. */
-sunder_status sunder_i_model_find_seams(sunder_i_model *model, sunder_error *err);
-sunder_status sunder_i_model_find_seams_of(sunder_i_model *model, const uint32_t *body, size_t n, sunder_error *err);
+sunder_status sunder_i_model_cover_diagonals(sunder_i_model *model, sunder_error *err);
+sunder_status sunder_i_model_cover_diagonals_of(sunder_i_model *model, const uint32_t *body, size_t n,
+                                                sunder_error *err);
 
-/* ---- joints.c ---------------------------------------------------------------------------------------------------- */
+/* ---- wall_covers.c ----------------------------------------------------------------------------------------------- */
 
 /* Makes the covers of the walls that members of these n bodies share; `body` ascends. To be called once for a body.
  * Pointers to such covers become invalid. */
-sunder_status sunder_i_model_find_joints(sunder_i_model *model, const uint32_t *body, size_t n, sunder_error *err);
+sunder_status sunder_i_model_cover_walls(sunder_i_model *model, const uint32_t *body, size_t n, sunder_error *err);
 
 /* ---- within_limit.c ---------------------------------------------------------------------------------------------- */
 

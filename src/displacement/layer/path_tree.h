@@ -14,23 +14,23 @@ typedef struct sunder_i_path_tree {
     double sprawl, packed; /* the total size of the hulls now, and when the tree was packed, as in sunder_i_rtree */
 } sunder_i_path_tree;
 
-void sunder_i_path_tree_free(sunder_i_path_tree *ways);
-static inline bool sunder_i_path_tree_begun(const sunder_i_path_tree *ways) { return ways->hull != NULL; }
-static inline const double *sunder_i_move_of(const sunder_i_path_tree *ways, const sunder_i_model *model, uint32_t f)
+void sunder_i_path_tree_free(sunder_i_path_tree *tree);
+static inline bool sunder_i_path_tree_begun(const sunder_i_path_tree *tree) { return tree->hull != NULL; }
+static inline const double *sunder_i_move_of(const sunder_i_path_tree *tree, const sunder_i_model *model, uint32_t f)
 {
-    return ways->own ? ways->own + 2 * (size_t)f : model->move + 2 * (size_t)model->body_of[f];
+    return tree->own ? tree->own + 2 * (size_t)f : model->move + 2 * (size_t)model->body_of[f];
 }
 /* Sets box to the box of feature f's path, rounded outward. */
-void sunder_i_path_box(const sunder_i_path_tree *ways, const sunder_i_model *model, uint32_t f, double box[4]);
+void sunder_i_path_box(const sunder_i_path_tree *tree, const sunder_i_model *model, uint32_t f, double box[4]);
 /* Builds the tree for all present features in their present positions. */
-sunder_status sunder_i_path_tree_begin(sunder_i_path_tree *ways, const sunder_i_model *model, sunder_error *err);
+sunder_status sunder_i_path_tree_begin(sunder_i_path_tree *tree, const sunder_i_model *model, sunder_error *err);
 /* Updates the tree after the n features in `moved`, all present, have got new positions. May be called repeatedly for a
  * feature; the last position counts. */
-sunder_status sunder_i_path_tree_follow(sunder_i_path_tree *ways, const sunder_i_model *model, const uint32_t *moved,
+sunder_status sunder_i_path_tree_follow(sunder_i_path_tree *tree, const sunder_i_model *model, const uint32_t *moved,
                                         size_t n, sunder_error *err);
 /* Appends to `hits` every feature whose path meets the box; the read is recorded (reads.h). Returns false if memory is
  * out. Features that moved since the last sunder_i_path_tree_follow() may be missing. */
-bool sunder_i_path_tree_look_about(const sunder_i_path_tree *ways, const sunder_i_model *model, const double box[4],
+bool sunder_i_path_tree_look_about(const sunder_i_path_tree *tree, const sunder_i_model *model, const double box[4],
                                    sunder_i_list *hits);
 
 #endif

@@ -21,9 +21,10 @@ sunder_status sunder_i_placement_init(const sunder_i_model *model, sunder_i_plac
     memset(placement, 0, sizeof *placement);
     placement->move = sunder_i_calloc(2 * n, sizeof *placement->move);
     placement->rounded = sunder_i_calloc(n, sizeof *placement->rounded);
-    placement->seamless = model->seamless ? sunder_i_calloc(n, sizeof *placement->seamless) : NULL;
+    placement->interior_cover = model->interior_cover ? sunder_i_calloc(n, sizeof *placement->interior_cover) : NULL;
     placement->was_rounded = sunder_i_calloc(n, sizeof *placement->was_rounded);
-    if (!placement->move || !placement->rounded || (model->seamless && !placement->seamless) || !placement->was_rounded)
+    if (!placement->move || !placement->rounded || (model->interior_cover && !placement->interior_cover) ||
+        !placement->was_rounded)
         return sunder_i_no_memory(err);
     placement->tree = sunder_i_rtree_lend(&model->tree); /* every feature is at its original position */
     return SUNDER_OK;
@@ -32,9 +33,10 @@ sunder_status sunder_i_placement_init(const sunder_i_model *model, sunder_i_plac
 void sunder_i_placement_free(const sunder_i_model *model, sunder_i_placement *placement)
 {
     for (size_t f = 0; placement->rounded && f < model->features; f++) sunder_shape_free(placement->rounded[f]);
-    for (size_t f = 0; placement->seamless && f < model->features; f++) sunder_i_seamless_free(&placement->seamless[f]);
+    for (size_t f = 0; placement->interior_cover && f < model->features; f++)
+        sunder_i_interior_cover_free(&placement->interior_cover[f]);
     sunder_i_free(placement->rounded);
-    sunder_i_free(placement->seamless);
+    sunder_i_free(placement->interior_cover);
     sunder_i_free(placement->was_rounded);
     sunder_i_free(placement->move);
     sunder_i_rtree_free(&placement->tree);
@@ -49,7 +51,7 @@ static sunder_status stand_feature(sunder_i_model *model, sunder_i_placement *pl
     const bool rounded = model->inexact[f];
     double box[4];
     sunder_shape_free(placement->rounded[f]);
-    if (placement->seamless) sunder_i_seamless_free(&placement->seamless[f]);
+    if (placement->interior_cover) sunder_i_interior_cover_free(&placement->interior_cover[f]);
     placement->rounded[f] = NULL;
     for (size_t c = 0; c < 2; c++) placement->move[2 * f + c] = rounded ? 0 : t[c];
     if (rounded) {
@@ -60,8 +62,8 @@ static sunder_status stand_feature(sunder_i_model *model, sunder_i_placement *pl
         if (status) return status;
         sunder_shape_box(placement->rounded[f], box);
         sunder_i_rtree_move(&placement->tree, (uint32_t)f, box);
-        if (!model->seamless) return SUNDER_OK;
-        return sunder_i_seamless_make(placement->rounded[f], &placement->seamless[f], err);
+        if (!model->interior_cover) return SUNDER_OK;
+        return sunder_i_interior_cover_make(placement->rounded[f], &placement->interior_cover[f], err);
     }
     const double *home = sunder_i_home_box(model, (uint32_t)f);
     for (int c = 0; c < 4; c++) {
@@ -197,8 +199,8 @@ static bool order_by_runs(const pair_search *s, size_t n, uint64_t *place, uint3
     return true;
 }
 
-static sunder_status relate(const sunder_i_model *model, const sunder_i_placement *placement, sunder_i_relation *r,
-                            sunder_error *err)
+static sunder_status relate_pair(const sunder_i_model *model, const sunder_i_placement *placement, sunder_i_relation *r,
+                                 sunder_error *err)
 {
     const sunder_i_translate a = sunder_i_standing(model, placement, r->a);
     if (sunder_i_is_barrier(model, r->b)) return sunder_i_barrier_relate(model, &a, r->b, r, err);
@@ -223,7 +225,7 @@ static bool is_as_before(const classification *c, const sunder_i_relation *r)
            !c->placement->was_rounded[r->b] && c->changed[r->a] == c->changed[r->b];
 }
 
-static sunder_status classify(void *context, size_t begin, size_t end, sunder_error *err)
+static sunder_status relate_pairs(void *context, size_t begin, size_t end, sunder_error *err)
 {
     const classification *c = context;
     for (size_t k = begin; k < end; k++) {
@@ -233,7 +235,7 @@ static sunder_status classify(void *context, size_t begin, size_t end, sunder_er
             if (old) *r = *old;
             continue;
         }
-        const sunder_status status = relate(c->model, c->placement, r, err);
+        const sunder_status status = relate_pair(c->model, c->placement, r, err);
         if (status) return status;
     }
     return SUNDER_OK;
@@ -265,7 +267,7 @@ sunder_status sunder_i_placement_visit(const sunder_i_model *model, const sunder
             const uint32_t g = near->item[k];
             sunder_i_relation r = {.a = f < g ? f : g, .b = f < g ? g : f};
             if (model->body_of[g] == body) continue;
-            status = relate(model, placement, &r, err);
+            status = relate_pair(model, placement, &r, err);
             if (!status && (r.near || r.touch || r.kept)) status = visit(context, &r, &on, err);
         }
     }
@@ -274,7 +276,7 @@ sunder_status sunder_i_placement_visit(const sunder_i_model *model, const sunder
 
 /* Makes a relation for each pair of partners, sorted, with the lesser feature first; sets *pairs to their number.
  * Returns NULL if memory is out. */
-static sunder_i_relation *collect(const pair_search *s, size_t asked, size_t *pairs)
+static sunder_i_relation *collect_pairs(const pair_search *s, size_t asked, size_t *pairs)
 {
     size_t total = 0, k = 0;
     for (size_t a = 0; a < asked; a++) total += s->found[a].n;
@@ -336,7 +338,7 @@ static sunder_status find_pairs(const sunder_i_model *model, const sunder_i_plac
     sunder_i_free(first);
     sunder_i_free(place);
     if (!status) {
-        *pair = collect(&search, n, pairs);
+        *pair = collect_pairs(&search, n, pairs);
         if (!*pair) status = sunder_i_no_memory(err);
     }
     for (size_t run = 0; run < runs && search.partner; run++) sunder_i_free(search.partner[run]);
@@ -347,7 +349,7 @@ static sunder_status find_pairs(const sunder_i_model *model, const sunder_i_plac
 }
 
 #ifndef NDEBUG
-static const char *check(const sunder_i_relations *relations)
+static const char *check_relations(const sunder_i_relations *relations)
 {
     for (size_t k = 0; k < relations->n; k++) {
         const sunder_i_relation *r = &relations->pair[k];
@@ -389,7 +391,7 @@ static void drop_changed(const bool *changed, sunder_i_relations *relations)
 
 /* Inserts n sorted pairs that are not in the list, beginning with the last. They are few compared with the list, so no
  * entry before the first insertion is moved. Returns false if memory is out. */
-static bool put_in(sunder_i_relations *relations, const sunder_i_relation *pair, size_t n)
+static bool insert_pairs(sunder_i_relations *relations, const sunder_i_relation *pair, size_t n)
 {
     if (!sunder_i_reserve(&relations->pair, &relations->room, relations->n + n, sizeof *pair)) return false;
     size_t at = relations->n, to = relations->n += n;
@@ -408,7 +410,8 @@ static sunder_status relate_changed(classification *c, const sunder_i_changes *c
                                     sunder_error *err)
 {
     sunder_status status = find_pairs(c->model, c->placement, changes, &c->pair, tested, err);
-    if (!status) status = sunder_i_parallel(c->model->rules.threads, *tested, SUNDER_I_GRAIN_TESTS, classify, c, err);
+    if (!status)
+        status = sunder_i_parallel(c->model->rules.threads, *tested, SUNDER_I_GRAIN_TESTS, relate_pairs, c, err);
     *n = status ? 0 : keep_related(c->pair, *tested);
     return status;
 }
@@ -427,15 +430,15 @@ sunder_status sunder_i_placement_relate(const sunder_i_model *model, const sunde
     /* The list is kept for long, so the memory of pairs that were left out is returned. */
     sunder_i_relation *fits = sunder_i_realloc(c.pair, n, sizeof *fits);
     *relations = (sunder_i_relations){fits ? fits : c.pair, n, fits ? n : tested, tested};
-    SUNDER_I_CHECK(check(relations), n);
+    SUNDER_I_CHECK(check_relations(relations), n);
     return SUNDER_OK;
 }
 
 /* Replaces the listed pairs among `things` with a changed feature by the n given ones, provided that both are the same
  * pairs. Returns false otherwise. This is the usual case after rounding, which changes few features, by tiny amounts,
  * at places far apart: all other pairs are left as they are. */
-static bool replace(const sunder_i_changes *changes, const sunder_i_list *things, const sunder_i_relation *pair,
-                    size_t n, sunder_i_relations *relations)
+static bool replace_pairs(const sunder_i_changes *changes, const sunder_i_list *things, const sunder_i_relation *pair,
+                          size_t n, sunder_i_relations *relations)
 {
     size_t listed = 0;
     for (size_t k = 0; k < changes->list.n; k++)
@@ -458,12 +461,12 @@ sunder_status sunder_i_placement_relate_again(const sunder_i_model *model, const
     classification c = {model, placement, changes->is, relations, NULL};
     size_t n = 0, tested = 0;
     sunder_status status = relate_changed(&c, changes, &n, &tested, err);
-    if (!status && !(things && replace(changes, things, c.pair, n, relations))) {
+    if (!status && !(things && replace_pairs(changes, things, c.pair, n, relations))) {
         drop_changed(changes->is, relations);
-        if (!put_in(relations, c.pair, n)) status = sunder_i_no_memory(err);
+        if (!insert_pairs(relations, c.pair, n)) status = sunder_i_no_memory(err);
     }
     if (!status) relations->tested = tested;
     sunder_i_free(c.pair);
-    SUNDER_I_CHECK(check(relations), relations->n);
+    SUNDER_I_CHECK(check_relations(relations), relations->n);
     return status;
 }

@@ -7,14 +7,15 @@
 
 /* The positions of the features at one moment. */
 typedef struct sunder_i_placement {
-    double *move;                /* [2 * things] the move of each; zeros if it has a shape of its own in `rounded` or
+    double *move;              /* [2 * things] the move of each; zeros if it has a shape of its own in `rounded` or
                                   * `given` */
-    sunder_shape **rounded;      /* [things] the rounded translate of a feature whose translate is not exact, owned;
+    sunder_shape **rounded;    /* [things] the rounded translate of a feature whose translate is not exact, owned;
                                   * else NULL */
-    const sunder_layer *given;   /* NULL, or: features have the shapes of this layer, with no move */
-    sunder_i_seamless *seamless; /* [things] the interior covers of these shapes, if there are barriers without area;
+    const sunder_layer *given; /* NULL, or: features have the shapes of this layer, with no move */
+    sunder_i_interior_cover
+        *interior_cover; /* [things] the interior covers of these shapes, if there are barriers without area;
                                   * else NULL */
-    bool *was_rounded;           /* [things] the feature was rounded at some time */
+    bool *was_rounded;   /* [things] the feature was rounded at some time */
     sunder_i_rtree tree;
 } sunder_i_placement;
 
@@ -25,8 +26,8 @@ static inline sunder_i_translate sunder_i_standing(const sunder_i_model *model, 
     if (sunder_i_is_barrier(model, thing)) return (sunder_i_translate){.shape = sunder_i_thing_shape(model, thing)};
     const sunder_shape *own = placement->given ? placement->given->shape[thing] : placement->rounded[thing];
     if (own)
-        return (sunder_i_translate){.shape = own,
-                                    .seamless = placement->seamless ? placement->seamless[thing].shape : NULL};
+        return (sunder_i_translate){
+            .shape = own, .interior_cover = placement->interior_cover ? placement->interior_cover[thing].shape : NULL};
     sunder_i_translate home = sunder_i_at_home(model, thing);
     home.t[0] = placement->move[2 * (size_t)thing];
     home.t[1] = placement->move[2 * (size_t)thing + 1];

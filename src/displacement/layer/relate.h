@@ -9,8 +9,8 @@
 typedef struct sunder_i_translate {
     const sunder_shape *shape;
     double t[2];
-    const sunder_shape *seamless; /* the interior cover of the same set, needed against things without area
-                                   * (seamless.h); NULL: shape has such pieces itself */
+    const sunder_shape *interior_cover; /* the interior cover of the same set, needed against things without area
+                                   * (interior_cover.h); NULL: shape has such pieces itself */
 } sunder_i_translate;
 
 typedef struct sunder_i_relation {

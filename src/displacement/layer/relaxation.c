@@ -58,7 +58,7 @@ static uint64_t *mark_of(const sunder_i_relaxations *relaxations, uint32_t i, ui
     return &relaxations->mark[mixed >> 26 & (relaxations->marks - 1)];
 }
 
-static void mark(sunder_i_relaxations *relaxations, const sunder_i_relaxed_bodies *relaxed)
+static void set_mark(sunder_i_relaxations *relaxations, const sunder_i_relaxed_bodies *relaxed)
 {
     uint64_t bit;
     if (relaxations->marks) *mark_of(relaxations, relaxed->i, relaxed->j, &bit) |= bit;
@@ -76,7 +76,7 @@ static bool mark_all(sunder_i_relaxations *relaxations)
     relaxations->mark = sunder_i_calloc(words, sizeof *relaxations->mark);
     if (!relaxations->mark) return false;
     relaxations->marks = words;
-    for (size_t k = 0; k < relaxations->relaxed_n; k++) mark(relaxations, &relaxations->relaxed[k]);
+    for (size_t k = 0; k < relaxations->relaxed_n; k++) set_mark(relaxations, &relaxations->relaxed[k]);
     return true;
 }
 
@@ -122,7 +122,7 @@ static void join_relaxed(sunder_i_relaxed_bodies *between, const sunder_i_relaxe
 /* Checks that each pair has its lesser number first, that pairs are sorted, and that each is counted in the entry of
  * its two bodies; these are sorted, too. (A pair may occur twice, with equal values, if it was relaxed once by itself
  * and once with others.) */
-static const char *check(const sunder_i_relaxations *list, const sunder_i_model *model)
+static const char *check_relaxations(const sunder_i_relaxations *list, const sunder_i_model *model)
 {
     size_t n = 0;
     for (size_t k = 0; k < list->relaxed_n; n += list->relaxed[k++].n)
@@ -159,7 +159,7 @@ bool sunder_i_relaxations_index(sunder_i_relaxations *relaxations, const sunder_
             relaxations->relaxed[relaxations->relaxed_n++] = relaxations->relaxed[k];
     }
     if (!mark_all(relaxations)) return false;
-    SUNDER_I_CHECK(check(relaxations, model), relaxations->n);
+    SUNDER_I_CHECK(check_relaxations(relaxations, model), relaxations->n);
     return true;
 }
 
@@ -183,8 +183,8 @@ bool sunder_i_relaxations_insert(sunder_i_relaxations *relaxations, const sunder
     }
     memmove(relaxations->relaxed + of + 1, relaxations->relaxed + of, (relaxations->relaxed_n++ - of) * sizeof relaxed);
     relaxations->relaxed[of] = relaxed;
-    mark(relaxations, &relaxed);
-    SUNDER_I_CHECK(check(relaxations, model), relaxations->n);
+    set_mark(relaxations, &relaxed);
+    SUNDER_I_CHECK(check_relaxations(relaxations, model), relaxations->n);
     return true;
 }
 
@@ -201,7 +201,7 @@ void sunder_i_relaxations_remove(sunder_i_relaxations *relaxations, const sunder
     if (--relaxations->relaxed[of].n == 0)
         memmove(relaxations->relaxed + of, relaxations->relaxed + of + 1,
                 (--relaxations->relaxed_n - of) * sizeof relaxed);
-    SUNDER_I_CHECK(check(relaxations, model), relaxations->n);
+    SUNDER_I_CHECK(check_relaxations(relaxations, model), relaxations->n);
 }
 
 /* ---- Restored pairs: their relaxation has ended ------------------------------------------------------------------ */
@@ -293,8 +293,9 @@ sunder_status sunder_i_relaxation_of(const sunder_i_model *model, uint32_t f, ui
 
 /* Sets `way` to the least translation of b that separates the two, moved by ta and tb, if it is no longer than `upper`;
  * otherwise sets *beyond. */
-static sunder_status way_out(const sunder_i_model *model, const sunder_i_relaxation *t, const double ta[2],
-                             const double tb[2], double upper, double way[2], bool *beyond, sunder_error *err)
+static sunder_status find_separating_shift(const sunder_i_model *model, const sunder_i_relaxation *t,
+                                           const double ta[2], const double tb[2], double upper, double shift[2],
+                                           bool *beyond, sunder_error *err)
 {
     const bool barrier = sunder_i_is_barrier(model, t->b);
     sunder_i_translate moved = sunder_i_at_home(model, t->a);
@@ -305,8 +306,8 @@ static sunder_status way_out(const sunder_i_model *model, const sunder_i_relaxat
                 : sunder_i_separate(sunder_i_thing_shape(model, t->a), ta, sunder_i_thing_shape(model, t->b), tb, 0,
                                     upper, &least, beyond, err);
     if (status) return status;
-    way[0] = barrier ? -least.dx : least.dx;
-    way[1] = barrier ? -least.dy : least.dy;
+    shift[0] = barrier ? -least.dx : least.dx;
+    shift[1] = barrier ? -least.dy : least.dy;
     sunder_separation_clear(&least);
     return SUNDER_OK;
 }
@@ -316,12 +317,12 @@ sunder_status sunder_i_relaxation_turn(const sunder_i_model *model, const double
                                        sunder_i_relaxation *relaxation, bool *fits, sunder_error *err)
 {
     const double depth = hypot(relaxation->shift[0], relaxation->shift[1]);
-    double way[2] = {0, 0};
+    double shift[2] = {0, 0};
     bool beyond;
-    const sunder_status status = way_out(model, relaxation, ta, tb, depth, way, &beyond, err);
-    const double length = hypot(way[0], way[1]), share = length > 0 ? (1 - HAIR) * depth / length : 1;
+    const sunder_status status = find_separating_shift(model, relaxation, ta, tb, depth, shift, &beyond, err);
+    const double length = hypot(shift[0], shift[1]), share = length > 0 ? (1 - HAIR) * depth / length : 1;
     *fits = !status && !beyond && share >= 1;
-    for (int c = 0; c < 2 && *fits; c++) relaxation->shift[c] = share * way[c];
+    for (int c = 0; c < 2 && *fits; c++) relaxation->shift[c] = share * shift[c];
     return status;
 }
 

@@ -63,7 +63,7 @@ static double room_at(const overlap_sides *sides, const double at[2])
 
 /* Collects the sides of both features that may be nearest to a square in the common box, or may be crossed by a ray
  * from it. Returns false if memory is out. */
-static bool collect(const sunder_i_translate *const of[2], overlap_sides *out)
+static bool collect_sides(const sunder_i_translate *const of[2], overlap_sides *out)
 {
     double box[2][4];
     for (int i = 0; i < 2; i++) {
@@ -94,14 +94,14 @@ static bool collect(const sunder_i_translate *const of[2], overlap_sides *out)
 
 /* Pushes a square onto the heap if it may contain a point with the room `radius`. Returns true if its middle has that
  * room. */
-static bool look_at(const overlap_sides *sides, square *heap, size_t *n, square s, double radius)
+static bool examine_square(const overlap_sides *sides, square *heap, size_t *n, square s, double radius)
 {
     s.room = room_at(sides, s.middle);
     if (s.room + s.half * M_SQRT2 >= radius) sunder_i_heap_push(heap, n, sizeof s, &s, has_more);
     return s.room >= radius;
 }
 
-static bool search(const overlap_sides *sides, double radius, double place[2])
+static bool search_squares(const overlap_sides *sides, double radius, double place[2])
 {
     square heap[MOST_SQUARES + 4];
     size_t n = 0, looked = 0;
@@ -114,7 +114,7 @@ static bool search(const overlap_sides *sides, double radius, double place[2])
         square s = {.half = half};
         s.middle[along] = box[along] + (2 * i + 1) * half;
         s.middle[1 - along] = box[1 - along] + size[1 - along] / 2;
-        if (looked++, look_at(sides, heap, &n, s, radius)) {
+        if (looked++, examine_square(sides, heap, &n, s, radius)) {
             for (int c = 0; c < 2; c++) place[c] = s.middle[c];
             return true;
         }
@@ -126,7 +126,7 @@ static bool search(const overlap_sides *sides, double radius, double place[2])
             square part = {.half = s.half / 2};
             part.middle[0] = s.middle[0] + (i & 1 ? part.half : -part.half);
             part.middle[1] = s.middle[1] + (i & 2 ? part.half : -part.half);
-            if (looked++, look_at(sides, heap, &n, part, radius)) {
+            if (looked++, examine_square(sides, heap, &n, part, radius)) {
                 for (int c = 0; c < 2; c++) place[c] = part.middle[c];
                 return true;
             }
@@ -141,11 +141,11 @@ sunder_status sunder_i_roomy_place(const sunder_i_translate *a, const sunder_i_t
     const sunder_i_translate *const of[2] = {a, b};
     overlap_sides sides;
     *found = false;
-    if (!collect(of, &sides) || !sunder_i_steps(sides.n)) {
+    if (!collect_sides(of, &sides) || !sunder_i_steps(sides.n)) {
         sunder_i_free(sides.side);
         return sunder_i_no_memory(err);
     }
-    *found = search(&sides, radius, place);
+    *found = search_squares(&sides, radius, place);
     sunder_i_free(sides.side);
     return SUNDER_OK;
 }

@@ -45,7 +45,7 @@ static size_t raw_vertices(const sunder_shape *shape)
 }
 
 /* Returns the exponent of the coarsest unit of coordinate c of the body's corners, before and after the move t. */
-static int coarsest(const sunder_i_model *model, const sunder_i_body *body, size_t c, double t)
+static int coarsest_unit(const sunder_i_model *model, const sunder_i_body *body, size_t c, double t)
 {
     double largest = fabs(t);
     for (uint32_t k = 0; k < body->members; k++) {
@@ -92,7 +92,7 @@ bool sunder_i_round_move(const sunder_i_model *model, uint32_t b, const double m
         if (move[c] == 0 || !is_move) continue;
         /* Rounding may carry a coordinate into the next binade. Then it is repeated with the unit there. */
         for (int again = 0; again < 2; again++) {
-            u[c] = ldexp(1, coarsest(model, body, c, again ? out[c] : move[c]));
+            u[c] = ldexp(1, coarsest_unit(model, body, c, again ? out[c] : move[c]));
             out[c] = u[c] * rint(move[c] / u[c]);
             if (!isfinite(out[c])) out[c] = move[c];
         }

@@ -21,7 +21,7 @@ void sunder_layer_options_init_sized(sunder_layer_options *options, size_t size)
     sunder_i_options_write(options, size, &defaults, sizeof defaults);
 }
 
-static unsigned processors(void)
+static unsigned count_processors(void)
 {
     const long n = sysconf(_SC_NPROCESSORS_ONLN);
     return n < 1 ? 1 : n > MOST_THREADS ? MOST_THREADS : (unsigned)n;
@@ -62,7 +62,7 @@ sunder_status sunder_i_rules_of(const sunder_layer_options *options, sunder_i_ru
     rules->keep_worlds = options->keep_worlds;
     rules->drop_proofs = options->drop_proofs;
     rules->threads =
-        options->threads ? options->threads > MOST_THREADS ? MOST_THREADS : options->threads : processors();
+        options->threads ? options->threads > MOST_THREADS ? MOST_THREADS : options->threads : count_processors();
     rules->progress = options->progress;
     rules->progress_user = options->progress_user;
     rules->trace = options->trace;

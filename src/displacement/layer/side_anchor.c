@@ -49,7 +49,7 @@ static void add_height(sunder_i_side_cut *c, const sunder_i_rational_point *a, c
     l->any = true;
 }
 
-static void append(level *l, sunder_i_rational_point at)
+static void append_point(level *l, sunder_i_rational_point at)
 {
     if (!sunder_i_reserve(&l->at, &l->capacity, l->n + 1, sizeof *l->at))
         l->failed = true;
@@ -65,7 +65,7 @@ static void add_crossing(sunder_i_side_cut *c, const sunder_i_rational_point *a,
     level *l = context;
     sunder_i_arena *m = &c->arena;
     const int below = sunder_i_rational_cmp(m, a, &l->height, 1), above = sunder_i_rational_cmp(m, b, &l->height, 1);
-    if (below == 0) append(l, *a);
+    if (below == 0) append_point(l, *a);
     if (below * above >= 0) return;
     const sunder_i_rational_point p = sunder_i_rational_sub(m, *a, l->height),
                                   q = sunder_i_rational_sub(m, *b, l->height);
@@ -77,17 +77,17 @@ static void add_crossing(sunder_i_side_cut *c, const sunder_i_rational_point *a,
                                     sunder_i_big_mul(m, u.w, den)};
     if (sunder_i_big_sign(step.w) < 0)
         step = (sunder_i_rational_point){sunder_i_big_neg(step.x), sunder_i_big_neg(step.y), sunder_i_big_neg(step.w)};
-    append(l, sunder_i_rational_add(m, *a, step));
+    append_point(l, sunder_i_rational_add(m, *a, step));
 }
 
-typedef struct sorting {
+typedef struct point_order {
     sunder_i_side_cut *c;
     const sunder_i_rational_point *at;
-} sorting;
+} point_order;
 
 static int by_x(void *context, uint32_t a, uint32_t b)
 {
-    const sorting *s = context;
+    const point_order *s = context;
     return sunder_i_rational_cmp(&s->c->arena, &s->at[a], &s->at[b], 0);
 }
 
@@ -131,7 +131,7 @@ static sunder_status point_of(sunder_i_side_cut *c, const sunder_i_cut_part *p, 
     sunder_i_side_cut_boundary(c, p, add_crossing, &l);
     uint32_t *order = sunder_i_alloc(l.n, sizeof *order);
     for (uint32_t k = 0; order && k < l.n; k++) order[k] = k;
-    sorting s = {c, l.at};
+    point_order s = {c, l.at};
     sunder_status status = SUNDER_OK;
     if (!order || l.failed || !sunder_i_sort_indices(order, l.n, by_x, &s)) status = sunder_i_no_memory(err);
     if (!status) status = widest_interval(c, p, &l, order, out, err);
@@ -144,7 +144,7 @@ static sunder_status point_of(sunder_i_side_cut *c, const sunder_i_cut_part *p, 
 
 /* Sets `anchor` to the point of one of the remaining parts, which have equal areas, unless one of them contains the
  * plain anchor. */
-static sunder_status choose(sunder_i_side_cut *c, double anchor[2], sunder_error *err)
+static sunder_status choose_part(sunder_i_side_cut *c, double anchor[2], sunder_error *err)
 {
     const sunder_i_rational_point plain = sunder_i_side_cut_point(c, anchor);
     sunder_i_rational_point best = {.w = {NULL, 0}};
@@ -174,7 +174,7 @@ static sunder_status choose(sunder_i_side_cut *c, double anchor[2], sunder_error
 
 /* Does the line lie beside the shape, with all its vertices strictly on one side? Returns false if corners are not
  * doubles; these cases are decided later. */
-static bool misses(const sunder_shape *s, const sunder_i_side *side)
+static bool lies_beside(const sunder_shape *s, const sunder_i_side *side)
 {
     const sunder_point a = {side->from[0], side->from[1]}, b = {side->to[0], side->to[1]};
     int sign = 0;
@@ -215,8 +215,8 @@ static sunder_status keep_roomiest(sunder_i_side_cut *c, const sunder_i_side_sco
 }
 
 /* Chooses the side anchor, given the n lines that may meet the shape's interior. */
-static sunder_status choose_of(const sunder_shape *shape, const sunder_i_side *const *side, size_t n,
-                               const sunder_i_side_scope *scope, double anchor[2], sunder_error *err)
+static sunder_status choose_among_lines(const sunder_shape *shape, const sunder_i_side *const *side, size_t n,
+                                        const sunder_i_side_scope *scope, double anchor[2], sunder_error *err)
 {
     const double *box = shape->box, slack = scope->tolerance * ((box[2] - box[0]) + (box[3] - box[1]));
     sunder_i_side_cut cut;
@@ -225,7 +225,7 @@ static sunder_status choose_of(const sunder_shape *shape, const sunder_i_side *c
         sunder_i_side_cut_keep_largest(&cut, slack);
         if (cut.parts > 1) status = keep_roomiest(&cut, scope, err);
         if (!status) sunder_i_side_cut_keep_largest(&cut, 0);
-        if (!status) status = choose(&cut, anchor, err);
+        if (!status) status = choose_part(&cut, anchor, err);
     }
     if (!status && (cut.arena.failed || cut.lattice.arena.failed)) status = sunder_i_no_memory(err);
     sunder_i_side_cut_free(&cut);
@@ -240,8 +240,8 @@ sunder_status sunder_i_side_anchor(const sunder_shape *shape, const sunder_i_sid
     size_t left = 0;
     if (n && !near) return sunder_i_no_memory(err);
     for (size_t k = 0; k < n; k++)
-        if (!misses(shape, side[k])) near[left++] = side[k];
-    const sunder_status status = left ? choose_of(shape, near, left, scope, anchor, err) : SUNDER_OK;
+        if (!lies_beside(shape, side[k])) near[left++] = side[k];
+    const sunder_status status = left ? choose_among_lines(shape, near, left, scope, anchor, err) : SUNDER_OK;
     sunder_i_free(near);
     return status;
 }

@@ -36,7 +36,7 @@ static void add_extent(sunder_i_extent *all, const sunder_i_side *side)
     if (rational && side->area->low_bit < all->low_bit) all->low_bit = side->area->low_bit;
 }
 
-static void begin(sunder_i_side_cut *c)
+static void set_lattice(sunder_i_side_cut *c)
 {
     sunder_i_extent all = sunder_i_shape_extent(c->shape);
     bool rational = c->shape->rational;
@@ -50,7 +50,7 @@ static void begin(sunder_i_side_cut *c)
 }
 
 /* Puts vertex v of shape s on the lattice, or, if s is NULL or the vertex is a double, the point xy. */
-static sunder_i_rational_point put(sunder_i_side_cut *c, const sunder_shape *s, uint32_t v, const double *xy)
+static sunder_i_rational_point put_point(sunder_i_side_cut *c, const sunder_shape *s, uint32_t v, const double *xy)
 {
     sunder_i_point at;
     if (s && is_exact(s, v)) {
@@ -64,14 +64,14 @@ static sunder_i_rational_point put(sunder_i_side_cut *c, const sunder_shape *s, 
 
 static sunder_i_rational_point put_vertex(sunder_i_side_cut *c, uint32_t v)
 {
-    return put(c, c->shape, v, c->shape->xy + 2 * (size_t)v);
+    return put_point(c, c->shape, v, c->shape->xy + 2 * (size_t)v);
 }
 
 static void put_line(sunder_i_side_cut *c, const sunder_i_side *side, sunder_i_rational_point end[2])
 {
     const sunder_shape *s = side->area;
-    end[0] = put(c, s, side->vertex, side->from);
-    end[1] = put(c, s, s ? s->form->cleaned.next[side->vertex] : 0, side->to);
+    end[0] = put_point(c, s, side->vertex, side->from);
+    end[1] = put_point(c, s, s ? s->form->cleaned.next[side->vertex] : 0, side->to);
 }
 
 /* The coordinates need not be multiples of the lattice's unit. */
@@ -216,7 +216,7 @@ typedef struct segment {
     bool line; /* it is a line; otherwise an edge with the member on its left */
 } segment;
 
-static sunder_status draw(sunder_i_planar_map *map, const segment *list, size_t n, sunder_error *err)
+static sunder_status insert_segments(sunder_i_planar_map *map, const segment *list, size_t n, sunder_error *err)
 {
     uint32_t *order = sunder_i_alloc(n, sizeof *order);
     uint64_t random = 1;
@@ -247,7 +247,7 @@ static sunder_status cut_member(sunder_i_side_cut *c, uint32_t first, uint32_t l
         list[n] = (segment){end[0], end[1], true};
     }
     sunder_status status = sunder_i_planar_map_new(&c->lattice, 1, map, err);
-    if (!status) status = draw(*map, list, n, err);
+    if (!status) status = insert_segments(*map, list, n, err);
     if (!status) status = sunder_i_planar_map_mark(*map, err);
     if (!status) status = sunder_i_planar_map_faces(*map, err);
     sunder_i_free(list);
@@ -267,7 +267,7 @@ sunder_status sunder_i_side_cut_make(const sunder_shape *shape, const sunder_i_s
     out->shape = shape;
     out->side = side;
     out->sides = n;
-    begin(out);
+    set_lattice(out);
     out->map = sunder_i_calloc(shape->form->cleaned.polygons, sizeof(sunder_i_planar_map *));
     sunder_status status = out->map ? SUNDER_OK : sunder_i_no_memory(err);
     for (uint32_t k = 0; k < shape->form->cleaned.polygons && !status; k++)

@@ -9,8 +9,8 @@
 
 /* Intersects the ray from p in the direction d with the segment ab. Sets *at to the parameter k of the point p + k d, k
  * > 0. Returns false if they do not meet. */
-static bool meet(sunder_i_arena *m, sunder_i_rational_point p, sunder_i_rational_point d, sunder_i_rational_point a,
-                 sunder_i_rational_point b, sunder_i_ratio *at)
+static bool intersect_ray(sunder_i_arena *m, sunder_i_rational_point p, sunder_i_rational_point d,
+                          sunder_i_rational_point a, sunder_i_rational_point b, sunder_i_ratio *at)
 {
     const sunder_i_rational_point u = sunder_i_rational_sub(m, b, a), v = sunder_i_rational_sub(m, a, p);
     /* The denominators are u.w = U, v.w = V, d.w = D, so d x u has D U, v x u has V U, and v x d has V D. */
@@ -30,7 +30,7 @@ static bool meet(sunder_i_arena *m, sunder_i_rational_point p, sunder_i_rational
     return sunder_i_big_sign(x.num) > 0 && sunder_i_big_sign(y.num) >= 0 && sunder_i_big_cmp(y.num, y.den) <= 0;
 }
 
-static sunder_i_ratio times(sunder_i_arena *m, sunder_i_ratio a, sunder_i_ratio b)
+static sunder_i_ratio multiply_ratios(sunder_i_arena *m, sunder_i_ratio a, sunder_i_ratio b)
 {
     return (sunder_i_ratio){sunder_i_big_mul(m, a.num, b.num), sunder_i_big_mul(m, a.den, b.den)};
 }
@@ -49,13 +49,13 @@ sunder_i_ratio sunder_i_side_room(sunder_i_side_cut *cut, sunder_i_rational_poin
     const sunder_i_rational_point d = sunder_i_rational_sub(m, point, middle);
     const sunder_i_ratio square = {sunder_i_rational_dot(m, d, d), sunder_i_big_mul(m, d.w, d.w)};
     const sunder_i_ratio far = sunder_i_side_cut_in_units(cut, reach, 1);
-    sunder_i_ratio room = times(m, far, far);
+    sunder_i_ratio room = multiply_ratios(m, far, far);
     for (size_t k = 0; k < n && !m->failed; k++) {
         sunder_i_ratio at;
         const sunder_i_rational_point a = sunder_i_side_cut_point(cut, line[k]->from),
                                       b = sunder_i_side_cut_point(cut, line[k]->to);
-        if (!meet(m, point, d, a, b, &at)) continue;
-        at = times(m, times(m, at, at), square);
+        if (!intersect_ray(m, point, d, a, b, &at)) continue;
+        at = multiply_ratios(m, multiply_ratios(m, at, at), square);
         if (sunder_i_ratio_cmp(m, at, room) < 0) room = at;
     }
     return room;

@@ -221,10 +221,10 @@ sunder_status sunder_i_model_find_sides(sunder_i_model *model, sunder_error *err
 /* ---- Paths ------------------------------------------------------------------------------------------------------- */
 
 /* Does the path meet the line from-to, and not begin on it? */
-static bool meets_line(const sunder_i_passage *way, const double from[2], const double to[2])
+static bool meets_line(const sunder_i_passage *path, const double from[2], const double to[2])
 {
-    const sunder_i_passage stay = {.from = {way->from[0], way->from[1]}};
-    return sunder_i_passage_meets(way, from, to) && !sunder_i_passage_meets(&stay, from, to);
+    const sunder_i_passage stay = {.from = {path->from[0], path->from[1]}};
+    return sunder_i_passage_meets(path, from, to) && !sunder_i_passage_meets(&stay, from, to);
 }
 
 sunder_status sunder_i_crosses_side(const sunder_i_model *model, uint32_t f, const double t[2], uint32_t part,
@@ -232,20 +232,20 @@ sunder_status sunder_i_crosses_side(const sunder_i_model *model, uint32_t f, con
 {
     const double *a = model->side_at + 2 * (size_t)f;
     const sunder_i_body *body = &model->body[model->body_of[part]];
-    const sunder_i_passage way = {{a[0], a[1]}, {t[0], t[1]}, {0, 0}};
+    const sunder_i_passage path = {{a[0], a[1]}, {t[0], t[1]}, {0, 0}};
     double box[4], own[4];
     sunder_status status = SUNDER_OK;
     *crosses = false;
     if (t[0] == 0 && t[1] == 0) return SUNDER_OK;
-    sunder_i_passage_box(&way, box);
+    sunder_i_passage_box(&path, box);
     for (uint32_t k = body->has->side; k < body->has->side + body->has->sides && !status && !*crosses; k++) {
         const sunder_i_side *side = &model->side[k];
         box_of_line(side, own);
         if (!sunder_i_box_meet(own, box)) continue;
         if (side->area)
-            status = sunder_i_enters_by_edge(&way, side->area, side->vertex, crosses, err);
+            status = sunder_i_enters_by_edge(&path, side->area, side->vertex, crosses, err);
         else
-            *crosses = meets_line(&way, side->from, side->to);
+            *crosses = meets_line(&path, side->from, side->to);
     }
     return status;
 }

@@ -56,8 +56,8 @@ static uint32_t *list_things(const sunder_i_model *model, const uint32_t *body, 
     return thing;
 }
 
-static sunder_status emit(const sunder_i_model *model, const char *scope, const sunder_i_trace_step *step, size_t steps,
-                          const uint32_t *body, size_t n, sunder_error *err)
+static sunder_status emit_steps(const sunder_i_model *model, const char *scope, const sunder_i_trace_step *step,
+                                size_t steps, const uint32_t *body, size_t n, sunder_error *err)
 {
     size_t things;
     uint32_t *thing = list_things(model, body, n, &things);
@@ -76,7 +76,7 @@ sunder_status sunder_i_trace_log_emit(const sunder_i_model *model, const char *s
                                       const uint32_t *body, size_t n, sunder_error *err)
 {
     if (log->n == 0) return SUNDER_OK;
-    const sunder_status status = emit(model, scope, log->step, log->n, body, n, err);
+    const sunder_status status = emit_steps(model, scope, log->step, log->n, body, n, err);
     log->n = 0;
     return status;
 }
@@ -84,7 +84,7 @@ sunder_status sunder_i_trace_log_emit(const sunder_i_model *model, const char *s
 sunder_status sunder_i_trace_emit(const sunder_i_model *model, const char *scope, const sunder_i_trace_step *step,
                                   const uint32_t *body, size_t n, sunder_error *err)
 {
-    return sunder_i_is_traced(model) ? emit(model, scope, step, 1, body, n, err) : SUNDER_OK;
+    return sunder_i_is_traced(model) ? emit_steps(model, scope, step, 1, body, n, err) : SUNDER_OK;
 }
 
 void sunder_i_trace_pair(const sunder_i_model *model, const char *step, const char *outcome, uint32_t a, uint32_t b)

@@ -97,7 +97,7 @@ static bool add_pairs_of(pressing *p, size_t i)
     p->near.n = 0;
     sunder_i_body_box(body, model->move + 2 * (size_t)b, model->rules.gap + hair_of(p, body, body), box);
     sunder_i_body_box(body, home, model->rules.gap, start);
-    if (sunder_i_forbids_ways(model)) sunder_i_box_join(box, start);
+    if (sunder_i_forbids_paths(model)) sunder_i_box_join(box, start);
     sunder_i_reading reading;
     sunder_i_reads_begin(&reading, model, b);
     const bool ok = sunder_i_look_about(model, model->standing, box, &p->near);

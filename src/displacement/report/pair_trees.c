@@ -65,7 +65,7 @@ static sunder_status prove(const sunder_i_solver *s, const sunder_bound_pair *pa
                                 .n = body->n,
                                 .weight = weight,
                                 .goal = pair->least * pair->least / slack * (1 + SHARED),
-                                .no_ways = true,
+                                .no_paths = true,
                                 .keep = model->rules.keep_trees};
     sunder_i_tree tree;
     bool ok = sunder_i_tree_init(&tree, &task);

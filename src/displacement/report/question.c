@@ -275,7 +275,7 @@ static sunder_status find_jump(const sunder_i_questions *g, const sunder_i_surro
     sunder_i_list mover = {0};
     sunder_status status = SUNDER_OK;
     *jumps = false;
-    if (sunder_i_jumps_begun(&s->jumps) && !sunder_i_path_tree_look_about(&s->jumps.ways, &s->model, a->known, &mover))
+    if (sunder_i_jumps_begun(&s->jumps) && !sunder_i_path_tree_look_about(&s->jumps.paths, &s->model, a->known, &mover))
         status = sunder_i_no_memory(err);
     for (size_t k = 0; k < x->model.features && !status && !*jumps; k++) {
         const size_t at = x->layer.number[k];

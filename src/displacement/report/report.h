@@ -73,10 +73,10 @@ bool sunder_i_next_conflict(const sunder_i_model *model, const sunder_i_relation
 void sunder_i_count_relations(const sunder_i_model *model, const sunder_i_relations *relations,
                               sunder_conflict_counts *counts);
 
-/* ---- seams_about.c ----------------------------------------------------------------------------------------------- */
+/* ---- cover_diagonals.c ------------------------------------------------------------------------------------------- */
 
 /* Makes the seams of all bodies that questions about remaining or given-up conflicts may reach; before any is asked. */
-sunder_status sunder_i_report_find_seams(sunder_i_solver *solver, sunder_error *err);
+sunder_status sunder_i_report_cover_diagonals(sunder_i_solver *solver, sunder_error *err);
 
 /* ---- pair_reasons.c ---------------------------------------------------------------------------------------------- */
 

@@ -69,7 +69,7 @@ bool sunder_i_who_is_about(const sunder_i_model *model, uint32_t body, const dou
     out->n = 0;
     sunder_i_body_box(&model->body[body], t, reach, box);
     sunder_i_body_box(&model->body[body], home, reach, start);
-    if (sunder_i_forbids_ways(model)) sunder_i_box_join(box, start);
+    if (sunder_i_forbids_paths(model)) sunder_i_box_join(box, start);
     if (!sunder_i_look_about(model, model->standing, box, out)) return false;
     sunder_i_things_to_bodies(model, out);
     return true;

@@ -39,7 +39,7 @@ static bool are_near(const sunder_i_contact_forces *c, const sunder_i_group *g, 
     double p[4], q[4], start[4];
     sunder_i_body_box(&model->body[g->body[i]], g->move + 2 * (size_t)i, model->rules.gap * (1 + 0x1p-20), p);
     sunder_i_body_box(&model->body[g->body[j]], g->move + 2 * (size_t)j, 0, q);
-    if (sunder_i_forbids_ways(model)) {
+    if (sunder_i_forbids_paths(model)) {
         sunder_i_body_box(&model->body[g->body[i]], home, 0, start);
         sunder_i_box_join(p, start);
         sunder_i_body_box(&model->body[g->body[j]], home, 0, start);

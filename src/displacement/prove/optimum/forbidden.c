@@ -46,7 +46,7 @@ typedef struct listing {
     double offset[2], reach;
     double window[4]; /* of u that are asked about */
     size_t most;      /* pieces */
-    bool seams, no_ways;
+    bool diagonal_covers, no_paths;
     sunder_i_scratch scratch;
     double *drawn, *hull; /* scratch of shadows */
     size_t drawn_capacity, hull_capacity;
@@ -228,10 +228,11 @@ static bool add_pieces(listing *l)
 }
 
 /* May a piece of the other lie on a diagonal between pieces of `of`, since it has no area, and is owed nothing? */
-static bool hides_in_seams(const listing *l, const sunder_i_body *of, const sunder_i_body *other)
+static bool hides_in_diagonals(const listing *l, const sunder_i_body *of, const sunder_i_body *other)
 {
     const uint32_t part = l->model->member[other->member];
-    return of->has->seams && sunder_i_is_barrier(l->model, part) && sunder_i_owed_below(l->model, part, part) == 0;
+    return of->has->diagonal_covers && sunder_i_is_barrier(l->model, part) &&
+           sunder_i_owed_below(l->model, part, part) == 0;
 }
 
 /* What covers the diagonals of one body, and pieces of the other without area; swapped: it is the second of the two. */
@@ -240,18 +241,19 @@ static bool add_covers(listing *l, const sunder_i_body *of, const sunder_i_body 
     const sunder_i_model *model = l->model;
     const sunder_i_body_pieces *pieces = swapped ? l->of_p : l->of_q;
     const double sign = swapped ? 1 : -1;
-    if (!hides_in_seams(l, of, other)) return true;
-    for (uint32_t k = of->has->seam; k < of->has->seam + of->has->seams && !is_full(l); k++) {
-        const sunder_i_body_piece *seam = &model->seam[k];
+    if (!hides_in_diagonals(l, of, other)) return true;
+    for (uint32_t k = of->has->diagonal_cover; k < of->has->diagonal_cover + of->has->diagonal_covers && !is_full(l);
+         k++) {
+        const sunder_i_body_piece *diagonal_cover = &model->diagonal_cover[k];
         double box[4];
         for (uint32_t c = 0; c < 4; c++)
-            box[c] = seam->box[c] + sign * l->offset[c & 1] + (c < 2 ? -l->reach : l->reach);
+            box[c] = diagonal_cover->box[c] + sign * l->offset[c & 1] + (c < 2 ? -l->reach : l->reach);
         for (uint32_t m = 0; m < other->pieces; m++) {
             const sunder_i_body_piece *flat = &pieces->piece[m];
             const sunder_i_waiver *waiver;
             if (flat->corners > 2 || !sunder_i_box_meet(box, flat->box)) continue;
-            if (!owe(l, seam->feature, flat->feature, &waiver)) continue;
-            if (!add_piece(l, swapped ? flat : seam, swapped ? seam : flat, waiver)) return false;
+            if (!owe(l, diagonal_cover->feature, flat->feature, &waiver)) continue;
+            if (!add_piece(l, swapped ? flat : diagonal_cover, swapped ? diagonal_cover : flat, waiver)) return false;
         }
     }
     return true;
@@ -305,14 +307,14 @@ static bool add_shadow_of(listing *l, const sunder_i_body_piece *anchor, const s
 }
 
 /* Those of what covers diagonals and shared walls. */
-static bool add_seams(listing *l, const sunder_i_body_piece *anchor, const sunder_i_body *other, bool swapped)
+static bool add_diagonal_covers(listing *l, const sunder_i_body_piece *anchor, const sunder_i_body *other, bool swapped)
 {
     const sunder_i_model *model = l->model;
-    for (uint32_t k = other->has->seam; k < other->has->seam + other->has->seams; k++)
-        if (!add_shadow_of(l, anchor, &model->seam[k], swapped)) return false;
-    for (uint32_t k = other->has->joint; k < other->has->joint + other->has->joints; k++)
-        if (!sunder_i_is_held(model, anchor->feature, model->joint[k].other) &&
-            !add_shadow_of(l, anchor, &model->joint[k].piece, swapped))
+    for (uint32_t k = other->has->diagonal_cover; k < other->has->diagonal_cover + other->has->diagonal_covers; k++)
+        if (!add_shadow_of(l, anchor, &model->diagonal_cover[k], swapped)) return false;
+    for (uint32_t k = other->has->wall_cover; k < other->has->wall_cover + other->has->wall_covers; k++)
+        if (!sunder_i_is_held(model, anchor->feature, model->wall_cover[k].other) &&
+            !add_shadow_of(l, anchor, &model->wall_cover[k].piece, swapped))
             return false;
     return true;
 }
@@ -322,14 +324,14 @@ static bool add_shadows_from(listing *l, const sunder_i_body *p, const sunder_i_
 {
     const sunder_i_model *model = l->model;
     const sunder_i_body_pieces *from = swapped ? l->of_q : l->of_p, *of = swapped ? l->of_p : l->of_q;
-    const bool counts = l->seams || (l->waived->seamed && l->waived->seamed[other - model->body]);
+    const bool counts = l->diagonal_covers || (l->waived->covered && l->waived->covered[other - model->body]);
     if (sunder_i_is_barrier_body(model, other)) return true;
     for (uint32_t m = 0; m < p->members && !is_full(l); m++) {
         const sunder_i_body_piece *anchor = &from->anchor[m];
         if (!anchor->corners) continue;
         for (uint32_t k = 0; k < other->pieces; k++)
             if (!add_shadow_of(l, anchor, &of->piece[k], swapped)) return false;
-        if (counts && !add_seams(l, anchor, other, swapped)) return false;
+        if (counts && !add_diagonal_covers(l, anchor, other, swapped)) return false;
     }
     return true;
 }
@@ -354,7 +356,7 @@ static bool add_sides(listing *l, const sunder_i_body *p, const sunder_i_body *p
 
 static bool add_all(listing *l)
 {
-    if (l->no_ways) return add_pieces(l);
+    if (l->no_paths) return add_pieces(l);
     if (!add_pieces(l) || !add_covers(l, l->p, l->q, false) || !add_covers(l, l->q, l->p, true)) return false;
     if (!add_sides(l, l->p, l->q, false) || !add_sides(l, l->q, l->p, true)) return false;
     return l->model->rules.jumps || (add_shadows_from(l, l->p, l->q, false) && add_shadows_from(l, l->q, l->p, true));
@@ -407,11 +409,11 @@ bool sunder_i_forbidden_init(sunder_i_forbidden *forbidden, const sunder_i_model
     return list_within(&l, p, q);
 }
 
-bool sunder_i_forbidden_without_ways(sunder_i_forbidden *forbidden, const sunder_i_model *model,
-                                     const sunder_i_waived *waived, uint32_t p, uint32_t q, double reach)
+bool sunder_i_forbidden_without_paths(sunder_i_forbidden *forbidden, const sunder_i_model *model,
+                                      const sunder_i_waived *waived, uint32_t p, uint32_t q, double reach)
 {
     listing l = {
-        .out = forbidden, .model = model, .waived = waived, .reach = reach, .most = MOST_PIECES, .no_ways = true};
+        .out = forbidden, .model = model, .waived = waived, .reach = reach, .most = MOST_PIECES, .no_paths = true};
     return list_within(&l, p, q);
 }
 
@@ -427,11 +429,12 @@ bool sunder_i_forbidden_init_near(sunder_i_forbidden *forbidden, const sunder_i_
     return ok;
 }
 
-bool sunder_i_forbidden_with_seams(sunder_i_forbidden *forbidden, const sunder_i_model *model, uint32_t p, uint32_t q,
-                                   double reach, size_t most)
+bool sunder_i_forbidden_with_covers(sunder_i_forbidden *forbidden, const sunder_i_model *model, uint32_t p, uint32_t q,
+                                    double reach, size_t most)
 {
     const sunder_i_waived none = {0};
-    listing l = {.out = forbidden, .model = model, .waived = &none, .reach = reach, .most = most, .seams = true};
+    listing l = {
+        .out = forbidden, .model = model, .waived = &none, .reach = reach, .most = most, .diagonal_covers = true};
     const bool ok = begin(&l, p, q) && add_all(&l);
     end(&l, reach);
     return ok;

@@ -46,7 +46,7 @@ static inline double sunder_i_waiver_clearance(const sunder_i_waiver *waiver)
 typedef struct sunder_i_waived {
     const sunder_i_waiver *pair; /* sorted */
     size_t n;
-    const bool *seamed; /* [bodies] whose shadows include those of pieces that cover their diagonals; NULL: none */
+    const bool *covered; /* [bodies] whose shadows include those of pieces that cover their diagonals; NULL: none */
 } sunder_i_waived;
 
 /* ---- forbidden.c ------------------------------------------------------------------------------------------------- */
@@ -59,16 +59,16 @@ const sunder_i_waiver *sunder_i_waiver_of(const sunder_i_model *model, const sun
 bool sunder_i_forbidden_init(sunder_i_forbidden *forbidden, const sunder_i_model *model, const sunder_i_waived *waived,
                              uint32_t p, uint32_t q, double reach);
 /* As sunder_i_forbidden_init(), without the shadows of anchors and side anchors. */
-bool sunder_i_forbidden_without_ways(sunder_i_forbidden *forbidden, const sunder_i_model *model,
-                                     const sunder_i_waived *waived, uint32_t p, uint32_t q, double reach);
+bool sunder_i_forbidden_without_paths(sunder_i_forbidden *forbidden, const sunder_i_model *model,
+                                      const sunder_i_waived *waived, uint32_t p, uint32_t q, double reach);
 /* All pieces that come within a hair of u, and a few others. */
 bool sunder_i_forbidden_init_near(sunder_i_forbidden *forbidden, const sunder_i_model *model,
                                   const sunder_i_waived *waived, uint32_t p, uint32_t q, const double u[2],
                                   double hair);
-/* As sunder_i_forbidden_init(), with the pieces that cover the diagonals between others (layer/seams.c), and with at
- * most about `most` pieces: complete only if there are no more. */
-bool sunder_i_forbidden_with_seams(sunder_i_forbidden *forbidden, const sunder_i_model *model, uint32_t p, uint32_t q,
-                                   double reach, size_t most);
+/* As sunder_i_forbidden_init(), with the pieces that cover the diagonals between others (layer/diagonal_covers.c), and
+ * with at most about `most` pieces: complete only if there are no more. */
+bool sunder_i_forbidden_with_covers(sunder_i_forbidden *forbidden, const sunder_i_model *model, uint32_t p, uint32_t q,
+                                    double reach, size_t most);
 void sunder_i_forbidden_free(sunder_i_forbidden *forbidden);
 
 /* ---- shut_in.c --------------------------------------------------------------------------------------------------- */

@@ -110,7 +110,7 @@ bool sunder_i_may_be_shut_in(const sunder_i_model *model, uint32_t p, uint32_t q
 static bool find_forbidden(sunder_i_forbidden *f, const sunder_i_model *model, uint32_t p, uint32_t q, double *reach)
 {
     *reach = 2 * sunder_i_farthest_near(model, p, q);
-    return sunder_i_forbidden_with_seams(f, model, p, q, *reach, MOST_SHUT_IN);
+    return sunder_i_forbidden_with_covers(f, model, p, q, *reach, MOST_SHUT_IN);
 }
 
 bool sunder_i_is_shut_in(const sunder_i_model *model, uint32_t p, uint32_t q, bool *shut)

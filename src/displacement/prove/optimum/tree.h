@@ -18,7 +18,7 @@ typedef struct sunder_i_task {
     const double *weight; /* [n] NULL: the bodies' own; else no more than that */
     const double *anchor; /* [2 n] a; 0 for what does not move; NULL: 0 for all */
     double goal;          /* to be proved: no layout costs less */
-    bool no_ways;         /* jumps and sides are ignored: less is forbidden */
+    bool no_paths;        /* jumps and sides are ignored: less is forbidden */
     bool keep;            /* what a reader of the proof needs besides is kept: see tree_record.c */
 } sunder_i_task;
 

@@ -42,7 +42,7 @@ sunder_i_tree_pair *sunder_i_tree_pair_of(sunder_i_tree *tree, uint32_t i, uint3
     *at = (uint32_t)tree->pairs++;
     set_root(tree, p);
     const double far = fabs(p->centre[0]) + fabs(p->centre[1]) + 2 * p->reach;
-    const bool listed = (tree->task.no_ways ? sunder_i_forbidden_without_ways : sunder_i_forbidden_init)(
+    const bool listed = (tree->task.no_paths ? sunder_i_forbidden_without_paths : sunder_i_forbidden_init)(
         &p->forbidden, tree->task.model, tree->task.waived, tree->task.body[i], tree->task.body[j], far);
     if (!listed || !sunder_i_forbidden_index(&p->forbidden)) tree->failed = true;
     tree->steps += 8 * p->forbidden.edges;

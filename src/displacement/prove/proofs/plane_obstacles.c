@@ -97,10 +97,11 @@ static bool find_jumps(const finding *w, uint32_t q, bool swapped)
     for (uint32_t m = 0; m < of->members; m++) {
         const uint32_t f = model->member[of->member + m];
         const sunder_i_body_piece *anchor = &from->anchor[m];
-        w->kept->looked[JUMPS] += 1 + (other->pieces + other->has->seams) / 4;
-        for (uint32_t l = 0; l < other->pieces + other->has->seams && anchor->corners; l++) {
+        w->kept->looked[JUMPS] += 1 + (other->pieces + other->has->diagonal_covers) / 4;
+        for (uint32_t l = 0; l < other->pieces + other->has->diagonal_covers && anchor->corners; l++) {
             const sunder_i_body_piece *piece =
-                l < other->pieces ? &pieces->piece[l] : &model->seam[other->has->seam + l - other->pieces];
+                l < other->pieces ? &pieces->piece[l]
+                                  : &model->diagonal_cover[other->has->diagonal_cover + l - other->pieces];
             if (!find_shadow(w, q, anchor, piece, swapped, f, false)) return false;
         }
     }

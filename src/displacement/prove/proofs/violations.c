@@ -233,10 +233,11 @@ static void look_past(sunder_i_branching *c, const standing *s, const standing *
     for (uint32_t m = 0; m < of->members; m++) {
         const uint32_t f = model->member[of->member + m];
         const sunder_i_body_piece *anchor = &from->anchor[m];
-        c->looked += 1 + (other->pieces + other->has->seams) / 4;
-        for (uint32_t l = 0; l < other->pieces + other->has->seams && anchor->corners; l++) {
+        c->looked += 1 + (other->pieces + other->has->diagonal_covers) / 4;
+        for (uint32_t l = 0; l < other->pieces + other->has->diagonal_covers && anchor->corners; l++) {
             const sunder_i_body_piece *piece =
-                l < other->pieces ? &pieces->piece[l] : &model->seam[other->has->seam + l - other->pieces];
+                l < other->pieces ? &pieces->piece[l]
+                                  : &model->diagonal_cover[other->has->diagonal_cover + l - other->pieces];
             if (sunder_i_shadow_may_reach((swapped ? piece : anchor)->box, (swapped ? anchor : piece)->box, offset,
                                           way) &&
                 sunder_i_branching_shades(c, f, piece->feature))
@@ -295,7 +296,7 @@ static bool find_near(sunder_i_branching *c, const standing *s)
         double box[4], grown[4];
         if (!model->present[f]) continue;
         for (uint32_t x = 0; x < 4; x++) box[x] = sunder_i_home_box(model, f)[x] + s->t[x & 1];
-        if (sunder_i_forbids_ways(model))
+        if (sunder_i_forbids_paths(model))
             sunder_i_box_join(box, sunder_i_home_box(model, f)); /* what it passed on its way, too */
         sunder_i_box_grow(box, model->rules.gap, grown);
         c->looked += LOOK_WORK;

@@ -307,7 +307,7 @@ sunder_status sunder_i_solver_gather(sunder_i_solver *solver, sunder_error *err)
             const sunder_i_body *body = &solver->model.body[solver->member[end].body];
             c->touching = c->touching && solver->widened[solver->member[end].body] == 0;
             c->limited = c->limited || body->fixed || body->pinned || body->limit < INFINITY ||
-                         sunder_i_forbids_ways(&solver->model);
+                         sunder_i_forbids_paths(&solver->model);
         }
         c->brief = solver->brief;
         c->body = solver->body + first;

@@ -24,7 +24,7 @@ void sunder_i_groups_free(sunder_i_groups *groups)
     sunder_i_free(groups->spent);
     sunder_i_free(groups->blunt);
     sunder_i_free(groups->shaken);
-    sunder_i_free(groups->seamed);
+    sunder_i_free(groups->covered);
     memset(groups, 0, sizeof *groups);
 }
 
@@ -199,9 +199,9 @@ sunder_status sunder_i_solver_gather_groups(sunder_i_solver *solver, sunder_erro
         solver->groups.blunt = sunder_i_calloc(solver->model.bodies, sizeof *solver->groups.blunt);
     if (!solver->groups.shaken)
         solver->groups.shaken = sunder_i_calloc(solver->model.bodies, sizeof *solver->groups.shaken);
-    if (!solver->groups.seamed)
-        solver->groups.seamed = sunder_i_calloc(solver->model.bodies, sizeof *solver->groups.seamed);
-    const bool ok = solver->groups.spent && solver->groups.blunt && solver->groups.shaken && solver->groups.seamed;
+    if (!solver->groups.covered)
+        solver->groups.covered = sunder_i_calloc(solver->model.bodies, sizeof *solver->groups.covered);
+    const bool ok = solver->groups.spent && solver->groups.blunt && solver->groups.shaken && solver->groups.covered;
     sunder_status status = ok ? sunder_i_flood_contacts(solver, &g.flood, err) : sunder_i_no_memory(err);
     if (!status && !list_members(&g)) status = sunder_i_no_memory(err);
     if (!status) status = make_groups(&g, &solver->groups, err);

@@ -15,7 +15,7 @@
 static sunder_status find_places(const sunder_i_solver *s, const sunder_i_group *g, double *move, bool *found,
                                  sunder_error *err)
 {
-    const sunder_i_waived waived = {s->groups.waived, s->groups.waived_n, s->groups.seamed};
+    const sunder_i_waived waived = {s->groups.waived, s->groups.waived_n, s->groups.covered};
     bool may;
     *found = false;
     if (!sunder_i_may_be_tight(&s->model, g->body, g->n, &may)) return sunder_i_no_memory(err);

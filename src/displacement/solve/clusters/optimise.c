@@ -127,7 +127,7 @@ static bool is_wanted(const sunder_i_solver *s, const sunder_i_group *g)
 static sunder_status prove_groups(void *context, size_t begin, size_t end, sunder_error *err)
 {
     const sunder_i_solver *s = context;
-    const sunder_i_waived waived = {s->groups.waived, s->groups.waived_n, s->groups.seamed};
+    const sunder_i_waived waived = {s->groups.waived, s->groups.waived_n, s->groups.covered};
     for (size_t k = begin; k < end; k++) {
         sunder_i_group *g = &s->groups.group[k];
         if (g->done || !is_wanted(s, g)) continue;
@@ -235,16 +235,16 @@ static bool note_joined(sunder_i_groups *groups, uint32_t one, uint32_t other)
 }
 
 /* The same for a jump, which pieces may not show: an anchor that moves along a diagonal between two pieces meets
- * neither. From now on these two use the pieces that cover their diagonals (layer/seams.c). And the feature jumped over
- * may now be far away: so the two groups are joined. False if memory is out. */
+ * neither. From now on these two use the pieces that cover their diagonals (layer/diagonal_covers.c). And the feature
+ * jumped over may now be far away: so the two groups are joined. False if memory is out. */
 static bool part_jump(taking *t, uint32_t a, uint32_t b, bool *any)
 {
     sunder_i_groups *groups = &t->solver->groups;
     const uint32_t body[2] = {t->solver->model.body_of[a], t->solver->model.body_of[b]};
     const uint32_t group[2] = {groups->of[body[0]], groups->of[body[1]]};
-    const bool known = groups->seamed[body[0]] && groups->seamed[body[1]];
-    for (int k = 0; k < 2; k++) groups->seamed[body[k]] = true;
-    groups->any_seamed = true;
+    const bool known = groups->covered[body[0]] && groups->covered[body[1]];
+    for (int k = 0; k < 2; k++) groups->covered[body[k]] = true;
+    groups->any_covered = true;
     part(t, a, b, known, any);
     return group[0] == group[1] || group[0] == SUNDER_I_NOBODY || group[1] == SUNDER_I_NOBODY ||
            note_joined(groups, group[0], group[1]);
@@ -421,7 +421,7 @@ sunder_status sunder_i_solver_optimise(sunder_i_solver *solver, sunder_error *er
     sunder_status status = sunder_i_solver_waive(solver, err);
     if (!status) status = sunder_i_solver_gather_groups(solver, err);
     for (int round = 0; round < OPTIMISED && again && !status; round++) {
-        if (solver->groups.any_seamed) status = sunder_i_model_find_seams(&solver->model, err);
+        if (solver->groups.any_covered) status = sunder_i_model_cover_diagonals(&solver->model, err);
         if (!status) status = prove_all(solver, &again, err);
         if (again && !status) status = sunder_i_solver_waive(solver, err);
         if (again && !status) status = sunder_i_solver_gather_groups(solver, err);

@@ -195,8 +195,8 @@ static sunder_status find_seams(sunder_i_model *model, const sunder_i_id_pair *p
     if (!body) return sunder_i_no_memory(err);
     memcpy(body, pair, 2 * n * sizeof *body);
     const size_t bodies = sunder_i_set_make(body, 2 * n);
-    sunder_status status = sunder_i_model_find_seams_of(model, body, bodies, err);
-    if (!status) status = sunder_i_model_find_joints(model, body, bodies, err);
+    sunder_status status = sunder_i_model_cover_diagonals_of(model, body, bodies, err);
+    if (!status) status = sunder_i_model_cover_walls(model, body, bodies, err);
     sunder_i_free(body);
     return status;
 }

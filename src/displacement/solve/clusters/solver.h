@@ -36,8 +36,8 @@ typedef struct sunder_i_groups {
     double *spent; /* [bodies] steps of proofs */
     bool *blunt;   /* [bodies] a place without room did not hold for them */
     bool *shaken;  /* [bodies] its group was shaken with patience */
-    bool *seamed;  /* [bodies] one that was proposed to jump over another, or was jumped over: along a diagonal? */
-    bool any_seamed;
+    bool *covered; /* [bodies] one that was proposed to jump over another, or was jumped over: along a diagonal? */
+    bool any_covered;
 } sunder_i_groups;
 
 /* Is a body held, or was it? As coarse: its moves are of no use to a neighbour. */

@@ -157,7 +157,7 @@ bool sunder_i_search_may_pass(const sunder_i_search *search, const double *t, ui
     const double u[2] = {t[2 * j] - t[2 * i], t[2 * j + 1] - t[2 * i + 1]};
     double way[4];
     bool swapped;
-    if (!sunder_i_forbids_ways(search->model)) return false;
+    if (!sunder_i_forbids_paths(search->model)) return false;
     sunder_i_shadow_way(u, reach - search->model->rules.gap, way);
     if (may_cross(search->model, p, q, offset, way, &swapped)) return true;
     if (!may_jump(search->model, p, q)) return false;
@@ -208,7 +208,7 @@ static int by_left(const void *a, const void *b)
 void sunder_i_search_passing(sunder_i_search *search, const double *t, double reach, sunder_i_visit_pair visit,
                              void *context)
 {
-    if (!sunder_i_forbids_ways(search->model) || search->n < 2) return;
+    if (!sunder_i_forbids_paths(search->model) || search->n < 2) return;
     /* The moves of two bodies that passed each other are together longer than this. */
     if (!search->least_known) search->least_way = least_way(search);
     search->least_known = true;

@@ -86,7 +86,7 @@ static void test_made_when_asked(void **state)
     draw(&s);
     scene_model_related(&of, &s);
     const sunder_i_model *model = &of.model;
-    uint32_t number = 0, most_members = 0, seams = 0;
+    uint32_t number = 0, most_members = 0, diagonal_covers = 0;
     assert_int_equal(model->bodies, 4);
     for (size_t b = 0; b < model->bodies; b++) {
         const sunder_i_body *body = &model->body[b];
@@ -103,14 +103,15 @@ static void test_made_when_asked(void **state)
         }
         assert_memory_equal(box, body->box, sizeof box);
         for (uint32_t m = 0; m < body->members; m++) check_piece(model, body, &pieces->anchor[m]);
-        for (uint32_t k = 0; k < body->has->seams; k++) check_piece(model, body, &model->seam[body->has->seam + k]);
-        seams += body->has->seams;
+        for (uint32_t k = 0; k < body->has->diagonal_covers; k++)
+            check_piece(model, body, &model->diagonal_cover[body->has->diagonal_cover + k]);
+        diagonal_covers += body->has->diagonal_covers;
         check_anchors(model, body, pieces);
         check_runs(body, pieces);
         check_outlines(model, body);
         most_members = body->members > most_members ? body->members : most_members;
     }
-    assert_true(seams >= model->most_pieces - 1);
+    assert_true(diagonal_covers >= model->most_pieces - 1);
     assert_true(most_members > 4); /* runs with a stored box */
     assert_true(model->most_pieces >= 2 * SUNDER_I_RUN - 1);
     scene_model_end(&of);

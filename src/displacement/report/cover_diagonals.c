@@ -144,13 +144,13 @@ static sunder_status find_some(looking *l, sunder_i_model *model, sunder_error *
     for (uint32_t b = 0; b < model->bodies && ok && left; b++)
         if (l->far[b] >= 0 || l->met[b]) ok = sunder_i_list_push(&near, b);
     sunder_status status = ok ? SUNDER_OK : sunder_i_no_memory(err);
-    if (ok && !left) status = sunder_i_model_find_seams(model, err);
-    if (ok && left) status = sunder_i_model_find_seams_of(model, near.item, near.n, err);
+    if (ok && !left) status = sunder_i_model_cover_diagonals(model, err);
+    if (ok && left) status = sunder_i_model_cover_diagonals_of(model, near.item, near.n, err);
     sunder_i_free(near.item);
     return status;
 }
 
-sunder_status sunder_i_report_find_seams(sunder_i_solver *solver, sunder_error *err)
+sunder_status sunder_i_report_cover_diagonals(sunder_i_solver *solver, sunder_error *err)
 {
     looking l = {.solver = solver,
                  .far = sunder_i_alloc(solver->model.bodies, sizeof *l.far),

@@ -12,7 +12,7 @@
  * A diagonal is left uncovered if no doubles qualify: in triangles thinner than the unit in the last place, and at
  * corners that are not doubles (of sets that crossed themselves). A segment that lies entirely along such a diagonal
  * meets no piece. */
-#include "displacement/layer/seamless.h"
+#include "displacement/layer/interior_cover.h"
 
 #include "base/error.h"
 #include "base/watch.h"
@@ -29,12 +29,12 @@
 /* The number of steps (base/watch.h) that one quadrilateral counts as. */
 #define SEAM_STEPS 64
 
-void sunder_i_seamless_free(sunder_i_seamless *seamless)
+void sunder_i_interior_cover_free(sunder_i_interior_cover *interior_cover)
 {
-    sunder_shape_free(seamless->shape);
-    sunder_shape_free(seamless->whole);
-    sunder_i_free(seamless->corner);
-    memset(seamless, 0, sizeof *seamless);
+    sunder_shape_free(interior_cover->shape);
+    sunder_shape_free(interior_cover->whole);
+    sunder_i_free(interior_cover->corner);
+    memset(interior_cover, 0, sizeof *interior_cover);
 }
 
 static sunder_point point_of(const double *xy, uint32_t v)
@@ -43,7 +43,7 @@ static sunder_point point_of(const double *xy, uint32_t v)
 }
 
 /* Returns the point m + (w - m) 2^-j, rounded, where m is the middle of uv; for j = 0 it is w. */
-static sunder_point towards(sunder_point u, sunder_point v, sunder_point w, int j)
+static sunder_point point_towards(sunder_point u, sunder_point v, sunder_point w, int j)
 {
     if (j == 0) return w;
     const sunder_point m = {u.x + (v.x - u.x) / 2, u.y + (v.y - u.y) / 2};
@@ -51,7 +51,7 @@ static sunder_point towards(sunder_point u, sunder_point v, sunder_point w, int 
     return (sunder_point){m.x + (w.x - m.x) * part, m.y + (w.y - m.y) * part};
 }
 
-/* Does p = towards(u, v, w, j) lie in the triangle u, v, w, which is on the left of uv, and not on uv? */
+/* Does p = point_towards(u, v, w, j) lie in the triangle u, v, w, which is on the left of uv, and not on uv? */
 static bool is_within(sunder_point u, sunder_point v, sunder_point w, sunder_point p, int j)
 {
     if (!(sunder_orient(&u, &v, &p) > 0)) return false;
@@ -68,7 +68,7 @@ static bool find_quadrilateral(const double *xy, const uint32_t corner[4], doubl
         for (int j = sum > HALVINGS ? sum - HALVINGS : 0; j <= sum && j <= HALVINGS; j++) {
             /* beyond the first few, only equal halvings on both sides are tried, and those with a corner itself */
             if (sum > 4 && j != sum / 2 && j != 0 && j != sum) continue;
-            const sunder_point q = towards(u, v, right, j), p = towards(u, v, left, sum - j);
+            const sunder_point q = point_towards(u, v, right, j), p = point_towards(u, v, left, sum - j);
             if (!is_within(v, u, right, q, j) || !is_within(u, v, left, p, sum - j)) continue;
             if (sunder_orient(&p, &u, &q) <= 0 || sunder_orient(&q, &v, &p) <= 0) continue;
             const double quadrilateral[8] = {u.x, u.y, q.x, q.y, v.x, v.y, p.x, p.y};
@@ -78,7 +78,7 @@ static bool find_quadrilateral(const double *xy, const uint32_t corner[4], doubl
     return false;
 }
 
-bool sunder_i_seam_between(const double corner[8], double out[8])
+bool sunder_i_cover_shared_segment(const double corner[8], double out[8])
 {
     const uint32_t in_turn[4] = {0, 1, 2, 3};
     return find_quadrilateral(corner, in_turn, out);
@@ -91,17 +91,17 @@ static bool all_doubles(const sunder_shape *shape, const uint32_t corner[4])
     return true;
 }
 
-bool sunder_i_seams_find(const sunder_shape *shape, sunder_i_seam **seam, size_t *n)
+bool sunder_i_diagonal_covers_find(const sunder_shape *shape, sunder_i_diagonal_cover **diagonal_cover, size_t *n)
 {
     sunder_i_diagonals diagonals;
     *n = 0;
-    *seam = NULL;
+    *diagonal_cover = NULL;
     if (shape->pieces < 2) return true;
     if (!sunder_i_diagonals_find(shape, &diagonals)) return false;
-    *seam = sunder_i_alloc(diagonals.n, sizeof **seam);
-    bool ok = *seam != NULL;
+    *diagonal_cover = sunder_i_alloc(diagonals.n, sizeof **diagonal_cover);
+    bool ok = *diagonal_cover != NULL;
     for (size_t i = 0; i < diagonals.n && ok; i++) {
-        sunder_i_seam *one = *seam + *n;
+        sunder_i_diagonal_cover *one = *diagonal_cover + *n;
         memcpy(one->diagonal, diagonals.corner[i], sizeof one->diagonal);
         *n += all_doubles(shape, one->diagonal) && find_quadrilateral(shape->xy, one->diagonal, one->corner);
         ok = sunder_i_steps(SEAM_STEPS);
@@ -110,14 +110,14 @@ bool sunder_i_seams_find(const sunder_shape *shape, sunder_i_seam **seam, size_t
     return ok;
 }
 
-void sunder_i_seam_again(const sunder_shape *shape, const uint32_t diagonal[4], double corner[8])
+void sunder_i_diagonal_cover_corners(const sunder_shape *shape, const uint32_t diagonal[4], double corner[8])
 {
     find_quadrilateral(shape->xy, diagonal, corner);
 }
 
 /* Makes out->shape of the pieces of the shape and the quadrilaterals around its diagonals. */
-static sunder_status assemble(const sunder_shape *shape, const sunder_i_diagonals *diagonals, sunder_i_seamless *out,
-                              sunder_error *err)
+static sunder_status assemble_cover(const sunder_shape *shape, const sunder_i_diagonals *diagonals,
+                                    sunder_i_interior_cover *out, sunder_error *err)
 {
     sunder_i_piece_of *piece = sunder_i_alloc(shape->pieces + diagonals->n, sizeof *piece);
     out->corner = sunder_i_alloc(8 * diagonals->n, sizeof *out->corner);
@@ -136,7 +136,7 @@ static sunder_status assemble(const sunder_shape *shape, const sunder_i_diagonal
     return status;
 }
 
-sunder_status sunder_i_seamless_make(const sunder_shape *shape, sunder_i_seamless *out, sunder_error *err)
+sunder_status sunder_i_interior_cover_make(const sunder_shape *shape, sunder_i_interior_cover *out, sunder_error *err)
 {
     memset(out, 0, sizeof *out);
     if (shape->pieces < 2) return SUNDER_OK;
@@ -145,7 +145,7 @@ sunder_status sunder_i_seamless_make(const sunder_shape *shape, sunder_i_seamles
     const sunder_shape *whole = out->whole ? out->whole : shape;
     sunder_i_diagonals diagonals;
     if (!sunder_i_diagonals_find(whole, &diagonals)) return sunder_i_no_memory(err);
-    if (diagonals.n || out->whole) status = assemble(whole, &diagonals, out, err);
+    if (diagonals.n || out->whole) status = assemble_cover(whole, &diagonals, out, err);
     sunder_i_diagonals_free(&diagonals);
     return status;
 }
