@@ -1,9 +1,9 @@
-/* The acting constraints as linear equations.
+/* Solves for the forces of the active constraints as linear equations.
  *
- * G f = d with G the Gram matrix of the acting constraints in the metric of the masses, by Cholesky; and the set
- * corrected as by Lawson and Hanson [LH74, chapter 23]: forces that turn negative are dropped, violated constraints
- * added. At the end all forces are positive, the acting constraints hold with equality and no other is violated: that
- * is the optimum. */
+ * The equations are G f = d, where G is the Gram matrix of the active constraints in the metric of the masses. They are
+ * solved by a Cholesky factorisation, and the active set is corrected as by Lawson and Hanson [LH74, chapter 23]:
+ * constraints whose forces turn negative are dropped, violated ones are added. At the end all forces are positive, the
+ * active constraints hold with equality and no other constraint is violated, so the solution is optimal. */
 #include "displacement/quadratic/methods.h"
 #include "displacement/quadratic/tuning.h"
 
@@ -13,15 +13,15 @@
 #include <string.h>
 
 typedef struct equations {
-    uint32_t *set;        /* [capacity] acting constraints */
-    double *factor;       /* its lower triangle, by columns of `capacity` */
-    double *row;          /* [capacity] the one at hand */
-    double *half, *force; /* after the forward half; the solution */
+    uint32_t *set;        /* [capacity] the active constraints */
+    double *factor;       /* the lower triangle of the Cholesky factor, by columns of length `capacity` */
+    double *row;          /* [capacity] the row that is being factored */
+    double *half, *force; /* the result of forward substitution; the forces */
     size_t n, capacity;
-    int factors; /* so far */
+    int factors; /* the number of factorisations up to now */
 } equations;
 
-/* Entry (a, b) of the Gram matrix. */
+/* Returns the entry of the Gram matrix for constraints a and b. */
 static double gram(const sunder_i_quadratic *p, const sunder_i_constraint *a, const sunder_i_constraint *b)
 {
     const double dot = a->n[0] * b->n[0] + a->n[1] * b->n[1];
@@ -31,7 +31,7 @@ static double gram(const sunder_i_quadratic *p, const sunder_i_constraint *a, co
     return dot * m;
 }
 
-/* Row r of the Gram matrix up to the diagonal, which is a little raised. */
+/* Sets row[0 .. r] to row r of the Gram matrix up to the diagonal, whose entry is raised slightly. */
 static void fill_row(const sunder_i_quadratic *p, const equations *e, size_t r, double softness, double *row)
 {
     const sunder_i_constraint *c = &p->constraint[e->set[r]];
@@ -39,11 +39,12 @@ static void fill_row(const sunder_i_quadratic *p, const equations *e, size_t r, 
     row[r] *= 1 + softness + RAISED;
 }
 
-/* Cholesky factor, a row at a time, and the solution of G f = d. Rows before `from` are kept from the last call.
+/* Computes the Cholesky factor, a row at a time, and solves G f = d for e->force. Rows before `from` are kept from the
+ * last call. Returns false if G is not positive definite, as computed in doubles.
  *
- * The factor is kept by columns: as soon as an entry of a row is known, its contribution to the later entries of the
- * row is one pass over a column. Most entries are zero, since most constraints have no body in common. Each entry is
- * the same sum in the same order as if it were computed by itself. */
+ * The factor is stored by columns: once an entry of a row is known, it is subtracted from the later entries of the row
+ * in one pass over a column. Most entries are zero, since most pairs of constraints have no body in common. Each entry
+ * is the same sum in the same order as if it were computed by itself. */
 static bool solve_equations(sunder_i_quadratic *p, equations *e, size_t from, double softness)
 {
     p->work += e->n * e->n * (e->n - from) / 32 + e->n * e->n / 8;
@@ -88,7 +89,7 @@ static bool gather(const sunder_i_quadratic *p, equations *e)
     return true;
 }
 
-/* Takes row r out of the set. */
+/* Removes row r from the active set. */
 static void drop(sunder_i_quadratic *p, equations *e, size_t r)
 {
     p->constraint[e->set[r]].force = 0;
@@ -96,9 +97,10 @@ static void drop(sunder_i_quadratic *p, equations *e, size_t r)
     e->n--;
 }
 
-/* Solves, drops what would pull instead of push, solves again. At first all such constraints at once, which mostly is
- * right; then by the book: the forces go towards the solution until one of them is zero, and only that one
- * is dropped. */
+/* Solves the equations and drops constraints with negative forces, repeatedly until all forces are positive. In the
+ * first HASTY rounds all such constraints are dropped at once, which is usually right. After that the forces move
+ * towards the solution only until one of them becomes zero, and that one constraint is dropped. Returns false if the
+ * number of factorisations or the work exceeds its limit, or a factorisation fails. */
 static bool descend(sunder_i_quadratic *p, equations *e, double softness)
 {
     size_t from = 0;
@@ -148,7 +150,7 @@ bool sunder_i_quadratic_equations(sunder_i_quadratic *program, double softness, 
         if (!gather(program, &e) || !descend(program, &e, softness)) break;
         sunder_i_quadratic_place(program);
         if (sunder_i_quadratic_worst(program, softness) <= tolerance) break;
-        /* Those that the solution violates get a force of their own by a pass or two of the first method. */
+        /* Constraints that the solution violates get a force in two passes of Hildreth's method. */
         sunder_i_quadratic_sweep(program, softness);
         sunder_i_quadratic_sweep(program, softness);
     }

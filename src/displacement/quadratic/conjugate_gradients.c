@@ -1,14 +1,14 @@
 /* Conjugate gradients on non-negative forces: modified proportioning with reduced gradient projections [Dos09,
  * algorithm 5.8].
  *
- * The dual is min 1/2 f'Gf - d'f over f >= 0. Among the positive forces it takes conjugate gradient steps. Where such a
- * step would make a force negative, it stops there and takes a short projected gradient step instead. Where the
- * gradient at the zero forces exceeds the imbalance of the positive ones, it lets zero forces in. Each constraint is
- * scaled so that its diagonal in G is 1. G is never formed: a product with it moves the bodies by the forces and reads
+ * The dual is min 1/2 f'Gf - d'f over f >= 0. Conjugate gradient steps change the positive forces. If such a step would
+ * make a force negative, it stops there, and a short projected gradient step follows instead. If the gradient at the
+ * zero forces exceeds the imbalance of the positive ones, zero forces are allowed to grow. Each constraint is scaled so
+ * that its diagonal entry in G is 1. G is never formed: a product with it moves the bodies by the forces and computes
  * the stretch of each constraint.
  *
- * It is unpredictable which forces are positive and which way a step goes. So loops over all constraints compute both
- * alternatives and select one, where they can, instead of branching. */
+ * The sign of a force, and the direction of a step, are unpredictable. So loops over all constraints compute both
+ * alternatives and select one, where possible, instead of branching. */
 #include "displacement/quadratic/links.h"
 #include "displacement/quadratic/tuning.h"
 
@@ -18,8 +18,9 @@
 #include <math.h>
 #include <string.h>
 
-/* Norms of the imbalance: of positive forces (twice, once clipped where the step would make them negative), of zero
- * forces; and the worst, as a length. */
+/* How far the forces are from the optimum. `cut` is a squared norm over the positive forces: each gradient entry times
+ * that entry, or times the entry clipped so that the short step would not make the force negative. `zero` is the same
+ * over the zero forces. `worst` is the largest violation as a length. */
 typedef struct imbalance {
     double cut, zero, worst;
 } imbalance;
@@ -28,16 +29,16 @@ typedef struct dual {
     sunder_i_quadratic *p;
     size_t n;
     double softness;
-    double *scale;             /* [n] sqrt(mass_i + mass_j); 0 for what cannot move */
+    double *scale;             /* [n] sqrt(mass_i + mass_j); 0 if neither end can move */
     double *f, *g, *step, *gs; /* [n] forces, gradient Gf - d, direction, G times it */
-    double *t;                 /* [2 * (bodies + 1)] */
+    double *t;                 /* [2 * (bodies + 1)] the moves of the bodies; the last is the ground */
     uint32_t *pushing;         /* [n] scratch: constraints with a nonzero entry */
     sunder_i_link *link;       /* [n] */
-    imbalance seen;            /* at the forces as they are ... */
-    bool is_seen;              /* ... if it is known */
+    imbalance seen;            /* the imbalance for the present forces */
+    bool is_seen;              /* `seen` is valid */
 } dual;
 
-/* Where v pushes the bodies: to q->t. */
+/* Sets q->t to the moves of the bodies that the forces v cause. */
 static void push_all(dual *q, const double *v)
 {
     const sunder_i_quadratic *p = q->p;
@@ -58,20 +59,20 @@ static void push_all(dual *q, const double *v)
     q->p->work += 2 * q->n;
 }
 
-/* (G v)_k, after v was pushed. */
+/* Returns (G v)_k. push_all() must have been called for v. */
 static inline double product_of(const dual *q, const double *v, size_t k)
 {
     return q->scale[k] > 0 ? sunder_i_link_stretch(&q->link[k], q->t) / q->scale[k] + q->softness * v[k] : 0;
 }
 
-/* out = G v */
+/* Computes out = G v. */
 static void multiply(dual *q, const double *v, double *out)
 {
     push_all(q, v);
     for (size_t k = 0; k < q->n; k++) out[k] = product_of(q, v, k);
 }
 
-/* As sunder_i_min() and sunder_i_max() for a first argument that is a number: a NaN as second argument is ignored.
+/* As sunder_i_min() and sunder_i_max() if the first argument is a number: a NaN as second argument is ignored.
  * Inline. */
 static inline double least(double so_far, double x) { return x < so_far ? x : so_far; }
 static inline double most(double so_far, double x) { return x > so_far ? x : so_far; }
@@ -83,7 +84,7 @@ static void gradient(dual *q)
         if (q->scale[k] > 0) q->g[k] -= q->p->constraint[k].d / q->scale[k];
 }
 
-/* A little above the largest eigenvalue of G, by powers. */
+/* Returns an estimate, slightly too large, of the largest eigenvalue of G, by the power method. */
 static double largest(dual *q)
 {
     double value = 1;
@@ -102,17 +103,20 @@ static double largest(dual *q)
     return ABOVE_FOUND * value;
 }
 
-/* Along the step: its curvature, or 0 where it is only rounding; its slope; and its length until a force becomes zero.
- * Contradicting constraints give a direction without curvature, along which the dual falls without end: a step there
- * could have any length, and overflow in the end. The diagonal of G is 1, so sums of n terms are off by at most n 2^-53
- * of the step's square; a chain of n contacts has a curvature of at least 5 / n^2 of it. The two are apart up to
- * 100,000 contacts. */
+/* A step along q->step. `curvature` is step'G step, or 0 if it is no larger than rounding errors; `slope` is that of
+ * the dual; `feasible` is the step length at which the first force becomes zero.
+ *
+ * Contradicting constraints give a direction without curvature, along which the dual decreases without bound, so a step
+ * could have any length and overflow. The diagonal of G is 1, so rounding errors of sums of n terms are at most n 2^-53
+ * of the step's square; a chain of n contacts has a curvature of at least 5 / n^2 of it. The two can be told apart up
+ * to 100,000 contacts. */
 typedef struct direction {
     double curvature, slope, feasible;
 } direction;
 
-/* G times the step to q->gs, and on the same way all sums along it: each is added up by itself, in its order, and none
- * waits for another. What no force bars is told by a product, a hair more than it may be; few are divided. */
+/* Sets q->gs to G times the step, and computes all sums along the step in the same pass, each in its own order, so that
+ * none waits for another. A division is made only for a force that may limit the step; a product, raised slightly,
+ * tells which those are. */
 static direction look_along(dual *q)
 {
     const double *step = q->step, *f = q->f, *g = q->g;
@@ -128,7 +132,7 @@ static direction look_along(dual *q)
     return (direction){curvature > 0x1p-44 * square ? curvature : 0, slope, feasible};
 }
 
-/* The gradient among the positive forces is the next direction. */
+/* The next direction is the gradient of the positive forces alone. */
 static void restart(dual *q)
 {
     for (size_t k = 0; k < q->n; k++) q->step[k] = q->f[k] > 0 ? q->g[k] : 0;
@@ -137,7 +141,8 @@ static void restart(dual *q)
 static inline void note_imbalance(imbalance *i, double f, double g, double scale, double short_step)
 {
     const bool positive = f > 0;
-    const double cut = least(f / short_step, g) * g; /* of a force of 0 the square of g, if it calls for more, or 0 */
+    const double cut = least(f / short_step, g) * g; /* for a zero force: the square of g if g is negative, so that the
+                                                      * force should grow; else 0 */
     const double off = positive ? fabs(g) : most(0, -g);
     i->cut += positive ? cut : 0;
     i->zero += positive ? 0 : cut;
@@ -151,8 +156,8 @@ static imbalance look(const dual *q, double short_step)
     return i;
 }
 
-/* Takes a step of this length. Returns the component of the remaining gradient along the step, among the positive
- * forces, and records the imbalance on the way. */
+/* Takes a step of length `taken`. Returns the component of the remaining gradient along the step, over the positive
+ * forces, and records the imbalance in q->seen. */
 static double go(dual *q, double taken, double short_step)
 {
     imbalance i = {0, 0, 0};
@@ -168,7 +173,7 @@ static double go(dual *q, double taken, double short_step)
     return along;
 }
 
-/* One step among the positive forces; false if it makes no progress. */
+/* Makes one step in the positive forces. Returns false if it makes no progress. */
 static bool step_within(dual *q, double short_step)
 {
     const direction d = look_along(q);
@@ -191,7 +196,7 @@ static bool step_within(dual *q, double short_step)
     return true;
 }
 
-/* Lets in the zero forces that are called for; false where that leads nowhere. */
+/* Lets zero forces with a negative gradient grow. Returns false if their direction has no curvature. */
 static bool step_in(dual *q)
 {
     for (size_t k = 0; k < q->n; k++) q->step[k] = q->f[k] > 0 ? 0 : least(0, q->g[k]);
@@ -208,9 +213,9 @@ static bool step_in(dual *q)
     return d.curvature > 0;
 }
 
-/* Is every imbalance below the tolerance? Usually the sweeps have found the forces already; then no step needs a
- * length, which takes a dozen products to find. They are counted as work all the same, so that skipping them changes no
- * result. */
+/* Is every violation at most `tolerance`? Usually the sweeps have found the forces already; then no step length is
+ * needed, which takes a dozen products to compute. These products are counted as work all the same, so that skipping
+ * them changes no result. */
 static bool is_in_balance(dual *q, double tolerance)
 {
     const double any_length = 1;
@@ -221,14 +226,15 @@ static bool is_in_balance(dual *q, double tolerance)
     return true;
 }
 
-/* Copies the result to the program. */
+/* Copies the forces to the program. */
 static void store(const dual *q)
 {
     for (size_t k = 0; k < q->n; k++)
         if (q->scale[k] > 0) q->p->constraint[k].force = q->f[k] / q->scale[k];
 }
 
-/* Do the forces, as they are, prove that no solution is of any use? Without one they grow until they do. */
+/* Do the present forces prove that no solution costs at most p->most_cost? If the program has no solution the forces
+ * grow until they do. */
 static bool is_beyond(const dual *q)
 {
     if (q->softness > 0 || !(q->p->most_cost > 0)) return false;
@@ -242,7 +248,8 @@ static void iterate(dual *q, double tolerance, unsigned steps)
     if (is_in_balance(q, tolerance)) return;
     const double short_step = GRADIENT_STEP / largest(q);
     restart(q);
-    /* Nowhere along a direction made of earlier ones, and then nowhere along the gradient itself: this is the end. */
+    /* After a step without progress along a conjugate direction the next step is along the gradient. If that makes no
+     * progress either, the loop ends. */
     int nowhere = 0;
     for (unsigned k = 0; k < steps && nowhere < 2 && !sunder_i_quadratic_is_done(q->p); k++) {
         const imbalance i = q->is_seen ? q->seen : look(q, short_step);

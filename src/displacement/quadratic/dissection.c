@@ -1,11 +1,11 @@
-/* Elimination by nested dissection [Geo73], by the positions of the nodes.
+/* Elimination by nested dissection [Geo73], using the positions of the nodes.
  *
- * Bodies in contact are next to each other, so among thousands only few have a contact across a given straight line.
- * These few separate the others into two independent halves. They are eliminated after both halves, and each half is
- * divided in the same way. For a square grid that is optimal up to a constant: for a grid of 20,000 bodies, each with
- * eight contacts, it takes 27 million products where minimum degree takes 48, and 0.08 s to find instead of 0.52. Below
- * some thousands of bodies there is little difference. A body with hundreds of contacts, such as an outline that
- * contains a quarter of the town, leaves no small separator: minimum degree is used there. */
+ * Bodies in contact are next to each other, so only few of thousands have a contact across a given straight line. These
+ * few separate the others into two independent halves. They are eliminated after both halves, and each half is divided
+ * in the same way. For a square grid this is optimal up to a constant: for a grid of 20,000 bodies with eight contacts
+ * each the factor takes 27 million products instead of 48 with minimum degree, and the order 0.08 s to find instead of
+ * 0.52. Below some thousands of bodies there is little difference. A body with hundreds of contacts, such as an outline
+ * that contains a quarter of the town, leaves no small separator; then minimum degree is used. */
 #include "displacement/quadratic/elimination.h"
 #include "displacement/quadratic/tuning.h"
 
@@ -14,7 +14,7 @@
 
 #define END UINT32_MAX
 
-/* ---- The order --------------------------------------------------------------------------------------------------- */
+/* ---- The order of the nodes -------------------------------------------------------------------------------------- */
 
 typedef struct spot {
     double at;
@@ -28,19 +28,19 @@ static int by_spot(const void *a, const void *b)
     return p->node < q->node ? -1 : p->node > q->node;
 }
 
-/* Divides the nodes into two halves; the separator, and nodes outside the part, are in neither. */
+/* Which half of a part a node belongs to. The separator, and nodes outside the part, are in neither. */
 enum { NEITHER, LOW, HIGH };
 
 typedef struct dissection {
     const sunder_i_elimination *e;
     const double *place;
-    spot *spot;          /* [n] the nodes, those of a part side by side */
+    spot *spot;          /* [n] the nodes; those of a part are consecutive */
     spot *scratch;       /* [n] */
     unsigned char *half; /* [n] */
     uint32_t turn;
 } dissection;
 
-/* Along which axis a part is wider. */
+/* Returns the axis along which a part is wider. */
 static size_t wide_axis(const dissection *d, const spot *part, size_t n)
 {
     double low[2], high[2];
@@ -70,8 +70,8 @@ static size_t count_meeting(const dissection *d, const spot *part, size_t n, int
     return meeting;
 }
 
-/* Orders the part: the low half, the high half, then the separator. Returns the size of the separator; *low: the size
- * of the low half. */
+/* Reorders the part: the low half, the high half, then the separator. Returns the size of the separator, and sets *low
+ * to that of the low half. */
 static size_t divide(dissection *d, spot *part, size_t n, size_t *low)
 {
     const size_t axis = wide_axis(d, part, n), middle = n / 2;
@@ -94,7 +94,7 @@ static size_t divide(dissection *d, spot *part, size_t n, size_t *low)
     return parting;
 }
 
-/* Ranks the nodes of a part. False where too many part a large one. */
+/* Ranks the nodes of a part recursively. Returns false if the separator of a large part has too many nodes. */
 static bool rank_part(dissection *d, spot *part, size_t n)
 {
     size_t low = 0, parting = n;
@@ -124,12 +124,15 @@ static bool rank_all(const sunder_i_elimination *e, const double *place, bool *r
     return ok;
 }
 
-/* ---- Neighbours at each one's turn ------------------------------------------------------------------------------- */
+/* ---- The neighbours of each node when it is eliminated ----------------------------------------------------------- */
 
-/* The original neighbours of a node, and those of the nodes whose successor it is, that come after it. */
+/* The column of a node: its original neighbours, and the columns of those nodes whose first neighbour in the order it
+ * is, restricted to nodes that come later. */
 typedef struct columns {
     const sunder_i_elimination *e;
-    uint32_t *by_rank, *child, *sibling, *seen; /* [n]; whose next a node is, as lists; at whose turn it was last met */
+    uint32_t *by_rank, *child, *sibling, *seen; /* [n] each: the nodes by rank; lists, through child and sibling, of the
+                                                 * nodes whose first neighbour a node is; the node at whose turn a node
+                                                 * was last met */
     sunder_i_list column;
 } columns;
 

@@ -1,5 +1,5 @@
-/* The order in which the nodes of a graph are eliminated: found by one of two methods, and put so that columns with the
- * same rows are neighbours. */
+/* The order in which the nodes of a graph are eliminated. It is found by one of two methods, and then changed so that
+ * columns with the same rows are consecutive. */
 #include "displacement/quadratic/elimination.h"
 #include "displacement/quadratic/tuning.h"
 
@@ -32,9 +32,10 @@ static bool rank_all(sunder_i_elimination *e, const double *place)
     return done || sunder_i_minimum_degree(e);
 }
 
-/* The same elimination in another order: each node directly after all those that are below it in the elimination tree,
- * where the parent of a node is the first of its neighbours whose turn comes. That changes no column, and columns with
- * the same rows become neighbours. Ranks are given from the last node on, each before those below it. */
+/* Changes the order to a postorder of the elimination tree, in which the parent of a node is the first of its
+ * neighbours to be eliminated: each node comes directly after all nodes below it. This changes no column, and columns
+ * with the same rows become consecutive. Ranks are assigned from the last node on, to each node before those below
+ * it. */
 static bool rank_in_postorder(const sunder_i_elimination *g)
 {
     uint32_t *rank = g->rank;
@@ -49,7 +50,7 @@ static bool rank_in_postorder(const sunder_i_elimination *g)
             if (rank[near->item[k]] < parent[r]) parent[r] = rank[near->item[k]];
         if (parent[r] != END) below[parent[r]] += below[r] + 1;
     }
-    /* end[r]: one more than the last rank that is left for what is below r. */
+    /* end[r] is one more than the last rank left for the nodes below r. */
     uint32_t left = (uint32_t)g->n;
     for (size_t r = g->n; ok && r-- > 0;) {
         uint32_t *from = parent[r] == END ? &left : &end[parent[r]];

@@ -1,12 +1,12 @@
-/* An interior point method for the same program, for clusters in which thousands of constraints compete.
+/* An interior point method for the same program, for clusters with thousands of constraints.
  *
- * Mehrotra's predictor-corrector [NW06, section 16.6]: with slacks s and forces f, both positive,
+ * It is Mehrotra's predictor-corrector method [NW06, section 16.6]. With slacks s and forces f, both positive,
  *
  *     H x = A'f,   A x + softness f = d + s,   s f = mu -> 0,
  *
- * each step solves (H + A' diag(f / (s + softness f)) A) dx = r. The matrix couples bodies in contact only (sparse.c).
- * The steps number a dozen or two whatever the program, and what comes out lies inside the constraints, not a rounding
- * error beyond them. */
+ * each step solves (H + A' diag(f / (s + softness f)) A) dx = r. The matrix couples only bodies in contact (sparse.c).
+ * A dozen or two steps suffice for any program, and the result lies strictly inside the constraints, not beyond them by
+ * rounding errors. */
 #include "displacement/quadratic/methods.h"
 #include "displacement/quadratic/normal_equations.h"
 #include "displacement/quadratic/tuning.h"
@@ -20,8 +20,8 @@
 typedef struct interior {
     sunder_i_quadratic *p;
     sunder_i_normal normal;
-    size_t n, m;                              /* unknowns, constraints */
-    double *x, *dx;                           /* [n + 2], zero at the ground */
+    size_t n, m;                              /* the numbers of unknowns and of constraints */
+    double *x, *dx;                           /* [n + 2] moves and step; zero for the ground, which comes last */
     double *s, *f, *ds, *df, *rp, *rc, *soft; /* [m] */
     double *memory;
 } interior;
@@ -44,7 +44,7 @@ static void fill_matrix(interior *q)
     q->p->work += q->normal.matrix.work + 4 * q->m;
 }
 
-/* The Newton step for the complementarity rc, with the factor as it stands. */
+/* Computes the Newton step for the complementarity residual rc, using the present factor. */
 static void direction(interior *q)
 {
     for (size_t k = 0; k < q->n; k++) q->dx[k] = -q->normal.h[k] * q->x[k];
@@ -60,7 +60,7 @@ static void direction(interior *q)
     }
 }
 
-/* How far s and f can go and stay positive. */
+/* Returns the greatest share of the step, at most 1, for which s and f stay non-negative. */
 static double longest(const interior *q)
 {
     double step = 1;
@@ -79,7 +79,7 @@ static double mean_product(const interior *q, double step)
     return mu / (double)q->m;
 }
 
-/* One step. Returns false when there is no use in going on. */
+/* Makes one step. Returns false if the method has converged or makes no progress. */
 static bool advance(interior *q, double tolerance, double *mu)
 {
     double missed = 0, cost = 0;
@@ -107,8 +107,8 @@ static bool advance(interior *q, double tolerance, double *mu)
     return step > LEAST_STEP;
 }
 
-/* Starts where the forces have moved the bodies, with slacks of at least a fraction of a body's size: few bodies move
- * farther than that, and where their program has no solution the result stays near that of the quick methods. */
+/* Starts at the moves that the forces cause, with slacks of at least a share of `scale`, a typical length of moves. Few
+ * bodies move farther than that, and if the program has no solution the result stays near that of the quick methods. */
 static void begin_near(interior *q, double scale, double mean)
 {
     const sunder_i_quadratic *p = q->p;
@@ -120,11 +120,10 @@ static void begin_near(interior *q, double scale, double mean)
     }
 }
 
-/* Starts with all bodies in place, slacks as large as the worst violation there, and forces in proportion. Slacks and
- * forces that start far below their final values run into zero one after the other: when started near zero, where
- * chains of contacts move bodies ten times their own size, one in eight of the programs of 10,000 places with symbols
- * of 2 km did not converge, and the pairs affected had to jump. Started like this all converge, in two thirds of the
- * steps. */
+/* Starts with no moves, with slacks as large as the worst violation there, and forces in proportion. Slacks and forces
+ * that start far below their final values become zero one after the other. When they started near zero, and chains of
+ * contacts moved bodies ten times their own size, one in eight of the programs of 10,000 places with symbols of 2 km
+ * did not converge, and the pairs concerned had to jump. With this start all converge, in two thirds of the steps. */
 static void begin_far(interior *q, double scale, double mean)
 {
     double worst = FIRST_SLACK * scale;
@@ -135,7 +134,7 @@ static void begin_far(interior *q, double scale, double mean)
     }
 }
 
-/* Do the forces as they are prove that all solutions cost too much? */
+/* Do the present forces prove that all solutions cost more than p->most_cost? */
 static bool is_beyond(const interior *q, double softness)
 {
     for (size_t c = 0; c < q->m; c++) q->p->constraint[c].force = q->f[c];
@@ -176,7 +175,7 @@ bool sunder_i_quadratic_interior(sunder_i_quadratic *program, double softness, d
         for (size_t b = 0; b < program->bodies; b++)
             for (size_t e = 0; e < 2; e++)
                 program->t[2 * b + e] = program->mass[b] > 0 ? q.x[q.normal.unknown[b] + e] : 0;
-        /* Forces that fade are of constraints that do not act. */
+        /* Constraints whose forces have nearly vanished are not active. */
         for (size_t c = 0; c < q.m; c++) program->constraint[c].force = q.f[c] > FADED * mean * scale ? q.f[c] : 0;
     }
     interior_free(&q);

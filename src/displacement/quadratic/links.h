@@ -1,20 +1,20 @@
-/* The constraints of a program in the layout that the dual methods need, which pass over them hundreds of times each:
- * the data of a constraint side by side, and the ground as one more body, of infinite mass, so that no code has to test
- * which end is the ground. Every operation is the one that quadratic.h and methods.h describe, in the same order. */
+/* The constraints of a program in the layout that the dual methods need, which pass over them hundreds of times. The
+ * data of a constraint are consecutive, and the ground is one more body, of infinite mass, so that no code has to test
+ * which end is the ground. Each operation is the one described in quadratic.h and methods.h, in the same order. */
 #ifndef SUNDER_I_LINKS_H
 #define SUNDER_I_LINKS_H
 
 #include "displacement/quadratic/methods.h"
 
 typedef struct sunder_i_link {
-    uint32_t i, j;        /* the ground is number `bodies` */
-    double n[2], mass[2]; /* of i, of j */
+    uint32_t i, j;        /* the two bodies; the ground has the number `bodies` */
+    double n[2], mass[2]; /* the normal; the masses of i and of j */
 } sunder_i_link;
 
-/* x and y, which are taken together. */
+/* A vector of x and y, which are processed together. */
 typedef double sunder_i_two __attribute__((vector_size(16), aligned(8), may_alias));
 
-/* link[p->n] */
+/* Fills link[0 .. p->n - 1] with the constraints of p. */
 static inline void sunder_i_links_make(const sunder_i_quadratic *p, sunder_i_link *link)
 {
     for (size_t k = 0; k < p->n; k++) {
@@ -26,7 +26,7 @@ static inline void sunder_i_links_make(const sunder_i_quadratic *p, sunder_i_lin
     }
 }
 
-/* sunder_i_stretch(); t: [2 * (bodies + 1)], zero at the ground. */
+/* The same as sunder_i_stretch(). t: [2 * (bodies + 1)], zero for the ground. */
 static inline double sunder_i_link_stretch(const sunder_i_link *link, const double *t)
 {
     const sunder_i_two *at = (const sunder_i_two *)(const void *)t, n = *(const sunder_i_two *)(const void *)link->n;
@@ -34,7 +34,8 @@ static inline double sunder_i_link_stretch(const sunder_i_link *link, const doub
     return (to[0] + to[1]) - (from[0] + from[1]);
 }
 
-/* sunder_i_push(). What it does to the ground is to be undone: forces may outgrow all numbers. */
+/* The same as sunder_i_push(). It also moves the ground; the caller has to set that to zero again, not subtract, since
+ * forces may overflow. */
 static inline void sunder_i_link_push(const sunder_i_link *link, double force, double *t)
 {
     sunder_i_two *at = (sunder_i_two *)(void *)t;

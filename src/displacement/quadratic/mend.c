@@ -1,10 +1,10 @@
-/* A solved program that gets a few more constraints.
+/* Solves a program again that was solved before and has got a few more constraints.
  *
- * In a crowd of thousands, once its program is solved, a dozen bodies exceed their limits, or run into pieces that were
- * out of reach: of 48 programs of a grid of 5,041 squares within limits, 20 were solved again for a handful of
- * constraints. The effect of a few constraints fades with the number of contacts between, so the bodies around them are
- * solved while all others stay. No solution gets cheaper with more constraints, so the increase in cost bounds how far
- * the result is from the optimum. */
+ * In a cluster of thousands of bodies, once the program is solved, a dozen bodies exceed their limits, or run into
+ * pieces that were out of reach before: of 48 programs of a grid of 5,041 squares within limits, 20 were solved again
+ * for a handful of constraints. The effect of a few constraints decreases with the number of contacts between, so only
+ * the bodies around them are solved while all others stay. More constraints never make the optimum cheaper, so the
+ * increase in cost bounds the distance of the result from the optimum. */
 #include "displacement/quadratic/methods.h"
 #include "displacement/quadratic/tuning.h"
 
@@ -18,10 +18,10 @@
 
 typedef struct mending {
     sunder_i_quadratic *p;
-    uint32_t *ring;  /* [bodies] contacts from a violated constraint; OUTSIDE: it stays */
-    uint32_t *place; /* [bodies] number in the part */
-    uint32_t *body;  /* [part.bodies] */
-    uint32_t *which; /* [part.n] constraints */
+    uint32_t *ring;  /* [bodies] the number of contacts from a violated constraint; OUTSIDE: the body stays */
+    uint32_t *place; /* [bodies] the number of each body in the partial program */
+    uint32_t *body;  /* [part.bodies] the number of each in the whole program */
+    uint32_t *which; /* [part.n] the constraints of the whole program */
     double *mass;    /* [part.bodies] */
     sunder_i_quadratic part;
 } mending;
@@ -51,7 +51,7 @@ static bool mending_init(mending *m, sunder_i_quadratic *p)
     return m->ring && m->place && m->body && m->which && m->mass && m->part.t && m->part.constraint;
 }
 
-/* ---- Participants ------------------------------------------------------------------------------------------------ */
+/* ---- Bodies of the partial program ------------------------------------------------------------------------------- */
 
 static bool moves(const mending *m, uint32_t body) { return body != SUNDER_I_GROUND && m->p->mass[body] > 0; }
 
@@ -69,7 +69,7 @@ static void mark_missed(mending *m, double tolerance)
     }
 }
 
-/* Bodies in contact with those of one ring, and not in a ring yet, form the next ring. */
+/* Marks the next ring: bodies in contact with bodies of ring number `ring` that are in no ring yet. */
 static void mark_next(mending *m, uint32_t ring)
 {
     const sunder_i_quadratic *p = m->p;
@@ -82,7 +82,7 @@ static void mark_next(mending *m, uint32_t ring)
     m->p->work += p->n;
 }
 
-/* ---- The part ---------------------------------------------------------------------------------------------------- */
+/* ---- The partial program ----------------------------------------------------------------------------------------- */
 
 static void take_bodies(mending *m)
 {
@@ -98,7 +98,8 @@ static void take_bodies(mending *m)
     part->mass = m->mass;
 }
 
-/* The distance owed by a body that takes part; a body that does not is ground, at its present place. */
+/* Makes the constraints of the partial program: those with an end that takes part. The other end is the ground, and its
+ * present move is included in the distance. */
 static void take_constraints(mending *m)
 {
     const sunder_i_quadratic *p = m->p;
@@ -133,16 +134,17 @@ static void swap(double *a, double *b)
     *b = c;
 }
 
-/* What the part has found into the program, whose places and forces it has then; and back. */
+/* Exchanges moves and forces between the partial program and the whole one; a second call undoes it. */
 static void exchange(mending *m)
 {
     for (size_t b = 0; b < 2 * m->part.bodies; b++) swap(&m->p->t[2 * m->body[b / 2] + b % 2], &m->part.t[b]);
     for (size_t k = 0; k < m->part.n; k++) swap(&m->p->constraint[m->which[k]].force, &m->part.constraint[k].force);
 }
 
-/* Solves the part by the interior point method, as the whole was: a body that ends slightly beyond what its pairs
- * require stands worse than before, and would have to go back. *solved: together with the bodies that stay, the result
- * nearly solves the whole program, which then has it. False if memory is out. */
+/* Solves the partial program by the interior point method, as the whole was solved: a body that ends slightly beyond
+ * what its pairs require stands worse than before, and would have to go back. *solved is set if the result, together
+ * with the bodies that stay, costs at most a share `more` more than before; the whole program then has it. Returns
+ * false if memory is out. */
 static bool solve_part(mending *m, double tolerance, double scale, double more, bool *solved)
 {
     sunder_i_quadratic *p = m->p, *part = &m->part;

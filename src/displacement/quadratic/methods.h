@@ -1,11 +1,11 @@
-/* The methods that quadratic.c takes one after the other, and what they share. */
+/* The methods that quadratic.c tries one after the other, and functions that they share. */
 #ifndef SUNDER_I_METHODS_H
 #define SUNDER_I_METHODS_H
 
 #include "displacement/quadratic/quadratic.h"
 #include <stdbool.h>
 
-/* Is it time to stop, solved or not? */
+/* Has the program used up its work? Then methods stop, solved or not. */
 static inline bool sunder_i_quadratic_is_done(const sunder_i_quadratic *p)
 {
     return p->most_work && p->work >= p->most_work;
@@ -16,7 +16,7 @@ static inline double sunder_i_mass(const sunder_i_quadratic *p, uint32_t i)
     return i == SUNDER_I_GROUND ? 0 : p->mass[i];
 }
 
-/* Adds to t what a force on the constraint moves. */
+/* Adds to t the moves that a force on constraint c causes. */
 static inline void sunder_i_push(const sunder_i_quadratic *p, const sunder_i_constraint *c, double force, double *t)
 {
     if (c->j != SUNDER_I_GROUND) {
@@ -31,38 +31,40 @@ static inline void sunder_i_push(const sunder_i_quadratic *p, const sunder_i_con
 
 /* ---- quadratic.c ------------------------------------------------------------------------------------------------- */
 
-/* t from the forces; what is missed at worst, softness allowed for; a pass of Hildreth's method. */
+/* sunder_i_quadratic_place() sets t from the forces. sunder_i_quadratic_worst() returns the largest violation, allowing
+ * for softness. sunder_i_quadratic_sweep() makes one pass of Hildreth's method. */
 void sunder_i_quadratic_place(sunder_i_quadratic *program);
 double sunder_i_quadratic_worst(const sunder_i_quadratic *program, double softness);
 void sunder_i_quadratic_sweep(sunder_i_quadratic *program, double softness);
 
-/* Do the forces prove that every solution costs more than program->most_cost? Not of soft programs, nor where
+/* Do the forces prove that every solution costs more than program->most_cost? Returns false for soft programs, and if
  * memory is out. */
 bool sunder_i_quadratic_is_beyond(const sunder_i_quadratic *program, double softness);
 
 /* ---- conjugate_gradients.c --------------------------------------------------------------------------------------- */
 
-/* Conjugate gradients on the forces, which stay non-negative; at most `steps`, until no constraint is missed, nor one
- * that acts kept, by more than tolerance. False if memory is out. The forces are changed, t is not. */
+/* Conjugate gradients on the forces, which stay non-negative: at most `steps` steps, until no constraint is violated by
+ * more than `tolerance`, and no active one is slack by more. Returns false if memory is out. Changes the forces, not
+ * t. */
 bool sunder_i_quadratic_gradient(sunder_i_quadratic *program, double softness, double tolerance, unsigned steps);
 
 /* ---- active_set.c ------------------------------------------------------------------------------------------------ */
 
-/* The acting constraints as linear equations, their set corrected. False if memory is out. The forces are changed, t is
- * not. */
+/* Solves for the forces of the active constraints by linear equations, and corrects the active set. Returns false if
+ * memory is out. Changes the forces, not t. */
 bool sunder_i_quadratic_equations(sunder_i_quadratic *program, double softness, double tolerance);
 
 /* ---- newton.c ---------------------------------------------------------------------------------------------------- */
 
-/* By Newton steps on the moves, from the forces: *solved, with t and the forces, which keep, or all but keep, all that
- * is demanded, or prove that all solutions cost too much; else the forces are what they were. False if memory is
- * out. */
+/* Newton steps on the moves, starting from the forces. If *solved is set, t and the forces satisfy the constraints, or
+ * nearly, or the forces prove that all solutions cost more than program->most_cost; otherwise the forces are unchanged.
+ * Returns false if memory is out. */
 bool sunder_i_quadratic_newton(sunder_i_quadratic *program, double softness, double tolerance, bool *solved);
 
 /* ---- interior_point.c -------------------------------------------------------------------------------------------- */
 
-/* By an interior point method, from p->t; sets t and the forces. scale: a length such as things move by. False if
- * memory is out. */
+/* An interior point method, starting from p->t; sets t and the forces. scale: a typical length of moves. Returns false
+ * if memory is out. */
 bool sunder_i_quadratic_interior(sunder_i_quadratic *program, double softness, double tolerance, double scale);
 
 #endif

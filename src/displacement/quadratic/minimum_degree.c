@@ -1,19 +1,20 @@
 /* Elimination in minimum degree order.
  *
- * Nodes with few neighbours go first. Bodies in a plane touch few others, and an outline that contains hundreds of
- * houses comes last, so the factor stays sparse whatever the shape of the cluster [GL81, chapter 5]. */
+ * Nodes with few neighbours are eliminated first. Bodies in a plane touch few others, and an outline that contains
+ * hundreds of houses comes last, so the factor stays sparse whatever the shape of the cluster [GL81, chapter 5]. */
 #include "displacement/quadratic/elimination.h"
 
 #include <string.h>
 
 #define END UINT32_MAX
 
-/* The graph as it is eliminated: sorted lists of neighbours that are still there, and nodes by their degrees in
- * doubly linked lists. */
+/* The graph during elimination: sorted lists of the remaining neighbours, and the remaining nodes by degree in doubly
+ * linked lists. */
 typedef struct graph {
     size_t n;
-    sunder_i_list *near;                 /* lent */
-    uint32_t *head, *tail, *next, *prev; /* [n] of each degree, and of each node; END ends a list */
+    sunder_i_list *near;                 /* borrowed */
+    uint32_t *head, *tail, *next, *prev; /* [n] head and tail of the list of each degree; successor and predecessor of
+                                          * each node; END ends a list */
     sunder_i_list merged;
 } graph;
 
@@ -29,8 +30,9 @@ static void unlist(graph *g, uint32_t v)
         g->tail[g->near[v].n] = g->prev[v];
 }
 
-/* Appends at the end: among equal degrees the node that has had its degree longest comes first, so that the elimination
- * spreads over the whole graph. Continuing next to the last node took a third more work on a grid of 20,000. */
+/* Appends v to the list of its degree. Among nodes of equal degree the one that has had its degree longest is
+ * eliminated first, so that elimination spreads over the whole graph. Elimination next to the last node took a third
+ * more work on a grid of 20,000. */
 static void enlist(graph *g, uint32_t v)
 {
     const size_t degree = g->near[v].n;
@@ -68,7 +70,7 @@ static void graph_free(graph *g)
     sunder_i_free(g->merged.item);
 }
 
-/* The neighbours of v become neighbours of u; v is no longer there. */
+/* Adds the neighbours of v to those of u, and removes v from them. Returns false if memory is out. */
 static bool join_neighbours(graph *g, uint32_t u, uint32_t v)
 {
     const sunder_i_list *a = &g->near[u], *b = &g->near[v];
@@ -98,7 +100,7 @@ static bool eliminate(graph *g, uint32_t *rank)
 {
     size_t degree = 0;
     for (size_t turn = 0; turn < g->n; turn++) {
-        /* The least degree falls by one at most with each node. */
+        /* Eliminating a node lowers the least degree by at most one. */
         if (degree) degree--;
         while (g->head[degree] == END) degree++;
         const uint32_t v = g->head[degree];

@@ -1,23 +1,23 @@
-/* min |t|^2 under constraints n.(t_j - t_i) >= d, by the dual method of Goldfarb and Idnani [GI83].
+/* Minimises |t|^2 under constraints n.(t_j - t_i) >= d, by the dual method of Goldfarb and Idnani [GI83].
  *
- * It begins at t = 0, where no constraint is active, and adds one violated constraint after another, the worst first.
- * The normal v of the new constraint is a combination of the active normals, by some shares, plus a rest z orthogonal
- * to them:
+ * It begins at t = 0 with no active constraint, and adds one violated constraint after another, the worst first. The
+ * normal v of the new constraint is a combination of the active normals, with coefficients called shares, plus a rest z
+ * orthogonal to them:
  *
- *     t moves along z until v holds; v's force grows as much, those of the active ones change by their shares;
+ *     t moves along z until v holds; v's force grows in proportion, those of the active ones change by their shares;
  *     a constraint whose force reaches zero before that becomes inactive.
  *
- * At each stage t is the nearest point under the active constraints, and it gets farther each time. So no active set
- * repeats, and the method ends, after a few steps for each constraint that is active at the end, where iterative
- * methods take hundreds of passes. If all shares are negative, v and the active normals, each by its share, sum up to
- * z: there is no solution if moving along z within the limits cannot make up for the violation of v [Farkas].
+ * At each stage t is the nearest point under the active constraints, and its distance grows each time. So no active set
+ * repeats, and the method ends, after a few steps for each constraint that is active at the end; iterative methods take
+ * hundreds of passes. If all shares are non-positive, the sum of v and the active normals, each times minus its share,
+ * is z. Then there is no solution if no move along z within the limits removes the violation of v [Farkas].
  *
- * The active normals are kept as Q R, with Q orthonormal (orthogonalised twice, [GVL13, 5.2]; first by the normal's own
- * entries along each axis, which are those of two bodies), and rows of R are rotated by Givens rotations when a
- * constraint is removed. So two walls that almost oppose each other are distinguished from two that do.
+ * The active normals are stored as Q R with Q orthonormal. They are orthogonalised twice [GVL13, 5.2]; the first pass
+ * uses that a normal has entries for two bodies only. When a constraint is removed, rows of R are rotated by Givens
+ * rotations. So two walls that almost oppose each other are distinguished from two that do.
  *
- *   the active normals span everything   z is rounding, and counts as zero: so does a rest below 1e-14
- *   an active one is violated again      by rounding: it is added again, and its earlier copy is removed */
+ *   the active normals span everything       z is a rounding error, and counts as zero, as does a rest below 1e-14
+ *   an active constraint is violated again   by rounding: it is added again, and its earlier copy is removed */
 #include "displacement/quadratic/nearest.h"
 #include "displacement/quadratic/tuning.h"
 
@@ -28,7 +28,7 @@
 #include <math.h>
 #include <string.h>
 
-/* The square of the rounding error that remains of a normal. */
+/* A squared rest below this is a rounding error. */
 #define NOTHING 1e-28
 
 void sunder_i_nearest_free(sunder_i_nearest *nearest)
@@ -60,7 +60,7 @@ bool sunder_i_nearest_begin(sunder_i_nearest *nearest, sunder_i_quadratic *progr
 
 /* ---- The factors ------------------------------------------------------------------------------------------------- */
 
-/* For vectors of an even length: four independent partial sums. */
+/* The scalar product of vectors of even length n, in four independent partial sums. */
 static inline double product(const double *restrict a, const double *restrict b, size_t n)
 {
     double sum[4] = {0, 0, 0, 0};
@@ -76,7 +76,7 @@ static inline void take_off(double along, const double *restrict axis, double *r
     for (size_t d = 0; d < n; d++) rest[d] -= along * axis[d];
 }
 
-/* The normal along an axis: it has numbers for two bodies only. */
+/* Returns the scalar product of the constraint's normal with an axis; the normal has entries for two bodies only. */
 static inline double normal_along(const sunder_i_constraint *c, const double *axis)
 {
     double along = 0;
@@ -85,7 +85,8 @@ static inline double normal_along(const sunder_i_constraint *c, const double *ax
     return along;
 }
 
-/* The part, shares and rest of a normal. Returns the square of the rest, 0 where that is nothing. */
+/* Sets w->part, share and rest for the normal of constraint c. Returns the square of the rest's length, or 0 if the
+ * rest is a rounding error. */
 static double take_apart(sunder_i_nearest *w, const sunder_i_constraint *c)
 {
     const size_t dims = w->dims;
@@ -113,7 +114,7 @@ static double take_apart(sunder_i_nearest *w, const sunder_i_constraint *c)
     return w->n < dims && square > NOTHING ? square : 0;
 }
 
-/* Lets in the one that was taken apart. */
+/* Makes the constraint for which take_apart() was called active. */
 static void let_in(sunder_i_nearest *w, size_t constraint, double force, double square)
 {
     const double length = sqrt(square);
@@ -125,7 +126,7 @@ static void let_in(sunder_i_nearest *w, size_t constraint, double force, double 
     w->force[w->n++] = force;
 }
 
-/* Takes out the k-th. */
+/* Makes the k-th active constraint inactive. */
 static void let_go(sunder_i_nearest *w, size_t k)
 {
     const size_t dims = w->dims, after = w->n - k - 1;
@@ -152,7 +153,8 @@ static void let_go(sunder_i_nearest *w, size_t k)
 
 /* ---- The steps --------------------------------------------------------------------------------------------------- */
 
-/* The constraint whose force is the first to reach zero as v's grows; n: none. *step: by how much v's may grow. */
+/* Returns the active constraint whose force is the first to reach zero as the new constraint's force grows, or w->n if
+ * there is none. *step is the growth at which it does. */
 static size_t first_to_go(const sunder_i_nearest *w, double *step)
 {
     size_t first = w->n;
@@ -165,7 +167,7 @@ static size_t first_to_go(const sunder_i_nearest *w, double *step)
     return first;
 }
 
-/* Is what can be gained along the rest, within the limits, less than what is missed? */
+/* Is the greatest decrease of the violation along the rest, within the limits, less than the violation `missed`? */
 static bool is_out_of_reach(const sunder_i_nearest *w, const sunder_i_quadratic *p, const double *from,
                             const double *limit, double missed)
 {
@@ -183,7 +185,7 @@ static void set_forces(const sunder_i_nearest *w, sunder_i_quadratic *p, const d
     for (size_t k = 0; k < w->n; k++) p->constraint[w->set[k]].force = sunder_i_max(0, sign * force[k]);
 }
 
-/* Makes one constraint hold. FOUND: it does. */
+/* Adds constraint `which` and steps until it holds; then returns FOUND. */
 static sunder_i_nearest_outcome satisfy(sunder_i_nearest *w, sunder_i_quadratic *p, size_t which, const double *from,
                                         const double *limit)
 {

@@ -1,15 +1,16 @@
-/* The same program by Newton steps on the moves, from forces that are nearly right.
+/* Solves the same program by Newton steps on the moves, starting from forces that are nearly right.
  *
  * A soft program has no hard constraints: a violation v > 0 costs v^2 / (2 give), with give = softness * (mass_i +
  * mass_j), and its force is v / give. The sum of these costs and the cost of the moves is convex, smooth and piecewise
- * quadratic: the violated constraints are the active ones. A Newton step goes to the minimum of the current quadratic
- * piece, or to the least value on the way; once a full step stays in its piece, that is the solution [QS93]. It takes a
- * few steps from forces that are nearly right, a dozen or two from zero. The dual methods, in contrast, need more steps
- * with the length of chains, and do not end with contradictions.
+ * quadratic; a piece is given by the set of violated constraints, which are the active ones. A Newton step goes to the
+ * minimum of the present piece, or to the least value on the way there. Once a full step stays in its piece, the
+ * solution is found [QS93]. This takes a few steps from forces that are nearly right, and a dozen or two from zero. The
+ * dual methods, in contrast, need more steps for longer chains, and do not end if constraints contradict each other.
  *
- * A hard program is a sequence of soft ones [Roc76]: each constraint is owed give * force more, with its previous
- * force, so that once the forces no longer change nothing is violated. A smaller give needs fewer rounds, so it is
- * reduced; if contradictions let the forces grow, they soon prove that every solution costs too much. */
+ * A hard program is solved as a sequence of soft ones [Roc76]: the distance of each constraint is increased by give
+ * times its previous force, so that nothing is violated once the forces no longer change. A smaller give needs fewer
+ * rounds, so it is reduced in each. If contradictions let the forces grow, they soon prove that every solution costs
+ * too much. */
 #include "displacement/quadratic/methods.h"
 #include "displacement/quadratic/normal_equations.h"
 #include "displacement/quadratic/tuning.h"
@@ -23,12 +24,14 @@
 typedef struct newton {
     sunder_i_quadratic *p;
     sunder_i_normal normal;
-    double *x, *step;    /* [n + 2] where the bodies are, and a step; zero at the ground */
-    double *give, *owed; /* [m] what a force of 1 yields, 0 where neither end can move; what is owed, with the forces */
-    double *left;        /* [m] of that: it acts if it is positive, and then the force is left / give */
-    double *along;       /* [m] what a step takes off */
-    double *first;       /* [m] forces, to go back to */
-    double *before;      /* [m] those before the last step of the sequence */
+    double *x, *step;    /* [n + 2] the moves of the bodies, and a step; zero for the ground */
+    double *give, *owed; /* [m] give: the violation that a force of 1 causes, 0 if neither end can move; owed: the
+                          * distance, including the force's share */
+    double *left;        /* [m] the violation of `owed`; if it is positive the constraint is active, with force left /
+                          * give */
+    double *along;       /* [m] how much the whole step reduces `left` */
+    double *first;       /* [m] the forces at the beginning */
+    double *before;      /* [m] the forces before the last step of the sequence */
     double *memory;
 } newton;
 
@@ -60,7 +63,8 @@ static void look(newton *q)
         q->left[c] = q->give[c] > 0 ? q->owed[c] - sunder_i_normal_stretch(&q->normal.row[c], q->x) : 0;
 }
 
-/* To the least of the piece at hand. False if the matrix is none that has one, as far as doubles can tell. */
+/* Computes the step to the minimum of the present piece. Returns false if the matrix is not positive definite, as
+ * computed in doubles. */
 static bool find_step(newton *q)
 {
     sunder_i_normal *a = &q->normal;
@@ -79,7 +83,8 @@ static bool find_step(newton *q)
     return true;
 }
 
-/* How steep the sum is that far along the step, and how much steeper it gets. */
+/* Sets *slope to the derivative of the sum at fraction `share` of the step, and *bend to its second derivative. moves:
+ * the contribution of the cost of moves. */
 static void steepness(const newton *q, double share, const double moves[2], double *slope, double *bend)
 {
     *slope = moves[0] + share * moves[1];
@@ -93,9 +98,9 @@ static void steepness(const newton *q, double share, const double moves[2], doub
     }
 }
 
-/* The fraction of the step at which the sum is least, approximately: its slope along the step is increasing and
- * piecewise linear, so Newton's method finds it, bracketed between a fraction where the sum still falls and one where
- * it rises. */
+/* Returns the fraction of the step at which the sum is least, approximately. The slope along the step is increasing and
+ * piecewise linear, so Newton's method finds its zero, bracketed between a fraction where the sum decreases and one
+ * where it increases. */
 static double find_share(const newton *q)
 {
     const sunder_i_normal *a = &q->normal;
@@ -118,7 +123,8 @@ static double find_share(const newton *q)
     return share;
 }
 
-/* Goes that share of the step. Returns whether the same constraints act as did; *far: the longest step of a body. */
+/* Goes the fraction `share` of the step. Returns whether the active constraints are the same as before. *far is the
+ * longest whole step of a coordinate. */
 static bool go(newton *q, double share, double *far)
 {
     bool same = true;
@@ -135,7 +141,7 @@ static bool go(newton *q, double share, double *far)
     return same;
 }
 
-/* The least of the sum; false if it was not found. */
+/* Finds the minimum of the sum. Returns false if it was not found. */
 static bool minimise(newton *q, double tolerance)
 {
     look(q);
@@ -150,9 +156,9 @@ static bool minimise(newton *q, double tolerance)
     return false;
 }
 
-/* ---- The sequence ------------------------------------------------------------------------------------------------ */
+/* ---- The sequence of soft programs ------------------------------------------------------------------------------- */
 
-/* The distances owed with the present forces. */
+/* Sets the distances `owed`, for a hard program including the share of the present forces. */
 static void owe(newton *q, double softness, bool hard)
 {
     const sunder_i_quadratic *p = q->p;
@@ -163,8 +169,9 @@ static void owe(newton *q, double softness, bool hard)
     }
 }
 
-/* The forces that were found. Returns by how much a constraint is missed for their change, or kept: by none is it where
- * they have not changed. *missed: of that by how much one is missed. */
+/* Stores the new forces in the program. Returns the largest change of give times force: it is the distance by which a
+ * constraint is violated, or slack, because its force has changed. *missed is the largest increase, which is a
+ * violation. */
 static double take_forces(newton *q, double *missed)
 {
     double most = 0;
@@ -190,10 +197,10 @@ static bool solve_soft(newton *q, double softness, double tolerance)
     return true;
 }
 
-/* How far to continue along the last change of the forces: as far as the bound that they prove grows, and no force
- * becomes negative. Along f + s g, with t and u the moves that f and g cause, the bound grows by s (g.d - sum of t.u /
- * mass) - s^2 / 2 sum of u.u / mass [weak duality, quadratic.c]; at most until it proves twice what is wanted. rising:
- * forces that fell are kept. */
+/* Returns how far to continue along the last change of the forces: as far as the bound that they prove grows and no
+ * force becomes negative. Along f + s g, where f and g cause the moves t and u, the bound grows by s (g.d - sum of t.u
+ * / mass) - s^2 / 2 sum of u.u / mass [weak duality, quadratic.c]. It stops at twice the bound that is needed. rising:
+ * forces that decreased are kept. */
 static double far_along(const newton *q, bool rising)
 {
     const sunder_i_quadratic *p = q->p;
@@ -230,8 +237,9 @@ static void go_along(newton *q, double far, bool rising)
     }
 }
 
-/* Is it known that all solutions cost too much, by the forces as they are, or along their last step? In a contradiction
- * by a hair they grow slowly, but in a straight line from some time on. Where they prove it they are the program's. */
+/* Is it proved that all solutions cost too much, by the present forces or by forces farther along their last change? If
+ * constraints contradict each other only slightly, the forces grow slowly, but at last along a straight line. If they
+ * prove it, the program has these forces. */
 static bool is_beyond(newton *q)
 {
     if (sunder_i_quadratic_is_beyond(q->p, 0)) return true;
@@ -245,10 +253,10 @@ static bool is_beyond(newton *q)
     return false;
 }
 
-/* Forces that change as much as in the last round move from one constraint to another that is nearly the same, in steps
- * limited by the small distance between the two: the rest of that path is taken at once. As long as the violations stay
- * below a hair, it does not matter which of the two has the force. (With few constraints the dual methods settle it
- * quickly.) */
+/* Solves a hard program; returns false if it was not solved. If the forces change as much as in the last round, force
+ * is being transferred between two constraints that are nearly the same, in steps limited by the small distance between
+ * the two; the rest of that path is taken at once. As long as the violations are tiny, it does not matter which of the
+ * two has the force. (With few constraints the dual methods settle this quickly.) */
 static bool solve_hard(newton *q, double tolerance)
 {
     const bool few = q->normal.m <= FEW_TO_LEAP;

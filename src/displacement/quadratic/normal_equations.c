@@ -1,4 +1,5 @@
-/* Unknowns, rows, and where in the matrix each constraint has its blocks: found once, and used at each step. */
+/* Sets up the matrix: its unknowns and rows, and which blocks each constraint adds to. This is computed once and used
+ * in each step. */
 #include "displacement/quadratic/normal_equations.h"
 #include "displacement/quadratic/methods.h"
 
@@ -21,7 +22,7 @@ static void number_unknowns(sunder_i_normal *q, const sunder_i_quadratic *p)
     }
 }
 
-/* Where the bodies are that have unknowns; NULL if memory is out. */
+/* Returns the positions of the bodies that have unknowns; NULL if memory is out. */
 static double *find_places(const sunder_i_normal *q, const sunder_i_quadratic *p)
 {
     double *place = sunder_i_alloc(q->n, sizeof *place);
@@ -30,7 +31,7 @@ static double *find_places(const sunder_i_normal *q, const sunder_i_quadratic *p
     return place;
 }
 
-/* Which entries the matrix has. */
+/* Sets the structure of the matrix: which blocks it has. */
 static bool shape_matrix(sunder_i_normal *q, const sunder_i_quadratic *p)
 {
     double *place = p->place ? find_places(q, p) : NULL;
@@ -48,7 +49,7 @@ static bool shape_matrix(sunder_i_normal *q, const sunder_i_quadratic *p)
 static void find_blocks(sunder_i_normal *q, sunder_i_normal_row *c)
 {
     double *spare = q->h + q->n;
-    /* The part is symmetric, so it does not matter which of the two entries across is kept. */
+    /* The block of a constraint is symmetric, so it does not matter which of the two off-diagonal entries is stored. */
     bool transposed;
     c->on_i = c->i < q->n ? sunder_i_sparse_diagonal(&q->matrix, c->i / 2) : spare;
     c->on_j = c->j < q->n ? sunder_i_sparse_diagonal(&q->matrix, c->j / 2) : spare;

@@ -1,16 +1,16 @@
-/* min sum w_i |t_i|^2 under constraints n.(t_j - t_i) >= d: five methods, one after the other.
+/* Minimises sum w_i |t_i|^2 under constraints n.(t_j - t_i) >= d, by up to five methods in sequence.
  *
  * The dual has one multiplier (a force) for each constraint, and t follows from the forces: 2 w_i t_i = sum of the
- * forces on i. Hildreth's method [Hil57] visits one constraint after another and sets its force to the value that makes
- * it hold with equality, or to zero. It quickly finds which constraints are active, but slowly how strongly where
- * contacts form long chains. There conjugate gradients with non-negative forces (conjugate_gradients.c) are far
- * quicker, and once the active set is known, or nearly, linear equations (active_set.c) give the remaining digits.
- * Programs of more than a few dozen constraints first try Newton's method on the moves (newton.c), which takes a
- * fraction of that where constraints contradict each other. Programs that resist, and large ones, go to an interior
- * point method (interior_point.c).
+ * forces on i. Hildreth's method [Hil57] visits one constraint after another and sets its force to the value for which
+ * it holds with equality, or to zero. It finds quickly which constraints are active, but converges slowly if contacts
+ * form long chains. There conjugate gradients with non-negative forces (conjugate_gradients.c) are far quicker. Once
+ * the active set is known, or nearly, linear equations (active_set.c) give the remaining digits. Programs of more than
+ * a few dozen constraints try Newton's method on the moves (newton.c) first, which takes a fraction of the time if
+ * constraints contradict each other. Programs that these methods do not solve, and large ones, go to an interior point
+ * method (interior_point.c).
  *
- * With softness s each constraint may be violated by s * (mass_i + mass_j) * force, which is added to the diagonal of
- * the dual: contradictions then have a compromise. */
+ * With softness s each constraint may be violated by s * (mass_i + mass_j) * force. This adds to the diagonal of the
+ * dual, so contradicting constraints have a compromise. */
 #include "displacement/quadratic/links.h"
 #include "displacement/quadratic/tuning.h"
 
@@ -51,13 +51,14 @@ double sunder_i_quadratic_worst(const sunder_i_quadratic *program, double softne
         const sunder_i_constraint *c = &program->constraint[k];
         const double m = sunder_i_mass(program, c->i) + sunder_i_mass(program, c->j);
         const double missed = c->d - sunder_i_stretch(c, program->t) - softness * m * c->force;
-        if (missed != missed) return INFINITY; /* without a solution forces can outgrow all numbers */
+        if (missed != missed) return INFINITY; /* if the program has no solution, forces can overflow */
         if (missed > v) v = missed;
     }
     return v;
 }
 
-/* Weak duality: whatever the forces, no solution costs less than sum f d - sum w |t|^2, with t as they send it. */
+/* Weak duality: for any forces, no solution costs less than sum f d - sum w |t|^2, where t are the moves that they
+ * cause. */
 bool sunder_i_quadratic_is_beyond(const sunder_i_quadratic *program, double softness)
 {
     if (softness > 0 || !(program->most_cost > 0)) return false;
@@ -77,17 +78,19 @@ bool sunder_i_quadratic_is_beyond(const sunder_i_quadratic *program, double soft
 
 /* ---- Sweeps ------------------------------------------------------------------------------------------------------ */
 
-/* The same sweeps one after the other, over links. */
+/* Sweeps of Hildreth's method in sequence, over links. */
 typedef struct sweeping {
     const sunder_i_quadratic *p;
     double softness;
     sunder_i_link *link; /* [n] */
     double *t;           /* [2 * (bodies + 1)] */
-    uint32_t *acting;    /* [n] those that acted after the last full sweep: no other begins to act before the next */
+    uint32_t *acting;    /* [n] the constraints that were active after the last full sweep; others become active only in
+                          * the next full sweep */
     size_t acting_n;
 } sweeping;
 
-/* What its force moved something by; 0 if it stays. */
+/* Sets the force of constraint k to the value for which it holds with equality, or to zero. Returns the distance by
+ * which this moved its ends; 0 if the force did not change. */
 static inline double relax(const sweeping *s, uint32_t k)
 {
     const sunder_i_link *link = &s->link[k];
@@ -121,8 +124,8 @@ static void sweep_acting(sweeping *s)
         if (s->p->constraint[s->acting[a]].force > 0) relax(s, s->acting[a]);
 }
 
-/* Sweeps over the moving constraints, with a full sweep every FULL_SWEEP-th time, until a full sweep changes nothing.
- * False if memory is out. */
+/* Sweeps over the active constraints, with a sweep over all constraints every FULL_SWEEP-th time, until that moves
+ * nothing by more than `tolerance`. Returns false if memory is out. */
 static bool sweep(sunder_i_quadratic *p, double softness, double tolerance)
 {
     const size_t places = 2 * (p->bodies + 1);
@@ -150,9 +153,10 @@ static bool sweep(sunder_i_quadratic *p, double softness, double tolerance)
     return true;
 }
 
-/* ---- One way after the other ------------------------------------------------------------------------------------- */
+/* ---- The sequence of methods ------------------------------------------------------------------------------------- */
 
-/* First the quick ways, which solve almost every program of a few dozen contacts to the last digit. */
+/* Tries the quick methods, which solve almost every program of a few dozen contacts to the last digit. Returns false if
+ * memory is out. */
 static bool solve_quickly(sunder_i_quadratic *p, double softness, double tolerance)
 {
     if (!sweep(p, softness, tolerance)) return false;
@@ -165,7 +169,7 @@ static bool solve_quickly(sunder_i_quadratic *p, double softness, double toleran
 }
 
 #ifndef NDEBUG
-/* Ends are bodies or the ground, forces push, positions are numbers. */
+/* Checks that ends are bodies or the ground, that no force is negative, and that positions are finite. */
 static const char *check(const sunder_i_quadratic *p)
 {
     for (size_t k = 0; k < p->n; k++) {
@@ -180,7 +184,7 @@ static const char *check(const sunder_i_quadratic *p)
 }
 #endif
 
-/* What is missed; where forces have outgrown all numbers nothing is moved, and everything is missed. */
+/* Returns the largest violation. If forces have overflowed, it resets forces and moves to zero and returns INFINITY. */
 static double finish(sunder_i_quadratic *p)
 {
     const double missed = sunder_i_quadratic_worst(p, 0);

@@ -1,7 +1,8 @@
-/* The structure of a sparse matrix and of its Cholesky factor, by an order of elimination.
+/* The structure of a sparse matrix and of its Cholesky factor, for an order of elimination.
  *
- * Nodes that are eliminated late have the same neighbours as those after them, but for themselves. In postorder of the
- * elimination tree such columns stand side by side, and are used as one panel (sparse_factor.c). */
+ * Nodes that are eliminated late often have the same neighbours as the node after them, except for that node itself. In
+ * a postorder of the elimination tree such columns are consecutive, and are processed as one panel
+ * (sparse_factor.c). */
 #include "displacement/quadratic/sparse.h"
 #include "displacement/quadratic/elimination.h"
 
@@ -28,14 +29,14 @@ void sunder_i_sparse_free(sunder_i_sparse *matrix)
 
 /* ---- Columns ----------------------------------------------------------------------------------------------------- */
 
-/* Does column k have the rows of the one before it, but for itself? */
+/* Does column k have the same rows as the column before it, except for row k itself? */
 static bool continues_panel(const sunder_i_sparse *m, uint32_t k)
 {
     return k > 0 && m->column[k] > m->column[k - 1] && m->row[m->column[k - 1]] == k &&
            m->column[k] - m->column[k - 1] == m->column[k + 1] - m->column[k] + 1;
 }
 
-/* Columns from the neighbours, by rank. */
+/* Makes the columns, by rank, from the lists of neighbours. Returns false if memory is out. */
 static bool fill_columns(sunder_i_sparse *m, const sunder_i_elimination *g)
 {
     size_t entries = 0;
@@ -58,7 +59,7 @@ static bool fill_columns(sunder_i_sparse *m, const sunder_i_elimination *g)
 }
 
 #ifndef NDEBUG
-/* Ranks are a permutation; rows ascend below the diagonal of each column. */
+/* Checks that ranks are a permutation, and that rows ascend below the diagonal in each column. */
 static const char *check(const sunder_i_sparse *m)
 {
     size_t sum = 0;
@@ -116,6 +117,6 @@ double *sunder_i_sparse_block(sunder_i_sparse *matrix, uint32_t a, uint32_t b, b
     const uint32_t *row = matrix->row + matrix->column[low];
     const uint32_t *found =
         bsearch(&high, row, matrix->column[low + 1] - matrix->column[low], sizeof *row, sunder_i_by_number);
-    *transposed = ra > rb; /* column by column it would be the other way round */
+    *transposed = ra > rb; /* blocks are stored column by column, and read row by row */
     return matrix->block + 4 * (size_t)(found - matrix->row);
 }

@@ -1,9 +1,9 @@
-/* The Cholesky factor of a sparse matrix, left-looking by panels [GL81, chapter 5], and solutions by it.
+/* The Cholesky factor of a sparse matrix, left-looking by panels [GL81, chapter 5], and solutions with it.
  *
- * Columns that have the same rows below them are updated from, and used, as one: what they take from an entry of
- * another column is summed up before it is stored. For a grid of 20,000 that, and the order among equal degrees, took
- * the factor from 0.22 to 0.11 s; a few rows at a time, in the widest registers that there are, to two thirds of
- * that. */
+ * Columns that have the same rows below them form a panel, which is processed as one: its contribution to an entry of
+ * another column is summed up before it is stored. For a grid of 20,000 this, and the order among equal degrees,
+ * reduced the time of the factor from 0.22 to 0.11 s; processing a few rows at a time, in the widest registers
+ * available, reduced it to two thirds of that. */
 #include "displacement/quadratic/sparse.h"
 
 #include <math.h>
@@ -11,24 +11,25 @@
 
 #define END UINT32_MAX
 
-/* What is to be inlined, so that it is compiled for the machine that its caller is: */
+/* Functions that must be inlined, so that they are compiled for the instruction set of their caller. */
 #define INLINE static inline __attribute__((always_inline))
 
-/* Sums of this many blocks, and the terms added to them, fit the registers. */
+/* The number of rows processed together; sums of that many blocks, and the terms added to them, fit in the
+ * registers. */
 #define ROWS_AT_ONCE 4
 
-/* A block, column by column. */
+/* A block, stored column by column. */
 typedef double four __attribute__((vector_size(32), aligned(8), may_alias));
 
-/* Columns that have the same rows below them, but for themselves, are updated from, and used, as one: a panel. Row q
- * after those of its own columns, the last of which is `last`, is in column k at entry: */
+/* Returns the index of the entry of column k in row number q of a panel. The columns of a panel have the same rows
+ * below them, apart from the panel's own columns, the last of which is `last`; q counts the rows after these. */
 INLINE size_t entry_of(const sunder_i_sparse *m, uint32_t k, uint32_t last, size_t q)
 {
     return m->column[k] + (last - k) + q;
 }
 
-/* The blocks b_k of a panel in its row q as they are multiplied: each number stands where one of c does that it makes
- * part of. */
+/* Copies the blocks b_k of a panel in its row q to m->across, arranged for multiplication: each number is repeated
+ * where an entry of the product needs it. */
 INLINE void list_across(sunder_i_sparse *m, uint32_t from, uint32_t last, size_t q)
 {
     four *across = (four *)(void *)m->across;
@@ -39,8 +40,8 @@ INLINE void list_across(sunder_i_sparse *m, uint32_t from, uint32_t last, size_t
     }
 }
 
-/* c -= sum of a_k b_k' over columns from..last of a panel, for n rows from q on, to which c points. b_k lies in
- * m->across. n is a number that the compiler knows: sums stay in registers. */
+/* Computes c -= sum of a_k b_k' over the columns from..last of a panel, for n rows from row q on; c[r] points to the
+ * block of row q + r. b_k is in m->across. n is a compile-time constant in each call, so the sums stay in registers. */
 INLINE void subtract_products(const sunder_i_sparse *m, double *const *c, size_t n, uint32_t from, uint32_t last,
                               size_t q)
 {
@@ -58,7 +59,8 @@ INLINE void subtract_products(const sunder_i_sparse *m, double *const *c, size_t
     for (size_t r = 0; r < n; r++) *(four *)(void *)c[r] = sum[r];
 }
 
-/* Column j, whose entries m->at tells, less what columns from..last, of one panel, make of their row q, which is j. */
+/* Subtracts from column j the contribution of the columns from..last of one panel, whose row q is j. m->at has the
+ * positions of column j's entries. */
 INLINE void update_column(sunder_i_sparse *m, uint32_t j, uint32_t from, uint32_t last, size_t q)
 {
     const size_t rows = m->column[last + 1] - m->column[last];
@@ -76,8 +78,8 @@ INLINE void update_column(sunder_i_sparse *m, uint32_t j, uint32_t from, uint32_
     }
 }
 
-/* A panel waits, in the list of its last column, for the next row in which it has an entry, if there is one from q
- * on. */
+/* Puts a panel, represented by its last column, on the list of the next row in which it has an entry, from its row q
+ * on, if there is one. */
 static void wait_for_next(sunder_i_sparse *m, uint32_t last, size_t q)
 {
     m->at[m->n + last] = q;
@@ -111,7 +113,7 @@ INLINE bool factor(sunder_i_sparse *m)
     for (size_t r = 0; r < m->n; r++) m->first[r] = END;
     for (uint32_t j = 0; j < m->n; j++) {
         for (size_t p = m->column[j]; p < m->column[j + 1]; p++) m->at[m->row[p]] = p;
-        /* Whatever those have below row j, column j has too. */
+        /* All rows that these panels have below row j are rows of column j, too. */
         for (uint32_t last = m->first[j], after; last != END; last = after) {
             after = m->link[last];
             const size_t q = m->at[m->n + last];
@@ -125,7 +127,7 @@ INLINE bool factor(sunder_i_sparse *m)
     return true;
 }
 
-/* Where registers are as wide as a block it takes two thirds of the time. The sums are the same, in the same order, as
+/* With registers as wide as a block this takes two thirds of the time. The sums are the same, in the same order, as
  * without: products are not fused with them (-ffp-contract=off). */
 #if defined __x86_64__ && defined __GNUC__
 __attribute__((target("avx2"))) static bool factor_wide(sunder_i_sparse *m) { return factor(m); }
