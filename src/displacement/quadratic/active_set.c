@@ -22,7 +22,7 @@ typedef struct equations {
 } equations;
 
 /* Returns the entry of the Gram matrix for constraints a and b. */
-static double gram(const sunder_i_quadratic *p, const sunder_i_constraint *a, const sunder_i_constraint *b)
+static double gram_entry(const sunder_i_quadratic *p, const sunder_i_constraint *a, const sunder_i_constraint *b)
 {
     const double dot = a->n[0] * b->n[0] + a->n[1] * b->n[1];
     double m = 0;
@@ -35,7 +35,7 @@ static double gram(const sunder_i_quadratic *p, const sunder_i_constraint *a, co
 static void fill_row(const sunder_i_quadratic *p, const equations *e, size_t r, double softness, double *row)
 {
     const sunder_i_constraint *c = &p->constraint[e->set[r]];
-    for (size_t k = 0; k <= r; k++) row[k] = gram(p, c, &p->constraint[e->set[k]]);
+    for (size_t k = 0; k <= r; k++) row[k] = gram_entry(p, c, &p->constraint[e->set[k]]);
     row[r] *= 1 + softness + RAISED;
 }
 
@@ -78,7 +78,7 @@ static bool solve_equations(sunder_i_quadratic *p, equations *e, size_t from, do
     return true;
 }
 
-static bool gather(const sunder_i_quadratic *p, equations *e)
+static bool gather_active(const sunder_i_quadratic *p, equations *e)
 {
     e->n = 0;
     for (size_t k = 0; k < p->n; k++)
@@ -90,7 +90,7 @@ static bool gather(const sunder_i_quadratic *p, equations *e)
 }
 
 /* Removes row r from the active set. */
-static void drop(sunder_i_quadratic *p, equations *e, size_t r)
+static void drop_row(sunder_i_quadratic *p, equations *e, size_t r)
 {
     p->constraint[e->set[r]].force = 0;
     memmove(e->set + r, e->set + r + 1, (e->n - r - 1) * sizeof *e->set);
@@ -101,7 +101,7 @@ static void drop(sunder_i_quadratic *p, equations *e, size_t r)
  * first HASTY rounds all such constraints are dropped at once, which is usually right. After that the forces move
  * towards the solution only until one of them becomes zero, and that one constraint is dropped. Returns false if the
  * number of factorisations or the work exceeds its limit, or a factorisation fails. */
-static bool descend(sunder_i_quadratic *p, equations *e, double softness)
+static bool find_forces(sunder_i_quadratic *p, equations *e, double softness)
 {
     size_t from = 0;
     for (int hasty = HASTY; e->n; hasty--) {
@@ -126,10 +126,10 @@ static bool descend(sunder_i_quadratic *p, equations *e, double softness)
         if (least == SIZE_MAX) return true;
         from = hasty > 0 ? least : first;
         if (hasty <= 0)
-            drop(p, e, first);
+            drop_row(p, e, first);
         else
             for (size_t k = e->n; k-- > least;)
-                if (e->force[k] <= 0) drop(p, e, k);
+                if (e->force[k] <= 0) drop_row(p, e, k);
     }
     return true;
 }
@@ -147,7 +147,7 @@ bool sunder_i_quadratic_equations(sunder_i_quadratic *program, double softness, 
     e.factor = sunder_i_calloc(e.capacity * e.capacity, sizeof *e.factor);
     const bool ok = e.set && e.force && e.half && e.row && e.factor;
     for (int round = 0; ok && round < MOST_ADDING; round++) {
-        if (!gather(program, &e) || !descend(program, &e, softness)) break;
+        if (!gather_active(program, &e) || !find_forces(program, &e, softness)) break;
         sunder_i_quadratic_place(program);
         if (sunder_i_quadratic_worst(program, softness) <= tolerance) break;
         /* Constraints that the solution violates get a force in two passes of Hildreth's method. */

@@ -66,7 +66,7 @@ static inline double product_of(const dual *q, const double *v, size_t k)
 }
 
 /* Computes out = G v. */
-static void multiply(dual *q, const double *v, double *out)
+static void multiply_by_matrix(dual *q, const double *v, double *out)
 {
     push_all(q, v);
     for (size_t k = 0; k < q->n; k++) out[k] = product_of(q, v, k);
@@ -74,23 +74,23 @@ static void multiply(dual *q, const double *v, double *out)
 
 /* As sunder_i_min() and sunder_i_max() if the first argument is a number: a NaN as second argument is ignored.
  * Inline. */
-static inline double least(double so_far, double x) { return x < so_far ? x : so_far; }
-static inline double most(double so_far, double x) { return x > so_far ? x : so_far; }
+static inline double least_of(double other, double x) { return x < other ? x : other; }
+static inline double most_of(double other, double x) { return x > other ? x : other; }
 
-static void gradient(dual *q)
+static void compute_gradient(dual *q)
 {
-    multiply(q, q->f, q->g);
+    multiply_by_matrix(q, q->f, q->g);
     for (size_t k = 0; k < q->n; k++)
         if (q->scale[k] > 0) q->g[k] -= q->p->constraint[k].d / q->scale[k];
 }
 
 /* Returns an estimate, slightly too large, of the largest eigenvalue of G, by the power method. */
-static double largest(dual *q)
+static double largest_eigenvalue(dual *q)
 {
     double value = 1;
     for (size_t k = 0; k < q->n; k++) q->step[k] = q->scale[k] > 0 ? 1 + (double)(k % 7) / 8 : 0;
     for (int round = 0; round < POWERS; round++) {
-        multiply(q, q->step, q->gs);
+        multiply_by_matrix(q, q->step, q->gs);
         double norm = 0, before = 0;
         for (size_t k = 0; k < q->n; k++) {
             norm += q->gs[k] * q->gs[k];
@@ -117,7 +117,7 @@ typedef struct direction {
 /* Sets q->gs to G times the step, and computes all sums along the step in the same pass, each in its own order, so that
  * none waits for another. A division is made only for a force that may limit the step; a product, raised slightly,
  * tells which those are. */
-static direction look_along(dual *q)
+static direction measure_step(dual *q)
 {
     const double *step = q->step, *f = q->f, *g = q->g;
     double curvature = 0, square = 0, slope = 0, feasible = INFINITY;
@@ -127,13 +127,13 @@ static direction look_along(dual *q)
         curvature += step[k] * product;
         square += step[k] * step[k];
         slope += g[k] * step[k];
-        if (f[k] < feasible * step[k] * (1 + 0x1p-50)) feasible = least(feasible, f[k] / step[k]);
+        if (f[k] < feasible * step[k] * (1 + 0x1p-50)) feasible = least_of(feasible, f[k] / step[k]);
     }
     return (direction){curvature > 0x1p-44 * square ? curvature : 0, slope, feasible};
 }
 
 /* The next direction is the gradient of the positive forces alone. */
-static void restart(dual *q)
+static void restart_step(dual *q)
 {
     for (size_t k = 0; k < q->n; k++) q->step[k] = q->f[k] > 0 ? q->g[k] : 0;
 }
@@ -141,15 +141,16 @@ static void restart(dual *q)
 static inline void note_imbalance(imbalance *i, double f, double g, double scale, double short_step)
 {
     const bool positive = f > 0;
-    const double cut = least(f / short_step, g) * g; /* for a zero force: the square of g if g is negative, so that the
+    const double cut =
+        least_of(f / short_step, g) * g; /* for a zero force: the square of g if g is negative, so that the
                                                       * force should grow; else 0 */
-    const double off = positive ? fabs(g) : most(0, -g);
+    const double off = positive ? fabs(g) : most_of(0, -g);
     i->cut += positive ? cut : 0;
     i->zero += positive ? 0 : cut;
-    i->worst = most(i->worst, off * scale);
+    i->worst = most_of(i->worst, off * scale);
 }
 
-static imbalance look(const dual *q, double short_step)
+static imbalance measure_imbalance(const dual *q, double short_step)
 {
     imbalance i = {0, 0, 0};
     for (size_t k = 0; k < q->n; k++) note_imbalance(&i, q->f[k], q->g[k], q->scale[k], short_step);
@@ -158,12 +159,12 @@ static imbalance look(const dual *q, double short_step)
 
 /* Takes a step of length `taken`. Returns the component of the remaining gradient along the step, over the positive
  * forces, and records the imbalance in q->seen. */
-static double go(dual *q, double taken, double short_step)
+static double take_step(dual *q, double taken, double short_step)
 {
     imbalance i = {0, 0, 0};
     double along = 0;
     for (size_t k = 0; k < q->n; k++) {
-        const double f = q->f[k] = most(0, q->f[k] - taken * q->step[k]);
+        const double f = q->f[k] = most_of(0, q->f[k] - taken * q->step[k]);
         const double g = q->g[k] -= taken * q->gs[k];
         const double product = g * q->gs[k];
         along += f > 0 ? product : 0;
@@ -174,33 +175,33 @@ static double go(dual *q, double taken, double short_step)
 }
 
 /* Makes one step in the positive forces. Returns false if it makes no progress. */
-static bool step_within(dual *q, double short_step)
+static bool step_positive_forces(dual *q, double short_step)
 {
-    const direction d = look_along(q);
+    const direction d = measure_step(q);
     q->is_seen = false;
     if (!(d.curvature > 0)) {
-        restart(q);
+        restart_step(q);
         return false;
     }
     const double length = d.slope / d.curvature;
-    const double along = go(q, sunder_i_min(length, d.feasible), short_step) / d.curvature;
+    const double along = take_step(q, sunder_i_min(length, d.feasible), short_step) / d.curvature;
     if (length <= d.feasible) {
         q->is_seen = true;
         for (size_t k = 0; k < q->n; k++) q->step[k] = (q->f[k] > 0 ? q->g[k] : 0) - along * q->step[k];
         return true;
     }
     for (size_t k = 0; k < q->n; k++)
-        if (q->f[k] > 0) q->f[k] = most(0, q->f[k] - short_step * q->g[k]);
-    gradient(q);
-    restart(q);
+        if (q->f[k] > 0) q->f[k] = most_of(0, q->f[k] - short_step * q->g[k]);
+    compute_gradient(q);
+    restart_step(q);
     return true;
 }
 
 /* Lets zero forces with a negative gradient grow. Returns false if their direction has no curvature. */
-static bool step_in(dual *q)
+static bool step_zero_forces(dual *q)
 {
-    for (size_t k = 0; k < q->n; k++) q->step[k] = q->f[k] > 0 ? 0 : least(0, q->g[k]);
-    const direction d = look_along(q);
+    for (size_t k = 0; k < q->n; k++) q->step[k] = q->f[k] > 0 ? 0 : least_of(0, q->g[k]);
+    const direction d = measure_step(q);
     q->is_seen = false;
     if (d.curvature > 0) {
         const double length = d.slope / d.curvature;
@@ -209,7 +210,7 @@ static bool step_in(dual *q)
             q->g[k] -= length * q->gs[k];
         }
     }
-    restart(q);
+    restart_step(q);
     return d.curvature > 0;
 }
 
@@ -221,13 +222,13 @@ static bool is_in_balance(dual *q, double tolerance)
     const double any_length = 1;
     bool any = false;
     for (size_t k = 0; k < q->n && !any; k++) any = q->scale[k] > 0;
-    if (!any || !(look(q, any_length).worst <= tolerance)) return false;
+    if (!any || !(measure_imbalance(q, any_length).worst <= tolerance)) return false;
     q->p->work += POWERS * 2 * q->n;
     return true;
 }
 
 /* Copies the forces to the program. */
-static void store(const dual *q)
+static void store_forces(const dual *q)
 {
     for (size_t k = 0; k < q->n; k++)
         if (q->scale[k] > 0) q->p->constraint[k].force = q->f[k] / q->scale[k];
@@ -238,27 +239,27 @@ static void store(const dual *q)
 static bool is_beyond(const dual *q)
 {
     if (q->softness > 0 || !(q->p->most_cost > 0)) return false;
-    store(q);
+    store_forces(q);
     return sunder_i_quadratic_is_beyond(q->p, q->softness);
 }
 
-static void iterate(dual *q, double tolerance, unsigned steps)
+static void iterate_steps(dual *q, double tolerance, unsigned steps)
 {
-    gradient(q);
+    compute_gradient(q);
     if (is_in_balance(q, tolerance)) return;
-    const double short_step = GRADIENT_STEP / largest(q);
-    restart(q);
+    const double short_step = GRADIENT_STEP / largest_eigenvalue(q);
+    restart_step(q);
     /* After a step without progress along a conjugate direction the next step is along the gradient. If that makes no
      * progress either, the loop ends. */
-    int nowhere = 0;
-    for (unsigned k = 0; k < steps && nowhere < 2 && !sunder_i_quadratic_is_done(q->p); k++) {
-        const imbalance i = q->is_seen ? q->seen : look(q, short_step);
+    int idle = 0;
+    for (unsigned k = 0; k < steps && idle < 2 && !sunder_i_quadratic_is_done(q->p); k++) {
+        const imbalance i = q->is_seen ? q->seen : measure_imbalance(q, short_step);
         if (i.worst <= tolerance) break;
-        const bool somewhere = i.zero <= i.cut ? step_within(q, short_step) : step_in(q);
-        nowhere = somewhere ? 0 : nowhere + 1;
+        const bool has_moved = i.zero <= i.cut ? step_positive_forces(q, short_step) : step_zero_forces(q);
+        idle = has_moved ? 0 : idle + 1;
         if (k % REFRESH != REFRESH - 1) continue;
         if (is_beyond(q)) break;
-        gradient(q);
+        compute_gradient(q);
         q->is_seen = false;
     }
 }
@@ -290,8 +291,8 @@ bool sunder_i_quadratic_gradient(sunder_i_quadratic *program, double softness, d
         q.scale[k] = sqrt(sunder_i_mass(program, c->i) + sunder_i_mass(program, c->j));
         q.f[k] = q.scale[k] * c->force;
     }
-    iterate(&q, tolerance / 2, steps);
-    store(&q);
+    iterate_steps(&q, tolerance / 2, steps);
+    store_forces(&q);
     if (need > sizeof few) sunder_i_free(memory);
     return true;
 }

@@ -55,7 +55,7 @@ static size_t wide_axis(const dissection *d, const spot *part, size_t n)
     return high[1] - low[1] > high[0] - low[0];
 }
 
-static bool meets(const dissection *d, uint32_t node, int half)
+static bool meets_half(const dissection *d, uint32_t node, int half)
 {
     const sunder_i_list *near = &d->e->near[node];
     for (size_t k = 0; k < near->n; k++)
@@ -66,13 +66,13 @@ static bool meets(const dissection *d, uint32_t node, int half)
 static size_t count_meeting(const dissection *d, const spot *part, size_t n, int half)
 {
     size_t meeting = 0;
-    for (size_t k = 0; k < n; k++) meeting += meets(d, part[k].node, half);
+    for (size_t k = 0; k < n; k++) meeting += meets_half(d, part[k].node, half);
     return meeting;
 }
 
 /* Reorders the part: the low half, the high half, then the separator. Returns the size of the separator, and sets *low
  * to that of the low half. */
-static size_t divide(dissection *d, spot *part, size_t n, size_t *low)
+static size_t divide_part(dissection *d, spot *part, size_t n, size_t *low)
 {
     const size_t axis = wide_axis(d, part, n), middle = n / 2;
     for (size_t k = 0; k < n; k++) part[k].at = d->place[2 * (size_t)part[k].node + axis];
@@ -82,7 +82,7 @@ static size_t divide(dissection *d, spot *part, size_t n, size_t *low)
     size_t kept = 0, parting = 0;
     *low = 0;
     for (size_t k = 0; k < n; k++) {
-        const bool parts = (k < middle) == of_low && meets(d, part[k].node, of_low ? HIGH : LOW);
+        const bool parts = (k < middle) == of_low && meets_half(d, part[k].node, of_low ? HIGH : LOW);
         if (parts)
             d->scratch[parting++] = part[k];
         else
@@ -99,7 +99,7 @@ static bool rank_part(dissection *d, spot *part, size_t n)
 {
     size_t low = 0, parting = n;
     if (n > LEAF_OF_DISSECTION) {
-        parting = divide(d, part, n, &low);
+        parting = divide_part(d, part, n, &low);
         const bool few = parting <= n / FEW_PARTING;
         if (!few && n > SMALL_PART_OF_DISSECTION) return false;
         if (!few) low = 0, parting = n;

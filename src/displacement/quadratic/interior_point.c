@@ -32,7 +32,7 @@ static void interior_free(interior *q)
     sunder_i_free(q->memory);
 }
 
-static double stretch(const interior *q, size_t c, const double *x)
+static double stretch_of(const interior *q, size_t c, const double *x)
 {
     return sunder_i_normal_stretch(&q->normal.row[c], x);
 }
@@ -45,7 +45,7 @@ static void fill_matrix(interior *q)
 }
 
 /* Computes the Newton step for the complementarity residual rc, using the present factor. */
-static void direction(interior *q)
+static void compute_direction(interior *q)
 {
     for (size_t k = 0; k < q->n; k++) q->dx[k] = -q->normal.h[k] * q->x[k];
     for (size_t c = 0; c < q->m; c++)
@@ -54,14 +54,14 @@ static void direction(interior *q)
     sunder_i_sparse_solve(&q->normal.matrix, q->dx);
     q->dx[q->n] = q->dx[q->n + 1] = 0;
     for (size_t c = 0; c < q->m; c++) {
-        const double a = stretch(q, c, q->dx);
+        const double a = stretch_of(q, c, q->dx);
         q->df[c] = -(q->rc[c] + q->f[c] * (q->rp[c] + a)) / (q->s[c] + q->soft[c] * q->f[c]);
         q->ds[c] = a + q->soft[c] * q->df[c] + q->rp[c];
     }
 }
 
 /* Returns the greatest share of the step, at most 1, for which s and f stay non-negative. */
-static double longest(const interior *q)
+static double longest_step(const interior *q)
 {
     double step = 1;
     for (size_t c = 0; c < q->m; c++) {
@@ -80,11 +80,11 @@ static double mean_product(const interior *q, double step)
 }
 
 /* Makes one step. Returns false if the method has converged or makes no progress. */
-static bool advance(interior *q, double tolerance, double *mu)
+static bool make_step(interior *q, double tolerance, double *mu)
 {
     double missed = 0, cost = 0;
     for (size_t c = 0; c < q->m; c++) {
-        q->rp[c] = stretch(q, c, q->x) - q->p->constraint[c].d - q->s[c] + q->soft[c] * q->f[c];
+        q->rp[c] = stretch_of(q, c, q->x) - q->p->constraint[c].d - q->s[c] + q->soft[c] * q->f[c];
         missed = sunder_i_max(missed, fabs(q->rp[c]));
         q->rc[c] = q->s[c] * q->f[c];
         q->ds[c] = q->df[c] = 0;
@@ -94,11 +94,11 @@ static bool advance(interior *q, double tolerance, double *mu)
     if (missed <= tolerance && *mu * (double)q->m <= GAP_LEFT * cost) return false;
     fill_matrix(q);
     if (!sunder_i_sparse_factor(&q->normal.matrix)) return false;
-    direction(q);
-    const double affine = longest(q), ratio = mean_product(q, affine) / *mu, centre = ratio * ratio * ratio * *mu;
+    compute_direction(q);
+    const double affine = longest_step(q), ratio = mean_product(q, affine) / *mu, centre = ratio * ratio * ratio * *mu;
     for (size_t c = 0; c < q->m; c++) q->rc[c] = q->s[c] * q->f[c] + q->ds[c] * q->df[c] - centre;
-    direction(q);
-    const double free_step = longest(q), step = free_step < 1 ? SHARE_OF_STEP * free_step : 1;
+    compute_direction(q);
+    const double free_step = longest_step(q), step = free_step < 1 ? SHARE_OF_STEP * free_step : 1;
     for (size_t k = 0; k < q->n; k++) q->x[k] += step * q->dx[k];
     for (size_t c = 0; c < q->m; c++) {
         q->s[c] += step * q->ds[c];
@@ -115,7 +115,7 @@ static void begin_near(interior *q, double scale, double mean)
     for (size_t b = 0; b < p->bodies; b++)
         if (p->mass[b] > 0) memcpy(q->x + q->normal.unknown[b], p->t + 2 * b, 2 * sizeof *q->x);
     for (size_t c = 0; c < q->m; c++) {
-        q->s[c] = sunder_i_max(stretch(q, c, q->x) - p->constraint[c].d, FIRST_SLACK * scale);
+        q->s[c] = sunder_i_max(stretch_of(q, c, q->x) - p->constraint[c].d, FIRST_SLACK * scale);
         q->f[c] = FIRST_SLACK * mean * scale * scale / q->s[c];
     }
 }
@@ -170,7 +170,7 @@ bool sunder_i_quadratic_interior(sunder_i_quadratic *program, double softness, d
             begin_near(&q, scale, mean);
         else
             begin_far(&q, scale, mean);
-        for (int k = 0; k < MOST_STEPS && !sunder_i_quadratic_is_done(program) && advance(&q, tolerance, &mu); k++)
+        for (int k = 0; k < MOST_STEPS && !sunder_i_quadratic_is_done(program) && make_step(&q, tolerance, &mu); k++)
             if (!sunder_i_look() || is_beyond(&q, softness)) break;
         for (size_t b = 0; b < program->bodies; b++)
             for (size_t e = 0; e < 2; e++)

@@ -53,7 +53,7 @@ static bool mending_init(mending *m, sunder_i_quadratic *p)
 
 /* ---- Bodies of the partial program ------------------------------------------------------------------------------- */
 
-static bool moves(const mending *m, uint32_t body) { return body != SUNDER_I_GROUND && m->p->mass[body] > 0; }
+static bool may_move(const mending *m, uint32_t body) { return body != SUNDER_I_GROUND && m->p->mass[body] > 0; }
 
 static bool takes_part(const mending *m, uint32_t body) { return body != SUNDER_I_GROUND && m->ring[body] != OUTSIDE; }
 
@@ -64,8 +64,8 @@ static void mark_missed(mending *m, double tolerance)
     for (size_t k = 0; k < p->n; k++) {
         const sunder_i_constraint *c = &p->constraint[k];
         if (c->d - sunder_i_stretch(c, p->t) <= tolerance) continue;
-        if (moves(m, c->i)) m->ring[c->i] = 0;
-        if (moves(m, c->j)) m->ring[c->j] = 0;
+        if (may_move(m, c->i)) m->ring[c->i] = 0;
+        if (may_move(m, c->j)) m->ring[c->j] = 0;
     }
 }
 
@@ -75,7 +75,7 @@ static void mark_next(mending *m, uint32_t ring)
     const sunder_i_quadratic *p = m->p;
     for (size_t k = 0; k < p->n; k++) {
         const uint32_t i = p->constraint[k].i, j = p->constraint[k].j;
-        if (!moves(m, i) || !moves(m, j)) continue;
+        if (!may_move(m, i) || !may_move(m, j)) continue;
         if (m->ring[i] == ring && m->ring[j] == OUTSIDE) m->ring[j] = ring + 1;
         if (m->ring[j] == ring && m->ring[i] == OUTSIDE) m->ring[i] = ring + 1;
     }
@@ -127,7 +127,7 @@ static double cost_of(const sunder_i_quadratic *p)
     return cost;
 }
 
-static void swap(double *a, double *b)
+static void swap_doubles(double *a, double *b)
 {
     const double c = *a;
     *a = *b;
@@ -135,10 +135,11 @@ static void swap(double *a, double *b)
 }
 
 /* Exchanges moves and forces between the partial program and the whole one; a second call undoes it. */
-static void exchange(mending *m)
+static void exchange_results(mending *m)
 {
-    for (size_t b = 0; b < 2 * m->part.bodies; b++) swap(&m->p->t[2 * m->body[b / 2] + b % 2], &m->part.t[b]);
-    for (size_t k = 0; k < m->part.n; k++) swap(&m->p->constraint[m->which[k]].force, &m->part.constraint[k].force);
+    for (size_t b = 0; b < 2 * m->part.bodies; b++) swap_doubles(&m->p->t[2 * m->body[b / 2] + b % 2], &m->part.t[b]);
+    for (size_t k = 0; k < m->part.n; k++)
+        swap_doubles(&m->p->constraint[m->which[k]].force, &m->part.constraint[k].force);
 }
 
 /* Solves the partial program by the interior point method, as the whole was solved: a body that ends slightly beyond
@@ -155,9 +156,9 @@ static bool solve_part(mending *m, double tolerance, double scale, double more, 
     p->work += part->work + p->n;
     if (!(sunder_i_quadratic_worst(part, 0) <= tolerance)) return true;
     const double before = cost_of(p);
-    exchange(m);
+    exchange_results(m);
     *solved = cost_of(p) <= before * (1 + more);
-    if (!*solved) exchange(m);
+    if (!*solved) exchange_results(m);
     return true;
 }
 

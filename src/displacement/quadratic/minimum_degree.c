@@ -18,7 +18,7 @@ typedef struct graph {
     sunder_i_list merged;
 } graph;
 
-static void unlist(graph *g, uint32_t v)
+static void remove_from_list(graph *g, uint32_t v)
 {
     if (g->prev[v] != END)
         g->next[g->prev[v]] = g->next[v];
@@ -33,7 +33,7 @@ static void unlist(graph *g, uint32_t v)
 /* Appends v to the list of its degree. Among nodes of equal degree the one that has had its degree longest is
  * eliminated first, so that elimination spreads over the whole graph. Elimination next to the last node took a third
  * more work on a grid of 20,000. */
-static void enlist(graph *g, uint32_t v)
+static void append_to_list(graph *g, uint32_t v)
 {
     const size_t degree = g->near[v].n;
     const uint32_t last = g->head[degree] == END ? END : g->tail[degree];
@@ -57,7 +57,7 @@ static bool graph_init(graph *g, const sunder_i_elimination *e)
     g->prev = sunder_i_alloc(g->n, sizeof *g->prev);
     if (!g->head || !g->tail || !g->next || !g->prev) return false;
     for (size_t v = 0; v < g->n; v++) g->head[v] = END;
-    for (size_t v = 0; v < g->n; v++) enlist(g, (uint32_t)v);
+    for (size_t v = 0; v < g->n; v++) append_to_list(g, (uint32_t)v);
     return true;
 }
 
@@ -88,15 +88,15 @@ static bool join_neighbours(graph *g, uint32_t u, uint32_t v)
         }
         if (w != u && w != v) out->item[out->n++] = w;
     }
-    unlist(g, u);
+    remove_from_list(g, u);
     const sunder_i_list swap = g->near[u];
     g->near[u] = *out;
     *out = swap;
-    enlist(g, u);
+    append_to_list(g, u);
     return true;
 }
 
-static bool eliminate(graph *g, uint32_t *rank)
+static bool eliminate_nodes(graph *g, uint32_t *rank)
 {
     size_t degree = 0;
     for (size_t turn = 0; turn < g->n; turn++) {
@@ -104,7 +104,7 @@ static bool eliminate(graph *g, uint32_t *rank)
         if (degree) degree--;
         while (g->head[degree] == END) degree++;
         const uint32_t v = g->head[degree];
-        unlist(g, v);
+        remove_from_list(g, v);
         rank[v] = (uint32_t)turn;
         for (size_t k = 0; k < g->near[v].n; k++)
             if (!join_neighbours(g, g->near[v].item[k], v)) return false;
@@ -115,7 +115,7 @@ static bool eliminate(graph *g, uint32_t *rank)
 bool sunder_i_minimum_degree(sunder_i_elimination *e)
 {
     graph g;
-    const bool ok = graph_init(&g, e) && eliminate(&g, e->rank);
+    const bool ok = graph_init(&g, e) && eliminate_nodes(&g, e->rank);
     graph_free(&g);
     return ok;
 }

@@ -61,7 +61,7 @@ bool sunder_i_nearest_begin(sunder_i_nearest *nearest, sunder_i_quadratic *progr
 /* ---- The factors ------------------------------------------------------------------------------------------------- */
 
 /* The scalar product of vectors of even length n, in four independent partial sums. */
-static inline double product(const double *restrict a, const double *restrict b, size_t n)
+static inline double scalar_product(const double *restrict a, const double *restrict b, size_t n)
 {
     double sum[4] = {0, 0, 0, 0};
     size_t d = 0;
@@ -71,7 +71,7 @@ static inline double product(const double *restrict a, const double *restrict b,
     return (sum[0] + sum[1]) + (sum[2] + sum[3]);
 }
 
-static inline void take_off(double along, const double *restrict axis, double *restrict rest, size_t n)
+static inline void subtract_multiple(double along, const double *restrict axis, double *restrict rest, size_t n)
 {
     for (size_t d = 0; d < n; d++) rest[d] -= along * axis[d];
 }
@@ -87,7 +87,7 @@ static inline double normal_along(const sunder_i_constraint *c, const double *ax
 
 /* Sets w->part, share and rest for the normal of constraint c. Returns the square of the rest's length, or 0 if the
  * rest is a rounding error. */
-static double take_apart(sunder_i_nearest *w, const sunder_i_constraint *c)
+static double decompose_normal(sunder_i_nearest *w, const sunder_i_constraint *c)
 {
     const size_t dims = w->dims;
     memset(w->rest, 0, dims * sizeof *w->rest);
@@ -98,11 +98,11 @@ static double take_apart(sunder_i_nearest *w, const sunder_i_constraint *c)
     for (size_t k = 0; k < w->n; k++) {
         const double *axis = w->axis + k * dims;
         w->part[k] = normal_along(c, axis);
-        take_off(w->part[k], axis, w->rest, dims);
+        subtract_multiple(w->part[k], axis, w->rest, dims);
     }
     for (size_t k = 0; k < w->n; k++) {
-        const double *axis = w->axis + k * dims, along = product(axis, w->rest, dims);
-        take_off(along, axis, w->rest, dims);
+        const double *axis = w->axis + k * dims, along = scalar_product(axis, w->rest, dims);
+        subtract_multiple(along, axis, w->rest, dims);
         w->part[k] += along;
     }
     for (size_t k = w->n; k-- > 0;) {
@@ -110,12 +110,12 @@ static double take_apart(sunder_i_nearest *w, const sunder_i_constraint *c)
         for (size_t l = k + 1; l < w->n; l++) share -= w->factor[l * dims + k] * w->share[l];
         w->share[k] = share / w->factor[k * dims + k];
     }
-    const double square = product(w->rest, w->rest, dims);
+    const double square = scalar_product(w->rest, w->rest, dims);
     return w->n < dims && square > NOTHING ? square : 0;
 }
 
-/* Makes the constraint for which take_apart() was called active. */
-static void let_in(sunder_i_nearest *w, size_t constraint, double force, double square)
+/* Makes the constraint for which decompose_normal() was called active. */
+static void activate_constraint(sunder_i_nearest *w, size_t constraint, double force, double square)
 {
     const double length = sqrt(square);
     double *axis = w->axis + w->n * w->dims, *factor = w->factor + w->n * w->dims;
@@ -127,7 +127,7 @@ static void let_in(sunder_i_nearest *w, size_t constraint, double force, double 
 }
 
 /* Makes the k-th active constraint inactive. */
-static void let_go(sunder_i_nearest *w, size_t k)
+static void deactivate_constraint(sunder_i_nearest *w, size_t k)
 {
     const size_t dims = w->dims, after = w->n - k - 1;
     memmove(w->set + k, w->set + k + 1, after * sizeof *w->set);
@@ -155,7 +155,7 @@ static void let_go(sunder_i_nearest *w, size_t k)
 
 /* Returns the active constraint whose force is the first to reach zero as the new constraint's force grows, or w->n if
  * there is none. *step is the growth at which it does. */
-static size_t first_to_go(const sunder_i_nearest *w, double *step)
+static size_t first_to_vanish(const sunder_i_nearest *w, double *step)
 {
     size_t first = w->n;
     *step = INFINITY;
@@ -186,14 +186,14 @@ static void set_forces(const sunder_i_nearest *w, sunder_i_quadratic *p, const d
 }
 
 /* Adds constraint `which` and steps until it holds; then returns FOUND. */
-static sunder_i_nearest_outcome satisfy(sunder_i_nearest *w, sunder_i_quadratic *p, size_t which, const double *from,
-                                        const double *limit)
+static sunder_i_nearest_outcome satisfy_constraint(sunder_i_nearest *w, sunder_i_quadratic *p, size_t which,
+                                                   const double *from, const double *limit)
 {
     const sunder_i_constraint *c = &p->constraint[which];
     double own = 0, most;
     for (int step = 0; step < MOST_NEAREST; step++) {
-        const double square = take_apart(w, c), missed = sunder_i_max(0, c->d - sunder_i_stretch(c, p->t));
-        const size_t first = first_to_go(w, &most);
+        const double square = decompose_normal(w, c), missed = sunder_i_max(0, c->d - sunder_i_stretch(c, p->t));
+        const size_t first = first_to_vanish(w, &most);
         p->work += 1 + w->n * w->dims / 4;
         if (first == w->n && is_out_of_reach(w, p, from, limit, missed)) {
             set_forces(w, p, w->share, -1);
@@ -207,10 +207,10 @@ static sunder_i_nearest_outcome satisfy(sunder_i_nearest *w, sunder_i_quadratic 
         for (size_t k = 0; k < w->n; k++) w->force[k] = sunder_i_max(0, w->force[k] - by * w->share[k]);
         own += by;
         if (holds) {
-            let_in(w, which, own, square);
+            activate_constraint(w, which, own, square);
             return SUNDER_I_NEAREST_FOUND;
         }
-        let_go(w, first);
+        deactivate_constraint(w, first);
     }
     return SUNDER_I_NEAREST_NOT_SURE;
 }
@@ -232,7 +232,7 @@ sunder_i_nearest_outcome sunder_i_nearest_go_on(sunder_i_nearest *nearest, sunde
             set_forces(nearest, program, nearest->force, 1);
             return SUNDER_I_NEAREST_FOUND;
         }
-        const sunder_i_nearest_outcome outcome = satisfy(nearest, program, worst, from, limit);
+        const sunder_i_nearest_outcome outcome = satisfy_constraint(nearest, program, worst, from, limit);
         if (outcome != SUNDER_I_NEAREST_FOUND) return outcome;
     }
     return SUNDER_I_NEAREST_NOT_SURE;

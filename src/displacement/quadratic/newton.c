@@ -35,7 +35,7 @@ typedef struct newton {
     double *memory;
 } newton;
 
-static bool prepare(newton *q, sunder_i_quadratic *p)
+static bool newton_init(newton *q, sunder_i_quadratic *p)
 {
     memset(q, 0, sizeof *q);
     q->p = p;
@@ -57,7 +57,7 @@ static bool prepare(newton *q, sunder_i_quadratic *p)
 
 /* ---- One soft program -------------------------------------------------------------------------------------------- */
 
-static void look(newton *q)
+static void measure_violations(newton *q)
 {
     for (size_t c = 0; c < q->normal.m; c++)
         q->left[c] = q->give[c] > 0 ? q->owed[c] - sunder_i_normal_stretch(&q->normal.row[c], q->x) : 0;
@@ -85,7 +85,7 @@ static bool find_step(newton *q)
 
 /* Sets *slope to the derivative of the sum at fraction `share` of the step, and *bend to its second derivative. moves:
  * the contribution of the cost of moves. */
-static void steepness(const newton *q, double share, const double moves[2], double *slope, double *bend)
+static void derivatives_at(const newton *q, double share, const double moves[2], double *slope, double *bend)
 {
     *slope = moves[0] + share * moves[1];
     *bend = moves[1];
@@ -111,7 +111,7 @@ static double find_share(const newton *q)
     }
     for (int k = 0; k < MOST_SHARES; k++) {
         double slope, bend;
-        steepness(q, share, moves, &slope, &bend);
+        derivatives_at(q, share, moves, &slope, &bend);
         if (k == 0) whole = fabs(slope);
         *(slope > 0 ? &high : &low) = share;
         if (k > 0 && !(fabs(slope) > FLAT * whole)) break;
@@ -125,7 +125,7 @@ static double find_share(const newton *q)
 
 /* Goes the fraction `share` of the step. Returns whether the active constraints are the same as before. *far is the
  * longest whole step of a coordinate. */
-static bool go(newton *q, double share, double *far)
+static bool take_step(newton *q, double share, double *far)
 {
     bool same = true;
     *far = 0;
@@ -142,15 +142,15 @@ static bool go(newton *q, double share, double *far)
 }
 
 /* Finds the minimum of the sum. Returns false if it was not found. */
-static bool minimise(newton *q, double tolerance)
+static bool minimise_sum(newton *q, double tolerance)
 {
-    look(q);
+    measure_violations(q);
     if (!sunder_i_look()) return false;
     for (int k = 0; k < MOST_NEWTON && !sunder_i_quadratic_is_done(q->p); k++) {
         double far;
         if (!find_step(q)) return false;
         const double share = find_share(q);
-        const bool same = go(q, share, &far);
+        const bool same = take_step(q, share, &far);
         if ((same && share == 1) || far <= tolerance) return true;
     }
     return false;
@@ -159,7 +159,7 @@ static bool minimise(newton *q, double tolerance)
 /* ---- The sequence of soft programs ------------------------------------------------------------------------------- */
 
 /* Sets the distances `owed`, for a hard program including the share of the present forces. */
-static void owe(newton *q, double softness, bool hard)
+static void set_distances(newton *q, double softness, bool hard)
 {
     const sunder_i_quadratic *p = q->p;
     for (size_t c = 0; c < q->normal.m; c++) {
@@ -176,7 +176,7 @@ static double take_forces(newton *q, double *missed)
 {
     double most = 0;
     *missed = 0;
-    look(q);
+    measure_violations(q);
     for (size_t c = 0; c < q->normal.m; c++) q->before[c] = q->p->constraint[c].force;
     for (size_t c = 0; c < q->normal.m; c++) {
         if (!(q->give[c] > 0)) continue;
@@ -190,8 +190,8 @@ static double take_forces(newton *q, double *missed)
 
 static bool solve_soft(newton *q, double softness, double tolerance)
 {
-    owe(q, softness, false);
-    if (!minimise(q, tolerance / CLOSE)) return false;
+    set_distances(q, softness, false);
+    if (!minimise_sum(q, tolerance / CLOSE)) return false;
     double missed;
     take_forces(q, &missed);
     return true;
@@ -265,8 +265,8 @@ static bool solve_hard(newton *q, double tolerance)
     if (sunder_i_quadratic_is_beyond(q->p, 0)) return true;
     for (int k = 0; k < most && !sunder_i_quadratic_is_done(q->p);
          k++, give = sunder_i_max(LEAST_GIVE, give / LESS_GIVE)) {
-        owe(q, give, true);
-        if (!minimise(q, tolerance / CLOSE)) return false;
+        set_distances(q, give, true);
+        if (!minimise_sum(q, tolerance / CLOSE)) return false;
         double missed;
         const double change = take_forces(q, &missed);
         if (change <= tolerance || is_beyond(q)) return true;
@@ -282,7 +282,7 @@ bool sunder_i_quadratic_newton(sunder_i_quadratic *program, double softness, dou
 {
     newton q;
     *solved = false;
-    const bool ok = prepare(&q, program);
+    const bool ok = newton_init(&q, program);
     if (ok) {
         sunder_i_quadratic_place(program);
         for (size_t b = 0; b < program->bodies; b++)

@@ -91,7 +91,7 @@ typedef struct sweeping {
 
 /* Sets the force of constraint k to the value for which it holds with equality, or to zero. Returns the distance by
  * which this moved its ends; 0 if the force did not change. */
-static inline double relax(const sweeping *s, uint32_t k)
+static inline double relax_constraint(const sweeping *s, uint32_t k)
 {
     const sunder_i_link *link = &s->link[k];
     sunder_i_constraint *c = &s->p->constraint[k];
@@ -111,7 +111,7 @@ static double sweep_all(sweeping *s)
     double farthest = 0;
     s->acting_n = 0;
     for (uint32_t k = 0; k < s->p->n; k++) {
-        const double moved = relax(s, k);
+        const double moved = relax_constraint(s, k);
         if (moved > farthest) farthest = moved;
         if (s->p->constraint[k].force > 0) s->acting[s->acting_n++] = k;
     }
@@ -121,12 +121,12 @@ static double sweep_all(sweeping *s)
 static void sweep_acting(sweeping *s)
 {
     for (size_t a = 0; a < s->acting_n; a++)
-        if (s->p->constraint[s->acting[a]].force > 0) relax(s, s->acting[a]);
+        if (s->p->constraint[s->acting[a]].force > 0) relax_constraint(s, s->acting[a]);
 }
 
 /* Sweeps over the active constraints, with a sweep over all constraints every FULL_SWEEP-th time, until that moves
  * nothing by more than `tolerance`. Returns false if memory is out. */
-static bool sweep(sunder_i_quadratic *p, double softness, double tolerance)
+static bool sweep_constraints(sunder_i_quadratic *p, double softness, double tolerance)
 {
     const size_t places = 2 * (p->bodies + 1);
     const size_t need = p->n * (sizeof(sunder_i_link) + sizeof(uint32_t)) + places * sizeof(double);
@@ -159,7 +159,7 @@ static bool sweep(sunder_i_quadratic *p, double softness, double tolerance)
  * memory is out. */
 static bool solve_quickly(sunder_i_quadratic *p, double softness, double tolerance)
 {
-    if (!sweep(p, softness, tolerance)) return false;
+    if (!sweep_constraints(p, softness, tolerance)) return false;
     if (!sunder_i_quadratic_gradient(p, softness, tolerance, QUICK_STEPS)) return false;
     sunder_i_quadratic_place(p);
     if (sunder_i_quadratic_worst(p, softness) <= tolerance || sunder_i_quadratic_is_beyond(p, softness)) return true;
@@ -170,7 +170,7 @@ static bool solve_quickly(sunder_i_quadratic *p, double softness, double toleran
 
 #ifndef NDEBUG
 /* Checks that ends are bodies or the ground, that no force is negative, and that positions are finite. */
-static const char *check(const sunder_i_quadratic *p)
+static const char *check_program(const sunder_i_quadratic *p)
 {
     for (size_t k = 0; k < p->n; k++) {
         const sunder_i_constraint *c = &p->constraint[k];
@@ -185,20 +185,20 @@ static const char *check(const sunder_i_quadratic *p)
 #endif
 
 /* Returns the largest violation. If forces have overflowed, it resets forces and moves to zero and returns INFINITY. */
-static double finish(sunder_i_quadratic *p)
+static double finish_program(sunder_i_quadratic *p)
 {
     const double missed = sunder_i_quadratic_worst(p, 0);
     if (missed == INFINITY) {
         for (size_t k = 0; k < p->n; k++) p->constraint[k].force = 0;
         sunder_i_quadratic_place(p);
     }
-    SUNDER_I_CHECK(check(p), p->n);
+    SUNDER_I_CHECK(check_program(p), p->n);
     return sunder_i_max(0, missed);
 }
 
 static double give_up(sunder_i_quadratic *p)
 {
-    finish(p);
+    finish_program(p);
     return INFINITY;
 }
 
@@ -209,11 +209,12 @@ double sunder_i_quadratic_solve(sunder_i_quadratic *program, double softness, do
         program->bodies <= MOST_BODIES_NEWTON && !sunder_i_quadratic_newton(program, softness, tolerance, &solved))
         return -1;
     if (!solved && program->n <= MOST_QUICK && !solve_quickly(program, softness, tolerance)) return -1;
-    if (program->n <= MOST_QUICK && sunder_i_quadratic_worst(program, softness) <= tolerance) return finish(program);
-    if (solved) return sunder_i_quadratic_is_beyond(program, softness) ? give_up(program) : finish(program);
+    if (program->n <= MOST_QUICK && sunder_i_quadratic_worst(program, softness) <= tolerance)
+        return finish_program(program);
+    if (solved) return sunder_i_quadratic_is_beyond(program, softness) ? give_up(program) : finish_program(program);
     sunder_i_quadratic_place(program);
-    if (sunder_i_quadratic_is_done(program)) return finish(program);
+    if (sunder_i_quadratic_is_done(program)) return finish_program(program);
     if (sunder_i_quadratic_is_beyond(program, softness)) return give_up(program);
     if (!sunder_i_quadratic_interior(program, softness, tolerance, scale)) return -1;
-    return sunder_i_quadratic_is_beyond(program, softness) ? give_up(program) : finish(program);
+    return sunder_i_quadratic_is_beyond(program, softness) ? give_up(program) : finish_program(program);
 }

@@ -60,7 +60,7 @@ static bool fill_columns(sunder_i_sparse *m, const sunder_i_elimination *g)
 
 #ifndef NDEBUG
 /* Checks that ranks are a permutation, and that rows ascend below the diagonal in each column. */
-static const char *check(const sunder_i_sparse *m)
+static const char *check_matrix(const sunder_i_sparse *m)
 {
     size_t sum = 0;
     for (size_t v = 0; v < m->n; v++) {
@@ -94,7 +94,7 @@ bool sunder_i_sparse_init(sunder_i_sparse *matrix, size_t n, const sunder_i_id_p
     const bool ok = sunder_i_elimination_init(&e, n, pair, pairs, matrix->rank) && sunder_i_eliminate(&e, place) &&
                     fill_columns(matrix, &e);
     sunder_i_elimination_free(&e);
-    SUNDER_I_CHECK(ok ? check(matrix) : NULL, n);
+    SUNDER_I_CHECK(ok ? check_matrix(matrix) : NULL, n);
     return ok;
 }
 

@@ -108,7 +108,7 @@ static bool finish_column(sunder_i_sparse *m, uint32_t j)
     return true;
 }
 
-INLINE bool factor(sunder_i_sparse *m)
+INLINE bool factor_matrix(sunder_i_sparse *m)
 {
     for (size_t r = 0; r < m->n; r++) m->first[r] = END;
     for (uint32_t j = 0; j < m->n; j++) {
@@ -130,14 +130,14 @@ INLINE bool factor(sunder_i_sparse *m)
 /* With registers as wide as a block this takes two thirds of the time. The sums are the same, in the same order, as
  * without: products are not fused with them (-ffp-contract=off). */
 #if defined __x86_64__ && defined __GNUC__
-__attribute__((target("avx2"))) static bool factor_wide(sunder_i_sparse *m) { return factor(m); }
+__attribute__((target("avx2"))) static bool factor_wide(sunder_i_sparse *m) { return factor_matrix(m); }
 static bool is_wide(void) { return __builtin_cpu_supports("avx2"); }
 #else
-static bool factor_wide(sunder_i_sparse *m) { return factor(m); }
+static bool factor_wide(sunder_i_sparse *m) { return factor_matrix(m); }
 static bool is_wide(void) { return false; }
 #endif
 
-bool sunder_i_sparse_factor(sunder_i_sparse *matrix) { return is_wide() ? factor_wide(matrix) : factor(matrix); }
+bool sunder_i_sparse_factor(sunder_i_sparse *matrix) { return is_wide() ? factor_wide(matrix) : factor_matrix(matrix); }
 
 void sunder_i_sparse_solve(sunder_i_sparse *matrix, double *x)
 {
