@@ -5,6 +5,10 @@
 #
 #   buffers.sh [each] [dissolve] [huts] [programs] [coast]     all unless some are named
 #
+# Prints Markdown; BUFFERS.md sums up the record in buffers/, which is made by
+#
+#   buffers.sh | python3 tests/bench/record.py tests/bench/buffers buffers huts programs coast
+#
 # `cmake --build BUILD --target bench` builds what is needed. CPU seconds of one thread, medians, from doubles in memory to the
 # result as doubles, except for the programs (time on the wall and in both files). Sunder is measured before and after its
 # peer and the worse of the two counts.
@@ -35,10 +39,17 @@ larger() { awk -v a="$1" -v b="$2" 'BEGIN { print (a + 0 > b + 0 ? a : b) }'; }
 header() {
   local cc
   cc=$(cached CMAKE_C_COMPILER)
-  echo "machine   $(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -n 1), $(nproc) cores, $(uname -sr), load $(cut -d' ' -f1 /proc/loadavg)"
-  echo "compiler  $("${cc:-cc}" --version | head -n 1), $(cached CMAKE_BUILD_TYPE) $(cached CMAKE_C_FLAGS_RELEASE) $(cached CMAKE_C_FLAGS)"
-  echo "peers     GEOS $(geos-config --version 2>/dev/null || echo '(not installed)'); CGAL $([[ -x $build/cgal_buffer ]] && sed -n 's/^#define CGAL_VERSION //p' /usr/include/CGAL/version.h 2>/dev/null || echo '(not installed)')"
-  echo "commit    $(git -C "$source_dir" describe --always --dirty 2>/dev/null || echo unknown)"
+  echo "- machine: $(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -n 1), $(nproc) cores, $(uname -sr), load $(cut -d' ' -f1 /proc/loadavg)"
+  echo "- compiler: $("${cc:-cc}" --version | head -n 1), $(cached CMAKE_BUILD_TYPE) $(cached CMAKE_C_FLAGS_RELEASE) $(cached CMAKE_C_FLAGS)"
+  echo "- peers: GEOS $(geos-config --version 2>/dev/null || echo '(not installed)'); CGAL $([[ -x $build/cgal_buffer ]] && sed -n 's/^#define CGAL_VERSION //p' /usr/include/CGAL/version.h 2>/dev/null || echo '(not installed)')"
+  echo "- commit: $(git -C "$source_dir" describe --always --dirty 2>/dev/null || echo unknown)"
+}
+
+head_of() { # COLUMN...: the head of a table
+  printf '| %s ' "$@"
+  printf '|\n'
+  printf '|---%.0s' "$@"
+  printf '|\n'
 }
 
 # Valid features alone: a peer that repairs does something else.
@@ -95,7 +106,7 @@ row() { # each|dissolve|close|open SHAPE NAME geos|cgal
   second=$("$build/bench_buffer" "$1" "$2" "$file")
   ours=$(larger "${first##* }" "${second##* }")
   read -r -a fields <<<"$first"
-  printf '%-9s %-22s %-10s %9s %9s %10s %9.3f %9s %7s  %s\n' "$1" "$3" "$2" "${fields[0]}" "${fields[1]}" "${fields[2]}" "$ours" "$theirs" \
+  printf '| %s | %s | %s | %s | %s | %s | %.3f | %s | %s | %s |\n' "$1" "$3" "$2" "${fields[0]}" "${fields[1]}" "${fields[2]}" "$ours" "$theirs" \
     "$(ratio "$theirs" "$ours")" "$peer"
 }
 
@@ -134,20 +145,20 @@ program_row() { # LABEL OPTIONS NAME SQL
   theirs=$(wall ogr2ogr -f GPKG "$scratch/theirs.gpkg" "$scratch/$3.gpkg" -nln grown -nlt MULTIPOLYGON -dialect SQLite -sql "$4")
   second=$(wall "$sunder" buffer --quiet --overwrite --threads 1 "${options[@]}" "$scratch/$3.gpkg" "$scratch/ours.gpkg")
   ours=$(larger "$first" "$second")
-  printf '%-9s %-22s %9s %9s %7s\n' "$1" "$3" "$ours" "$theirs" "$(ratio "$theirs" "$ours")"
+  echo "| $1 | $3 | $ours | $theirs | $(ratio "$theirs" "$ours") |"
 }
 
 programs() {
-  printf '\nWhole programs, GeoPackage to GeoPackage, disc:5:32, seconds on the wall: sunder buffer --threads 1, ogr2ogr with SpatiaLite (GEOS)\n'
-  printf '%-9s %-22s %9s %9s %7s\n' '' layer sunder ogr2ogr ratio
+  printf '\nWhole programs, GeoPackage to GeoPackage, disc:5:32, seconds on the wall: sunder buffer --threads 1, ogr2ogr with SpatiaLite (GEOS)\n\n'
+  head_of how layer 'sunder s' 'ogr2ogr s' ratio
   program_row each '--shape disc:5:32' "$large" 'SELECT CastToMulti(ST_Buffer(geom, 5, 8)) AS geom FROM features'
   program_row dissolve '--dissolve --shape disc:5:32' "$dense" 'SELECT CastToMulti(ST_Union(ST_Buffer(geom, 5, 8))) AS geom FROM features'
 }
 
 coast() {
   local size operation file
-  printf '\nsunder buffer on one outline, by a 32-gon: seconds on the wall, files included, and peak memory\n'
-  printf '%-14s %-8s %9s %9s\n' outline operation seconds MB
+  printf '\nsunder buffer on one outline, by a 32-gon: user and system CPU seconds, files included, and peak memory\n\n'
+  head_of outline operation s MB
   for size in 1000 10000 100000; do
     file=$families/coast32_$size.txt
     if [[ ! -r $file ]]; then echo "no $file"; continue; fi
@@ -156,21 +167,26 @@ coast() {
     rm -f "$scratch/coast.gpkg"
     ogr2ogr -q -f GPKG "$scratch/coast.gpkg" "$scratch/coast.csv" -nln coast -nlt MULTIPOLYGON -a_srs EPSG:25832 2>/dev/null
     for operation in dilate erode open close; do
-      /usr/bin/time -f '%e %M' -o "$scratch/time" "$sunder" buffer --quiet --overwrite --operation $operation --shape "@$scratch/brush.wkt" \
-        "$scratch/coast.gpkg" "$scratch/ours.gpkg" || echo 'failed 0' >"$scratch/time"
-      printf '%-14s %-8s %9s %9s\n' "coast32_$size" $operation "$(cut -d' ' -f1 "$scratch/time")" "$(awk '{ printf "%.0f", $2 / 1000 }' "$scratch/time")"
+      /usr/bin/time -f '%U %S %M' -o "$scratch/time" "$sunder" buffer --quiet --overwrite --operation $operation --shape "@$scratch/brush.wkt" \
+        "$scratch/coast.gpkg" "$scratch/ours.gpkg" || echo '0 0 0' >"$scratch/time"
+      awk -v name="coast32_$size" -v what=$operation '{ printf "| %s | %s | %.2f | %.0f |\n", name, what, $1 + $2, $3 / 1000 }' "$scratch/time"
     done
   done
 }
 
 header
 if [[ $what == *\ each\ * || $what == *\ dissolve\ * || $what == *\ programs\ * ]]; then prepare; fi
-if [[ $what == *\ each\ * || $what == *\ dissolve\ * || $what == *\ huts\ * ]]; then
-  printf '\nGrown polygons, seconds; ratio: times as long as Sunder\n'
-  printf '%-9s %-22s %-10s %9s %9s %10s %9s %9s %7s  %s\n' '' layer shape features vertices out sunder peer ratio ''
+columns=(how layer shape features vertices out 'Sunder s' 'peer s' ratio peer)
+if [[ $what == *\ each\ * || $what == *\ dissolve\ * ]]; then
+  printf '\nGrown polygons; ratio: the time of the peer by that of Sunder\n\n'
+  head_of "${columns[@]}"
+  if [[ $what == *\ each\ * ]]; then compute each; fi
+  if [[ $what == *\ dissolve\ * ]]; then compute dissolve; fi
 fi
-if [[ $what == *\ each\ * ]]; then compute each; fi
-if [[ $what == *\ dissolve\ * ]]; then compute dissolve; fi
-if [[ $what == *\ huts\ * ]]; then huts; fi
+if [[ $what == *\ huts\ * ]]; then
+  printf '\nHuts closed and opened\n\n'
+  head_of "${columns[@]}"
+  huts
+fi
 if [[ $what == *\ programs\ * ]]; then programs; fi
 if [[ $what == *\ coast\ * ]]; then coast; fi

@@ -1,6 +1,8 @@
 #!/usr/bin/env bash
-# What exactness costs: instructions of a sum (callgrind), and those of the same library built to believe all doubles
-# (naive/number/trust.h). Two Markdown tables:
+# What exactness costs: instructions of a sum (callgrind), and those of the same library built to trust all doubles
+# (naive/number/trust.h). Two Markdown tables; EXACTNESS.md sums up the record in exactness/, which is made by
+#
+#   exactness.sh | python3 tests/bench/record.py tests/bench/exactness small_integers map_coordinates
 #
 #   small integers       where doubles decide rightly: instructions of both, and whether both make the same sum
 #   map coordinates      where they do not: the share of instructions in predicates beyond their filters (exact_*), and what becomes
@@ -63,7 +65,7 @@ map() { # FAMILY SIZE
     'BEGIN { printf "| %s | %d | %.2f | %.1f %% | %s |\n", n, s, a / 1e6, 100 * b / a, t }'
 }
 
-printf '%s\n' "| small integers | n | instructions, M | believing doubles, M | ratio | same sum |" "|---|---|---|---|---|---|"
+printf '%s\n' "| family | n | instructions, M | trusting doubles, M | ratio | same sum |" "|---|---|---|---|---|---|"
 for name in "${names[@]}"; do for size in "${sizes[@]}"; do small "$name" "$size"; done; done
-printf '\n%s\n%s\n' "| map coordinates | n | instructions, M | beyond the filters | believing doubles |" "|---|---|---|---|---|"
+printf '\n%s\n%s\n' "| family | n | instructions, M | beyond the filters | trusting doubles |" "|---|---|---|---|---|"
 for name in "${names[@]}"; do for size in "${sizes[@]}"; do map "$name" "$size"; done; done

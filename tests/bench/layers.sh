@@ -1,5 +1,8 @@
 #!/usr/bin/env bash
-# Separates real layers at two gaps and prints a table; then checks each written layer and compares the counts.
+# Separates real layers at two gaps and prints a table; then checks each written layer and compares the counts. Seconds are
+# CPU seconds of one thread, reading and writing included. LAYERS.md sums up the record in layers/, which is made by
+#
+#   layers.sh | python3 tests/bench/record.py tests/bench/layers layers
 #
 #   layers.sh [NAME ...]       all of the layers below unless some are named
 #
@@ -14,7 +17,9 @@ data=${SUNDER_BENCH_DATA:-$source_dir/../shared/data}
 read -r -a gaps <<<"${SUNDER_BENCH_GAPS:-0 3}"
 limit=${SUNDER_BENCH_LIMIT:-300}
 [[ -d $data ]] || { echo "layers.sh: no $data; set SUNDER_BENCH_DATA" >&2; exit 77; }
-command -v jq >/dev/null || { echo "layers.sh: jq is not installed" >&2; exit 77; }
+for tool in jq /usr/bin/time; do
+  command -v $tool >/dev/null || { echo "layers.sh: no $tool" >&2; exit 77; }
+done
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 
@@ -41,8 +46,8 @@ run() {
   local -a options
   read -r -a options <<<"$4"
   local out=$scratch/$name.gpkg stats=$scratch/$name.json check=$scratch/$name.check.json
-  timeout "$limit" "$sunder" separate --quiet --overwrite --gap "$gap" --input-layer "$layer" "${options[@]}" \
-    --stats "$stats" "$input" "$out" 2>"$scratch/err" || status=$?
+  timeout "$limit" /usr/bin/time -q -f '%U %S' -o "$scratch/time" "$sunder" separate --quiet --overwrite --threads 1 \
+    --gap "$gap" --input-layer "$layer" "${options[@]}" --stats "$stats" "$input" "$out" 2>"$scratch/err" || status=$?
   if [[ $status -ne 0 && $status -ne 3 ]]; then
     echo "| $name | $gap | failed with $status: $(tail -n 1 "$scratch/err") |"
     return
@@ -51,12 +56,13 @@ run() {
     $(printf '%s\n' "${options[@]}" | paste -sd' ' | sed 's/--max-shift [0-9.]*//') --stats "$check" "$out" >"$scratch/lines" 2>"$scratch/err" || true
   agrees=no
   [[ $(jq -r ".conflicts.after | $counts" "$stats") == $(jq -r ".conflicts | $counts" "$check") ]] && agrees=yes
-  jq -r --arg name "$name" --arg gap "$gap" --arg agrees "$agrees" '
+  jq -r --arg name "$name" --arg options "$4" --arg gap "$gap" --arg agrees "$agrees" \
+    --arg seconds "$(awk '{ print $1 + $2 }' "$scratch/time")" '
     def r(d): . * pow(10; d) | round / pow(10; d);
-    "| \($name) | \($gap) | \('"${between/BLOCK/before}"') | \('"${between/BLOCK/after}"') | \(.conflicts.after.inside_blocks) | \(.moved) | \(.blocked) | \(.displacement.total | r(1)) | \(.displacement.mean | r(3)) | \(.displacement.max | r(2)) | \(.displacement.cost | r(1)) | \(.displacement.lower_bound | r(1)) | \(.rounded) | \(.verified) | \($agrees) | \(.seconds.total | r(2)) | \(.peak_rss_bytes / 1e6 | r(0)) |"' "$stats"
+    "| \($name) | \($options) | \(.features) | \($gap) | \('"${between/BLOCK/before}"') | \('"${between/BLOCK/after}"') | \(.conflicts.after.inside_blocks) | \(.moved) | \(.blocked) | \(.displacement.total | r(1)) | \(.displacement.mean | r(3)) | \(.displacement.max | r(2)) | \(.displacement.cost | r(1)) | \(.displacement.lower_bound | r(1)) | \($agrees) | \($seconds) | \(.peak_rss_bytes / 1e6 | r(0)) |"' "$stats"
 }
 
-echo "| layer | gap | before | after | inside blocks | moved | blocked | total m | mean m | max m | cost | bound | rounded | verified | check agrees | s | MB |"
+echo "| layer | options | features | gap m | conflicts before | left | inside blocks | moved | blocked | sum of moves m | mean m | longest m | cost m2 | bound m2 | check agrees | s | MB |"
 echo "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|"
 while IFS='|' read -r name input layer options; do
   if [[ $# -gt 0 && " $* " != *" $name "* ]]; then continue; fi

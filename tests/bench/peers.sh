@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
 # Sunder beside its peers in one run, as Markdown: Minkowski sums and least separations (CGAL exactly; GEOS and Clipper in doubles
-# and integers), and a million buildings beside a copy by ogr2ogr. RESULTS.md is what this printed.
+# and integers), and a million buildings beside a copy by ogr2ogr. RESULTS.md sums up the record in results/, which is made by
+#
+#   peers.sh | python3 tests/bench/record.py tests/bench/results sums instructions pairs towns
 #
 #   peers.sh [--instructions] [ROW ...]     all rows unless some are named: FAMILY_N, sums, pairs, million
-#   bash tests/bench/peers.sh >results && mv results tests/bench/RESULTS.md
 #
 # Installs what is missing and builds (not if SUNDER_BUILD names a build). Sums and pairs are CPU seconds of one thread, medians of
 # several runs. Sunder is measured before and after its peers and the worse of the two counts. A peer's method that is stopped
@@ -188,9 +189,9 @@ sum_row() {
   inexact=$best inexact_by=$(peer "${best_program:--}" "$best_method")
   second=$("$build/bench_sum" "$file")
   seconds=$(larger "${first##* }" "${second##* }")
-  echo "| $name | ${fields[0]} + ${fields[1]} | ${fields[2]} (${fields[3]}) | $(brief "$seconds") |" \
-    "$(brief "${exact:-0}") $exact_by | $(ratio "${exact:-0}" "$seconds") |" \
-    "$(brief "${inexact:-0}") $inexact_by | $(ratio "${inexact:-0}" "$seconds") |"
+  echo "| $name | ${fields[0]} + ${fields[1]} | ${fields[2]} | ${fields[3]} | $(brief "$seconds") |" \
+    "$(brief "${exact:-0}") | $exact_by | $(ratio "${exact:-0}" "$seconds") |" \
+    "$(brief "${inexact:-0}") | $inexact_by | $(ratio "${inexact:-0}" "$seconds") |"
   if { less "$seconds" 0.001 || [[ $all_instructions == yes ]]; } && less "${exact:-0}" 3 && less "${inexact:-0}" 3; then
     echo "$name $file $([[ -n $exact ]] && echo cgal_sum || echo -) $exact_by ${best_program:--} $best_method" >>"$scratch/to_count"
   fi
@@ -205,13 +206,13 @@ count_rows() {
   local name file exact method inexact by ours a b
   [[ -s $scratch/to_count ]] && command -v valgrind >/dev/null || return 0
   printf '\n## In instructions\n\nOne sum each by callgrind, millions: the best peers of the table above.\n\n'
-  echo "| input | Sunder | CGAL | ratio | best inexact | ratio |"
-  echo "|---|---|---|---|---|---|"
+  echo "| input | Sunder | CGAL | method | to CGAL | best inexact | peer | to that peer |"
+  echo "|---|---|---|---|---|---|---|---|"
   while read -r name file exact method inexact by; do
     ours=$(count bench_sum "$file")
     a=$([[ $exact == - ]] || count "$exact" "$method" "$file")
     b=$([[ $inexact == - ]] || count "$inexact" "$by" "$file")
-    echo "| $name | $(million "$ours") | $(million "${a:-0}") ${a:+$method} | $(ratio "${a:-0}" "$ours") | $(million "${b:-0}") $(peer "$inexact" "$by") | $(ratio "${b:-0}" "$ours") |"
+    echo "| $name | $(million "$ours") | $(million "${a:-0}") | ${a:+$method} | $(ratio "${a:-0}" "$ours") | $(million "${b:-0}") | $(peer "$inexact" "$by") | $(ratio "${b:-0}" "$ours") |"
   done <"$scratch/to_count"
 }
 
@@ -232,7 +233,7 @@ million() { awk -v a="$1" 'BEGIN { printf "%.3f", a / 1e6 }'; }
 pair_rows() {
   local row name turn line ours theirs again
   printf '\n## Least separating translations\n\nMicroseconds a pair; %s pairs, and Sunder alone on every pair of the file. CGAL loses exact fits: its lengths are larger where\nthey are the nearest places.\n\n' "$pairs"
-  echo "| input | Sunder, all | Sunder | CGAL | ratio | sum of lengths: Sunder | CGAL | pairs CGAL could not do |"
+  echo "| input | Sunder us, all | Sunder us | CGAL us | ratio | sum of lengths by Sunder | by CGAL | pairs CGAL could not do |"
   echo "|---|---|---|---|---|---|---|---|"
   for row in 'pairs_buildings as-is' 'pairs_fit reflect'; do
     read -r name turn <<<"$row"
@@ -276,7 +277,7 @@ town_rows() {
   local size folder=${SUNDER_BENCH_TOWN:-$build/bench}
   printf '\n## Towns beside a copy\n\n`sunder-town --seed 7`, GeoPackage to GeoPackage: `ogr2ogr` copies the buildings and their index. User and system CPU seconds, seconds\n'
   printf 'on the wall on %s cores, and peak memory; medians of three alternating runs (the default effort: of one).\n\n' "$(nproc)"
-  echo "| buildings | program | CPU s | by copy | wall s | by copy | MB |"
+  echo "| buildings | program | CPU s | CPU by copy | wall s | wall by copy | MB |"
   echo "|---|---|---|---|---|---|---|"
   mkdir -p "$folder"
   for size in ${SUNDER_BENCH_BUILDINGS:-10000 100000 1000000}; do
@@ -308,9 +309,9 @@ for name in "${rows[@]}"; do
     pairs | million) continue ;;
   esac
   if [[ $first == yes ]]; then
-    printf '\n## Minkowski sums\n\nCPU seconds; n: vertices of P and Q; out: vertices of the sum (holes).\n\n'
-    echo "| input | n | out | Sunder s | best exact s (CGAL) | ratio | best inexact s | ratio |"
-    echo "|---|---|---|---|---|---|---|---|"
+    printf '\n## Minkowski sums\n\nCPU seconds; n: vertices of P and Q; out: vertices of the sum.\n\n'
+    echo "| input | n | out | holes | Sunder s | CGAL s | method | to CGAL | best inexact s | peer | to that peer |"
+    echo "|---|---|---|---|---|---|---|---|---|---|---|"
     first=no
   fi
   sum_row
