@@ -13,9 +13,8 @@
 #include "displacement/report/report.h"
 #include "displacement/solve/clusters/cluster_stages.h"
 
+#include "base/invariant.h"
 #include "base/stage_switch.h"
-
-#include <string.h>
 
 /* Shares of the whole that are done, roughly: when the search without limits ends; the other ones are in the headers.
  */
@@ -34,17 +33,17 @@ typedef struct stage {
 
 /* ---- Preconditions ----------------------------------------------------------------------------------------------- */
 
-static bool any_of(const sunder_i_solver *s, const bool *flag)
+static bool any_body(const sunder_i_solver *s, sunder_i_body_test test)
 {
-    for (size_t b = 0; b < s->model.bodies; b++)
-        if (flag[b]) return true;
+    for (uint32_t b = 0; b < s->model.bodies; b++)
+        if (test(s, b)) return true;
     return false;
 }
 
 static sunder_status has_given_up(const sunder_i_solver *s, bool *applies, sunder_error *err)
 {
     (void)err;
-    *applies = any_of(s, s->gave_up);
+    *applies = any_body(s, sunder_i_is_to_retry);
     return SUNDER_OK;
 }
 
@@ -73,7 +72,7 @@ static sunder_status has_limits(const sunder_i_solver *s, bool *applies, sunder_
 static sunder_status is_wanted_within_limits(const sunder_i_solver *s, bool *applies, sunder_error *err)
 {
     (void)err;
-    *applies = s->had_limits && any_of(s, s->wanted);
+    *applies = s->had_limits && any_body(s, sunder_i_is_wanted);
     return SUNDER_OK;
 }
 
@@ -132,7 +131,8 @@ static sunder_status mark_for_retry(sunder_i_solver *s, bool *changed, sunder_er
 {
     (void)changed;
     (void)err;
-    memcpy(s->gave_up, s->wanted, s->model.bodies * sizeof *s->gave_up);
+    for (uint32_t b = 0; b < s->model.bodies; b++)
+        sunder_i_body_event(&s->states, b, sunder_i_is_wanted(s, b) ? SUNDER_I_GIVES_UP : SUNDER_I_IS_RETRIED);
     return SUNDER_OK;
 }
 
@@ -140,7 +140,7 @@ static sunder_status mark_for_retry(sunder_i_solver *s, bool *changed, sunder_er
 static sunder_status retry(sunder_i_solver *s, bool *changed, sunder_error *err)
 {
     const sunder_status status = sunder_i_solver_retry(s, err);
-    memset(s->gave_up, 0, s->model.bodies * sizeof *s->gave_up);
+    for (uint32_t b = 0; b < s->model.bodies; b++) sunder_i_body_event(&s->states, b, SUNDER_I_IS_RETRIED);
     *changed = true;
     return status;
 }
@@ -188,6 +188,7 @@ static sunder_status run_stage(sunder_i_solver *s, const stage *x, double from, 
         status = x->run(s, &changed, err);
         if (!status && changed)
             status = sunder_i_solver_settle(s, from + (to - from) * x->from, from + (to - from) * x->to, err);
+        if (!status) SUNDER_I_CHECK(sunder_i_solver_check_states(s), s->model.bodies);
         if (!status) sunder_i_trace_layer(&s->model, changed ? "changed" : "done");
     }
     return status;
@@ -290,7 +291,7 @@ static sunder_status uphold(sunder_i_solver *s, bool *changed, sunder_error *err
 static sunder_status prove_all(sunder_i_solver *s, bool *changed, sunder_error *err)
 {
     (void)changed;
-    for (size_t b = 0; b < s->model.bodies; b++) s->wanted[b] = true;
+    for (uint32_t b = 0; b < s->model.bodies; b++) sunder_i_body_event(&s->states, b, SUNDER_I_IS_WANTED);
     return sunder_i_solver_optimise(s, err);
 }
 

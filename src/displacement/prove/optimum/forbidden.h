@@ -46,7 +46,8 @@ static inline double sunder_i_waiver_clearance(const sunder_i_waiver *waiver)
 typedef struct sunder_i_waived {
     const sunder_i_waiver *pair; /* sorted */
     size_t n;
-    const bool *covered; /* [bodies] whose shadows include those of pieces that cover their diagonals; NULL: none */
+    /* [bodies] not 0: shadows of the body include those of the pieces that cover its diagonals. NULL: of no body */
+    const unsigned char *covered;
 } sunder_i_waived;
 
 /* ---- forbidden.c ------------------------------------------------------------------------------------------------- */

@@ -105,8 +105,8 @@ static sunder_status attempt(const sunder_i_model *model, const sunder_i_waived 
             g->move = move;
             g->n = n;
             g->cost = cost;
-            g->improved = *better = true;
-            g->tight = tight;
+            g->state = tight ? SUNDER_I_IS_CHEAPER_TIGHT : SUNDER_I_IS_CHEAPER;
+            *better = true;
             list = NULL;
             move = NULL;
         }
@@ -159,7 +159,7 @@ static sunder_status branch(const sunder_i_model *model, const sunder_i_waived *
         const double *t = tree->program.t, cost = cost_of(model, tree->body, tree->task.n, t);
         bool tighter = false;
         sunder_status status = attempt(model, waived, g, tree->body, t, tree->task.n, false, &better, err);
-        if (!status && !g->blunt && cost < g->cost * (1 - OPTIMAL_SHARE))
+        if (!status && !g->with_slack && cost < g->cost * (1 - OPTIMAL_SHARE))
             status = attempt(model, waived, g, tree->body, t, tree->task.n, true, &tighter, err);
         if (status) return status;
         if (better || tighter) sunder_i_tree_lower_goal(tree, goal_of(model, g));
@@ -315,7 +315,7 @@ static sunder_status shake_large(proving *x, uint64_t steps, sunder_error *err)
     const bool again = x->g->shaken_at >= ASKED_SHARE * x->before;
     const sunder_status status = x->g->search->shake(x->model, x->waived, x->g, again ? steps / AGAIN : steps, err);
     if (!again) x->g->shaken_at = x->before;
-    x->over = x->g->shaken && x->g->improved;
+    x->over = x->g->shaken && sunder_i_group_is_cheaper(x->g);
     return status;
 }
 
@@ -408,7 +408,7 @@ static sunder_status prove_afresh(const sunder_i_model *model, const sunder_i_wa
                                   sunder_i_group *g, double known, uint64_t steps, sunder_error *err)
 {
     proving x = {.model = model, .waived = waived, .group_of = group_of, .g = g, .known = known};
-    g->done = true;
+    g->state = SUNDER_I_IS_PROVED;
     g->cost = cost_of(model, g->body, g->n, g->move);
     if (!isfinite(g->cost)) return SUNDER_OK;
     for (size_t k = 0; k < g->n; k++) x.movers += !model->body[g->body[k]].fixed;

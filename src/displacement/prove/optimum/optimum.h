@@ -25,6 +25,16 @@ typedef struct sunder_i_layout_search {
                            uint64_t steps, sunder_error *err);
 } sunder_i_layout_search;
 
+/* How far the proof of a group is. A stage of the proof that finds a cheaper layout takes it to one of the last two
+ * states; solve/clusters/optimise.c takes the layout over (then the group is proved), or not (then it is to be proved
+ * again). */
+typedef enum sunder_i_group_state {
+    SUNDER_I_TO_BE_PROVED,
+    SUNDER_I_IS_PROVED,        /* as far as its steps allow; its moves are those of the layout */
+    SUNDER_I_IS_CHEAPER,       /* likewise, but its moves cost less than those of the layout */
+    SUNDER_I_IS_CHEAPER_TIGHT, /* likewise, and they leave no room for rounding */
+} sunder_i_group_state;
+
 /* Bodies that are in contact in a layout, and what is proved of them. No movable body is in two groups, so the bounds
  * of all groups add up. */
 typedef struct sunder_i_group {
@@ -38,8 +48,8 @@ typedef struct sunder_i_group {
     double asked;         /* its cost when the groups whose bounds it has were fully examined */
     double shaken_at;     /* what it cost when it, or those it is made of, were shaken with all the steps */
     bool held;            /* its moves are to stay */
-    bool tight, blunt;    /* its moves leave no room for rounding; such did not hold, and are not looked for again */
-    bool done, improved;  /* it was looked into; the moves are not what they were */
+    bool with_slack;      /* layouts without room for rounding are not looked for: one failed the exact check */
+    sunder_i_group_state state;
     sunder_i_list guests; /* bodies that stand alone and take part in the proof; owned */
     sunder_i_list joins;  /* bodies of other groups, in the way of what would be cheaper; owned */
     bool shaken, tired;   /* with patience: in this round; in one before, but for what costs little */
@@ -47,6 +57,11 @@ typedef struct sunder_i_group {
     sunder_i_trace_log log;     /* what its stages did, where the layer is traced; owned */
     sunder_i_bound_trees trees; /* what the bound stands on, where that is kept; owned */
 } sunder_i_group;
+
+static inline bool sunder_i_group_is_cheaper(const sunder_i_group *group)
+{
+    return group->state >= SUNDER_I_IS_CHEAPER;
+}
 
 void sunder_i_group_free(sunder_i_group *group);
 /* tree_record.c */

@@ -6,26 +6,26 @@
 
 /* Is there nothing to be done for it, or was it not requested? If each of several clusters that merged was the
  * cheapest, so is their union. */
-static bool is_improved(const sunder_i_solver *s, const sunder_i_cluster *c)
+static bool is_cluster_improved(const sunder_i_solver *s, const sunder_i_cluster *c)
 {
     bool improved = true, cheapest = true;
-    if (!sunder_i_solver_any_of(s, c->body, c->n, s->wanted)) return true;
+    if (!sunder_i_solver_any_of(s, c->body, c->n, sunder_i_is_wanted)) return true;
     for (size_t k = 0; k < c->n; k++) {
         if (s->model.body[c->body[k]].fixed) continue;
-        improved = improved && s->improved[c->body[k]];
-        cheapest = cheapest && s->cheapest[c->body[k]];
+        improved = improved && sunder_i_is_improved(s, c->body[k]);
+        cheapest = cheapest && sunder_i_is_cheapest(s, c->body[k]);
     }
     return improved || cheapest;
 }
 
 sunder_status sunder_i_solver_is_improved(const sunder_i_solver *solver, bool *improved, sunder_error *err)
 {
-    bool *wanted = sunder_i_solver_who_hang_with(solver, solver->wanted);
+    bool *wanted = sunder_i_solver_connected_with(solver, sunder_i_is_wanted);
     *improved = true;
     for (size_t e = 0; e < solver->edges && wanted; e++)
         for (int k = 0; k < 2; k++) {
             const uint32_t b = k ? solver->edge[e].b : solver->edge[e].a;
-            if (!solver->improved[b] && wanted[b]) *improved = false;
+            if (wanted[b] && !sunder_i_is_improved(solver, b)) *improved = false;
         }
     sunder_i_free(wanted);
     return wanted ? SUNDER_OK : sunder_i_no_memory(err);
@@ -45,8 +45,8 @@ static sunder_status improve_clusters(void *context, size_t begin, size_t end, s
     const sunder_i_solver *s = context;
     for (size_t k = begin; k < end; k++) {
         sunder_i_cluster *c = &s->cluster[k];
-        c->worked_on = !is_improved(s, c);
-        if (!c->worked_on) continue;
+        if (is_cluster_improved(s, c)) continue;
+        c->outcome = SUNDER_I_WORKED_ON;
         double *move = sunder_i_solver_load_moves(s, c);
         sunder_i_reading reading;
         sunder_i_reads_begin(&reading, &s->model, sunder_i_reader_for(s, c));
@@ -64,7 +64,7 @@ static sunder_status invite_to_clusters(void *context, size_t begin, size_t end,
     const sunder_i_solver *s = context;
     for (size_t k = begin; k < end; k++) {
         sunder_i_cluster *c = &s->cluster[k];
-        if (is_improved(s, c)) continue;
+        if (is_cluster_improved(s, c)) continue;
         double *move = sunder_i_solver_load_moves(s, c);
         sunder_i_reading reading;
         sunder_i_reads_begin(&reading, &s->model, sunder_i_reader_for(s, c));
@@ -102,8 +102,8 @@ sunder_status sunder_i_solver_improve(sunder_i_solver *solver, sunder_error *err
     status = sunder_i_solver_commit(solver, err);
     for (size_t k = 0; k < solver->clusters && !status; k++) {
         const sunder_i_cluster *c = &solver->cluster[k];
-        if (!sunder_i_solver_any_of(solver, c->body, c->n, solver->wanted)) continue;
-        for (size_t m = 0; m < c->n; m++) solver->improved[c->body[m]] = true;
+        if (!sunder_i_solver_any_of(solver, c->body, c->n, sunder_i_is_wanted)) continue;
+        for (size_t m = 0; m < c->n; m++) sunder_i_body_event(&solver->states, c->body[m], SUNDER_I_IS_IMPROVED);
     }
     return status ? status : sunder_i_solver_relate(solver, err);
 }

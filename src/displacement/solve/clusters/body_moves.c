@@ -29,7 +29,7 @@ static void place(sunder_i_solver *s, uint32_t b, const double *to, bool exact)
     const sunder_i_body *body = &model->body[b];
     memcpy(model->move + 2 * (size_t)b, to, 2 * sizeof *to);
     if (model->went) sunder_i_box_include(model->went + 4 * (size_t)b, to);
-    s->cheapest[b] = false;
+    sunder_i_body_event(&s->states, b, SUNDER_I_MOVES);
     for (uint32_t m = 0; m < body->members; m++) {
         const uint32_t f = model->member[body->member + m];
         sunder_i_changes_add(&s->changes, f);
@@ -55,7 +55,7 @@ static sunder_status find_some_exact(void *context, size_t begin, size_t end, su
     for (size_t i = begin; i < end; i++) {
         const sunder_i_cluster *cluster = &s->cluster[i];
         const size_t first = (size_t)(cluster->body - s->body), after = first + cluster->n;
-        for (size_t k = first; cluster->worked_on && k < after; k++)
+        for (size_t k = first; cluster->outcome != SUNDER_I_UNTOUCHED && k < after; k++)
             c->exact[k] = goes_elsewhere(s, s->body[k], s->move + 2 * k) &&
                           sunder_i_is_exact_move(&s->model, s->body[k], s->move + 2 * k);
     }
@@ -78,7 +78,7 @@ sunder_status sunder_i_solver_commit(sunder_i_solver *solver, sunder_error *err)
                                    &c, err);
     sunder_i_changes_clear(&solver->changes);
     for (size_t i = 0; i < solver->clusters && !status; i++)
-        if (solver->cluster[i].worked_on) take_moves(solver, &solver->cluster[i], c.exact);
+        if (solver->cluster[i].outcome != SUNDER_I_UNTOUCHED) take_moves(solver, &solver->cluster[i], c.exact);
     sunder_i_free(c.exact);
     return status;
 }

@@ -39,22 +39,14 @@ void sunder_i_solver_free(sunder_i_solver *solver)
     sunder_i_free(solver->edge);
     sunder_i_free(solver->conflict_root);
     sunder_i_free(solver->parent);
-    sunder_i_free(solver->dirty);
+    sunder_i_body_states_free(&solver->states);
     sunder_i_free(solver->widened);
     sunder_i_changes_free(&solver->changes);
-    sunder_i_free(solver->reconsidered);
     sunder_i_free(solver->alone);
     sunder_i_free(solver->alone_work);
-    sunder_i_free(solver->wanted);
-    sunder_i_free(solver->doubtful);
-    sunder_i_free(solver->gave_up);
     sunder_i_free(solver->crowd);
     sunder_i_free(solver->measured);
-    sunder_i_free(solver->improved);
-    sunder_i_free(solver->cheapest);
     sunder_i_free(solver->limit);
-    sunder_i_free(solver->aside);
-    sunder_i_free(solver->holding);
     sunder_i_free(solver->went);
     sunder_i_relaxations_free(&solver->waiting);
     sunder_i_free(solver->carrier);
@@ -73,25 +65,15 @@ sunder_status sunder_i_solver_init(sunder_i_solver *solver, sunder_error *err)
 {
     const size_t n = solver->model.bodies;
     solver->parent = sunder_i_alloc(n, sizeof *solver->parent);
-    solver->dirty = sunder_i_calloc(n, sizeof *solver->dirty);
     solver->widened = sunder_i_calloc(n, sizeof *solver->widened);
-    solver->reconsidered = sunder_i_calloc(n, sizeof *solver->reconsidered);
-    solver->improved = sunder_i_calloc(n, sizeof *solver->improved);
-    solver->cheapest = sunder_i_calloc(n, sizeof *solver->cheapest);
     solver->carrier = sunder_i_alloc(n, sizeof *solver->carrier);
-    solver->wanted = sunder_i_alloc(n, sizeof *solver->wanted);
-    solver->doubtful = sunder_i_alloc(n, sizeof *solver->doubtful);
-    solver->gave_up = sunder_i_calloc(n, sizeof *solver->gave_up);
     solver->crowd = sunder_i_calloc(n, sizeof *solver->crowd);
-    if (!solver->wanted || !solver->doubtful || !solver->gave_up || !solver->crowd) return sunder_i_no_memory(err);
-    if (!solver->improved || !solver->cheapest || !solver->parent || !solver->dirty || !solver->widened ||
-        !solver->reconsidered || !solver->carrier || !sunder_i_changes_init(&solver->changes, solver->model.things))
+    if (!solver->parent || !solver->widened || !solver->carrier || !solver->crowd ||
+        !sunder_i_body_states_init(&solver->states, n) ||
+        !sunder_i_changes_init(&solver->changes, solver->model.things))
         return sunder_i_no_memory(err);
     sunder_i_union_init(solver->parent, n);
-    for (size_t b = 0; b < n; b++) {
-        solver->carrier[b] = SUNDER_I_NOBODY;
-        solver->wanted[b] = solver->doubtful[b] = true;
-    }
+    for (size_t b = 0; b < n; b++) solver->carrier[b] = SUNDER_I_NOBODY;
     return SUNDER_OK;
 }
 
@@ -120,10 +102,7 @@ bool sunder_i_solver_add_edge(sunder_i_solver *solver, uint32_t i, uint32_t j)
 {
     if (!sunder_i_reserve(&solver->edge, &solver->edge_capacity, solver->edges + 1, sizeof *solver->edge)) return false;
     solver->edge[solver->edges++] = (sunder_i_id_pair){i, j};
-    const bool fi = solver->model.body[i].fixed, fj = solver->model.body[j].fixed;
-    if (!fi) solver->dirty[i] = true;
-    if (!fj) solver->dirty[j] = true;
-    if (!fi && !fj) sunder_i_union_join(solver->parent, i, j);
+    if (!solver->model.body[i].fixed && !solver->model.body[j].fixed) sunder_i_union_join(solver->parent, i, j);
     return true;
 }
 
@@ -188,20 +167,20 @@ double sunder_i_solver_margin(const sunder_i_solver *solver, const uint32_t *b, 
     return ldexp(1, exponent - 51 + 2 * (int)widened);
 }
 
-bool sunder_i_solver_any_of(const sunder_i_solver *solver, const uint32_t *body, size_t n, const bool *flag)
+bool sunder_i_solver_any_of(const sunder_i_solver *solver, const uint32_t *body, size_t n, sunder_i_body_test test)
 {
     for (size_t k = 0; k < n; k++)
-        if (flag[body[k]] && !solver->model.body[body[k]].fixed) return true;
+        if (test(solver, body[k]) && !solver->model.body[body[k]].fixed) return true;
     return false;
 }
 
-bool *sunder_i_solver_who_hang_with(const sunder_i_solver *solver, const bool *flag)
+bool *sunder_i_solver_connected_with(const sunder_i_solver *solver, sunder_i_body_test test)
 {
     const sunder_i_body *body = solver->model.body;
     bool *root = sunder_i_calloc(solver->model.bodies, sizeof *root),
          *out = sunder_i_calloc(solver->model.bodies, sizeof *out);
     for (uint32_t b = 0; b < solver->model.bodies && root && out; b++)
-        if (flag[b] && !body[b].fixed) root[sunder_i_union_find(solver->parent, b)] = true;
+        if (test(solver, b) && !body[b].fixed) root[sunder_i_union_find(solver->parent, b)] = true;
     for (uint32_t b = 0; b < solver->model.bodies && root && out; b++)
         out[b] = !body[b].fixed && root[sunder_i_union_find(solver->parent, b)];
     if (!root) sunder_i_free(out);

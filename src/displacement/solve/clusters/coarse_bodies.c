@@ -60,7 +60,7 @@ static bool is_free_to_hold(const sunder_i_solver *solver, uint32_t b)
     size_t n;
     if (!solver->parent) return true; /* there are no clusters so far */
     sunder_i_solver_members(solver, b, &n);
-    return solver->holding[b] == SUNDER_I_NOT_HELD && n == 0 && t[0] == 0 && t[1] == 0 &&
+    return sunder_i_is_in(solver, SUNDER_I_HOLDING, b, SUNDER_I_NOT_HELD) && n == 0 && t[0] == 0 && t[1] == 0 &&
            sunder_i_union_find(solver->parent, b) == b;
 }
 
@@ -88,9 +88,9 @@ static void hold_beside(sunder_i_solver *solver, uint32_t b, uint32_t neighbour)
     const bool coarse = ldexp(COARSE_PLACES, last_place(box)) > stretch;
     if (!body->held && (coarse || body->far) && is_free_to_hold(solver, b)) {
         fix(solver, body, stretch);
-        solver->holding[b] = SUNDER_I_HELD;
+        sunder_i_body_event(&solver->states, b, SUNDER_I_IS_HELD);
     }
-    if (body->held && coarse) solver->holding[b] = SUNDER_I_HELD_AS_COARSE;
+    if (body->held && coarse) sunder_i_body_event(&solver->states, b, SUNDER_I_IS_HELD_AS_COARSE);
 }
 
 static void hold(sunder_i_solver *solver, const sunder_i_relations *relations)
@@ -98,7 +98,7 @@ static void hold(sunder_i_solver *solver, const sunder_i_relations *relations)
     for (size_t k = 0; k < relations->n; k++) {
         const sunder_i_relation *r = &relations->pair[k];
         const uint32_t i = solver->model.body_of[r->a], j = solver->model.body_of[r->b];
-        const bool aside = solver->aside && (solver->aside[i] || solver->aside[j]);
+        const bool aside = sunder_i_is_aside(solver, i) || sunder_i_is_aside(solver, j);
         if (!sunder_i_is_open_conflict(&solver->model, r) || aside) continue;
         hold_beside(solver, i, j);
         hold_beside(solver, j, i);
@@ -123,8 +123,8 @@ static bool may_hold(const sunder_i_model *model)
 sunder_status sunder_i_solver_begin_holding(sunder_i_solver *solver, sunder_error *err)
 {
     if (!may_hold(&solver->model)) return SUNDER_OK;
-    solver->holding = sunder_i_calloc(solver->model.bodies, sizeof *solver->holding);
-    if (!solver->holding) return sunder_i_no_memory(err);
+    if (!sunder_i_body_states_init(&solver->states, solver->model.bodies)) return sunder_i_no_memory(err);
+    solver->may_hold = true;
     for (size_t b = 0; b < solver->model.bodies; b++) sunder_i_find_far_corners(&solver->model, &solver->model.body[b]);
     hold(solver, &solver->start);
     return SUNDER_OK;
@@ -132,42 +132,49 @@ sunder_status sunder_i_solver_begin_holding(sunder_i_solver *solver, sunder_erro
 
 void sunder_i_solver_hold(sunder_i_solver *solver)
 {
-    if (solver->holding) hold(solver, &solver->now);
+    if (solver->may_hold) hold(solver, &solver->now);
 }
 
 bool sunder_i_solver_any_held(const sunder_i_solver *solver)
 {
-    for (size_t b = 0; solver->holding && b < solver->model.bodies; b++)
+    for (size_t b = 0; solver->may_hold && b < solver->model.bodies; b++)
         if (solver->model.body[b].held) return true;
     return false;
 }
 
 /* ---- Letting go -------------------------------------------------------------------------------------------------- */
 
+static bool was_let_go(const sunder_i_solver *solver, uint32_t b)
+{
+    return sunder_i_is_in(solver, SUNDER_I_HOLDING, b, SUNDER_I_LET_GO);
+}
+
 /* Held bodies with a conflict left, and such as may be of use: *any. */
 static void mark_let_go(sunder_i_solver *solver, bool *any)
 {
     const sunder_i_model *model = &solver->model;
     *any = false;
-    for (size_t b = 0; b < model->bodies; b++)
-        if (solver->holding[b] == SUNDER_I_HELD) solver->holding[b] = SUNDER_I_LET_GO;
+    for (uint32_t b = 0; b < model->bodies; b++)
+        if (sunder_i_is_in(solver, SUNDER_I_HOLDING, b, SUNDER_I_HELD))
+            sunder_i_body_event(&solver->states, b, SUNDER_I_IS_LET_GO);
     for (size_t k = 0; k < solver->now.n; k++) {
         const sunder_i_relation *r = &solver->now.pair[k];
         if (!sunder_i_is_conflict_of_bodies(model, r)) continue;
-        if (model->body[model->body_of[r->a]].held) solver->holding[model->body_of[r->a]] = SUNDER_I_LET_GO;
-        if (model->body[model->body_of[r->b]].held) solver->holding[model->body_of[r->b]] = SUNDER_I_LET_GO;
+        const uint32_t i = model->body_of[r->a], j = model->body_of[r->b];
+        if (model->body[i].held) sunder_i_body_event(&solver->states, i, SUNDER_I_IS_LET_GO);
+        if (model->body[j].held) sunder_i_body_event(&solver->states, j, SUNDER_I_IS_LET_GO);
     }
-    for (size_t b = 0; b < model->bodies; b++) *any = *any || solver->holding[b] == SUNDER_I_LET_GO;
+    for (uint32_t b = 0; b < model->bodies; b++) *any = *any || was_let_go(solver, b);
 }
 
 /* root: [bodies] the sets connected by an edge with a released body, and its own. */
 static void mark_roots(sunder_i_solver *solver, bool *root)
 {
     for (uint32_t b = 0; b < solver->model.bodies; b++)
-        if (solver->holding[b] == SUNDER_I_LET_GO) root[sunder_i_union_find(solver->parent, b)] = true;
+        if (was_let_go(solver, b)) root[sunder_i_union_find(solver->parent, b)] = true;
     for (size_t k = 0; k < solver->edges; k++) {
         const uint32_t i = solver->edge[k].a, j = solver->edge[k].b;
-        if (solver->holding[i] == SUNDER_I_LET_GO || solver->holding[j] == SUNDER_I_LET_GO)
+        if (was_let_go(solver, i) || was_let_go(solver, j))
             root[sunder_i_union_find(solver->parent, i)] = root[sunder_i_union_find(solver->parent, j)] = true;
     }
 }
@@ -180,8 +187,8 @@ static bool keep_infeasible(sunder_i_solver *solver)
     for (size_t k = 0; k < model->relaxations.n && ok; k++) {
         const sunder_i_relaxation *t = &model->relaxations.item[k];
         const uint32_t i = model->body_of[t->a], j = model->body_of[t->b];
-        if (t->infeasible && (solver->wanted[i] || solver->wanted[j]) && solver->holding[i] != SUNDER_I_LET_GO &&
-            solver->holding[j] != SUNDER_I_LET_GO)
+        if (t->infeasible && (sunder_i_is_wanted(solver, i) || sunder_i_is_wanted(solver, j)) &&
+            !was_let_go(solver, i) && !was_let_go(solver, j))
             ok = sunder_i_relaxations_add(&solver->waiting, t);
     }
     return ok;
@@ -192,17 +199,20 @@ sunder_status sunder_i_solver_let_go(sunder_i_solver *solver, bool *any, sunder_
     sunder_i_model *model = &solver->model;
     mark_let_go(solver, any);
     if (!*any) return SUNDER_OK;
-    bool *root = sunder_i_calloc(model->bodies, sizeof *root);
-    if (!root) return sunder_i_no_memory(err);
-    mark_roots(solver, root);
-    for (uint32_t b = 0; b < model->bodies; b++) {
+    bool *root = sunder_i_calloc(model->bodies, sizeof *root), *back = sunder_i_calloc(model->bodies, sizeof *back);
+    sunder_status status = root && back ? SUNDER_OK : sunder_i_no_memory(err);
+    if (!status) mark_roots(solver, root);
+    for (uint32_t b = 0; b < model->bodies && !status; b++) {
         sunder_i_body *body = &model->body[b];
-        if (solver->holding[b] == SUNDER_I_LET_GO) body->held = body->fixed = false;
-        solver->wanted[b] = !body->fixed && root[sunder_i_union_find(solver->parent, b)];
-        solver->reconsidered[b] = solver->reconsidered[b] && !solver->wanted[b];
+        if (was_let_go(solver, b)) body->held = body->fixed = false;
+        back[b] = !body->fixed && root[sunder_i_union_find(solver->parent, b)];
+        sunder_i_body_event(&solver->states, b, back[b] ? SUNDER_I_BEGINS_AGAIN_FREED : SUNDER_I_IS_LEFT);
     }
+    if (!status && !keep_infeasible(solver)) status = sunder_i_no_memory(err);
+    if (!status) status = sunder_i_solver_begin_again(solver, back, err);
     sunder_i_free(root);
-    return keep_infeasible(solver) ? sunder_i_solver_begin_again(solver, solver->wanted, err) : sunder_i_no_memory(err);
+    sunder_i_free(back);
+    return status;
 }
 
 void sunder_i_solver_end_holding(sunder_i_solver *solver)

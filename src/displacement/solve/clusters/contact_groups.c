@@ -22,9 +22,6 @@ void sunder_i_groups_free(sunder_i_groups *groups)
     sunder_i_free(groups->waived);
     sunder_i_free(groups->joined);
     sunder_i_free(groups->spent);
-    sunder_i_free(groups->blunt);
-    sunder_i_free(groups->shaken);
-    sunder_i_free(groups->covered);
     memset(groups, 0, sizeof *groups);
 }
 
@@ -65,7 +62,7 @@ static bool is_tired(const sunder_i_solver *s, const sunder_i_group *g)
         const sunder_i_body *b = &s->model.body[g->body[k]];
         const double *t = g->move + 2 * k, cost = b->fixed ? 0 : b->weight * (t[0] * t[0] + t[1] * t[1]);
         all += cost;
-        if (s->groups.shaken[g->body[k]]) tired += cost;
+        if (sunder_i_is_in(s, SUNDER_I_SHAKING, g->body[k], SUNDER_I_SHAKEN)) tired += cost;
     }
     return tired > MOSTLY_SHAKEN * all;
 }
@@ -83,7 +80,7 @@ static sunder_status make_group(const sunder_i_solver *s, const sunder_i_id_pair
     for (size_t k = 0; k < n; k++) {
         const uint32_t b = out->body[k] = member[k].b;
         memcpy(out->move + 2 * k, s->model.move + 2 * (size_t)b, 2 * sizeof *out->move);
-        out->blunt = out->blunt || s->groups.blunt[b];
+        out->with_slack = out->with_slack || sunder_i_is_in(s, SUNDER_I_SLACK, b, SUNDER_I_WITH_SLACK);
         if (out->number == SUNDER_I_NOBODY && !s->model.body[b].fixed) out->number = b;
     }
     out->margin = sunder_i_solver_margin(s, out->body, n);
@@ -94,7 +91,7 @@ static sunder_status make_group(const sunder_i_solver *s, const sunder_i_id_pair
 /* A group of the last round that is the same in all that counts, and so keeps its proof. */
 static void keep_proof(sunder_i_group *old, sunder_i_group *now)
 {
-    if (!old->done || old->joins.n || old->n != now->n || memcmp(old->body, now->body, old->n * sizeof *old->body) ||
+    if (old->state == SUNDER_I_TO_BE_PROVED || old->joins.n || old->n != now->n || memcmp(old->body, now->body, old->n * sizeof *old->body) ||
         memcmp(old->move, now->move, 2 * old->n * sizeof *old->move))
         return;
     const sunder_i_group kept = *old;
@@ -124,7 +121,7 @@ static bool hand_on(const sunder_i_model *model, sunder_i_groups *old, sunder_i_
         const uint32_t heir = g->bound > 0 || g->shaken_at > 0 ? heir_of(model, g, now->of) : SUNDER_I_NOBODY;
         if (heir == SUNDER_I_NOBODY) continue;
         sunder_i_group *to = &now->group[at[heir]];
-        if (to->done) continue;
+        if (to->state != SUNDER_I_TO_BE_PROVED) continue;
         to->shaken_at += g->shaken_at;
         if (!(g->bound > 0)) continue;
         to->bound = to->bound > 0 ? nextafter(to->bound + g->bound, -INFINITY) : g->bound;
@@ -195,14 +192,8 @@ sunder_status sunder_i_solver_gather_groups(sunder_i_solver *solver, sunder_erro
     gathering g = {.solver = solver};
     if (!solver->groups.spent)
         solver->groups.spent = sunder_i_calloc(solver->model.bodies, sizeof *solver->groups.spent);
-    if (!solver->groups.blunt)
-        solver->groups.blunt = sunder_i_calloc(solver->model.bodies, sizeof *solver->groups.blunt);
-    if (!solver->groups.shaken)
-        solver->groups.shaken = sunder_i_calloc(solver->model.bodies, sizeof *solver->groups.shaken);
-    if (!solver->groups.covered)
-        solver->groups.covered = sunder_i_calloc(solver->model.bodies, sizeof *solver->groups.covered);
-    const bool ok = solver->groups.spent && solver->groups.blunt && solver->groups.shaken && solver->groups.covered;
-    sunder_status status = ok ? sunder_i_flood_contacts(solver, &g.flood, err) : sunder_i_no_memory(err);
+    sunder_status status =
+        solver->groups.spent ? sunder_i_flood_contacts(solver, &g.flood, err) : sunder_i_no_memory(err);
     if (!status && !list_members(&g)) status = sunder_i_no_memory(err);
     if (!status) status = make_groups(&g, &solver->groups, err);
     sunder_i_flood_free(&g.flood);

@@ -170,7 +170,7 @@ static sunder_status may_fit(const sunder_i_solver *s, const sunder_i_cluster *c
     const uint32_t body[2] = {pair->a, pair->b};
     *may = false;
     if (!c || !sunder_i_set_has(c->body, c->n, pair->a) || !sunder_i_set_has(c->body, c->n, pair->b) ||
-        !sunder_i_solver_any_of(s, c->body, c->n, s->wanted) ||
+        !sunder_i_solver_any_of(s, c->body, c->n, sunder_i_is_wanted) ||
         !sunder_i_relaxations_between(&s->model.relaxations, pair->a, pair->b))
         return SUNDER_OK;
     return sunder_i_may_be_tight(&s->model, body, 2, may) ? SUNDER_OK : sunder_i_no_memory(err);

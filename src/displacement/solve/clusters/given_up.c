@@ -66,7 +66,8 @@ static bool take_relaxations(sunder_i_solver *s)
                 all->item[old - all->item] = relaxation;
                 continue;
             }
-            s->gave_up[i] = s->gave_up[j] = true;
+            sunder_i_body_event(&s->states, i, SUNDER_I_GIVES_UP);
+            sunder_i_body_event(&s->states, j, SUNDER_I_GIVES_UP);
             sunder_i_trace_pair(model, "give up", "no solution found: left as near as it stood", relaxation.a,
                                 relaxation.b);
             if (!sunder_i_relaxations_add(all, &relaxation)) return false;

@@ -32,7 +32,7 @@ typedef struct growth {
 /* Smaller ones begin anew at any growth, which takes them next to no time. */
 static bool is_large_crowd(const sunder_i_solver *s, const sunder_i_cluster *c)
 {
-    return c->crowd && c->n > LARGE_GROWN_CROWD && sunder_i_solver_any_of(s, c->body, c->n, s->dirty);
+    return c->crowd && c->n > LARGE_GROWN_CROWD && sunder_i_solver_any_of(s, c->body, c->n, sunder_i_is_due);
 }
 
 /* The rough places of one crowd after the other, as boxes. */
@@ -61,9 +61,9 @@ static sunder_status place_crowds(void *context, size_t begin, size_t end, sunde
 static void find_held(growth *g)
 {
     const sunder_i_solver *s = g->solver;
-    for (size_t b = 0; b < s->model.bodies; b++) {
+    for (uint32_t b = 0; b < s->model.bodies; b++) {
         const sunder_i_body *body = &s->model.body[b];
-        g->held[b] = !sunder_i_may_move(body) || body->pinned || body->limit < INFINITY || (s->aside && s->aside[b]);
+        g->held[b] = !sunder_i_may_move(body) || body->pinned || body->limit < INFINITY || sunder_i_is_aside(s, b);
     }
     for (size_t k = 0; k < s->clusters; k++)
         for (size_t m = 0; m < s->cluster[k].n && s->cluster[k].limited; m++) g->held[s->cluster[k].body[m]] = true;

@@ -67,7 +67,7 @@ sunder_status sunder_i_solver_keep_held(const sunder_i_solver *solver, sunder_i_
     layout->move = copy_of(model->move, 2 * n, sizeof *layout->move);
     layout->held = sunder_i_alloc(n, sizeof *layout->held);
     layout->widened = copy_of(solver->widened, n, sizeof *layout->widened);
-    layout->improved = copy_of(solver->improved, n, sizeof *layout->improved);
+    layout->improved = sunder_i_alloc(n, sizeof *layout->improved);
     layout->edge = copy_of(solver->edge, solver->edges, sizeof *layout->edge);
     layout->edges = solver->edges;
     layout->conflict = list_conflicts(solver, &layout->conflicts);
@@ -75,7 +75,10 @@ sunder_status sunder_i_solver_keep_held(const sunder_i_solver *solver, sunder_i_
     layout->given_up_n = model->given_up_n;
     bool ok = layout->move && layout->held && layout->widened && layout->improved && layout->edge && layout->conflict &&
               layout->given_up && keep_states(model, layout);
-    for (size_t b = 0; b < n && ok; b++) layout->held[b] = model->body[b].held;
+    for (uint32_t b = 0; b < n && ok; b++) {
+        layout->held[b] = model->body[b].held;
+        layout->improved[b] = sunder_i_is_improved(solver, b);
+    }
     for (size_t k = 0; k < model->relaxations.n && ok; k++)
         ok = sunder_i_relaxations_add(&layout->relaxations, &model->relaxations.item[k]);
     return ok ? SUNDER_OK : sunder_i_no_memory(err);
@@ -193,9 +196,12 @@ static void put_back_moves(sunder_i_solver *solver, const sunder_i_held_layout *
     for (uint32_t b = 0; b < model->bodies; b++) {
         if (!back[b]) continue;
         sunder_i_solver_place(solver, b, layout->move + 2 * (size_t)b);
-        if (layout->held[b]) model->body[b].held = model->body[b].fixed = true;
+        if (layout->held[b]) {
+            sunder_i_body_event(&solver->states, b, SUNDER_I_IS_HELD_AGAIN);
+            model->body[b].held = model->body[b].fixed = true;
+        }
         solver->widened[b] = layout->widened[b];
-        solver->improved[b] = layout->improved[b];
+        if (layout->improved[b]) sunder_i_body_event(&solver->states, b, SUNDER_I_IS_IMPROVED);
     }
     for (size_t k = 0; k < model->inclusions; k++)
         if (back[model->body_of[model->inclusion[k].a]] || back[model->body_of[model->inclusion[k].b]])

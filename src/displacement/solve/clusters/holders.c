@@ -7,7 +7,7 @@
  * holder. */
 static bool is_settled(const sunder_i_solver *s, const uint32_t pair[2])
 {
-    return sunder_i_solver_any_of(s, pair, 2, s->improved);
+    return sunder_i_solver_any_of(s, pair, 2, sunder_i_is_improved);
 }
 
 sunder_status sunder_i_solver_choose_holders(sunder_i_solver *solver, sunder_error *err)
@@ -18,7 +18,7 @@ sunder_status sunder_i_solver_choose_holders(sunder_i_solver *solver, sunder_err
     for (size_t k = 0; k < solver->start.n; k++) {
         const uint32_t pair[2] = {solver->model.body_of[solver->start.pair[k].a],
                                   solver->model.body_of[solver->start.pair[k].b]};
-        conflict[k] = sunder_i_solver_any_of(solver, pair, 2, solver->wanted) && !is_settled(solver, pair) &&
+        conflict[k] = sunder_i_solver_any_of(solver, pair, 2, sunder_i_is_wanted) && !is_settled(solver, pair) &&
                       sunder_i_is_open_conflict(&solver->model, &solver->start.pair[k]);
     }
     const sunder_status status = sunder_i_inclusions_choose(&solver->model, &solver->start, conflict, err);

@@ -15,7 +15,7 @@
 static sunder_status find_places(const sunder_i_solver *s, const sunder_i_group *g, double *move, bool *found,
                                  sunder_error *err)
 {
-    const sunder_i_waived waived = {s->groups.waived, s->groups.waived_n, s->groups.covered};
+    const sunder_i_waived waived = {s->groups.waived, s->groups.waived_n, s->states.of[SUNDER_I_DIAGONALS]};
     bool may;
     *found = false;
     if (!sunder_i_may_be_tight(&s->model, g->body, g->n, &may)) return sunder_i_no_memory(err);
@@ -72,7 +72,7 @@ sunder_status sunder_i_solver_put_in_contact(sunder_i_solver *solver, sunder_err
     sunder_status status = SUNDER_OK;
     for (size_t k = 0; k < solver->groups.n && !status; k++) {
         const sunder_i_group *g = &solver->groups.group[k];
-        if (sunder_i_solver_any_of(solver, g->body, g->n, solver->wanted) && has_moved(&solver->model, g))
+        if (sunder_i_solver_any_of(solver, g->body, g->n, sunder_i_is_wanted) && has_moved(&solver->model, g))
             status = put_in_contact(solver, g, err);
     }
     return status;

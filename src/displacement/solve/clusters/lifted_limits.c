@@ -38,7 +38,8 @@ static bool set_aside(sunder_i_solver *s)
         }
         for (size_t k = 0; k < s->entries; k++)
             hard[root[model->body_of[s->entry[k].a]]] = hard[root[model->body_of[s->entry[k].b]]] = true;
-        for (size_t b = 0; b < model->bodies; b++) s->aside[b] = !model->body[b].fixed && hard[root[b]];
+        for (uint32_t b = 0; b < model->bodies; b++)
+            if (!model->body[b].fixed && hard[root[b]]) sunder_i_body_event(&s->states, b, SUNDER_I_IS_SET_ASIDE);
     }
     sunder_i_free(hard);
     return ok;
@@ -53,14 +54,14 @@ sunder_status sunder_i_solver_lift_limits(sunder_i_solver *solver, bool *lifted,
     *lifted = *lifted && solver->barriers.parts == 0;
     if (!*lifted) return SUNDER_OK;
     solver->limit = sunder_i_alloc(model->bodies, sizeof *solver->limit);
-    solver->aside = sunder_i_calloc(model->bodies, sizeof *solver->aside);
     solver->went = sunder_i_calloc(2 * model->bodies, sizeof *solver->went);
-    if (!solver->limit || !solver->aside || !solver->went || !set_aside(solver)) return sunder_i_no_memory(err);
-    for (size_t b = 0; b < model->bodies; b++) {
+    if (!solver->limit || !solver->went) return sunder_i_no_memory(err);
+    for (uint32_t b = 0; b < model->bodies; b++) {
         solver->limit[b] = model->body[b].limit;
         if (!model->body[b].fixed) model->body[b].limit = INFINITY;
+        sunder_i_body_event(&solver->states, b, SUNDER_I_LIMIT_IS_LIFTED);
     }
-    return SUNDER_OK;
+    return set_aside(solver) ? SUNDER_OK : sunder_i_no_memory(err);
 }
 
 /* ---- What went too far ------------------------------------------------------------------------------------------- */
@@ -75,7 +76,7 @@ static void send_home(sunder_i_solver *s, const bool *back)
         sunder_i_solver_place(s, b, home);
         model->body[b].pinned = false;
         s->widened[b] = 0;
-        s->improved[b] = false;
+        sunder_i_body_event(&s->states, b, SUNDER_I_GOES_HOME);
         s->carrier[b] = SUNDER_I_NOBODY;
     }
     for (size_t k = 0; k < model->inclusions; k++) {
@@ -103,7 +104,7 @@ static bool is_beyond_use(const sunder_i_solver *s, const sunder_i_cluster *c)
 /* Of two bodies that met, of different clusters: these would be one from now on. */
 static void note_running(const sunder_i_solver *s, uint32_t i, uint32_t j, uint32_t *root)
 {
-    if (s->aside[i] || s->aside[j] || s->model.body[i].fixed || s->model.body[j].fixed) return;
+    if (sunder_i_is_aside(s, i) || sunder_i_is_aside(s, j) || s->model.body[i].fixed || s->model.body[j].fixed) return;
     sunder_i_union_join(root, sunder_i_union_find(s->parent, i), sunder_i_union_find(s->parent, j));
 }
 
@@ -142,7 +143,8 @@ static bool set_running_aside(sunder_i_solver *s, const bool *running, bool *bac
     bool any = false;
     for (uint32_t b = 0; b < s->model.bodies; b++) {
         if (s->model.body[b].fixed || !running[sunder_i_union_find(s->parent, b)]) continue;
-        any = back[b] = s->aside[b] = true;
+        any = back[b] = true;
+        sunder_i_body_event(&s->states, b, SUNDER_I_IS_SET_ASIDE);
         memcpy(s->went + 2 * (size_t)b, s->model.move + 2 * (size_t)b, 2 * sizeof *s->went);
     }
     return any;
@@ -151,7 +153,7 @@ static bool set_running_aside(sunder_i_solver *s, const bool *running, bool *bac
 sunder_status sunder_i_solver_set_far_aside(sunder_i_solver *solver, sunder_error *err)
 {
     const size_t n = solver->model.bodies;
-    if (!solver->aside || solver->model.lifted) return SUNDER_OK;
+    if (!solver->limit || solver->model.lifted) return SUNDER_OK;
     uint32_t *root = sunder_i_alloc(n, sizeof *root);
     size_t *size = sunder_i_calloc(n, sizeof *size);
     bool *running = sunder_i_calloc(n, sizeof *running), *back = sunder_i_calloc(n, sizeof *back);
@@ -175,7 +177,7 @@ sunder_status sunder_i_solver_set_far_aside(sunder_i_solver *solver, sunder_erro
 /* Marks the sets of two bodies that met, if one of them was set aside. */
 static void note_meeting(sunder_i_solver *s, uint32_t i, uint32_t j, bool *root)
 {
-    if (!s->aside[i] && !s->aside[j]) return;
+    if (!sunder_i_is_aside(s, i) && !sunder_i_is_aside(s, j)) return;
     root[sunder_i_union_find(s->parent, i)] = root[sunder_i_union_find(s->parent, j)] = true;
 }
 
@@ -186,7 +188,7 @@ static void find_offenders(sunder_i_solver *s, bool *root)
     const sunder_i_model *model = &s->model;
     for (uint32_t b = 0; b < model->bodies; b++)
         if (!model->body[b].fixed &&
-            (s->aside[b] || !sunder_i_is_within_limit(model->move + 2 * (size_t)b, model->body[b].limit)))
+            (sunder_i_is_aside(s, b) || !sunder_i_is_within_limit(model->move + 2 * (size_t)b, model->body[b].limit)))
             root[sunder_i_union_find(s->parent, b)] = true;
     for (size_t k = 0; k < s->now.n; k++) {
         const sunder_i_relation *r = &s->now.pair[k];
@@ -223,23 +225,23 @@ static bool forget(sunder_i_solver *s, const bool *back)
     return sunder_i_relaxations_index(relaxations, model);
 }
 
+static bool is_limited(const sunder_i_solver *s, uint32_t body) { return s->model.body[body].limit < INFINITY; }
+
 /* Within limits more can be proved, and a pair with a solution without them may have none: every cluster with a limited
  * body is examined again. (Clusters without limits are left as they are.) */
 static bool doubt(sunder_i_solver *s)
 {
     sunder_i_model *model = &s->model;
     size_t out = 0;
-    for (size_t b = 0; b < model->bodies; b++)
-        s->doubtful[b] = !model->body[b].fixed && model->body[b].limit < INFINITY;
-    bool *doubtful = sunder_i_solver_who_hang_with(s, s->doubtful);
+    bool *doubtful = sunder_i_solver_connected_with(s, is_limited);
     if (!doubtful) return false;
-    for (size_t b = 0; b < model->bodies; b++) s->reconsidered[b] = s->reconsidered[b] && !doubtful[b];
+    for (uint32_t b = 0; b < model->bodies; b++)
+        sunder_i_body_event(&s->states, b, doubtful[b] ? SUNDER_I_IS_DOUBTED : SUNDER_I_IS_CERTAIN);
     for (size_t k = 0; k < s->alone_n; k++)
         if (!doubtful[model->body_of[s->alone[k].a]] && !doubtful[model->body_of[s->alone[k].b]])
             s->alone[out++] = s->alone[k];
     s->alone_n = out;
-    sunder_i_free(s->doubtful);
-    s->doubtful = doubtful;
+    sunder_i_free(doubtful);
     return true;
 }
 
@@ -254,12 +256,12 @@ sunder_status sunder_i_solver_begin_again(sunder_i_solver *solver, const bool *b
 sunder_status sunder_i_solver_restore_limits(sunder_i_solver *solver, sunder_error *err)
 {
     sunder_i_model *model = &solver->model;
-    bool *root = sunder_i_calloc(model->bodies, sizeof *root), *back = solver->wanted;
-    sunder_status status = root ? SUNDER_OK : sunder_i_no_memory(err);
+    bool *root = sunder_i_calloc(model->bodies, sizeof *root), *back = sunder_i_calloc(model->bodies, sizeof *back);
+    sunder_status status = root && back ? SUNDER_OK : sunder_i_no_memory(err);
     model->lifted = solver->went; /* of those that were set aside, and all others as they stand */
     solver->went = NULL;
     for (uint32_t b = 0; b < model->bodies; b++)
-        if (!solver->aside[b])
+        if (!sunder_i_is_aside(solver, b))
             memcpy(model->lifted + 2 * (size_t)b, model->move + 2 * (size_t)b, 2 * sizeof *model->move);
     for (size_t b = 0; b < model->bodies; b++) model->body[b].limit = solver->limit[b];
     if (!status && !doubt(solver)) status = sunder_i_no_memory(err);
@@ -267,11 +269,12 @@ sunder_status sunder_i_solver_restore_limits(sunder_i_solver *solver, sunder_err
         find_offenders(solver, root);
         for (uint32_t b = 0; b < model->bodies; b++) {
             back[b] = !model->body[b].fixed && root[sunder_i_union_find(solver->parent, b)];
-            solver->doubtful[b] = solver->doubtful[b] || back[b];
+            sunder_i_body_event(&solver->states, b, back[b] ? SUNDER_I_BEGINS_AGAIN_LIMITED : SUNDER_I_IS_LEFT);
+            sunder_i_body_event(&solver->states, b, SUNDER_I_LIMIT_IS_RESTORED);
         }
-        memset(solver->aside, 0, model->bodies * sizeof *solver->aside);
         status = sunder_i_solver_begin_again(solver, back, err);
     }
     sunder_i_free(root);
+    sunder_i_free(back);
     return status;
 }

@@ -352,7 +352,7 @@ static sunder_status resume_clusters(void *context, size_t begin, size_t end, su
     for (size_t k = begin; k < end && !status; k++) {
         sunder_i_cluster *c = &g->solver->cluster[k];
         double *move = sunder_i_solver_load_moves(g->solver, c);
-        c->worked_on = true;
+        c->outcome = SUNDER_I_WORKED_ON;
         const uint32_t root = g->solver->member[c->body - g->solver->body].root;
         sunder_i_reading reading;
         sunder_i_reads_begin(&reading, &g->solver->model, root);
@@ -423,7 +423,8 @@ sunder_status sunder_i_solver_ask_one_by_one(sunder_i_solver *solver, bool *chan
     question *list = sunder_i_alloc(n, sizeof *list);
     size_t *first = sunder_i_alloc(n + 1, sizeof *first), clusters = 0;
     sunder_i_requirement *required = sunder_i_alloc(n, sizeof *required);
-    bool *asked = sunder_i_calloc(n, sizeof *asked), *wanted = sunder_i_solver_who_hang_with(solver, solver->wanted);
+    bool *asked = sunder_i_calloc(n, sizeof *asked),
+         *wanted = sunder_i_solver_connected_with(solver, sunder_i_is_wanted);
     sunder_i_decision *decision = sunder_i_calloc(n, sizeof *decision);
     if (!solver->alone_work) solver->alone_work = sunder_i_calloc(solver->model.bodies, sizeof *solver->alone_work);
     if (!status && (!list || !first || !required || !asked || !wanted || !decision || !solver->alone_work))

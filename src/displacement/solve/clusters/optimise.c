@@ -50,7 +50,7 @@ static bool forget_proofs(sunder_i_solver *s, const sunder_i_waiver *before, siz
         for (size_t m = 0; m < g->n + g->guests.n; m++) {
             const uint32_t b = m < g->n ? g->body[m] : g->guests.item[m - g->n];
             if (!unlike[b] || model->body[b].fixed) continue;
-            g->done = false;
+            g->state = SUNDER_I_TO_BE_PROVED;
             g->bound = 0;
         }
     }
@@ -119,18 +119,18 @@ static uint64_t allowance(const sunder_i_solver *s, const sunder_i_group *g)
     return (uint64_t)sunder_i_min(steps, 0x1p62);
 }
 
-static bool is_wanted(const sunder_i_solver *s, const sunder_i_group *g)
+static bool is_group_wanted(const sunder_i_solver *s, const sunder_i_group *g)
 {
-    return sunder_i_solver_any_of(s, g->body, g->n, s->wanted);
+    return sunder_i_solver_any_of(s, g->body, g->n, sunder_i_is_wanted);
 }
 
 static sunder_status prove_groups(void *context, size_t begin, size_t end, sunder_error *err)
 {
     const sunder_i_solver *s = context;
-    const sunder_i_waived waived = {s->groups.waived, s->groups.waived_n, s->groups.covered};
+    const sunder_i_waived waived = {s->groups.waived, s->groups.waived_n, s->states.of[SUNDER_I_DIAGONALS]};
     for (size_t k = begin; k < end; k++) {
         sunder_i_group *g = &s->groups.group[k];
-        if (g->done || !is_wanted(s, g)) continue;
+        if (g->state != SUNDER_I_TO_BE_PROVED || !is_group_wanted(s, g)) continue;
         sunder_i_reading reading;
         sunder_i_reads_begin(&reading, &s->model, g->number);
         const sunder_status status = sunder_i_group_prove(&s->model, &waived, s->groups.of, g, allowance(s, g), err);
@@ -146,7 +146,7 @@ static void charge(sunder_i_solver *s)
     for (size_t k = 0; k < s->groups.n; k++) {
         sunder_i_group *g = &s->groups.group[k];
         for (size_t m = 0; m < g->n; m++) s->groups.spent[g->body[m]] += (double)g->steps / (double)g->n;
-        for (size_t m = 0; m < g->n && g->shaken; m++) s->groups.shaken[g->body[m]] = true;
+        for (size_t m = 0; m < g->n && g->shaken; m++) sunder_i_body_event(&s->states, g->body[m], SUNDER_I_IS_SHAKEN);
         g->shaken = false;
         g->steps = 0;
     }
@@ -195,20 +195,21 @@ static bool put_back(taking *t, uint32_t k, bool known)
 {
     sunder_i_solver *s = t->solver;
     sunder_i_group *g = k == SUNDER_I_NOBODY ? NULL : &s->groups.group[k];
-    if (!g || !g->improved) return false;
-    g->improved = g->done = false;
+    if (!g || !sunder_i_group_is_cheaper(g)) return false;
+    const bool tight = g->state == SUNDER_I_IS_CHEAPER_TIGHT;
+    g->state = SUNDER_I_TO_BE_PROVED;
     place(t, k, true);
     /* A layout that rounding spoiled is sought again with a wider margin; a place without spare room is not, unless
      * another body stood in it. */
     for (size_t m = 0; m < g->n; m++) {
         const uint32_t b = g->body[m];
         memcpy(g->move + 2 * m, t->before + 2 * (size_t)b, 2 * sizeof *g->move);
-        if (g->tight && known)
-            s->groups.blunt[b] = true;
+        if (tight && known)
+            sunder_i_body_event(&s->states, b, SUNDER_I_LACKS_SLACK);
         else if (s->widened[b] < MOST_MARGINS_AGAIN)
             s->widened[b]++;
         else
-            g->done = true;
+            g->state = SUNDER_I_IS_PROVED;
     }
     return true;
 }
@@ -221,7 +222,8 @@ static void part(taking *t, uint32_t a, uint32_t b, bool known, bool *any)
     const uint32_t p = t->solver->model.body_of[a], q = t->solver->model.body_of[b], i = t->by[p], j = t->by[q];
     const sunder_i_group *group = t->solver->groups.group;
     if (i == SUNDER_I_NOBODY && j == SUNDER_I_NOBODY) return;
-    const bool both = i != j && i != SUNDER_I_NOBODY && j != SUNDER_I_NOBODY && group[i].improved && group[j].improved;
+    const bool both = i != j && i != SUNDER_I_NOBODY && j != SUNDER_I_NOBODY && sunder_i_group_is_cheaper(&group[i]) &&
+                      sunder_i_group_is_cheaper(&group[j]);
     if (!both || i > j) *any = put_back(t, i, known && i != SUNDER_I_NOBODY && takes_part(&group[i], q)) || *any;
     if (!both || j > i) *any = put_back(t, j, known && j != SUNDER_I_NOBODY && takes_part(&group[j], p)) || *any;
 }
@@ -242,9 +244,11 @@ static bool part_jump(taking *t, uint32_t a, uint32_t b, bool *any)
     sunder_i_groups *groups = &t->solver->groups;
     const uint32_t body[2] = {t->solver->model.body_of[a], t->solver->model.body_of[b]};
     const uint32_t group[2] = {groups->of[body[0]], groups->of[body[1]]};
-    const bool known = groups->covered[body[0]] && groups->covered[body[1]];
-    for (int k = 0; k < 2; k++) groups->covered[body[k]] = true;
-    groups->any_covered = true;
+    sunder_i_body_states *states = &t->solver->states;
+    const unsigned char *diagonals = states->of[SUNDER_I_DIAGONALS];
+    const bool known = diagonals[body[0]] && diagonals[body[1]];
+    for (int k = 0; k < 2; k++) sunder_i_body_event(states, body[k], SUNDER_I_JUMPS_IN_PROOF);
+    groups->with_diagonals = true;
     part(t, a, b, known, any);
     return group[0] == group[1] || group[0] == SUNDER_I_NOBODY || group[1] == SUNDER_I_NOBODY ||
            note_joined(groups, group[0], group[1]);
@@ -329,7 +333,7 @@ static sunder_status take_over(sunder_i_solver *s, bool *any, sunder_error *err)
         for (size_t b = 0; b < n; b++) t.by[b] = SUNDER_I_NOBODY;
         sunder_i_changes_clear(&s->changes);
         for (size_t k = 0; k < s->groups.n; k++) {
-            if (!s->groups.group[k].improved) continue;
+            if (!sunder_i_group_is_cheaper(&s->groups.group[k])) continue;
             place(&t, k, false);
             if (!is_exact(&s->model, &s->groups.group[k])) put_back(&t, (uint32_t)k, true);
             again = true;
@@ -341,8 +345,8 @@ static sunder_status take_over(sunder_i_solver *s, bool *any, sunder_error *err)
     }
     for (size_t k = 0; !status && k < s->groups.n; k++) {
         sunder_i_group *g = &s->groups.group[k];
-        *any = *any || (is_wanted(s, g) && (g->improved || !g->done));
-        g->improved = false;
+        *any = *any || (is_group_wanted(s, g) && g->state != SUNDER_I_IS_PROVED);
+        if (sunder_i_group_is_cheaper(g)) g->state = SUNDER_I_IS_PROVED;
     }
     sunder_i_free(t.budget);
     sunder_i_free(t.by);
@@ -361,7 +365,7 @@ static bool join(sunder_i_solver *s, bool *any)
     for (size_t k = 0; k < groups->n && host && ok; k++) {
         sunder_i_group *g = &groups->group[k];
         bool joined = false;
-        for (size_t m = 0; m < g->joins.n + g->guests.n && ok && is_wanted(s, g); m++) {
+        for (size_t m = 0; m < g->joins.n + g->guests.n && ok && is_group_wanted(s, g); m++) {
             const uint32_t b = m < g->joins.n ? g->joins.item[m] : g->guests.item[m - g->joins.n];
             if (s->model.body[b].fixed || host[b] == g->number) continue;
             if (host[b] == SUNDER_I_NOBODY) {
@@ -421,7 +425,7 @@ sunder_status sunder_i_solver_optimise(sunder_i_solver *solver, sunder_error *er
     sunder_status status = sunder_i_solver_waive(solver, err);
     if (!status) status = sunder_i_solver_gather_groups(solver, err);
     for (int round = 0; round < OPTIMISED && again && !status; round++) {
-        if (solver->groups.any_covered) status = sunder_i_model_cover_diagonals(&solver->model, err);
+        if (solver->groups.with_diagonals) status = sunder_i_model_cover_diagonals(&solver->model, err);
         if (!status) status = prove_all(solver, &again, err);
         if (again && !status) status = sunder_i_solver_waive(solver, err);
         if (again && !status) status = sunder_i_solver_gather_groups(solver, err);

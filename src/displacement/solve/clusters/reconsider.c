@@ -165,12 +165,18 @@ static size_t list_requirements(const sunder_i_model *model, sunder_i_requiremen
     return n;
 }
 
+static bool was_asked(const sunder_i_solver *s, uint32_t root)
+{
+    return sunder_i_is_in(s, SUNDER_I_QUESTION, root, SUNDER_I_DOUBTFUL_ASKED) ||
+           sunder_i_is_in(s, SUNDER_I_QUESTION, root, SUNDER_I_CERTAIN_ASKED);
+}
+
 /* Marks the components in which a pair was given up, but for those that were asked about before in vain. */
 static sunder_status ask(const sunder_i_solver *s, const components *all, bool *asked, sunder_error *err)
 {
     const sunder_i_model *model = &s->model;
     bool *root = sunder_i_calloc(model->bodies, sizeof *root);
-    bool *doubtful = sunder_i_solver_who_hang_with(s, s->doubtful);
+    bool *doubtful = sunder_i_solver_connected_with(s, sunder_i_is_doubtful);
     if (!root || !doubtful) {
         sunder_i_free(root);
         sunder_i_free(doubtful);
@@ -181,8 +187,8 @@ static sunder_status ask(const sunder_i_solver *s, const components *all, bool *
         mark(all, model, model->given_up[k].b, root);
     }
     for (size_t k = 0; k < all->n; k++)
-        asked[k] = root[all->component[k].root] && doubtful[all->component[k].root] &&
-                   !s->reconsidered[all->component[k].root];
+        asked[k] =
+            root[all->component[k].root] && doubtful[all->component[k].root] && !was_asked(s, all->component[k].root);
     sunder_i_free(doubtful);
     sunder_i_free(root);
     return SUNDER_OK;
@@ -216,7 +222,7 @@ static bool go_on_from(sunder_i_solver *s, const component *c, const sunder_i_so
         const uint32_t b = solution->body[k];
         double move[2];
         if (s->model.body[b].fixed) continue;
-        s->wanted[b] = true;
+        sunder_i_body_event(&s->states, b, SUNDER_I_IS_WANTED);
         sunder_i_round_move(&s->model, b, solution->move + 2 * k, move, NULL);
         sunder_i_solver_place(s, b, move);
         if ((move[0] != 0 || move[1] != 0) && b != c->root) ok = ok && sunder_i_solver_add_edge(s, c->root, b);
@@ -261,7 +267,7 @@ sunder_status sunder_i_solver_reconsider(sunder_i_solver *solver, bool *changed,
     for (size_t k = 0; k < all.n && !status; k++) {
         if (asked[k]) status = trace_verdict(solver, &all.component[k], decision[k].verdict, err);
         if (decision[k].verdict != SUNDER_I_FEASIBLE) {
-            solver->reconsidered[all.component[k].root] |= asked[k];
+            if (asked[k]) sunder_i_body_event(&solver->states, all.component[k].root, SUNDER_I_IS_ASKED_IN_VAIN);
             continue;
         }
         *changed = true;

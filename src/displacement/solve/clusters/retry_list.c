@@ -147,11 +147,11 @@ static sunder_status retry_clusters(void *context, size_t begin, size_t end, sun
         sunder_i_cluster *c = &s->cluster[k];
         sunder_i_reading reading;
         double *move = sunder_i_solver_load_moves(s, c);
-        c->worked_on = true;
+        c->outcome = SUNDER_I_WORKED_ON;
         const uint32_t root = s->member[c->body - s->body].root;
         const size_t first = first_of(g->retries, root), last = first_of(g->retries, root + 1);
         sunder_i_reads_begin(&reading, &s->model, root);
-        const bool asked = first < last && sunder_i_solver_any_of(s, c->body, c->n, s->gave_up);
+        const bool asked = first < last && sunder_i_solver_any_of(s, c->body, c->n, sunder_i_is_to_retry);
         const double before = sunder_i_is_traced(&s->model) ? sunder_i_trace_cost(&s->model, c->body, c->n, move) : 0;
         if (asked) status = sunder_i_cluster_retry(&s->model, c, g->retries->retry + first, last - first, move, err);
         sunder_i_reads_end(&reading);
@@ -223,7 +223,7 @@ static bool join_neighbours(sunder_i_solver *s, const bool *asked)
 
 static sunder_status join_all(sunder_i_solver *s, sunder_error *err)
 {
-    bool *asked = sunder_i_solver_who_hang_with(s, s->gave_up);
+    bool *asked = sunder_i_solver_connected_with(s, sunder_i_is_to_retry);
     const bool ok = asked && join_relaxed(s, asked) && join_neighbours(s, asked);
     sunder_i_free(asked);
     return ok ? SUNDER_OK : sunder_i_no_memory(err);

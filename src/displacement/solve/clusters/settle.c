@@ -11,10 +11,10 @@
 
 #include <string.h>
 
-static bool is_dirty(const sunder_i_solver *s, const sunder_i_cluster *c)
+static bool is_due(const sunder_i_solver *s, const sunder_i_cluster *c)
 {
     for (size_t k = 0; k < c->n; k++)
-        if (s->dirty[c->body[k]]) return true;
+        if (sunder_i_is_due(s, c->body[k])) return true;
     return false;
 }
 
@@ -23,8 +23,7 @@ static sunder_status solve_clusters(void *context, size_t begin, size_t end, sun
     const sunder_i_solver *s = context;
     for (size_t k = begin; k < end; k++) {
         sunder_i_cluster *c = &s->cluster[k];
-        c->worked_on = is_dirty(s, c);
-        if (!c->worked_on) continue;
+        if (!is_due(s, c)) continue;
         double *move = sunder_i_solver_load_moves(s, c);
         sunder_i_reading reading;
         sunder_i_reads_begin(&reading, &s->model, sunder_i_reader_for(s, c));
@@ -40,10 +39,11 @@ static sunder_status note_solved(sunder_i_solver *s, sunder_error *err)
 {
     for (size_t k = 0; k < s->clusters; k++) {
         const sunder_i_cluster *c = &s->cluster[k];
-        if (!is_dirty(s, c)) continue;
+        if (c->outcome == SUNDER_I_UNTOUCHED) continue;
+        const sunder_i_event event =
+            c->outcome == SUNDER_I_FOUND_CHEAPEST ? SUNDER_I_IS_SOLVED_CHEAPEST : SUNDER_I_IS_SOLVED;
         for (size_t m = 0; m < c->n; m++) {
-            s->improved[c->body[m]] = false;
-            s->cheapest[c->body[m]] = c->cheapest;
+            sunder_i_body_event(&s->states, c->body[m], event);
             if (c->crowd) s->crowd[c->body[m]] = (uint32_t)c->n;
         }
         if (!(c->measured.least > 0)) continue;
@@ -69,6 +69,19 @@ static void carry(sunder_i_solver *s, uint32_t f, uint32_t g)
     }
 }
 
+static void mark_due(sunder_i_solver *s, uint32_t b)
+{
+    if (!s->model.body[b].fixed) sunder_i_body_event(&s->states, b, SUNDER_I_MEETS_CONFLICT);
+}
+
+/* Two bodies are solved together from now on. */
+static bool solve_together(sunder_i_solver *s, uint32_t i, uint32_t j)
+{
+    mark_due(s, i);
+    mark_due(s, j);
+    return sunder_i_solver_add_edge(s, i, j);
+}
+
 /* Are the two in one cluster? A fixed body is in those that were last gathered with it: edges added since then are not
  * known, and may be added again. */
 static bool are_together(const sunder_i_solver *s, uint32_t i, uint32_t j)
@@ -90,7 +103,7 @@ static sunder_status heed_relaxation(sunder_i_solver *s, const sunder_i_relation
     *any = true;
     sunder_i_trace_pair(&s->model, "check", "left in conflict, and worse than at the start: solved together", r->a,
                         r->b);
-    return sunder_i_solver_add_edge(s, i, j) ? SUNDER_OK : sunder_i_no_memory(err);
+    return solve_together(s, i, j) ? SUNDER_OK : sunder_i_no_memory(err);
 }
 
 /* What a cluster's solution should have given two of its bodies, and by rounding did not: it is solved again with a
@@ -100,9 +113,10 @@ static void widen(sunder_i_solver *s, uint32_t a, uint32_t c, bool *any)
     const uint32_t i = s->model.body_of[a], j = s->model.body_of[c];
     const uint32_t b = s->model.body[i].fixed ? j : i;
     if (s->widened[b] >= MOST_MARGINS) return;
-    if (s->dirty[b] && s->widened[b]) return; /* once a round */
+    if (sunder_i_is_due(s, b) && s->widened[b]) return; /* once a round */
     s->widened[b]++;
-    s->dirty[b] = *any = true;
+    mark_due(s, b);
+    *any = true;
     sunder_i_trace_pair(&s->model, "check", "in conflict within its cluster: solved with a wider margin", a, c);
 }
 
@@ -112,12 +126,12 @@ static sunder_status find_jumps(sunder_i_solver *s, bool *any, sunder_error *err
     const sunder_i_model *model = &s->model;
     for (size_t k = 0; k < s->jumps.n; k++) {
         const uint32_t i = model->body_of[s->jumps.pair[k].a], j = model->body_of[s->jumps.pair[k].b];
-        if (s->aside && (s->aside[i] || s->aside[j])) continue;
+        if (sunder_i_is_aside(s, i) || sunder_i_is_aside(s, j)) continue;
         if (are_together(s, i, j)) {
             widen(s, s->jumps.pair[k].a, s->jumps.pair[k].b, any);
             continue;
         }
-        if (!sunder_i_solver_add_edge(s, i, j)) return sunder_i_no_memory(err);
+        if (!solve_together(s, i, j)) return sunder_i_no_memory(err);
         sunder_i_trace_pair(model, "check", "jumped over: solved together from now on", s->jumps.pair[k].a,
                             s->jumps.pair[k].b);
         *any = true;
@@ -125,18 +139,17 @@ static sunder_status find_jumps(sunder_i_solver *s, bool *any, sunder_error *err
     return SUNDER_OK;
 }
 
-/* Conflicts as the features stand make bodies dirty: by a new edge between clusters, or a wider margin within one.
+/* Conflicts as the features stand make bodies due: by a new edge between clusters, or a wider margin within one.
  * Returns whether there is anything to do. */
 static sunder_status find_work(sunder_i_solver *s, bool *any, sunder_error *err)
 {
     sunder_i_model *model = &s->model;
-    memset(s->dirty, 0, model->bodies * sizeof *s->dirty);
     *any = false;
     sunder_i_solver_hold(s);
     for (size_t k = 0; k < s->now.n; k++) {
         const sunder_i_relation *r = &s->now.pair[k];
         const uint32_t i = model->body_of[r->a], j = model->body_of[r->b];
-        if (s->aside && (s->aside[i] || s->aside[j])) continue;
+        if (sunder_i_is_aside(s, i) || sunder_i_is_aside(s, j)) continue;
         if (!sunder_i_is_conflict(r) || i == j) continue;
         if (!sunder_i_may_move(&model->body[i]) && !sunder_i_may_move(&model->body[j])) continue;
         if (sunder_i_relaxations_find(&model->relaxations, r->a, r->b)) {
@@ -145,7 +158,7 @@ static sunder_status find_work(sunder_i_solver *s, bool *any, sunder_error *err)
             continue;
         }
         if (!are_together(s, i, j)) {
-            if (!sunder_i_solver_add_edge(s, i, j)) return sunder_i_no_memory(err);
+            if (!solve_together(s, i, j)) return sunder_i_no_memory(err);
             sunder_i_trace_pair(model, "check", "in conflict: solved together from now on", r->a, r->b);
             carry(s, r->a, r->b);
             *any = true;
@@ -157,7 +170,8 @@ static sunder_status find_work(sunder_i_solver *s, bool *any, sunder_error *err)
         if (inclusion && inclusion->state != SUNDER_I_LAPSED) {
             inclusion->state++;
             sunder_i_trace_pair(model, "check", "not kept inside", r->a, r->b);
-            s->dirty[b] = *any = true;
+            mark_due(s, b);
+            *any = true;
             continue;
         }
         widen(s, r->a, r->b, any);
@@ -168,7 +182,7 @@ static sunder_status find_work(sunder_i_solver *s, bool *any, sunder_error *err)
 static bool is_hopeless(const sunder_i_solver *s)
 {
     for (size_t k = 0; k < s->clusters; k++)
-        if (s->cluster[k].hopeless) return true;
+        if (s->cluster[k].outcome == SUNDER_I_FOUND_NONE) return true;
     return false;
 }
 

@@ -7,6 +7,7 @@
 #include "displacement/layer/placement.h"
 #include "displacement/layer/reads.h"
 #include "displacement/prove/optimum/optimum.h"
+#include "displacement/solve/clusters/body_state.h"
 #include "displacement/solve/search/cluster.h"
 
 #include "base/parallel.h"
@@ -33,20 +34,9 @@ typedef struct sunder_i_groups {
     size_t waived_n;
     sunder_i_id_pair *joined; /* bodies that proofs take together */
     size_t joins, capacity;
-    double *spent; /* [bodies] steps of proofs */
-    bool *blunt;   /* [bodies] a place without room did not hold for them */
-    bool *shaken;  /* [bodies] its group was shaken with patience */
-    bool *covered; /* [bodies] one that was proposed to jump over another, or was jumped over: along a diagonal? */
-    bool any_covered;
+    double *spent;       /* [bodies] steps of proofs */
+    bool with_diagonals; /* a body is SUNDER_I_WITH_DIAGONALS */
 } sunder_i_groups;
-
-/* Is a body held, or was it? As coarse: its moves are of no use to a neighbour. */
-typedef enum sunder_i_holding {
-    SUNDER_I_NOT_HELD,
-    SUNDER_I_HELD,
-    SUNDER_I_HELD_AS_COARSE,
-    SUNDER_I_LET_GO
-} sunder_i_holding;
 
 /* Members of clusters are to be listed, whatever edges there are. */
 #define SUNDER_I_NONE_LISTED SIZE_MAX
@@ -65,26 +55,18 @@ typedef struct sunder_i_solver {
     size_t entries, entry_capacity;
     sunder_i_id_pair *edge;
     size_t edges, edge_capacity;
-    uint32_t *conflict_root;  /* see sunder_i_solver_conflict_roots() */
-    uint32_t *parent;         /* [bodies] union-find over edges */
-    bool *dirty;              /* [bodies] to be solved (again) */
-    unsigned char *widened;   /* [bodies] how often the margin grew */
-    sunder_i_changes changes; /* what moved in this round */
-    bool *reconsidered;       /* [bodies] of the least of a component of conflicts: no solution was found */
-    sunder_i_id_pair *alone;  /* things of pairs that were asked about by themselves (one_by_one.c); sorted */
+    uint32_t *conflict_root;     /* see sunder_i_solver_conflict_roots() */
+    uint32_t *parent;            /* [bodies] union-find over edges */
+    sunder_i_body_states states; /* [bodies] */
+    unsigned char *widened;      /* [bodies] how often the margin grew */
+    sunder_i_changes changes;    /* what moved in this round */
+    sunder_i_id_pair *alone;     /* things of pairs that were asked about by themselves (one_by_one.c); sorted */
     size_t alone_n, alone_capacity;
-    uint64_t *alone_work; /* [bodies] what those questions took in vain, by one body of each pair */
-    bool *wanted;         /* [bodies] what is sought is sought of the clusters that have one of these (clusters.c) */
-    bool *doubtful;       /* [bodies] and of those of such is asked again whether they have a solution */
-    uint32_t *crowd;      /* [bodies] in how large a crowd it began where prices of area put it; 0: in none */
-    bool *gave_up;        /* [bodies] of pairs that were given up since this was last cleared */
+    uint64_t *alone_work;        /* [bodies] what those questions took in vain, by one body of each pair */
+    uint32_t *crowd;             /* [bodies] in how large a crowd it began where prices of area put it; 0: in none */
     sunder_bound_pair *measured; /* features that were asked how far they have to go apart; some more than once */
     size_t measured_n, measured_capacity;
-    bool *improved; /* [bodies] better sides were looked for since the body's cluster was solved */
-    bool *cheapest; /* [bodies] there are none: it stands where a solution had it that was known to be the cheapest */
-    double *limit;  /* [bodies] the limits, while they are lifted */
-    bool *aside;    /* [bodies] left as they are while limits are lifted; NULL: they never were */
-    unsigned char *holding;          /* [bodies] sunder_i_holding (coarse_bodies.c); NULL: none is ever held */
+    double *limit;                   /* [bodies] the limits, while they are lifted; NULL: they never were */
     double *went;                    /* [2 * bodies] where those stood that were set aside because they went too far */
     sunder_i_relaxations waiting;    /* of what was set aside */
     uint32_t *carrier;               /* [bodies] whose place to start from instead of its own, or SUNDER_I_NOBODY */
@@ -99,10 +81,54 @@ typedef struct sunder_i_solver {
     bool hopeless;                            /* there was one */
     double refuted;                           /* then: larger gaps have none, either, roughly */
     bool had_limits;                          /* limits were lifted at first */
+    bool may_hold;                            /* bodies may be held (coarse_bodies.c) */
     bool any_let_go;                          /* bodies that were held were let go */
     struct sunder_i_held_layout *held_layout; /* before that (cluster_stages.h); lent */
     sunder_i_groups groups;                   /* contact groups, and what is proved of them; with effort 0 nothing */
 } sunder_i_solver;
+
+/* ---- body_state.c: the states of bodies -------------------------------------------------------------------------- */
+
+/* NULL, or what is wrong with the states of bodies between two stages. In builds that assert. */
+const char *sunder_i_solver_check_states(const sunder_i_solver *solver);
+
+/* Is this so of the body? */
+typedef bool (*sunder_i_body_test)(const sunder_i_solver *solver, uint32_t body);
+
+static inline bool sunder_i_is_in(const sunder_i_solver *s, sunder_i_aspect aspect, uint32_t b, unsigned char state)
+{
+    return s->states.of[aspect][b] == state;
+}
+static inline bool sunder_i_is_due(const sunder_i_solver *s, uint32_t b)
+{
+    return sunder_i_is_in(s, SUNDER_I_SEARCH, b, SUNDER_I_DUE);
+}
+static inline bool sunder_i_is_improved(const sunder_i_solver *s, uint32_t b)
+{
+    return sunder_i_is_in(s, SUNDER_I_SEARCH, b, SUNDER_I_IMPROVED) ||
+           sunder_i_is_in(s, SUNDER_I_SEARCH, b, SUNDER_I_IMPROVED_CHEAPEST);
+}
+static inline bool sunder_i_is_cheapest(const sunder_i_solver *s, uint32_t b)
+{
+    return sunder_i_is_in(s, SUNDER_I_SEARCH, b, SUNDER_I_CHEAPEST) ||
+           sunder_i_is_in(s, SUNDER_I_SEARCH, b, SUNDER_I_IMPROVED_CHEAPEST);
+}
+static inline bool sunder_i_is_wanted(const sunder_i_solver *s, uint32_t b)
+{
+    return sunder_i_is_in(s, SUNDER_I_SCOPE, b, SUNDER_I_WANTED);
+}
+static inline bool sunder_i_is_doubtful(const sunder_i_solver *s, uint32_t b)
+{
+    return s->states.of[SUNDER_I_QUESTION][b] <= SUNDER_I_DOUBTFUL_ASKED;
+}
+static inline bool sunder_i_is_to_retry(const sunder_i_solver *s, uint32_t b)
+{
+    return sunder_i_is_in(s, SUNDER_I_RETRY, b, SUNDER_I_TO_RETRY);
+}
+static inline bool sunder_i_is_aside(const sunder_i_solver *s, uint32_t b)
+{
+    return sunder_i_is_in(s, SUNDER_I_LIMITS, b, SUNDER_I_ASIDE);
+}
 
 /* From solver->model, which has its bodies. Failure leaves what sunder_i_solver_free() takes. */
 sunder_status sunder_i_solver_init(sunder_i_solver *solver, sunder_error *err);
@@ -113,7 +139,7 @@ void sunder_i_solver_free(sunder_i_solver *solver);
 /* [bodies] The components of the conflicts at the start, by their roots, lent; a fixed body joins none. NULL if memory
  * is out. Not for several threads at a time: they are found when somebody first asks. */
 const uint32_t *sunder_i_solver_conflict_roots(sunder_i_solver *solver);
-/* Adds the edge (i, j) and marks its movable bodies as dirty. False if memory is out. */
+/* Adds the edge (i, j). False if memory is out. */
 bool sunder_i_solver_add_edge(sunder_i_solver *solver, uint32_t i, uint32_t j);
 /* Was the body a member of the cluster of that root when they were last gathered? */
 bool sunder_i_solver_has_member(const sunder_i_solver *solver, uint32_t root, uint32_t body);
@@ -122,11 +148,11 @@ const uint32_t *sunder_i_solver_members(const sunder_i_solver *solver, uint32_t 
 /* The cluster of that root, or that the body is of, as they were last gathered; NULL: none. */
 sunder_i_cluster *sunder_i_solver_cluster_with(const sunder_i_solver *solver, uint32_t root);
 sunder_i_cluster *sunder_i_solver_cluster_of(const sunder_i_solver *solver, uint32_t body);
-/* Does any of them that may move have the flag? flag: [bodies] */
-bool sunder_i_solver_any_of(const sunder_i_solver *solver, const uint32_t *body, size_t n, const bool *flag);
-/* Returns an array [bodies]: is the body connected, by the present edges, with a movable body whose `flag` is set?
+/* Does any of the n bodies that may move pass the test? */
+bool sunder_i_solver_any_of(const sunder_i_solver *solver, const uint32_t *body, size_t n, sunder_i_body_test test);
+/* Returns an array [bodies]: is the body connected, by the present edges, with a movable body that passes the test?
  * It is false for fixed bodies. The caller frees the array. NULL if memory is out. */
-bool *sunder_i_solver_who_hang_with(const sunder_i_solver *solver, const bool *flag);
+bool *sunder_i_solver_connected_with(const sunder_i_solver *solver, sunder_i_body_test test);
 /* What is asked of these bodies beyond the gap. */
 double sunder_i_solver_margin(const sunder_i_solver *solver, const uint32_t *b, size_t n);
 /* The body for which the cluster's reads are recorded: one that is in no other cluster. */

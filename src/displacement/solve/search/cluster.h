@@ -5,18 +5,24 @@
 #include "displacement/layer/trace.h"
 #include "sunder_proof.h"
 
+/* What the present stage did to a cluster. */
+typedef enum sunder_i_outcome {
+    SUNDER_I_UNTOUCHED,
+    SUNDER_I_WORKED_ON,      /* its moves are to be taken over */
+    SUNDER_I_FOUND_CHEAPEST, /* likewise, and no solution is cheaper, whatever stands around the cluster */
+    SUNDER_I_FOUND_NONE      /* it is brief, and no solution was found */
+} sunder_i_outcome;
+
 typedef struct sunder_i_cluster {
     uint32_t *body; /* members, ascending; fixed ones too */
     size_t n;
-    double about;                     /* each body looks at least this far, times a factor (surroundings.c) */
-    double margin;                    /* what is demanded beyond the gap, to cover rounding */
-    bool touching;                    /* two alone may stand without the margin: no exact check has failed yet */
-    bool crowd;                       /* it begins from where prices of area put it */
-    bool limited;                     /* by limits, fixed bodies, the rule against jumps: it may have no solution */
-    bool brief;                       /* if no solution is found nothing is given up, and nothing moves */
-    bool hopeless;                    /* that was so */
-    bool worked_on;                   /* its moves are to be taken over */
-    bool cheapest;                    /* its solution is known to be the cheapest, whatever stands about it */
+    double about;  /* each body looks at least this far, times a factor (surroundings.c) */
+    double margin; /* what is demanded beyond the gap, to cover rounding */
+    bool touching; /* two alone may stand without the margin: no exact check has failed yet */
+    bool crowd;    /* it begins from where prices of area put it */
+    bool limited;  /* by limits, fixed bodies, the rule against jumps: it may have no solution */
+    bool brief;    /* if no solution is found nothing is given up, and nothing moves */
+    sunder_i_outcome outcome;
     sunder_bound_pair measured;       /* two features that were asked how far they have to go apart; least 0: none */
     sunder_i_relaxations relaxations; /* of pairs that its solution gave up, or in place of older ones; owned */
     sunder_i_restored *restored;      /* [restored_n] relaxations of the model that have ended; owned */

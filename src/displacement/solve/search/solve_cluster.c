@@ -39,6 +39,7 @@ typedef struct solving {
     bool alone;         /* two features that need look at no other: their least translation is known */
     bool done;          /* nothing clashes */
     bool given_up;      /* but for pairs that were given up */
+    bool cheapest;      /* the solution is known to be the cheapest */
 } solving;
 
 static bool has_limits(const sunder_i_search *s)
@@ -109,7 +110,7 @@ static sunder_status part_lone_pair(solving *x, int jumps, sunder_error *err)
 {
     (void)jumps;
     const sunder_status status = sunder_i_search_part_lone_pair(x->s, x->cluster, &x->alone, err);
-    x->done = x->cluster->cheapest = x->alone;
+    x->done = x->cheapest = x->alone;
     return status;
 }
 
@@ -210,7 +211,7 @@ static sunder_status ask_whether_cheapest(solving *x, int jumps, sunder_error *e
 {
     (void)jumps;
     (void)err;
-    x->cluster->cheapest = sunder_i_search_is_cheapest(x->s);
+    x->cheapest = sunder_i_search_is_cheapest(x->s);
     return SUNDER_OK;
 }
 
@@ -271,16 +272,17 @@ sunder_status sunder_i_cluster_solve(const sunder_i_model *model, sunder_i_clust
     sunder_i_search s;
     solving x = {.s = &s, .cluster = cluster, .move = move};
     sunder_status status = SUNDER_OK;
-    cluster->cheapest = false;
     if (!sunder_i_search_init(&s, model, cluster->body, cluster->n, cluster->margin, move)) s.failed = true;
     for (size_t k = 0; k < sizeof stages / sizeof *stages && !status && !s.failed; k++)
         if (sunder_i_stage_is_on("cluster", stages[k].name) && (!stages[k].applies || stages[k].applies(&x)))
             status = run_stage(&x, &stages[k], err);
     if (status) s.failed = true;
-    cluster->hopeless = !x.done && cluster->brief;
+    cluster->outcome = !x.done && cluster->brief ? SUNDER_I_FOUND_NONE
+                       : x.cheapest              ? SUNDER_I_FOUND_CHEAPEST
+                                                 : SUNDER_I_WORKED_ON;
     sunder_i_search_hand_over(&s, cluster);
     const bool failed = s.failed;
-    if (!failed && !cluster->hopeless) sunder_i_search_round(&s, move);
+    if (!failed && cluster->outcome != SUNDER_I_FOUND_NONE) sunder_i_search_round(&s, move);
     sunder_i_search_free(&s);
     if (status) return status;
     return failed ? sunder_i_no_memory(err) : SUNDER_OK;

@@ -90,9 +90,10 @@ static void test_nothing_is_cheaper(void **state)
         assert_int_equal(sunder_i_cluster_solve(&b.of.model, &cluster, b.move, &err), SUNDER_OK);
         const double cost = cost_of(&b);
         const bool better = is_beaten(&r, &b, cost * (1 - 1e-6) - 1e-12);
-        said += cluster.cheapest;
+        const bool cheapest = cluster.outcome == SUNDER_I_FOUND_CHEAPEST;
+        said += cheapest;
         beaten += better;
-        assert_false(cluster.cheapest && better);
+        assert_false(cheapest && better);
         sunder_i_relaxations_free(&cluster.relaxations);
         sunder_i_free(cluster.restored);
         scene_board_end(&b);
