@@ -76,14 +76,14 @@ void sunder_i_body_states_free(sunder_i_body_states *states)
     memset(states, 0, sizeof *states);
 }
 
-bool sunder_i_body_may(const sunder_i_body_states *states, uint32_t body, sunder_i_event event)
+bool sunder_i_body_may(const sunder_i_body_states *states, uint32_t body, sunder_i_body_event_kind event)
 {
     for (size_t k = 0; k < MOST_CONCERNED && table[event][k].aspect; k++)
         if (table[event][k].next[states->of[table[event][k].aspect][body]] == NEVER) return false;
     return true;
 }
 
-void sunder_i_body_event(sunder_i_body_states *states, uint32_t body, sunder_i_event event)
+void sunder_i_body_event(sunder_i_body_states *states, uint32_t body, sunder_i_body_event_kind event)
 {
     SUNDER_I_ASSERT(sunder_i_body_may(states, body, event));
     for (size_t k = 0; k < MOST_CONCERNED && table[event][k].aspect; k++) {

@@ -63,7 +63,7 @@ enum {
     SUNDER_I_WITH_DIAGONALS, /* a proposed layout jumped with it: perhaps along a diagonal between two pieces */
 };
 
-typedef enum sunder_i_event {
+typedef enum sunder_i_body_event_kind {
     /* the rounds (settle.c) */
     SUNDER_I_MEETS_CONFLICT, /* its cluster has to be solved */
     SUNDER_I_IS_SOLVED,
@@ -96,7 +96,7 @@ typedef enum sunder_i_event {
     SUNDER_I_IS_SHAKEN,
     SUNDER_I_JUMPS_IN_PROOF,
     SUNDER_I_EVENTS
-} sunder_i_event;
+} sunder_i_body_event_kind;
 
 /* A zeroed struct has no bodies. */
 typedef struct sunder_i_body_states {
@@ -108,8 +108,8 @@ typedef struct sunder_i_body_states {
 bool sunder_i_body_states_init(sunder_i_body_states *states, size_t n);
 void sunder_i_body_states_free(sunder_i_body_states *states);
 /* May the event happen to the body in its present states? */
-bool sunder_i_body_may(const sunder_i_body_states *states, uint32_t body, sunder_i_event event);
+bool sunder_i_body_may(const sunder_i_body_states *states, uint32_t body, sunder_i_body_event_kind event);
 /* Takes the body to its next states. The event has to be possible, which builds with assertions check. */
-void sunder_i_body_event(sunder_i_body_states *states, uint32_t body, sunder_i_event event);
+void sunder_i_body_event(sunder_i_body_states *states, uint32_t body, sunder_i_body_event_kind event);
 
 #endif

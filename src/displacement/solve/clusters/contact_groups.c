@@ -91,7 +91,8 @@ static sunder_status make_group(const sunder_i_solver *s, const sunder_i_id_pair
 /* A group of the last round that is the same in all that counts, and so keeps its proof. */
 static void keep_proof(sunder_i_group *old, sunder_i_group *now)
 {
-    if (old->state == SUNDER_I_TO_BE_PROVED || old->joins.n || old->n != now->n || memcmp(old->body, now->body, old->n * sizeof *old->body) ||
+    if (old->state == SUNDER_I_TO_BE_PROVED || old->joins.n || old->n != now->n ||
+        memcmp(old->body, now->body, old->n * sizeof *old->body) ||
         memcmp(old->move, now->move, 2 * old->n * sizeof *old->move))
         return;
     const sunder_i_group kept = *old;

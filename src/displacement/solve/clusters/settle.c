@@ -40,7 +40,7 @@ static sunder_status note_solved(sunder_i_solver *s, sunder_error *err)
     for (size_t k = 0; k < s->clusters; k++) {
         const sunder_i_cluster *c = &s->cluster[k];
         if (c->outcome == SUNDER_I_UNTOUCHED) continue;
-        const sunder_i_event event =
+        const sunder_i_body_event_kind event =
             c->outcome == SUNDER_I_FOUND_CHEAPEST ? SUNDER_I_IS_SOLVED_CHEAPEST : SUNDER_I_IS_SOLVED;
         for (size_t m = 0; m < c->n; m++) {
             sunder_i_body_event(&s->states, c->body[m], event);

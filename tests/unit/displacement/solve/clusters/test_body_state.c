@@ -26,7 +26,7 @@ typedef struct facts {
 } facts;
 
 /* Can the event happen? */
-static bool facts_may(const facts *f, sunder_i_event event)
+static bool facts_may(const facts *f, sunder_i_body_event_kind event)
 {
     switch (event) {
     case SUNDER_I_IS_IMPROVED:
@@ -42,7 +42,7 @@ static bool facts_may(const facts *f, sunder_i_event event)
     }
 }
 
-static void facts_of_search(facts *f, sunder_i_event event)
+static void facts_of_search(facts *f, sunder_i_body_event_kind event)
 {
     if (event == SUNDER_I_MEETS_CONFLICT) f->due = true;
     if (event == SUNDER_I_MEETS_CONFLICT || event == SUNDER_I_IS_SOLVED || event == SUNDER_I_IS_SOLVED_CHEAPEST) {
@@ -55,7 +55,7 @@ static void facts_of_search(facts *f, sunder_i_event event)
     if (event == SUNDER_I_GOES_HOME) f->improved = false;
 }
 
-static void facts_of_pass(facts *f, sunder_i_event event)
+static void facts_of_pass(facts *f, sunder_i_body_event_kind event)
 {
     if (event == SUNDER_I_IS_WANTED || event == SUNDER_I_BEGINS_AGAIN_FREED || event == SUNDER_I_BEGINS_AGAIN_LIMITED)
         f->wanted = true;
@@ -68,7 +68,7 @@ static void facts_of_pass(facts *f, sunder_i_event event)
     if (event == SUNDER_I_IS_RETRIED) f->to_retry = false;
 }
 
-static void facts_of_rest(facts *f, sunder_i_event event)
+static void facts_of_rest(facts *f, sunder_i_body_event_kind event)
 {
     if (event == SUNDER_I_LIMIT_IS_LIFTED) f->lifted = true;
     if (event == SUNDER_I_LIMIT_IS_RESTORED) f->lifted = f->aside = false;
@@ -122,7 +122,7 @@ static void check_events(void **state)
     size_t refused = 0;
     for (int k = 0; k < EVENTS_DRAWN; k++) {
         const uint32_t b = (uint32_t)rng_int(&r, 0, BODIES - 1);
-        const sunder_i_event event = (sunder_i_event)rng_int(&r, 0, SUNDER_I_EVENTS - 1);
+        const sunder_i_body_event_kind event = (sunder_i_body_event_kind)rng_int(&r, 0, SUNDER_I_EVENTS - 1);
         const bool may = facts_may(&f[b], event);
         assert_int_equal(sunder_i_body_may(&s.states, b, event), may);
         refused += !may;
