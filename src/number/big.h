@@ -2,7 +2,7 @@
  *
  * Values are immutable and passed by value; results live in the arena given, so nothing is freed one by one, and a
  * failed allocation sets arena->failed and yields zero instead of ending the process (as mpz_ would, and mpn_ on large
- * operands: those never get there, see huge.h).
+ * operands: those never get there, see big_limbs.h).
  * Canonical form: `size` is 0 for zero; otherwise |size| limbs, the top one not zero, and the sign of size is the
  * value's. */
 #ifndef SUNDER_I_BIG_H

@@ -12,7 +12,7 @@ import subprocess
 import sys
 
 # Files of each tree that are in circles. The number may only go down: lower it when a circle is broken.
-KNOWN = {"src": 49, "gis": 0}
+KNOWN = {"src": 47, "gis": 0}
 OBJECTS = {"src": "src/CMakeFiles/sunder_objects.dir", "gis": "gis/CMakeFiles/sunder_gis.dir"}
 SKIPPED = 77
 

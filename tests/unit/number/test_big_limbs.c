@@ -1,8 +1,8 @@
-/* number/huge, by way of number/big: numbers longer than GMP is given at once, against GMP itself; and that GMP's own
+/* number/big_limbs: numbers longer than GMP is given at once, against GMP itself; and that GMP's own
  * allocator, which ends the process where there is no memory, is never asked on our behalf, for numbers of any size. */
 #include "failing.h"
 #include "gmp_numbers.h"
-#include "number/huge.h"
+#include "number/big_limbs.h"
 #include "polyset.h"
 
 #include <setjmp.h>
@@ -204,5 +204,5 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_against_gmp), cmocka_unit_test(test_texts),
                                        cmocka_unit_test(test_out_of_memory)};
-    return cmocka_run_group_tests_name("number/huge", tests, NULL, NULL);
+    return cmocka_run_group_tests_name("number/big_limbs", tests, NULL, NULL);
 }
