@@ -8,7 +8,33 @@
  *
  * The result is the least of the goal and the values of nodes that are open, or leaves; a cut by a disc removes only
  * layouts that cost at least the goal. The open node that proves least is processed next, so the bound is valid, and
- * the best so far, whenever the effort ends. */
+ * the best so far, whenever the effort ends.
+ *
+ * Why this tree? The free places of a pair are the complement of an obstacle, so the problem is a choice of sides.
+ * There are three usual methods.
+ *
+ *  - A mixed integer program has a binary variable for each side of an obstacle, and a constant M that switches the
+ *    constraint of a side off. M has to exceed all moves, so the relaxation, with fractional sides, proves next to
+ *    nothing until most sides are chosen. It also needs a cover of the free places by finitely many convex parts, and
+ *    beside an arc there is none.
+ *  - A subdivision of the space of all moves has two dimensions for each body: twenty for ten bodies. Near the optimum,
+ *    where a dozen contacts bind at once, boxes would be divided without end.
+ *  - A branch for each line by which one piece may pass another (../proofs/branches.c) suits the question whether there
+ *    is a solution at all, where most branches end at once. For the least cost, the pieces of one shape have many lines
+ *    that are nearly alike, and each would be a child. It was tried for the clusters of the search: 1.5 times the
+ *    instructions (tests/bench/DISPLACEMENT.md).
+ *
+ * Here a node divides the plane of one relative move, which has two dimensions whatever the shapes are, into three
+ * cones that cover it. Sides are never listed: the forbidden set is only asked which pieces are near a place. Most
+ * progress comes from cuts, not from branches: the hull of what is free in a region is a convex relaxation without M,
+ * and each cut tightens it where the minimiser stands. The proof of a node is a set of forces, one for each cut that
+ * binds, and its bound follows from weak duality alone (dual_program.c). So the solver of the programs need not be
+ * trusted, and a checker needs no solver.
+ *
+ * What it reaches (tests/bench/displacement/optimum.csv, gap 3 m, no barriers): all groups of Saint-Jean, Krems,
+ * Baltimore and Neuss, 497 of 498 of Liechtenstein, 1,115 of 1,130 of Jakarta. In groups of more than some twenty
+ * bodies the tree does not end within its effort, and blocks bound them (blocks.c). In Paris one group of 52 blocks
+ * leaves 47.5 % of the cost without proof. */
 #include "displacement/prove/optimum/tree.h"
 #include "displacement/prove/optimum/tuning.h"
 
