@@ -120,9 +120,3 @@ sunder_status sunder_i_decompose_pair(sunder_i_lattice *lattice, const sunder_sh
     *out_q = second;
     return SUNDER_OK;
 }
-
-void sunder_i_decomposition_clear(sunder_i_decomposition *decomposition)
-{
-    sunder_i_arena_free(&decomposition->arena);
-    memset(decomposition, 0, sizeof *decomposition);
-}

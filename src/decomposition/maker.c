@@ -165,6 +165,12 @@ static sunder_i_corner reduced(sunder_i_arena *arena, sunder_i_arena *scratch, s
     return c;
 }
 
+void sunder_i_decomposition_clear(sunder_i_decomposition *decomposition)
+{
+    sunder_i_arena_free(&decomposition->arena);
+    memset(decomposition, 0, sizeof *decomposition);
+}
+
 bool sunder_i_maker_finish(sunder_i_maker *m, sunder_i_decomposition *out)
 {
     static const mp_limb_t one = 1;

@@ -7,6 +7,8 @@
 #include "morphology/morphology.h"
 
 #include "base/invariant.h"
+#include "base/sized_struct.h"
+#include "base/watch.h"
 #include "convex/pieces.h"
 #include "outline/contained_parts.h"
 #include "outline/outline.h"
@@ -81,6 +83,19 @@ sunder_status sunder_i_union_of_members(const sunder_shape *shape, const sunder_
         *out = sum;
     else
         sunder_sum_free(sum);
+    return status;
+}
+
+sunder_status sunder_shape_union(const sunder_shape *shape, const sunder_sum_options *options, sunder_sum **out,
+                                 sunder_error *err)
+{
+    sunder_sum_options o = {.size = sizeof o};
+    sunder_status status = sunder_i_options_read(&o, sizeof o, options, err);
+    if (status != SUNDER_OK) return status;
+    sunder_i_watch watch;
+    sunder_i_watch_begin(&watch, &o.progress, &o.progress_user);
+    status = sunder_i_union_of_members(shape, NULL, &o, out, err);
+    sunder_i_watch_end(&watch);
     return status;
 }
 

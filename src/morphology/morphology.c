@@ -65,19 +65,6 @@ static sunder_status shrink(const sunder_shape *p, const sunder_shape *b, sunder
     return status;
 }
 
-sunder_status sunder_shape_union(const sunder_shape *shape, const sunder_sum_options *options, sunder_sum **out,
-                                 sunder_error *err)
-{
-    sunder_sum_options o = {.size = sizeof o};
-    sunder_status status = sunder_i_options_read(&o, sizeof o, options, err);
-    if (status != SUNDER_OK) return status;
-    sunder_i_watch watch;
-    sunder_i_watch_begin(&watch, &o.progress, &o.progress_user);
-    status = sunder_i_union_of_members(shape, NULL, &o, out, err);
-    sunder_i_watch_end(&watch);
-    return status;
-}
-
 sunder_status sunder_morphology(const sunder_shape *p, const sunder_shape *b, sunder_operation operation,
                                 const sunder_sum_options *options, sunder_sum **out, sunder_error *err)
 {

@@ -44,12 +44,6 @@ void sunder_i_planar_map_free(sunder_i_planar_map *map)
     sunder_i_free(map);
 }
 
-bool sunder_i_map_broken(sunder_i_planar_map *map)
-{
-    map->failed = map->failed || map->arena.failed || map->scratch.failed || map->lattice->arena.failed;
-    return map->failed;
-}
-
 sunder_status sunder_i_map_status(sunder_i_planar_map *map, sunder_error *err)
 {
     return sunder_i_map_broken(map) ? sunder_i_no_memory(err) : SUNDER_OK;

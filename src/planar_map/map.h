@@ -150,7 +150,11 @@ sunder_i_map_line sunder_i_line_copy(const sunder_i_map_line *from, sunder_i_are
 /* ---- map.c ---- */
 
 /* Has memory run out, here or on an arena in use? */
-bool sunder_i_map_broken(sunder_i_planar_map *map);
+static inline bool sunder_i_map_broken(sunder_i_planar_map *map)
+{
+    map->failed = map->failed || map->arena.failed || map->scratch.failed || map->lattice->arena.failed;
+    return map->failed;
+}
 /* SUNDER_OK, or the failure of a broken map. */
 sunder_status sunder_i_map_status(sunder_i_planar_map *map, sunder_error *err);
 /* Reserves room for more elements; pointers into the arrays are stale afterwards. */

@@ -73,12 +73,6 @@ static sunder_status make_interior_covers(sunder_i_model *model, sunder_error *e
                              model, err);
 }
 
-sunder_i_translate sunder_i_at_home(const sunder_i_model *model, uint32_t feature)
-{
-    return (sunder_i_translate){.shape = sunder_i_thing_shape(model, feature),
-                                .interior_cover = model->interior_cover ? model->interior_cover[feature].shape : NULL};
-}
-
 typedef struct presence {
     sunder_i_model *model;
     double *box; /* [things][4] */

@@ -294,7 +294,11 @@ static inline bool sunder_i_are_confined(const sunder_i_model *model, uint32_t i
 sunder_status sunder_i_model_init(const sunder_layer *layer, const sunder_i_barriers *barriers,
                                   const sunder_i_rules *rules, sunder_i_model *model, sunder_error *err);
 /* Returns a feature at its original position. */
-sunder_i_translate sunder_i_at_home(const sunder_i_model *model, uint32_t feature);
+static inline sunder_i_translate sunder_i_at_home(const sunder_i_model *model, uint32_t feature)
+{
+    return (sunder_i_translate){.shape = sunder_i_thing_shape(model, feature),
+                                .interior_cover = model->interior_cover ? model->interior_cover[feature].shape : NULL};
+}
 /* Makes the bodies: joins the features that the rules join. */
 sunder_status sunder_i_model_join(sunder_i_model *model, const sunder_i_relations *relations, sunder_error *err);
 void sunder_i_model_free(sunder_i_model *model);

@@ -29,7 +29,7 @@ static inline void sunder_i_push(const sunder_i_quadratic *p, const sunder_i_con
     }
 }
 
-/* ---- quadratic.c ------------------------------------------------------------------------------------------------- */
+/* ---- forces.c ---------------------------------------------------------------------------------------------------- */
 
 /* sunder_i_quadratic_place() sets t from the forces. sunder_i_quadratic_worst() returns the largest violation, allowing
  * for softness. sunder_i_quadratic_sweep() makes one pass of Hildreth's method. */

@@ -3,7 +3,7 @@
  * n.a + G L. So feet and crossings are fractions with integers and one or two square roots: L of each line, and the
  * half chord of a circle. Wherever the point is rational these roots are integers, which makes rational points simple:
  * no rational point lies on a line of irrational length, since N n.x would be rational and C is not. */
-#include "separation/gap/gap.h"
+#include "separation/gap/gap_search.h"
 
 #include "predicate/rational_point.h"
 
@@ -301,4 +301,20 @@ int sunder_i_gap_cmp(const sunder_i_gap_problem *problem, const sunder_i_subsum 
         *flat = is_flat;
     }
     return inside ? -1 : least;
+}
+
+const sunder_i_surd_point *sunder_i_gap_solve(sunder_i_gap_state *s, sunder_i_gap_point *p)
+{
+    if (p->exact) return p->exact;
+    sunder_i_surd_point *exact = sunder_i_arena_alloc(&s->g->placed.lattice.arena, 1, sizeof *exact);
+    if (!exact) {
+        s->failed = true;
+        return NULL;
+    }
+    if (!p->crossing)
+        sunder_i_gap_foot(s->p, &p->c, exact);
+    else if (!sunder_i_gap_crossing(s->p, &p->c, &p->d, p->sign, exact))
+        return NULL;
+    p->exact = exact;
+    return exact;
 }

@@ -10,49 +10,10 @@
  * Where the nearest point is irrational, a rational one beside it is given (step_to_rational.c). */
 #include "separation/gap/gap_search.h"
 
-#include "base/heap.h"
 #include "base/invariant.h"
 
 #include <float.h>
 #include <math.h>
-
-/* ---- The heap ---- */
-
-/* By length alone; of equals the heap says which comes first (base/heap.h). */
-static bool before(const void *a, const void *b)
-{
-    return ((const sunder_i_gap_item *)a)->key < ((const sunder_i_gap_item *)b)->key;
-}
-
-static void push_item(sunder_i_gap_state *s, sunder_i_gap_item v)
-{
-    if (v.key > s->best) return;
-    if (!sunder_i_arena_reserve(&s->g->placed.lattice.arena, &s->heap, &s->heap_capacity, s->heap_n + 1, sizeof v))
-        s->failed = true;
-    else
-        sunder_i_heap_push(s->heap, &s->heap_n, sizeof v, &v, before);
-}
-
-static sunder_i_gap_item pop_item(sunder_i_gap_state *s)
-{
-    sunder_i_gap_item top;
-    sunder_i_heap_pop(s->heap, &s->heap_n, sizeof top, &top, before);
-    return top;
-}
-
-void sunder_i_gap_push(sunder_i_gap_state *s, double key, const sunder_i_gap_point *p)
-{
-    if (key > s->best) return;
-    if (!sunder_i_arena_reserve(&s->g->placed.lattice.arena, &s->points, &s->points_capacity, s->points_n + 1,
-                                sizeof *p)) {
-        s->failed = true;
-        return;
-    }
-    s->points[s->points_n] = *p;
-    push_item(s, (sunder_i_gap_item){key > 0 ? key : 0, SUNDER_I_GAP_POINT, s->points_n++});
-}
-
-/* ---- All together ---- */
 
 /* The distance of a moved side from the origin: a lower bound in doubles. */
 static double side_key(const sunder_i_gap_state *s, size_t segment)
@@ -76,14 +37,14 @@ static void fill_heap(sunder_i_gap_state *s)
     for (size_t i = 0; i < s->p->segments && !s->failed; i++) {
         const double key = side_key(s, i);
         s->failed = s->failed || !sunder_i_step();
-        if (!(key > far)) push_item(s, (sunder_i_gap_item){key, SUNDER_I_GAP_SEGMENT, i});
+        if (!(key > far)) sunder_i_gap_push_item(s, (sunder_i_gap_item){key, SUNDER_I_GAP_SEGMENT, i});
     }
     for (size_t i = 0; i < s->p->centers && !s->failed; i++) {
         const sunder_i_lattice *l = &s->g->placed.lattice;
         const double x = sunder_i_approx(l, s->p->center[i].x), y = sunder_i_approx(l, s->p->center[i].y);
         const double key = fabs(hypot(x, y) - s->p->gap_units) - 8 * s->g->error;
         s->failed = s->failed || !sunder_i_step();
-        push_item(s, (sunder_i_gap_item){key, SUNDER_I_GAP_ARC, i});
+        sunder_i_gap_push_item(s, (sunder_i_gap_item){key, SUNDER_I_GAP_ARC, i});
     }
 }
 
@@ -146,7 +107,7 @@ sunder_status sunder_i_gap_search(const sunder_i_gap_problem *problem, sunder_i_
     if (!set_up(&s)) return sunder_i_no_memory(err);
     fill_heap(&s);
     while (s.heap_n && s.heap[0].key <= s.best && !s.failed && !l->arena.failed) {
-        const sunder_i_gap_item i = pop_item(&s);
+        const sunder_i_gap_item i = sunder_i_gap_pop_item(&s);
         if (i.kind == SUNDER_I_GAP_SEGMENT)
             sunder_i_gap_take_segment(&s, i.index);
         else if (i.kind == SUNDER_I_GAP_ARC)

@@ -119,6 +119,11 @@ long sunder_i_gap_other_cover(sunder_i_gap_state *s, double x, double y, long bu
 /* Is the point inside a subsum itself, for certain? Then its whole circle is covered. */
 bool sunder_i_gap_deep_inside(sunder_i_gap_state *s, double x, double y);
 
+/* ---- Exact places (boundary_points.c) ---- */
+
+/* The exact place of a point; NULL if its curves do not meet, or memory is out. */
+const sunder_i_surd_point *sunder_i_gap_solve(sunder_i_gap_state *s, sunder_i_gap_point *p);
+
 /* ---- Along moved sides and round arcs (segments.c, circle_points.c) ---- */
 
 void sunder_i_gap_take_segment(sunder_i_gap_state *s, size_t segment);
@@ -129,8 +134,6 @@ void sunder_i_gap_take_arc(sunder_i_gap_state *s, size_t arc);
 /* ---- Points (points.c) ---- */
 
 void sunder_i_gap_take_point(sunder_i_gap_state *s, size_t index);
-/* The exact place of a point; NULL if its curves do not meet, or memory is out. */
-const sunder_i_surd_point *sunder_i_gap_solve(sunder_i_gap_state *s, sunder_i_gap_point *p);
 /* Does the point keep the gap from all subsums? Exact. */
 bool sunder_i_gap_is_free(sunder_i_gap_state *s, const sunder_i_surd_point *at);
 
@@ -157,8 +160,12 @@ bool sunder_i_gap_rational_beside(sunder_i_gap_state *s, const sunder_i_gap_free
                                   const sunder_i_gap_way *way, const sunder_i_big xy[2], unsigned long bits,
                                   sunder_i_surd_point *out);
 
-/* ---- The heap (gap_search.c) ---- */
+/* ---- The heap (gap_heap.c) ---- */
 
+/* Adds an item, or a point with its key, that is not beyond the best answer. s->failed if memory is out. */
+void sunder_i_gap_push_item(sunder_i_gap_state *s, sunder_i_gap_item item);
 void sunder_i_gap_push(sunder_i_gap_state *s, double key, const sunder_i_gap_point *p);
+/* Takes the item with the least key off. */
+sunder_i_gap_item sunder_i_gap_pop_item(sunder_i_gap_state *s);
 
 #endif

@@ -5,22 +5,6 @@
 
 /* ---- The exact place ---- */
 
-const sunder_i_surd_point *sunder_i_gap_solve(sunder_i_gap_state *s, sunder_i_gap_point *p)
-{
-    if (p->exact) return p->exact;
-    sunder_i_surd_point *exact = sunder_i_arena_alloc(&s->g->placed.lattice.arena, 1, sizeof *exact);
-    if (!exact) {
-        s->failed = true;
-        return NULL;
-    }
-    if (!p->crossing)
-        sunder_i_gap_foot(s->p, &p->c, exact);
-    else if (!sunder_i_gap_crossing(s->p, &p->c, &p->d, p->sign, exact))
-        return NULL;
-    p->exact = exact;
-    return exact;
-}
-
 /* A place that was computed with loss is computed again from the exact one. */
 #define LOSS_MAX 4096
 

@@ -45,35 +45,6 @@
 #include <math.h>
 #include <string.h>
 
-static void lend(sunder_i_tree *t)
-{
-    t->task.body = t->body;
-    t->task.weight = t->program.weight = t->weight;
-    t->task.anchor = t->program.anchor = t->anchor;
-    t->program.mass = t->mass;
-    t->program.bodies = t->task.n;
-}
-
-static void set_body(sunder_i_tree *t, size_t k, uint32_t body, double weight)
-{
-    const sunder_i_body *b = &t->task.model->body[body];
-    t->body[k] = body;
-    t->weight[k] = b->fixed ? INFINITY : weight;
-    t->mass[k] = b->fixed ? 0 : 0.5 / weight;
-    t->limit[k] = sunder_i_limit_of(b);
-}
-
-void sunder_i_tree_invite(sunder_i_tree *tree, uint32_t body)
-{
-    const size_t n = tree->task.n;
-    if (n == tree->capacity) return;
-    set_body(tree, n, body, sunder_i_weight_below(tree->task.model, &tree->task.model->body[body]));
-    tree->anchor[2 * n] = tree->anchor[2 * n + 1] = 0;
-    tree->task.n = n + 1;
-    lend(tree);
-    sunder_i_dual_place(&tree->program);
-}
-
 bool sunder_i_tree_init(sunder_i_tree *tree, const sunder_i_task *task)
 {
     memset(tree, 0, sizeof *tree);
@@ -96,11 +67,11 @@ bool sunder_i_tree_init(sunder_i_tree *tree, const sunder_i_task *task)
         return false;
     for (size_t k = 0; k < most * most; k++) tree->pair_at[k] = UINT32_MAX;
     for (size_t k = 0; k < n; k++)
-        set_body(tree, k, task->body[k],
-                 task->weight ? task->weight[k]
-                              : sunder_i_weight_below(task->model, &task->model->body[task->body[k]]));
+        sunder_i_tree_set_body(tree, k, task->body[k],
+                               task->weight ? task->weight[k]
+                                            : sunder_i_weight_below(task->model, &task->model->body[task->body[k]]));
     if (task->anchor) memcpy(tree->anchor, task->anchor, 2 * n * sizeof *tree->anchor);
-    lend(tree);
+    sunder_i_tree_lend_bodies(tree);
     if (!sunder_i_dual_load(&tree->program, NULL, 0)) return false;
     const uint32_t root = sunder_i_tree_add_node(tree, SUNDER_I_NO_NODE, 0);
     const sunder_i_open open = {0, root};

@@ -135,11 +135,18 @@ typedef enum sunder_i_tree_outcome {
     SUNDER_I_TREE_SPENT   /* the effort is */
 } sunder_i_tree_outcome;
 
+/* ---- tree_bodies.c ----------------------------------------------------------------------------------------------- */
+
+/* Makes `body` the k-th body of the tree, with a weight. */
+void sunder_i_tree_set_body(sunder_i_tree *tree, size_t k, uint32_t body, double weight);
+/* Lends the arrays of the tree's bodies to its task and its program. */
+void sunder_i_tree_lend_bodies(sunder_i_tree *tree);
+/* One more body takes part, with its own weight, unless there are MOST_GUESTS already. */
+void sunder_i_tree_invite(sunder_i_tree *tree, uint32_t body);
+
 /* ---- tree.c ------------------------------------------------------------------------------------------------------ */
 
 bool sunder_i_tree_init(sunder_i_tree *tree, const sunder_i_task *task);
-/* One more body takes part, with its own weight. */
-void sunder_i_tree_invite(sunder_i_tree *tree, uint32_t body);
 void sunder_i_tree_free(sunder_i_tree *tree);
 /* Continues until `steps` steps are done in all. */
 sunder_i_tree_outcome sunder_i_tree_run(sunder_i_tree *tree, uint64_t steps);

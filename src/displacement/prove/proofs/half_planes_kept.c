@@ -6,6 +6,41 @@
 
 #include <string.h>
 
+/* Are its corners known as the nearest doubles, or drawn in? */
+static bool is_vague(const sunder_i_model *model, uint32_t f)
+{
+    return sunder_i_thing_shape(model, f)->rational || model->body[model->body_of[f]].far;
+}
+
+size_t sunder_i_branching_fill_ways(sunder_i_branching *branching, const sunder_i_body *p, const sunder_i_body_piece *a,
+                                    const sunder_i_body *q, const sunder_i_body_piece *b, double clearance, bool shadow,
+                                    const double *at)
+{
+    const sunder_i_model *model = branching->model;
+    const double reach = sunder_i_branching_limit(branching, p) + sunder_i_branching_limit(branching, q),
+                 coarse = isfinite(reach) ? branching->subproblem->coarse * reach : 0;
+    sunder_i_parting parting = {.a = a->corner,
+                                .b = b->corner,
+                                .na = a->corners,
+                                .nb = b->corners,
+                                .offset = {q->origin[0] - p->origin[0], q->origin[1] - p->origin[1]},
+                                .clearance = clearance,
+                                .at = at,
+                                .coarse = coarse};
+    for (int x = 0; x < 4; x++) {
+        if (is_vague(model, a->feature)) parting.vague += fabs(p->origin[x & 1]) + fabs(a->box[x]);
+        if (is_vague(model, b->feature)) parting.vague += fabs(q->origin[x & 1]) + fabs(b->box[x]);
+    }
+    const size_t most = SUNDER_I_HALF_PLANES_A_CORNER * (parting.na + parting.nb) + SUNDER_I_HALF_PLANES_MORE;
+    branching->looked += parting.na + parting.nb;
+    if (!sunder_i_reserve(&branching->scratch, &branching->scratch_capacity, most, sizeof *branching->scratch)) {
+        branching->failed = true;
+        return 0;
+    }
+    return shadow ? sunder_i_half_planes_past(&parting, branching->scratch)
+                  : sunder_i_half_planes_between(&parting, branching->scratch);
+}
+
 struct sunder_i_half_planes_kept {
     const sunder_i_body_piece *a, *b; /* NULL: nothing is kept here */
     double clearance;

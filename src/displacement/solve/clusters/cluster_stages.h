@@ -181,7 +181,7 @@ sunder_status sunder_i_solver_stand(sunder_i_solver *solver, const double *move,
 /* Relaxes those that are. Before the model is cut, so that nothing more is asked about them. */
 sunder_status sunder_i_solver_spare(sunder_i_solver *solver, const sunder_i_spared *spared, sunder_error *err);
 
-/* ---- uphold.c ---------------------------------------------------------------------------------------------------- */
+/* ---- worsened_pairs.c, uphold.c ---------------------------------------------------------------------------------- */
 
 /* Is r a conflict that is listed whatever the options? Two members of one block count only if they overlap and do
  * not just touch. */

@@ -11,40 +11,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-static inline int by_key(const void *a, const void *b)
-{
-    const sunder_i_constraint *c = a, *d = b;
-    return c->key < d->key ? -1 : c->key > d->key;
-}
-
-int sunder_i_by_constraint(const void *a, const void *b) { return by_key(a, b); }
-
 static const sunder_i_constraint *look_up(const sunder_i_constraint *c, size_t n, uint64_t key)
 {
     const sunder_i_constraint wanted = {.key = key};
     return n ? bsearch(&wanted, c, n, sizeof *c, sunder_i_by_constraint) : NULL;
-}
-
-/* Pieces of one wall give the same line many times. */
-void sunder_i_search_add_constraint(sunder_i_search *search, size_t first, const sunder_i_constraint *constraint)
-{
-    sunder_i_quadratic *p = &search->program;
-    for (size_t k = first; k < p->n; k++) {
-        sunder_i_constraint *other = &p->constraint[k];
-        if (fabs(other->n[0] - constraint->n[0]) > SAME_NORMAL || fabs(other->n[1] - constraint->n[1]) > SAME_NORMAL)
-            continue;
-        if (other->d < constraint->d) {
-            const double force = other->force + constraint->force;
-            *other = *constraint;
-            other->force = force;
-        }
-        return;
-    }
-    if (!sunder_i_reserve(&p->constraint, &p->capacity, p->n + 1, sizeof *p->constraint)) {
-        search->failed = true;
-        return;
-    }
-    p->constraint[p->n++] = *constraint;
 }
 
 /* Adds the constraints of pair (i, j). They are made for those pairs of pieces that are at most gap + reach apart at
@@ -157,7 +127,8 @@ static void sort_constraints(sunder_i_search *s)
     const sunder_i_constraint *c = s->program.constraint;
     size_t k = 1;
     while (k < s->program.n && c[k - 1].key <= c[k].key) k++;
-    if (k < s->program.n) sunder_i_sort_few(s->program.constraint, s->program.n, sizeof *s->program.constraint, by_key);
+    if (k < s->program.n)
+        sunder_i_sort_few(s->program.constraint, s->program.n, sizeof *s->program.constraint, sunder_i_by_constraint);
 }
 
 bool sunder_i_search_constrain(sunder_i_search *search, double reach, bool as_it_stands)

@@ -418,3 +418,34 @@ void sunder_i_search_settle_parts(sunder_i_search *search)
     sunder_i_free(root);
     sunder_i_free(unsolved);
 }
+
+void sunder_i_search_lower(sunder_i_search *search)
+{
+    const size_t size = 2 * search->n * sizeof *search->t;
+    double *stand = sunder_i_alloc(2 * search->n, sizeof *stand);
+    search->failed = search->failed || !stand;
+    if (!search->failed && sunder_i_search_look(search, search->t) <= search->tolerance) {
+        memcpy(stand, search->t, size);
+        search->program.n = 0;
+        if (!sunder_i_search_descend(search)) memcpy(search->t, stand, size);
+    }
+    sunder_i_free(stand);
+}
+
+bool sunder_i_search_attempt(sunder_i_search *search, double *best, double *cost)
+{
+    const size_t size = 2 * search->n * sizeof *best;
+    search->hope = *cost;
+    search->back = best;
+    const bool free_now = sunder_i_search_descend(search);
+    search->back = NULL;
+    search->hope = INFINITY;
+    const double now = sunder_i_search_cost(search, search->t);
+    if (!search->failed && free_now && now < *cost * (1 - CHEAPER)) {
+        memcpy(best, search->t, size);
+        *cost = now;
+        return true;
+    }
+    memcpy(search->t, best, size);
+    return false;
+}

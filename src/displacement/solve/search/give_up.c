@@ -20,18 +20,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A relaxation for pair (i, j), if there is none by this search yet. */
-bool sunder_i_search_relax(sunder_i_search *search, uint32_t i, uint32_t j)
-{
-    const uint32_t p = search->body[i], q = search->body[j];
-    if (sunder_i_relaxations_between(&search->relaxations, p, q)) return false;
-    const size_t before = search->relaxations.n;
-    /* All that is within what the search asks for: the gap and its margin. */
-    if (sunder_i_relaxations_make(search->model, p, q, search->gap + 2 * search->tolerance, &search->relaxations, NULL))
-        search->failed = true;
-    return search->relaxations.n > before;
-}
-
 /* ---- One at a time ----------------------------------------------------------------------------------------------- */
 
 /* A clash that may be given up. */
@@ -190,19 +178,6 @@ bool sunder_i_search_waive_margins(sunder_i_search *search)
     if (search->relaxations.n > before && !sunder_i_relaxations_index(&search->relaxations, search->model))
         search->failed = true;
     return !search->failed && search->relaxations.n > before;
-}
-
-void sunder_i_search_lower(sunder_i_search *search)
-{
-    const size_t size = 2 * search->n * sizeof *search->t;
-    double *stand = sunder_i_alloc(2 * search->n, sizeof *stand);
-    search->failed = search->failed || !stand;
-    if (!search->failed && sunder_i_search_look(search, search->t) <= search->tolerance) {
-        memcpy(stand, search->t, size);
-        search->program.n = 0;
-        if (!sunder_i_search_descend(search)) memcpy(search->t, stand, size);
-    }
-    sunder_i_free(stand);
 }
 
 /* Bodies that are nearly at their original place, which only unobstructed bodies are, return to it. */

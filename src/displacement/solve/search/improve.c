@@ -24,24 +24,6 @@ static int by_cost(const void *a, const void *b)
 
 static bool has_time(const sunder_i_search *s) { return sunder_i_search_work(s) < s->effort; }
 
-bool sunder_i_search_attempt(sunder_i_search *search, double *best, double *cost)
-{
-    const size_t size = 2 * search->n * sizeof *best;
-    search->hope = *cost;
-    search->back = best;
-    const bool free_now = sunder_i_search_descend(search);
-    search->back = NULL;
-    search->hope = INFINITY;
-    const double now = sunder_i_search_cost(search, search->t);
-    if (!search->failed && free_now && now < *cost * (1 - CHEAPER)) {
-        memcpy(best, search->t, size);
-        *cost = now;
-        return true;
-    }
-    memcpy(search->t, best, size);
-    return false;
-}
-
 /* The same after bodies i and j alone were put elsewhere. In a large cluster only those about them go down with
  * them. */
 static bool attempt_about(sunder_i_search *s, uint32_t i, uint32_t j, double *best, double *cost)

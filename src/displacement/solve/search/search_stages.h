@@ -33,7 +33,11 @@ bool sunder_i_search_constrain_limits(sunder_i_search *search);
 /* ---- constrain.c: what a program demands ------------------------------------------------------------------------- */
 
 /* Constraints by their keys. */
-int sunder_i_by_constraint(const void *a, const void *b);
+static inline int sunder_i_by_constraint(const void *a, const void *b)
+{
+    const sunder_i_constraint *c = a, *d = b;
+    return c->key < d->key ? -1 : c->key > d->key;
+}
 /* Adds a constraint to the program, unless one of those from `first` on implies it; a weaker one is replaced. */
 void sunder_i_search_add_constraint(sunder_i_search *search, size_t first, const sunder_i_constraint *constraint);
 /* The program of all constraints around t; clashing pairs are separated at their present place (they miss a hair), or
@@ -47,6 +51,10 @@ bool sunder_i_search_constrain_further(sunder_i_search *search);
 /* From t, the sequence of quadratic programs. True if it ends with no clash; then t is a local optimum. Else t is a
  * compromise. */
 bool sunder_i_search_descend(sunder_i_search *search);
+/* Descends from a position without clashes, or stays there. */
+void sunder_i_search_lower(sunder_i_search *search);
+/* Descends from search->t; keeps the result if it is free and cheaper than *cost, else returns to best. */
+bool sunder_i_search_attempt(sunder_i_search *search, double *best, double *cost);
 /* From t, with violations of at most a hair: finds the nearest layout that violates nothing on the sides taken there,
  * ignoring cheaper ones. True if there is one; it is t then. */
 bool sunder_i_search_make_good(sunder_i_search *search);
@@ -81,8 +89,6 @@ bool sunder_i_search_give_up_at_home(sunder_i_search *search, const double *star
 /* Relaxes pairs that, in the original places, miss no more than the margin demanded beyond the distance owed. Returns
  * whether there were any. */
 bool sunder_i_search_waive_margins(sunder_i_search *search);
-/* Down from a position without clashes, or stay there. */
-void sunder_i_search_lower(sunder_i_search *search);
 /* Pair (i, j) is given up, if it is not yet. Returns whether it was so now; relaxations are to be indexed then. */
 bool sunder_i_search_relax(sunder_i_search *search, uint32_t i, uint32_t j);
 /* The pairs that would clash with all at home; *n of them, sorted, the caller's. NULL if memory is out. */
@@ -149,8 +155,6 @@ bool sunder_i_search_is_cheapest(sunder_i_search *search);
 
 /* ---- improve.c, reinsert.c: better sides ------------------------------------------------------------------------- */
 
-/* Descends from what is in s->t; keeps the result if it is free and cheaper than *cost, else goes back to best. */
-bool sunder_i_search_attempt(sunder_i_search *search, double *best, double *cost);
 /* Tries other orders of putting bodies back, from best, which is free and costs *cost; both become what was found. */
 void sunder_i_search_reorder(sunder_i_search *search, double *best, double *cost);
 

@@ -5,6 +5,18 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* A relaxation for pair (i, j), if there is none by this search yet. */
+bool sunder_i_search_relax(sunder_i_search *search, uint32_t i, uint32_t j)
+{
+    const uint32_t p = search->body[i], q = search->body[j];
+    if (sunder_i_relaxations_between(&search->relaxations, p, q)) return false;
+    const size_t before = search->relaxations.n;
+    /* All that is within what the search asks for: the gap and its margin. */
+    if (sunder_i_relaxations_make(search->model, p, q, search->gap + 2 * search->tolerance, &search->relaxations, NULL))
+        search->failed = true;
+    return search->relaxations.n > before;
+}
+
 bool sunder_i_search_send_home(sunder_i_search *search, uint32_t i)
 {
     if (!(search->mass[i] > 0) || (search->t[2 * i] == 0 && search->t[2 * i + 1] == 0)) return false;

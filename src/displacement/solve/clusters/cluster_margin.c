@@ -1,0 +1,28 @@
+/* The margin of a cluster: what its bodies are asked to keep beyond the gap, so that rounding takes nothing of it. */
+#include "displacement/solve/clusters/cluster_stages.h"
+
+#include "base/extremes.h"
+
+#include <math.h>
+
+/* What is asked beyond the gap so that rounding the moves, and the search's own rounding, cannot eat into it: a
+ * power of two, two to four units in the last place of the largest coordinate; four times as much for each failed
+ * check. So where a shift keeps coordinates in their binades the search, which reckons from the bodies' own origins,
+ * does the same. */
+double sunder_i_solver_margin(const sunder_i_solver *solver, const uint32_t *b, size_t n)
+{
+    double largest = 0;
+    unsigned widened = 0;
+    for (size_t k = 0; k < n; k++) {
+        const sunder_i_body *body = &solver->model.body[b[k]];
+        if (body->pieces == 0 || body->held || (body->fixed && body->far)) continue;
+        for (int c = 0; c < 4; c++) {
+            const double far = fabs(body->origin[c & 1]) + fabs(body->box[c]);
+            if (far > largest) largest = far;
+        }
+        if (solver->widened[b[k]] > widened) widened = solver->widened[b[k]];
+    }
+    int exponent;
+    frexp(largest + sunder_i_max(solver->model.rules.gap, solver->barriers.farthest), &exponent);
+    return ldexp(1, exponent - 51 + 2 * (int)widened);
+}

@@ -1,0 +1,27 @@
+/* The constraints of a program as a list. */
+#include "displacement/solve/search/search_stages.h"
+#include "displacement/solve/search/tuning.h"
+
+#include <math.h>
+
+/* Pieces of one wall give the same line many times. */
+void sunder_i_search_add_constraint(sunder_i_search *search, size_t first, const sunder_i_constraint *constraint)
+{
+    sunder_i_quadratic *p = &search->program;
+    for (size_t k = first; k < p->n; k++) {
+        sunder_i_constraint *other = &p->constraint[k];
+        if (fabs(other->n[0] - constraint->n[0]) > SAME_NORMAL || fabs(other->n[1] - constraint->n[1]) > SAME_NORMAL)
+            continue;
+        if (other->d < constraint->d) {
+            const double force = other->force + constraint->force;
+            *other = *constraint;
+            other->force = force;
+        }
+        return;
+    }
+    if (!sunder_i_reserve(&p->constraint, &p->capacity, p->n + 1, sizeof *p->constraint)) {
+        search->failed = true;
+        return;
+    }
+    p->constraint[p->n++] = *constraint;
+}
