@@ -24,7 +24,7 @@ def layer(path, name):
     return found
 
 
-millimetre = QgsUnitTypes.LayoutMillimeters
+millimetre = QgsUnitTypes.LayoutUnit.LayoutMillimeters
 roads = layer(town, "roads")
 roads.setRenderer(QgsSingleSymbolRenderer(QgsLineSymbol.createSimple(
     {"line_color": "#d8d2c4", "line_width": "1.5", "line_width_unit": "MM", "capstyle": "round"})))
@@ -50,7 +50,7 @@ label.attemptResize(QgsLayoutSize(66, 6, millimetre))
 layout.addLayoutItem(label)
 bar = QgsLayoutItemScaleBar(layout)
 bar.setLinkedMap(sheet)
-bar.setUnits(QgsUnitTypes.DistanceMeters)
+bar.setUnits(QgsUnitTypes.DistanceUnit.DistanceMeters)
 bar.setUnitsPerSegment(50)
 bar.setNumberOfSegments(2)
 bar.setNumberOfSegmentsLeft(0)
@@ -68,5 +68,5 @@ for path in sheets:
         settings = QgsLayoutExporter.ImageExportSettings()
         settings.dpi = 200
         done = exporter.exportToImage(path, settings)
-    if done != QgsLayoutExporter.Success:
+    if done != QgsLayoutExporter.ExportResult.Success:
         sys.exit(f"{path}: not written")

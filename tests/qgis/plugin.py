@@ -528,7 +528,7 @@ class DestinationTest(Case):
         loads = context.layersToLoadOnCompletion()
         self.assertEqual(list(loads), [results["OUTPUT"]])
         layer = QgsVectorLayer(results["OUTPUT"], "x", "ogr")
-        layer.setRenderer(QgsFeatureRenderer.defaultRenderer(QgsWkbTypes.PolygonGeometry))
+        layer.setRenderer(QgsFeatureRenderer.defaultRenderer(QgsWkbTypes.GeometryType.PolygonGeometry))
         loads[results["OUTPUT"]].postProcessor().postProcessLayer(layer, context, self.feedback)
         self.assertEqual(layer.renderer().type(), "categorizedSymbol")
         self.assertTrue(result.Styled.alive)
@@ -659,7 +659,9 @@ class SpellingTest(unittest.TestCase):
         import qgis.core
         from qgis.PyQt import QtCore, QtGui
         found = 0
-        for file in glob.glob(os.path.join(os.environ["SUNDER_SOURCE"], "gis", "qgis", "sunder", "*.py")):
+        source = os.environ["SUNDER_SOURCE"]
+        for file in (file for folder in ("gis/qgis/sunder", "tests/qgis", "docs/pictures")
+                     for file in glob.glob(os.path.join(source, folder, "*.py"))):
             with open(file, encoding="utf-8") as opened:
                 nodes = [node for node in ast.walk(ast.parse(opened.read())) if isinstance(node, ast.Attribute)]
             for node in (each for each in nodes if isinstance(each.value, ast.Name)):

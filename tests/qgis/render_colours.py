@@ -45,7 +45,7 @@ def draw(layers, picture):
     settings.setOutputSize(QSize(1000, 1000))
     settings.setBackgroundColor(QColor("white"))
     settings.setDestinationCrs(layers[0].crs())
-    settings.setFlag(QgsMapSettings.Antialiasing, False)
+    settings.setFlag(QgsMapSettings.Flag.Antialiasing, False)
     job = QgsMapRendererParallelJob(settings)
     job.start()
     job.waitForFinished()
