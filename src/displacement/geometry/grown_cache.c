@@ -5,6 +5,7 @@
 #include "base/invariant.h"
 #include "base/list.h"
 #include "base/mix.h"
+#include "base/stage_switch.h"
 
 #include <string.h>
 
@@ -32,7 +33,7 @@ static grown *slot_of(const sunder_i_grown_cache *cache, const sunder_i_grown_ke
 
 bool sunder_i_grown_cache_add(const sunder_i_grown_cache *cache, const sunder_i_grown_key *key, sunder_i_obstacles *o)
 {
-    if (cache->slots == 0) return false;
+    if (cache->slots == 0 || !sunder_i_stage_is_on("memo", "grown obstacles")) return false;
     const grown *known = slot_of(cache, key);
     if (known->n) sunder_i_obstacles_add_known(o, cache->wall + known->first, known->n, known->box);
     return known->n > 0;

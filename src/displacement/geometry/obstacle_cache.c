@@ -5,6 +5,7 @@
 
 #include "base/invariant.h"
 #include "base/list.h"
+#include "base/stage_switch.h"
 
 #include <string.h>
 
@@ -31,7 +32,7 @@ static size_t slot_of(const sunder_i_obstacle_cache *cache, uint64_t key)
 const sunder_i_obstacle_edge *sunder_i_obstacle_cache_find(const sunder_i_obstacle_cache *cache, uint64_t key,
                                                            size_t *n)
 {
-    if (cache->slots == 0) return NULL;
+    if (cache->slots == 0 || !sunder_i_stage_is_on("memo", "obstacles")) return NULL;
     const cached_obstacle *s = &cache->slot[slot_of(cache, key)];
     *n = s->n;
     return s->key ? cache->edge + s->first : NULL;

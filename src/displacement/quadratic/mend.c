@@ -10,6 +10,7 @@
 
 #include "base/extremes.h"
 #include "base/memory.h"
+#include "base/stage_switch.h"
 
 #include <math.h>
 #include <string.h>
@@ -164,7 +165,7 @@ static bool solve_part(mending *m, double tolerance, double scale, double more, 
 
 double sunder_i_quadratic_mend(sunder_i_quadratic *program, double tolerance, double scale, double more)
 {
-    if (program->n <= MOST_QUICK) return INFINITY;
+    if (program->n <= MOST_QUICK || !sunder_i_stage_is_on("program", "mend")) return INFINITY;
     mending m;
     bool ok = mending_init(&m, program), solved = false;
     if (ok) mark_missed(&m, tolerance);

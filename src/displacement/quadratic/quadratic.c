@@ -17,6 +17,7 @@
 #include "base/extremes.h"
 #include "base/invariant.h"
 #include "base/memory.h"
+#include "base/stage_switch.h"
 
 #include <math.h>
 #include <string.h>
@@ -100,15 +101,19 @@ static bool sweep_constraints(sunder_i_quadratic *p, double softness, double tol
 
 /* ---- The sequence of methods ------------------------------------------------------------------------------------- */
 
+/* Does the program use this method? Only the ablation harness leaves one out. */
+static bool uses_method(const char *method) { return sunder_i_stage_is_on("program", method); }
+
 /* Tries the quick methods, which solve almost every program of a few dozen contacts to the last digit. Returns false if
  * memory is out. */
 static bool solve_quickly(sunder_i_quadratic *p, double softness, double tolerance)
 {
-    if (!sweep_constraints(p, softness, tolerance)) return false;
-    if (!sunder_i_quadratic_gradient(p, softness, tolerance, QUICK_STEPS)) return false;
+    if (uses_method("sweeps") && !sweep_constraints(p, softness, tolerance)) return false;
+    if (uses_method("conjugate gradients") && !sunder_i_quadratic_gradient(p, softness, tolerance, QUICK_STEPS))
+        return false;
     sunder_i_quadratic_place(p);
     if (sunder_i_quadratic_worst(p, softness) <= tolerance || sunder_i_quadratic_is_beyond(p, softness)) return true;
-    if (!sunder_i_quadratic_equations(p, softness, tolerance)) return false;
+    if (uses_method("active set") && !sunder_i_quadratic_equations(p, softness, tolerance)) return false;
     sunder_i_quadratic_place(p);
     return true;
 }
@@ -150,7 +155,7 @@ static double give_up(sunder_i_quadratic *p)
 double sunder_i_quadratic_solve(sunder_i_quadratic *program, double softness, double tolerance, double scale)
 {
     bool solved = false;
-    if (program->most_cost > 0 && program->n > FEWEST_NEWTON && program->n <= MOST_QUICK &&
+    if (uses_method("newton") && program->most_cost > 0 && program->n > FEWEST_NEWTON && program->n <= MOST_QUICK &&
         program->bodies <= MOST_BODIES_NEWTON && !sunder_i_quadratic_newton(program, softness, tolerance, &solved))
         return -1;
     if (!solved && program->n <= MOST_QUICK && !solve_quickly(program, softness, tolerance)) return -1;
@@ -160,6 +165,6 @@ double sunder_i_quadratic_solve(sunder_i_quadratic *program, double softness, do
     sunder_i_quadratic_place(program);
     if (sunder_i_quadratic_is_done(program)) return finish_program(program);
     if (sunder_i_quadratic_is_beyond(program, softness)) return give_up(program);
-    if (!sunder_i_quadratic_interior(program, softness, tolerance, scale)) return -1;
+    if (uses_method("interior point") && !sunder_i_quadratic_interior(program, softness, tolerance, scale)) return -1;
     return sunder_i_quadratic_is_beyond(program, softness) ? give_up(program) : finish_program(program);
 }

@@ -5,6 +5,8 @@
 #include "displacement/prove/optimum/tree.h"
 #include "displacement/prove/optimum/tuning.h"
 
+#include "base/stage_switch.h"
+
 #include <string.h>
 
 /* A pair's region among those of a node; its corners follow, then the cuts of its sides. */
@@ -23,7 +25,7 @@ void sunder_i_tree_keep_regions(sunder_i_tree *tree, uint32_t node)
 {
     size_t size = 0;
     for (size_t k = 0; k < tree->touched.n; k++) size += size_of(tree->pair[tree->touched.item[k]].region.n);
-    if (size == 0 || tree->kept_bytes + size > MOST_KEPT_BYTES) return;
+    if (size == 0 || tree->kept_bytes + size > MOST_KEPT_BYTES || !sunder_i_stage_is_on("memo", "regions")) return;
     char *at = sunder_i_alloc(size, 1);
     if (!at) {
         tree->failed = true;

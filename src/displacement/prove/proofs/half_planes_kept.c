@@ -4,6 +4,8 @@
 #include "displacement/prove/proofs/branching.h"
 #include "displacement/prove/proofs/tuning.h"
 
+#include "base/stage_switch.h"
+
 #include <string.h>
 
 /* Are its corners known as the nearest doubles, or drawn in? */
@@ -95,7 +97,8 @@ const sunder_i_half_plane *sunder_i_branching_keep_ways(sunder_i_branching *bran
     *n = 0;
     if (!branching->kept) branching->kept = sunder_i_calloc((size_t)1 << WAYS_KEPT_BITS, sizeof *branching->kept);
     struct sunder_i_half_planes_kept *here = branching->kept ? &branching->kept[place_of(a, b)] : NULL;
-    if (here && here->a == a && here->b == b && here->clearance == clearance && here->shadow == shadow) {
+    if (here && here->a == a && here->b == b && here->clearance == clearance && here->shadow == shadow &&
+        sunder_i_stage_is_on("memo", "half planes")) {
         branching->looked += a->corners + b->corners;
     } else if (!here || !keep(branching, here, p, q, &asked)) {
         branching->failed = true;

@@ -4,6 +4,8 @@
  * cache only saves time: answers are the same, and their cost is counted the same. */
 #include "displacement/prove/proofs/plane.h"
 
+#include "base/stage_switch.h"
+
 #include <string.h>
 
 static void free_kept(struct sunder_i_plane_kept *kept)
@@ -27,7 +29,8 @@ void sunder_i_planes_clear(sunder_i_planes *planes)
 
 static bool is_of(const struct sunder_i_plane_kept *kept, const sunder_i_plane *g)
 {
-    return kept->p == g->p && kept->q == g->q && kept->reach == g->reach && kept->coarse == g->c->subproblem->coarse;
+    return kept->p == g->p && kept->q == g->q && kept->reach == g->reach && kept->coarse == g->c->subproblem->coarse &&
+           sunder_i_stage_is_on("memo", "planes");
 }
 
 /* The most recently used one stands first. */

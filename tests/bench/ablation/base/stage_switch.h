@@ -1,0 +1,9 @@
+/* As src/base/stage_switch.h, but for a library whose stages are switched off by name before a run (../tuning.h). */
+#ifndef SUNDER_I_STAGE_SWITCH_H
+#define SUNDER_I_STAGE_SWITCH_H
+
+#include <stdbool.h>
+
+bool sunder_i_stage_is_on(const char *table, const char *stage);
+
+#endif
