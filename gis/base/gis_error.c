@@ -27,7 +27,7 @@ static bool fail_with(gis_error *error, int exit_status, const char *format, va_
     if (error) {
         bool interrupted = gis_interrupted();
         error->exit_status = interrupted ? GIS_FAILED : exit_status;
-        error->no_memory = false;
+        error->no_memory = error->in_a_box = false;
         if (interrupted)
             snprintf(error->message, sizeof error->message, "%s", gis_interruption());
         else

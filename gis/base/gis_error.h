@@ -18,6 +18,7 @@ enum { GIS_WHO_SIZE = 512 };
 typedef struct gis_error {
     int exit_status; /* GIS_FAILED or GIS_USAGE */
     bool no_memory;  /* that is all that failed: neither the call nor the data is at fault */
+    bool in_a_box;   /* reading failed while GDAL compared geometries with a box; without the box it may not fail */
     char message[1024];
 } gis_error;
 

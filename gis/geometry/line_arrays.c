@@ -43,6 +43,21 @@ static bool append_linear(OGRGeometryH line, gis_lines *out, bool *arcs, gis_err
     return ok;
 }
 
+/* A ring, with its first vertex at the end if it is not closed. */
+static bool append_ring(OGRGeometryH ring, gis_lines *out, bool *arcs, gis_error *error)
+{
+    const size_t lines = out->lines, first = 2 * out->points;
+    if (!append_linear(ring, out, arcs, error)) return false;
+    if (out->lines == lines) return true;
+    const size_t last = 2 * (out->points - 1);
+    if (out->xy[first] == out->xy[last] && out->xy[first + 1] == out->xy[last + 1]) return true;
+    if (!gis_array_reserve(&out->xy, &out->xy_capacity, last + 4, sizeof *out->xy)) return gis_no_memory(error);
+    out->xy[last + 2] = out->xy[first];
+    out->xy[last + 3] = out->xy[first + 1];
+    out->end[lines] = ++out->points;
+    return true;
+}
+
 /* Either all leaves that are no polygons, or the rings of those that are. */
 static bool append(OGRGeometryH geometry, bool rings, gis_lines *out, bool *arcs, gis_error *error)
 {
@@ -54,7 +69,7 @@ static bool append(OGRGeometryH geometry, bool rings, gis_lines *out, bool *arcs
     if (polygon && !rings) return true;
     for (int i = 0; i < OGR_G_GetGeometryCount(geometry) && whole; i++) {
         OGRGeometryH part = OGR_G_GetGeometryRef(geometry, i);
-        whole = polygon ? append_linear(part, out, arcs, error) : append(part, rings, out, arcs, error);
+        whole = polygon ? append_ring(part, out, arcs, error) : append(part, rings, out, arcs, error);
     }
     return whole;
 }

@@ -47,6 +47,9 @@ struct gis_source {
     GIntBig last_fid;
     size_t batch, first, bytes; /* bytes: of geometries in the batch; see gis_source_request */
     bool may_pack, ended;       /* ended: the last feature was read */
+    bool within;                /* GDAL compares with a box that the caller can do without */
+    bool (*wants)(void *user, OGRSpatialReferenceH crs, OGRFeatureH feature); /* of the request */
+    void *user;
     bool facts_given, fids_mean_nothing;
     gis_not_finite not_finite;
     double extent[4];
@@ -135,8 +138,8 @@ static bool select_features(gis_source *source, const gis_source_request *reques
         OGR_L_SetSpatialFilterRect(source->layer, request->bbox[0], request->bbox[1], request->bbox[2],
                                    request->bbox[3]);
     double box[4];
-    if (request->within && request->within(request->user, source->layer, source->crs, box))
-        OGR_L_SetSpatialFilterRect(source->layer, box[0], box[1], box[2], box[3]);
+    source->within = request->within && request->within(request->user, source->layer, source->crs, box);
+    if (source->within) OGR_L_SetSpatialFilterRect(source->layer, box[0], box[1], box[2], box[3]);
     if (!request->where) return true;
     source->where = CPLStrdup(request->where);
     gis_listener listener = {0};
@@ -229,16 +232,14 @@ static bool judge_not_finite(const gis_source *source, OGRFeatureH feature, gis_
 }
 
 /* One feature, which is the source's from now on if *kept. */
-static bool take(gis_source *source, const gis_source_request *request, OGRFeatureH feature, bool *kept,
-                 gis_error *error)
+static bool take(gis_source *source, OGRFeatureH feature, bool *kept, gis_error *error)
 {
     const unsigned char *record = NULL;
-    const bool pack = source->may_pack && !(request && request->wants);
-    if (pack && !gis_packed_add(source->packed, feature, &record, error)) return false;
+    if (source->wants && !source->wants(source->user, source->crs, feature)) return true;
+    if (source->may_pack && !source->wants && !gis_packed_add(source->packed, feature, &record, error)) return false;
     const bool finite = record ? gis_packed_is_finite(record) : gis_geometry_is_finite(OGR_F_GetGeometryRef(feature));
     if (!finite && !judge_not_finite(source, feature, error)) return false;
     if (!finite && source->not_finite == GIS_NOT_FINITE_LEFT_OUT) return true;
-    if (request && request->wants && !request->wants(request->user, source->crs, feature)) return true;
     *kept = keep(source, feature, finite ? record : NULL, finite);
     return *kept || gis_no_memory(error);
 }
@@ -293,11 +294,47 @@ static bool read_features(gis_source *source, const gis_source_request *request,
         source->ended = feature == NULL;
         if (source->ended) break;
         bool kept = false;
-        const bool taken = take(source, request, feature, &kept, error);
+        const bool taken = take(source, feature, &kept, error);
         if (!kept) OGR_F_Destroy(feature);
         if (!taken || !gis_go_on(error)) return false;
     }
     return gis_go_on(error); /* a statement that is cut short may look like the last feature */
+}
+
+/* Names the first feature that GDAL cannot compare with the box of the source's filter; false if there is none. The
+ * filter is gone then. */
+static bool name_incomparable(gis_source *source, char *who, size_t size)
+{
+    OGRGeometryH box = OGR_G_Clone(OGR_L_GetSpatialFilter(source->layer));
+    gis_listener listener = {0};
+    OGR_L_SetSpatialFilter(source->layer, NULL);
+    gis_listen_begin(&listener);
+    for (OGRFeatureH feature; !listener.failures && (feature = OGR_L_GetNextFeature(source->layer));) {
+        OGRGeometryH geometry = OGR_F_GetGeometryRef(feature);
+        if (geometry) OGR_G_Intersects(box, geometry);
+        gis_name_subject(&(gis_subject){NULL, source->name, true, OGR_F_GetFID(feature), 0, NULL}, who, size);
+        OGR_F_Destroy(feature);
+    }
+    gis_listen_end();
+    OGR_G_DestroyGeometry(box);
+    const bool found = listener.failures > 0;
+    gis_listener_clear(&listener);
+    return found;
+}
+
+/* GDAL drops a feature that it cannot compare with a box, such as a polygon with an open ring, and reports the reason
+ * without the feature. A caller that gave the box itself may read without it. */
+static bool fail_in_a_box(gis_source *source, const char *reason, gis_error *error)
+{
+    char who[GIS_WHO_SIZE];
+    if (!source->within && name_incomparable(source, who, sizeof who))
+        return gis_fail(error,
+                        "%s: GDAL cannot compare it with the box of --bbox: a ring is not closed, or a ring or line "
+                        "has too few vertices",
+                        who);
+    gis_fail(error, "%s, layer %s: reading failed: %s", source->path, source->name, reason);
+    error->in_a_box = source->within;
+    return false;
 }
 
 /* The batch, or all there is. */
@@ -311,6 +348,8 @@ static bool read_batch(gis_source *source, const gis_source_request *request, gi
     if (done && listener.failures && source->where && read == 0)
         done = gis_fail_where(source->dataset, source->layer, source->where_option, source->where,
                               gis_listener_reason(&listener, "not understood"), error);
+    else if (done && listener.failures && OGR_L_GetSpatialFilter(source->layer))
+        done = fail_in_a_box(source, gis_listener_reason(&listener, "no reason given"), error);
     else if (done && listener.failures)
         done = gis_fail(error, "%s, layer %s: reading failed after %zu features: %s", source->path, source->name, read,
                         gis_listener_reason(&listener, "no reason given"));
@@ -442,6 +481,8 @@ static bool begin_reading(gis_source *source, const gis_source_request *request,
     if (request->batch) find_extent(source);
     source->batch = request->batch;
     source->may_pack = request->packed;
+    source->wants = request->wants;
+    source->user = request->user;
     source->not_finite = request->not_finite;
     source->fids_mean_nothing = request->fids_mean_nothing;
     source->fids_rising = true;

@@ -50,13 +50,13 @@ typedef struct gis_source_request {
     /* NULL, or tells, once the layer and its CRS are known, which box features have to meet; false: any will do. It may
      * read the layer. Not together with bbox or sql. */
     bool (*within)(void *user, OGRLayerH layer, OGRSpatialReferenceH crs, double box[4]);
-    /* NULL, or says of each feature as it is read whether it is to be kept. */
+    /* NULL, or tells of each feature as it is read whether it is wanted. One that is not is not looked at, even if a
+     * coordinate is not finite. */
     bool (*wants)(void *user, OGRSpatialReferenceH crs, OGRFeatureH feature);
-    void *user;       /* of these two */
+    void *user;       /* of these two; wants is called as long as the source is read */
     bool packed;      /* features are packed where they can be: one at a time is asked for, and by one thread */
     unsigned threads; /* to read on; 0: as many as there are processors */
-    size_t batch; /* at most this many features are read at a time, fewer if they are large; 0: all. Not together with
-                   * wants */
+    size_t batch; /* at most this many features are read at a time, fewer if they are large; 0: all */
     const gis_source_facts *facts; /* NULL, or the result of an earlier reading of the same source */
     gis_not_finite not_finite;
     bool fids_mean_nothing; /* FIDs are known not to be unique: gis_source_mark() does not go by them */

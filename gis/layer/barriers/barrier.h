@@ -55,6 +55,7 @@ typedef struct gis_barrier_surroundings {
     gis_invalid_policy invalid;
     const char *output; /* which may not replace a barrier's dataset; NULL: there is none */
     bool update;        /* ... unless it adds to it */
+    bool without_box;   /* GDAL is asked for all of a layer, and not for what meets a box */
 } gis_barrier_surroundings;
 
 /* One feature of a barrier layer. */
@@ -90,8 +91,9 @@ typedef struct gis_barrier_common {
 /* The function that takes the feature clears it, in any case. */
 typedef bool gis_barrier_take(void *user, const gis_barrier_common *common, gis_barrier_feature *feature,
                               gis_error *error);
-/* The features of one request that are within reach, in their order. batch: at most this many features of the source
- * are held at a time; 0: all. *common: its name is owned, and NULL if it was not opened. */
+/* The features of one request that are within reach, in their order. GDAL may fail to compare one with the box of all
+ * that (error->in_a_box); then the caller forgets what it took, and visits once more without a box. batch: at most this
+ * many features of the source are held at a time; 0: all. *common: its name is owned, and NULL if it was not opened. */
 bool gis_barrier_visit(const gis_barrier_request *request, const gis_barrier_surroundings *around, size_t batch,
                        gis_barrier_take *take, void *user, gis_barrier_common *common, gis_error *error);
 void gis_barrier_feature_clear(gis_barrier_feature *feature);

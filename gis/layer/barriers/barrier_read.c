@@ -2,8 +2,9 @@
  * points as they are, arcs as their chords, each with its width.
  *
  * Only what is within reach is read: what is farther from all features than any may move and the barrier's distance
- * besides stands in the way of nothing. The source is asked for what meets the box of all that, which is its index's
- * affair; where widths come from a field, for what the widest would reach, which takes a look at that field alone.
+ * besides stands in the way of nothing. A source with an index is asked for what meets the box of all that; where
+ * widths come from a field, for what the widest would reach, which takes a look at that field alone. Without an index
+ * GDAL would compare geometries with the box, and pass over some that are not valid; so such a source is asked for all.
  * What comes and is near no feature is let go as it is read, or once its coordinates are the layer's; of lines each
  * segment is asked. Where some feature may move any distance everything is within reach. */
 #include "layer/barriers/barrier.h"
@@ -48,10 +49,12 @@ static void name_feature(const reading *r, size_t i, char *who, size_t size)
 
 /* ---- Reach ------------------------------------------------------------------------------------------------------- */
 
+/* What has a box that is not finite may be anywhere. */
 static bool is_within_reach(const reading *r, OGRGeometryH geometry, double width)
 {
     OGREnvelope e;
     OGR_G_GetEnvelope(geometry, &e);
+    if (!isfinite(e.MaxX - e.MinX) || !isfinite(e.MaxY - e.MinY)) return !OGR_G_IsEmpty(geometry);
     return gis_barrier_is_near(r->around, (double[4]){e.MinX, e.MinY, e.MaxX, e.MaxY}, width / 2 + r->distance);
 }
 
@@ -162,14 +165,16 @@ static bool within(void *user, OGRLayerH layer, OGRSpatialReferenceH crs, double
     double here[4];
     gis_error ignored;
     r->widest = field ? INFINITY : r->width;
-    if (!isfinite(r->around->reach)) return false; /* nor need anybody look */
+    if (!isfinite(r->around->reach) || r->around->without_box) return false;
     gis_length widest = {0, GIS_LAYER_UNIT};
     if (field &&
         (!gis_barrier_greatest(layer, field, &widest.value) ||
          (widest.value > 0 && !gis_length_in_layer_units(&widest, r->around->units, field, &r->widest, &ignored))))
         return false;
     if (field && !(widest.value > 0)) r->widest = 0;
-    if (!gis_barrier_reach_box(r->around, r->widest / 2 + r->distance, box)) return false;
+    if (!OGR_L_TestCapability(layer, OLCFastSpatialFilter) ||
+        !gis_barrier_reach_box(r->around, r->widest / 2 + r->distance, box))
+        return false;
     if (gis_crs_may_be_same(crs, r->around->crs)) return true;
     if (!gis_barrier_box(box, r->around->crs, crs, here)) return false;
     memcpy(box, here, sizeof here);
@@ -195,7 +200,7 @@ static bool open_source(reading *r, gis_error *error)
         .layer_option = "layer=",
         .where_option = "where=",
         .within = within,
-        .wants = r->batch ? NULL : wants, /* of a batch nothing stays anyway */
+        .wants = wants,
         .user = r,
         .batch = r->batch,
         .not_finite = gis_invalid_not_finite(r->around->invalid, GIS_NOT_FINITE_LEFT_OUT),
@@ -207,6 +212,7 @@ static bool open_source(reading *r, gis_error *error)
         gis_fail(error, "--barrier %s%s%s", named ? "" : request->dataset, named ? "" : ": ", why.message);
         error->exit_status = why.exit_status;
         error->no_memory = why.no_memory;
+        error->in_a_box = why.in_a_box;
         return false;
     }
     if (!r->batch) gis_say_warnings(GIS_MESSAGE_INPUT, gis_source_warnings(r->source));
@@ -297,8 +303,8 @@ static bool append(void *user, const gis_barrier_common *common, gis_barrier_fea
     return true;
 }
 
-bool gis_barriers_read(const gis_barrier_request *requests, size_t n, const gis_barrier_surroundings *around,
-                       gis_barriers *out, gis_error *error)
+static bool read_all(const gis_barrier_request *requests, size_t n, const gis_barrier_surroundings *around,
+                     gis_barriers *out, gis_error *error)
 {
     double *distance = calloc(n + 1, sizeof *distance);
     *out = (gis_barriers){.layer = calloc(n + 1, sizeof *out->layer)};
@@ -313,6 +319,17 @@ bool gis_barriers_read(const gis_barrier_request *requests, size_t n, const gis_
     ok = ok && make_barriers(requests, distance, out, error);
     free(distance);
     return ok;
+}
+
+bool gis_barriers_read(const gis_barrier_request *requests, size_t n, const gis_barrier_surroundings *around,
+                       gis_barriers *out, gis_error *error)
+{
+    if (read_all(requests, n, around, out, error)) return true;
+    if (!error->in_a_box) return false;
+    gis_barrier_surroundings all = *around;
+    all.without_box = true;
+    gis_barriers_clear(out);
+    return read_all(requests, n, &all, out, error);
 }
 
 void gis_barriers_clear(gis_barriers *barriers)

@@ -32,8 +32,8 @@ static bool take(void *user, const gis_barrier_common *common, gis_barrier_featu
     return done;
 }
 
-bool gis_barriers_spool(const gis_barrier_request *requests, size_t n, const gis_barrier_surroundings *around,
-                        const char *directory, gis_error *error)
+static bool spool_all(const gis_barrier_request *requests, size_t n, const gis_barrier_surroundings *around,
+                      const char *directory, gis_error *error)
 {
     spooling s = {0};
     bool done = gis_barriers_create(directory, around->gap, &s.writer, error);
@@ -46,6 +46,16 @@ bool gis_barriers_spool(const gis_barrier_request *requests, size_t n, const gis
     done = done && gis_barriers_finish(s.writer, error);
     gis_barriers_writer_free(s.writer);
     return done;
+}
+
+bool gis_barriers_spool(const gis_barrier_request *requests, size_t n, const gis_barrier_surroundings *around,
+                        const char *directory, gis_error *error)
+{
+    if (spool_all(requests, n, around, directory, error)) return true;
+    if (!error->in_a_box) return false;
+    gis_barrier_surroundings all = *around;
+    all.without_box = true;
+    return spool_all(requests, n, &all, directory, error);
 }
 
 /* ---- Targets ----------------------------------------------------------------------------------------------------- */
