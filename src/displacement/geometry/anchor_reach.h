@@ -1,12 +1,13 @@
-/* Which bodies may come past each other's anchors, by boxes: most do not. */
+/* Tests, by boxes, whether a body may move past an anchor of another body; for most pairs this excludes it. */
 #ifndef SUNDER_I_ANCHOR_REACH_H
 #define SUNDER_I_ANCHOR_REACH_H
 
 #include "displacement/geometry/obstacle_shadow.h"
 #include "displacement/layer/model.h"
 
-/* May the way (sunder_i_shadow_way()) meet what the anchors of p see of q, whose origin is at `offset` from p's; or if
- * swapped, those of q of p? Where jumps are not allowed. */
+/* May a relative path with the box `way` (sunder_i_shadow_way()) meet the shadow of body q from an anchor of body p, or
+ * if `swapped`, of p from an anchor of q? `offset` is the origin of q relative to that of p. Only if jumps are not
+ * allowed. */
 static inline bool sunder_i_anchors_may_reach(const sunder_i_model *model, const sunder_i_body *p,
                                               const sunder_i_body *q, bool swapped, const double offset[2],
                                               const double way[4])

@@ -1,10 +1,11 @@
-/* The plane around a target in square cells, each with the obstacles that may meet it and one that contains it, if any.
+/* Divides the plane around a target into square cells. Each cell lists the obstacles that may meet it, and names one
+ * obstacle that contains it, if any.
  *
- * In a crowd most of the plane near the target is covered by many obstacles, so a cell somewhat smaller than an
+ * In a dense cluster most of the plane near the target is covered by many obstacles, so a cell somewhat smaller than an
  * obstacle is usually inside one: no place in it is free. Obstacles are convex: an obstacle misses a cell that lies
- * beyond one of its walls, and contains a cell that lies within all of them; each wall decides this for a row of cells
- * at once. If neither is shown, the obstacle counts as meeting the cell. Cells are taken slightly larger than they are,
- * so that rounding of a point's position makes no difference. */
+ * beyond one of its walls, and contains a cell that lies within all of them. Each wall decides this for a row of cells
+ * at once. If neither is shown, the obstacle counts as meeting the cell. The cells are enlarged slightly for these
+ * tests, so that the rounding of a point's position makes no difference. */
 #include "displacement/geometry/cells.h"
 #include "displacement/geometry/tuning.h"
 
@@ -16,7 +17,8 @@
 #include <math.h>
 #include <string.h>
 
-/* The part of the surroundings, within `limit` of the target, that obstacles reach; and the mean size of these. */
+/* Sets box to the intersection of the square of half width `limit` around the target with the box of all obstacles.
+ * Returns the mean size of an obstacle. */
 static double find_extent(const sunder_i_obstacles *o, const double target[2], double limit, double box[4])
 {
     double sum = 0;
@@ -44,7 +46,7 @@ static bool enter(sunder_i_cells *cells, uint32_t at, uint32_t obstacle, bool ho
     return true;
 }
 
-/* Sorts the entries by cell. */
+/* Sorts the entries by cell. Returns false if memory is out. */
 static bool sort_entries(const sunder_i_obstacles *o, sunder_i_cells *cells)
 {
     const size_t n = (size_t)cells->across[0] * cells->across[1];
@@ -65,7 +67,8 @@ static bool sort_entries(const sunder_i_obstacles *o, sunder_i_cells *cells)
     return true;
 }
 
-/* The cells from *first on that one from a to b may meet in one direction; how many. */
+/* Returns the number of columns (c = 0) or rows (c = 1) of cells that the interval from a to b may meet; *first is the
+ * first of them. */
 static uint32_t range(const sunder_i_cells *cells, int c, double a, double b, uint32_t *first)
 {
     const double margin = CELL_MARGIN, most = cells->across[c];
@@ -76,8 +79,9 @@ static uint32_t range(const sunder_i_cells *cells, int c, double a, double b, ui
     return (to < most - 1 ? (uint32_t)to : cells->across[c] - 1) - *first + 1;
 }
 
-/* Of a row of cells, about y: those whose centres lie in (meets[0], meets[1]) may meet the obstacle, and those between
- * holds[0] and holds[1] it holds. False: none meets. */
+/* Tests a row of cells with the centre line y. Cells whose centres have an x within [meets[0], meets[1]] may meet the
+ * obstacle, and those with an x strictly between holds[0] and holds[1] lie inside it. Returns false if no cell of the
+ * row meets it. half: half the size of an enlarged cell. */
 static bool cut_row(const sunder_i_obstacles *o, const sunder_i_obstacle *obstacle, double y, double half,
                     double meets[2], double holds[2])
 {
@@ -109,7 +113,7 @@ static bool enter_obstacle(const sunder_i_obstacles *o, uint32_t k, sunder_i_cel
         double meets[2], holds[2];
         uint32_t first;
         if (!cut_row(o, obstacle, cells->low[1] + (y + 0.5) * cells->side, half, meets, holds)) continue;
-        /* The centres of the cells that meet it, and no others. */
+        /* The cells whose centres are in the interval `meets`, and no others. */
         const uint32_t n =
             range(cells, 0, sunder_i_max(meets[0] - half, box[0]), sunder_i_min(meets[1] + half, box[2]), &first);
         for (uint32_t x = first; x < first + n; x++) {
@@ -131,7 +135,7 @@ bool sunder_i_cells_make(const sunder_i_obstacles *obstacles, const double targe
     if (!(size[0] > 0 && size[1] > 0)) return true;
     double side = sunder_i_max(mean / CELLS_ACROSS, sqrt(size[0] * size[1] / (CELLS_EACH * (double)obstacles->n)));
     side = sunder_i_max(side, sunder_i_max(size[0], size[1]) / (CELLS_EACH * (double)obstacles->n));
-    /* Cells have to be far larger than the rounding of coordinates. */
+    /* A cell must be far larger than the rounding errors of coordinates. */
     const double far = sunder_i_max(sunder_i_max(fabs(box[0]), fabs(box[2])), sunder_i_max(fabs(box[1]), fabs(box[3])));
     if (!(side > far * CELL_MARGIN) || !isfinite(side)) return true;
     cells->side = side;
@@ -144,7 +148,7 @@ bool sunder_i_cells_make(const sunder_i_obstacles *obstacles, const double targe
     if (!cells->cell) return false;
     for (size_t k = 0; k < n; k++) cells->cell[k] = (sunder_i_cell){0, 0, SUNDER_I_NO_ENTRY};
     for (uint32_t k = 0; k < obstacles->n; k++)
-        if (!enter_obstacle(obstacles, k, cells)) return false; /* stopped, or out of memory */
+        if (!enter_obstacle(obstacles, k, cells)) return false; /* stopped on request, or memory is out */
     return sort_entries(obstacles, cells);
 }
 

@@ -1,4 +1,4 @@
-/* The plane about a target in cells; see cells.c. */
+/* The plane around a target, divided into cells; see cells.c. */
 #ifndef SUNDER_I_CELLS_H
 #define SUNDER_I_CELLS_H
 
@@ -7,11 +7,12 @@
 #define SUNDER_I_NO_ENTRY UINT32_MAX
 
 typedef struct sunder_i_cell {
-    uint32_t first, n; /* entries, of the obstacles that may meet it */
-    uint32_t holder;   /* one that holds all of it; SUNDER_I_NO_ENTRY: no single one does */
+    uint32_t first, n; /* its entries: the obstacles that may meet it */
+    uint32_t holder;   /* an obstacle that contains the whole cell; SUNDER_I_NO_ENTRY: no single one does */
 } sunder_i_cell;
 
-/* An obstacle, with its box: most are told by that not to hold a thing, a thousand of them one after the other. */
+/* An obstacle, with a copy of its box: the boxes of up to a thousand consecutive entries are tested, and exclude most
+ * obstacles. */
 typedef struct sunder_i_cell_entry {
     double box[4];
     uint32_t obstacle;
@@ -19,21 +20,21 @@ typedef struct sunder_i_cell_entry {
 
 typedef struct sunder_i_cells {
     double low[2], side;
-    uint32_t across[2]; /* 0: no cells were made */
+    uint32_t across[2]; /* the numbers of columns and rows; 0: no cells were made */
     sunder_i_cell *cell;
-    sunder_i_cell_entry *entry; /* cell after cell */
-    /* While cells are made: the obstacles that were entered, and where. */
+    sunder_i_cell_entry *entry; /* the entries of all cells, one cell after the other */
+    /* While cells are made: pairs (cell, obstacle). */
     uint32_t (*entered)[2];
     size_t entries, capacity;
 } sunder_i_cells;
 
-/* Cells for what lies within limit of the target. Where there is little to be gained none are made. False if memory is
- * out; to be freed in any case. */
+/* Makes cells for the places within `limit` of the target. None are made if that would save little. Returns false if
+ * memory is out; the caller frees *cells in any case. */
 bool sunder_i_cells_make(const sunder_i_obstacles *obstacles, const double target[2], double limit,
                          sunder_i_cells *cells);
 void sunder_i_cells_free(sunder_i_cells *cells);
 
-/* The cell of x, in *cell; false: it lies in none. */
+/* Sets *cell to the cell that contains x. Returns false if there is none. */
 static inline bool sunder_i_cells_find(const sunder_i_cells *cells, const double x[2], uint32_t *cell)
 {
     if (cells->across[0] == 0) return false;

@@ -1,14 +1,14 @@
-/* Places outside a union of open convex polygons, nearest first.
+/* Finds places outside a union of open convex polygons, nearest to a target first.
  *
- * On the boundary of the union the distance from a target has local minima only at feet of perpendiculars on walls and
- * where two walls of different obstacles cross: at a corner of one obstacle the distance falls along one of its two
- * walls. So these are all the candidates; they are visited by distance, and each is tested against all obstacles. Walls
- * are sorted by distance, and a crossing is no nearer than the farther of its walls, so the search stops as soon as the
- * remaining walls are farther than the places found. With many obstacles the plane around the target is cut into cells
- * (cells.c): a point is tested against those that meet its cell, and walls in cells inside an obstacle are skipped at
- * once. Work is counted as if there were no cells, so that these change no result.
+ * On the boundary of the union the distance from the target has local minima only at feet of perpendiculars on walls,
+ * and where walls of two different obstacles cross. (At a corner of one obstacle the distance decreases along one of
+ * its two walls.) So these are the candidates. They are visited by distance, and each is tested against all obstacles.
+ * Walls are sorted by distance, and a crossing is no nearer than the farther of its walls, so the search stops as soon
+ * as the remaining walls are farther than the places found. With many obstacles the plane around the target is divided
+ * into cells (cells.c): a point is tested only against obstacles that meet its cell, and walls in cells inside an
+ * obstacle are skipped at once. Work is counted as if there were no cells, so that they change no result.
  *
- * Everything here is in doubles. A place found is a proposal; whether it is free is decided exactly elsewhere. */
+ * All of this is in doubles. A place found is a proposal; whether it is free is decided exactly elsewhere. */
 #include "displacement/geometry/free_places.h"
 #include "displacement/geometry/cells.h"
 #include "displacement/geometry/tuning.h"
@@ -22,13 +22,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A wall, by how far it is from the target. */
+/* A wall, and its distance from the target. */
 typedef struct near_wall {
     double distance;
     const sunder_i_obstacle_side *wall;
 } near_wall;
 
-/* The nearer one; of equals one of the lesser obstacle, then by its normal, then the earlier one. */
+/* Is a nearer than b? Equal distances are ordered by the number of the obstacle, then by the normal, then by position
+ * in memory. */
 static bool comes_before(const void *a, const void *b)
 {
     const near_wall *p = a, *q = b;
@@ -39,7 +40,7 @@ static bool comes_before(const void *a, const void *b)
     return v->n[1] != w->n[1] ? v->n[1] < w->n[1] : v < w;
 }
 
-/* The point of the wall nearest to x. */
+/* Sets out to the point of the wall nearest to x. */
 static void nearest_on(const sunder_i_obstacle_side *w, const double x[2], double out[2])
 {
     const double ex = w->to[0] - w->from[0], ey = w->to[1] - w->from[1], square = ex * ex + ey * ey;
@@ -54,14 +55,15 @@ typedef struct harvest {
     const double *target;
     double limit, spread;
     size_t most, n;
-    uint32_t *order; /* the obstacles, those that are hit often move to the front */
+    uint32_t *order; /* the obstacles in the order in which they are tested: those that often contain a point move to
+                      * the front */
     sunder_i_cells cells;
     double (*place)[2];
     double *distance;
-    uint64_t work; /* done so far, in constraints looked at */
+    uint64_t work; /* done up to now, in constraints processed */
 } harvest;
 
-/* A segment, or a point, with its box. */
+/* A segment or a point, with its box. */
 typedef struct span {
     double end[2][2], box[4];
 } span;
@@ -73,7 +75,7 @@ static inline span span_of(const double a[2], const double b[2])
         {a[0] < b[0] ? a[0] : b[0], a[1] < b[1] ? a[1] : b[1], a[0] < b[0] ? b[0] : a[0], a[1] < b[1] ? b[1] : a[1]}};
 }
 
-/* Is it within the box, and within those lines? */
+/* Does the span `of` lie strictly within the box? The next function tests the lines of one obstacle. */
 static inline bool is_in_box(const double box[4], const span *of)
 {
     return (of->box[0] > box[0]) & (of->box[2] < box[2]) & (of->box[1] > box[1]) & (of->box[3] < box[3]);
@@ -90,7 +92,8 @@ static inline bool is_in_lines(const harvest *h, uint32_t obstacle, const span *
     return true;
 }
 
-/* Does one of those about that cell, but for `own`, hold all of it? First one that held another thing there. */
+/* Does an obstacle that meets the cell, other than `own`, contain the whole span? Obstacles that contained an earlier
+ * span are tested first. */
 static bool is_held_about(harvest *h, const sunder_i_cell *c, const span *of, uint32_t own)
 {
     sunder_i_cell_entry *first = h->cells.entry + c->first, *end = first + c->n;
@@ -105,8 +108,9 @@ static bool is_held_about(harvest *h, const sunder_i_cell *c, const span *of, ui
     return false;
 }
 
-/* Does one obstacle, other than `own`, contain all of it? Such an obstacle meets every place of it, so those around x,
- * a place of it, or around an end are tested, wherever they are fewest. */
+/* Does one obstacle, other than `own`, contain the whole span? x is a point of it. Such an obstacle meets the cell of
+ * every point of the span, so the entries of only one cell are tested: that of x or of an end, whichever has the
+ * fewest. */
 static bool is_held(harvest *h, const span *of, const double x[2], uint32_t own)
 {
     const double *place[3] = {x, of->end[0], of->end[1]};
@@ -128,7 +132,7 @@ static bool is_held(harvest *h, const span *of, const double x[2], uint32_t own)
     return false;
 }
 
-/* n obstacles, or walls, are looked at; most of them briefly. */
+/* Returns the work of testing n obstacles or walls, most of which are excluded quickly. */
 static uint64_t work_of(size_t n) { return 1 + n / TESTS_A_STEP; }
 
 static bool work(harvest *h, size_t n)
@@ -137,8 +141,8 @@ static bool work(harvest *h, size_t n)
     return sunder_i_steps(1 + n / TESTS_A_WATCH);
 }
 
-/* Takes x if it is free and better than what is there: the places stay sorted, and of two nearer than `spread` the
- * nearer stays. */
+/* Adds x to the places if it is free and near enough. Places remain sorted by distance; of two places nearer than
+ * `spread` to each other the one nearer to the target is kept. */
 static void offer(harvest *h, const double x[2])
 {
     const double d = hypot(x[0] - h->target[0], x[1] - h->target[1]);
@@ -150,7 +154,7 @@ static void offer(harvest *h, const double x[2])
     if (is_held(h, &point, x, SUNDER_I_NO_ENTRY)) return;
     size_t k = 0;
     while (k < h->n && h->distance[k] <= d) k++;
-    /* Those behind that are too near the new one go. */
+    /* Farther places that are too near to the new one are removed. */
     size_t out = k;
     for (size_t i = k; i < h->n; i++)
         if (hypot(x[0] - h->place[i][0], x[1] - h->place[i][1]) > h->spread) {
@@ -171,7 +175,7 @@ static void offer(harvest *h, const double x[2])
 
 static double reach_of(const harvest *h) { return h->n == h->most ? h->distance[h->n - 1] : h->limit; }
 
-/* Crossings of wall w with every wall before it. */
+/* Offers the crossings of wall w with every wall before it. */
 static void offer_crossings(harvest *h, const sunder_i_obstacle_side *wall, size_t w)
 {
     const sunder_i_obstacle_side *a = &wall[w];
@@ -191,15 +195,15 @@ static void offer_crossings(harvest *h, const sunder_i_obstacle_side *wall, size
     }
 }
 
-/* Does one obstacle hold the whole wall? Most walls are deep inside the union. Its own does not. */
+/* Does one obstacle other than its own contain the whole wall? Most walls lie deep inside the union. */
 static bool is_covered(harvest *h, const sunder_i_obstacle_side *w, const double foot[2])
 {
     const span all = span_of(w->from, w->to);
     return is_held(h, &all, foot, w->obstacle);
 }
 
-/* The same by cells alone: one obstacle holds those of both ends, and what is between them; or that of one, and the
- * wall. */
+/* The same by cells alone: returns true if one obstacle contains the cells of both ends, and so all between them, or
+ * contains the cell of one end and the wall. */
 static bool is_covered_by_cells(const harvest *h, const sunder_i_obstacle_side *w)
 {
     uint32_t from, to;
@@ -216,18 +220,19 @@ static bool is_covered_by_cells(const harvest *h, const sunder_i_obstacle_side *
 
 static int by_distance(const void *a, const void *b) { return comes_before(b, a) - comes_before(a, b); }
 
-/* Walls that may matter, n of them; those that one obstacle covers were left out, or will be. */
+/* The walls within the limit of the target, except those that are known to lie inside one obstacle. They are sorted
+ * roughly by distance into SHELVES intervals ("shelves"). */
 typedef struct walls {
-    near_wall *near; /* shelf after shelf, each as it comes */
+    near_wall *near; /* the walls of all shelves, one shelf after the other, unsorted within each */
     size_t first[SHELVES + 1];
-    sunder_i_obstacle_side *bare; /* those that are not covered, the nearest first */
+    sunder_i_obstacle_side *bare; /* the walls outside all other obstacles found up to now, the nearest first */
     size_t bares;
-    double *covered; /* how far those are that are */
+    double *covered; /* the distances of the walls inside other obstacles */
     size_t left_out;
 } walls;
 
-/* The candidates on one shelf: feet on walls that are not covered. Coverage is tested before sorting, since most feet
- * are covered. */
+/* Offers the candidates of one shelf: feet on walls that no obstacle covers. Coverage is tested before sorting, since
+ * most feet are covered. Returns false if stopped on request. */
 static bool search_shelf(harvest *h, walls *all, size_t shelf)
 {
     near_wall *near = all->near + all->first[shelf];
@@ -255,13 +260,13 @@ static bool search_shelf(harvest *h, walls *all, size_t shelf)
     return true;
 }
 
-/* The nearest wall of a shelf is no nearer than this. */
+/* Returns a lower bound of the distance of the walls on a shelf. */
 static double distance_of(const harvest *h, size_t shelf)
 {
     return shelf ? h->limit * (1 - 0x1p-40) * ((double)shelf / SHELVES) : 0;
 }
 
-/* Feet on the walls, then crossings of walls. */
+/* Offers feet on the walls, then crossings of walls. */
 static void search(harvest *h, walls *all)
 {
     for (size_t k = 0; k < SHELVES; k++) {
@@ -284,7 +289,7 @@ static const char *check(const harvest *h)
 }
 #endif
 
-/* Is all of the obstacle farther than that from the target, by squares? */
+/* Is the squared distance of the obstacle's box from the target greater than `square`? */
 static bool is_beyond(const sunder_i_obstacle *obstacle, const double target[2], double square)
 {
     double sum = 0;
@@ -295,7 +300,7 @@ static bool is_beyond(const sunder_i_obstacle *obstacle, const double target[2],
     return sum > square;
 }
 
-/* Is the line of the wall farther from the target than that, by more than rounding makes of it? */
+/* Is the line of the wall certainly farther from the target than `limit`, whatever the rounding errors? */
 static bool is_line_beyond(const sunder_i_obstacle_side *wall, const double target[2], double limit)
 {
     const double x = wall->n[0] * target[0], y = wall->n[1] * target[1];
@@ -304,8 +309,8 @@ static bool is_line_beyond(const sunder_i_obstacle_side *wall, const double targ
     return fabs(x + y - wall->h) > limit * (1 + 0x1p-20) + 0x1p-40 * size;
 }
 
-/* Lists the walls within the limit, by approximate distance. Most walls are farther, which their squared distances show
- * by more than rounding. Returns how many. */
+/* Lists the walls within the limit, with approximate distances, and returns their number. Most walls are farther, which
+ * their squared distances prove with rounding errors allowed for. Walls covered by cells go to all->covered. */
 static size_t gather(const harvest *h, near_wall *list, walls *all)
 {
     const sunder_i_obstacles *o = h->obstacles;
@@ -337,7 +342,7 @@ static size_t shelf_of(const harvest *h, double distance)
     return share < SHELVES - 1 ? (size_t)share : SHELVES - 1;
 }
 
-/* Puts them on shelves, by distance. */
+/* Sorts the n walls into shelves by distance. */
 static void shelve(const harvest *h, const near_wall *list, size_t n, walls *all)
 {
     size_t *end = all->first;
@@ -345,7 +350,7 @@ static void shelve(const harvest *h, const near_wall *list, size_t n, walls *all
     for (size_t k = 0; k < n; k++) end[shelf_of(h, list[k].distance) + 1]++;
     for (size_t k = 0; k < SHELVES; k++) end[k + 1] += end[k];
     for (size_t k = n; k-- > 0;) all->near[--end[shelf_of(h, list[k].distance) + 1]] = list[k];
-    /* Each shelf's end came down to its beginning. */
+    /* The loop above moved the end of each shelf down to its beginning. */
     memmove(all->first, all->first + 1, SHELVES * sizeof *all->first);
     all->first[SHELVES] = n;
 }

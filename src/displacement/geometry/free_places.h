@@ -7,9 +7,9 @@
 #include <stdint.h>
 
 typedef struct sunder_i_obstacle_side {
-    double n[2], h; /* the obstacle lies in n.x <= h */
+    double n[2], h; /* the obstacle lies in the half-plane n.x <= h */
     double from[2], to[2];
-    double distance; /* from the target */
+    double distance; /* of the wall from the target */
     uint32_t obstacle;
 } sunder_i_obstacle_side;
 
@@ -18,36 +18,37 @@ typedef struct sunder_i_obstacle {
     double box[4];
 } sunder_i_obstacle;
 
-/* What of a wall tells whether a point lies within it, and not on it: n.x < h. */
+/* A compact copy of a wall's line, for the test whether a point lies strictly inside: n.x < h. */
 typedef struct sunder_i_obstacle_line {
     double n[2], h;
 } sunder_i_obstacle_line;
 
-/* A union of open convex polygons. */
+/* A union of open convex polygons ("obstacles"), stored with their sides ("walls"). */
 typedef struct sunder_i_obstacles {
     sunder_i_obstacle *obstacle;
     size_t n, obstacle_capacity;
     sunder_i_obstacle_side *wall;
     size_t walls, wall_capacity;
-    sunder_i_obstacle_line *line; /* of each wall */
+    sunder_i_obstacle_line *line; /* [walls] the line of each wall */
     size_t line_capacity;
     bool failed;
 } sunder_i_obstacles;
 
-/* Nearer to a wall than this counts as on it. */
+/* Returns the distance from a wall of the obstacle below which a point counts as on the wall. */
 double sunder_i_obstacle_slack(const sunder_i_obstacle *obstacle);
 
 void sunder_i_obstacles_free(sunder_i_obstacles *obstacles);
-/* There are none any more; the memory stays. */
+/* Removes all obstacles and keeps the memory. */
 void sunder_i_obstacles_clear(sunder_i_obstacles *obstacles);
-/* Adds the convex polygon d grown by gap; its round corners are replaced by tangents that contain them. */
+/* Adds the convex polygon d of n corners, grown by `gap`. Its round corners are replaced by tangents, so that the grown
+ * polygon is contained. */
 void sunder_i_obstacles_add(sunder_i_obstacles *obstacles, const double *d, size_t n, double gap);
-/* Adds again the walls and the box of an obstacle that was added before. */
+/* Adds an obstacle whose walls and box were computed before. */
 void sunder_i_obstacles_add_known(sunder_i_obstacles *obstacles, const sunder_i_obstacle_side *wall, uint32_t walls,
                                   const double box[4]);
-/* Local minima of the distance from target on the boundary of the free space, nearest first, at most `most` of them,
- * none beyond limit, no two nearer than `spread`. Returns how many; *steps grows by the work done, in constraints
- * looked at; *failed is set if memory is out. */
+/* Finds local minima of the distance from `target` on the boundary of the free space, nearest first: at most `most`,
+ * none farther than `limit`, no two nearer than `spread` to each other. Returns their number. *steps grows by the work
+ * done, in constraints processed. *failed is set if memory is out or the run was stopped. */
 size_t sunder_i_free_places(const sunder_i_obstacles *obstacles, const double target[2], double limit, double spread,
                             size_t most, double (*places)[2], uint64_t *steps, bool *failed);
 

@@ -1,4 +1,4 @@
-/* See grown_cache.h. A cached value equals what would be computed, to the last bit, so the cache changes no result. */
+/* See grown_cache.h. A cached value equals the computed one to the last bit, so the cache changes no result. */
 #include "displacement/geometry/grown_cache.h"
 #include "displacement/geometry/tuning.h"
 
@@ -12,7 +12,7 @@
 typedef struct sunder_i_grown {
     sunder_i_grown_key key;
     double box[4];
-    uint32_t first, n; /* its walls; n is 0 where nothing is kept */
+    uint32_t first, n; /* its walls; n is 0 in a free slot */
 } grown;
 
 void sunder_i_grown_cache_free(sunder_i_grown_cache *cache)
@@ -22,7 +22,7 @@ void sunder_i_grown_cache_free(sunder_i_grown_cache *cache)
     memset(cache, 0, sizeof *cache);
 }
 
-/* Where that key is, or would be. */
+/* Returns the slot that has the key, or the free slot where it would be stored. */
 static grown *slot_of(const sunder_i_grown_cache *cache, const sunder_i_grown_key *key)
 {
     const uint64_t h = sunder_i_mix(sunder_i_mix(sunder_i_mix(key->pieces, key->offset[0]), key->offset[1]), key->gap);
@@ -39,7 +39,7 @@ bool sunder_i_grown_cache_add(const sunder_i_grown_cache *cache, const sunder_i_
     return known->n > 0;
 }
 
-/* Room for one more, no more than half of the slots in use. */
+/* Makes room for one more entry; at most half of the slots are in use. Returns false if memory is out. */
 static bool make_room(sunder_i_grown_cache *cache)
 {
     if (2 * (cache->used + 1) <= cache->slots) return true;

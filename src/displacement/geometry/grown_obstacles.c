@@ -1,4 +1,5 @@
-/* A union of convex polygons, each grown by its gap: its walls, and the lines that decide whether a point is inside. */
+/* Makes a union of convex polygons, each grown by its gap: its walls, and the lines that decide whether a point is
+ * inside. */
 #include "displacement/geometry/free_places.h"
 #include "displacement/geometry/tuning.h"
 
@@ -30,15 +31,15 @@ double sunder_i_obstacle_slack(const sunder_i_obstacle *obstacle)
     return ON_A_SIDE * (b[2] - b[0] + b[3] - b[1]);
 }
 
-/* A wall with normal n through the corner c, ends to be filled in: for now it starts at that corner, which
- * close_walls() moves out. There is room for it. */
+/* Appends a wall with the normal n, at distance `gap` from corner c. Its `from` is set to that corner, until
+ * close_walls() sets its true ends. The room must have been reserved. */
 static inline void add_normal(sunder_i_obstacles *o, const double n[2], const double c[2], double gap)
 {
     o->wall[o->walls++] = (sunder_i_obstacle_side){
         .n = {n[0], n[1]}, .h = n[0] * c[0] + n[1] * c[1] + gap, .from = {c[0], c[1]}, .obstacle = (uint32_t)o->n};
 }
 
-/* Reserves room for `more` further walls. */
+/* Reserves room for `more` further walls. Returns false, and sets o->failed, if memory is out. */
 static bool reserve_walls(sunder_i_obstacles *o, size_t more)
 {
     const size_t need = o->walls + more, first = need > FEWEST_WALLS ? need : FEWEST_WALLS;
@@ -46,14 +47,15 @@ static bool reserve_walls(sunder_i_obstacles *o, size_t more)
     return !o->failed;
 }
 
-/* The largest turn of normals at a round corner, and its cosine, for a polygon of this many corners. */
+/* How finely round corners are approximated: the largest angle between normals of consecutive walls, and its cosine.
+ * corners: the number of corners of the polygon. */
 typedef struct roundness {
     double turn, cosine;
     size_t corners;
 } roundness;
 
-/* Where the gap is next to nothing beside the polygon (the margin of a
- * search whose gap is 0, all shadows) so is what a corner holds too much. */
+/* The angle is larger if the gap is tiny compared with the polygon (the margin of a search whose gap is 0, and all
+ * shadows): then the area added at a corner is tiny, too. */
 static roundness find_roundness(const double *d, size_t n, double gap)
 {
     double box[4];
@@ -64,16 +66,16 @@ static roundness find_roundness(const double *d, size_t n, double gap)
     return (roundness){turn, cos(turn), n};
 }
 
-/* The normals between those of two edges that meet in c. */
+/* Adds the walls at a round corner c, with normals between those of the edges that meet there, n and m. */
 static void add_round(sunder_i_obstacles *o, const double n[2], const double m[2], const double c[2], double gap,
                       const roundness *most)
 {
     const double sine = n[0] * m[1] - n[1] * m[0], cosine = n[0] * m[0] + n[1] * m[1];
     if (sine >= 0 && cosine > most->cosine) return;
     const double turn = atan2(sine, cosine);
-    const double angle = turn < -FLAT ? turn + 2 * PI : turn; /* a flat piece turns by half a circle */
+    const double angle = turn < -FLAT ? turn + 2 * PI : turn; /* a piece without area turns by half a circle */
     const int steps = (int)ceil(angle / most->turn);
-    /* Room is needed for the corners' walls as well. */
+    /* Room must be left for the walls of the remaining edges. */
     if (steps < 2 || !reserve_walls(o, (size_t)steps + most->corners)) return;
     const double turn_cos = cos(angle / steps), turn_sin = sin(angle / steps);
     double t[2] = {n[0], n[1]};
@@ -85,7 +87,7 @@ static void add_round(sunder_i_obstacles *o, const double n[2], const double m[2
     }
 }
 
-/* The lines of the obstacle whose walls and box are there. */
+/* Completes the obstacle whose walls and box have been made: stores its lines. */
 static void end_obstacle(sunder_i_obstacles *o)
 {
     const sunder_i_obstacle *obstacle = &o->obstacle[o->n];
@@ -95,8 +97,8 @@ static void end_obstacle(sunder_i_obstacles *o)
     o->n++;
 }
 
-/* Consecutive walls meet: at the corner itself without a gap, else where their lines cross, the corner moved out along
- * the bisector of the normals. */
+/* Sets the ends of the walls from index `first` on. Consecutive walls meet at the corner itself if there is no gap;
+ * otherwise where their lines cross, which is the corner moved along the bisector of the normals. */
 static void close_walls(sunder_i_obstacles *o, size_t first, double gap)
 {
     const size_t n = o->walls - first;
@@ -144,7 +146,7 @@ void sunder_i_obstacles_add(sunder_i_obstacles *obstacles, const double *d, size
     if (any && gap > 0) add_round(obstacles, before, first_normal, first_corner, gap, &most);
     if (obstacles->failed) return;
     if (obstacles->walls - first < 3) {
-        obstacles->walls = first; /* no area, no gap: no obstacle */
+        obstacles->walls = first; /* without area and gap there is no obstacle */
         return;
     }
     if (sunder_i_reserve(&obstacles->line, &obstacles->line_capacity, obstacles->wall_capacity,

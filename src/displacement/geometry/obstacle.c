@@ -1,10 +1,12 @@
-/* Two convex pieces: their obstacle A + (-B), and the support line of it that serves best as a constraint.
+/* The obstacle A + (-B) of two convex pieces, and the support line of it that serves best as a constraint.
  *
- * B + u misses the interior of A exactly when u lies outside the interior of A + (-B). For every unit vector n,
+ * B + u misses the interior of A exactly if u lies outside the interior of A + (-B). For every unit vector n,
+ *
  *     n.u >= h_A(n) + h_B(-n) + gap
- * keeps B + u at least the gap from A, wherever u is [LM95]: it is a *global* constraint, and the
- * only choice is that of n. Chosen where u stands now, as the direction of the nearest point, it is tight there, so
- * that a feasible u stays feasible. */
+ *
+ * keeps B + u at least the gap from A, wherever u is [LM95]: it is a *global* constraint, and the only choice is that
+ * of n. If n is the direction from the nearest point of the obstacle to the present u, the constraint is tight there,
+ * so a feasible u remains feasible. */
 #include "displacement/geometry/obstacle.h"
 #include "displacement/geometry/tuning.h"
 
@@ -33,7 +35,7 @@ size_t sunder_i_extreme_corner(const double *corner, size_t n, double sign)
     return best;
 }
 
-/* The edge of p's corner k, or (sign -1) its opposite; returns the next corner. */
+/* Sets out to the edge that begins at corner k of p, times `sign`. Returns the number of the next corner. */
 static size_t edge_at(const double *p, size_t n, size_t k, double sign, double out[2])
 {
     const size_t next = k + 1 < n ? k + 1 : 0;
@@ -42,8 +44,8 @@ static size_t edge_at(const double *p, size_t n, size_t k, double sign, double o
     return next;
 }
 
-/* Each corner is the difference of two vertices, independent of the edges that led there. Summing edges would
- * accumulate rounding, and the last corner would miss the first by a tiny edge of arbitrary direction. */
+/* Each corner is the difference of two vertices, independent of the edges before it. Summing up edges would accumulate
+ * rounding errors, and the last corner would miss the first by a tiny edge of arbitrary direction. */
 size_t sunder_i_obstacle_corners(const double *a, size_t na, const double *b, size_t nb, const double offset[2],
                                  sunder_i_scratch *scratch)
 {
@@ -52,8 +54,8 @@ size_t sunder_i_obstacle_corners(const double *a, size_t na, const double *b, si
     size_t i = sunder_i_extreme_corner(a, na, 1), j = sunder_i_extreme_corner(b, nb, -1), n = 0;
     double u[2], v[2];
     size_t next_i = edge_at(a, na, i, 1, u), next_j = edge_at(b, nb, j, -1, v);
-    /* Both start at the lowest corner, so both sequences of edges turn from direction 0 to 2 pi, and merge by
-     * turning. */
+    /* Both sequences of edges start at the lowest corner, so their directions increase from 0 to 2 pi, and they are
+     * merged by direction. */
     sunder_i_merge m = sunder_i_merge_of((uint32_t)na, (uint32_t)nb);
     while (SUNDER_I_MERGE_NEXT(&m, sunder_i_turns_first(u, v) ? -1 : 1)) {
         d[2 * n] = a[2 * i] - b[2 * j] - offset[0];
@@ -80,13 +82,14 @@ size_t sunder_i_obstacle_edges(const double *d, size_t n, sunder_i_obstacle_edge
     return edges;
 }
 
-/* The line of an edge. */
+/* Returns the support line along an edge. */
 static sunder_i_support line_of(const sunder_i_obstacle_edge *e, double distance)
 {
     return (sunder_i_support){{e->n[0], e->n[1]}, e->n[0] * e->from[0] + e->n[1] * e->from[1], distance};
 }
 
-/* The line through corner c, `far` from u, that faces u. */
+/* Returns the support line through corner c that is perpendicular to the direction from c to u; `far` is their
+ * distance. */
 static sunder_i_support line_at(const double c[2], const double u[2], double far)
 {
     const double cx = u[0] - c[0], cy = u[1] - c[1];
@@ -107,7 +110,7 @@ sunder_i_support sunder_i_support_at(const sunder_i_obstacle_edge *edge, size_t 
             best = e;
         }
         if (s < 0) continue;
-        /* In front of this edge: either its inside or one of its ends is nearest. */
+        /* u is in front of this edge: the nearest point is inside the edge or one of its ends. */
         const double along = wy * e->n[0] - wx * e->n[1];
         if (along >= 0 && along <= e->length) {
             if (s < nearest) {
@@ -124,7 +127,8 @@ sunder_i_support sunder_i_support_at(const sunder_i_obstacle_edge *edge, size_t 
             corner = c;
         }
     }
-    /* Very near a corner the direction to it is noise; an edge's normal serves as well there. */
+    /* Very near to a corner the direction from it to u is dominated by rounding, and the normal of an edge serves as
+     * well. */
     if (most <= 0 || !(nearest < INFINITY) || nearest < AT_A_CORNER * perimeter)
         return best ? line_of(best, most) : (sunder_i_support){{1, 0}, 0, -INFINITY};
     return facing ? line_of(facing, nearest) : line_at(corner, u, nearest);

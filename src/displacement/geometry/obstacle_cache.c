@@ -1,5 +1,5 @@
-/* Obstacles kept at hand. Bodies do not turn, so the obstacle that two pieces are to each other is the same wherever
- * they stand, and a descent asks for it in every round. */
+/* A cache of obstacles. Bodies do not turn, so the obstacle of two pieces is the same wherever they are, and the search
+ * needs it again in each round. */
 #include "displacement/geometry/obstacle_cache.h"
 #include "displacement/geometry/tuning.h"
 
@@ -10,7 +10,7 @@
 #include <string.h>
 
 typedef struct sunder_i_cached_obstacle {
-    uint64_t key; /* 0: unused */
+    uint64_t key; /* 0: a free slot */
     uint32_t first, n;
 } cached_obstacle;
 
@@ -21,7 +21,7 @@ void sunder_i_obstacle_cache_free(sunder_i_obstacle_cache *cache)
     memset(cache, 0, sizeof *cache);
 }
 
-/* Where that key is, or would be. */
+/* Returns the slot that has the key, or the free slot where it would be stored. */
 static size_t slot_of(const sunder_i_obstacle_cache *cache, uint64_t key)
 {
     size_t k = (size_t)((key * UINT64_C(0x9e3779b97f4a7c15)) >> 32) & (cache->slots - 1);
@@ -38,7 +38,7 @@ const sunder_i_obstacle_edge *sunder_i_obstacle_cache_find(const sunder_i_obstac
     return s->key ? cache->edge + s->first : NULL;
 }
 
-/* Room for one more key, no more than half of the slots in use. */
+/* Makes room for one more key; at most half of the slots are in use. Returns false if memory is out. */
 static bool make_room(sunder_i_obstacle_cache *cache)
 {
     if (2 * (cache->used + 1) <= cache->slots) return true;

@@ -1,11 +1,11 @@
-/* Obstacles kept at hand; see obstacle_cache.c. */
+/* A cache of obstacles; see obstacle_cache.c. */
 #ifndef SUNDER_I_OBSTACLE_CACHE_H
 #define SUNDER_I_OBSTACLE_CACHE_H
 
 #include "displacement/geometry/obstacle.h"
 #include <stdint.h>
 
-/* Obstacles by key, for repeated use; the cache is bounded, so entries may be evicted. */
+/* Obstacles by key. The size of the cache is bounded: when it is full all entries are removed. */
 typedef struct sunder_i_obstacle_cache {
     struct sunder_i_cached_obstacle *slot; /* [slots] open addressing; slots is a power of two, or 0 */
     size_t slots, used;
@@ -14,11 +14,11 @@ typedef struct sunder_i_obstacle_cache {
 } sunder_i_obstacle_cache;
 
 void sunder_i_obstacle_cache_free(sunder_i_obstacle_cache *cache);
-/* The edges put there with that key (not 0), *n of them; NULL: none are there. */
+/* Returns the edges stored under this key (not 0) and sets *n to their number; NULL if there are none. */
 const sunder_i_obstacle_edge *sunder_i_obstacle_cache_find(const sunder_i_obstacle_cache *cache, uint64_t key,
                                                            size_t *n);
-/* Puts the edges of the polygon d of n corners there, of whose key there are none; NULL: memory is out. They stay until
- * something else is put there. */
+/* Stores the edges of the polygon d of n corners under a key that is not in the cache, and returns them. Returns NULL
+ * if memory is out. The pointer is valid until the next call. */
 const sunder_i_obstacle_edge *sunder_i_obstacle_cache_add(sunder_i_obstacle_cache *cache, uint64_t key, const double *d,
                                                           size_t *n);
 

@@ -1,13 +1,14 @@
-/* Shadows: where a point may not go straight from the origin, since K is in the way.
+/* The shadow of a convex polygon K from the origin: the points that a straight path from the origin cannot reach
+ * without meeting K.
  *
  *            far .--------------------.
- *               /      shadow        /     Left and right of K run rays from its two tangent corners; the sides of K
- *          L   /                    /      between these, on the side of the origin, close it. It is convex, as K is,
- *           \_K_                   /       and has no far end: rays have infinite length.
+ *               /      shadow        /     Rays from the two tangent corners of K bound it on the left and right; the
+ *          L   /                    /      sides of K between these, on the side of the origin, close it. It is convex,
+ *           \_K_                   /       as K is, and unbounded: the rays have infinite length.
  *               \_ R ____________ /
  *       0
  *
- * In doubles, for the search: a shadow proposes sides and places, and decides nothing. */
+ * It is computed in doubles, for the search: a shadow proposes sides and places, and decides nothing. */
 #include "displacement/geometry/obstacle_shadow.h"
 
 #include <math.h>
@@ -16,7 +17,8 @@ static double cross(const double u[2], const double v[2]) { return u[0] * v[1] -
 
 static double dot(const double u[2], const double v[2]) { return u[0] * v[0] + u[1] * v[1]; }
 
-/* The corner with all others on its left (sign +1) or right (-1) as seen from the origin, the nearest of several. */
+/* Returns the corner that has all others on its left (sign +1) or right (sign -1) as seen from the origin; of several
+ * the nearest. */
 static size_t tangent_corner(const double *k, size_t n, double sign)
 {
     size_t best = 0;
@@ -27,7 +29,8 @@ static size_t tangent_corner(const double *k, size_t n, double sign)
     return best;
 }
 
-/* Do all corners lie between the two directions, which are less than half a turn apart? Then the origin is not in K. */
+/* Do all corners lie between the two directions, which must be less than half a turn apart? Then the origin is not in
+ * K. */
 static bool is_between(const double *k, size_t n, const double right[2], const double left[2])
 {
     if (cross(right, left) < 0 || (cross(right, left) == 0 && !(dot(right, left) > 0))) return false;
@@ -36,7 +39,8 @@ static bool is_between(const double *k, size_t n, const double right[2], const d
     return true;
 }
 
-/* The ray that begins at `from` and leads away from the origin; its outer normal is on its left (sign +1) or right. */
+/* Returns the ray that begins at `from` and leads away from the origin. Its outer normal is on its left (sign +1) or
+ * right (sign -1). */
 static sunder_i_obstacle_edge ray(const double from[2], double sign)
 {
     const double length = hypot(from[0], from[1]);
@@ -73,7 +77,7 @@ sunder_i_support sunder_i_shadow_support_at(const sunder_i_obstacle_edge *edge, 
         const double w[2] = {u[0] - e->from[0], u[1] - e->from[1]}, s = dot(e->n, w);
         if (s > best.distance) best = support_of(e, s);
         if (s < 0) continue;
-        /* The first ray leads against the order of the others. */
+        /* The first ray points against the order of the other edges. */
         const double along = (k ? 1 : -1) * (w[1] * e->n[0] - w[0] * e->n[1]);
         if (along >= 0 && along <= e->length) {
             if (s < nearest) {
@@ -99,8 +103,9 @@ size_t sunder_i_shadow_corners(const sunder_i_obstacle_edge *edge, size_t n, dou
         out[2 * corners] = edge[k].from[0];
         out[2 * corners++ + 1] = edge[k].from[1];
     }
-    /* Outward along the right ray and back along the left one. The far end between them is cut in two, so that it stays
-     * beyond `far`: for an arc of less than half a turn, the chord of each part is nearer by at most its cosine. */
+    /* The polygon ends with a corner far out on the right ray, a middle one, and one on the left ray. The middle corner
+     * keeps its far sides beyond the distance `far`: the rays are less than half a turn apart, so each side spans less
+     * than a quarter. */
     const double a[2] = {-right->n[1], right->n[0]}, b[2] = {left->n[1], -left->n[0]};
     double middle[2] = {a[0] + b[0], a[1] + b[1]};
     const double length = hypot(middle[0], middle[1]);

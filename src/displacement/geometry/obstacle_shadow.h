@@ -4,18 +4,19 @@
 
 #include "displacement/geometry/obstacle.h"
 
-/* Edges of { s k : k in K, s >= 1 } for the convex polygon K of n corners, counter-clockwise; K may be a point or a
- * segment. The first and the last edge are rays that begin at K: seen outward, the shadow lies to the right of the
- * first and to the left of the last. Between them are the sides of K that face the origin. Returns how many, at most n
- * + 1; 0 where the origin is in K, or too near to tell. edge: room for n + 1. */
+/* Computes the edges of the shadow { s k : k in K, s >= 1 } of the convex polygon K of n corners, counter-clockwise; K
+ * may be a point or a segment. The first and the last edge are rays that begin at K: seen outward, the shadow lies to
+ * the right of the first and to the left of the last. Between them are the sides of K that face the origin. Returns the
+ * number of edges, at most n + 1, or 0 if the origin is in K or too near to tell. edge: room for n + 1. */
 size_t sunder_i_shadow_edges(const double *k, size_t n, sunder_i_obstacle_edge *edge);
-/* The support line of such a shadow that is farthest below u. */
+/* Returns the support line of such a shadow whose distance from u is greatest. */
 sunder_i_support sunder_i_shadow_support_at(const sunder_i_obstacle_edge *edge, size_t n, const double u[2]);
-/* The shadow as a polygon that holds all of it up to the distance `far` from the origin: its corners into out, room for
- * n + 3. Returns how many. */
+/* Writes the corners of a polygon that contains the part of the shadow up to the distance `far` from the origin to
+ * `out`, which has room for n + 3. Returns their number. */
 size_t sunder_i_shadow_corners(const sunder_i_obstacle_edge *edge, size_t n, double far, double *out);
 
-/* The box of the segment from the origin to u, grown by reach: a shadow within reach of u is cast by what meets it. */
+/* Sets `way` to the box of the segment from the origin to u, grown by `reach`. A shadow within `reach` of u is cast by
+ * an obstacle that meets this box. */
 static inline void sunder_i_shadow_way(const double u[2], double reach, double way[4])
 {
     for (int c = 0; c < 2; c++) {
@@ -24,8 +25,7 @@ static inline void sunder_i_shadow_way(const double u[2], double reach, double w
     }
 }
 
-/* May it meet the obstacle of the contents of box a and of box b, whose origin is at `offset`? Decided by their
- * boxes. */
+/* May the box `way` meet the obstacle of a set with box a and one with box b, whose origin is at `offset`? */
 static inline bool sunder_i_shadow_may_reach(const double a[4], const double b[4], const double offset[2],
                                              const double way[4])
 {
