@@ -5,16 +5,16 @@
 #include "displacement/geometry/obstacle_shadow.h"
 #include "displacement/layer/model.h"
 
-/* May a relative path with the box `way` (sunder_i_shadow_way()) meet the shadow of body q from an anchor of body p, or
- * if `swapped`, of p from an anchor of q? `offset` is the origin of q relative to that of p. Only if jumps are not
- * allowed. */
+/* May a relative path with the box `path` (sunder_i_shadow_path_box()) meet the shadow of body q from an anchor of body
+ * p, or if `swapped`, of p from an anchor of q? `offset` is the origin of q relative to that of p. Only if jumps are
+ * not allowed. */
 static inline bool sunder_i_anchors_may_reach(const sunder_i_model *model, const sunder_i_body *p,
                                               const sunder_i_body *q, bool swapped, const double offset[2],
-                                              const double way[4])
+                                              const double path[4])
 {
     double anchors[4];
     sunder_i_anchors(model, swapped ? q : p, anchors);
-    return sunder_i_shadow_may_reach(swapped ? p->box : anchors, swapped ? anchors : q->box, offset, way);
+    return sunder_i_shadow_may_reach(swapped ? p->box : anchors, swapped ? anchors : q->box, offset, path);
 }
 
 #endif

@@ -35,7 +35,7 @@ static double find_extent(const sunder_i_obstacles *o, const double target[2], d
     return sum / (double)o->n;
 }
 
-static bool enter(sunder_i_cells *cells, uint32_t at, uint32_t obstacle, bool holds)
+static bool enter_cell(sunder_i_cells *cells, uint32_t at, uint32_t obstacle, bool holds)
 {
     sunder_i_cell *cell = &cells->cell[at];
     if (!sunder_i_reserve(&cells->entered, &cells->capacity, cells->entries + 1, sizeof *cells->entered)) return false;
@@ -69,7 +69,7 @@ static bool sort_entries(const sunder_i_obstacles *o, sunder_i_cells *cells)
 
 /* Returns the number of columns (c = 0) or rows (c = 1) of cells that the interval from a to b may meet; *first is the
  * first of them. */
-static uint32_t range(const sunder_i_cells *cells, int c, double a, double b, uint32_t *first)
+static uint32_t range_of_cells(const sunder_i_cells *cells, int c, double a, double b, uint32_t *first)
 {
     const double margin = CELL_MARGIN, most = cells->across[c];
     const double from = floor((a - cells->low[c]) / cells->side - margin),
@@ -108,18 +108,19 @@ static bool enter_obstacle(const sunder_i_obstacles *o, uint32_t k, sunder_i_cel
     const sunder_i_obstacle *obstacle = &o->obstacle[k];
     const double half = cells->side * (0.5 + CELL_MARGIN), *box = obstacle->box;
     uint32_t i, j;
-    const uint32_t columns = range(cells, 0, box[0], box[2], &i), rows = range(cells, 1, box[1], box[3], &j);
+    const uint32_t columns = range_of_cells(cells, 0, box[0], box[2], &i),
+                   rows = range_of_cells(cells, 1, box[1], box[3], &j);
     for (uint32_t y = j; columns && y < j + rows; y++) {
         double meets[2], holds[2];
         uint32_t first;
         if (!cut_row(o, obstacle, cells->low[1] + (y + 0.5) * cells->side, half, meets, holds)) continue;
         /* The cells whose centres are in the interval `meets`, and no others. */
-        const uint32_t n =
-            range(cells, 0, sunder_i_max(meets[0] - half, box[0]), sunder_i_min(meets[1] + half, box[2]), &first);
+        const uint32_t n = range_of_cells(cells, 0, sunder_i_max(meets[0] - half, box[0]),
+                                          sunder_i_min(meets[1] + half, box[2]), &first);
         for (uint32_t x = first; x < first + n; x++) {
             const double centre = cells->low[0] + (x + 0.5) * cells->side;
             if (centre < meets[0] || centre > meets[1]) continue;
-            if (!enter(cells, y * cells->across[0] + x, k, centre > holds[0] && centre < holds[1])) return false;
+            if (!enter_cell(cells, y * cells->across[0] + x, k, centre > holds[0] && centre < holds[1])) return false;
         }
     }
     return sunder_i_steps(1 + rows);

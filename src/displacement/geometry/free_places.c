@@ -50,7 +50,7 @@ static void nearest_on(const sunder_i_obstacle_side *w, const double x[2], doubl
     out[1] = w->from[1] + s * ey;
 }
 
-typedef struct harvest {
+typedef struct place_search {
     const sunder_i_obstacles *obstacles;
     const double *target;
     double limit, spread;
@@ -61,7 +61,7 @@ typedef struct harvest {
     double (*place)[2];
     double *distance;
     uint64_t work; /* done up to now, in constraints processed */
-} harvest;
+} place_search;
 
 /* A segment or a point, with its box. */
 typedef struct span {
@@ -81,7 +81,7 @@ static inline bool is_in_box(const double box[4], const span *of)
     return (of->box[0] > box[0]) & (of->box[2] < box[2]) & (of->box[1] > box[1]) & (of->box[3] < box[3]);
 }
 
-static inline bool is_in_lines(const harvest *h, uint32_t obstacle, const span *of)
+static inline bool is_in_lines(const place_search *h, uint32_t obstacle, const span *of)
 {
     const sunder_i_obstacle *it = &h->obstacles->obstacle[obstacle];
     const sunder_i_obstacle_line *line = h->obstacles->line + it->wall, *end = line + it->walls;
@@ -94,7 +94,7 @@ static inline bool is_in_lines(const harvest *h, uint32_t obstacle, const span *
 
 /* Does an obstacle that meets the cell, other than `own`, contain the whole span? Obstacles that contained an earlier
  * span are tested first. */
-static bool is_held_about(harvest *h, const sunder_i_cell *c, const span *of, uint32_t own)
+static bool is_held_about(place_search *h, const sunder_i_cell *c, const span *of, uint32_t own)
 {
     sunder_i_cell_entry *first = h->cells.entry + c->first, *end = first + c->n;
     for (sunder_i_cell_entry *e = first; e < end; e++) {
@@ -111,7 +111,7 @@ static bool is_held_about(harvest *h, const sunder_i_cell *c, const span *of, ui
 /* Does one obstacle, other than `own`, contain the whole span? x is a point of it. Such an obstacle meets the cell of
  * every point of the span, so the entries of only one cell are tested: that of x or of an end, whichever has the
  * fewest. */
-static bool is_held(harvest *h, const span *of, const double x[2], uint32_t own)
+static bool is_held(place_search *h, const span *of, const double x[2], uint32_t own)
 {
     const double *place[3] = {x, of->end[0], of->end[1]};
     sunder_i_cell *fewest = NULL;
@@ -135,7 +135,7 @@ static bool is_held(harvest *h, const span *of, const double x[2], uint32_t own)
 /* Returns the work of testing n obstacles or walls, most of which are excluded quickly. */
 static uint64_t work_of(size_t n) { return 1 + n / TESTS_A_STEP; }
 
-static bool work(harvest *h, size_t n)
+static bool count_work(place_search *h, size_t n)
 {
     h->work += work_of(n);
     return sunder_i_steps(1 + n / TESTS_A_WATCH);
@@ -143,11 +143,11 @@ static bool work(harvest *h, size_t n)
 
 /* Adds x to the places if it is free and near enough. Places remain sorted by distance; of two places nearer than
  * `spread` to each other the one nearer to the target is kept. */
-static void offer(harvest *h, const double x[2])
+static void offer_place(place_search *h, const double x[2])
 {
     const double d = hypot(x[0] - h->target[0], x[1] - h->target[1]);
     if (!(d <= h->limit) || (h->n == h->most && d >= h->distance[h->n - 1])) return;
-    if (!work(h, h->obstacles->n)) return;
+    if (!count_work(h, h->obstacles->n)) return;
     for (size_t k = 0; k < h->n && h->distance[k] <= d; k++)
         if (hypot(x[0] - h->place[k][0], x[1] - h->place[k][1]) <= h->spread) return;
     const span point = span_of(x, x);
@@ -173,10 +173,10 @@ static void offer(harvest *h, const double x[2])
     h->n++;
 }
 
-static double reach_of(const harvest *h) { return h->n == h->most ? h->distance[h->n - 1] : h->limit; }
+static double reach_of(const place_search *h) { return h->n == h->most ? h->distance[h->n - 1] : h->limit; }
 
 /* Offers the crossings of wall w with every wall before it. */
-static void offer_crossings(harvest *h, const sunder_i_obstacle_side *wall, size_t w)
+static void offer_crossings(place_search *h, const sunder_i_obstacle_side *wall, size_t w)
 {
     const sunder_i_obstacle_side *a = &wall[w];
     h->work += w;
@@ -191,12 +191,12 @@ static void offer_crossings(harvest *h, const sunder_i_obstacle_side *wall, size
         if ((e1 > 0) == (e2 > 0)) continue;
         const double s = d1 / (d1 - d2),
                      x[2] = {a->from[0] + s * (a->to[0] - a->from[0]), a->from[1] + s * (a->to[1] - a->from[1])};
-        offer(h, x);
+        offer_place(h, x);
     }
 }
 
 /* Does one obstacle other than its own contain the whole wall? Most walls lie deep inside the union. */
-static bool is_covered(harvest *h, const sunder_i_obstacle_side *w, const double foot[2])
+static bool is_covered(place_search *h, const sunder_i_obstacle_side *w, const double foot[2])
 {
     const span all = span_of(w->from, w->to);
     return is_held(h, &all, foot, w->obstacle);
@@ -204,7 +204,7 @@ static bool is_covered(harvest *h, const sunder_i_obstacle_side *w, const double
 
 /* The same by cells alone: returns true if one obstacle contains the cells of both ends, and so all between them, or
  * contains the cell of one end and the wall. */
-static bool is_covered_by_cells(const harvest *h, const sunder_i_obstacle_side *w)
+static bool is_covered_by_cells(const place_search *h, const sunder_i_obstacle_side *w)
 {
     uint32_t from, to;
     if (!sunder_i_cells_find(&h->cells, w->from, &from) || !sunder_i_cells_find(&h->cells, w->to, &to)) return false;
@@ -222,18 +222,18 @@ static int by_distance(const void *a, const void *b) { return comes_before(b, a)
 
 /* The walls within the limit of the target, except those that are known to lie inside one obstacle. They are sorted
  * roughly by distance into SHELVES intervals ("shelves"). */
-typedef struct walls {
+typedef struct wall_lists {
     near_wall *near; /* the walls of all shelves, one shelf after the other, unsorted within each */
     size_t first[SHELVES + 1];
     sunder_i_obstacle_side *bare; /* the walls outside all other obstacles found up to now, the nearest first */
     size_t bares;
     double *covered; /* the distances of the walls inside other obstacles */
     size_t left_out;
-} walls;
+} wall_lists;
 
 /* Offers the candidates of one shelf: feet on walls that no obstacle covers. Coverage is tested before sorting, since
  * most feet are covered. Returns false if stopped on request. */
-static bool search_shelf(harvest *h, walls *all, size_t shelf)
+static bool search_shelf(place_search *h, wall_lists *all, size_t shelf)
 {
     near_wall *near = all->near + all->first[shelf];
     size_t n = 0;
@@ -251,9 +251,9 @@ static bool search_shelf(harvest *h, walls *all, size_t shelf)
     if (n) qsort(near, n, sizeof *near, by_distance);
     for (size_t k = 0; k < n && near[k].distance <= h->limit && near[k].distance <= reach_of(h); k++) {
         double x[2];
-        if (!work(h, h->obstacles->n)) return false;
+        if (!count_work(h, h->obstacles->n)) return false;
         nearest_on(near[k].wall, h->target, x);
-        offer(h, x);
+        offer_place(h, x);
         all->bare[all->bares] = *near[k].wall;
         all->bare[all->bares++].distance = near[k].distance;
     }
@@ -261,13 +261,13 @@ static bool search_shelf(harvest *h, walls *all, size_t shelf)
 }
 
 /* Returns a lower bound of the distance of the walls on a shelf. */
-static double distance_of(const harvest *h, size_t shelf)
+static double distance_of(const place_search *h, size_t shelf)
 {
     return shelf ? h->limit * (1 - 0x1p-40) * ((double)shelf / SHELVES) : 0;
 }
 
 /* Offers feet on the walls, then crossings of walls. */
-static void search(harvest *h, walls *all)
+static void search_places(place_search *h, wall_lists *all)
 {
     for (size_t k = 0; k < SHELVES; k++) {
         if (all->first[k] == all->first[k + 1]) continue;
@@ -281,7 +281,7 @@ static void search(harvest *h, walls *all)
 }
 
 #ifndef NDEBUG
-static const char *check(const harvest *h)
+static const char *check_places(const place_search *h)
 {
     for (size_t k = 0; k < h->n; k++)
         if (!(h->distance[k] <= h->limit) || (k && h->distance[k - 1] > h->distance[k])) return "places are not sorted";
@@ -311,7 +311,7 @@ static bool is_line_beyond(const sunder_i_obstacle_side *wall, const double targ
 
 /* Lists the walls within the limit, with approximate distances, and returns their number. Most walls are farther, which
  * their squared distances prove with rounding errors allowed for. Walls covered by cells go to all->covered. */
-static size_t gather(const harvest *h, near_wall *list, walls *all)
+static size_t gather_walls(const place_search *h, near_wall *list, wall_lists *all)
 {
     const sunder_i_obstacles *o = h->obstacles;
     const double beyond = h->limit * h->limit * (1 + 0x1p-40) + DBL_MIN;
@@ -336,14 +336,14 @@ static size_t gather(const harvest *h, near_wall *list, walls *all)
     return n;
 }
 
-static size_t shelf_of(const harvest *h, double distance)
+static size_t shelf_of(const place_search *h, double distance)
 {
     const double share = distance / h->limit * SHELVES;
     return share < SHELVES - 1 ? (size_t)share : SHELVES - 1;
 }
 
 /* Sorts the n walls into shelves by distance. */
-static void shelve(const harvest *h, const near_wall *list, size_t n, walls *all)
+static void sort_into_shelves(const place_search *h, const near_wall *list, size_t n, wall_lists *all)
 {
     size_t *end = all->first;
     memset(end, 0, sizeof all->first);
@@ -359,7 +359,7 @@ size_t sunder_i_free_places(const sunder_i_obstacles *obstacles, const double ta
                             size_t most, double (*places)[2], uint64_t *steps, bool *failed)
 {
     double distance[MOST_PLACES];
-    harvest h = {.obstacles = obstacles, .target = target, .limit = limit, .spread = spread, .place = places};
+    place_search h = {.obstacles = obstacles, .target = target, .limit = limit, .spread = spread, .place = places};
     h.distance = distance;
     h.most = most < MOST_PLACES ? most : MOST_PLACES;
     const size_t each = 2 * sizeof(near_wall) + sizeof(sunder_i_obstacle_side) + sizeof(double);
@@ -367,21 +367,21 @@ size_t sunder_i_free_places(const sunder_i_obstacles *obstacles, const double ta
     if (!memory || obstacles->failed) {
         *failed = true;
     } else if (h.most) {
-        walls all = {.near = (near_wall *)(void *)memory};
+        wall_lists all = {.near = (near_wall *)(void *)memory};
         near_wall *list = all.near + obstacles->walls;
         all.bare = (sunder_i_obstacle_side *)(void *)(list + obstacles->walls);
         all.covered = (double *)(void *)(all.bare + obstacles->walls);
         h.order = (uint32_t *)(void *)(all.covered + obstacles->walls);
         for (size_t k = 0; k < obstacles->n; k++) h.order[k] = (uint32_t)k;
-        offer(&h, target);
+        offer_place(&h, target);
         if (h.n == 0 && !sunder_i_cells_make(obstacles, target, limit, &h.cells)) *failed = true;
         if (h.n == 0 && !*failed) {
-            shelve(&h, list, gather(&h, list, &all), &all);
-            search(&h, &all);
+            sort_into_shelves(&h, list, gather_walls(&h, list, &all), &all);
+            search_places(&h, &all);
         }
         *failed = *failed || sunder_i_stopped();
     }
-    SUNDER_I_CHECK(check(&h), h.n);
+    SUNDER_I_CHECK(check_places(&h), h.n);
     *steps += h.work + 2 * obstacles->walls;
     sunder_i_cells_free(&h.cells);
     sunder_i_free(memory);

@@ -40,7 +40,7 @@ bool sunder_i_grown_cache_add(const sunder_i_grown_cache *cache, const sunder_i_
 }
 
 /* Makes room for one more entry; at most half of the slots are in use. Returns false if memory is out. */
-static bool make_room(sunder_i_grown_cache *cache)
+static bool reserve_slot(sunder_i_grown_cache *cache)
 {
     if (2 * (cache->used + 1) <= cache->slots) return true;
     sunder_i_grown_cache larger = *cache;
@@ -62,7 +62,7 @@ bool sunder_i_grown_cache_keep(sunder_i_grown_cache *cache, const sunder_i_grown
         cache->walls = cache->used = 0;
     }
     const size_t need = cache->walls + last->walls, first = need > FEWEST_GROWN_WALLS ? need : FEWEST_GROWN_WALLS;
-    if (!make_room(cache) ||
+    if (!reserve_slot(cache) ||
         !sunder_i_reserve(&cache->wall, &cache->capacity, cache->wall ? need : first, sizeof *cache->wall))
         return false;
     grown *slot = slot_of(cache, key);

@@ -39,7 +39,7 @@ const sunder_i_obstacle_edge *sunder_i_obstacle_cache_find(const sunder_i_obstac
 }
 
 /* Makes room for one more key; at most half of the slots are in use. Returns false if memory is out. */
-static bool make_room(sunder_i_obstacle_cache *cache)
+static bool reserve_slot(sunder_i_obstacle_cache *cache)
 {
     if (2 * (cache->used + 1) <= cache->slots) return true;
     sunder_i_obstacle_cache larger = *cache;
@@ -60,7 +60,8 @@ const sunder_i_obstacle_edge *sunder_i_obstacle_cache_add(sunder_i_obstacle_cach
         memset(cache->slot, 0, cache->slots * sizeof *cache->slot);
         cache->edges = cache->used = 0;
     }
-    if (!make_room(cache) || !sunder_i_reserve(&cache->edge, &cache->capacity, cache->edges + *n, sizeof *cache->edge))
+    if (!reserve_slot(cache) ||
+        !sunder_i_reserve(&cache->edge, &cache->capacity, cache->edges + *n, sizeof *cache->edge))
         return NULL;
     sunder_i_obstacle_edge *edge = cache->edge + cache->edges;
     *n = sunder_i_obstacle_edges(d, *n, edge);

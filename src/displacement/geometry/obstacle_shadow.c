@@ -13,9 +13,9 @@
 
 #include <math.h>
 
-static double cross(const double u[2], const double v[2]) { return u[0] * v[1] - u[1] * v[0]; }
+static double cross_product(const double u[2], const double v[2]) { return u[0] * v[1] - u[1] * v[0]; }
 
-static double dot(const double u[2], const double v[2]) { return u[0] * v[0] + u[1] * v[1]; }
+static double dot_product(const double u[2], const double v[2]) { return u[0] * v[0] + u[1] * v[1]; }
 
 /* Returns the corner that has all others on its left (sign +1) or right (sign -1) as seen from the origin; of several
  * the nearest. */
@@ -23,8 +23,8 @@ static size_t tangent_corner(const double *k, size_t n, double sign)
 {
     size_t best = 0;
     for (size_t c = 1; c < n; c++) {
-        const double x = sign * cross(k + 2 * best, k + 2 * c);
-        if (x < 0 || (x == 0 && dot(k + 2 * c, k + 2 * c) < dot(k + 2 * best, k + 2 * best))) best = c;
+        const double x = sign * cross_product(k + 2 * best, k + 2 * c);
+        if (x < 0 || (x == 0 && dot_product(k + 2 * c, k + 2 * c) < dot_product(k + 2 * best, k + 2 * best))) best = c;
     }
     return best;
 }
@@ -33,15 +33,16 @@ static size_t tangent_corner(const double *k, size_t n, double sign)
  * K. */
 static bool is_between(const double *k, size_t n, const double right[2], const double left[2])
 {
-    if (cross(right, left) < 0 || (cross(right, left) == 0 && !(dot(right, left) > 0))) return false;
+    if (cross_product(right, left) < 0 || (cross_product(right, left) == 0 && !(dot_product(right, left) > 0)))
+        return false;
     for (size_t c = 0; c < n; c++)
-        if (cross(right, k + 2 * c) < 0 || cross(k + 2 * c, left) < 0) return false;
+        if (cross_product(right, k + 2 * c) < 0 || cross_product(k + 2 * c, left) < 0) return false;
     return true;
 }
 
 /* Returns the ray that begins at `from` and leads away from the origin. Its outer normal is on its left (sign +1) or
  * right (sign -1). */
-static sunder_i_obstacle_edge ray(const double from[2], double sign)
+static sunder_i_obstacle_edge ray_from(const double from[2], double sign)
 {
     const double length = hypot(from[0], from[1]);
     return (sunder_i_obstacle_edge){{from[0], from[1]}, {-sign * from[1] / length, sign * from[0] / length}, INFINITY};
@@ -53,19 +54,19 @@ size_t sunder_i_shadow_edges(const double *k, size_t n, sunder_i_obstacle_edge *
     const double *right = k + 2 * r, *left = k + 2 * l;
     size_t edges = 0;
     if (!is_between(k, n, right, left)) return 0;
-    edge[edges++] = ray(left, 1);
+    edge[edges++] = ray_from(left, 1);
     for (size_t c = l; c != r; c = c + 1 < n ? c + 1 : 0) {
         const double *p = k + 2 * c, *q = k + 2 * (c + 1 < n ? c + 1 : 0);
         const double ex = q[0] - p[0], ey = q[1] - p[1], length = hypot(ex, ey);
         if (length > 0) edge[edges++] = (sunder_i_obstacle_edge){{p[0], p[1]}, {ey / length, -ex / length}, length};
     }
-    edge[edges++] = ray(right, -1);
+    edge[edges++] = ray_from(right, -1);
     return edges;
 }
 
 static sunder_i_support support_of(const sunder_i_obstacle_edge *e, double distance)
 {
-    return (sunder_i_support){{e->n[0], e->n[1]}, dot(e->n, e->from), distance};
+    return (sunder_i_support){{e->n[0], e->n[1]}, dot_product(e->n, e->from), distance};
 }
 
 sunder_i_support sunder_i_shadow_support_at(const sunder_i_obstacle_edge *edge, size_t n, const double u[2])
@@ -74,7 +75,7 @@ sunder_i_support sunder_i_shadow_support_at(const sunder_i_obstacle_edge *edge, 
     double nearest = INFINITY;
     for (size_t k = 0; k < n; k++) {
         const sunder_i_obstacle_edge *e = &edge[k];
-        const double w[2] = {u[0] - e->from[0], u[1] - e->from[1]}, s = dot(e->n, w);
+        const double w[2] = {u[0] - e->from[0], u[1] - e->from[1]}, s = dot_product(e->n, w);
         if (s > best.distance) best = support_of(e, s);
         if (s < 0) continue;
         /* The first ray points against the order of the other edges. */
@@ -90,7 +91,7 @@ sunder_i_support sunder_i_shadow_support_at(const sunder_i_obstacle_edge *edge, 
         const double away[2] = {u[0] - c[0], u[1] - c[1]}, far = hypot(away[0], away[1]);
         if (!(far < nearest) || !(far > 0)) continue;
         nearest = far;
-        corner = (sunder_i_support){{away[0] / far, away[1] / far}, dot(away, c) / far, far};
+        corner = (sunder_i_support){{away[0] / far, away[1] / far}, dot_product(away, c) / far, far};
     }
     return best.distance <= 0 || !(nearest < INFINITY) ? best : corner;
 }

@@ -15,22 +15,22 @@ sunder_i_support sunder_i_shadow_support_at(const sunder_i_obstacle_edge *edge, 
  * `out`, which has room for n + 3. Returns their number. */
 size_t sunder_i_shadow_corners(const sunder_i_obstacle_edge *edge, size_t n, double far, double *out);
 
-/* Sets `way` to the box of the segment from the origin to u, grown by `reach`. A shadow within `reach` of u is cast by
+/* Sets `path` to the box of the segment from the origin to u, grown by `reach`. A shadow within `reach` of u is cast by
  * an obstacle that meets this box. */
-static inline void sunder_i_shadow_way(const double u[2], double reach, double way[4])
+static inline void sunder_i_shadow_path_box(const double u[2], double reach, double path[4])
 {
     for (int c = 0; c < 2; c++) {
-        way[c] = (u[c] < 0 ? u[c] : 0) - reach;
-        way[c + 2] = (u[c] > 0 ? u[c] : 0) + reach;
+        path[c] = (u[c] < 0 ? u[c] : 0) - reach;
+        path[c + 2] = (u[c] > 0 ? u[c] : 0) + reach;
     }
 }
 
-/* May the box `way` meet the obstacle of a set with box a and one with box b, whose origin is at `offset`? */
+/* May the box `path` meet the obstacle of a set with box a and one with box b, whose origin is at `offset`? */
 static inline bool sunder_i_shadow_may_reach(const double a[4], const double b[4], const double offset[2],
-                                             const double way[4])
+                                             const double path[4])
 {
-    return a[0] - b[2] - offset[0] <= way[2] && a[2] - b[0] - offset[0] >= way[0] &&
-           a[1] - b[3] - offset[1] <= way[3] && a[3] - b[1] - offset[1] >= way[1];
+    return a[0] - b[2] - offset[0] <= path[2] && a[2] - b[0] - offset[0] >= path[0] &&
+           a[1] - b[3] - offset[1] <= path[3] && a[3] - b[1] - offset[1] >= path[1];
 }
 
 #endif

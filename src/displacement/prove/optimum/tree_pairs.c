@@ -59,7 +59,7 @@ static bool may_pass(const sunder_i_model *model, const sunder_i_body *p, const 
     const double offset[2] = {q->origin[0] - p->origin[0], q->origin[1] - p->origin[1]},
                  u[2] = {v[0] - t[0], v[1] - t[1]};
     double way[4];
-    sunder_i_shadow_way(u, 0, way);
+    sunder_i_shadow_path_box(u, 0, way);
     if (p->has->sides && sunder_i_shadow_may_reach(p->box, sunder_i_side_anchors(model, q), offset, way)) return true;
     if (q->has->sides && sunder_i_shadow_may_reach(sunder_i_side_anchors(model, p), q->box, offset, way)) return true;
     return !model->rules.jumps && (sunder_i_anchors_may_reach(model, p, q, false, offset, way) ||

@@ -190,7 +190,7 @@ static void look_past(sunder_i_branching *c, const standing *s, const standing *
     const double u[2] = {r->t[0] - s->t[0], r->t[1] - s->t[1]},
                  offset[2] = {q->origin[0] - p->origin[0], q->origin[1] - p->origin[1]};
     double way[4];
-    sunder_i_shadow_way(u, 0, way);
+    sunder_i_shadow_path_box(u, 0, way);
     c->looked++;
     if (!sunder_i_anchors_may_reach(model, p, q, swapped, offset, way)) return;
     const sunder_i_body_pieces *from = pieces_of(c, of), *pieces = pieces_of(c, other);
@@ -220,7 +220,7 @@ static void look_across(sunder_i_branching *c, const standing *s, const standing
     const double u[2] = {r->t[0] - s->t[0], r->t[1] - s->t[1]},
                  offset[2] = {q->origin[0] - p->origin[0], q->origin[1] - p->origin[1]};
     double way[4];
-    sunder_i_shadow_way(u, 0, way);
+    sunder_i_shadow_path_box(u, 0, way);
     c->looked++;
     if (!sunder_i_shadow_may_reach(swapped ? p->box : sunder_i_side_anchors(model, p),
                                    swapped ? sunder_i_side_anchors(model, q) : q->box, offset, way))

@@ -109,7 +109,7 @@ void sunder_i_search_visit_shadows(sunder_i_search *search, const sunder_i_body 
     const double far = fabs(u[0]) + fabs(u[1]) + reach;
     double way[4];
     bool swapped;
-    sunder_i_shadow_way(u, reach, way);
+    sunder_i_shadow_path_box(u, reach, way);
     const bool crosses = may_cross(search->model, p, q, offset, way, &swapped), jumps = may_jump(search->model, p, q),
                from_p = jumps && p->clear <= far && sunder_i_anchors_may_reach(search->model, p, q, false, offset, way),
                from_q = jumps && q->clear <= far && sunder_i_anchors_may_reach(search->model, p, q, true, offset, way);
@@ -158,7 +158,7 @@ bool sunder_i_search_may_pass(const sunder_i_search *search, const double *t, ui
     double way[4];
     bool swapped;
     if (!sunder_i_forbids_paths(search->model)) return false;
-    sunder_i_shadow_way(u, reach - search->model->rules.gap, way);
+    sunder_i_shadow_path_box(u, reach - search->model->rules.gap, way);
     if (may_cross(search->model, p, q, offset, way, &swapped)) return true;
     if (!may_jump(search->model, p, q)) return false;
     return sunder_i_anchors_may_reach(search->model, p, q, false, offset, way) ||
