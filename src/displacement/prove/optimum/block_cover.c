@@ -1,7 +1,8 @@
-/* The blocks of a group: a few bodies each, that hold all contacts that press, each once.
+/* Divides a group into blocks: sets of a few bodies that together contain all contacts with a force, each contact in
+ * one block.
  *
- * They are grown from the contact that presses most and is in none yet, by the body that is pressed most by those in
- * it. */
+ * A block starts from the contact with the greatest force that is in no block yet, and grows by the body on which its
+ * bodies exert the greatest force. */
 #include "displacement/prove/optimum/blocks.h"
 #include "displacement/prove/optimum/tuning.h"
 
@@ -23,7 +24,8 @@ static bool take(sunder_i_lagrangian *d, uint32_t at)
     return true;
 }
 
-/* The body outside that the block's bodies press most, by contacts that are in no block yet; of equals the first. */
+/* Returns the body outside the block with the greatest sum of forces from the block's bodies, over contacts that are in
+ * no block yet. Of equals it is the first; SUNDER_I_GROUND if there is none. */
 static uint32_t most_pressed(sunder_i_lagrangian *d)
 {
     const sunder_i_contact_forces *c = &d->contacts;
@@ -45,7 +47,8 @@ static uint32_t most_pressed(sunder_i_lagrangian *d)
     return best;
 }
 
-/* Contacts whose bodies are all in the block are its from now on; fixed ones come with them. */
+/* Assigns to the block all contacts whose movable bodies are in it; fixed bodies of such contacts become members.
+ * Returns false if memory is out. */
 static bool settle_contacts(sunder_i_lagrangian *d)
 {
     const sunder_i_contact_forces *c = &d->contacts;

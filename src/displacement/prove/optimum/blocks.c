@@ -1,24 +1,27 @@
-/* A bound for a group that is too large for one tree, from overlapping blocks [Lagrangian decomposition, GK87].
+/* A lower bound for a group that is too large for one tree, from overlapping blocks [Lagrangian decomposition, GK87].
  *
- * Give each block S a share w_i^S of the weights of its bodies, and each body in it a place a_i^S that it is drawn to.
- * With W_i the sum of a body's shares, less than its weight, v_i = sum of w_i^S a_i^S, c_i = sum of w_i^S |a_i^S|^2,
+ * Give each block S a share w_i^S of the weight of each of its bodies i, and a place a_i^S to which the body is drawn.
+ * Let W_i be the sum of the shares of body i, less than its weight w_i; v_i = sum of w_i^S a_i^S, c_i = sum of w_i^S
+ * |a_i^S|^2. Then
  *
  *     sum w |t|^2  =  sum over S of sum w^S |t - a^S|^2  +  sum over i of (w_i - W_i) |t_i|^2 + 2 t_i.v_i - c_i
  *                 >=  sum over S of opt(S)  -  sum over i of c_i + |v_i|^2 / (w_i - W_i),
  *
- * opt(S) the least cost of the block's bodies alone, for which its tree (tree.c) proves a bound. That holds for any
- * shares and places: so these are doubles as computed, v_i is nearly 0, and its term is rounded against us.
+ * where opt(S) is the least cost of the block's bodies alone, for which a tree (tree.c) proves a lower bound. This
+ * holds for any shares and places, so they are taken as the doubles that were computed; v_i is nearly 0, and its term
+ * is rounded so that the bound stays valid.
  *
- * Good places make the layout itself the best for each block alone: then nothing is lost. With F_i^S the forces of the
- * block's contacts on a body (contact_forces.c), it is at rest at a_i^S = t_i - F_i^S / (2 w_i^S). So the blocks
- * together hold all contacts that push, each once (block_cover.c). In a loose group these places are as good as any. In
- * a dense one they are worse than none, since under such pressure a block alone moves around obstacles in a way that
- * its neighbours would prevent; places have to be searched for. A better layout of a block is a cut, which bounds what
- * can be proved at any places, and the next places are where the cuts promise most (bundle.c), while the effort lasts.
- * If little more is promised, larger blocks are tried, as long as they prove more.
+ * Good places make the present layout the best one for each block alone: then nothing is lost. If F_i^S is the sum of
+ * the forces of the block's contacts on a body (contact_forces.c), the body is at rest at a_i^S = t_i - F_i^S / (2
+ * w_i^S). So the blocks together contain all contacts with a force, each once (block_cover.c). In a loose group these
+ * places are as good as any. In a dense group they prove less than no places at all, since under such forces a block
+ * alone moves around obstacles in a way that its neighbours would prevent; so places are searched for. A better layout
+ * of a block is a cut, an upper bound of the block's value at any places, and the next places are where the cuts
+ * promise most (bundle.c), until the steps are used up. If little more is promised, larger blocks are tried, as long as
+ * they prove more.
  *
- * (Moving places towards each other by a subgradient, as the copies of a body drift apart, was a third as good: of a
- * group that costs 2,740 it proved 364 where this proves 690.) */
+ * (Moving places towards each other by a subgradient, as the copies of a body drift apart, proved half as much: 364
+ * instead of 690 for a group of cost 2,740.) */
 #include "displacement/prove/optimum/blocks.h"
 #include "displacement/prove/optimum/tree.h"
 #include "displacement/prove/optimum/tuning.h"
@@ -28,7 +31,7 @@
 #include <math.h>
 #include <string.h>
 
-/* Shares, and the forces on each copy. */
+/* Computes the forces on each copy of a body, and its share of the body's weight. */
 static void share_out(sunder_i_lagrangian *d)
 {
     for (size_t m = 0; m < d->items; m++) d->item[m].force[0] = d->item[m].force[1] = 0;
@@ -48,7 +51,7 @@ static void share_out(sunder_i_lagrangian *d)
     }
 }
 
-/* Every copy starts this share of the way to where the contacts' forces hold it. */
+/* Sets the anchor of each copy to `part` times the place where the contacts' forces hold it. */
 static void draw(sunder_i_lagrangian *d, double part)
 {
     for (size_t m = 0; m < d->items; m++) {
@@ -60,9 +63,9 @@ static void draw(sunder_i_lagrangian *d, double part)
 
 /* ---- The bound --------------------------------------------------------------------------------------------------- */
 
-/* What places and shares take: sum of c_i + |v_i|^2 / (w_i - W_i), rounded upwards. Every sum is of at most `items`
- * terms, each with a few roundings of its own: so it is off by less than (items + 8) 2^-52 of the sum of magnitudes,
- * and twice that is added. */
+/* Returns what places and shares subtract from the bound, sum of c_i + |v_i|^2 / (w_i - W_i), rounded upwards. Each sum
+ * has at most `items` terms with a few roundings each, so its error is less than (items + 8) 2^-52 of the sum of
+ * magnitudes; twice that is added. */
 static double taken(const sunder_i_lagrangian *d)
 {
     const double unit = 2 * ((double)d->items + 8) * 0x1p-52;
@@ -88,7 +91,7 @@ static double taken(const sunder_i_lagrangian *d)
     return all * (1 + unit) * (1 + (double)d->group->n * 0x1p-52);
 }
 
-/* Lets the last copy of each body make v_i as near to 0 as it can. */
+/* Changes the place of the last copy of each body so that v_i is as near to 0 as rounding allows. */
 static void balance(sunder_i_lagrangian *d)
 {
     for (size_t m = d->items; m-- > 0;) {
@@ -104,7 +107,7 @@ static void balance(sunder_i_lagrangian *d)
     }
 }
 
-/* Adds the result for the block to the bundle, as a cut for later proposals. */
+/* Adds the result for a block to the bundle, as a cut for later proposals. Returns false if memory is out. */
 static bool note_cut(sunder_i_lagrangian *d, size_t block, double value)
 {
     const size_t n = d->first[block + 1] - d->first[block];
@@ -119,8 +122,9 @@ static bool note_cut(sunder_i_lagrangian *d, size_t block, double value)
     return sunder_i_bundle_add(&d->bundle, block, value, x, t);
 }
 
-/* The bound of one block, and what it would be at most; where its bodies want to be goes to their copies. trees: NULL,
- * or those that are kept. */
+/* Proves a bound for one block: *value. *most is the cost of the present layout for the block, an upper bound of
+ * *value. The moves of the block's best layout go to its copies. trees: NULL, or the tree is appended to it. Returns
+ * false if memory is out. */
 static bool ask_block(sunder_i_lagrangian *d, size_t block, sunder_i_bound_trees *trees, double *value, double *most)
 {
     const size_t n = d->first[block + 1] - d->first[block];
@@ -155,7 +159,7 @@ static bool ask_block(sunder_i_lagrangian *d, size_t block, sunder_i_bound_trees
             least = tree.leaf;
             for (size_t k = 0; k < n; k++) memcpy(item[k].t, tree.program.t + 2 * k, sizeof item[k].t);
         }
-    /* Where nothing is decided yet, what the least bound stands on. */
+    /* If the least open node decides the bound, its minimiser is taken. */
     if (ok && tree.opens && tree.open[0].value < sunder_i_min(least, task.goal)) {
         sunder_i_tree_load(&tree, tree.open[0].node);
         for (size_t k = 0; k < n; k++) memcpy(item[k].t, tree.program.t + 2 * k, sizeof item[k].t);
@@ -169,8 +173,9 @@ static bool ask_block(sunder_i_lagrangian *d, size_t block, sunder_i_bound_trees
     return ok;
 }
 
-/* enough: a smaller result is useless, so -INFINITY may be returned for it; no block proves more than its part of the
- * layout costs, so this may show before all blocks have been asked. */
+/* Computes the bound at the present places. Returns false if memory is out. A bound below `enough` is useless, and
+ * *bound may then be -INFINITY: no block proves more than its part of the present layout costs, so this may become
+ * clear before all blocks have been evaluated. */
 static bool evaluate(sunder_i_lagrangian *d, sunder_i_bound_trees *trees, double enough, double *bound)
 {
     double sum = 0, missed = 0;
@@ -187,7 +192,8 @@ static bool evaluate(sunder_i_lagrangian *d, sunder_i_bound_trees *trees, double
     return true;
 }
 
-/* How far along to the forces' places is most proved? The bound is concave there, as everywhere. */
+/* Starts with the better of two choices of places: 0, and the places where the forces hold the bodies. *bound is what
+ * it proves; `best` gets its copies. */
 static bool begin(sunder_i_lagrangian *d, sunder_i_block_copy *best, double *bound)
 {
     static const double part[] = {0, 1};
@@ -205,8 +211,8 @@ static bool begin(sunder_i_lagrangian *d, sunder_i_block_copy *best, double *bou
     return true;
 }
 
-/* With a stride of 1 the first proposal is a step along the drift of the copies, each away from the mean of its body's,
- * that would prove everything missing if the bound kept growing at its initial rate. */
+/* Returns the stride for the first proposal: a step along the drift of the copies, each away from the mean of its
+ * body's copies, that would prove all of `missing` if the bound kept growing at its initial rate. */
 static double first_stride(const sunder_i_lagrangian *d, const sunder_i_block_copy *best, double missing)
 {
     double square = 0;
@@ -220,7 +226,8 @@ static double first_stride(const sunder_i_lagrangian *d, const sunder_i_block_co
     return square > 0 ? FIRST_STRIDE * missing / (4 * square) : 1;
 }
 
-/* The missing part of the bound; in a crowd, where blocks prove little, at most as much as they prove so far. */
+/* Returns the part of the bound that is missing. In a dense group, where blocks prove little, at most as much as is
+ * proved now. */
 static double hoped_for(double cost, double now) { return now > 0 ? sunder_i_min(cost - now, now) : cost - now; }
 
 static void put_anchors(sunder_i_lagrangian *d, const double *x)
@@ -229,9 +236,10 @@ static void put_anchors(sunder_i_lagrangian *d, const double *x)
         for (size_t e = 0; e < 2 && d->item[m].share > 0; e++) d->item[m].anchor[e] = x[2 * m + e] / d->item[m].share;
 }
 
-/* Repeatedly evaluates the places where the known cuts promise most, around the centre (`best`: copies; x: scratch).
- * The centre moves if a fair share of the promise was proved; otherwise strides become shorter. True: little more is
- * promised, and blocks took so few steps that larger ones may pay. */
+/* Repeatedly evaluates the places where the known cuts promise most, around the centre. best: the copies at the best
+ * places; x: scratch. The centre moves if a fair share of the promise was proved; otherwise strides become shorter.
+ * Returns true if little more is promised, and blocks took so few steps that larger ones may pay. *ok: false if memory
+ * is out. */
 static bool improve(sunder_i_lagrangian *d, sunder_i_block_copy *best, double *centre, double *x, double *bound,
                     bool *ok)
 {
@@ -274,7 +282,7 @@ static bool improve(sunder_i_lagrangian *d, sunder_i_block_copy *best, double *c
     return false;
 }
 
-/* The layout itself is the first cut of each block. */
+/* Sets up the bundle; the present layout is the first cut of each block. Returns false if memory is out. */
 static bool begin_bundle(sunder_i_lagrangian *d)
 {
     d->member = sunder_i_alloc(d->items, sizeof *d->member);
@@ -326,7 +334,8 @@ static bool prepare(sunder_i_lagrangian *d)
     return d->home != NULL;
 }
 
-/* By blocks of d->size: *bound and its trees, where that is more. *larger: larger blocks may prove more. */
+/* Proves a bound by blocks of d->size movable bodies. Replaces *bound and *trees if it is greater. *larger is set if
+ * larger blocks may prove more. Returns false if memory is out. */
 static bool ask_blocks(sunder_i_lagrangian *d, double *bound, sunder_i_bound_trees *trees, bool *larger)
 {
     *larger = false;
@@ -340,7 +349,7 @@ static bool ask_blocks(sunder_i_lagrangian *d, double *bound, sunder_i_bound_tre
     double *centre = sunder_i_alloc(2 * d->items, sizeof *centre), *x = sunder_i_alloc(2 * d->items, sizeof *x), value;
     bool ok = best && centre && x && begin_bundle(d) && begin(d, best, &value);
     if (ok) *larger = improve(d, best, centre, x, &value, &ok) && d->blocks > 1;
-    /* Where larger trees prove less they came to no end, and larger ones yet will not. */
+    /* If these blocks proved less than smaller ones, their trees did not end, and larger trees would not either. */
     *larger = *larger && ok && value > d->proved;
     if (ok) d->proved = sunder_i_max(d->proved, value);
     if (ok && value > *bound && d->model->rules.keep_trees) {

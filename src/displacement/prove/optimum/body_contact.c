@@ -1,9 +1,10 @@
 /* Contacts of two bodies, in doubles.
  *
  * In a compact layout the relative move u of two bodies in contact is on the boundary of the pair's forbidden set
- * (forbidden.h): of one piece along a wall, of two in a notch or where arcs meet. Each such piece has a tangent there,
- * with u on its far side. Rounding, and a margin beyond the gap, put u slightly off the boundary. A hair bridges that:
- * a share of the gap or, if that is 0, of the smaller body, so that a layer on another scale has the same contacts. */
+ * (forbidden.h): of one piece along a wall, of two pieces in a notch or where arcs meet. Each such piece has a tangent
+ * there, with u on its far side. Because of rounding, and of a margin beyond the gap, u lies slightly off the boundary.
+ * A tolerance ("hair") allows for that: a share of the gap or, if that is 0, of the smaller body, so that a layer on
+ * another scale has the same contacts. */
 #include "displacement/prove/optimum/body_contact.h"
 #include "displacement/layer/reads.h"
 #include "displacement/prove/optimum/tuning.h"

@@ -1,15 +1,15 @@
-/* Where two bodies of a layout touch: the one answer for groups, blocks and pushes. */
+/* Contacts of two bodies in a layout, as used for groups, blocks and pushes. */
 #ifndef SUNDER_I_BODY_CONTACT_H
 #define SUNDER_I_BODY_CONTACT_H
 
 #include "displacement/prove/optimum/forbidden.h"
 
-/* A piece of a pair that its relative move u is on the boundary of, up to a hair: n.u >= d keeps it where it is, and
- * with d + off it is off the piece. */
+/* A piece of a pair's forbidden set on whose boundary the relative move u lies, up to a hair. The half-plane n.u >= d
+ * has u on its boundary; n.u >= d + off is clear of the piece. */
 typedef struct sunder_i_contact {
     double n[2], d, off;
-    size_t a, b; /* the things that touch */
-    bool shadow; /* which are closed: u may not be on the boundary of one */
+    size_t a, b; /* the two things in contact */
+    bool shadow; /* the piece is a shadow, which is closed: u may not lie on its boundary */
 } sunder_i_contact;
 
 typedef struct sunder_i_contact_list {
@@ -17,20 +17,20 @@ typedef struct sunder_i_contact_list {
     size_t n, capacity;
 } sunder_i_contact_list;
 
-/* How far apart, beyond what they owe, bodies may be that are in contact. */
+/* Returns the distance, beyond the one that they owe, up to which two bodies count as in contact. */
 double sunder_i_contact_hair(const sunder_i_model *model, const sunder_i_body *p, const sunder_i_body *q);
-/* The contacts of bodies i and j, which stand at moves t and v, that are no farther than `hair` from the boundary on
- * either side, in place of what the list held. *edges, if given, grows by the size of what was looked at. False if
- * memory is out. */
+/* Sets *out to the contacts of bodies i and j, moved by t and v, for which u is at most `hair` from the boundary on
+ * either side. *edges, if not NULL, grows by the number of edges processed. Returns false if memory is out. */
 bool sunder_i_contacts_of_pair(const sunder_i_model *model, const sunder_i_waived *waived, uint32_t i, uint32_t j,
                                const double t[2], const double v[2], double hair, sunder_i_contact_list *out,
                                size_t *edges);
-/* Are they in contact, or in conflict? */
+/* Sets *contact if the bodies i and j, moved by t and v, are in contact or in conflict. */
 bool sunder_i_are_in_contact(const sunder_i_model *model, uint32_t i, uint32_t j, const double t[2], const double v[2],
                              bool *contact);
 
-/* Bodies that stand within reach of where one goes, or, where ways matter, of its way there, by boxes: instead of what
- * is in out, ascending, the body itself among them if it stands there. False if memory is out. */
+/* Sets *out to the bodies, ascending, whose boxes at their present positions come within `reach` of the body moved by
+ * t, or of its path there if paths are restricted. The body itself is among them if it is there. Returns false if
+ * memory is out. */
 bool sunder_i_who_is_about(const sunder_i_model *model, uint32_t body, const double t[2], double reach,
                            sunder_i_list *out);
 

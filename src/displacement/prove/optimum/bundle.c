@@ -1,16 +1,17 @@
-/* A proximal bundle method, by blocks [Lem75; HUL93, chapter XV].
+/* A proximal bundle method for a sum over blocks [Lem75; HUL93, chapter XV].
  *
- * The bound of blocks.c is a sum over blocks of concave functions of x, the places times the shares: each the least of
- * lines, one for every layout of the block. Layouts that were found are cuts: they bound the block's value from above
- * everywhere. The next evaluation is where the sum of the cuts promises most, less a multiple of the squared distance,
- * since cuts are unreliable far away.
+ * The bound of blocks.c is a sum over blocks of concave functions of x (places times shares). Each is the minimum of
+ * linear functions, one for every layout of the block. Layouts that were found are cuts: each bounds the block's value
+ * from above everywhere. The next evaluation is at the x where the sum of the cuts promises most, less a multiple of
+ * the squared distance, since cuts are unreliable far away.
  *
- * That is solved in the dual. Mix the cuts of each block by shares that add up to 1; with T the mix of their positions
- * of the copies, and D of each copy its T less the mean over its body's copies, the promise is the least over shares of
+ * This is solved in the dual. Mix the cuts of each block with shares that add up to 1. Let T be the mix of their
+ * positions of the copies, and D of each copy its T less the mean over its body's copies. The promise is the least over
+ * all shares of
  *
  *     sum of shares (at_rest - 2 centre.t)  +  2 stride |D|^2,        at  x = centre - 2 stride D:
  *
- * the cuts are mixed so that copies agree. Shares are transferred from the worst cut of a block that has any to its
+ * the cuts are mixed so that copies agree. Shares are transferred from the worst cut of a block that has a share to its
  * best, by a least squares step, block after block. This decides nothing: a bound is what trees prove at x. */
 #include "displacement/prove/optimum/bundle.h"
 #include "displacement/prove/optimum/tuning.h"
@@ -66,7 +67,7 @@ bool sunder_i_bundle_add(sunder_i_bundle *bundle, size_t block, double value, co
     return true;
 }
 
-/* mix and mean, of the shares as they are. */
+/* Computes mix and mean for the present shares. */
 static void mix_all(sunder_i_bundle *b)
 {
     memset(b->mix, 0, 2 * b->copies * sizeof *b->mix);
@@ -80,13 +81,13 @@ static void mix_all(sunder_i_bundle *b)
         for (size_t c = 0; c < 2; c++) b->mean[2 * (size_t)b->member[m] + c] += (1 - b->others[m]) * b->mix[2 * m + c];
 }
 
-/* By how much the mix of copy m differs from its member's. */
+/* Returns coordinate c of the difference between the mix of copy m and the mean over its body's copies. */
 static double apart(const sunder_i_bundle *b, size_t m, size_t c)
 {
     return b->others[m] > 0 ? b->mix[2 * m + c] - b->mean[2 * (size_t)b->member[m] + c] : 0;
 }
 
-/* Moves share from cut `from` to cut `to`, of one block, as far as that is of use. */
+/* Transfers share from cut `from` to cut `to` of the same block, as far as that lowers the promise. */
 static void trade(sunder_i_bundle *b, sunder_i_bundle_cut *from, sunder_i_bundle_cut *to, double stride)
 {
     const size_t first = b->first[from->block], n = b->first[from->block + 1] - first;
@@ -108,7 +109,7 @@ static void trade(sunder_i_bundle *b, sunder_i_bundle_cut *from, sunder_i_bundle
         }
 }
 
-/* One trade among the cuts of a block; by how much their slopes differed. */
+/* Makes one transfer between the cuts of a block. Returns the difference of their slopes; 0 if there was none. */
 static double trade_in(sunder_i_bundle *b, size_t block, const double *centre, double stride)
 {
     const size_t first = b->first[block], n = b->first[block + 1] - first;
@@ -130,7 +131,8 @@ static double trade_in(sunder_i_bundle *b, size_t block, const double *centre, d
     return gain;
 }
 
-/* Trades until the cuts of each block that have a share are all as good as its best, or nearly so. */
+/* Makes transfers until, in each block, all cuts with a share are nearly as good as the best. Returns false if stopped
+ * on request. */
 static bool settle(sunder_i_bundle *b, const double *centre, double stride)
 {
     double whole = 0;

@@ -1,9 +1,9 @@
-/* The forces at the contacts of a layout: those that would hold every body in place, if it were let go.
+/* The forces on the contacts of a layout: those that hold every body in its place.
  *
- * Each contact of two bodies is a half-plane of their relative move, tangent to the forbidden set at its present value;
- * a body at its limit is in contact with the ground. For a locally optimal layout, the least cost under these
- * half-planes is its own, and the forces of that program tell which contacts matter. In doubles: results made from them
- * (blocks.c) are proved separately. */
+ * Each contact of two bodies is a half-plane of their relative move, tangent to the forbidden set at the present
+ * relative move. A body at its limit is in contact with the ground. For a locally optimal layout, the least cost under
+ * these half-planes is the layout's own cost, and the forces (multipliers) of that program tell which contacts matter.
+ * All of this is in doubles: bounds made from the forces (blocks.c) are proved separately. */
 #include "displacement/prove/optimum/blocks.h"
 #include "displacement/prove/optimum/tuning.h"
 
@@ -31,7 +31,7 @@ static bool look_at(sunder_i_contact_forces *c, const sunder_i_group *g, uint32_
     return ok;
 }
 
-/* Might the two be in contact? By boxes; ways count too, where they matter. */
+/* May the two bodies be in contact? Decided by their boxes, which include their paths if paths are restricted. */
 static bool are_near(const sunder_i_contact_forces *c, const sunder_i_group *g, uint32_t i, uint32_t j)
 {
     const sunder_i_model *model = c->model;
@@ -67,7 +67,8 @@ static bool find(sunder_i_contact_forces *c, const sunder_i_group *g)
     return true;
 }
 
-/* Brings the contacts in, the one missed most first. */
+/* Adds the violated contacts to the program, the most violated first, until none is violated. Returns false if memory
+ * is out or stopped on request. */
 static bool solve(sunder_i_contact_forces *c, const sunder_i_group *g)
 {
     sunder_i_dual_program *p = &c->program;

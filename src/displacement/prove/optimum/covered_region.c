@@ -1,15 +1,17 @@
-/* Is a convex region within a union of convex pieces? Proved in doubles.
+/* Is a convex region contained in a union of convex pieces? Proved in doubles.
  *
  * It is if all its corners are in one piece, since pieces are convex. Otherwise it is cut in two, and each half is
- * tested. The cut goes through the piece that holds its middle and most of its corners, along the line by which it
- * leaves the corner that is farthest outside, so that pieces which overlap in a strip have to meet there and nowhere
- * else; or, if that line hardly cuts the region, across its longest extent. If the middle of a part is in no piece the
- * answer is no. A region is known up to its blur, a piece's polygon up to its own, and a distance up to a grain: so
- * corners have to be inside by all of these together. Then the disc of radius blur about each is in the true piece
- * (forbidden.c), and so is everything between them.
+ * tested. The cut goes through the piece that contains the region's middle and most of its corners, just inside the
+ * piece's boundary at the corner that is farthest outside, so that pieces which overlap in a strip need to meet only
+ * there. If that line hardly cuts the region, the cut is across its longest extent. If the middle of a part is in no
+ * piece the answer is no.
+ *
+ * A region is known up to its blur, a piece's polygon up to its own error (`vague`), and a distance up to a grain. So
+ * corners have to be inside by the sum of the three. Then the disc of radius blur around each corner is in the true
+ * piece (forbidden.c), and so is everything between them.
  *
  * A region that touches the boundary of the union from within cannot be shown to be covered: callers leave some room.
- * An uncovered middle is returned: it shows a gap of the union. So is the middle of a region too small to be divided
+ * An uncovered middle is returned, as it shows a gap of the union. So is the middle of a region too small to be divided
  * again: there the union has a gap without width, between pieces that only touch. */
 #include "displacement/prove/optimum/region.h"
 #include "displacement/prove/optimum/tuning.h"
@@ -23,9 +25,9 @@ typedef struct covering {
     const sunder_i_forbidden *forbidden;
     bool *used;
     uint64_t steps, most;
-    const sunder_i_forbidden_piece *last; /* that held a region: it may hold the next */
-    double *gap;                          /* NULL, or for a place that is in no piece */
-    sunder_i_regions *left;               /* NULL, or receives what is not covered */
+    const sunder_i_forbidden_piece *last; /* the last piece that contained a region: it may contain the next one */
+    double *gap;                          /* NULL, or receives a place that is in no piece */
+    sunder_i_regions *left;               /* NULL, or receives the uncovered regions */
 } covering;
 
 static bool is_in(covering *c, const sunder_i_forbidden_piece *p, const double u[2], double blur)
@@ -41,7 +43,8 @@ static bool is_in(covering *c, const sunder_i_forbidden_piece *p, const double u
     return true;
 }
 
-/* Counts the region's corners in piece p. If all are in it, p holds the region and is marked as used. */
+/* Returns the number of the region's corners in piece p. If all are in it, p contains the region and is marked as
+ * used. */
 static uint32_t corners_in(covering *c, const sunder_i_forbidden_piece *p, const sunder_i_region *r)
 {
     uint32_t n = 0;
@@ -50,7 +53,7 @@ static uint32_t corners_in(covering *c, const sunder_i_forbidden_piece *p, const
     return n;
 }
 
-/* The middle of the region, and the direction in which it is longest. */
+/* Sets `middle` to the mean of the region's corners, and `along` to the direction of its longest extent. */
 static void measure(const sunder_i_region *r, double middle[2], double along[2])
 {
     double longest = -1;
@@ -69,7 +72,8 @@ static void measure(const sunder_i_region *r, double middle[2], double along[2])
     for (size_t c = 0; c < 2; c++) along[c] = longest > 0 ? along[c] / longest : (double)(c == 0);
 }
 
-/* How far u is outside of the piece grown by its radius, by the line n.u = d that tells most; <= 0: inside. */
+/* Returns the distance of u from the piece grown by its radius, measured along the normal of one line; negative inside.
+ * The line n.u = *d is the one beyond which u lies farthest. */
 static double leave(covering *c, const sunder_i_forbidden_piece *p, const double u[2], double n[2], double *d)
 {
     double most = -INFINITY;
@@ -90,8 +94,8 @@ static double leave(covering *c, const sunder_i_forbidden_piece *p, const double
     return most;
 }
 
-/* The line n.u = d just within the piece by which it leaves the region at its farthest corner; false: it hardly goes
- * through between that and the middle. */
+/* Finds a line n.u = *d just inside the piece at the region's corner that is farthest outside of it. Returns false if
+ * the line would hardly pass between that corner and the middle. */
 static bool find_leaving(covering *c, const sunder_i_forbidden_piece *p, const sunder_i_region *r,
                          const double middle[2], double n[2], double *d)
 {
@@ -111,7 +115,7 @@ static bool find_leaving(covering *c, const sunder_i_forbidden_piece *p, const s
 
 static bool is_covered(covering *c, const sunder_i_region *r, int depth);
 
-/* Clips to n.u <= d, and then to the other side. */
+/* Cuts the region by the line n.u = d and tests both halves. */
 static bool are_halves_covered(covering *c, const sunder_i_region *r, const double n[2], double d, int depth)
 {
     const double back[2] = {-n[0], -n[1]};
@@ -123,8 +127,8 @@ static bool are_halves_covered(covering *c, const sunder_i_region *r, const doub
     return is_covered(c, &half, depth + 1);
 }
 
-/* Appends an uncovered region to the list, if requested; it then counts as covered for now. Such regions are small and
- * few. */
+/* Appends an uncovered region to the list, if there is one, and returns true: the region then counts as covered for
+ * now. Such regions are small and few. */
 static bool leave_over(covering *c, const sunder_i_region *r)
 {
     return c->left && sunder_i_reserve(&c->left->item, &c->left->capacity, c->left->n + 1, sizeof *c->left->item) &&

@@ -1,19 +1,20 @@
-/* Crowded groups: many pairs of their bodies remain in conflict.
+/* Groups with many remaining conflicts.
  *
- * Such a pair must stand no nearer than at the start, and where the search found no room for it, it usually stands
- * exactly so. A layout with many of them is held by distances without room for rounding: a cheaper layout found by
- * perturbation takes a tiny amount of some of these distances, and is undone as a whole. Nor does a tree of the group
- * prove more than its pairs do by themselves. */
+ * A pair in conflict must be no nearer than at the start, and if the search found no room for it, it is usually exactly
+ * as near as then. So in a layout with many such pairs there are distances without room for rounding: a cheaper layout
+ * found by a random perturbation makes some of these distances slightly too short, and is rejected as a whole. Nor does
+ * a tree of the group prove more than its pairs do by themselves. */
 #include "displacement/prove/optimum/optimum.h"
 #include "displacement/prove/optimum/tuning.h"
 
-/* Is it a member that may move? */
+/* Is the body a member of the group that may move? */
 static bool has_mover(const sunder_i_model *model, const sunder_i_group *g, uint32_t body)
 {
     return !model->body[body].fixed && sunder_i_set_has(g->body, g->n, body);
 }
 
-/* How many listed pairs the feature is the first of, with those of other bodies of the group. */
+/* Returns the number of listed pairs whose first thing is `feature` and whose second belongs to another movable body of
+ * the group. */
 static size_t count_listed(const sunder_i_model *model, const sunder_i_waived *waived, const sunder_i_group *g,
                            uint32_t feature)
 {

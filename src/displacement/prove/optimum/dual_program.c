@@ -1,21 +1,22 @@
-/* A node's program, by a dual active set method [GI83], and what its forces prove.
+/* The convex program of a node, by a dual active set method [GI83], and the bound that its forces prove.
  *
- * For forces f >= 0 on cuts n.(t_j - t_i) >= d, every t that keeps the cuts has
+ * For forces f >= 0 on cuts n.(t_j - t_i) >= d, every t that satisfies the cuts has
  *
  *     sum w |t - a|^2  >=  D(f) = sum f (d - n.(a_j - a_i)) - sum over bodies |g_i|^2 / (4 w_i),
  *
- * g_i the sum of the forces' vectors on body i, signed by its side [weak duality, BV04, section 5.2]. That holds for
- * any f, so it does not matter how they were found: sunder_i_dual_value() evaluates it, with a bound on its own
- * rounding. And sum w |t - a|^2 >= D + sum w |t - t*|^2, t* = a + g / (2 w), which cuts by a disc are based on
- * (tree.c).
+ * where g_i is the sum of the forces' vectors on body i, with the sign of its side [weak duality, BV04, section 5.2].
+ * This holds for any f, so it does not matter how they were found: sunder_i_dual_value() evaluates D with a bound on
+ * its own rounding. Moreover sum w |t - a|^2 >= D + sum w |t - t*|^2 with t* = a + g / (2 w); cuts by discs are based
+ * on this (tree_cuts.c).
  *
- * The method: the active cuts are equations, their forces positive, and t is the minimiser for them. A cut that t
- * violates gets a growing force until it holds, or until another's force vanishes, which is then released. D never
- * falls. If the new cut is a combination of active ones and none can be released, no t keeps them all: then forces
- * along that combination prove any value, and they are taken so large that evaluation proves `enough`. If that fails
- * the cut is ignored.
+ * The method: active cuts are equations with positive forces, and t is the minimiser for them. A cut that t violates
+ * gets a growing force until it holds, or until the force of another cut vanishes, which is then released. D never
+ * decreases. If the new cut is a combination of active ones and none can be released, no t satisfies them all. Then
+ * forces along that combination prove any value, and they are made so large that evaluation proves `enough`. If that
+ * fails the cut is ignored.
  *
- * The products of the active cuts are kept as a Cholesky factor, which grows by a row, and loses one by rotations. */
+ * The products of the active cuts are stored as a Cholesky factor, which grows by a row, and loses a row by
+ * rotations. */
 #include "displacement/prove/optimum/dual_program.h"
 #include "displacement/prove/optimum/tuning.h"
 
@@ -25,7 +26,8 @@
 #include <math.h>
 #include <string.h>
 
-/* The share of a cut's own square below which it is a combination of others. */
+/* A cut is a combination of others if the part of its square that is orthogonal to them is a smaller share than
+ * this. */
 #define DEPENDENT 1e-11
 #define NO_FACTOR 1e-9
 #define FEWEST_ROWS 32
@@ -49,7 +51,7 @@ void sunder_i_dual_free(sunder_i_dual_program *program)
     memset(program, 0, sizeof *program);
 }
 
-/* Reserves room for n rows; the factor is laid out again. */
+/* Makes room for n rows, with a new layout of the factor. Returns false if memory is out. */
 static bool reserve(sunder_i_dual_program *p, size_t n)
 {
     if (n <= p->capacity) return true;
@@ -100,8 +102,8 @@ double sunder_i_dual_missing(const sunder_i_dual_program *program, const sunder_
 
 /* ---- The factor -------------------------------------------------------------------------------------------------- */
 
-/* Sets row to the row that cut c would have, and *square to the cut's own square. Returns the square of the row's
- * diagonal. */
+/* Sets `row` to the row that cut c would have in the factor, and *square to the cut's own square. Returns the square of
+ * the row's diagonal entry. */
 static double make_row(sunder_i_dual_program *p, const sunder_i_move_cut *c, double *row, double *square)
 {
     double left = *square = product(p, c, c);
@@ -135,7 +137,7 @@ static void append(sunder_i_dual_program *p, uint32_t cut, double force, const d
     p->acting[p->acting_n++] = (sunder_i_cut_force){cut, force};
 }
 
-/* Takes row `at` out; rotations bring what follows back to a triangle. */
+/* Removes row `at` from the factor; rotations make the rows after it triangular again. */
 static void take_out(sunder_i_dual_program *p, size_t at)
 {
     for (size_t k = at + 1; k < p->acting_n; k++) {
@@ -173,7 +175,7 @@ void sunder_i_dual_place(sunder_i_dual_program *program)
     }
 }
 
-/* The forces at which all that act are equations. */
+/* Computes the forces for which all active cuts hold with equality. */
 static void balance(sunder_i_dual_program *p)
 {
     double *y = p->scratch;
@@ -210,8 +212,8 @@ bool sunder_i_dual_load(sunder_i_dual_program *program, const sunder_i_cut_force
     return true;
 }
 
-/* All that act pull back by r for each unit of the new force, which is `force` by now; along them `missing` stays, so D
- * grows without end. */
+/* Handles contradicting cuts: while the force of the new cut, now `force`, grows by 1, each active force decreases by
+ * r, and the violation `missing` stays, so D grows without bound. Returns CLOSED if such forces prove `enough`. */
 static sunder_i_dual_outcome contradict(sunder_i_dual_program *p, uint32_t cut, double force, double missing,
                                         const double *r, double enough)
 {
@@ -230,8 +232,8 @@ static sunder_i_dual_outcome contradict(sunder_i_dual_program *p, uint32_t cut, 
     return SUNDER_I_DUAL_STUCK;
 }
 
-/* The cut whose force vanishes first when all pull back by r, of those that do so by more than `least`; SIZE_MAX: none
- * does. *step: how far the new force has grown then. */
+/* Returns the active cut whose force vanishes first as each decreases by r[k] per unit of the new force, among those
+ * with r[k] > least; SIZE_MAX if there is none. *step is the growth of the new force at which it vanishes. */
 static size_t find_leaving(const sunder_i_dual_program *p, const double *r, double least, double *step)
 {
     size_t leaves = SIZE_MAX;
@@ -244,8 +246,8 @@ static size_t find_leaving(const sunder_i_dual_program *p, const double *r, doub
     return leaves;
 }
 
-/* In a combination of active cuts, factors below this share of the largest are rounding, and release no cut; otherwise
- * the new force could grow without bound. */
+/* Returns the bound for find_leaving() if the new cut is a combination of active ones: smaller factors are rounding
+ * errors, and release no cut; otherwise the new force could grow without bound. */
 static double least_factor(const sunder_i_dual_program *p, const double *r)
 {
     double most = 0;
@@ -264,7 +266,7 @@ sunder_i_dual_outcome sunder_i_dual_add(sunder_i_dual_program *program, uint32_t
         const double left = make_row(program, c, row, &square);
         const bool dependent = !(left > DEPENDENT * square);
         sunder_i_dual_place(program);
-        /* t without the new force. */
+        /* `missing` is the violation at the t without the new force, reduced by the effect of that force. */
         double missing = c->d - at_anchor(program, c);
         for (int e = 0; e < 2; e++) {
             const uint32_t b = e ? c->j : c->i;
@@ -300,13 +302,13 @@ sunder_i_dual_outcome sunder_i_dual_add(sunder_i_dual_program *program, uint32_t
     return SUNDER_I_DUAL_STUCK;
 }
 
-/* ---- What the forces prove --------------------------------------------------------------------------------------- */
+/* ---- The bound that the forces prove ----------------------------------------------------------------------------- */
 
-/* Rounding, with e = 2^-53 and N forces. A term f (d - n.a) is off by at most 8 e of the sum of its parts' magnitudes.
- * A sum of N by N e of the sum of magnitudes more: (N + 9) e of it is enough, and summing the magnitudes adds as much
- * again. A component of g is off by (N + 1) e of the sum of |f n|, which is `weight` below, and |g|^2 / (4 w) takes
- * four roundings. Four times all that is used, so that these sums may be rounded themselves; and 2^-900 for
- * underflow. */
+/* Rounding errors, with e = 2^-53 and N forces. A term f (d - n.a) has an error of at most 8 e of the sum of its parts'
+ * magnitudes. The sum of N terms adds N e of the sum of magnitudes: (N + 9) e of it suffices, and summing the
+ * magnitudes adds as much again. A component of g has an error of (N + 1) e of the sum of |f n|, which is net[3 b + 2]
+ * below, and |g|^2 / (4 w) takes four roundings. Four times all of this is used, so that these sums may be rounded
+ * themselves; and 2^-900 for underflow. */
 double sunder_i_dual_value(sunder_i_dual_program *program)
 {
     const double unit = 4 * ((double)(program->acting_n + program->bodies) + 16) * 0x1p-53;

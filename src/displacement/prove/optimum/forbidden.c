@@ -1,20 +1,21 @@
-/* The forbidden set of a pair, piece by piece.
+/* The forbidden set of a pair, as a union of convex pieces.
  *
- * Where convex pieces A and B of two bodies owe each other the distance g, the relative move u may not be in the open
- * set (A + (-B)) grown by the disc of radius g. So the forbidden set of two bodies is a union of such pieces, arcs
- * included. Listed pairs must stand no nearer than at the start. If they still overlap, as at the start, some
- * translation no longer than the one that separated them must leave them disjoint: u may not be where the disc of that
- * radius about it lies in the union of the pair's open pieces, in particular where it lies in one of them. Pairs where
- * one lies in the other, or could get there, with leave to overlap, are omitted, which makes the set smaller and a
- * bound at most weaker. Courtyards need no care: the pieces of a feature fill it, and nothing else. Shadows of features
- * that anchors may not pass, and of lines that side anchors may not cross, are further pieces, without exceptions.
+ * If convex pieces A and B of two bodies owe each other the distance g, the relative move u may not be in the open set
+ * (A + (-B)) grown by the disc of radius g. So the forbidden set of two bodies is a union of such pieces, with arcs at
+ * the corners. A listed pair (left in conflict) must be no nearer than at the start. If it still overlaps, as at the
+ * start, some translation no longer than the one that separated it at the start must make it disjoint: u may not be a
+ * point such that the disc of that radius around it lies in the union of the pair's open pieces, in particular in one
+ * of them. Pairs in which one lies in the other, or could get there, and may overlap it are omitted, which makes the
+ * set smaller and a bound at most weaker. Courtyards need no care: the pieces of a feature cover the feature and
+ * nothing else. Shadows of features that anchors may not pass, and of lines that side anchors may not cross, are
+ * further pieces, without exceptions.
  *
- * Rounding, with e = 2^-53: a corner less its origin is off by e of itself (2^-52 of the coordinates where the shape is
- * rational, whose corners are the nearest doubles), and a - b - offset takes two more roundings, so 8 e S = 2^-50 S is
- * enough for a corner, S the sum over both coordinates of the greatest |a| + |b| + |offset|. So every corner of K is
- * near the difference of a corner of A and one of B, in whatever order edges were merged: K lies in the true polygon
- * grown by that. By the cancellation law for convex sets, a point in K by at least that much, or nearer to K than the
- * radius less that much, is in the true piece. */
+ * Rounding errors, with e = 2^-53: a corner less its origin has an error of e of itself (2^-52 of the coordinates if
+ * the shape is rational, as its corners are rounded to doubles), and a - b - offset takes two more roundings. So 8 e S
+ * = 2^-50 S suffices for a corner, where S is the sum over both coordinates of the greatest |a| + |b| + |offset|. So
+ * every corner of K is that near to the difference of a corner of A and one of B, in whatever order edges were merged:
+ * K lies in the true polygon grown by that. By the cancellation law for convex sets, a point that lies in K at least
+ * that deep, or whose distance from K is less than the radius by at least that much, is in the true piece. */
 #include "displacement/prove/optimum/forbidden.h"
 #include "displacement/geometry/obstacle_shadow.h"
 #include "displacement/layer/resolution.h"
@@ -44,11 +45,11 @@ typedef struct listing {
     const sunder_i_body *p, *q;
     const sunder_i_body_pieces *of_p, *of_q;
     double offset[2], reach;
-    double window[4]; /* of u that are asked about */
-    size_t most;      /* pieces */
+    double window[4]; /* the relative moves u that matter */
+    size_t most;      /* the greatest number of pieces */
     bool diagonal_covers, no_paths;
     sunder_i_scratch scratch;
-    double *drawn, *hull; /* scratch of shadows */
+    double *drawn, *hull; /* scratch for shadows */
     size_t drawn_capacity, hull_capacity;
 } listing;
 
@@ -60,7 +61,7 @@ const sunder_i_waiver *sunder_i_waiver_of(const sunder_i_model *model, const sun
     return waived->n ? bsearch(&key, waived->pair, waived->n, sizeof key, sunder_i_by_id_pair) : NULL;
 }
 
-/* Do the two owe each other anything? waiver: NULL, or the pair's. */
+/* Do the things f and g owe each other a distance? *waiver is set to the pair's waiver, or NULL. */
 static bool owe(const listing *l, uint32_t f, uint32_t g, const sunder_i_waiver **waiver)
 {
     *waiver = sunder_i_waiver_of(l->model, l->waived, f, g);
@@ -70,8 +71,8 @@ static bool owe(const listing *l, uint32_t f, uint32_t g, const sunder_i_waiver 
                                     nextafter(l->reach, INFINITY));
 }
 
-/* Returns S of one coordinate sum: the size of the piece's coordinates and, for far or rational shapes, of those
- * before the origin was subtracted. */
+/* Returns the share of one piece in S: the size of its coordinates; for rational shapes and far corners also that of
+ * the coordinates before the origin was subtracted. */
 static double size_of(const listing *l, const sunder_i_body *body, const sunder_i_body_piece *piece)
 {
     const sunder_shape *shape = sunder_i_thing_shape(l->model, piece->feature);
@@ -84,8 +85,8 @@ static double size_of(const listing *l, const sunder_i_body *body, const sunder_
     return size;
 }
 
-/* K = a + (-B): its corners to l->scratch, *n of them, its edges behind those of the list, which they join if they are
- * kept. False if memory is out. */
+/* Computes K = a + (-B): its corners in l->scratch, *n of them, and its edges after those of the list, which they join
+ * if the piece is kept. Returns false if memory is out. */
 static bool begin_piece(listing *l, const sunder_i_body_piece *a, const sunder_i_body_piece *b,
                         sunder_i_forbidden_piece *piece, size_t *n)
 {
@@ -102,7 +103,8 @@ static bool begin_piece(listing *l, const sunder_i_body_piece *a, const sunder_i
     return true;
 }
 
-/* A disc about the middle of the piece's box that lies in it: of symbols nearly all of it. */
+/* Finds a disc around the middle of the piece's box that lies in the grown piece. For round symbols it is almost the
+ * whole piece. */
 static void find_disc_within(const sunder_i_forbidden *f, sunder_i_forbidden_piece *piece)
 {
     for (size_t c = 0; c < 2; c++) piece->middle[c] = piece->box[c] / 2 + piece->box[c + 2] / 2;
@@ -120,14 +122,14 @@ static void keep_piece(sunder_i_forbidden *f, sunder_i_forbidden_piece *piece, c
     sunder_i_box_clear(piece->box);
     for (size_t k = 0; k < n; k++) sunder_i_box_include(piece->box, xy + 2 * k);
     sunder_i_box_grow(piece->box, piece->radius, piece->box);
-    const uint32_t least = piece->radius > 0 ? 2 : 3; /* with fewer edges it has no interior */
+    const uint32_t least = piece->radius > 0 ? 2 : 3; /* with fewer edges the piece has no interior */
     if (piece->edges < least) return;
     find_disc_within(f, piece);
     f->edges += piece->edges;
     f->piece[f->pieces++] = *piece;
 }
 
-/* The edges of the polygon xy instead of those that the piece has. False if memory is out. */
+/* Replaces the edges of the piece by those of the polygon xy. Returns false if memory is out. */
 static bool set_edges(sunder_i_forbidden *f, sunder_i_forbidden_piece *piece, const double *xy, size_t n)
 {
     if (!sunder_i_reserve(&f->edge, &f->edge_capacity, f->edges + n, sizeof *f->edge)) return false;
@@ -135,7 +137,8 @@ static bool set_edges(sunder_i_forbidden *f, sunder_i_forbidden_piece *piece, co
     return true;
 }
 
-/* What of the convex polygon has no edge nearer than that, by clipping; returns how many corners, to *out. */
+/* Clips the convex polygon *in of n corners to the points that are at least `depth` inside of each edge. Returns the
+ * number of corners. The result is in *in, since the two buffers are swapped after each edge. */
 static size_t move_inwards(const sunder_i_obstacle_edge *edge, size_t edges, double depth, double **in, double **out,
                            size_t n)
 {
@@ -160,10 +163,10 @@ static size_t move_inwards(const sunder_i_obstacle_edge *edge, size_t edges, dou
     return n;
 }
 
-/* All u such that the disc of that radius about u lies in the piece, whose corners are xy: K moved inwards by the
- * radius, and by the error of its corners. For each corner of the result, the disc about it is tested to be in K, with
- * room for rounding: by the cancellation law the corresponding disc is in the true piece then, and the result has no
- * blur. */
+/* Adds the set of all u such that the disc of radius `depth` around u lies in the piece with the corners xy: K moved
+ * inwards by the radius and by the error of its corners. For each corner of the result it is tested, allowing for
+ * rounding, that the disc around it is in K; by the cancellation law the corresponding disc is then in the true piece,
+ * and the result has no error. Returns false if memory is out. */
 static bool add_eroded(listing *l, sunder_i_forbidden_piece *piece, const double *xy, size_t n, double depth)
 {
     sunder_i_forbidden *f = l->out;
@@ -227,7 +230,8 @@ static bool add_pieces(listing *l)
     return true;
 }
 
-/* May a piece of the other lie on a diagonal between pieces of `of`, since it has no area, and is owed nothing? */
+/* Can a piece of `other` lie on a diagonal between pieces of `of`? It can if it is a barrier without area that is owed
+ * no distance. */
 static bool hides_in_diagonals(const listing *l, const sunder_i_body *of, const sunder_i_body *other)
 {
     const uint32_t part = l->model->member[other->member];
@@ -235,7 +239,8 @@ static bool hides_in_diagonals(const listing *l, const sunder_i_body *of, const 
            sunder_i_owed_below(l->model, part, part) == 0;
 }
 
-/* What covers the diagonals of one body, and pieces of the other without area; swapped: it is the second of the two. */
+/* Adds the pieces made of the covers of diagonals of `of` and pieces of `other` without area. swapped: `of` is the
+ * second body of the pair. Returns false if memory is out. */
 static bool add_covers(listing *l, const sunder_i_body *of, const sunder_i_body *other, bool swapped)
 {
     const sunder_i_model *model = l->model;
@@ -259,9 +264,10 @@ static bool add_covers(listing *l, const sunder_i_body *of, const sunder_i_body 
     return true;
 }
 
-/* The shadow of K = a + (-B) from u = 0, where a is an anchor of one body and B a piece of the other, as far as it is
- * within reach: the hull of K and of K scaled up beyond reach. It lies in the shadow, which is convex; the errors of
- * its corners scale likewise. If rounding could bring K to 0 there is no shadow here. */
+/* Adds the shadow of K = a + (-B) from u = 0, as far as it is within reach; one of a and b is an anchor. It is the
+ * convex hull of K and of K scaled so that it is beyond reach. The hull lies in the shadow, which is convex; the errors
+ * of its corners are scaled likewise. If rounding errors could bring K to 0 no shadow is added. Returns false if memory
+ * is out. */
 static bool add_shadow(listing *l, const sunder_i_body_piece *a, const sunder_i_body_piece *b)
 {
     sunder_i_forbidden *f = l->out;
@@ -288,7 +294,8 @@ static bool add_shadow(listing *l, const sunder_i_body_piece *a, const sunder_i_
     return true;
 }
 
-/* May the piece cast a shadow from the anchor that is within reach? By their boxes; swapped: the anchor is of q. */
+/* May the piece cast a shadow from the anchor that is within reach? Decided by their boxes. swapped: the anchor is of
+ * the second body. */
 static bool may_cast(const listing *l, const sunder_i_body_piece *anchor, const sunder_i_body_piece *piece,
                      bool swapped)
 {
@@ -298,7 +305,7 @@ static bool may_cast(const listing *l, const sunder_i_body_piece *anchor, const 
                    : sunder_i_shadow_may_reach(anchor->box, piece->box, l->offset, way);
 }
 
-/* The shadow of one piece from that anchor. */
+/* Adds the shadow of one piece from the anchor, unless the piece's feature contains the anchor. */
 static bool add_shadow_of(listing *l, const sunder_i_body_piece *anchor, const sunder_i_body_piece *piece, bool swapped)
 {
     if (!may_cast(l, anchor, piece, swapped) || sunder_i_is_held(l->model, anchor->feature, piece->feature))
@@ -306,7 +313,7 @@ static bool add_shadow_of(listing *l, const sunder_i_body_piece *anchor, const s
     return add_shadow(l, swapped ? piece : anchor, swapped ? anchor : piece);
 }
 
-/* Those of what covers diagonals and shared walls. */
+/* Adds the shadows of the covers of diagonals and of shared walls of `other` from the anchor. */
 static bool add_diagonal_covers(listing *l, const sunder_i_body_piece *anchor, const sunder_i_body *other, bool swapped)
 {
     const sunder_i_model *model = l->model;
@@ -319,7 +326,7 @@ static bool add_diagonal_covers(listing *l, const sunder_i_body_piece *anchor, c
     return true;
 }
 
-/* Adds shadows of the pieces of `other` for the anchors of `p`; swapped: `p` is the second body of the pair. */
+/* Adds the shadows of the pieces of `other` from the anchors of `p`. swapped: `p` is the second body of the pair. */
 static bool add_shadows_from(listing *l, const sunder_i_body *p, const sunder_i_body *other, bool swapped)
 {
     const sunder_i_model *model = l->model;
@@ -336,7 +343,7 @@ static bool add_shadows_from(listing *l, const sunder_i_body *p, const sunder_i_
     return true;
 }
 
-/* Shadows of the sides of `part` from the side anchors of `p`. */
+/* Adds the shadows of the sides of `part` from the side anchors of `p`. swapped: `p` is the second body of the pair. */
 static bool add_sides(listing *l, const sunder_i_body *p, const sunder_i_body *part, bool swapped)
 {
     const sunder_i_model *model = l->model;
@@ -362,7 +369,7 @@ static bool add_all(listing *l)
     return l->model->rules.jumps || (add_shadows_from(l, l->p, l->q, false) && add_shadows_from(l, l->q, l->p, true));
 }
 
-/* False if memory is out. */
+/* Sets up the listing. Returns false if memory is out. */
 static bool begin(listing *l, uint32_t p, uint32_t q)
 {
     *l->out = (sunder_i_forbidden){0};
@@ -387,7 +394,7 @@ static void end(listing *l, double reach)
     f->grain = 0x1p-46 * f->size;
 }
 
-/* Within less reach, while that is too much. */
+/* Lists all pieces within reach. If there are too many, the reach is halved until there are not. */
 static bool list_within(listing *l, uint32_t p, uint32_t q)
 {
     const double reach = l->reach;

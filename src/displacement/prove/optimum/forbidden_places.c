@@ -1,7 +1,7 @@
-/* Tests of a forbidden set at a place, or along a ray, in doubles.
+/* Tests whether a place or a ray is in a forbidden set, in doubles.
  *
- * In a set of many pieces, a tree of boxes over them, in the order of a curve, finds those near by; in a set of a few,
- * each is tested. The answers are the same, except for which of several pieces comes first. */
+ * For a set of many pieces, a tree of boxes, in the order of a space-filling curve, finds those near the place; for a
+ * few pieces each is tested. The results are the same, except for which of several pieces is found first. */
 #include "displacement/prove/optimum/forbidden.h"
 #include "displacement/prove/optimum/tuning.h"
 
@@ -13,7 +13,7 @@
 #include <stddef.h>
 #include <string.h>
 
-/* ---- Pieces near by ---------------------------------------------------------------------------------------------- */
+/* ---- The pieces near a place ------------------------------------------------------------------------------------- */
 
 static void add_box(const void *of, size_t k, double box[4])
 {
@@ -72,7 +72,7 @@ double sunder_i_forbidden_distance(const sunder_i_forbidden *forbidden, const su
                                    const double u[2])
 {
     const sunder_i_obstacle_edge *edge = forbidden->edge + piece->edge;
-    double inside = -INFINITY, nearest = INFINITY; /* the latter squared */
+    double inside = -INFINITY, nearest = INFINITY; /* `nearest` is a squared distance */
     for (uint32_t k = 0; k < piece->edges; k++) {
         const sunder_i_obstacle_edge *e = &edge[k];
         const double wx = u[0] - e->from[0], wy = u[1] - e->from[1], s = e->n[0] * wx + e->n[1] * wy;
@@ -105,7 +105,8 @@ double sunder_i_forbidden_normal(const sunder_i_forbidden *forbidden, const sund
         const double far = distance > 0 && s > 0 ? hypot(s, past) : fabs(s);
         if ((distance > 0 && s <= 0) || fabs(far - fabs(distance)) >= best) continue;
         best = fabs(far - fabs(distance));
-        /* From the nearest place of the edge; inside, square to its line. */
+        /* The gradient points away from the nearest point of the edge; inside the piece it is the normal of the
+         * edge. */
         const double out = distance > 0 ? past : 0, length = hypot(s, out);
         n[0] = length > 0 ? (s * e->n[0] - out * e->n[1]) / length : e->n[0];
         n[1] = length > 0 ? (s * e->n[1] + out * e->n[0]) / length : e->n[1];
@@ -123,9 +124,10 @@ static void widen(double span[2], double from, double to)
     if (to > span[1]) span[1] = to;
 }
 
-/* What is crossed may be a grain beyond an edge's ends, and every length in the question is off by less than one. */
+/* Intersections may lie this many grains beyond an edge's ends; each length in the test has an error of less than one
+ * grain. */
 #define CLEAR_GRAINS 8
-/* Edges that are passed over together, where the line is near none of them. */
+/* The number of consecutive edges that are skipped together if the line is near none of them. */
 #define EDGES_AT_ONCE 8
 
 typedef struct crossing {
@@ -133,8 +135,8 @@ typedef struct crossing {
     double radius, grain, clear;
 } crossing;
 
-/* How far the first corners of n edges, and the end of the last, lie to the right of the line: off[n + 1]. False: all
- * lie on one side, and clear of it. */
+/* Sets off[0 .. n] to the distances of the beginnings of n edges, and of the end of the last, from the line, positive
+ * on its right. Returns false if all are on one side and clear of it. */
 static bool look_across(const crossing *c, const sunder_i_obstacle_edge *edge, const sunder_i_obstacle_edge *after,
                         size_t n, double *off)
 {
@@ -148,7 +150,8 @@ static bool look_across(const crossing *c, const sunder_i_obstacle_edge *edge, c
     return least <= c->clear && most >= -c->clear;
 }
 
-/* Where the line is in the disc about the edge's first corner, and where it crosses the edge moved out. */
+/* Extends `span` by the line's intersections with the disc around the edge's beginning and with the edge moved out by
+ * the radius. off: the distance of the beginning from the line. */
 static void cross(const crossing *c, const sunder_i_obstacle_edge *e, double off, double span[2])
 {
     const double wx = e->from[0] - c->from[0], wy = e->from[1] - c->from[1], under = c->radius * c->radius - off * off;
@@ -156,7 +159,8 @@ static void cross(const crossing *c, const sunder_i_obstacle_edge *e, double off
         const double mid = wx * c->dir[0] + wy * c->dir[1], half = sqrt(under);
         widen(span, mid - half, mid + half);
     }
-    /* Where the offset edge is crossed, as the ratio of `out` to `across`, whose signs are made equal. */
+    /* The position along the moved edge is out / across; the signs are changed so that the divisor `speed` is
+     * positive. */
     const double across = e->n[0] * c->dir[0] + e->n[1] * c->dir[1],
                  out = off + c->radius * (e->n[0] * c->dir[1] - e->n[1] * c->dir[0]), along = across < 0 ? -out : out,
                  speed = fabs(across);
@@ -165,9 +169,9 @@ static void cross(const crossing *c, const sunder_i_obstacle_edge *e, double off
     widen(span, s, s);
 }
 
-/* The line meets the grown piece, if at all, in a segment; its ends are on offset edges, or on discs about corners, and
- * everything there is in the piece. Most edges lie on one side of the line, with both corners and the discs about them,
- * and need no further test. */
+/* The line meets the grown piece in a segment, if at all. Its ends are on edges moved out, or on discs around corners,
+ * and all such intersections are in the piece. Most edges lie on one side of the line, with both corners and the discs
+ * around them, and need no further test. */
 bool sunder_i_forbidden_span(const sunder_i_forbidden *forbidden, const sunder_i_forbidden_piece *piece,
                              const double from[2], const double dir[2], double span[2])
 {
@@ -187,7 +191,7 @@ bool sunder_i_forbidden_span(const sunder_i_forbidden *forbidden, const sunder_i
     return span[0] < span[1];
 }
 
-/* ---- All of them ------------------------------------------------------------------------------------------------- */
+/* ---- The whole union --------------------------------------------------------------------------------------------- */
 
 double sunder_i_forbidden_depth(const sunder_i_forbidden *forbidden, const double u[2])
 {
@@ -202,7 +206,8 @@ double sunder_i_forbidden_depth(const sunder_i_forbidden *forbidden, const doubl
     return depth;
 }
 
-/* In the disc that lies in the piece grown, well off its rim, u is deeper whatever the edges are. */
+/* Is u deeper than `hair` in piece p? If u is in the disc inside the grown piece, well off its rim, it is, whatever the
+ * edges are. */
 static bool piece_is_deeper(const sunder_i_forbidden *f, const sunder_i_forbidden_piece *p, const double u[2],
                             double hair)
 {
@@ -233,7 +238,7 @@ bool sunder_i_forbidden_is_near(const sunder_i_forbidden *forbidden, const doubl
     return false;
 }
 
-/* Is all between two places in one of the pieces, as the discs in them tell? */
+/* Are u and v, and so everything between them, in the disc of one piece? */
 static bool is_within(const sunder_i_forbidden *f, const double u[2], const double v[2])
 {
     for (size_t k = 0; k < f->pieces && !sunder_i_forbidden_is_many(f); k++) {
@@ -250,7 +255,8 @@ double sunder_i_forbidden_exit(const sunder_i_forbidden *forbidden, const double
     const double to[2] = {u[0] + most * dir[0], u[1] + most * dir[1]};
     if (most < INFINITY && is_within(forbidden, u, to)) return most;
     double s = 0;
-    const sunder_i_forbidden_piece *left = NULL; /* the last one: it is left for good */
+    const sunder_i_forbidden_piece *left = NULL; /* the piece that was left last; it is convex, so it is not entered
+                                                  * again */
     for (bool again = true; again && s < most;) {
         again = false;
         const double x = u[0] + s * dir[0], y = u[1] + s * dir[1], at[4] = {x, y, x, y};

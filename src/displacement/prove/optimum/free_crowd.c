@@ -1,9 +1,10 @@
-/* Groups that may go anywhere, where prices of area prove more than blocks do.
+/* Large groups without limits, for which prices of area prove more than blocks do.
  *
- * If all pairs owe each other the gap and nothing limits any body, the report computes prices for all ground that such
- * a crowd stands on (../../report/area_bounds.c): for thousands of bodies at once, where blocks see six at a time. So
- * bounds by blocks are mostly useless there; blocks are used where a quick trial proves nearly as much as prices of the
- * group alone. For Italy's 10,000 symbols of 2 mm blocks proved 5e-4 of the bound, in a quarter of the time. */
+ * If all pairs have to keep the gap and nothing limits any body, the report computes prices for the whole area that
+ * such a group occupies (../../report/area_bounds.c): for thousands of bodies at once, while blocks have six bodies
+ * each. So bounds by blocks are mostly useless there, and blocks are used only if a quick trial proves nearly as much
+ * as prices for the group alone. For Italy's 10,000 symbols of 2 mm blocks proved 5e-4 of the bound, in a quarter of
+ * the time. */
 #include "displacement/prove/areas/areas.h"
 #include "displacement/prove/optimum/optimum.h"
 #include "displacement/prove/optimum/tuning.h"

@@ -1,9 +1,9 @@
-/* The hull of the part of a region outside a forbidden set: where a cut may go.
+/* The convex hull of the part of a region outside a forbidden set: it tells where a cut may go.
  *
  * Arcs of the pieces bulge into the free side, so the extreme points of that hull are among finitely many: corners of
- * the region outside the pieces, places where its sides enter or leave them, and reflex corners, where the boundaries
- * of two pieces cross outside of all others. All in doubles, and pieces are taken slightly smaller than they are: the
- * result only proposes a cut, which is proved by covered_region.c or not made. */
+ * the region outside the pieces, places where its sides enter or leave pieces, and reflex corners, where the boundaries
+ * of two pieces cross outside of all others. All of this is in doubles, and pieces are taken slightly smaller than they
+ * are. The result only proposes a cut, which is made if covered_region.c proves it. */
 #include "displacement/prove/optimum/region.h"
 #include "displacement/prove/optimum/tuning.h"
 
@@ -21,11 +21,11 @@ static bool is_free(const sunder_i_forbidden *f, const double u[2], size_t *gues
     return !sunder_i_forbidden_is_deeper(f, u, FREE_HAIR * f->size, guess);
 }
 
-/* False if memory is out, or the work is to stop. */
+/* Appends the place (x, y) to *out if it is in no piece. Returns false if memory is out or stopped on request. */
 static bool note(sunder_i_reflex *out, const sunder_i_forbidden *f, double x, double y, uint64_t *steps)
 {
     const double u[2] = {x, y};
-    /* Between two checks for a stop thousands of places may be tested, for two outlines with long arcs. */
+    /* The steps allow for thousands of tests between two checks for a stop, as for two outlines with long arcs. */
     if (!sunder_i_steps(1 + (f->pieces + f->edges) / 4)) return false;
     if (!is_free(f, u, &out->cover, steps)) return true;
     if (!sunder_i_reserve(&out->place, &out->capacity, out->n + 1, sizeof *out->place)) return false;
@@ -34,7 +34,7 @@ static bool note(sunder_i_reflex *out, const sunder_i_forbidden *f, double x, do
     return true;
 }
 
-/* Where the edges of p, moved out, cross the boundary of q. */
+/* Finds where edges of p, moved out by its radius, cross the boundary of q. */
 static bool cross_edges(sunder_i_reflex *out, const sunder_i_forbidden *f, const sunder_i_forbidden_piece *p,
                         const sunder_i_forbidden_piece *q, uint64_t *steps)
 {
@@ -57,7 +57,8 @@ static bool cross_edges(sunder_i_reflex *out, const sunder_i_forbidden *f, const
     return true;
 }
 
-/* Where the discs about corners of the two cross; what is inside of either is not free. */
+/* Finds where the discs around corners of the two pieces cross. Crossings inside of either piece are not free, and are
+ * dropped. */
 static bool cross_arcs(sunder_i_reflex *out, const sunder_i_forbidden *f, const sunder_i_forbidden_piece *p,
                        const sunder_i_forbidden_piece *q, uint64_t *steps)
 {
@@ -96,7 +97,7 @@ bool sunder_i_reflex_find(sunder_i_reflex *reflex, const sunder_i_forbidden *for
     return true;
 }
 
-/* How far it is from p along dir to where the region ends. */
+/* Returns the distance from p along `dir` to the boundary of the region. */
 static double way_out(const sunder_i_region *r, const double p[2], const double dir[2])
 {
     double way = INFINITY;
@@ -108,7 +109,7 @@ static double way_out(const sunder_i_region *r, const double p[2], const double 
     return way < INFINITY ? way : 0;
 }
 
-/* The normal of the piece that has p on its boundary; false: none has. */
+/* Sets n to the normal of the piece that has p on its boundary. Returns false if there is none. */
 static bool find_wall(const sunder_i_forbidden *f, const double p[2], double n[2], uint64_t *steps)
 {
     double nearest = WALL_HAIR * f->size;
@@ -134,7 +135,7 @@ bool sunder_i_reflex_seek(sunder_i_reflex *reflex, const sunder_i_forbidden *for
                           const double from[2], const double down[2], uint64_t *steps)
 {
     double p[2] = {from[0], from[1]}, dir[2] = {down[0], down[1]}, n[2];
-    /* Straight down to a wall, then along walls, as long as they lead down. */
+    /* Go straight down to a wall, then along walls as long as they lead down. */
     for (int leg = 0; leg < MOST_LEGS; leg++) {
         const double way = sunder_i_forbidden_entry(forbidden, p, dir, way_out(region, p, dir), steps);
         for (int c = 0; c < 2; c++) p[c] += way * dir[c];
@@ -143,7 +144,7 @@ bool sunder_i_reflex_seek(sunder_i_reflex *reflex, const sunder_i_forbidden *for
         if (!(fabs(along) > LEAST_SLOPE)) break;
         dir[0] = -side * n[1];
         dir[1] = side * n[0];
-        /* A hair off the wall, or it is entered at once. */
+        /* A tiny distance off the wall; otherwise the ray would enter it at once. */
         for (int c = 0; c < 2; c++) p[c] += WALL_HAIR * forbidden->size * n[c];
     }
     return note(reflex, forbidden, p[0], p[1], steps) && note(reflex, forbidden, from[0], from[1], steps);
@@ -163,7 +164,7 @@ static void gather(gathering *g, double x, double y)
     g->at[g->n++][1] = y;
 }
 
-/* Where side k of the region enters and leaves the union. */
+/* Adds the places where side k of the region enters and leaves the union. */
 static void gather_side(gathering *g, const sunder_i_region *r, uint32_t k, const sunder_i_forbidden *f,
                         uint64_t *steps)
 {
@@ -184,12 +185,12 @@ static void gather_side(gathering *g, const sunder_i_region *r, uint32_t k, cons
         double in[2];
         if (!sunder_i_forbidden_span(f, piece, p, dir, in) || in[1] <= 0 || in[0] >= length) continue;
         if (spans == MOST_SPANS) {
-            /* Too many to tell: as if nothing were covered. */
+            /* Too many pieces: the side counts as free. */
             gather(g, p[0], p[1]);
             gather(g, q[0], q[1]);
             return;
         }
-        /* Sorted by where they begin. */
+        /* Spans are sorted by where they begin. */
         size_t at = spans++;
         for (; at > 0 && span[at - 1][0] > in[0]; at--) {
             span[at][0] = span[at - 1][0];
@@ -211,7 +212,7 @@ static void gather_side(gathering *g, const sunder_i_region *r, uint32_t k, cons
     }
 }
 
-/* The same of many pieces: of what is free of the side, its ends. */
+/* For many pieces: adds only the ends of the free part of side k. */
 static void gather_ends(gathering *g, const sunder_i_region *r, uint32_t k, const sunder_i_forbidden *f,
                         uint64_t *steps)
 {
@@ -238,7 +239,7 @@ static bool holds(const sunder_i_region *r, const double u[2], double hair)
     return true;
 }
 
-/* The nearest to 0 of the segment from a to b; `share` of the way. */
+/* Sets out to the point of the segment ab nearest to 0, and returns its fraction along ab. */
 static double nearest_of(const double a[2], const double b[2], double out[2])
 {
     const double dx = b[0] - a[0], dy = b[1] - a[1], square = dx * dx + dy * dy;
@@ -251,8 +252,9 @@ static double nearest_of(const double a[2], const double b[2], double out[2])
 
 static double square_of(double x, double y) { return x * x + y * y; }
 
-/* The nearest point of a hull, in the plane: the farthest towards where we look from joins, and of the
- * two segments that it makes with the last one the nearer stays. Ends when no point lies nearer. */
+/* Sets out to the point of the hull of g's points nearest to u. In each round the point that is farthest in the
+ * direction towards u, as seen from the present nearest point, is added, and of the two segments that it makes with the
+ * last one the nearer is kept. It ends when no point is nearer. */
 static void nearest_of_hull(const gathering *g, const double u[2], double out[2])
 {
     double a[2], b[2], at[2];
@@ -275,7 +277,7 @@ static void nearest_of_hull(const gathering *g, const double u[2], double out[2]
             any = true;
         }
         if (!any) break;
-        /* u within the triangle: no way out. */
+        /* u is inside the triangle, so the distance is 0. */
         const double s1 = a[0] * b[1] - a[1] * b[0], s2 = b[0] * p[1] - b[1] * p[0], s3 = p[0] * a[1] - p[1] * a[0];
         if ((s1 > 0 && s2 > 0 && s3 > 0) || (s1 < 0 && s2 < 0 && s3 < 0)) {
             at[0] = at[1] = 0;
@@ -295,14 +297,14 @@ static void nearest_of_hull(const gathering *g, const double u[2], double out[2]
     for (int c = 0; c < 2; c++) out[c] = u[c] + at[c];
 }
 
-/* Is what is known of its sides as it would be found again? */
+/* Are the sides those of this region? */
 static bool is_known(const sunder_i_free_sides *s, const sunder_i_region *r)
 {
     return s->any && s->region.n == r->n && memcmp(s->region.xy, r->xy, 2 * r->n * sizeof *r->xy) == 0;
 }
 
 /* Finds side k of the region among the sides whose free parts are known: a cut leaves most sides as they were. Both are
- * in cyclic order, so the search starts at `from`. UINT32_MAX: not known. */
+ * in cyclic order, so the search starts at `from`. Returns UINT32_MAX if it is not known. */
 static uint32_t find_side(const sunder_i_free_sides *known, const sunder_i_region *r, uint32_t k, uint32_t from)
 {
     const uint32_t n = known->any && known->n < MOST_EXTREME ? known->region.n : 0;

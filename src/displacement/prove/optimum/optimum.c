@@ -1,9 +1,9 @@
-/* A contact group: the bound proved for it, and what its branch and bound finds.
+/* A contact group: the bound proved for it, and the cheaper layouts that its branch and bound finds.
  *
  * Any layout costs at least the sum, over disjoint groups, of the bound of each. So a group whose layout costs as much
- * as its bound cannot be improved, wherever the others go. A cheaper layout found by branching descends from there
- * until it is free of all neighbours, as they stand, and is taken. If it runs into another group the two belong
- * together. Groups where branching does not complete are bounded by blocks (blocks.c). */
+ * as its bound cannot be improved, wherever the others go. From a cheaper layout found by branching the search descends
+ * until it is free of all neighbours in their present positions; then it is accepted. If it collides with another group
+ * the two are joined. Groups for which branching does not complete are bounded by blocks (blocks.c). */
 #include "displacement/prove/optimum/optimum.h"
 #include "displacement/prove/optimum/blocks.h"
 #include "displacement/prove/optimum/tree.h"
@@ -32,7 +32,7 @@ void sunder_i_group_free(sunder_i_group *group)
     *group = (sunder_i_group){0};
 }
 
-/* Upwards. */
+/* Returns the cost of n bodies with these moves, rounded upwards. */
 static double cost_of(const sunder_i_model *model, const uint32_t *body, size_t n, const double *move)
 {
     double cost = 0;
@@ -41,9 +41,9 @@ static double cost_of(const sunder_i_model *model, const uint32_t *body, size_t 
     return cost * (1 + ((double)n + 8) * 0x1p-50);
 }
 
-/* The bound to be proved for a group of this cost: the cost less half of what still counts as optimal, and less a small
- * part of the gap or, if that is 0, of the smallest movable body. (A fixed one may be a road, miles long.) Only lengths
- * of the layer itself are used, so that a layer on another scale gets the same moves. */
+/* Returns the bound to be proved for a group: its cost less half of the share that still counts as optimal, and less a
+ * small part of the gap or, if that is 0, of the smallest movable body. (A fixed one may be a road, miles long.) Only
+ * lengths of the layer itself are used, so that a layer on another scale gets the same moves. */
 static double goal_of(const sunder_i_model *model, const sunder_i_group *g)
 {
     double length = INFINITY, weight = 0;
@@ -62,7 +62,8 @@ typedef struct standing {
     double t[2];
 } standing;
 
-/* Goes down from where the bodies stand, with a margin; without one, stays there: the cost, or INFINITY. */
+/* Descends from the moves of n bodies to a layout that keeps a margin; with `tight`, looks for a layout near them that
+ * has no margin. *cost is the cost of the layout found, INFINITY if there is none. */
 static sunder_status settle(const sunder_i_model *model, const sunder_i_waived *waived, const sunder_i_group *g,
                             uint32_t *body, size_t n, bool tight, double *move, double *cost, sunder_error *err)
 {
@@ -79,7 +80,8 @@ static sunder_status settle(const sunder_i_model *model, const sunder_i_waived *
     return SUNDER_OK;
 }
 
-/* Takes the cheaper layout, with the guests that moved. */
+/* Looks for a layout near the moves t of n bodies, which may include guests, and replaces the group's layout if it is
+ * cheaper; then sets *better. */
 static sunder_status attempt(const sunder_i_model *model, const sunder_i_waived *waived, sunder_i_group *g,
                              const uint32_t *body, const double *t, size_t n, bool tight, bool *better,
                              sunder_error *err)
@@ -124,14 +126,14 @@ sunder_status sunder_i_group_descend(const sunder_i_model *model, const sunder_i
     return attempt(model, waived, group, group->body, t, group->n, false, &better, err);
 }
 
-/* Blocks make their pairs afresh whenever they are asked: is that too dear for as often as they would have to be? */
+/* Is making the pairs too expensive for blocks, which make them again in each evaluation? */
 static bool blocks_are_dear(const sunder_i_tree *tree, uint64_t steps)
 {
     return tree->pair_steps > steps / BLOCKS_ASKED;
 }
 
-/* The total steps for the tree of a large group that has taken `taken` of them: no more if it promises nothing. At a
- * higher effort it gets at least those of effort 1. */
+/* Returns the total steps for the tree of a large group that has done `taken` of them; no more if it promises nothing.
+ * At a higher effort the tree gets at least the steps of effort 1. */
 static uint64_t steps_of_large(const sunder_i_tree *tree, uint64_t taken, uint64_t steps)
 {
     const double share = taken ? sunder_i_tree_bound(tree) / tree->task.goal : 0;
@@ -142,7 +144,8 @@ static uint64_t steps_of_large(const sunder_i_tree *tree, uint64_t taken, uint64
     return share >= TREE_SECOND_SHARE ? steps / TREE_SECOND : 0;
 }
 
-/* What a large group's tree takes in place of blocks is not paid for, as they are not. */
+/* Runs the group's tree, and descends from each layout that it finds. Steps that the tree of a large group uses in
+ * place of blocks are not counted, as those of blocks are not. */
 static sunder_status branch(const sunder_i_model *model, const sunder_i_waived *waived, sunder_i_group *g,
                             sunder_i_tree *tree, uint64_t steps, bool large, sunder_error *err)
 {
@@ -172,7 +175,7 @@ static sunder_status branch(const sunder_i_model *model, const sunder_i_waived *
     return SUNDER_OK;
 }
 
-/* The guests are the group's from now on. */
+/* Adds the guests of the tree, from number `from` on, to the group's guests. Returns false if memory is out. */
 static bool keep_guests(sunder_i_group *g, const sunder_i_tree *tree, size_t from)
 {
     for (size_t k = from; k < tree->task.n; k++)
@@ -181,8 +184,8 @@ static bool keep_guests(sunder_i_group *g, const sunder_i_tree *tree, size_t fro
     return true;
 }
 
-/* Blocks are evaluated fully only if a quick trial proves at least this much: for a group small enough for a tree that
- * ended without a proof they seldom prove more than the tree. */
+/* Makes a quick trial with blocks; they are evaluated fully only if it proves at least `enough` (*promising). For a
+ * group small enough for a tree that ended without a proof they seldom prove more than the tree. */
 static sunder_status look_at_blocks(const sunder_i_model *model, const sunder_i_waived *waived, const sunder_i_group *g,
                                     double enough, uint64_t steps, bool *promising, sunder_error *err)
 {
@@ -194,7 +197,7 @@ static sunder_status look_at_blocks(const sunder_i_model *model, const sunder_i_
     return status;
 }
 
-/* What blocks prove, where that is more. */
+/* Replaces the group's bound by that of blocks, if it is greater. */
 static sunder_status prove_blocks(const sunder_i_model *model, const sunder_i_waived *waived, sunder_i_group *g,
                                   uint64_t steps, sunder_error *err)
 {
@@ -211,8 +214,8 @@ static sunder_status prove_blocks(const sunder_i_model *model, const sunder_i_wa
     return status;
 }
 
-/* Blocks of a crowd: a quick trial proves most of what they can; if it proves little, it was too short for their number
- * of pieces. */
+/* Proves blocks of a dense group: a quick trial proves most of what they can. If it proves little it was too short for
+ * the group's number of pieces, and they get all steps. */
 static sunder_status prove_crowd(const sunder_i_model *model, const sunder_i_waived *waived, sunder_i_group *g,
                                  uint64_t steps, sunder_error *err)
 {
@@ -221,8 +224,8 @@ static sunder_status prove_crowd(const sunder_i_model *model, const sunder_i_wai
     return prove_blocks(model, waived, g, steps, err);
 }
 
-/* Blocks of a part, evaluated fully only if a quick trial proves a good share of its cost: where all bodies have moved
- * far, pushed by all others, few of them by themselves can be bounded only weakly, at any effort. */
+/* Proves blocks of a part of a group, fully only if a quick trial proves a good share of its cost: if all bodies have
+ * moved far, pushed by all others, few of them alone have only a weak bound, at any effort. */
 static sunder_status prove_part(const sunder_i_model *model, const sunder_i_waived *waived, const sunder_i_group *part,
                                 uint64_t steps, double *bound, sunder_i_bound_trees *trees, sunder_error *err)
 {
@@ -231,7 +234,7 @@ static sunder_status prove_part(const sunder_i_model *model, const sunder_i_waiv
     return sunder_i_blocks_bound(model, waived, part, steps, *bound, bound, trees, err);
 }
 
-/* Of a group too large for any program over all of it: parts of neighbours in number, by blocks. */
+/* Proves a group too large for a program over all of it: parts of consecutive bodies, each by blocks. */
 static sunder_status prove_parts(const sunder_i_model *model, const sunder_i_waived *waived, sunder_i_group *g,
                                  uint64_t steps, sunder_error *err)
 {
@@ -255,19 +258,20 @@ static sunder_status prove_parts(const sunder_i_model *model, const sunder_i_wai
 
 /* ---- The stages of a proof --------------------------------------------------------------------------------------- */
 
-/* What they share. */
+/* The state that the stages of one group share. */
 typedef struct proving {
     const sunder_i_model *model;
     const sunder_i_waived *waived;
     const uint32_t *group_of;
     sunder_i_group *g;
-    double known;               /* what is proved already: if no more is to be proved, nothing is */
-    double before;              /* the cost at the beginning: what is found to be cheaper may be put back */
-    size_t movers;              /* of its bodies */
-    bool asked;                 /* it costs little more than when everything was asked of it */
-    bool crowded, free_crowd;   /* only blocks and parts, or prices of area, prove much of it */
-    bool spent, exhausted_tree; /* of a large group, of a small one: the tree took all its steps */
-    bool over;                  /* there is nothing left to be done */
+    double known;               /* the bound that was proved before; the proof ends if it suffices */
+    double before;              /* the cost at the beginning; a cheaper layout found here may have to be undone later */
+    size_t movers;              /* the number of movable bodies */
+    bool asked;                 /* the group costs little more than when it was last examined fully */
+    bool crowded, free_crowd;   /* it has many remaining conflicts: only blocks and parts prove much; or it is
+                                 * unlimited: prices of area do */
+    bool spent, exhausted_tree; /* the tree of a large group, or of a small one, used all its steps */
+    bool over;                  /* no stage is left to run */
 } proving;
 
 static bool is_too_large(const proving *x) { return x->movers > MOST_TOGETHER; }
@@ -282,8 +286,8 @@ static bool is_small(const proving *x) { return x->movers <= BRANCHED; }
 
 static bool is_worth_blocks(const proving *x) { return x->movers > FEW && !x->asked; }
 
-/* If a group costs little more than when it was fully examined (it was put back by a rounding error, or has lost or won
- * a few bodies), neither blocks nor parts are evaluated again. */
+/* If a group costs little more than when it was last examined fully (a rounding error undid its move, or it has lost or
+ * gained a few bodies), neither blocks nor parts are evaluated again. */
 static sunder_status prove_in_parts(proving *x, uint64_t steps, sunder_error *err)
 {
     x->over = true;
@@ -309,7 +313,7 @@ static sunder_status prove_as_crowd(proving *x, uint64_t steps, sunder_error *er
     return prove_crowd(x->model, x->waived, x->g, steps, err);
 }
 
-/* A body that patience has sent to another side stands among others now: the next round knows which to ask. */
+/* A body that a perturbation has sent to another side has other neighbours now; the next round knows them. */
 static sunder_status shake_large(proving *x, uint64_t steps, sunder_error *err)
 {
     const bool again = x->g->shaken_at >= ASKED_SHARE * x->before;
@@ -374,7 +378,7 @@ typedef struct stage {
     const char *name;
     bool (*applies)(const proving *x); /* the precondition; NULL: none */
     sunder_status (*run)(proving *x, uint64_t steps, sunder_error *err);
-    uint64_t share; /* budget: the steps of the group, divided by this; 0: none */
+    uint64_t share; /* the budget: the steps of the group are divided by this; 0: the stage needs none */
 } stage;
 
 static const stage stages[] = {
@@ -388,7 +392,7 @@ static const stage stages[] = {
     {"prove by blocks", is_worth_blocks, prove_by_blocks, 1},
 };
 
-/* Runs one stage; one that changed anything is noted, where the layer is traced. */
+/* Runs one stage. If it changed cost or bound and the layer is traced, it is recorded. */
 static sunder_status run_stage(proving *x, const stage *y, uint64_t steps, sunder_error *err)
 {
     sunder_i_group *g = x->g;

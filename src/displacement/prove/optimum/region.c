@@ -1,15 +1,15 @@
 /* Convex regions, clipped in doubles, with a bound on their error.
  *
- * Invariant: the true region T, of all u that keep the cuts exactly, lies in P + B(blur), P the convex hull of the
- * corners as they are. A clip by n.u >= d preserves it: u in T is p + e with p in P, |e| <= blur, so n.p >= d - blur.
- * The signs of n.p - d + blur + 2 grain at the corners are right up to grain (which is more than the rounding of a
- * product, region.h), so a corner that is dropped has n.p < d - blur. Where an edge crosses the line the computed place
- * is one of the edge whose product is right up to grain, rounded by less than grain. So the part that P loses is beyond
- * the line, or within a grain of the rest, and blur grows by that. Where the line is nearly parallel to an edge a place
- * may be far from the true crossing, but then everything between the two is within a grain of the line.
+ * Invariant: the true region T, of all u that satisfy the cuts exactly, lies in P + B(blur), where P is the convex hull
+ * of the stored corners. A clip by n.u >= d preserves it: u in T is p + e with p in P, |e| <= blur, so n.p >= d - blur.
+ * The signs of n.p - d + blur + 2 grain at the corners are right up to grain (which is more than the rounding error of
+ * a product, region.h), so a corner that is dropped has n.p < d - blur. Where an edge crosses the line, the computed
+ * place is one of the edge whose product is right up to grain, rounded by less than grain. So the part that P loses is
+ * beyond the line, or within a grain of the rest, and blur grows by that. If the line is nearly parallel to an edge the
+ * computed place may be far from the true crossing, but then everything between the two is within a grain of the line.
  *
  * A polygon that would have too many corners is left as it was, and corners within a grain of each other are merged:
- * the region is larger then, or blur is. */
+ * then the region, or blur, is larger. */
 #include "displacement/prove/optimum/region.h"
 
 #include <math.h>
@@ -71,7 +71,8 @@ void sunder_i_region_clip(sunder_i_region *region, const double n[2], double d, 
         if (s[k] >= 0) add(&c, p[0], p[1], region->cut[k]);
         if ((s[k] >= 0) == (s[l] >= 0)) continue;
         const double share = s[k] / (s[k] - s[l]);
-        /* Where the boundary leaves, the line begins; where it comes back, the side that it comes along. */
+        /* Where the boundary leaves the half-plane, the side along the line begins; where it comes back, the side that
+         * it crosses continues. */
         add(&c, p[0] + share * (q[0] - p[0]), p[1] + share * (q[1] - p[1]), s[k] >= 0 ? cut : region->cut[k]);
     }
     if (c.full) return;

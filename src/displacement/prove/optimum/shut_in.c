@@ -1,13 +1,13 @@
-/* Do two bodies have no free relative move? Where jumps are not allowed this happens: a feature in a yard can leave it
- * no more than the yard can leave the feature, and if the yard is too small there is no place in it.
+/* Do two bodies have no free relative move? If jumps are not allowed this happens: a feature in a courtyard can leave
+ * it no more than the courtyard can leave the feature, and if the courtyard is too small there is no place in it.
  *
- * All relative moves within a square are examined, so large that beyond it the two are certainly apart. There only
- * shadows forbid a move, and these are unbounded: a direction that leads into one stays in it. So if the square is
- * covered (covered_region.c) all of the plane is, whatever limits and fixed features exist. Two bodies are examined,
- * each as a whole; or two features, whose blocks move with them and only add their shadows.
+ * All relative moves within a square are examined, which is so large that beyond it the two are certainly apart. There
+ * only shadows forbid a move, and these are unbounded: a direction that leads into one stays in it. So if the square is
+ * covered (covered_region.c), the whole plane is, whatever limits and fixed features exist. Either two whole bodies are
+ * examined, or two features whose blocks move with them and only add their shadows.
  *
- * Few pairs are shut in, and for most the straight way out is obviously open. So directions are tried first, in
- * doubles, which decides nothing: if one is open there is nothing to prove. */
+ * Few pairs are shut in, and for most pairs the straight direction apart is obviously open. So directions are tried
+ * first, in doubles, which decides nothing: if one is open there is nothing to prove. */
 #include "displacement/prove/optimum/forbidden.h"
 #include "displacement/prove/optimum/region.h"
 #include "displacement/prove/optimum/tuning.h"
@@ -20,10 +20,10 @@ typedef struct looking {
     const sunder_i_model *model;
     const sunder_i_body *p, *q;
     const sunder_i_body_pieces *of_p, *of_q;
-    double offset[2]; /* of q's origin from p's */
+    double offset[2]; /* the origin of q relative to that of p */
 } looking;
 
-/* Does the ray from u along dir meet the convex piece, moved by shift? */
+/* Does the ray from u along dir meet the convex piece, moved by `shift`? */
 static bool meets(const sunder_i_body_piece *piece, const double shift[2], const double u[2], const double dir[2])
 {
     const double *corner = piece->corner;
@@ -38,7 +38,8 @@ static bool meets(const sunder_i_body_piece *piece, const double shift[2], const
     return left && right && ahead;
 }
 
-/* Does an anchor of the one that goes along dir run into the other, which stands `shift` off? */
+/* Does an anchor of the body that moves along dir (p if p_runs, else q) meet the other body, whose origin is at `shift`
+ * from it? */
 static bool runs_into(const looking *l, bool p_runs, const double shift[2], const double dir[2])
 {
     const sunder_i_body *of = p_runs ? l->p : l->q, *other = p_runs ? l->q : l->p;
@@ -59,7 +60,7 @@ static bool is_open(const looking *l, const double dir[2])
     return !runs_into(l, false, to_p, dir) && !runs_into(l, true, l->offset, back);
 }
 
-/* Is one of OUTLOOKS directions open, straight out first? */
+/* Is one of OUTLOOKS directions open? The first is that from the middle of p to the middle of q. */
 static bool any_is_open(const looking *l)
 {
     double out[2];
@@ -76,7 +77,7 @@ static bool any_is_open(const looking *l)
     return false;
 }
 
-/* The k-th part of the square, and a little more, for rounding. */
+/* Sets *part to the k-th part of the square, slightly enlarged to allow for rounding. */
 static void find_part(int k, double reach, sunder_i_region *part)
 {
     const int column = k % SQUARE_PARTS, row = k / SQUARE_PARTS;
@@ -85,7 +86,7 @@ static void find_part(int k, double reach, sunder_i_region *part)
     sunder_i_region_init(part, centre, half * (1 + 0x1p-20));
 }
 
-/* The square, a part at a time: each may take what a cut may. */
+/* Is the whole square covered? It is tested in parts, each of which may take as much work as a cut. */
 static bool is_covered(const sunder_i_forbidden *f, double reach, uint64_t *steps)
 {
     for (int k = 0; k < SQUARE_PARTS * SQUARE_PARTS; k++) {
@@ -106,7 +107,7 @@ bool sunder_i_may_be_shut_in(const sunder_i_model *model, uint32_t p, uint32_t q
     return !l.of_p || !l.of_q || !any_is_open(&l);
 }
 
-/* What the two bodies forbid each other, and how far they are asked about. */
+/* Lists the forbidden set of the two bodies, and sets *reach to half the side of the square to be examined. */
 static bool find_forbidden(sunder_i_forbidden *f, const sunder_i_model *model, uint32_t p, uint32_t q, double *reach)
 {
     *reach = 2 * sunder_i_farthest_near(model, p, q);
@@ -125,7 +126,7 @@ bool sunder_i_is_shut_in(const sunder_i_model *model, uint32_t p, uint32_t q, bo
     return ok;
 }
 
-/* ---- Feature by feature ------------------------------------------------------------------------------------------ */
+/* ---- Pairs of features ------------------------------------------------------------------------------------------- */
 
 static bool is_between(const sunder_i_forbidden_piece *piece, const sunder_i_id_pair *pair)
 {
@@ -133,7 +134,7 @@ static bool is_between(const sunder_i_forbidden_piece *piece, const sunder_i_id_
     return (a == pair->a && b == pair->b) || (a == pair->b && b == pair->a);
 }
 
-/* Writes the shadows of all pieces into `part`, which has room for all. */
+/* Copies the shadows among all pieces to `part`, which has room for all of them. */
 static void keep_shadows(const sunder_i_forbidden *all, sunder_i_forbidden *part)
 {
     part->pieces = 0;
@@ -141,7 +142,7 @@ static void keep_shadows(const sunder_i_forbidden *all, sunder_i_forbidden *part
         if (all->piece[k].shadow) part->piece[part->pieces++] = all->piece[k];
 }
 
-/* And appends, of all other pieces, those of these two features. */
+/* Appends, after the n shadows, the pieces of these two features. */
 static void add_pair(const sunder_i_forbidden *all, const sunder_i_id_pair *pair, size_t n, sunder_i_forbidden *part)
 {
     part->pieces = n;
@@ -149,7 +150,8 @@ static void add_pair(const sunder_i_forbidden *all, const sunder_i_id_pair *pair
         if (!all->piece[k].shadow && is_between(&all->piece[k], pair)) part->piece[part->pieces++] = all->piece[k];
 }
 
-/* Does it cover all that is left? What it does not is where the next will most likely fail, too: it comes first. */
+/* Is everything in *left covered? A region that is not covered is moved to the front, as it is likely to be uncovered
+ * for the next pair, too. */
 static bool covers(const sunder_i_forbidden *f, sunder_i_regions *left, uint64_t *steps)
 {
     for (size_t k = 0; k < left->n; k++) {
@@ -162,7 +164,7 @@ static bool covers(const sunder_i_forbidden *f, sunder_i_regions *left, uint64_t
     return true;
 }
 
-/* Shadows are the same for all pairs, and most of what there is: what they cover is proved once. */
+/* The shadows are the same for all pairs, and are most of the pieces: what they cover is proved once. */
 bool sunder_i_which_are_shut_in(const sunder_i_model *model, uint32_t p, uint32_t q, const sunder_i_id_pair *pair,
                                 size_t n, bool *shut)
 {
@@ -171,7 +173,7 @@ bool sunder_i_which_are_shut_in(const sunder_i_model *model, uint32_t p, uint32_
     double reach;
     uint64_t steps = 0;
     bool ok = find_forbidden(&all, model, p, q, &reach);
-    sunder_i_forbidden part = all; /* its edges are those of all */
+    sunder_i_forbidden part = all; /* its edges are those of `all` */
     part.piece = sunder_i_alloc(all.pieces, sizeof *part.piece);
     ok = ok && part.piece;
     if (ok) keep_shadows(&all, &part);

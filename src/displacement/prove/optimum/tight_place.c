@@ -1,24 +1,22 @@
-/* Places without any spare room: a slot just as wide as the feature that goes in, a row that just fits between two
+/* Places without any spare room: a slot exactly as wide as the feature in it, or a row that exactly fits between two
  * walls.
  *
- * With a margin for rounding there is no way in, and a place in doubles is off by rounding. But a passage has no spare
- * width only where coordinates are special: all multiples of a step that is coarse compared with rounding. Then the
- * forbidden interval of two bodies along an axis begins and ends at such multiples too. So bodies whose moves along an
- * axis differ by a multiple of the step, up to a hair, get moves that differ by exactly that: they form one *row*,
- * which moves as a whole. Fixed bodies, and everything outside, are in the row that stays at 0. Contacts between
- * different rows still have room, and get their margin: rows are moved away from them in turn [projections, Kac37].
- * Callers check exactly whether the layout holds.
+ * A search with a margin for rounding cannot enter such a place, and one without a margin ends near it, off by rounding
+ * errors. But a passage has no spare width only if coordinates are special: all multiples of a step that is coarse
+ * compared with rounding. Then the forbidden interval of two bodies along an axis also begins and ends at such
+ * multiples. So bodies whose moves along an axis differ by a multiple of the step, up to a hair, get moves that differ
+ * by exactly that: they form one *row*, which moves as a whole. Fixed bodies, and bodies outside, are in rows that
+ * stay. Contacts between different rows still have room, and get their margin: rows are moved away from them in turn
+ * [projections, Kac37]. Callers verify the layout exactly.
  *
  * The group need not have touched these outside bodies before: the lack of room may be due to something outside,
  * usually a barrier. So bodies within a hair of the place take part, in rows that stay where they are.
  *
  * Shadows are closed: a move that ends exactly on the boundary of one has jumped. If a row cannot avoid that, only
- * coordinates in which a body is squeezed, touched squarely from both sides, are aligned, and all others have their
- * margins.
+ * coordinates in which a body is squeezed (touched squarely from both sides) are aligned, and all others get margins.
  *
  *   coordinates without a common step     no place: no passage is exactly as wide as a feature then
- * a tight passage at an angle only where the place is on the lattice, too: otherwise no doubles are in
- * it */
+ *   a tight passage at an angle           only if the place is on the lattice, too: otherwise no doubles are in it */
 #include "displacement/prove/optimum/optimum.h"
 #include "displacement/prove/optimum/tight.h"
 #include "displacement/prove/optimum/tuning.h"
@@ -45,8 +43,8 @@ static void end(sunder_i_tight *f)
     sunder_i_free(f->corner);
 }
 
-/* Rows of bodies that rounding brought beyond their limits go a unit back to where these stood; false: none is. Where
- * rows have room it is many units. */
+/* Moves rows of bodies that rounding brought beyond their limits back by one unit towards home. Returns false if there
+ * are none. Where rows have room this may take many calls. */
 static bool step_back(sunder_i_tight *f, double unit)
 {
     bool any = false;
@@ -63,16 +61,16 @@ static bool step_back(sunder_i_tight *f, double unit)
     return any;
 }
 
-/* The bases in whole units. */
+/* Rounds the bases of rows to whole units. */
 static void round_bases(sunder_i_tight *f, double unit)
 {
     for (size_t row = 0; row < f->rows; row++)
         if (!f->stays[row]) f->base[row] = unit * rint(f->base[row] / unit);
 }
 
-/* Bases of rows in units that all of the group can hold; steps are whole numbers of these. Two limits that draw a row
- * to and fro leave it room between them, where there is any, that steps of one unit towards home do not find: it is
- * drawn a few units farther in. */
+/* Rounds the bases of rows to units that all bodies of the group can represent; steps are whole numbers of these. If
+ * steps of one unit towards home do not bring all bodies within their limits, because limits on both sides push a row
+ * back and forth, the rows are moved apart again with a few units of room. */
 static void round_rows(sunder_i_tight *f)
 {
     double coarsest = 0, out[2], unit;
@@ -90,7 +88,7 @@ static void round_rows(sunder_i_tight *f)
     round_bases(f, coarsest);
 }
 
-/* Can all bodies be moved just so? */
+/* Sets `move` to the places. Returns false if a body's coordinates plus its move are not doubles. */
 static bool take_places(const sunder_i_tight *f, double *move)
 {
     for (size_t k = 0; k < 2 * f->n; k++) move[k] = sunder_i_tight_place_of(f, k);

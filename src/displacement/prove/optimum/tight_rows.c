@@ -1,5 +1,5 @@
-/* Rows: moves along an axis that differ by whole steps, which go as one; and how they are drawn away from contacts that
- * have room, and within limits (tight_place.c). */
+/* Rows: coordinates of moves along an axis that differ by whole steps, and change together. This file finds the rows,
+ * and moves them away from contacts that have room, and within limits (tight_place.c). */
 #include "displacement/prove/optimum/tight.h"
 #include "displacement/prove/optimum/tuning.h"
 
@@ -9,11 +9,11 @@
 
 #include <math.h>
 
-#define HOME 0 /* the row that stays */
+#define HOME 0 /* the number of the row that stays at 0 */
 
 /* ---- Rows -------------------------------------------------------------------------------------------------------- */
 
-/* Is t[k] a multiple of the step away from `from`? */
+/* Does t[k] differ from `from` by a multiple of the step, up to a hair? */
 static bool is_aligned(const sunder_i_tight *f, size_t k, double from)
 {
     const double steps = (f->t[k] - from) / f->step;
@@ -26,8 +26,8 @@ static void line_up(sunder_i_tight *f, size_t k, size_t row)
     f->ahead[k] = f->step * rint((f->t[k] - f->base[row]) / f->step);
 }
 
-/* Where one coordinate uses up all of a limit, up to a hair, nothing is left of the other but what that hair makes of
- * it, which is much more: so it is at home. */
+/* If one coordinate uses up all of a limit, up to a hair, the other is set to 0: it can only differ from 0 because of
+ * that hair, which allows for much more than a hair in the other coordinate. */
 static void leave_limits_whole(sunder_i_tight *f)
 {
     for (size_t k = 0; k < 2 * f->n; k++) {
@@ -37,7 +37,7 @@ static void leave_limits_whole(sunder_i_tight *f)
     }
 }
 
-/* Coordinate k is at home, or in a row from `first` on, or the first of a new one. */
+/* Puts coordinate k into the row at home, into an aligned row from `first` on, or into a new row. */
 static void find_row(sunder_i_tight *f, size_t first, size_t k)
 {
     size_t row = HOME;
@@ -53,7 +53,8 @@ static void find_row(sunder_i_tight *f, size_t first, size_t k)
     line_up(f, k, row);
 }
 
-/* Coordinate c of all bodies: first those outside, whose rows stay; last those that nothing is to be aligned with. */
+/* Finds the rows of coordinate c of all bodies: first of the bodies outside, whose rows stay; last of coordinates that
+ * are not to be aligned. */
 static void find_rows_along(sunder_i_tight *f, size_t c)
 {
     const size_t first = f->rows;
@@ -71,8 +72,9 @@ static void find_rows(sunder_i_tight *f)
     for (size_t c = 0; c < 2; c++) find_rows_along(f, c);
 }
 
-/* A row that nothing presses on is cheapest where its weighted moves add up to zero. Its bodies stood a margin apart,
- * so the place of the first body is off by about that margin. */
+/* A row on which no contact presses is cheapest if its weighted moves add up to zero. If a row is nearly so, it is
+ * moved to that position: its bodies had a margin between them, so the first body's place is off by about that margin.
+ * Returns false if memory is out. */
 static bool centre_rows(sunder_i_tight *f)
 {
     double *sum = sunder_i_calloc(2 * f->rows, sizeof *sum), *weight = sum ? sum + f->rows : NULL;
@@ -90,7 +92,7 @@ static bool centre_rows(sunder_i_tight *f)
 
 /* ---- Contacts with room ------------------------------------------------------------------------------------------ */
 
-/* How much the two bodies are nearer than the margin. */
+/* Returns the distance by which the contact misses the margin. */
 static double missing_at(const sunder_i_tight *f, const sunder_i_tight_meeting *m)
 {
     double missing = m->contact.d + m->contact.off + f->margin;
@@ -100,8 +102,8 @@ static double missing_at(const sunder_i_tight *f, const sunder_i_tight_meeting *
     return missing;
 }
 
-/* Draws the rows of two bodies away from their contact, if it is theirs to move from. True if half of the margin was
- * missing. */
+/* Moves the rows of two bodies away from their contact, if they can move from it. Returns true if more than half of the
+ * margin was missing. */
 static bool draw_away(sunder_i_tight *f, const sunder_i_tight_meeting *m)
 {
     const double *n = m->contact.n, missing = missing_at(f, m);
@@ -121,10 +123,10 @@ static bool draw_away(sunder_i_tight *f, const sunder_i_tight_meeting *m)
     return missing > f->margin / 2;
 }
 
-/* Brings a body back within its limit, by the rows that may move. If one coordinate uses the limit up, the other must
- * be 0, however slightly the limit was exceeded: a share e of it is sqrt(2 e) of the other coordinate. True if it was
- * beyond by half of the margin, or by a part of the room that is to remain: another body's limit may move the row that
- * they share outward again. */
+/* Brings body k back within its limit by moving its rows. If one coordinate uses the limit up, the other must be 0,
+ * however slightly the limit was exceeded: a relative excess e of it is sqrt(2 e) of the other coordinate. Returns true
+ * if the body was beyond by more than half of the margin, or by a part of the room that is to remain: another body's
+ * limit may move a shared row outward again. */
 static bool draw_within(sunder_i_tight *f, size_t k)
 {
     const double limit = sunder_i_max(0, sunder_i_limit_of(&f->model->body[f->body[k]]) - f->room),
@@ -173,7 +175,7 @@ void sunder_i_tight_draw_apart(sunder_i_tight *f)
     }
 }
 
-/* Is the margin missing to a shadow? */
+/* Does a contact with a shadow miss its margin? */
 static bool is_in_shadow(const sunder_i_tight *f)
 {
     for (size_t k = 0; k < f->meetings; k++)
@@ -181,7 +183,8 @@ static bool is_in_shadow(const sunder_i_tight *f)
     return false;
 }
 
-/* Is the body at place k of the list touched squarely from that side, along axis c, by what is no shadow? */
+/* Is the body at place k of the list touched squarely from the side `side` along axis c, by a piece that is not a
+ * shadow? */
 static bool is_touched(const sunder_i_tight *f, size_t k, size_t c, double side)
 {
     for (size_t m = 0; m < f->meetings; m++) {

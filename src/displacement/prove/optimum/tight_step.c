@@ -1,5 +1,5 @@
-/* The common step of coordinates, where they have one, and the participants of a place without spare room: the group,
- * and those outside that it touches there (tight_place.c). */
+/* Finds the common step of coordinates, if they have one, and the bodies that take part in a place without spare room:
+ * the group, and bodies outside that it touches there (tight_place.c). */
 #include "displacement/prove/optimum/optimum.h"
 #include "displacement/prove/optimum/tight.h"
 #include "displacement/prove/optimum/tuning.h"
@@ -31,7 +31,8 @@ static void lower(int *exponent, double v)
     if (e < *exponent) *exponent = e;
 }
 
-/* Corners as they stood: less the body's origin they may be rounded. False if memory is out. */
+/* Lowers *exponent to the lowest bit of the piece's corners as given; relative to the body's origin they may be
+ * rounded. Returns false if memory is out. */
 static bool lower_by_piece(sunder_i_tight *f, const sunder_i_body_piece *piece, int *exponent)
 {
     const size_t n = sunder_i_corners_as_given(f->model, piece);
@@ -41,7 +42,8 @@ static bool lower_by_piece(sunder_i_tight *f, const sunder_i_body_piece *piece, 
     return true;
 }
 
-/* By the coordinates of a body and what it owes; *known: that is a double. False if memory is out. */
+/* Lowers *exponent to the lowest bit of a body's coordinates and of the distance it owes; *known is set if that
+ * distance is a double. Returns false if memory is out. */
 static bool lower_by_body(sunder_i_tight *f, const sunder_i_body *body, int *exponent, bool *known)
 {
     const sunder_i_model *model = f->model;
@@ -66,7 +68,7 @@ bool sunder_i_tight_find_step(sunder_i_tight *f, bool *coarse)
         const sunder_i_body *body = &f->model->body[f->body[k]];
         for (int c = 0; c < 4 && !body->fixed; c++) f->size = sunder_i_max(f->size, fabs(body->box[c]));
         if (!lower_by_body(f, body, &f->exponent, coarse)) return false;
-        /* The step gets no coarser, nor do bodies get smaller: most layers end here, at the first one. */
+        /* The step never becomes coarser, nor the size smaller, so most layers end here, at the first body. */
         *coarse = *coarse && is_coarse(f, f->exponent);
     }
     *coarse = *coarse && f->exponent < INT_MAX && is_coarse(f, f->exponent);
@@ -74,7 +76,7 @@ bool sunder_i_tight_find_step(sunder_i_tight *f, bool *coarse)
     return true;
 }
 
-/* ---- Those outside ----------------------------------------------------------------------------------------------- */
+/* ---- Bodies outside ---------------------------------------------------------------------------------------------- */
 
 static bool takes_part(const sunder_i_tight *f, uint32_t body)
 {
@@ -83,7 +85,8 @@ static bool takes_part(const sunder_i_tight *f, uint32_t body)
     return false;
 }
 
-/* Takes the body in, where it is touched by the one at place k, and has coordinates in coarse steps too. */
+/* Adds body `other` if it touches the body at place k, and its coordinates have a coarse step, too. Returns false if
+ * memory is out. */
 static bool take_in(sunder_i_tight *f, size_t k, uint32_t other)
 {
     const double *stands = f->model->move + 2 * (size_t)other;

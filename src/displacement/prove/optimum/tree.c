@@ -1,14 +1,14 @@
 /* Branch and bound for the least cost of a few bodies, exact for arcs, for shapes that are not convex, and for holes.
  *
- * A node restricts, for some pairs, their relative move u_ij = t_j - t_i to a convex region, that of its cuts. Its
- * program is the least cost under all cuts, which forces prove from below (dual_program.c). If the minimiser has a pair
- * in conflict, cuts are added that lose nothing (tree_cuts.c), or the node is divided by three cones (tree_branch.c). A
- * node whose forces prove the goal is closed; so is one that leaves a pair no room. A node without conflict is a leaf:
- * nothing below it is cheaper.
+ * A node restricts, for some pairs, the relative move u_ij = t_j - t_i to a convex region given by its cuts. Its
+ * program is the least cost under all cuts, for which forces prove a lower bound (dual_program.c). If the minimiser has
+ * a pair in conflict, cuts are added that lose no solution (tree_cuts.c), or the node is divided by three cones
+ * (tree_branch.c). A node whose forces prove the goal is closed; so is one that leaves a pair no room. A node without
+ * conflict is a leaf: no layout below it is cheaper.
  *
- * The result is the least of the goal and the values of nodes that are open, or leaves; a cut by a disc removes only
- * layouts that cost at least the goal. The open node that proves least is processed next, so the bound is valid, and
- * the best so far, whenever the effort ends.
+ * The bound is the least of the goal and the values of nodes that are open, or leaves; a cut by a disc removes only
+ * layouts that cost at least the goal. The open node with the least value is processed next, so the bound is valid, and
+ * the best possible at that point, whenever the steps end.
  *
  * Why this tree? The free places of a pair are the complement of an obstacle, so the problem is a choice of sides.
  * There are three usual methods.
@@ -126,13 +126,13 @@ void sunder_i_tree_lower_goal(sunder_i_tree *tree, double goal)
     tree->task.goal = sunder_i_min(tree->task.goal, goal);
 }
 
-/* Looks into one node. True if its least has no conflicts, or none that a division tells more of: *leaf is what that is
- * proved to cost. */
+/* Examines one node. Returns true if its minimiser has no conflicts, or none by which dividing proves more; *leaf is
+ * the cost that is proved for it. */
 static bool look_into(sunder_i_tree *t, uint32_t node, double *leaf)
 {
     sunder_i_tree_load(t, node);
     for (int round = 0; !t->failed; round++) {
-        /* Cuts by discs stand on the forces at hand, so these belong to the node above. */
+        /* Cuts by discs depend on the present forces, so these belong to the parent node. */
         const double value = sunder_i_max(t->node[node].value, sunder_i_dual_value(&t->program));
         t->node[node].value = value;
         if (value >= t->task.goal) {

@@ -7,53 +7,55 @@
 #include "displacement/prove/optimum/region.h"
 #include "sunder_proof.h"
 
-/* min sum w_i |t_i - a_i|^2 over the moves of n bodies by which no pair of them does what it is forbidden. */
+/* The task: minimise sum w_i |t_i - a_i|^2 over the moves of n bodies for which no pair of them is in its forbidden
+ * set. */
 typedef struct sunder_i_task {
     const sunder_i_model *model;
     const sunder_i_waived *waived;
-    const uint32_t *group_of; /* NULL, or [bodies] of the model: the group of each, SUNDER_I_NOBODY: it stands alone */
-    uint32_t group;           /* this one */
+    const uint32_t *group_of; /* NULL, or for each body of the model the number of its group; SUNDER_I_NOBODY: it is in
+                               * none */
+    uint32_t group;           /* the number of this group */
     const uint32_t *body;     /* [n] */
     size_t n;
-    const double *weight; /* [n] NULL: the bodies' own; else no more than that */
-    const double *anchor; /* [2 n] a; 0 for what does not move; NULL: 0 for all */
-    double goal;          /* to be proved: no layout costs less */
-    bool no_paths;        /* jumps and sides are ignored: less is forbidden */
-    bool keep;            /* what a reader of the proof needs besides is kept: see tree_record.c */
+    const double *weight; /* [n] NULL: the bodies' own; else at most those */
+    const double *anchor; /* [2 n] the points a; 0 for bodies that do not move; NULL: all are 0 */
+    double goal;          /* the bound to be proved */
+    bool no_paths;        /* jumps and sides are ignored, so less is forbidden */
+    bool keep;            /* record what a checker of the proof needs: see tree_record.c */
 } sunder_i_task;
 
 typedef enum sunder_i_cut_kind {
     SUNDER_I_CUT_LIMIT, /* a tangent of a body's limit */
-    SUNDER_I_CUT_CONE,  /* of a branch */
-    SUNDER_I_CUT_HULL,  /* what it takes away is forbidden */
-    SUNDER_I_CUT_DISC   /* what it takes away costs the goal, by the forces of the node above */
+    SUNDER_I_CUT_CONE,  /* a side of a branch's cone */
+    SUNDER_I_CUT_HULL,  /* the part that it removes is forbidden */
+    SUNDER_I_CUT_DISC   /* the part that it removes costs at least the goal, by the forces of the parent node */
 } sunder_i_cut_kind;
 
 typedef struct sunder_i_cut_note {
     sunder_i_cut_kind kind;
-    uint32_t pair;         /* in sunder_i_tree.pair */
+    uint32_t pair;         /* the pair, in sunder_i_tree.pair */
     uint32_t named, names; /* for a hull, if recorded: the pieces that prove it, in sunder_i_tree.named */
 } sunder_i_cut_note;
 
 typedef enum sunder_i_node_state {
     SUNDER_I_OPEN,
-    SUNDER_I_CLOSED,  /* its forces prove the goal of its time */
-    SUNDER_I_EMPTY,   /* the last pair cut has no room left: its region is forbidden */
-    SUNDER_I_LEAF,    /* no better is to be had: its least has no conflicts, or it could not be divided */
-    SUNDER_I_REFINED, /* one child, with more cuts */
-    SUNDER_I_DIVIDED  /* three children */
+    SUNDER_I_CLOSED,  /* its forces prove the goal as it was then */
+    SUNDER_I_EMPTY,   /* a pair has no room left: its region is forbidden */
+    SUNDER_I_LEAF,    /* no better bound is possible: its minimiser has no conflicts, or it could not be divided */
+    SUNDER_I_REFINED, /* it has one child, with more cuts */
+    SUNDER_I_DIVIDED  /* it has three children */
 } sunder_i_node_state;
 
 typedef struct sunder_i_tree_node {
-    uint32_t parent; /* SUNDER_I_NO_NODE: the root */
+    uint32_t parent; /* SUNDER_I_NO_NODE for the root */
     uint32_t cut, cuts, force, forces;
-    double value; /* proved: no layout below it costs less, or the goal */
+    double value; /* proved: no layout below it costs less than this, or than the goal */
     sunder_i_node_state state;
-    bool stuck;    /* the conflict that divided its parent was at the same place */
-    uint32_t pair; /* which it was divided by, or has no room left */
-    /* Where it is kept: the forces that its discs stand on, of cuts above it, and the pieces that leave no room. */
+    bool stuck;    /* the conflict that divided its parent is still at the same place */
+    uint32_t pair; /* the pair by which it was divided, or which has no room left */
+    /* If recorded: the forces on which its discs depend, of cuts above it, and the pieces that leave no room. */
     uint32_t by, bys, named, names;
-    char *regions; /* NULL, or the regions of its pairs, while it is open: tree_regions.c */
+    char *regions; /* NULL, or the regions of its pairs, saved while it is open: tree_regions.c */
     size_t regions_size;
 } sunder_i_tree_node;
 
@@ -63,11 +65,11 @@ typedef struct sunder_i_tree_pair {
     uint32_t i, j; /* places in the task's list */
     sunder_i_forbidden forbidden;
     sunder_i_reflex reflex;
-    sunder_i_free_sides sides; /* of a region that it had */
+    sunder_i_free_sides sides; /* the free parts of the sides of its last region */
     bool has_reflex, touched;
-    double reach; /* half side of the root */
+    double reach; /* half the side of the root's region */
     double centre[2];
-    sunder_i_region region; /* at the node at hand */
+    sunder_i_region region; /* at the present node */
     double slackness;       /* 1 / w_i + 1 / w_j, rounded upwards */
 } sunder_i_tree_pair;
 
@@ -76,28 +78,29 @@ typedef struct sunder_i_open {
     uint32_t node;
 } sunder_i_open;
 
-/* Which open node is looked at first: the one that proves least. */
+/* Which open node is processed first: the one with the least value. */
 static inline bool sunder_i_opens_first(const void *a, const void *b)
 {
     const sunder_i_open *p = a, *q = b;
     return p->value != q->value ? p->value < q->value : p->node < q->node;
 }
 
-/* A pair in conflict at the least of a node. */
+/* A pair in conflict at the minimiser of a node. */
 typedef struct sunder_i_tree_conflict {
     uint32_t pair;
     double depth, u[2];
 } sunder_i_tree_conflict;
 
-/* Directions all around, in which ways out are looked for; of every other one there is a tangent of a disc. */
+/* The number of directions, evenly spaced, in which exits are looked for; every second one is a normal of the tangents
+ * of a disc. */
 #define SUNDER_I_TREE_RAYS 32
 
 typedef struct sunder_i_tree {
     sunder_i_task task; /* its lists are the tree's own, and may grow by guests */
     uint32_t *body;
-    double *weight, *anchor, *mass, *limit; /* [capacity], of weight INFINITY: it does not move */
+    double *weight, *anchor, *mass, *limit; /* [capacity] each; a weight of INFINITY: the body does not move */
     size_t capacity;
-    uint32_t *pair_at; /* [capacity^2] */
+    uint32_t *pair_at; /* [capacity^2] the number of each pair, or UINT32_MAX */
     sunder_i_tree_pair *pair;
     size_t pairs, pair_capacity;
     sunder_i_move_cut *cut;
@@ -107,32 +110,32 @@ typedef struct sunder_i_tree {
     size_t forces, force_capacity;
     sunder_i_tree_node *node;
     size_t nodes, node_capacity;
-    sunder_i_list named; /* pieces of pairs, where the proof is kept */
-    bool *used;          /* of the pieces of one pair; scratch */
+    sunder_i_list named; /* pieces of pairs that proofs use, if they are recorded */
+    bool *used;          /* scratch: which pieces of one pair are used */
     size_t used_capacity;
-    sunder_i_open *open; /* a heap */
+    sunder_i_open *open; /* a heap of the open nodes */
     size_t opens, open_capacity;
     sunder_i_list path, touched, near;
-    sunder_i_list joins; /* bodies of other groups, in the way of a layout that would be cheaper */
+    sunder_i_list joins; /* bodies of other groups that block a cheaper layout */
     sunder_i_tree_conflict *conflict;
     size_t conflicts, conflict_capacity;
-    sunder_i_free_sides tried; /* for a region that a trial examines */
+    sunder_i_free_sides tried; /* the free parts of the sides of a region that a trial examines */
     sunder_i_dual_program program;
-    sunder_i_cut_force *kept; /* the program's state, while something else is tried */
+    sunder_i_cut_force *kept; /* the saved state of the program during a trial */
     double *kept_factor;
     size_t kept_n, kept_capacity, kept_factor_capacity;
-    size_t kept_bytes; /* of regions, of all open nodes */
+    size_t kept_bytes; /* the size of the saved regions of all open nodes */
     double ray[SUNDER_I_TREE_RAYS][2];
     double leaf;                /* the least value of a leaf */
-    uint64_t steps, pair_steps; /* pair_steps: the part spent on making pairs */
-    bool failed;                /* memory is out */
+    uint64_t steps, pair_steps; /* pair_steps: the part of `steps` spent on making pairs */
+    bool failed;                /* memory is out, or stopped on request */
 } sunder_i_tree;
 
 typedef enum sunder_i_tree_outcome {
-    SUNDER_I_TREE_PROVED, /* nothing costs less than the goal, or the least leaf */
-    SUNDER_I_TREE_FOUND,  /* program.t has no conflicts: what it leads to may be cheaper */
-    SUNDER_I_TREE_JOINED, /* the same, without those in joins */
-    SUNDER_I_TREE_SPENT   /* the effort is */
+    SUNDER_I_TREE_PROVED, /* no layout costs less than the goal or the least leaf */
+    SUNDER_I_TREE_FOUND,  /* program.t has no conflicts: a descent from it may find a cheaper layout */
+    SUNDER_I_TREE_JOINED, /* the same, if the bodies in `joins` are ignored */
+    SUNDER_I_TREE_SPENT   /* the steps are used up */
 } sunder_i_tree_outcome;
 
 /* ---- tree_bodies.c ----------------------------------------------------------------------------------------------- */
@@ -148,70 +151,75 @@ void sunder_i_tree_invite(sunder_i_tree *tree, uint32_t body);
 
 bool sunder_i_tree_init(sunder_i_tree *tree, const sunder_i_task *task);
 void sunder_i_tree_free(sunder_i_tree *tree);
-/* Continues until `steps` steps are done in all. */
+/* Continues until the total of steps exceeds `steps`. */
 sunder_i_tree_outcome sunder_i_tree_run(sunder_i_tree *tree, uint64_t steps);
-/* The bound proved so far. */
+/* Returns the bound proved up to now. */
 double sunder_i_tree_bound(const sunder_i_tree *tree);
-/* A cheaper layout is known: the goal falls. */
+/* Lowers the goal, after a cheaper layout was found. */
 void sunder_i_tree_lower_goal(sunder_i_tree *tree, double goal);
 
 /* ---- tree_pairs.c ------------------------------------------------------------------------------------------------ */
 
-/* The pair of bodies i and j, made at its first use; NULL if memory is out. */
+/* Returns the pair of bodies i and j, made at its first use; NULL if memory is out. */
 sunder_i_tree_pair *sunder_i_tree_pair_of(sunder_i_tree *tree, uint32_t i, uint32_t j);
-/* The pairs in conflict at program.t, to tree->conflict. */
+/* Sets tree->conflict to the pairs in conflict at program.t. */
 void sunder_i_tree_find_conflicts(sunder_i_tree *tree);
-/* The same with bodies that stand outside. Those that stand alone where they came from become guests, and take part
- * from now on; those of other groups go to tree->joins. */
+/* Looks for conflicts with bodies outside. A body that is in no group becomes a guest, and takes part from now on; a
+ * body of another group is appended to tree->joins. */
 void sunder_i_tree_meet(sunder_i_tree *tree);
 
 /* ---- tree_node.c ------------------------------------------------------------------------------------------------- */
 
-/* The program's forces, added to the record. */
+/* Appends the program's forces to the record of forces. */
 void sunder_i_tree_note_forces(sunder_i_tree *tree, uint32_t *first, uint32_t *count);
-/* Adds a cut to the last node, and to the pair's region. Its number. */
+/* Adds a cut to the last node, and clips the pair's region by it. Returns the cut's number. */
 uint32_t sunder_i_tree_cut(sunder_i_tree *tree, sunder_i_cut_kind kind, uint32_t pair, const double n[2], double d);
-/* A node with the program's forces; the cuts that follow are its. */
+/* Adds a node, and returns its number; cuts added after it belong to it. The second function records the program's
+ * forces as those of `node`. */
 uint32_t sunder_i_tree_add_node(sunder_i_tree *tree, uint32_t parent, double value);
 void sunder_i_tree_keep_forces(sunder_i_tree *tree, uint32_t node);
-/* Regions and program as they are at the node. */
+/* Sets the regions and the program to their state at the node. */
 void sunder_i_tree_load(sunder_i_tree *tree, uint32_t node);
-/* Solves the program over all regions; what it proves. Infinite where all is closed. */
+/* Solves the program under all regions and limits, and returns the bound that it proves. */
 double sunder_i_tree_solve(sunder_i_tree *tree);
-/* Sets the program aside, and takes it back. */
+/* Saves the program's state, and restores it. */
 void sunder_i_tree_keep_program(sunder_i_tree *tree);
 void sunder_i_tree_restore_program(sunder_i_tree *tree);
 
 /* ---- tree_regions.c ---------------------------------------------------------------------------------------------- */
 
-/* Keeps the regions at hand for a node that is opened, if there is room. */
+/* Saves the present regions for a node that is opened, if there is room. */
 void sunder_i_tree_keep_regions(sunder_i_tree *tree, uint32_t node);
-/* Regions of pairs that the node's path touches become what was kept; it is kept no longer. */
+/* Restores the saved regions of the pairs that the node's path touches, and frees them. The second function only frees
+ * them. */
 void sunder_i_tree_take_regions(sunder_i_tree *tree, uint32_t node);
 void sunder_i_tree_drop_regions(sunder_i_tree *tree, uint32_t node);
 
 /* ---- tree_cuts.c ------------------------------------------------------------------------------------------------- */
 
-/* Cuts of the conflicts at the node: discs, hulls. *empty: a pair is left no room; the cuts made. */
+/* Adds cuts for the conflicts at the node: discs and hulls. Returns the number of hulls made. *empty is set if a pair
+ * has no room left. value: the bound that the forces prove. */
 size_t sunder_i_tree_refine(sunder_i_tree *tree, double value, bool *empty);
-/* A cut proposed for u in a region, but not proved: n.v >= d for all v that are free. False: nothing is, or u is in
- * the hull. *none: nothing is free. */
+/* Proposes a cut, not proved, that separates u from the free part of a region: n.v >= d for all free v. Returns false
+ * if nothing is free, or if u is in the hull of the free part. *none is set if nothing is free. */
 bool sunder_i_tree_propose(sunder_i_tree *tree, uint32_t pair, const sunder_i_region *region, const double u[2],
                            double n[2], double *d, bool *none);
-/* The same, proved, and made. *empty: the pair is left no room at the last node, which is proved, and noted there. */
+/* Proposes such a cut, proves it, and adds it. Returns false if none was added. *empty is set if it is proved that the
+ * pair has no room left at the last node; this is recorded there. */
 bool sunder_i_tree_cut_hull(sunder_i_tree *tree, uint32_t pair, const double u[2], bool *empty);
 
 /* ---- tree_branch.c ----------------------------------------------------------------------------------------------- */
 
-/* Divides the node by one of its conflicts; children that are not closed are opened. Without one that tells more it is
- * a leaf. */
+/* Divides the node by one of its conflicts, and opens the children that are not closed. If no conflict promises a
+ * better bound the node becomes a leaf. */
 void sunder_i_tree_divide(sunder_i_tree *tree, uint32_t node);
 
 /* ---- tree_record.c ----------------------------------------------------------------------------------------------- */
 
-/* What the tree proves, and by what: `out`, to be freed by sunder_i_bound_tree_free(). False if memory is out. */
+/* Records what the tree proves, and how, in `out`, which is freed by sunder_i_bound_tree_free(). Returns false if
+ * memory is out. */
 bool sunder_i_tree_record(const sunder_i_tree *tree, sunder_bound_tree *out);
-/* The same becomes the last of the trees. False if memory is out. */
+/* Records the tree at the end of `trees`. Returns false if memory is out. */
 bool sunder_i_tree_keep(const sunder_i_tree *tree, sunder_i_bound_trees *trees);
 
 #endif

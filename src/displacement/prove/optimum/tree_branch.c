@@ -1,15 +1,15 @@
 /* Branches: a node is divided where the minimiser of its program has a pair in conflict.
  *
- *            q1 . . . n . . . q2        u lies in the forbidden set. Three rays from u, each two less than a straight
- *              \      |      /          angle apart, divide the plane into cones: between the ways out q1 and q2 on a
- *               \  A  |     /           line slightly nearer than the nearest way out n, and two behind. The free part
- *                \    |    /            of a cone has a hull that usually misses u, since u is in the forbidden set: so
- *              C  `.  |  .'  B          each child is cut off from u. No free place is lost: the cut of a cone lies a
- *                    `u'                grain behind u, so that the cones cover everything.
- *                     |
+ *           q1 . . . n . . . q2        u lies in the forbidden set. Three rays from u, each two less than a straight
+ *             \      |      /          angle apart, divide the plane into cones. n is the nearest exit of the set; q1
+ *              \  A  |     /           and q2 are the exits along a line slightly nearer to u. One cone is between
+ *               \    |    /            q1 and q2, two are behind. The free part of a cone has a hull that usually
+ *             C  `.  |  .'  B          misses u, since u is in the forbidden set: so each child is cut off from u. No
+ *                   `u'                free place is lost: the cut of a cone lies a grain behind u, so that the cones
+ *                    |                 cover everything.
  *
- * Each of the deepest conflicts is tried: what would its children prove? The one whose children prove most is taken
- * [strong branching]. Trials use cuts that are not proved; children prove theirs. */
+ * Each of the deepest conflicts is tried, by the bounds that its children would prove. The conflict whose children
+ * prove most is taken [strong branching]. Trials use cuts that are not proved; the children prove theirs. */
 #include "displacement/prove/optimum/tree.h"
 #include "displacement/prove/optimum/tuning.h"
 
@@ -40,10 +40,10 @@ static void choose_rays(sunder_i_tree *t, const sunder_i_tree_conflict *c, branc
     const double ahead = (1 - NEARER) * nearest, mid[2] = {c->u[0] + ahead * n[0], c->u[1] + ahead * n[1]};
     for (int k = 0; k < 2; k++) {
         const double side = k ? 1 : -1, dir[2] = {-side * n[1], side * n[0]};
-        /* No wider than 84 degrees: the angle to the ray behind stays less than straight. */
+        /* At most 84 degrees, so that the angle to the ray behind is less than straight. */
         double way = sunder_i_min(sunder_i_forbidden_exit(f, mid, dir, 10 * ahead), 10 * ahead);
-        /* In a slot without width the ways out are beside u as well as ahead: a ray along the slot would leave it to
-         * both of its cones, and one of these would have u in its hull. */
+        /* In a slot without width there are exits beside u as well as ahead. A ray along the slot would leave the slot
+         * to both of its cones, and one of these would have u in its hull. */
         if (way < IN_SLOT * ahead) way = BESIDE_SLOT * ahead;
         const double x = ahead * n[0] + way * dir[0], y = ahead * n[1] + way * dir[1], length = sqrt(x * x + y * y);
         out->ray[k][0] = length > 0 ? x / length : n[0];
@@ -53,7 +53,7 @@ static void choose_rays(sunder_i_tree *t, const sunder_i_tree_conflict *c, branc
     out->ray[2][1] = -n[1];
 }
 
-/* The two cuts of cone k: left of its first ray, right of the next. */
+/* Sets n and d to the two cuts of cone k: left of its first ray, right of the next one. */
 static void cone_cuts(const sunder_i_tree *t, const sunder_i_tree_conflict *c, const branching_rays *b, int k,
                       double n[2][2], double d[2])
 {
@@ -65,7 +65,7 @@ static void cone_cuts(const sunder_i_tree *t, const sunder_i_tree_conflict *c, c
     for (int e = 0; e < 2; e++) d[e] = n[e][0] * c->u[0] + n[e][1] * c->u[1] - grain;
 }
 
-/* The share of the missing bound that cone k would prove. */
+/* Returns the share of the missing bound that the child in cone k would prove. */
 static double try_cone(sunder_i_tree *t, const sunder_i_tree_conflict *c, const branching_rays *b, int k, double value)
 {
     const double grain = t->pair[c->pair].forbidden.grain;
@@ -75,7 +75,7 @@ static double try_cone(sunder_i_tree *t, const sunder_i_tree_conflict *c, const 
     sunder_i_region region = t->pair[c->pair].region;
     for (int x = 0; x < 2; x++) sunder_i_region_clip(&region, n[x], d[x], SUNDER_I_NO_CUT, grain);
     if (!sunder_i_tree_propose(t, c->pair, &region, c->u, m, &e, &none)) return none ? 1 : 0;
-    /* A cut for the trial alone: it is taken back. */
+    /* This cut is for the trial alone, and is removed below. */
     const sunder_i_region before = t->pair[c->pair].region;
     const size_t cuts = t->cuts;
     const uint32_t own = t->nodes ? t->node[t->nodes - 1].cuts : 0;
@@ -96,7 +96,7 @@ static int by_weight(const void *a, const void *b)
     return p->pair < q->pair ? -1 : p->pair > q->pair;
 }
 
-/* The conflict to divide by. */
+/* Chooses the conflict to divide by, and its rays. */
 static sunder_i_tree_conflict choose(sunder_i_tree *t, double value, branching_rays *rays)
 {
     for (size_t k = 0; k < t->conflicts; k++) t->conflict[k].depth /= sqrt(t->pair[t->conflict[k].pair].slackness);
@@ -121,8 +121,8 @@ static sunder_i_tree_conflict choose(sunder_i_tree *t, double value, branching_r
     return best;
 }
 
-/* Is the conflict that divided the node at the same place in a child without a cut? Then it must not be used again: it
- * would be divided by the same rays for ever. */
+/* Is the conflict that divided the node still at the same place in a child without a cut? Then it must not be used
+ * again, as it would be divided by the same rays forever. */
 static bool is_stuck(const sunder_i_tree *t, const sunder_i_tree_conflict *c)
 {
     const sunder_i_tree_pair *p = &t->pair[c->pair];
@@ -130,7 +130,7 @@ static bool is_stuck(const sunder_i_tree *t, const sunder_i_tree_conflict *c)
     return fabs(x - c->u[0]) + fabs(y - c->u[1]) <= STUCK * p->forbidden.grain;
 }
 
-/* Leaves out the conflicts that nodes above were divided by in vain, since when nothing more was proved. */
+/* Removes the conflicts by which nodes above were divided without moving them, if the bound has not grown since. */
 static void leave_out_stuck(sunder_i_tree *t, uint32_t node)
 {
     const double least = t->node[node].value * (1 - HOLDS);

@@ -1,13 +1,15 @@
 /* Cuts at a node: they remove only what is forbidden, or too expensive.
  *
- * Disc. With D what the node's forces f prove and t* their minimiser, every t that keeps the cuts to the node costs at
- * least D + sum w |t - t*|^2 (dual_program.c). So one that costs less than the goal has
- *     |u_ij - u*_ij|  <=  |t_i - t*_i| + |t_j - t*_j|  <=  sqrt((goal - D) (1 / w_i + 1 / w_j))
- * by Cauchy and Schwarz: lines about that disc are cuts.
+ * Disc. Let D be the bound that the node's forces prove and t* their minimiser. Every t that satisfies the cuts of the
+ * node costs at least D + sum w |t - t*|^2 (dual_program.c). So a t that costs less than the goal has
  *
- * Hull. Removing a forbidden part of a region loses nothing: a line beyond which all of the region is forbidden is a
- * cut. The hull of the free part, in doubles, proposes it; it is moved slightly outward, and made if the part that it
- * removes is proved to be covered. */
+ *     |u_ij - u*_ij|  <=  |t_i - t*_i| + |t_j - t*_j|  <=  sqrt((goal - D) (1 / w_i + 1 / w_j))
+ *
+ * by Cauchy and Schwarz: tangents of that disc are cuts.
+ *
+ * Hull. Removing a forbidden part of a region loses nothing, so a line beyond which the whole region is forbidden is a
+ * cut. The hull of the free part, in doubles, proposes such a line; it is moved slightly outward, and made a cut if it
+ * is proved that the part which it removes is covered. */
 #include "displacement/prove/optimum/tree.h"
 #include "displacement/prove/optimum/tuning.h"
 
@@ -16,8 +18,8 @@
 #include <math.h>
 #include <string.h>
 
-/* How far t* may be from the exact minimiser of the forces: rounding of the sum of pushes on a body (whose size
- * dual_value() returns), and of the anchor. */
+/* Returns a bound of the distance between t* of body b and the exact minimiser for the forces: the rounding errors of
+ * the sum of pushes on the body (whose size sunder_i_dual_value() computes) and of the anchor. */
 static double doubt(const sunder_i_tree *t, uint32_t b)
 {
     const double size =
@@ -25,7 +27,8 @@ static double doubt(const sunder_i_tree *t, uint32_t b)
     return (double)(t->program.acting_n + 16) * 0x1p-51 * size;
 }
 
-/* Keeps the region of the pair in the disc about u. value: what the forces prove. */
+/* Clips the region of the pair to the disc around u. value: the bound that the forces prove. Returns the number of cuts
+ * made. */
 static size_t cut_disc(sunder_i_tree *t, uint32_t pair, const double u[2], double value)
 {
     const sunder_i_tree_pair *p = &t->pair[pair];
@@ -48,7 +51,7 @@ static size_t cut_disc(sunder_i_tree *t, uint32_t pair, const double u[2], doubl
     return made;
 }
 
-/* The reflex corners of a pair of few pieces, once and for all. */
+/* Finds the reflex corners of a pair of few pieces, at the first call. Returns false if memory is out. */
 static bool know_reflex(sunder_i_tree *t, sunder_i_tree_pair *p)
 {
     if (p->has_reflex || sunder_i_forbidden_is_many(&p->forbidden)) return true;
@@ -64,7 +67,7 @@ bool sunder_i_tree_propose(sunder_i_tree *tree, uint32_t pair, const sunder_i_re
     double place[2];
     *none = region->n == 0;
     if (*none || !know_reflex(tree, p)) return false;
-    /* A trial does not change what is known of the pair's own region. */
+    /* A trial must not change the free sides of the pair's own region. */
     sunder_i_free_sides *sides = region == &p->region ? &p->sides : &tree->tried;
     if (sides == &tree->tried) sides->any = false;
     if (!sunder_i_free_sides_find(sides, &p->sides, region, &p->forbidden, &tree->steps)) {
@@ -84,8 +87,8 @@ bool sunder_i_tree_propose(sunder_i_tree *tree, uint32_t pair, const sunder_i_re
     return true;
 }
 
-/* Is the region within what the pair may not do? Where the proof is kept, the pieces that it stands on are named. gap:
- * as of sunder_i_region_is_covered(). */
+/* Is it proved that the region is forbidden to the pair? If proofs are recorded, the pieces that this one uses are
+ * listed in t->named from *named on, *names of them. gap: as in sunder_i_region_is_covered(). */
 static bool is_covered(sunder_i_tree *t, const sunder_i_tree_pair *p, const sunder_i_region *region, double gap[2],
                        uint32_t *named, uint32_t *names)
 {
@@ -104,7 +107,8 @@ static bool is_covered(sunder_i_tree *t, const sunder_i_tree_pair *p, const sund
     return true;
 }
 
-/* Is the pair left no room at the last node? Proved, and noted there. gap: as of sunder_i_region_is_covered(). */
+/* Is it proved that the pair has no room left at the last node? It is recorded there. gap: as in
+ * sunder_i_region_is_covered(). */
 static bool is_empty(sunder_i_tree *t, uint32_t pair, double gap[2])
 {
     const sunder_i_tree_pair *p = &t->pair[pair];
@@ -113,7 +117,7 @@ static bool is_empty(sunder_i_tree *t, uint32_t pair, double gap[2])
     return is_covered(t, p, &p->region, gap, &node->named, &node->names);
 }
 
-/* Cuts off what is before the line, but for some room, if that is forbidden. */
+/* Adds the cut n.u >= d - room if it is proved that what it removes is forbidden. */
 static bool try_cut(sunder_i_tree *t, uint32_t pair, const double n[2], double d, double room, double gap[2])
 {
     const sunder_i_tree_pair *p = &t->pair[pair];
@@ -129,7 +133,7 @@ static bool try_cut(sunder_i_tree *t, uint32_t pair, const double n[2], double d
     return true;
 }
 
-/* The cut that was proposed, with some room. */
+/* Tries the proposed cut with several widths of room. */
 static bool try_rooms(sunder_i_tree *t, uint32_t pair, const double u[2], const double n[2], double d, double gap[2])
 {
     const sunder_i_forbidden *f = &t->pair[pair].forbidden;
@@ -140,8 +144,8 @@ static bool try_rooms(sunder_i_tree *t, uint32_t pair, const double u[2], const 
     return try_cut(t, pair, n, d, far, gap);
 }
 
-/* A proposal is based on the known reflex corners: some of them for many pieces, for a few pieces all except those in
- * gaps without width. If a free place refutes it, that place leads to one more corner. */
+/* A proposal is based on the known reflex corners: for many pieces some of them, for a few pieces all except those in
+ * gaps without width. If the proof fails at a free place, one more corner is found from that place. */
 bool sunder_i_tree_cut_hull(sunder_i_tree *tree, uint32_t pair, const double u[2], bool *empty)
 {
     double before = NAN;
@@ -151,7 +155,7 @@ bool sunder_i_tree_cut_hull(sunder_i_tree *tree, uint32_t pair, const double u[2
         double n[2], d, gap[2];
         bool none;
         if (sunder_i_tree_propose(tree, pair, &p->region, u, n, &d, &none)) {
-            if (d == before) return false; /* the same again */
+            if (d == before) return false; /* the same proposal again */
             before = d;
             if (try_rooms(tree, pair, u, n, d, gap)) return true;
         } else {

@@ -1,4 +1,4 @@
-/* Nodes: their cuts, their programs, and how the state at a node is made again from its path. */
+/* Nodes: their cuts, their programs, and how the state at a node is recomputed from its path. */
 #include "displacement/prove/optimum/tree.h"
 #include "displacement/prove/optimum/tuning.h"
 
@@ -17,7 +17,8 @@ static void touch(sunder_i_tree *t, uint32_t pair)
     if (!sunder_i_list_push(&t->touched, pair)) t->failed = true;
 }
 
-/* kept: the region will be what was kept of it. */
+/* Marks the cut's pair as touched, and clips its region by the cut, unless the region will be restored from a saved
+ * copy (`kept`). */
 static void apply(sunder_i_tree *t, uint32_t cut, bool kept)
 {
     const sunder_i_cut_note *note = &t->note[cut];
@@ -32,7 +33,7 @@ uint32_t sunder_i_tree_cut(sunder_i_tree *tree, sunder_i_cut_kind kind, uint32_t
 {
     const bool room = sunder_i_reserve(&tree->cut, &tree->cut_capacity, tree->cuts + 1, sizeof *tree->cut) &&
                       sunder_i_reserve(&tree->note, &tree->note_capacity, tree->cuts + 1, sizeof *tree->note);
-    tree->program.cut = tree->cut; /* they may have gone elsewhere where there was no room for the note, too */
+    tree->program.cut = tree->cut; /* the array may have been moved even if the second reservation failed */
     if (!room) {
         tree->failed = true;
         return 0;
@@ -93,7 +94,7 @@ void sunder_i_tree_load(sunder_i_tree *tree, uint32_t node)
     }
     if (kept && !tree->failed) sunder_i_tree_take_regions(tree, node);
     const sunder_i_tree_node *n = &tree->node[node];
-    const sunder_i_cut_force *force = n->forces ? tree->force + n->force : NULL; /* the list may be empty */
+    const sunder_i_cut_force *force = n->forces ? tree->force + n->force : NULL; /* the list of forces may be empty */
     if (!tree->failed && !sunder_i_dual_load(&tree->program, force, n->forces)) tree->failed = true;
 }
 
@@ -127,7 +128,7 @@ void sunder_i_tree_restore_program(sunder_i_tree *tree)
 
 /* ---- The program ------------------------------------------------------------------------------------------------- */
 
-/* The cut that is missed most, as a share of the pair's size; UINT32_MAX: all hold. */
+/* Returns the cut that t violates most, relative to the pair's size; UINT32_MAX if all hold. */
 static uint32_t find_missed(sunder_i_tree *t)
 {
     const double *at = t->program.t;
@@ -139,7 +140,7 @@ static uint32_t find_missed(sunder_i_tree *t)
         uint32_t cut = 0;
         const double beyond = sunder_i_region_beyond(&p->region, u, &cut);
         if (beyond <= sunder_i_max(most, HOLDS * p->forbidden.size) || beyond <= 2 * p->region.blur) continue;
-        /* Not the side as it is kept, which may be off: the cut itself. */
+        /* The stored side may be inaccurate, so the cut itself decides. */
         if (sunder_i_dual_missing(&t->program, &t->cut[cut]) <= HOLDS * p->forbidden.size) continue;
         most = beyond;
         worst = cut;
@@ -148,7 +149,7 @@ static uint32_t find_missed(sunder_i_tree *t)
     return worst;
 }
 
-/* A tangent of the limit that a body oversteps most; UINT32_MAX: none does. */
+/* Adds a tangent of the limit that a body exceeds most, and returns the cut; UINT32_MAX if no limit is exceeded. */
 static uint32_t find_overstepped(sunder_i_tree *t)
 {
     const double *at = t->program.t;
@@ -164,7 +165,7 @@ static uint32_t find_overstepped(sunder_i_tree *t)
     if (worst == UINT32_MAX) return worst;
     const double length = hypot(at[2 * worst], at[2 * worst + 1]);
     const double n[2] = {at[2 * worst] / length, at[2 * worst + 1] / length};
-    /* |n| is 1 up to 2^-50; the ground stands at 0, so this says n.t <= limit |n|, and a little more. */
+    /* |n| is 1 up to 2^-50, and the ground's move is 0, so this says n.t <= limit |n|, and allows slightly more. */
     return sunder_i_tree_cut(t, SUNDER_I_CUT_LIMIT, worst, n, -t->limit[worst] * (1 + 0x1p-49));
 }
 
@@ -183,6 +184,6 @@ double sunder_i_tree_solve(sunder_i_tree *tree)
         value = sunder_i_max(value, sunder_i_dual_value(&tree->program));
         if (outcome == SUNDER_I_DUAL_STUCK) break;
     }
-    /* The last value is that of the forces at hand: D never falls but by rounding. */
+    /* The last value is that of the present forces: D only decreases by rounding. */
     return sunder_i_dual_value(&tree->program);
 }

@@ -1,4 +1,5 @@
-/* Pairs of a task: their forbidden sets, made at their first use, and the pairs in conflict at a node's minimiser. */
+/* The pairs of a task: their forbidden sets, made at their first use, and the pairs in conflict at a node's
+ * minimiser. */
 #include "displacement/geometry/anchor_reach.h"
 #include "displacement/prove/optimum/body_contact.h"
 #include "displacement/prove/optimum/tree.h"
@@ -9,7 +10,7 @@
 
 #include <math.h>
 
-/* More than any rounding of what a length is computed from. */
+/* Exceeds any relative rounding error in the computation of a length. */
 #define ABOVE (1 + 0x1p-40)
 
 static double slackness_of(const sunder_i_tree *t, uint32_t i, uint32_t j)
@@ -17,8 +18,9 @@ static double slackness_of(const sunder_i_tree *t, uint32_t i, uint32_t j)
     return (1 / t->task.weight[i] + 1 / t->task.weight[j]) * ABOVE;
 }
 
-/* A layout that costs less than the goal has |u - c| <= sqrt(goal (1 / w_i + 1 / w_j)), c the difference of the
- * anchors. Limits are no part of it, so that one that nothing oversteps changes nothing. */
+/* Sets the root region of a pair: a layout that costs less than the goal has |u - c| <= sqrt(goal (1 / w_i + 1 / w_j)),
+ * where c is the difference of the anchors. Limits are left out, so that a limit that no body exceeds changes
+ * nothing. */
 static void set_root(const sunder_i_tree *t, sunder_i_tree_pair *p)
 {
     const double *a = t->task.anchor + 2 * p->i, *b = t->task.anchor + 2 * p->j;
@@ -51,8 +53,8 @@ sunder_i_tree_pair *sunder_i_tree_pair_of(sunder_i_tree *tree, uint32_t i, uint3
     return p;
 }
 
-/* Might an anchor of the one have passed the other on the way there, or a side anchor a side? By boxes: the way of the
- * relative move meets what the anchors see of the other. */
+/* May an anchor of one body have passed the other on its path, or a side anchor a side? Decided by boxes: the box of
+ * the relative path meets a possible shadow. */
 static bool may_pass(const sunder_i_model *model, const sunder_i_body *p, const sunder_i_body *q, const double t[2],
                      const double v[2])
 {
@@ -66,7 +68,7 @@ static bool may_pass(const sunder_i_model *model, const sunder_i_body *p, const 
                                    sunder_i_anchors_may_reach(model, p, q, true, offset, way));
 }
 
-/* Do the boxes of the two stand within the gap of each other? */
+/* Are the boxes of the two within the gap of each other at the node, or may one have passed an anchor of the other? */
 static bool are_near(const sunder_i_tree *t, uint32_t i, uint32_t j)
 {
     const sunder_i_body *p = &t->task.model->body[t->task.body[i]], *q = &t->task.model->body[t->task.body[j]];
@@ -106,9 +108,9 @@ void sunder_i_tree_find_conflicts(sunder_i_tree *tree)
     tree->steps += tree->task.n * tree->task.n / 16;
 }
 
-/* ---- Those outside ----------------------------------------------------------------------------------------------- */
+/* ---- Bodies outside ---------------------------------------------------------------------------------------------- */
 
-/* Is body i, where it stands at the node, in conflict with one outside, where that stands in the layer? */
+/* Is body i, at its place at the node, in conflict with body `other` outside, at its present position in the layer? */
 static bool runs_into(sunder_i_tree *t, uint32_t i, uint32_t other)
 {
     const sunder_i_model *model = t->task.model;
@@ -130,7 +132,7 @@ static bool takes_part(const sunder_i_tree *t, uint32_t body)
     return false;
 }
 
-/* Bodies outside that body i might meet at the node, or on its way there: in t->near, ascending. */
+/* Sets t->near to the bodies, ascending, that body i might meet at its place at the node, or on its path there. */
 static void find_near(sunder_i_tree *t, uint32_t i)
 {
     const sunder_i_model *model = t->task.model;

@@ -1,8 +1,8 @@
-/* What a tree proves, in the types of the interface (sunder_bound_tree): for a checker that has only the layer.
+/* Records what a tree proves, in the types of the interface (sunder_bound_tree), for a checker that has only the layer.
  *
- * All nodes are recorded, in order, so a parent stands before its children; cuts and forces likewise. Of pairs only the
- * pieces named by some cut or node are recorded, with their corners as the layer has them, not rounded as the tree uses
- * them. */
+ * All nodes are recorded, in order, so a parent comes before its children; likewise cuts and forces. Only pieces of
+ * pairs that are named by some cut or node are recorded, with their corners as the layer has them, not rounded as the
+ * tree uses them. */
 #include "displacement/prove/optimum/optimum.h"
 #include "displacement/prove/optimum/tree.h"
 
@@ -49,8 +49,8 @@ typedef struct recording {
     sunder_bound_node *node;
     size_t *named;
     double *corner;
-    size_t *place; /* [pairs] the first of its pieces, of all pairs' */
-    size_t *as;    /* of all pairs' pieces: its number in the record, SIZE_MAX while it has none */
+    size_t *place; /* [pairs] the index of the first piece of each, among the pieces of all pairs */
+    size_t *as;    /* [pieces of all pairs] the number of each in the record; SIZE_MAX if it has none */
     size_t corner_capacity, piece_capacity;
 } recording;
 
@@ -86,7 +86,8 @@ static bool add_part(recording *r, const sunder_i_body_piece *part, size_t *firs
     return true;
 }
 
-/* The number of a pair's piece in the record. */
+/* Sets *number to the number of a pair's piece in the record, adding it if necessary. Returns false if memory is
+ * out. */
 static bool name(recording *r, uint32_t pair, uint32_t piece, size_t *number)
 {
     const sunder_i_tree_pair *p = &r->tree->pair[pair];

@@ -1,7 +1,7 @@
-/* Regions of open nodes, cached until their turn comes.
+/* Saved regions of open nodes.
  *
  * The state of a node can be recomputed from the cuts on its path, one clip after the other; a copy saved when the node
- * was opened is the same. A tree saves up to a limit: beyond that regions are recomputed. */
+ * was opened is equal to it. A tree saves regions up to a total size; beyond that they are recomputed. */
 #include "displacement/prove/optimum/tree.h"
 #include "displacement/prove/optimum/tuning.h"
 
@@ -9,7 +9,7 @@
 
 #include <string.h>
 
-/* A pair's region among those of a node; its corners follow, then the cuts of its sides. */
+/* The header of one pair's saved region; its corners follow, then the cuts of its sides. */
 typedef struct kept_region {
     uint32_t pair, n;
     double blur;
@@ -52,7 +52,7 @@ void sunder_i_tree_take_regions(sunder_i_tree *tree, uint32_t node)
         kept_region head;
         memcpy(&head, at, sizeof head);
         sunder_i_region *r = &tree->pair[head.pair].region;
-        /* Those that a trial alone had cut are as they begin. */
+        /* Pairs that only a trial had cut keep their initial region. */
         if (tree->pair[head.pair].touched) {
             r->n = head.n;
             r->blur = head.blur;
