@@ -8,16 +8,16 @@
 
 #include <string.h>
 
-static bool holds(const sunder_i_lagrangian *d, uint32_t at)
+static bool holds_body(const sunder_i_lagrangian *d, uint32_t at)
 {
     for (size_t k = d->first[d->blocks]; k < d->items; k++)
         if (d->item[k].at == at) return true;
     return false;
 }
 
-static bool take(sunder_i_lagrangian *d, uint32_t at)
+static bool take_body(sunder_i_lagrangian *d, uint32_t at)
 {
-    if (at == SUNDER_I_GROUND || holds(d, at)) return true;
+    if (at == SUNDER_I_GROUND || holds_body(d, at)) return true;
     if (!sunder_i_reserve(&d->item, &d->capacity, d->items + 1, sizeof *d->item)) return false;
     d->item[d->items++] = (sunder_i_block_copy){.at = at};
     d->count[at]++;
@@ -34,7 +34,7 @@ static uint32_t most_pressed(sunder_i_lagrangian *d)
     for (size_t k = 0; k < c->n; k++) {
         const sunder_i_move_cut *cut = &c->cut[k];
         if (!(c->force[k] > 0) || d->home[k] != SUNDER_I_NOBODY || cut->j == SUNDER_I_GROUND) continue;
-        const bool i = holds(d, cut->i), j = holds(d, cut->j);
+        const bool i = holds_body(d, cut->i), j = holds_body(d, cut->j);
         if (i != j && sunder_i_is_mover_of(d, i ? cut->i : cut->j)) d->pressure[i ? cut->j : cut->i] += c->force[k];
     }
     double most = 0;
@@ -57,9 +57,10 @@ static bool settle_contacts(sunder_i_lagrangian *d)
         if (d->home[k] != SUNDER_I_NOBODY) continue;
         const bool ground = cut->j == SUNDER_I_GROUND, moves_i = sunder_i_is_mover_of(d, cut->i),
                    moves_j = !ground && sunder_i_is_mover_of(d, cut->j);
-        if ((moves_i && !holds(d, cut->i)) || (moves_j && !holds(d, cut->j)) || (!moves_i && !moves_j)) continue;
+        if ((moves_i && !holds_body(d, cut->i)) || (moves_j && !holds_body(d, cut->j)) || (!moves_i && !moves_j))
+            continue;
         d->home[k] = (uint32_t)d->blocks;
-        if (!take(d, cut->i) || !take(d, cut->j)) return false;
+        if (!take_body(d, cut->i) || !take_body(d, cut->j)) return false;
     }
     return true;
 }
@@ -69,11 +70,11 @@ static bool grow_block(sunder_i_lagrangian *d, size_t seed)
     const sunder_i_move_cut *cut = &d->contacts.cut[seed];
     if (!sunder_i_reserve(&d->first, &d->first_capacity, d->blocks + 2, sizeof *d->first)) return false;
     d->first[d->blocks] = d->items;
-    if (!take(d, cut->i) || !take(d, cut->j)) return false;
+    if (!take_body(d, cut->i) || !take_body(d, cut->j)) return false;
     for (size_t size = 2; size < d->size; size++) {
         const uint32_t next = most_pressed(d);
         if (next == SUNDER_I_GROUND) break;
-        if (!take(d, next)) return false;
+        if (!take_body(d, next)) return false;
     }
     if (!settle_contacts(d)) return false;
     d->first[++d->blocks] = d->items;

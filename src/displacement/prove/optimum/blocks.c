@@ -52,7 +52,7 @@ static void share_out(sunder_i_lagrangian *d)
 }
 
 /* Sets the anchor of each copy to `part` times the place where the contacts' forces hold it. */
-static void draw(sunder_i_lagrangian *d, double part)
+static void draw_copies(sunder_i_lagrangian *d, double part)
 {
     for (size_t m = 0; m < d->items; m++) {
         sunder_i_block_copy *i = &d->item[m];
@@ -66,7 +66,7 @@ static void draw(sunder_i_lagrangian *d, double part)
 /* Returns what places and shares subtract from the bound, sum of c_i + |v_i|^2 / (w_i - W_i), rounded upwards. Each sum
  * has at most `items` terms with a few roundings each, so its error is less than (items + 8) 2^-52 of the sum of
  * magnitudes; twice that is added. */
-static double taken(const sunder_i_lagrangian *d)
+static double taken_by_shares(const sunder_i_lagrangian *d)
 {
     const double unit = 2 * ((double)d->items + 8) * 0x1p-52;
     double all = 0;
@@ -92,7 +92,7 @@ static double taken(const sunder_i_lagrangian *d)
 }
 
 /* Changes the place of the last copy of each body so that v_i is as near to 0 as rounding allows. */
-static void balance(sunder_i_lagrangian *d)
+static void balance_anchors(sunder_i_lagrangian *d)
 {
     for (size_t m = d->items; m-- > 0;) {
         sunder_i_block_copy *last = &d->item[m];
@@ -176,10 +176,10 @@ static bool ask_block(sunder_i_lagrangian *d, size_t block, sunder_i_bound_trees
 /* Computes the bound at the present places. Returns false if memory is out. A bound below `enough` is useless, and
  * *bound may then be -INFINITY: no block proves more than its part of the present layout costs, so this may become
  * clear before all blocks have been evaluated. */
-static bool evaluate(sunder_i_lagrangian *d, sunder_i_bound_trees *trees, double enough, double *bound)
+static bool evaluate_blocks(sunder_i_lagrangian *d, sunder_i_bound_trees *trees, double enough, double *bound)
 {
     double sum = 0, missed = 0;
-    balance(d);
+    balance_anchors(d);
     *bound = -INFINITY;
     for (size_t k = 0; k < d->blocks; k++) {
         double value, most;
@@ -188,20 +188,20 @@ static bool evaluate(sunder_i_lagrangian *d, sunder_i_bound_trees *trees, double
         missed += most - value;
         if (d->group->cost - missed < enough) return true;
     }
-    *bound = nextafter(sum - taken(d), -INFINITY);
+    *bound = nextafter(sum - taken_by_shares(d), -INFINITY);
     return true;
 }
 
 /* Starts with the better of two choices of places: 0, and the places where the forces hold the bodies. *bound is what
  * it proves; `best` gets its copies. */
-static bool begin(sunder_i_lagrangian *d, sunder_i_block_copy *best, double *bound)
+static bool begin_at_best(sunder_i_lagrangian *d, sunder_i_block_copy *best, double *bound)
 {
     static const double part[] = {0, 1};
     *bound = -INFINITY;
     for (size_t k = 0; k < sizeof part / sizeof *part; k++) {
         double value;
-        draw(d, part[k]);
-        if (!evaluate(d, NULL, *bound, &value)) return false;
+        draw_copies(d, part[k]);
+        if (!evaluate_blocks(d, NULL, *bound, &value)) return false;
         if (value <= *bound) continue;
         *bound = value;
         memcpy(best, d->item, d->items * sizeof *best);
@@ -240,12 +240,12 @@ static void put_anchors(sunder_i_lagrangian *d, const double *x)
  * places; x: scratch. The centre moves if a fair share of the promise was proved; otherwise strides become shorter.
  * Returns true if little more is promised, and blocks took so few steps that larger ones may pay. *ok: false if memory
  * is out. */
-static bool improve(sunder_i_lagrangian *d, sunder_i_block_copy *best, double *centre, double *x, double *bound,
-                    bool *ok)
+static bool improve_anchors(sunder_i_lagrangian *d, sunder_i_block_copy *best, double *centre, double *x, double *bound,
+                            bool *ok)
 {
     const double cost = d->group->cost;
     double now = *bound, stride = first_stride(d, best, hoped_for(cost, now)), past = now;
-    size_t in_vain = 0;
+    size_t looks = 0;
     for (size_t m = 0; m < d->items; m++)
         for (size_t e = 0; e < 2; e++) centre[2 * m + e] = best[m].share * best[m].anchor[e];
     for (uint64_t each = d->each; d->steps < d->most && cost - now > BLOCKS_NEAR * cost;) {
@@ -259,16 +259,16 @@ static bool improve(sunder_i_lagrangian *d, sunder_i_block_copy *best, double *c
         if (promise <= PROMISED_LITTLE * (cost - now) && each <= d->each / 3) return true;
         if (promise <= PROMISED_NOTHING * (cost - now)) break;
         put_anchors(d, x);
-        *ok = evaluate(d, NULL, -INFINITY, &value);
+        *ok = evaluate_blocks(d, NULL, -INFINITY, &value);
         if (!*ok) break;
         each = (d->steps - before) / d->blocks;
         if (value > *bound) {
             *bound = value;
             memcpy(best, d->item, d->items * sizeof *best);
         }
-        if (++in_vain == LOOKS && *bound - past < PROVED_LITTLE * (cost - past)) break;
-        if (in_vain == LOOKS) {
-            in_vain = 0;
+        if (++looks == LOOKS && *bound - past < PROVED_LITTLE * (cost - past)) break;
+        if (looks == LOOKS) {
+            looks = 0;
             past = *bound;
         }
         if (value < now + SERIOUS * promise) {
@@ -313,7 +313,7 @@ static bool begin_bundle(sunder_i_lagrangian *d)
     return true;
 }
 
-static bool prepare(sunder_i_lagrangian *d)
+static bool prepare_forces(sunder_i_lagrangian *d)
 {
     const size_t n = d->group->n;
     d->weight = sunder_i_alloc(n, sizeof *d->weight);
@@ -347,15 +347,15 @@ static bool ask_blocks(sunder_i_lagrangian *d, double *bound, sunder_i_bound_tre
     d->each = (d->most > d->steps ? d->most - d->steps : 0) / (ROUNDS * d->blocks);
     sunder_i_block_copy *best = sunder_i_alloc(d->items, sizeof *best);
     double *centre = sunder_i_alloc(2 * d->items, sizeof *centre), *x = sunder_i_alloc(2 * d->items, sizeof *x), value;
-    bool ok = best && centre && x && begin_bundle(d) && begin(d, best, &value);
-    if (ok) *larger = improve(d, best, centre, x, &value, &ok) && d->blocks > 1;
+    bool ok = best && centre && x && begin_bundle(d) && begin_at_best(d, best, &value);
+    if (ok) *larger = improve_anchors(d, best, centre, x, &value, &ok) && d->blocks > 1;
     /* If these blocks proved less than smaller ones, their trees did not end, and larger trees would not either. */
     *larger = *larger && ok && value > d->proved;
     if (ok) d->proved = sunder_i_max(d->proved, value);
     if (ok && value > *bound && d->model->rules.keep_trees) {
         sunder_i_bound_trees made = {0};
         memcpy(d->item, best, d->items * sizeof *best);
-        ok = evaluate(d, &made, -INFINITY, &value);
+        ok = evaluate_blocks(d, &made, -INFINITY, &value);
         if (ok && value > *bound) {
             const sunder_i_bound_trees before = *trees;
             *trees = made;
@@ -380,7 +380,7 @@ sunder_status sunder_i_blocks_bound(const sunder_i_model *model, const sunder_i_
                                     sunder_i_bound_trees *trees, sunder_error *err)
 {
     sunder_i_lagrangian d = {.model = model, .waived = waived, .group = group, .most = steps, .proved = -INFINITY};
-    bool ok = prepare(&d), larger = true;
+    bool ok = prepare_forces(&d), larger = true;
     *bound = known;
     for (d.size = BLOCK; ok && larger && d.steps < d.most; d.size += d.size / 2)
         ok = ask_blocks(&d, bound, trees, &larger);

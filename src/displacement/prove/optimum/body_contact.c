@@ -20,8 +20,8 @@ double sunder_i_contact_hair(const sunder_i_model *model, const sunder_i_body *p
     return CONTACT * sunder_i_min(length, q->box[2] - q->box[0] + q->box[3] - q->box[1]);
 }
 
-static bool add(sunder_i_contact_list *out, const sunder_i_forbidden_piece *piece, const double n[2], double d,
-                double off)
+static bool add_contact(sunder_i_contact_list *out, const sunder_i_forbidden_piece *piece, const double n[2], double d,
+                        double off)
 {
     if (!sunder_i_reserve(&out->item, &out->capacity, out->n + 1, sizeof *out->item)) return false;
     out->item[out->n++] = (sunder_i_contact){{n[0], n[1]}, d, off, piece->a->feature, piece->b->feature, piece->shadow};
@@ -42,7 +42,7 @@ bool sunder_i_contacts_of_pair(const sunder_i_model *model, const sunder_i_waive
         if (!sunder_i_box_near_point(piece->box, u[0], u[1], hair)) continue;
         const double off = piece->radius - sunder_i_forbidden_normal(&f, piece, u, n);
         if (!(fabs(off) <= hair)) continue;
-        ok = add(out, piece, n, n[0] * u[0] + n[1] * u[1], off);
+        ok = add_contact(out, piece, n, n[0] * u[0] + n[1] * u[1], off);
     }
     if (edges) *edges += f.edges;
     sunder_i_forbidden_free(&f);
@@ -62,7 +62,7 @@ bool sunder_i_are_in_contact(const sunder_i_model *model, uint32_t i, uint32_t j
     return ok;
 }
 
-bool sunder_i_who_is_about(const sunder_i_model *model, uint32_t body, const double t[2], double reach,
+bool sunder_i_bodies_about(const sunder_i_model *model, uint32_t body, const double t[2], double reach,
                            sunder_i_list *out)
 {
     const double home[2] = {0, 0};

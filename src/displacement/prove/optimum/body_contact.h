@@ -31,7 +31,7 @@ bool sunder_i_are_in_contact(const sunder_i_model *model, uint32_t i, uint32_t j
 /* Sets *out to the bodies, ascending, whose boxes at their present positions come within `reach` of the body moved by
  * t, or of its path there if paths are restricted. The body itself is among them if it is there. Returns false if
  * memory is out. */
-bool sunder_i_who_is_about(const sunder_i_model *model, uint32_t body, const double t[2], double reach,
+bool sunder_i_bodies_about(const sunder_i_model *model, uint32_t body, const double t[2], double reach,
                            sunder_i_list *out);
 
 #endif

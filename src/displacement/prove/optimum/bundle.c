@@ -43,7 +43,7 @@ void sunder_i_bundle_free(sunder_i_bundle *bundle)
     *bundle = (sunder_i_bundle){0};
 }
 
-static double product(const double *a, const double *b, size_t n)
+static double scalar_product(const double *a, const double *b, size_t n)
 {
     double sum = 0;
     for (size_t k = 0; k < n; k++) sum += a[k] * b[k];
@@ -58,7 +58,7 @@ bool sunder_i_bundle_add(sunder_i_bundle *bundle, size_t block, double value, co
         return false;
     bundle->cut[bundle->cuts] = (sunder_i_bundle_cut){.block = (uint32_t)block,
                                                       .before = bundle->last[block],
-                                                      .at_rest = value + 2 * product(x, t, n),
+                                                      .at_rest = value + 2 * scalar_product(x, t, n),
                                                       .t = bundle->numbers,
                                                       .share = bundle->last[block] == NO_CUT};
     bundle->last[block] = (uint32_t)bundle->cuts++;
@@ -82,20 +82,20 @@ static void mix_all(sunder_i_bundle *b)
 }
 
 /* Returns coordinate c of the difference between the mix of copy m and the mean over its body's copies. */
-static double apart(const sunder_i_bundle *b, size_t m, size_t c)
+static double difference_of(const sunder_i_bundle *b, size_t m, size_t c)
 {
     return b->others[m] > 0 ? b->mix[2 * m + c] - b->mean[2 * (size_t)b->member[m] + c] : 0;
 }
 
 /* Transfers share from cut `from` to cut `to` of the same block, as far as that lowers the promise. */
-static void trade(sunder_i_bundle *b, sunder_i_bundle_cut *from, sunder_i_bundle_cut *to, double stride)
+static void trade_share(sunder_i_bundle *b, sunder_i_bundle_cut *from, sunder_i_bundle_cut *to, double stride)
 {
     const size_t first = b->first[from->block], n = b->first[from->block + 1] - first;
     double square = 0;
     for (size_t m = 0; m < n; m++)
         for (size_t c = 0; c < 2; c++) {
-            const double way = b->t[to->t + 2 * m + c] - b->t[from->t + 2 * m + c];
-            square += b->others[first + m] * way * way;
+            const double step = b->t[to->t + 2 * m + c] - b->t[from->t + 2 * m + c];
+            square += b->others[first + m] * step * step;
         }
     const double gain = from->slope - to->slope,
                  share = square > 0 ? sunder_i_min(from->share, gain / (4 * stride * square)) : from->share;
@@ -103,14 +103,14 @@ static void trade(sunder_i_bundle *b, sunder_i_bundle_cut *from, sunder_i_bundle
     to->share += share;
     for (size_t m = 0; m < n; m++)
         for (size_t c = 0; c < 2; c++) {
-            const double way = share * (b->t[to->t + 2 * m + c] - b->t[from->t + 2 * m + c]);
-            b->mix[2 * (first + m) + c] += way;
-            b->mean[2 * (size_t)b->member[first + m] + c] += (1 - b->others[first + m]) * way;
+            const double step = share * (b->t[to->t + 2 * m + c] - b->t[from->t + 2 * m + c]);
+            b->mix[2 * (first + m) + c] += step;
+            b->mean[2 * (size_t)b->member[first + m] + c] += (1 - b->others[first + m]) * step;
         }
 }
 
 /* Makes one transfer between the cuts of a block. Returns the difference of their slopes; 0 if there was none. */
-static double trade_in(sunder_i_bundle *b, size_t block, const double *centre, double stride)
+static double trade_in_block(sunder_i_bundle *b, size_t block, const double *centre, double stride)
 {
     const size_t first = b->first[block], n = b->first[block + 1] - first;
     double pull[2 * MOST_IN_BLOCK];
@@ -118,28 +118,28 @@ static double trade_in(sunder_i_bundle *b, size_t block, const double *centre, d
     if (n > MOST_IN_BLOCK) return 0;
     for (size_t m = 0; m < n; m++)
         for (size_t c = 0; c < 2; c++)
-            pull[2 * m + c] = 4 * stride * apart(b, first + m, c) - 2 * centre[2 * (first + m) + c];
+            pull[2 * m + c] = 4 * stride * difference_of(b, first + m, c) - 2 * centre[2 * (first + m) + c];
     for (uint32_t k = b->last[block]; k != NO_CUT; k = b->cut[k].before) {
         sunder_i_bundle_cut *cut = &b->cut[k];
-        cut->slope = cut->at_rest + product(pull, b->t + cut->t, 2 * n);
+        cut->slope = cut->at_rest + scalar_product(pull, b->t + cut->t, 2 * n);
         if (!best || cut->slope < best->slope) best = cut;
         if (cut->share > 0 && (!worst || cut->slope > worst->slope)) worst = cut;
     }
     if (!best || best == worst || !(worst->slope > best->slope)) return 0;
     const double gain = worst->slope - best->slope;
-    trade(b, worst, best, stride);
+    trade_share(b, worst, best, stride);
     return gain;
 }
 
 /* Makes transfers until, in each block, all cuts with a share are nearly as good as the best. Returns false if stopped
  * on request. */
-static bool settle(sunder_i_bundle *b, const double *centre, double stride)
+static bool settle_shares(sunder_i_bundle *b, const double *centre, double stride)
 {
     double whole = 0;
     for (size_t k = 0; k < b->cuts; k++) whole = sunder_i_max(whole, fabs(b->cut[k].at_rest));
     for (int sweep = 0; sweep < SWEEPS; sweep++) {
         double most = 0;
-        for (size_t k = 0; k < b->blocks; k++) most = sunder_i_max(most, trade_in(b, k, centre, stride));
+        for (size_t k = 0; k < b->blocks; k++) most = sunder_i_max(most, trade_in_block(b, k, centre, stride));
         b->steps += b->cuts + b->copies;
         if (!sunder_i_steps(1 + b->cuts / 16)) return false;
         if (most <= SWEPT * whole) break;
@@ -151,16 +151,16 @@ bool sunder_i_bundle_propose(sunder_i_bundle *bundle, const double *centre, doub
 {
     double square = 0;
     mix_all(bundle);
-    if (!settle(bundle, centre, stride)) return false;
+    if (!settle_shares(bundle, centre, stride)) return false;
     *promise = 0;
     for (size_t k = 0; k < bundle->cuts; k++) {
         const sunder_i_bundle_cut *cut = &bundle->cut[k];
         const size_t from = bundle->first[cut->block], n = bundle->first[cut->block + 1] - from;
-        *promise += cut->share * (cut->at_rest - 2 * product(centre + 2 * from, bundle->t + cut->t, 2 * n));
+        *promise += cut->share * (cut->at_rest - 2 * scalar_product(centre + 2 * from, bundle->t + cut->t, 2 * n));
     }
     for (size_t m = 0; m < bundle->copies; m++)
         for (size_t c = 0; c < 2; c++) {
-            const double off = apart(bundle, m, c);
+            const double off = difference_of(bundle, m, c);
             x[2 * m + c] = centre[2 * m + c] - 2 * stride * off;
             square += off * off;
         }

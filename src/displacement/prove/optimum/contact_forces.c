@@ -19,7 +19,7 @@ static bool add_contact(sunder_i_contact_forces *c, uint32_t i, uint32_t j, cons
     return true;
 }
 
-static bool look_at(sunder_i_contact_forces *c, const sunder_i_group *g, uint32_t i, uint32_t j)
+static bool add_contacts_of_pair(sunder_i_contact_forces *c, const sunder_i_group *g, uint32_t i, uint32_t j)
 {
     const sunder_i_body *body = c->model->body;
     const double hair = sunder_i_contact_hair(c->model, &body[g->body[i]], &body[g->body[j]]) + 2 * g->margin;
@@ -48,7 +48,7 @@ static bool are_near(const sunder_i_contact_forces *c, const sunder_i_group *g, 
     return sunder_i_box_meet(p, q);
 }
 
-static bool find(sunder_i_contact_forces *c, const sunder_i_group *g)
+static bool find_contacts(sunder_i_contact_forces *c, const sunder_i_group *g)
 {
     for (uint32_t i = 0; i < g->n; i++) {
         const sunder_i_body *p = &c->model->body[g->body[i]];
@@ -59,7 +59,7 @@ static bool find(sunder_i_contact_forces *c, const sunder_i_group *g)
         }
         for (uint32_t j = i + 1; j < g->n; j++) {
             if (p->fixed && c->model->body[g->body[j]].fixed) continue;
-            if (are_near(c, g, i, j) && !look_at(c, g, i, j)) return false;
+            if (are_near(c, g, i, j) && !add_contacts_of_pair(c, g, i, j)) return false;
         }
         c->steps += g->n / 4;
         if (!sunder_i_steps(1 + g->n / 64)) return false;
@@ -69,7 +69,7 @@ static bool find(sunder_i_contact_forces *c, const sunder_i_group *g)
 
 /* Adds the violated contacts to the program, the most violated first, until none is violated. Returns false if memory
  * is out or stopped on request. */
-static bool solve(sunder_i_contact_forces *c, const sunder_i_group *g)
+static bool solve_forces(sunder_i_contact_forces *c, const sunder_i_group *g)
 {
     sunder_i_dual_program *p = &c->program;
     for (size_t round = 0; round < 4 * c->n + 64; round++) {
@@ -99,12 +99,12 @@ bool sunder_i_contact_forces_find(sunder_i_contact_forces *contacts, const sunde
     memset(contacts, 0, sizeof *contacts);
     contacts->model = model;
     contacts->waived = waived;
-    if (!sunder_i_dual_init(&contacts->program, group->n) || !find(contacts, group)) return false;
+    if (!sunder_i_dual_init(&contacts->program, group->n) || !find_contacts(contacts, group)) return false;
     contacts->program.weight = weight;
     contacts->program.mass = mass;
     contacts->program.anchor = anchor;
     contacts->program.cut = contacts->cut;
-    if (!sunder_i_dual_load(&contacts->program, NULL, 0) || !solve(contacts, group)) return false;
+    if (!sunder_i_dual_load(&contacts->program, NULL, 0) || !solve_forces(contacts, group)) return false;
     contacts->force = sunder_i_calloc(contacts->n, sizeof *contacts->force);
     if (!contacts->force) return false;
     for (size_t k = 0; k < contacts->program.acting_n; k++)

@@ -54,7 +54,7 @@ static uint32_t corners_in(covering *c, const sunder_i_forbidden_piece *p, const
 }
 
 /* Sets `middle` to the mean of the region's corners, and `along` to the direction of its longest extent. */
-static void measure(const sunder_i_region *r, double middle[2], double along[2])
+static void measure_region(const sunder_i_region *r, double middle[2], double along[2])
 {
     double longest = -1;
     middle[0] = middle[1] = 0;
@@ -74,7 +74,8 @@ static void measure(const sunder_i_region *r, double middle[2], double along[2])
 
 /* Returns the distance of u from the piece grown by its radius, measured along the normal of one line; negative inside.
  * The line n.u = *d is the one beyond which u lies farthest. */
-static double leave(covering *c, const sunder_i_forbidden_piece *p, const double u[2], double n[2], double *d)
+static double distance_outside(covering *c, const sunder_i_forbidden_piece *p, const double u[2], double n[2],
+                               double *d)
 {
     double most = -INFINITY;
     c->steps += p->edges;
@@ -102,7 +103,7 @@ static bool find_leaving(covering *c, const sunder_i_forbidden_piece *p, const s
     double farthest = 0;
     for (uint32_t k = 0; k < r->n; k++) {
         double normal[2] = {0, 0}, level = 0;
-        const double off = leave(c, p, r->xy + 2 * k, normal, &level);
+        const double off = distance_outside(c, p, r->xy + 2 * k, normal, &level);
         if (!(off > farthest)) continue;
         farthest = off;
         *d = level;
@@ -140,7 +141,7 @@ static bool is_covered(covering *c, const sunder_i_region *r, int depth)
     double middle[2], along[2], d = 0;
     if (r->n == 0) return true;
     if (c->last && corners_in(c, c->last, r) == r->n) return true;
-    measure(r, middle, along);
+    measure_region(r, middle, along);
     const double at[4] = {middle[0], middle[1], middle[0], middle[1]};
     const sunder_i_forbidden_piece *most = NULL;
     uint32_t in_most = 0;
@@ -162,7 +163,7 @@ static bool is_covered(covering *c, const sunder_i_region *r, int depth)
     if ((!most && (!c->left || depth >= LEFT_DEPTH)) || depth == COVER_DEPTH || c->steps > c->most)
         return leave_over(c, r);
     if (!most || !find_leaving(c, most, r, middle, along, &d)) {
-        measure(r, middle, along);
+        measure_region(r, middle, along);
         d = along[0] * middle[0] + along[1] * middle[1];
     }
     return are_halves_covered(c, r, along, d, depth);

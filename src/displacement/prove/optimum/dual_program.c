@@ -52,7 +52,7 @@ void sunder_i_dual_free(sunder_i_dual_program *program)
 }
 
 /* Makes room for n rows, with a new layout of the factor. Returns false if memory is out. */
-static bool reserve(sunder_i_dual_program *p, size_t n)
+static bool reserve_rows(sunder_i_dual_program *p, size_t n)
 {
     if (n <= p->capacity) return true;
     size_t capacity = p->capacity ? p->capacity : FEWEST_ROWS;
@@ -74,7 +74,7 @@ static bool reserve(sunder_i_dual_program *p, size_t n)
     return true;
 }
 
-static double product(const sunder_i_dual_program *p, const sunder_i_move_cut *a, const sunder_i_move_cut *b)
+static double product_of_cuts(const sunder_i_dual_program *p, const sunder_i_move_cut *a, const sunder_i_move_cut *b)
 {
     double shared = 0;
     if (a->i == b->i && a->i != SUNDER_I_GROUND) shared += p->mass[a->i];
@@ -106,10 +106,10 @@ double sunder_i_dual_missing(const sunder_i_dual_program *program, const sunder_
  * the row's diagonal entry. */
 static double make_row(sunder_i_dual_program *p, const sunder_i_move_cut *c, double *row, double *square)
 {
-    double left = *square = product(p, c, c);
+    double left = *square = product_of_cuts(p, c, c);
     for (size_t k = 0; k < p->acting_n; k++) {
         const double *l = p->factor + k * p->capacity;
-        double v = product(p, c, &p->cut[p->acting[k].cut]);
+        double v = product_of_cuts(p, c, &p->cut[p->acting[k].cut]);
         for (size_t m = 0; m < k; m++) v -= l[m] * row[m];
         row[k] = v / l[k];
         left -= row[k] * row[k];
@@ -129,7 +129,7 @@ static void solve_back(const sunder_i_dual_program *p, const double *row, double
     }
 }
 
-static void append(sunder_i_dual_program *p, uint32_t cut, double force, const double *row, double diagonal)
+static void append_row(sunder_i_dual_program *p, uint32_t cut, double force, const double *row, double diagonal)
 {
     double *l = p->factor + p->acting_n * p->capacity;
     memcpy(l, row, p->acting_n * sizeof *l);
@@ -176,7 +176,7 @@ void sunder_i_dual_place(sunder_i_dual_program *program)
 }
 
 /* Computes the forces for which all active cuts hold with equality. */
-static void balance(sunder_i_dual_program *p)
+static void balance_forces(sunder_i_dual_program *p)
 {
     double *y = p->scratch;
     for (size_t k = 0; k < p->acting_n; k++) {
@@ -193,16 +193,17 @@ static void balance(sunder_i_dual_program *p)
 
 bool sunder_i_dual_load(sunder_i_dual_program *program, const sunder_i_cut_force *acting, size_t n)
 {
-    if (!reserve(program, n + 1)) return false;
+    if (!reserve_rows(program, n + 1)) return false;
     program->acting_n = 0;
     for (size_t k = 0; k < n; k++) {
         double square;
         const double left = make_row(program, &program->cut[acting[k].cut], program->scratch, &square);
-        if (left > DEPENDENT * square) append(program, acting[k].cut, acting[k].force, program->scratch, sqrt(left));
+        if (left > DEPENDENT * square)
+            append_row(program, acting[k].cut, acting[k].force, program->scratch, sqrt(left));
     }
     for (;;) {
         size_t worst = 0;
-        balance(program);
+        balance_forces(program);
         for (size_t k = 1; k < program->acting_n; k++)
             if (program->acting[k].force < program->acting[worst].force) worst = k;
         if (program->acting_n == 0 || program->acting[worst].force >= 0) break;
@@ -214,8 +215,8 @@ bool sunder_i_dual_load(sunder_i_dual_program *program, const sunder_i_cut_force
 
 /* Handles contradicting cuts: while the force of the new cut, now `force`, grows by 1, each active force decreases by
  * r, and the violation `missing` stays, so D grows without bound. Returns CLOSED if such forces prove `enough`. */
-static sunder_i_dual_outcome contradict(sunder_i_dual_program *p, uint32_t cut, double force, double missing,
-                                        const double *r, double enough)
+static sunder_i_dual_outcome prove_contradiction(sunder_i_dual_program *p, uint32_t cut, double force, double missing,
+                                                 const double *r, double enough)
 {
     const size_t n = p->acting_n;
     double *before = p->scratch + 2 * p->capacity, scale = fabs(enough) / missing;
@@ -259,7 +260,7 @@ sunder_i_dual_outcome sunder_i_dual_add(sunder_i_dual_program *program, uint32_t
 {
     const sunder_i_move_cut *c = &program->cut[cut];
     double force = 0;
-    *failed = !reserve(program, program->acting_n + 2);
+    *failed = !reserve_rows(program, program->acting_n + 2);
     if (*failed) return SUNDER_I_DUAL_STUCK;
     for (size_t round = 0; round < 4 * program->acting_n + 64; round++) {
         double *row = program->scratch, *r = program->scratch + program->capacity, square;
@@ -282,7 +283,7 @@ sunder_i_dual_outcome sunder_i_dual_add(sunder_i_dual_program *program, uint32_t
             find_leaving(program, r, dependent ? least_factor(program, r) : 1e-13 * fabs(square), &longest);
         if (dependent && leaves == SIZE_MAX) {
             if (!(missing > 0)) break;
-            return contradict(program, cut, force, missing, r, enough);
+            return prove_contradiction(program, cut, force, missing, r, enough);
         }
         const double whole = dependent ? INFINITY : sunder_i_max(0, missing) / left,
                      step = sunder_i_min(whole, longest);
@@ -290,13 +291,13 @@ sunder_i_dual_outcome sunder_i_dual_add(sunder_i_dual_program *program, uint32_t
             program->acting[k].force = sunder_i_max(0, program->acting[k].force - step * r[k]);
         force += step;
         if (whole <= longest) {
-            append(program, cut, force, row, sqrt(left));
+            append_row(program, cut, force, row, sqrt(left));
             sunder_i_dual_place(program);
             return SUNDER_I_DUAL_SOLVED;
         }
         take_out(program, leaves);
     }
-    balance(program);
+    balance_forces(program);
     for (size_t k = 0; k < program->acting_n; k++) program->acting[k].force = sunder_i_max(0, program->acting[k].force);
     sunder_i_dual_place(program);
     return SUNDER_I_DUAL_STUCK;

@@ -62,7 +62,7 @@ const sunder_i_waiver *sunder_i_waiver_of(const sunder_i_model *model, const sun
 }
 
 /* Do the things f and g owe each other a distance? *waiver is set to the pair's waiver, or NULL. */
-static bool owe(const listing *l, uint32_t f, uint32_t g, const sunder_i_waiver **waiver)
+static bool owe_distance(const listing *l, uint32_t f, uint32_t g, const sunder_i_waiver **waiver)
 {
     *waiver = sunder_i_waiver_of(l->model, l->waived, f, g);
     if (*waiver && sunder_i_waiver_clearance(*waiver) == -INFINITY) return false;
@@ -223,7 +223,7 @@ static bool add_pieces(listing *l)
         for (uint32_t m = 0; m < l->q->pieces; m++) {
             const sunder_i_body_piece *b = &l->of_q->piece[m];
             const sunder_i_waiver *waiver;
-            if (!sunder_i_box_meet(box, b->box) || !owe(l, a->feature, b->feature, &waiver)) continue;
+            if (!sunder_i_box_meet(box, b->box) || !owe_distance(l, a->feature, b->feature, &waiver)) continue;
             if (!add_piece(l, a, b, waiver)) return false;
         }
     }
@@ -257,7 +257,7 @@ static bool add_covers(listing *l, const sunder_i_body *of, const sunder_i_body 
             const sunder_i_body_piece *flat = &pieces->piece[m];
             const sunder_i_waiver *waiver;
             if (flat->corners > 2 || !sunder_i_box_meet(box, flat->box)) continue;
-            if (!owe(l, diagonal_cover->feature, flat->feature, &waiver)) continue;
+            if (!owe_distance(l, diagonal_cover->feature, flat->feature, &waiver)) continue;
             if (!add_piece(l, swapped ? flat : diagonal_cover, swapped ? diagonal_cover : flat, waiver)) return false;
         }
     }
@@ -300,9 +300,9 @@ static bool may_cast(const listing *l, const sunder_i_body_piece *anchor, const 
                      bool swapped)
 {
     const double *w = l->window,
-                 way[4] = {sunder_i_min(0, w[0]), sunder_i_min(0, w[1]), sunder_i_max(0, w[2]), sunder_i_max(0, w[3])};
-    return swapped ? sunder_i_shadow_may_reach(piece->box, anchor->box, l->offset, way)
-                   : sunder_i_shadow_may_reach(anchor->box, piece->box, l->offset, way);
+                 path[4] = {sunder_i_min(0, w[0]), sunder_i_min(0, w[1]), sunder_i_max(0, w[2]), sunder_i_max(0, w[3])};
+    return swapped ? sunder_i_shadow_may_reach(piece->box, anchor->box, l->offset, path)
+                   : sunder_i_shadow_may_reach(anchor->box, piece->box, l->offset, path);
 }
 
 /* Adds the shadow of one piece from the anchor, unless the piece's feature contains the anchor. */
@@ -370,7 +370,7 @@ static bool add_all(listing *l)
 }
 
 /* Sets up the listing. Returns false if memory is out. */
-static bool begin(listing *l, uint32_t p, uint32_t q)
+static bool begin_listing(listing *l, uint32_t p, uint32_t q)
 {
     *l->out = (sunder_i_forbidden){0};
     l->p = &l->model->body[p];
@@ -382,7 +382,7 @@ static bool begin(listing *l, uint32_t p, uint32_t q)
     return l->of_p && l->of_q;
 }
 
-static void end(listing *l, double reach)
+static void end_listing(listing *l, double reach)
 {
     sunder_i_forbidden *f = l->out;
     sunder_i_free(l->scratch.xy);
@@ -398,14 +398,14 @@ static void end(listing *l, double reach)
 static bool list_within(listing *l, uint32_t p, uint32_t q)
 {
     const double reach = l->reach;
-    bool ok = begin(l, p, q) && add_all(l);
+    bool ok = begin_listing(l, p, q) && add_all(l);
     while (ok && is_full(l) && l->reach > l->model->rules.gap) {
         l->out->pieces = l->out->edges = 0;
         l->reach /= 2;
         for (size_t c = 0; c < 4; c++) l->window[c] /= 2;
         ok = add_all(l);
     }
-    end(l, reach);
+    end_listing(l, reach);
     return ok;
 }
 
@@ -429,10 +429,10 @@ bool sunder_i_forbidden_init_near(sunder_i_forbidden *forbidden, const sunder_i_
 {
     listing l = {.out = forbidden, .model = model, .waived = waived, .most = SIZE_MAX};
     l.reach = fabs(u[0]) + fabs(u[1]) + hair;
-    const bool begun = begin(&l, p, q);
+    const bool begun = begin_listing(&l, p, q);
     for (size_t c = 0; c < 4; c++) l.window[c] = u[c & 1] + (c < 2 ? -hair : hair);
     const bool ok = begun && add_all(&l);
-    end(&l, l.reach);
+    end_listing(&l, l.reach);
     return ok;
 }
 
@@ -442,7 +442,7 @@ bool sunder_i_forbidden_with_covers(sunder_i_forbidden *forbidden, const sunder_
     const sunder_i_waived none = {0};
     listing l = {
         .out = forbidden, .model = model, .waived = &none, .reach = reach, .most = most, .diagonal_covers = true};
-    const bool ok = begin(&l, p, q) && add_all(&l);
-    end(&l, reach);
+    const bool ok = begin_listing(&l, p, q) && add_all(&l);
+    end_listing(&l, reach);
     return ok;
 }

@@ -84,8 +84,8 @@ bool sunder_i_may_be_shut_in(const sunder_i_model *model, uint32_t p, uint32_t q
 bool sunder_i_is_shut_in(const sunder_i_model *model, uint32_t p, uint32_t q, bool *shut);
 /* The same for n pairs of features of the two bodies: sets shut[k] if it is proved when of all distances only that of
  * pair k has to be kept. */
-bool sunder_i_which_are_shut_in(const sunder_i_model *model, uint32_t p, uint32_t q, const sunder_i_id_pair *pair,
-                                size_t n, bool *shut);
+bool sunder_i_find_shut_in_pairs(const sunder_i_model *model, uint32_t p, uint32_t q, const sunder_i_id_pair *pair,
+                                 size_t n, bool *shut);
 
 /* ---- forbidden_places.c ------------------------------------------------------------------------------------------ */
 

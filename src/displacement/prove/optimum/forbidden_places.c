@@ -118,7 +118,7 @@ double sunder_i_forbidden_normal(const sunder_i_forbidden *forbidden, const sund
     return distance;
 }
 
-static void widen(double span[2], double from, double to)
+static void widen_span(double span[2], double from, double to)
 {
     if (from < span[0]) span[0] = from;
     if (to > span[1]) span[1] = to;
@@ -152,12 +152,12 @@ static bool look_across(const crossing *c, const sunder_i_obstacle_edge *edge, c
 
 /* Extends `span` by the line's intersections with the disc around the edge's beginning and with the edge moved out by
  * the radius. off: the distance of the beginning from the line. */
-static void cross(const crossing *c, const sunder_i_obstacle_edge *e, double off, double span[2])
+static void cross_edge(const crossing *c, const sunder_i_obstacle_edge *e, double off, double span[2])
 {
     const double wx = e->from[0] - c->from[0], wy = e->from[1] - c->from[1], under = c->radius * c->radius - off * off;
     if (under >= 0 && c->radius > 0) {
         const double mid = wx * c->dir[0] + wy * c->dir[1], half = sqrt(under);
-        widen(span, mid - half, mid + half);
+        widen_span(span, mid - half, mid + half);
     }
     /* The position along the moved edge is out / across; the signs are changed so that the divisor `speed` is
      * positive. */
@@ -166,7 +166,7 @@ static void cross(const crossing *c, const sunder_i_obstacle_edge *e, double off
                  speed = fabs(across);
     if (speed < 1e-14 || along < -c->grain * speed || along > (e->length + c->grain) * speed) return;
     const double s = (e->n[0] * wx + e->n[1] * wy + c->radius) / across;
-    widen(span, s, s);
+    widen_span(span, s, s);
 }
 
 /* The line meets the grown piece in a segment, if at all. Its ends are on edges moved out, or on discs around corners,
@@ -185,7 +185,7 @@ bool sunder_i_forbidden_span(const sunder_i_forbidden *forbidden, const sunder_i
         if (!look_across(&c, edge + at, n < left ? edge + at + n : edge, n, off)) continue;
         for (size_t k = 0; k < n; k++) {
             if ((off[k] > c.clear && off[k + 1] > c.clear) || (off[k] < -c.clear && off[k + 1] < -c.clear)) continue;
-            cross(&c, edge + at + k, off[k], span);
+            cross_edge(&c, edge + at + k, off[k], span);
         }
     }
     return span[0] < span[1];

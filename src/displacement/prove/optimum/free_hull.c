@@ -22,7 +22,7 @@ static bool is_free(const sunder_i_forbidden *f, const double u[2], size_t *gues
 }
 
 /* Appends the place (x, y) to *out if it is in no piece. Returns false if memory is out or stopped on request. */
-static bool note(sunder_i_reflex *out, const sunder_i_forbidden *f, double x, double y, uint64_t *steps)
+static bool note_corner(sunder_i_reflex *out, const sunder_i_forbidden *f, double x, double y, uint64_t *steps)
 {
     const double u[2] = {x, y};
     /* The steps allow for thousands of tests between two checks for a stop, as for two outlines with long arcs. */
@@ -51,7 +51,7 @@ static bool cross_edges(sunder_i_reflex *out, const sunder_i_forbidden *f, const
         if (!sunder_i_forbidden_span(f, q, from, dir, span)) continue;
         for (int s = 0; s < 2; s++)
             if (span[s] >= 0 && span[s] <= e->length &&
-                !note(out, f, from[0] + span[s] * dir[0], from[1] + span[s] * dir[1], steps))
+                !note_corner(out, f, from[0] + span[s] * dir[0], from[1] + span[s] * dir[1], steps))
                 return false;
     }
     return true;
@@ -74,8 +74,8 @@ static bool cross_arcs(sunder_i_reflex *out, const sunder_i_forbidden *f, const 
             const double x = (square + r * r - s * s) / (2 * square), h = r * r / square - x * x;
             if (!(h >= 0)) continue;
             const double y = sqrt(h);
-            if (!note(out, f, a[0] + x * dx - y * dy, a[1] + x * dy + y * dx, steps) ||
-                !note(out, f, a[0] + x * dx + y * dy, a[1] + x * dy - y * dx, steps))
+            if (!note_corner(out, f, a[0] + x * dx - y * dy, a[1] + x * dy + y * dx, steps) ||
+                !note_corner(out, f, a[0] + x * dx + y * dy, a[1] + x * dy - y * dx, steps))
                 return false;
         }
     }
@@ -98,15 +98,15 @@ bool sunder_i_reflex_find(sunder_i_reflex *reflex, const sunder_i_forbidden *for
 }
 
 /* Returns the distance from p along `dir` to the boundary of the region. */
-static double way_out(const sunder_i_region *r, const double p[2], const double dir[2])
+static double distance_to_end(const sunder_i_region *r, const double p[2], const double dir[2])
 {
-    double way = INFINITY;
+    double far = INFINITY;
     for (uint32_t k = 0; k < r->n; k++) {
         const double *a = r->xy + 2 * k, *b = r->xy + 2 * (k + 1 < r->n ? k + 1 : 0);
         const double nx = b[1] - a[1], ny = a[0] - b[0], speed = nx * dir[0] + ny * dir[1];
-        if (speed > 0) way = sunder_i_min(way, sunder_i_max(0, (nx * (a[0] - p[0]) + ny * (a[1] - p[1])) / speed));
+        if (speed > 0) far = sunder_i_min(far, sunder_i_max(0, (nx * (a[0] - p[0]) + ny * (a[1] - p[1])) / speed));
     }
-    return way < INFINITY ? way : 0;
+    return far < INFINITY ? far : 0;
 }
 
 /* Sets n to the normal of the piece that has p on its boundary. Returns false if there is none. */
@@ -137,8 +137,8 @@ bool sunder_i_reflex_seek(sunder_i_reflex *reflex, const sunder_i_forbidden *for
     double p[2] = {from[0], from[1]}, dir[2] = {down[0], down[1]}, n[2];
     /* Go straight down to a wall, then along walls as long as they lead down. */
     for (int leg = 0; leg < MOST_LEGS; leg++) {
-        const double way = sunder_i_forbidden_entry(forbidden, p, dir, way_out(region, p, dir), steps);
-        for (int c = 0; c < 2; c++) p[c] += way * dir[c];
+        const double far = sunder_i_forbidden_entry(forbidden, p, dir, distance_to_end(region, p, dir), steps);
+        for (int c = 0; c < 2; c++) p[c] += far * dir[c];
         if (!find_wall(forbidden, p, n, steps)) break;
         const double along = -n[1] * down[0] + n[0] * down[1], side = along > 0 ? 1 : -1;
         if (!(fabs(along) > LEAST_SLOPE)) break;
@@ -147,7 +147,7 @@ bool sunder_i_reflex_seek(sunder_i_reflex *reflex, const sunder_i_forbidden *for
         /* A tiny distance off the wall; otherwise the ray would enter it at once. */
         for (int c = 0; c < 2; c++) p[c] += WALL_HAIR * forbidden->size * n[c];
     }
-    return note(reflex, forbidden, p[0], p[1], steps) && note(reflex, forbidden, from[0], from[1], steps);
+    return note_corner(reflex, forbidden, p[0], p[1], steps) && note_corner(reflex, forbidden, from[0], from[1], steps);
 }
 
 /* ---- The hull ---------------------------------------------------------------------------------------------------- */
@@ -157,7 +157,7 @@ typedef struct gathering {
     size_t n;
 } gathering;
 
-static void gather(gathering *g, double x, double y)
+static void gather_place(gathering *g, double x, double y)
 {
     if (g->n == MOST_EXTREME) return;
     g->at[g->n][0] = x;
@@ -186,8 +186,8 @@ static void gather_side(gathering *g, const sunder_i_region *r, uint32_t k, cons
         if (!sunder_i_forbidden_span(f, piece, p, dir, in) || in[1] <= 0 || in[0] >= length) continue;
         if (spans == MOST_SPANS) {
             /* Too many pieces: the side counts as free. */
-            gather(g, p[0], p[1]);
-            gather(g, q[0], q[1]);
+            gather_place(g, p[0], p[1]);
+            gather_place(g, q[0], q[1]);
             return;
         }
         /* Spans are sorted by where they begin. */
@@ -205,8 +205,8 @@ static void gather_side(gathering *g, const sunder_i_region *r, uint32_t k, cons
         const double begin = m < spans ? span[m][0] : length;
         if (begin >= free_from - (m < spans ? 0 : hair) && free_from <= length) {
             const double to = sunder_i_min(begin, length);
-            gather(g, p[0] + free_from * dir[0], p[1] + free_from * dir[1]);
-            gather(g, p[0] + to * dir[0], p[1] + to * dir[1]);
+            gather_place(g, p[0] + free_from * dir[0], p[1] + free_from * dir[1]);
+            gather_place(g, p[0] + to * dir[0], p[1] + to * dir[1]);
         }
         if (m < spans) free_from = sunder_i_max(free_from, span[m][1]);
     }
@@ -225,11 +225,11 @@ static void gather_ends(gathering *g, const sunder_i_region *r, uint32_t k, cons
                  last = sunder_i_forbidden_exit(f, q, back, INFINITY);
     *steps += 2 * sunder_i_forbidden_look(f);
     if (first > length || last > length) return;
-    gather(g, p[0] + first * dir[0], p[1] + first * dir[1]);
-    gather(g, q[0] + last * back[0], q[1] + last * back[1]);
+    gather_place(g, p[0] + first * dir[0], p[1] + first * dir[1]);
+    gather_place(g, q[0] + last * back[0], q[1] + last * back[1]);
 }
 
-static bool holds(const sunder_i_region *r, const double u[2], double hair)
+static bool holds_place(const sunder_i_region *r, const double u[2], double hair)
 {
     for (uint32_t k = 0; k < r->n; k++) {
         const double *p = r->xy + 2 * k, *q = r->xy + 2 * (k + 1 < r->n ? k + 1 : 0);
@@ -320,7 +320,7 @@ static uint32_t find_side(const sunder_i_free_sides *known, const sunder_i_regio
 static void gather_known(gathering *g, const sunder_i_free_sides *known, uint32_t side, uint64_t *steps)
 {
     for (uint32_t m = known->first[side]; m < known->first[side + 1]; m++)
-        gather(g, known->place[m][0], known->place[m][1]);
+        gather_place(g, known->place[m][0], known->place[m][1]);
     *steps += known->steps[side];
 }
 
@@ -363,8 +363,8 @@ bool sunder_i_free_hull_nearest(const sunder_i_free_sides *sides, const sunder_i
     if (sides->n) memcpy(at, sides->place, sides->n * sizeof *at);
     *steps += sides->n + reflex->n;
     for (size_t k = 0; k < reflex->n; k++)
-        if (holds(&sides->region, reflex->place[k], FREE_HAIR * forbidden->size))
-            gather(&g, reflex->place[k][0], reflex->place[k][1]);
+        if (holds_place(&sides->region, reflex->place[k], FREE_HAIR * forbidden->size))
+            gather_place(&g, reflex->place[k][0], reflex->place[k][1]);
     if (g.n == 0) return false;
     nearest_of_hull(&g, u, place);
     return true;

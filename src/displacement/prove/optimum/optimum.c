@@ -64,8 +64,8 @@ typedef struct standing {
 
 /* Descends from the moves of n bodies to a layout that keeps a margin; with `tight`, looks for a layout near them that
  * has no margin. *cost is the cost of the layout found, INFINITY if there is none. */
-static sunder_status settle(const sunder_i_model *model, const sunder_i_waived *waived, const sunder_i_group *g,
-                            uint32_t *body, size_t n, bool tight, double *move, double *cost, sunder_error *err)
+static sunder_status settle_layout(const sunder_i_model *model, const sunder_i_waived *waived, const sunder_i_group *g,
+                                   uint32_t *body, size_t n, bool tight, double *move, double *cost, sunder_error *err)
 {
     bool found;
     *cost = INFINITY;
@@ -82,9 +82,9 @@ static sunder_status settle(const sunder_i_model *model, const sunder_i_waived *
 
 /* Looks for a layout near the moves t of n bodies, which may include guests, and replaces the group's layout if it is
  * cheaper; then sets *better. */
-static sunder_status attempt(const sunder_i_model *model, const sunder_i_waived *waived, sunder_i_group *g,
-                             const uint32_t *body, const double *t, size_t n, bool tight, bool *better,
-                             sunder_error *err)
+static sunder_status attempt_layout(const sunder_i_model *model, const sunder_i_waived *waived, sunder_i_group *g,
+                                    const uint32_t *body, const double *t, size_t n, bool tight, bool *better,
+                                    sunder_error *err)
 {
     standing *at = sunder_i_alloc(n, sizeof *at);
     uint32_t *list = sunder_i_alloc(n, sizeof *list);
@@ -99,7 +99,7 @@ static sunder_status attempt(const sunder_i_model *model, const sunder_i_waived 
             memcpy(move + 2 * k, at[k].t, sizeof at[k].t);
         }
         double cost;
-        status = settle(model, waived, g, list, n, tight, move, &cost, err);
+        status = settle_layout(model, waived, g, list, n, tight, move, &cost, err);
         if (!status && cost < g->cost * (1 - CHEAPER)) {
             sunder_i_free(g->body);
             sunder_i_free(g->move);
@@ -123,7 +123,7 @@ sunder_status sunder_i_group_descend(const sunder_i_model *model, const sunder_i
                                      const double *t, sunder_error *err)
 {
     bool better;
-    return attempt(model, waived, group, group->body, t, group->n, false, &better, err);
+    return attempt_layout(model, waived, group, group->body, t, group->n, false, &better, err);
 }
 
 /* Is making the pairs too expensive for blocks, which make them again in each evaluation? */
@@ -146,8 +146,8 @@ static uint64_t steps_of_large(const sunder_i_tree *tree, uint64_t taken, uint64
 
 /* Runs the group's tree, and descends from each layout that it finds. Steps that the tree of a large group uses in
  * place of blocks are not counted, as those of blocks are not. */
-static sunder_status branch(const sunder_i_model *model, const sunder_i_waived *waived, sunder_i_group *g,
-                            sunder_i_tree *tree, uint64_t steps, bool large, sunder_error *err)
+static sunder_status run_tree(const sunder_i_model *model, const sunder_i_waived *waived, sunder_i_group *g,
+                              sunder_i_tree *tree, uint64_t steps, bool large, sunder_error *err)
 {
     for (uint64_t most = large ? steps_of_large(tree, 0, steps) : steps;;) {
         bool better;
@@ -161,9 +161,9 @@ static sunder_status branch(const sunder_i_model *model, const sunder_i_waived *
         if (outcome != SUNDER_I_TREE_FOUND) break;
         const double *t = tree->program.t, cost = cost_of(model, tree->body, tree->task.n, t);
         bool tighter = false;
-        sunder_status status = attempt(model, waived, g, tree->body, t, tree->task.n, false, &better, err);
+        sunder_status status = attempt_layout(model, waived, g, tree->body, t, tree->task.n, false, &better, err);
         if (!status && !g->with_slack && cost < g->cost * (1 - OPTIMAL_SHARE))
-            status = attempt(model, waived, g, tree->body, t, tree->task.n, true, &tighter, err);
+            status = attempt_layout(model, waived, g, tree->body, t, tree->task.n, true, &tighter, err);
         if (status) return status;
         if (better || tighter) sunder_i_tree_lower_goal(tree, goal_of(model, g));
     }
@@ -216,8 +216,8 @@ static sunder_status prove_blocks(const sunder_i_model *model, const sunder_i_wa
 
 /* Proves blocks of a dense group: a quick trial proves most of what they can. If it proves little it was too short for
  * the group's number of pieces, and they get all steps. */
-static sunder_status prove_crowd(const sunder_i_model *model, const sunder_i_waived *waived, sunder_i_group *g,
-                                 uint64_t steps, sunder_error *err)
+static sunder_status prove_dense_group(const sunder_i_model *model, const sunder_i_waived *waived, sunder_i_group *g,
+                                       uint64_t steps, sunder_error *err)
 {
     const sunder_status status = prove_blocks(model, waived, g, steps / CROWD_LOOK, err);
     if (status || g->bound >= QUICK_SHARE * g->cost) return status;
@@ -268,7 +268,7 @@ typedef struct proving {
     double before;              /* the cost at the beginning; a cheaper layout found here may have to be undone later */
     size_t movers;              /* the number of movable bodies */
     bool asked;                 /* the group costs little more than when it was last examined fully */
-    bool crowded, free_crowd;   /* it has many remaining conflicts: only blocks and parts prove much; or it is
+    bool conflicted, unlimited; /* it has many remaining conflicts: only blocks and parts prove much; or it is
                                  * unlimited: prices of area do */
     bool spent, exhausted_tree; /* the tree of a large group, or of a small one, used all its steps */
     bool over;                  /* no stage is left to run */
@@ -276,11 +276,11 @@ typedef struct proving {
 
 static bool is_too_large(const proving *x) { return x->movers > MOST_TOGETHER; }
 
-static bool is_crowded(const proving *x) { return x->crowded; }
+static bool has_many_conflicts(const proving *x) { return x->conflicted; }
 
 static bool is_beyond_branching(const proving *x) { return x->movers > BRANCHED; }
 
-static bool is_large_free_crowd(const proving *x) { return x->free_crowd && x->movers > LARGE_FREE_CROWD; }
+static bool is_large_and_unlimited(const proving *x) { return x->unlimited && x->movers > LARGE_FREE_CROWD; }
 
 static bool is_small(const proving *x) { return x->movers <= BRANCHED; }
 
@@ -291,26 +291,26 @@ static bool is_worth_blocks(const proving *x) { return x->movers > FEW && !x->as
 static sunder_status prove_in_parts(proving *x, uint64_t steps, sunder_error *err)
 {
     x->over = true;
-    if (x->asked || x->free_crowd) return SUNDER_OK;
-    return prove_parts(x->model, x->waived, x->g, x->crowded ? steps / CROWD_LOOK : steps, err);
+    if (x->asked || x->unlimited) return SUNDER_OK;
+    return prove_parts(x->model, x->waived, x->g, x->conflicted ? steps / CROWD_LOOK : steps, err);
 }
 
-static sunder_status polish(proving *x, uint64_t steps, sunder_error *err)
+static sunder_status polish_layout(proving *x, uint64_t steps, sunder_error *err)
 {
     bool better;
     (void)steps;
     const sunder_status status =
-        attempt(x->model, x->waived, x->g, x->g->body, x->g->move, x->g->n, false, &better, err);
+        attempt_layout(x->model, x->waived, x->g, x->g->body, x->g->move, x->g->n, false, &better, err);
     x->over = x->known >= goal_of(x->model, x->g);
     return status;
 }
 
-static sunder_status prove_as_crowd(proving *x, uint64_t steps, sunder_error *err)
+static sunder_status prove_as_dense_group(proving *x, uint64_t steps, sunder_error *err)
 {
     x->over = true;
     if (x->asked) return SUNDER_OK;
     x->g->asked = x->before;
-    return prove_crowd(x->model, x->waived, x->g, steps, err);
+    return prove_dense_group(x->model, x->waived, x->g, steps, err);
 }
 
 /* A body that a perturbation has sent to another side has other neighbours now; the next round knows them. */
@@ -345,7 +345,7 @@ static sunder_status grow_tree(proving *x, uint64_t steps, sunder_error *err)
                                 .keep = x->model->rules.keep_trees};
     sunder_i_tree tree;
     sunder_status status = sunder_i_tree_init(&tree, &task) ? SUNDER_OK : sunder_i_no_memory(err);
-    if (!status) status = branch(x->model, x->waived, g, &tree, steps, x->movers > BRANCHED, err);
+    if (!status) status = run_tree(x->model, x->waived, g, &tree, steps, x->movers > BRANCHED, err);
     if (!status && !keep_guests(g, &tree, n)) status = sunder_i_no_memory(err);
     if (!status && task.keep && !sunder_i_tree_keep(&tree, &g->trees)) status = sunder_i_no_memory(err);
     x->spent = x->movers > BRANCHED && (tree.steps >= steps || blocks_are_dear(&tree, steps));
@@ -367,7 +367,7 @@ static sunder_status prove_by_blocks(proving *x, uint64_t steps, sunder_error *e
     bool promising = !x->spent;
     double priced = 0;
     g->asked = x->before;
-    if (promising && x->free_crowd) status = sunder_i_group_ask_prices(x->model, g, &priced, err);
+    if (promising && x->unlimited) status = sunder_i_group_ask_prices(x->model, g, &priced, err);
     if (!status && promising && (x->exhausted_tree || priced > 0))
         status = look_at_blocks(x->model, x->waived, g, QUICK_AS_MUCH * sunder_i_max(g->bound, priced), steps,
                                 &promising, err);
@@ -383,10 +383,10 @@ typedef struct stage {
 
 static const stage stages[] = {
     {"prove in parts", is_too_large, prove_in_parts, 1},
-    {"polish", NULL, polish, 0},
-    {"prove as crowd", is_crowded, prove_as_crowd, 1},
+    {"polish", NULL, polish_layout, 0},
+    {"prove as crowd", has_many_conflicts, prove_as_dense_group, 1},
     {"shake", is_beyond_branching, shake_large, 2},
-    {"leave to prices", is_large_free_crowd, leave_to_prices, 0},
+    {"leave to prices", is_large_and_unlimited, leave_to_prices, 0},
     {"grow tree", NULL, grow_tree, 1},
     {"shake", is_small, shake_small, 2},
     {"prove by blocks", is_worth_blocks, prove_by_blocks, 1},
@@ -419,8 +419,8 @@ static sunder_status prove_afresh(const sunder_i_model *model, const sunder_i_wa
     x.before = g->cost;
     x.asked = g->asked >= ASKED_SHARE * x.before;
     if (!x.asked) g->asked = x.movers > MOST_TOGETHER ? x.before : 0;
-    x.crowded = sunder_i_group_is_crowded(model, waived, g);
-    x.free_crowd = sunder_i_group_is_free_crowd(model, waived, g);
+    x.conflicted = sunder_i_group_has_many_conflicts(model, waived, g);
+    x.unlimited = sunder_i_group_is_unlimited(model, waived, g);
     sunder_status status = SUNDER_OK;
     for (size_t k = 0; k < sizeof stages / sizeof *stages && !status && !x.over; k++)
         if (sunder_i_stage_is_on("group", stages[k].name) && (!stages[k].applies || stages[k].applies(&x)))

@@ -78,14 +78,16 @@ bool sunder_i_tight_place(const sunder_i_model *model, const sunder_i_waived *wa
 /* Sets *may if the coordinates of n bodies have a common step, so that such places are possible. Returns false if
  * memory is out. */
 bool sunder_i_may_be_tight(const sunder_i_model *model, const uint32_t *body, size_t n, bool *may);
-/* crowded.c: are so many pairs of the group's bodies left in conflict that neither perturbation nor a tree helps? */
-bool sunder_i_group_is_crowded(const sunder_i_model *model, const sunder_i_waived *waived, const sunder_i_group *group);
+/* conflicted_group.c: are so many pairs of the group's bodies left in conflict that neither perturbation nor a tree
+ * helps? */
+bool sunder_i_group_has_many_conflicts(const sunder_i_model *model, const sunder_i_waived *waived,
+                                       const sunder_i_group *group);
 /* Returns the number of pairs of the group's bodies that are left in conflict. */
 size_t sunder_i_group_listed(const sunder_i_model *model, const sunder_i_waived *waived, const sunder_i_group *group);
-/* free_crowd.c: is the group large, without limits, and do all its pairs have to keep the gap, so that the report will
- * use prices of area? The second function sets *bound to the bound that prices prove for the group alone. */
-bool sunder_i_group_is_free_crowd(const sunder_i_model *model, const sunder_i_waived *waived,
-                                  const sunder_i_group *group);
+/* unlimited_group.c: is the group large, without limits, and do all its pairs have to keep the gap, so that the report
+ * will use prices of area? The second function sets *bound to the bound that prices prove for the group alone. */
+bool sunder_i_group_is_unlimited(const sunder_i_model *model, const sunder_i_waived *waived,
+                                 const sunder_i_group *group);
 sunder_status sunder_i_group_ask_prices(const sunder_i_model *model, const sunder_i_group *group, double *bound,
                                         sunder_error *err);
 /* Is the group's cost proved to be the least, up to the digits that the program prints? */

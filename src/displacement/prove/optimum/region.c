@@ -33,7 +33,7 @@ typedef struct clipping {
     bool full, merged;
 } clipping;
 
-static void add(clipping *c, double x, double y, uint32_t cut)
+static void add_corner(clipping *c, double x, double y, uint32_t cut)
 {
     if (c->n) {
         const double *last = c->xy + 2 * (c->n - 1);
@@ -68,12 +68,12 @@ void sunder_i_region_clip(sunder_i_region *region, const double n[2], double d, 
     for (uint32_t k = 0; k < region->n; k++) {
         const uint32_t l = k + 1 < region->n ? k + 1 : 0;
         const double *p = region->xy + 2 * k, *q = region->xy + 2 * l;
-        if (s[k] >= 0) add(&c, p[0], p[1], region->cut[k]);
+        if (s[k] >= 0) add_corner(&c, p[0], p[1], region->cut[k]);
         if ((s[k] >= 0) == (s[l] >= 0)) continue;
         const double share = s[k] / (s[k] - s[l]);
         /* Where the boundary leaves the half-plane, the side along the line begins; where it comes back, the side that
          * it crosses continues. */
-        add(&c, p[0] + share * (q[0] - p[0]), p[1] + share * (q[1] - p[1]), s[k] >= 0 ? cut : region->cut[k]);
+        add_corner(&c, p[0] + share * (q[0] - p[0]), p[1] + share * (q[1] - p[1]), s[k] >= 0 ? cut : region->cut[k]);
     }
     if (c.full) return;
     region->n = c.n;

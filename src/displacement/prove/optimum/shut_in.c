@@ -16,15 +16,15 @@
 
 #include <math.h>
 
-typedef struct looking {
+typedef struct outlook {
     const sunder_i_model *model;
     const sunder_i_body *p, *q;
     const sunder_i_body_pieces *of_p, *of_q;
     double offset[2]; /* the origin of q relative to that of p */
-} looking;
+} outlook;
 
 /* Does the ray from u along dir meet the convex piece, moved by `shift`? */
-static bool meets(const sunder_i_body_piece *piece, const double shift[2], const double u[2], const double dir[2])
+static bool ray_meets(const sunder_i_body_piece *piece, const double shift[2], const double u[2], const double dir[2])
 {
     const double *corner = piece->corner;
     bool left = false, right = false, ahead = false;
@@ -40,28 +40,28 @@ static bool meets(const sunder_i_body_piece *piece, const double shift[2], const
 
 /* Does an anchor of the body that moves along dir (p if p_runs, else q) meet the other body, whose origin is at `shift`
  * from it? */
-static bool runs_into(const looking *l, bool p_runs, const double shift[2], const double dir[2])
+static bool runs_into(const outlook *l, bool p_runs, const double shift[2], const double dir[2])
 {
     const sunder_i_body *of = p_runs ? l->p : l->q, *other = p_runs ? l->q : l->p;
     const sunder_i_body_piece *piece = (p_runs ? l->of_q : l->of_p)->piece;
     for (uint32_t m = 0; m < of->members; m++) {
         const sunder_i_body_piece *anchor = &(p_runs ? l->of_p : l->of_q)->anchor[m];
         for (uint32_t k = 0; k < other->pieces && anchor->corners; k++)
-            if (meets(&piece[k], shift, anchor->box, dir) &&
+            if (ray_meets(&piece[k], shift, anchor->box, dir) &&
                 !sunder_i_is_held(l->model, anchor->feature, piece[k].feature))
                 return true;
     }
     return false;
 }
 
-static bool is_open(const looking *l, const double dir[2])
+static bool is_open(const outlook *l, const double dir[2])
 {
     const double to_p[2] = {-l->offset[0], -l->offset[1]}, back[2] = {-dir[0], -dir[1]};
     return !runs_into(l, false, to_p, dir) && !runs_into(l, true, l->offset, back);
 }
 
 /* Is one of OUTLOOKS directions open? The first is that from the middle of p to the middle of q. */
-static bool any_is_open(const looking *l)
+static bool any_is_open(const outlook *l)
 {
     double out[2];
     for (int c = 0; c < 2; c++)
@@ -99,7 +99,7 @@ static bool is_covered(const sunder_i_forbidden *f, double reach, uint64_t *step
 
 bool sunder_i_may_be_shut_in(const sunder_i_model *model, uint32_t p, uint32_t q)
 {
-    looking l = {.model = model, .p = &model->body[p], .q = &model->body[q]};
+    outlook l = {.model = model, .p = &model->body[p], .q = &model->body[q]};
     for (size_t c = 0; c < 2; c++) l.offset[c] = l.q->origin[c] - l.p->origin[c];
     l.of_p = sunder_i_pieces_of(model, l.p);
     l.of_q = sunder_i_pieces_of(model, l.q);
@@ -152,7 +152,7 @@ static void add_pair(const sunder_i_forbidden *all, const sunder_i_id_pair *pair
 
 /* Is everything in *left covered? A region that is not covered is moved to the front, as it is likely to be uncovered
  * for the next pair, too. */
-static bool covers(const sunder_i_forbidden *f, sunder_i_regions *left, uint64_t *steps)
+static bool covers_regions(const sunder_i_forbidden *f, sunder_i_regions *left, uint64_t *steps)
 {
     for (size_t k = 0; k < left->n; k++) {
         if (sunder_i_region_is_covered(&left->item[k], f, NULL, NULL, steps)) continue;
@@ -165,8 +165,8 @@ static bool covers(const sunder_i_forbidden *f, sunder_i_regions *left, uint64_t
 }
 
 /* The shadows are the same for all pairs, and are most of the pieces: what they cover is proved once. */
-bool sunder_i_which_are_shut_in(const sunder_i_model *model, uint32_t p, uint32_t q, const sunder_i_id_pair *pair,
-                                size_t n, bool *shut)
+bool sunder_i_find_shut_in_pairs(const sunder_i_model *model, uint32_t p, uint32_t q, const sunder_i_id_pair *pair,
+                                 size_t n, bool *shut)
 {
     sunder_i_forbidden all;
     sunder_i_regions left = {0};
@@ -186,7 +186,7 @@ bool sunder_i_which_are_shut_in(const sunder_i_model *model, uint32_t p, uint32_
     }
     for (size_t k = 0; k < n && ok; k++) {
         add_pair(&all, &pair[k], shadows, &part);
-        shut[k] = covers(&part, &left, &steps);
+        shut[k] = covers_regions(&part, &left, &steps);
         ok = sunder_i_steps(steps / 8);
         steps = 0;
     }

@@ -28,7 +28,7 @@
 #include <math.h>
 #include <string.h>
 
-static void end(sunder_i_tight *f)
+static void free_tight(sunder_i_tight *f)
 {
     sunder_i_free(f->body);
     sunder_i_free(f->t);
@@ -104,7 +104,7 @@ static bool take_places(const sunder_i_tight *f, double *move)
     return true;
 }
 
-static bool fit(sunder_i_tight *f, double *move, bool *found)
+static bool fit_places(sunder_i_tight *f, double *move, bool *found)
 {
     double *to = sunder_i_alloc(2 * f->n, sizeof *to);
     const bool ok = to && sunder_i_tight_draw_rows(f);
@@ -126,7 +126,7 @@ bool sunder_i_may_be_tight(const sunder_i_model *model, const uint32_t *body, si
     if (n > MOST_TIGHT) return true;
     for (size_t k = 0; k < n && ok; k++) ok = sunder_i_tight_add(&f, body[k], home);
     ok = ok && sunder_i_tight_find_step(&f, may);
-    end(&f);
+    free_tight(&f);
     return ok;
 }
 
@@ -140,7 +140,7 @@ bool sunder_i_tight_place(const sunder_i_model *model, const sunder_i_waived *wa
     for (size_t k = 0; k < n && ok; k++) ok = sunder_i_tight_add(&f, body[k], move + 2 * k);
     f.n = n;
     ok = ok && sunder_i_tight_find_step(&f, &coarse);
-    if (ok && coarse) ok = sunder_i_tight_find_outside(&f) && fit(&f, move, found);
-    end(&f);
+    if (ok && coarse) ok = sunder_i_tight_find_outside(&f) && fit_places(&f, move, found);
+    free_tight(&f);
     return ok;
 }

@@ -25,7 +25,7 @@ bool sunder_i_tight_add(sunder_i_tight *f, uint32_t body, const double t[2])
 
 /* ---- The step ---------------------------------------------------------------------------------------------------- */
 
-static void lower(int *exponent, double v)
+static void lower_exponent(int *exponent, double v)
 {
     const int e = sunder_i_low_bit(v);
     if (e < *exponent) *exponent = e;
@@ -38,7 +38,7 @@ static bool lower_by_piece(sunder_i_tight *f, const sunder_i_body_piece *piece, 
     const size_t n = sunder_i_corners_as_given(f->model, piece);
     if (!sunder_i_reserve(&f->corner, &f->corners, 2 * n, sizeof *f->corner)) return false;
     sunder_i_piece_as_given(f->model, piece, f->corner);
-    for (size_t v = 0; v < 2 * n; v++) lower(exponent, f->corner[v]);
+    for (size_t v = 0; v < 2 * n; v++) lower_exponent(exponent, f->corner[v]);
     return true;
 }
 
@@ -49,7 +49,7 @@ static bool lower_by_body(sunder_i_tight *f, const sunder_i_body *body, int *exp
     const sunder_i_model *model = f->model;
     const uint32_t thing = model->member[body->member];
     const double owed = sunder_i_owed_below(model, thing, thing);
-    lower(exponent, owed);
+    lower_exponent(exponent, owed);
     *known = owed == sunder_i_owed_above(model, thing, thing);
     const sunder_i_body_pieces *of = sunder_i_pieces_of(model, body);
     if (!of) return false;
@@ -106,7 +106,7 @@ bool sunder_i_tight_find_outside(sunder_i_tight *f)
 {
     for (size_t k = 0; k < f->n; k++) {
         if (f->model->body[f->body[k]].fixed) continue;
-        if (!sunder_i_who_is_about(f->model, f->body[k], f->t + 2 * k, f->model->rules.gap + f->hair, &f->near))
+        if (!sunder_i_bodies_about(f->model, f->body[k], f->t + 2 * k, f->model->rules.gap + f->hair, &f->near))
             return false;
         for (size_t m = 0; m < f->near.n && f->all < 2 * MOST_TIGHT; m++)
             if (!takes_part(f, f->near.item[m]) && !take_in(f, k, f->near.item[m])) return false;

@@ -128,7 +128,7 @@ void sunder_i_tree_lower_goal(sunder_i_tree *tree, double goal)
 
 /* Examines one node. Returns true if its minimiser has no conflicts, or none by which dividing proves more; *leaf is
  * the cost that is proved for it. */
-static bool look_into(sunder_i_tree *t, uint32_t node, double *leaf)
+static bool examine_node(sunder_i_tree *t, uint32_t node, double *leaf)
 {
     sunder_i_tree_load(t, node);
     for (int round = 0; !t->failed; round++) {
@@ -140,7 +140,7 @@ static bool look_into(sunder_i_tree *t, uint32_t node, double *leaf)
             return false;
         }
         sunder_i_tree_find_conflicts(t);
-        if (t->conflicts == 0 && !t->failed) sunder_i_tree_meet(t);
+        if (t->conflicts == 0 && !t->failed) sunder_i_tree_find_outside_conflicts(t);
         if (t->failed) return false;
         if (t->conflicts == 0) {
             t->node[node].state = SUNDER_I_LEAF;
@@ -178,7 +178,7 @@ sunder_i_tree_outcome sunder_i_tree_run(sunder_i_tree *tree, uint64_t steps)
         sunder_i_heap_pop(tree->open, &tree->opens, sizeof next, &next, sunder_i_opens_first);
         const uint64_t before = tree->steps;
         double leaf = INFINITY;
-        const bool found = look_into(tree, next.node, &leaf);
+        const bool found = examine_node(tree, next.node, &leaf);
         if (!sunder_i_steps(1 + (size_t)(tree->steps - before) / 64)) tree->failed = true;
         if (!found) continue;
         tree->leaf = sunder_i_min(tree->leaf, leaf);

@@ -145,7 +145,7 @@ void sunder_i_tree_set_body(sunder_i_tree *tree, size_t k, uint32_t body, double
 /* Lends the arrays of the tree's bodies to its task and its program. */
 void sunder_i_tree_lend_bodies(sunder_i_tree *tree);
 /* One more body takes part, with its own weight, unless there are MOST_GUESTS already. */
-void sunder_i_tree_invite(sunder_i_tree *tree, uint32_t body);
+void sunder_i_tree_add_guest(sunder_i_tree *tree, uint32_t body);
 
 /* ---- tree.c ------------------------------------------------------------------------------------------------------ */
 
@@ -166,7 +166,7 @@ sunder_i_tree_pair *sunder_i_tree_pair_of(sunder_i_tree *tree, uint32_t i, uint3
 void sunder_i_tree_find_conflicts(sunder_i_tree *tree);
 /* Looks for conflicts with bodies outside. A body that is in no group becomes a guest, and takes part from now on; a
  * body of another group is appended to tree->joins. */
-void sunder_i_tree_meet(sunder_i_tree *tree);
+void sunder_i_tree_find_outside_conflicts(sunder_i_tree *tree);
 
 /* ---- tree_node.c ------------------------------------------------------------------------------------------------- */
 

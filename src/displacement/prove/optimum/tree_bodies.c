@@ -19,7 +19,7 @@ void sunder_i_tree_set_body(sunder_i_tree *tree, size_t k, uint32_t body, double
     tree->limit[k] = sunder_i_limit_of(b);
 }
 
-void sunder_i_tree_invite(sunder_i_tree *tree, uint32_t body)
+void sunder_i_tree_add_guest(sunder_i_tree *tree, uint32_t body)
 {
     const size_t n = tree->task.n;
     if (n == tree->capacity) return;

@@ -30,9 +30,9 @@ static void choose_rays(sunder_i_tree *t, const sunder_i_tree_conflict *c, branc
     double nearest = INFINITY, n[2] = {1, 0};
     for (int k = 0; k < SUNDER_I_TREE_RAYS; k++) {
         const double *dir = t->ray[k];
-        const double way = sunder_i_forbidden_exit(f, c->u, dir, nearest);
-        if (way >= nearest) continue;
-        nearest = way;
+        const double away = sunder_i_forbidden_exit(f, c->u, dir, nearest);
+        if (away >= nearest) continue;
+        nearest = away;
         n[0] = dir[0];
         n[1] = dir[1];
     }
@@ -41,11 +41,11 @@ static void choose_rays(sunder_i_tree *t, const sunder_i_tree_conflict *c, branc
     for (int k = 0; k < 2; k++) {
         const double side = k ? 1 : -1, dir[2] = {-side * n[1], side * n[0]};
         /* At most 84 degrees, so that the angle to the ray behind is less than straight. */
-        double way = sunder_i_min(sunder_i_forbidden_exit(f, mid, dir, 10 * ahead), 10 * ahead);
+        double away = sunder_i_min(sunder_i_forbidden_exit(f, mid, dir, 10 * ahead), 10 * ahead);
         /* In a slot without width there are exits beside u as well as ahead. A ray along the slot would leave the slot
          * to both of its cones, and one of these would have u in its hull. */
-        if (way < IN_SLOT * ahead) way = BESIDE_SLOT * ahead;
-        const double x = ahead * n[0] + way * dir[0], y = ahead * n[1] + way * dir[1], length = sqrt(x * x + y * y);
+        if (away < IN_SLOT * ahead) away = BESIDE_SLOT * ahead;
+        const double x = ahead * n[0] + away * dir[0], y = ahead * n[1] + away * dir[1], length = sqrt(x * x + y * y);
         out->ray[k][0] = length > 0 ? x / length : n[0];
         out->ray[k][1] = length > 0 ? y / length : n[1];
     }
@@ -97,7 +97,7 @@ static int by_weight(const void *a, const void *b)
 }
 
 /* Chooses the conflict to divide by, and its rays. */
-static sunder_i_tree_conflict choose(sunder_i_tree *t, double value, branching_rays *rays)
+static sunder_i_tree_conflict choose_conflict(sunder_i_tree *t, double value, branching_rays *rays)
 {
     for (size_t k = 0; k < t->conflicts; k++) t->conflict[k].depth /= sqrt(t->pair[t->conflict[k].pair].slackness);
     qsort(t->conflict, t->conflicts, sizeof *t->conflict, by_weight);
@@ -149,12 +149,12 @@ void sunder_i_tree_divide(sunder_i_tree *tree, uint32_t node)
     const double value = tree->node[node].value;
     branching_rays rays = {0};
     leave_out_stuck(tree, node);
-    if (tree->conflicts == 0) sunder_i_tree_meet(tree);
+    if (tree->conflicts == 0) sunder_i_tree_find_outside_conflicts(tree);
     if (tree->conflicts == 0 || tree->failed) {
         tree->node[node].state = SUNDER_I_LEAF;
         return;
     }
-    const sunder_i_tree_conflict c = choose(tree, value, &rays);
+    const sunder_i_tree_conflict c = choose_conflict(tree, value, &rays);
     if (tree->failed) return;
     tree->node[node].state = SUNDER_I_DIVIDED;
     tree->node[node].pair = c.pair;

@@ -20,7 +20,7 @@
 
 /* Returns a bound of the distance between t* of body b and the exact minimiser for the forces: the rounding errors of
  * the sum of pushes on the body (whose size sunder_i_dual_value() computes) and of the anchor. */
-static double doubt(const sunder_i_tree *t, uint32_t b)
+static double doubt_of_place(const sunder_i_tree *t, uint32_t b)
 {
     const double size =
         t->program.net[3 * b + 2] * t->mass[b] + fabs(t->task.anchor[2 * b]) + fabs(t->task.anchor[2 * b + 1]);
@@ -32,8 +32,8 @@ static double doubt(const sunder_i_tree *t, uint32_t b)
 static size_t cut_disc(sunder_i_tree *t, uint32_t pair, const double u[2], double value)
 {
     const sunder_i_tree_pair *p = &t->pair[pair];
-    const double radius = sqrt((t->task.goal - value) * p->slackness) * (1 + 0x1p-40) + doubt(t, p->i) +
-                          doubt(t, p->j) + p->forbidden.grain;
+    const double radius = sqrt((t->task.goal - value) * p->slackness) * (1 + 0x1p-40) + doubt_of_place(t, p->i) +
+                          doubt_of_place(t, p->j) + p->forbidden.grain;
     size_t made = 0;
     for (int k = 0; k < SUNDER_I_TREE_RAYS && !t->failed; k += 2) {
         const double n[2] = {t->ray[k][0], t->ray[k][1]};

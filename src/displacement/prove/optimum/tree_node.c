@@ -10,7 +10,7 @@
 
 /* ---- The record -------------------------------------------------------------------------------------------------- */
 
-static void touch(sunder_i_tree *t, uint32_t pair)
+static void touch_pair(sunder_i_tree *t, uint32_t pair)
 {
     if (t->pair[pair].touched) return;
     t->pair[pair].touched = true;
@@ -19,12 +19,12 @@ static void touch(sunder_i_tree *t, uint32_t pair)
 
 /* Marks the cut's pair as touched, and clips its region by the cut, unless the region will be restored from a saved
  * copy (`kept`). */
-static void apply(sunder_i_tree *t, uint32_t cut, bool kept)
+static void apply_cut(sunder_i_tree *t, uint32_t cut, bool kept)
 {
     const sunder_i_cut_note *note = &t->note[cut];
     if (note->kind == SUNDER_I_CUT_LIMIT) return;
     sunder_i_tree_pair *p = &t->pair[note->pair];
-    touch(t, note->pair);
+    touch_pair(t, note->pair);
     if (kept) return;
     sunder_i_region_clip(&p->region, t->cut[cut].n, t->cut[cut].d, cut, p->forbidden.grain);
 }
@@ -44,7 +44,7 @@ uint32_t sunder_i_tree_cut(sunder_i_tree *tree, sunder_i_cut_kind kind, uint32_t
         ball ? pair : tree->pair[pair].i, ball ? SUNDER_I_GROUND : tree->pair[pair].j, {n[0], n[1]}, d};
     tree->note[cut] = (sunder_i_cut_note){.kind = kind, .pair = pair};
     if (tree->nodes) tree->node[tree->nodes - 1].cuts++;
-    apply(tree, cut, false);
+    apply_cut(tree, cut, false);
     return cut;
 }
 
@@ -89,7 +89,7 @@ void sunder_i_tree_load(sunder_i_tree *tree, uint32_t node)
     const bool kept = tree->node[node].regions;
     for (size_t k = tree->path.n; k-- > 0 && !tree->failed;) {
         const sunder_i_tree_node *n = &tree->node[tree->path.item[k]];
-        for (uint32_t c = n->cut; c < n->cut + n->cuts; c++) apply(tree, c, kept);
+        for (uint32_t c = n->cut; c < n->cut + n->cuts; c++) apply_cut(tree, c, kept);
         tree->steps += 2 * n->cuts;
     }
     if (kept && !tree->failed) sunder_i_tree_take_regions(tree, node);

@@ -60,12 +60,12 @@ static bool may_pass(const sunder_i_model *model, const sunder_i_body *p, const 
 {
     const double offset[2] = {q->origin[0] - p->origin[0], q->origin[1] - p->origin[1]},
                  u[2] = {v[0] - t[0], v[1] - t[1]};
-    double way[4];
-    sunder_i_shadow_path_box(u, 0, way);
-    if (p->has->sides && sunder_i_shadow_may_reach(p->box, sunder_i_side_anchors(model, q), offset, way)) return true;
-    if (q->has->sides && sunder_i_shadow_may_reach(sunder_i_side_anchors(model, p), q->box, offset, way)) return true;
-    return !model->rules.jumps && (sunder_i_anchors_may_reach(model, p, q, false, offset, way) ||
-                                   sunder_i_anchors_may_reach(model, p, q, true, offset, way));
+    double path[4];
+    sunder_i_shadow_path_box(u, 0, path);
+    if (p->has->sides && sunder_i_shadow_may_reach(p->box, sunder_i_side_anchors(model, q), offset, path)) return true;
+    if (q->has->sides && sunder_i_shadow_may_reach(sunder_i_side_anchors(model, p), q->box, offset, path)) return true;
+    return !model->rules.jumps && (sunder_i_anchors_may_reach(model, p, q, false, offset, path) ||
+                                   sunder_i_anchors_may_reach(model, p, q, true, offset, path));
 }
 
 /* Are the boxes of the two within the gap of each other at the node, or may one have passed an anchor of the other? */
@@ -81,7 +81,7 @@ static bool are_near(const sunder_i_tree *t, uint32_t i, uint32_t j)
     return true;
 }
 
-static void look_at(sunder_i_tree *t, uint32_t i, uint32_t j)
+static void test_pair(sunder_i_tree *t, uint32_t i, uint32_t j)
 {
     const double *at = t->program.t;
     if (!(t->mass[i] + t->mass[j] > 0) || !are_near(t, i, j)) return;
@@ -103,7 +103,7 @@ void sunder_i_tree_find_conflicts(sunder_i_tree *tree)
     tree->conflicts = 0;
     for (uint32_t i = 0; i < tree->task.n && !tree->failed; i++) {
         if (!sunder_i_steps(1 + tree->task.n / 64)) tree->failed = true;
-        for (uint32_t j = i + 1; j < tree->task.n && !tree->failed; j++) look_at(tree, i, j);
+        for (uint32_t j = i + 1; j < tree->task.n && !tree->failed; j++) test_pair(tree, i, j);
     }
     tree->steps += tree->task.n * tree->task.n / 16;
 }
@@ -136,11 +136,11 @@ static bool takes_part(const sunder_i_tree *t, uint32_t body)
 static void find_near(sunder_i_tree *t, uint32_t i)
 {
     const sunder_i_model *model = t->task.model;
-    if (!sunder_i_who_is_about(model, t->body[i], t->program.t + 2 * i, model->rules.gap, &t->near)) t->failed = true;
+    if (!sunder_i_bodies_about(model, t->body[i], t->program.t + 2 * i, model->rules.gap, &t->near)) t->failed = true;
     t->steps += 16 + t->near.n * t->task.n / 8;
 }
 
-void sunder_i_tree_meet(sunder_i_tree *tree)
+void sunder_i_tree_find_outside_conflicts(sunder_i_tree *tree)
 {
     const size_t n = tree->task.n;
     for (uint32_t i = 0; i < n && !tree->failed && tree->task.group_of; i++) {
@@ -150,8 +150,8 @@ void sunder_i_tree_meet(sunder_i_tree *tree)
             const uint32_t other = tree->near.item[k];
             if (takes_part(tree, other) || !runs_into(tree, i, other)) continue;
             if (tree->task.group_of[other] == SUNDER_I_NOBODY && tree->task.n < tree->capacity) {
-                sunder_i_tree_invite(tree, other);
-                look_at(tree, i, (uint32_t)tree->task.n - 1);
+                sunder_i_tree_add_guest(tree, other);
+                test_pair(tree, i, (uint32_t)tree->task.n - 1);
             } else if (!sunder_i_list_push(&tree->joins, other)) {
                 tree->failed = true;
             }

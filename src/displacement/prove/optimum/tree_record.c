@@ -54,7 +54,7 @@ typedef struct recording {
     size_t corner_capacity, piece_capacity;
 } recording;
 
-static bool reserve(recording *r)
+static bool reserve_record(recording *r)
 {
     const sunder_i_tree *t = r->tree;
     size_t pieces = 0;
@@ -88,7 +88,7 @@ static bool add_part(recording *r, const sunder_i_body_piece *part, size_t *firs
 
 /* Sets *number to the number of a pair's piece in the record, adding it if necessary. Returns false if memory is
  * out. */
-static bool name(recording *r, uint32_t pair, uint32_t piece, size_t *number)
+static bool name_piece(recording *r, uint32_t pair, uint32_t piece, size_t *number)
 {
     const sunder_i_tree_pair *p = &r->tree->pair[pair];
     const sunder_i_forbidden_piece *from = &p->forbidden.piece[piece];
@@ -113,7 +113,7 @@ static bool name(recording *r, uint32_t pair, uint32_t piece, size_t *number)
 static bool name_all(recording *r, uint32_t pair, uint32_t first, uint32_t n)
 {
     for (uint32_t k = first; k < first + n; k++)
-        if (!name(r, pair, r->tree->named.item[k], &r->named[k])) return false;
+        if (!name_piece(r, pair, r->tree->named.item[k], &r->named[k])) return false;
     return true;
 }
 
@@ -167,7 +167,7 @@ bool sunder_i_tree_record(const sunder_i_tree *tree, sunder_bound_tree *out)
 {
     recording r = {.tree = tree, .out = out};
     *out = (sunder_bound_tree){.bound = sunder_i_tree_bound(tree)};
-    bool ok = reserve(&r);
+    bool ok = reserve_record(&r);
     for (size_t k = 0; ok && k < tree->task.n; k++)
         r.body[k] = (sunder_bound_body){.thing = tree->task.model->member[tree->task.model->body[tree->body[k]].member],
                                         .weight = tree->weight[k],

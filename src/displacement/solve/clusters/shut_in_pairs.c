@@ -91,7 +91,7 @@ static sunder_status judge_features(const sunder_i_model *model, matter *list, s
     bool *shut = sunder_i_calloc(n, sizeof *shut);
     bool ok = pair && relaxation && shut;
     for (size_t k = 0; k < n && ok; k++) pair[k] = list[k].pair;
-    ok = ok && sunder_i_which_are_shut_in(model, list->bodies.a, list->bodies.b, pair, n, shut);
+    ok = ok && sunder_i_find_shut_in_pairs(model, list->bodies.a, list->bodies.b, pair, n, shut);
     sunder_status status = ok ? SUNDER_OK : sunder_i_no_memory(err);
     for (size_t k = 0; k < n && !status; k++) {
         status = sunder_i_relaxation_of(model, pair[k].a, pair[k].b, &relaxation[k], err);

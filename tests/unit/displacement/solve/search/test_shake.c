@@ -236,7 +236,7 @@ static void test_crowded(void **state)
     for (int k = 0; k < 2; k++) {
         grid g;
         begin(&g, WIDE, HIGH, 0, 1);
-        assert_int_equal(sunder_i_group_is_crowded(&g.of.model, k ? &crowd : &fewer, &g.group), k);
+        assert_int_equal(sunder_i_group_has_many_conflicts(&g.of.model, k ? &crowd : &fewer, &g.group), k);
         looks[k] = prove_waived(&g, k ? &crowd : &fewer);
         assert_true(g.group.bound > 0 && g.group.bound < g.group.cost);
         end(&g);
@@ -247,15 +247,15 @@ static void test_crowded(void **state)
     begin(&g, WIDE, HIGH, 0, 1);
     for (uint32_t k = 0; k < MOST - 3; k++) g.group.body[k] = k + 3;
     g.group.n = MOST - 3;
-    assert_false(sunder_i_group_is_crowded(&g.of.model, &crowd, &g.group));
+    assert_false(sunder_i_group_has_many_conflicts(&g.of.model, &crowd, &g.group));
     for (uint32_t k = 0; k < 16; k++) g.group.body[k] = k;
     g.group.n = 16;
-    assert_false(sunder_i_group_is_crowded(&g.of.model, &crowd, &g.group));
+    assert_false(sunder_i_group_has_many_conflicts(&g.of.model, &crowd, &g.group));
     g.group.body[16] = 16;
     g.group.n = 17;
-    assert_true(sunder_i_group_is_crowded(&g.of.model, &crowd, &g.group));
+    assert_true(sunder_i_group_has_many_conflicts(&g.of.model, &crowd, &g.group));
     g.of.model.body[0].fixed = true;
-    assert_false(sunder_i_group_is_crowded(&g.of.model, &crowd, &g.group));
+    assert_false(sunder_i_group_has_many_conflicts(&g.of.model, &crowd, &g.group));
     end(&g);
 }
 

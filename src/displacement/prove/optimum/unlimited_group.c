@@ -9,8 +9,8 @@
 #include "displacement/prove/optimum/optimum.h"
 #include "displacement/prove/optimum/tuning.h"
 
-bool sunder_i_group_is_free_crowd(const sunder_i_model *model, const sunder_i_waived *waived,
-                                  const sunder_i_group *group)
+bool sunder_i_group_is_unlimited(const sunder_i_model *model, const sunder_i_waived *waived,
+                                 const sunder_i_group *group)
 {
     if (group->n <= BRANCHED || sunder_i_forbids_paths(model) || model->rules.contained == SUNDER_CONTAINMENT_IGNORE)
         return false;

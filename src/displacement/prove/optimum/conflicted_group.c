@@ -39,7 +39,8 @@ size_t sunder_i_group_listed(const sunder_i_model *model, const sunder_i_waived 
     return listed;
 }
 
-bool sunder_i_group_is_crowded(const sunder_i_model *model, const sunder_i_waived *waived, const sunder_i_group *group)
+bool sunder_i_group_has_many_conflicts(const sunder_i_model *model, const sunder_i_waived *waived,
+                                       const sunder_i_group *group)
 {
     size_t movers = 0;
     for (size_t k = 0; k < group->n; k++) movers += !model->body[group->body[k]].fixed;
