@@ -1,10 +1,10 @@
-/* The branches of a branch and bound: in which direction does a pair separate, and which of its cases are infeasible?
+/* The branches of a branch and bound: to which side does a pair separate, and which of its cases are infeasible?
  *
- * Depth first. A node whose program is infeasible is a leaf. Otherwise the candidate violates some distances between
- * pieces; one such pair is chosen, and each of its ways (half_planes.c) is a case: beyond this line, and behind the
- * lines of the earlier cases. If the proof of a case does not use the case's own claim, it is a proof of the node as
- * well, and the other cases are skipped: so choices unrelated to a contradiction do not multiply it [conflict-directed
- * backjumping, Pro93]. */
+ * The search is depth first. A node whose program is infeasible is a leaf. Otherwise the candidate violates some
+ * distances between pieces. One such pair is chosen, and each of its half-planes ("ways", half_planes.c) is a case: the
+ * pair is beyond this line, and behind the lines of the earlier cases. If the proof of a case does not use the case's
+ * own claim, it proves the node as well, and the other cases are skipped. So choices that are unrelated to a
+ * contradiction do not multiply it [conflict-directed backjumping, Pro93]. */
 #include "displacement/prove/proofs/branching.h"
 #include "displacement/prove/proofs/tuning.h"
 
@@ -16,7 +16,7 @@
 
 #define TURN 6.28318530717958647692
 
-/* ---- Which pair next --------------------------------------------------------------------------------------------- */
+/* ---- The choice of the next pair --------------------------------------------------------------------------------- */
 
 /* A convex polygon, counter-clockwise. */
 typedef struct area {
@@ -24,7 +24,7 @@ typedef struct area {
     double xy[2 * MOST_CORNERS];
 } area;
 
-/* Keeps what has n.u >= d; a cut that would make too many corners is left out. */
+/* Clips the polygon to n.u >= d. A cut that would make too many corners is not made. */
 static void cut(area *p, const double n[2], double d)
 {
     area out = {.n = 0};
@@ -65,7 +65,7 @@ static area room_of(const sunder_i_branching *c, const sunder_i_violation *o)
     return room;
 }
 
-/* How many ways are open to a pair, roughly, at most `most`. */
+/* Returns roughly how many of the `ways` half-planes in c->scratch are open to a pair; stops counting at `most`. */
 static size_t count_ways(const sunder_i_branching *c, const sunder_i_violation *o, size_t ways, size_t most)
 {
     const area room = room_of(c, o);
@@ -79,7 +79,8 @@ static size_t count_ways(const sunder_i_branching *c, const sunder_i_violation *
     return open;
 }
 
-/* The one with the fewest ways open; its ways are then in c->scratch. */
+/* Chooses the violation with the fewest open half-planes, and returns its index. Its half-planes, *ways of them, are
+ * then in c->scratch. */
 static size_t choose(sunder_i_branching *c, const sunder_i_violation *deepest, size_t n, size_t *ways)
 {
     size_t best = 0, fewest = SIZE_MAX;
@@ -185,7 +186,7 @@ bool sunder_i_branching_push(sunder_i_branching *branching, uint32_t i, uint32_t
     return true;
 }
 
-/* Are the claims those of both walls, and no others? Then the body between them stays where it is (corridor.c). */
+/* Are the claims exactly those of the two walls? Then the body between them stays where it is (corridor.c). */
 static bool is_between(const sunder_i_branching *c, unsigned level)
 {
     bool between = c->walls == 2 && level == 1 && c->claims == 2;
@@ -201,7 +202,7 @@ static void set_still(sunder_i_branching *c, bool still)
     c->limit[at] = still ? 0 : sunder_i_branching_limit(c, &c->model->body[c->between]);
 }
 
-/* The cases of a node, one after the other, from the candidate that is there. */
+/* Searches the cases of a node one after the other, each from the present candidate. */
 static sunder_status search_cases(sunder_i_branching *c, const sunder_i_violation *o, size_t node, unsigned level,
                                   sunder_i_verdict *verdict, sunder_i_levels *levels, size_t *root, sunder_error *err)
 {
@@ -240,7 +241,7 @@ static sunder_status search_cases(sunder_i_branching *c, const sunder_i_violatio
             break;
         }
         for (size_t k = 0; k < sizeof used.bit / sizeof *used.bit; k++) levels->bit[k] |= used.bit[k];
-        /* The next ways are searched behind this line. A line beyond the limits of all needs no such claim. */
+        /* The next cases are searched behind this line. A line beyond all limits needs no such claim. */
         c->claims = before;
         if (!dead && !sunder_i_branching_push(c, i, j, node, way, true, level)) status = sunder_i_no_memory(err);
     }
@@ -250,7 +251,8 @@ static sunder_status search_cases(sunder_i_branching *c, const sunder_i_violatio
     return status;
 }
 
-/* What the candidate violates; where that seems to be nothing, and is to be said of it, by lines made for it. */
+/* Finds the violations of the candidate. If there seem to be none, and an exact answer is wanted, half-planes made for
+ * the candidate are used. Returns their number. */
 static size_t look(sunder_i_branching *c, sunder_i_violation deepest[SUNDER_I_CHOICES])
 {
     size_t n = sunder_i_branching_violations(c, deepest);
@@ -261,7 +263,7 @@ static size_t look(sunder_i_branching *c, sunder_i_violation deepest[SUNDER_I_CH
     return n;
 }
 
-/* The branches of a wall, from where all stand. */
+/* Searches the branches of a wall, with all bodies at their original positions. */
 static sunder_status search_wall(sunder_i_branching *c, unsigned level, sunder_i_verdict *verdict,
                                  sunder_i_levels *levels, size_t *root, sunder_error *err)
 {
@@ -281,7 +283,8 @@ static sunder_status search_wall(sunder_i_branching *c, unsigned level, sunder_i
 }
 
 /* A body that is not beyond a wall of an overlap may leave the overlap by its other side, or its end, with all of its
- * pieces. Finds the pair that is deepest under the candidate's slack; false: the slack separates them all. */
+ * pieces. Finds the pair of pieces that is deepest under the candidate's slack. Returns false if the slack separates
+ * them all. */
 static bool find_left(sunder_i_branching *c, sunder_i_violation *deepest)
 {
     *deepest = (sunder_i_violation){.depth = 2 * c->hair};

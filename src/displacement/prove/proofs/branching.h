@@ -1,5 +1,5 @@
-/* The state of a branch and bound over a few bodies (feasibility.c), and its parts: one node's program, what its
- * candidate violates, the branches, the record of the proof. */
+/* The state of a branch and bound over a few bodies (feasibility.c), and its parts: the program of one node, the
+ * violations of its candidate, the branches, the record of the proof. */
 #ifndef SUNDER_I_BRANCHING_H
 #define SUNDER_I_BRANCHING_H
 
@@ -10,10 +10,10 @@
 
 #include <math.h>
 
-/* No deeper than this. */
+/* The greatest depth of the tree. */
 #define SUNDER_I_LEVELS 192
 
-/* Violations of a candidate that are weighed against each other. */
+/* The number of violations of a candidate that are compared. */
 #define SUNDER_I_CHOICES 8
 
 /* A set of levels. */
@@ -41,50 +41,50 @@ static inline void sunder_i_levels_join(sunder_i_levels *s, const sunder_i_level
     for (size_t k = 0; k < sizeof s->bit / sizeof *s->bit; k++) s->bit[k] |= more->bit[k];
 }
 
-/* A feature that is held to an overlap with a barrier: what stands for the translation that parts them takes part like
- * a body, whose limit is how long that may be. */
+/* The slack of a feature that may keep an overlap with a barrier: the translation that has to separate the two. It
+ * takes part like a body, whose limit is the greatest length of the translation. */
 typedef struct sunder_i_slack {
     const sunder_i_requirement *required;
     uint32_t place;
 } sunder_i_slack;
 
-/* What a branch of the tree says: that a pair is beyond a line, or behind it. */
+/* The claim of a branch: a pair is beyond a line, or behind it. */
 typedef struct sunder_i_claim {
-    uint32_t i, j;  /* places in sunder_i_branching.body, or SUNDER_I_GROUND: what does not move */
-    double n[2], d; /* n.(t_j - t_i) >= d */
-    double force;   /* in the last program */
+    uint32_t i, j;  /* places in sunder_i_branching.body, or SUNDER_I_GROUND for what does not move */
+    double n[2], d; /* the claim is n.(t_j - t_i) >= d */
+    double force;   /* its multiplier in the last program */
     size_t node, way;
     bool behind;
-    unsigned level; /* the branch that makes the claim */
+    unsigned level; /* the level of the branch that makes the claim */
 } sunder_i_claim;
 
-/* A chord across the corner that two sides share, in the shadows of both (corner_chord.c). */
+/* A segment across the corner that two sides share, which lies in the shadows of both (corner_chord.c). */
 typedef struct sunder_i_chord {
     double at[4]; /* its ends, beyond side[0] and side[1] */
     const sunder_i_side *side[2];
 } sunder_i_chord;
 
-/* A node of the tree, as of sunder_proof_node; its parts are pieces of the model. */
+/* A node of the tree, as sunder_proof_node; its parts are pieces of the model. */
 typedef struct sunder_i_node {
-    uint32_t a, b; /* features */
+    uint32_t a, b; /* the two features */
     const sunder_i_body_piece *part_a, *part_b;
     double clearance;
     bool shadow; /* one part is an anchor, which may not pass the other */
-    bool slack;  /* the ways are those of the second part when it is moved by the pair's slack */
-    bool held;   /* the clearance is what the pair stood apart, exactly */
+    bool slack;  /* the half-planes are for the second part moved by the pair's slack */
+    bool held;   /* the clearance is exactly the distance of the pair at the start */
     size_t way, ways, force, forces;
-    bool still; /* a leaf: between the lines of two ways a body stays where it is */
+    bool still; /* a leaf in which a body between the lines of two half-planes stays where it is */
     size_t line_node[2], line_way[2];
-    size_t chord; /* which stands for the second part, which is its first side; SIZE_MAX: none */
+    size_t chord; /* the chord that replaces the second part, which is its first side; SIZE_MAX: none */
 } sunder_i_node;
 
-/* A listed pair of a movable and a fixed thing, and a line that it may not cross, exactly: n.u >= 0, n of doubles and
- * about 1 long. */
+/* A listed pair of a movable and a fixed thing, and a line that it may not cross, exactly: n.u >= 0, where n is a
+ * vector of doubles, about 1 long. */
 typedef struct sunder_i_corridor_wall {
-    const sunder_i_body_piece *a, *b; /* a: the piece of the movable one */
+    const sunder_i_body_piece *a, *b; /* a: the piece of the movable thing; b: that of the fixed one */
     double clearance, n[2];
-    /* NULL; or the pair is held to this overlap, and n.(u + v) >= d, with v its slack: since d exceeds what v can
-     * contribute, n.u >= 0 follows. */
+    /* NULL, or: the pair may keep this overlap, and n.(u + v) >= d with v its slack. Since d exceeds the greatest n.v,
+     * n.u >= 0 follows. */
     const sunder_i_requirement *slack;
     double d;
 } sunder_i_corridor_wall;
@@ -92,21 +92,22 @@ typedef struct sunder_i_corridor_wall {
 typedef struct sunder_i_branching {
     const sunder_i_subproblem *subproblem;
     const sunder_i_model *model;
-    /* Those that may move and take part so far, in the order in which they came in. */
-    uint32_t *body;                           /* SUNDER_I_NOBODY: a slack */
-    double *limit, *t, *shift, *net, *weight; /* t: the candidate; shift: from the last one, the program's */
+    /* The movable bodies and slacks that take part, in the order in which they joined. */
+    uint32_t *body;                           /* SUNDER_I_NOBODY for a slack */
+    double *limit, *t, *shift, *net, *weight; /* t: the candidate; shift: the program's solution, relative to the last
+                                               * candidate */
     size_t bodies;
     sunder_i_slack *slack;
     size_t slacks, slack_capacity;
     size_t body_capacity, limit_capacity, t_capacity, shift_capacity, net_capacity, weight_capacity;
-    double longest;        /* limit */
-    double hair;           /* a length far below the limits, and far above rounding */
-    uint64_t looked;       /* work done besides the programs' */
-    sunder_i_claim *claim; /* what the branches down to the node at hand say */
+    double longest;        /* the longest limit */
+    double hair;           /* a length far below the limits, and far above rounding errors */
+    uint64_t looked;       /* the work done, except for the programs */
+    sunder_i_claim *claim; /* the claims of the branches down to the present node */
     size_t claims, claim_capacity;
     sunder_i_quadratic program;
     sunder_i_nearest nearest;
-    /* The record. */
+    /* The record of the tree. */
     sunder_i_node *node;
     size_t nodes, node_capacity;
     sunder_i_half_plane *way;
@@ -117,10 +118,11 @@ typedef struct sunder_i_branching {
     size_t chords, chord_capacity;
     sunder_i_half_plane *scratch;
     size_t scratch_capacity;
-    struct sunder_i_half_planes_kept *kept; /* NULL, or ways computed before (half_planes_kept.c) */
+    struct sunder_i_half_planes_kept *kept; /* NULL, or a cache of half-planes (half_planes_kept.c) */
     sunder_i_list near;
-    bool closely; /* lines are made for the candidate (half_planes.h) */
-    /* Two walls, opposite to each other, or none: the first branches. The body between them, and whether it is. */
+    bool closely; /* half-planes are made for the candidate (half_planes.h) */
+    /* Two opposite walls, or none: they are the first branches. The body between them, and whether it is between them
+     * now. */
     sunder_i_corridor_wall wall[2];
     size_t walls;
     uint32_t between;
@@ -128,7 +130,8 @@ typedef struct sunder_i_branching {
     bool failed; /* memory is out */
 } sunder_i_branching;
 
-/* Work so far, and whether the work, or the number of participants, exceeds its limit. */
+/* Returns the work done; the next function returns whether the work, or the number of participants, exceeds its
+ * limit. */
 static inline uint64_t sunder_i_branching_work(const sunder_i_branching *c) { return c->looked + c->program.work; }
 
 static inline bool sunder_i_branching_is_over(const sunder_i_branching *c)
@@ -136,7 +139,7 @@ static inline bool sunder_i_branching_is_over(const sunder_i_branching *c)
     return sunder_i_branching_work(c) > c->subproblem->effort || c->bodies > c->subproblem->most;
 }
 
-/* How far a body may go. */
+/* Returns the longest move of a body; a substitute if it has no limit and the subproblem sets one. */
 static inline double sunder_i_branching_limit(const sunder_i_branching *c, const sunder_i_body *body)
 {
     const double limit = sunder_i_limit_of(body);
@@ -145,89 +148,93 @@ static inline double sunder_i_branching_limit(const sunder_i_branching *c, const
 
 /* ---- participants.c ---------------------------------------------------------------------------------------------- */
 
-/* The place of a body among those that take part; SUNDER_I_GROUND: it is none of them, or cannot move. */
+/* Returns the place of a body among the participants; SUNDER_I_GROUND if it does not take part or cannot move. */
 uint32_t sunder_i_branching_place(const sunder_i_branching *branching, uint32_t body);
-/* The same, and it is taken in if it was not there; SUNDER_I_GROUND: it cannot move. */
+/* Returns the place of a body, and adds it if necessary; SUNDER_I_GROUND if it cannot move. */
 uint32_t sunder_i_branching_join(sunder_i_branching *branching, uint32_t body);
-/* The place of a slack; SUNDER_I_GROUND: it does not take part. And it is taken in if it was not there. */
+/* Returns the place of a slack; SUNDER_I_GROUND if it does not take part. The second function adds it if necessary. */
 uint32_t sunder_i_branching_slack(const sunder_i_branching *branching, const sunder_i_requirement *required);
 uint32_t sunder_i_branching_join_slack(sunder_i_branching *branching, const sunder_i_requirement *required);
-/* Those that take part from the first-th place on stand where they begin: at home, slacks at what parted their pairs.
- */
+/* Sets the candidate of the participants from place `first` on to its initial value: bodies at their original
+ * positions, slacks at the translation that separated their pairs. */
 void sunder_i_branching_begin(sunder_i_branching *branching, size_t first);
-/* Takes in those of the reserve that could meet one that takes part; false if there are none. */
+/* Adds the bodies of the reserve that could meet a participant. Returns false if there are none. */
 bool sunder_i_branching_widen(sunder_i_branching *branching);
-/* What is asked of two things that are not held to less, rounded down. */
+/* Returns the distance asked of two things without a reduced requirement, rounded down. */
 double sunder_i_branching_owed(const sunder_i_subproblem *subproblem, uint32_t f, uint32_t g);
-/* Do features f and g of two bodies owe each other a distance? Then *clearance is set to it. */
+/* Do the features f and g of two bodies owe each other a distance? If so, sets *clearance to it. */
 bool sunder_i_branching_owe(const sunder_i_branching *branching, uint32_t f, uint32_t g, double *clearance);
-/* Is f heeded, or are its ways? */
+/* Do the rules on paths (jumps, sides) of feature f count in this subproblem? */
 bool sunder_i_branching_is_way_heeded(const sunder_i_branching *branching, uint32_t f);
-/* May f, of another body, not jump over g, or if g is part of a barrier cross its sides? */
+/* Is it forbidden that feature f jumps over g, a feature of another body, or that f crosses the sides of g, a part of a
+ * barrier? */
 bool sunder_i_branching_shades(const sunder_i_branching *branching, uint32_t f, uint32_t g);
 
 /* ---- program.c --------------------------------------------------------------------------------------------------- */
 
 typedef enum sunder_i_node_outcome {
-    SUNDER_I_NODE_INFEASIBLE, /* what the claims say contradicts the limits, proved by their forces */
-    SUNDER_I_NODE_CANDIDATE,  /* t is as the claims say, up to a hair */
-    SUNDER_I_NODE_UNDECIDED   /* too near to call */
+    SUNDER_I_NODE_INFEASIBLE, /* the claims contradict the limits, proved by their forces */
+    SUNDER_I_NODE_CANDIDATE,  /* t satisfies the claims, up to a hair */
+    SUNDER_I_NODE_UNDECIDED   /* neither could be shown */
 } sunder_i_node_outcome;
 
 sunder_status sunder_i_branching_solve(sunder_i_branching *branching, sunder_i_node_outcome *outcome,
                                        sunder_error *err);
-/* Is the last claim, alone or with another of the same pair, more than the limits allow? Then the forces are set to say
- * so. */
+/* Does the last claim, alone or with another of the same pair, contradict the limits? If so, the forces prove it. */
 bool sunder_i_branching_is_dead_end(sunder_i_branching *branching);
 
-/* Do the claims contradict the limits, by the forces that they have? Proved, with all rounding. */
+/* Is it proved, with all rounding, that the claims contradict the limits, by their present forces? */
 bool sunder_i_branching_is_contradiction(sunder_i_branching *branching);
 
-/* Do these claims of one pair, at most three, contradict the limits? Then the forces are set to say so. */
+/* Do these n claims of one pair, at most three, contradict the limits? If so, the forces prove it. */
 bool sunder_i_branching_contradict(sunder_i_branching *branching, const uint32_t *claim, size_t n);
 
 /* ---- violations.c ------------------------------------------------------------------------------------------------ */
 
-/* Two convex pieces that the candidate has nearer than they owe; or an anchor, and a piece that it passed. */
+/* Two convex pieces that are nearer in the candidate than they owe; or an anchor, and a piece that it passed. */
 typedef struct sunder_i_violation {
     uint32_t p, q; /* bodies; p takes part, q may not yet */
     const sunder_i_body_piece *a, *b;
     double clearance, depth;
-    const sunder_i_requirement *slack; /* NULL, or the pair: a belongs to the feature and b to the barrier */
-    bool shadow;                       /* a or b is an anchor, and in the shadow of the other */
+    const sunder_i_requirement *slack; /* NULL, or the pair's requirement: then a belongs to the feature and b to the
+                                        * barrier */
+    bool shadow;                       /* a or b is an anchor in the shadow of the other */
     bool known;                        /* it adds no participant: both take part already, or one of them never moves */
-    bool closely;                      /* as of sunder_i_branching */
+    bool closely;                      /* as in sunder_i_branching */
     bool held;                         /* it is a wall */
-    const sunder_i_chord *chord;       /* NULL, or the piece that replaces b */
+    const sunder_i_chord *chord;       /* NULL, or the chord that replaces b */
 } sunder_i_violation;
 
-/* The deepest of the candidate's, one of each pair of bodies: known ones first, the deepest first. Returns how many. */
+/* Finds the deepest violations of the candidate, one for each pair of bodies, those that add no participant first, then
+ * by depth. Returns their number. */
 size_t sunder_i_branching_violations(sunder_i_branching *branching, sunder_i_violation deepest[SUNDER_I_CHOICES]);
-/* The ways between two pieces of bodies p and q: into branching->scratch. at: NULL, or as in half_planes.h. Returns how
- * many.
- */
+/* Computes the half-planes in which two pieces of bodies p and q are separated, in branching->scratch. at: NULL, or a
+ * relative move for which they are made (half_planes.h). Returns their number. */
 size_t sunder_i_branching_fill_ways(sunder_i_branching *branching, const sunder_i_body *p, const sunder_i_body_piece *a,
                                     const sunder_i_body *q, const sunder_i_body_piece *b, double clearance, bool shadow,
                                     const double *at);
-/* The same without a place, cached for repeated use: *n of them, valid until the next call. */
+/* The same without a relative move, from a cache: returns *n half-planes, valid until the next call. */
 const sunder_i_half_plane *sunder_i_branching_keep_ways(sunder_i_branching *branching, const sunder_i_body *p,
                                                         const sunder_i_body_piece *a, const sunder_i_body *q,
                                                         const sunder_i_body_piece *b, double clearance, bool shadow,
                                                         size_t *n);
 void sunder_i_branching_forget_ways(sunder_i_branching *branching);
-/* How far a relative move is from the first of the ways in branching->scratch; -INFINITY: there are none. */
+/* Returns the depth of relative move u behind all of the first `ways` half-planes in branching->scratch; -INFINITY if
+ * there are none. */
 double sunder_i_branching_depth(const sunder_i_branching *branching, size_t ways, const double u[2]);
-/* The ways out of one, nearest to the candidate first: into branching->scratch. Returns how many. */
+/* Computes the half-planes of a violation, nearest to the candidate first, in branching->scratch. Returns their
+ * number. */
 size_t sunder_i_branching_ways(sunder_i_branching *branching, const sunder_i_violation *violation);
 
 /* ---- branches.c -------------------------------------------------------------------------------------------------- */
 
-/* Goes through the branches below the claims as they are. levels: of those that the proof needs; *root: its node. */
+/* Searches the branches below the present claims. *levels: the levels whose claims the proof needs; *root: its node. */
 sunder_status sunder_i_branching_search(sunder_i_branching *branching, unsigned level, sunder_i_verdict *verdict,
                                         sunder_i_levels *levels, size_t *root, sunder_error *err);
 
-/* A node for the contradiction that the claims' forces prove, whose levels are told; one for a violation, with the ways
- * out of it that are in branching->scratch; and the claim of one of its cases. False if memory is out. */
+/* The first function adds a leaf for the contradiction that the claims' forces prove, and sets *levels to the levels of
+ * these claims. The second adds a node for a violation, with the half-planes in branching->scratch. The third appends
+ * the claim of one of its cases. All return false if memory is out. */
 bool sunder_i_branching_add_leaf(sunder_i_branching *branching, sunder_i_levels *levels, size_t *root);
 bool sunder_i_branching_add_branch(sunder_i_branching *branching, const sunder_i_violation *violation, size_t ways,
                                    size_t *root);
@@ -236,56 +243,61 @@ bool sunder_i_branching_push(sunder_i_branching *branching, uint32_t i, uint32_t
 
 /* ---- corner_chord.c ---------------------------------------------------------------------------------------------- */
 
-/* The side that has that piece. */
+/* Returns the side of a barrier that has this piece. */
 const sunder_i_side *sunder_i_branching_side_of(const sunder_i_model *model, const sunder_i_body_piece *piece);
-/* A chord for the sides from b to p and from b to q, as the anchor a sees them; false: there is none. */
+/* Computes a chord across the corner of the sides from b to p and from b to q, seen from the anchor a. Returns false if
+ * there is none. */
 bool sunder_i_branching_make_chord(const double a[2], const double b[2], const double p[2], const double q[2],
                                    double chord[4]);
-/* The ways past a chord whose first side is of body q: into branching->scratch. Returns how many. */
+/* Computes the half-planes past a chord whose first side belongs to body q, in branching->scratch. Returns their
+ * number. */
 size_t sunder_i_branching_chord_ways(sunder_i_branching *branching, const sunder_i_body *p,
                                      const sunder_i_body_piece *anchor, const sunder_i_body *q, const double chord[4]);
 
 /* ---- corridor.c -------------------------------------------------------------------------------------------------- */
 
-/* Are there two walls that leave this body, which takes part, no place but its own? Then they are branching->wall. */
+/* Looks for two walls that leave the participating body no place except its own; sets branching->wall. */
 sunder_status sunder_i_branching_find_corridor(sunder_i_branching *branching, uint32_t body, sunder_error *err);
-/* The ways out of one, that beyond its line first: into branching->scratch. Returns how many; 0: none are found. */
+/* Computes the half-planes of a wall in branching->scratch, the one beyond its line first. Returns their number; 0 if
+ * the line is not found among them. */
 size_t sunder_i_branching_wall_ways(sunder_i_branching *branching, const sunder_i_corridor_wall *wall);
 
 /* ---- plane.c ----------------------------------------------------------------------------------------------------- */
 
-/* What the plane of one relative move tells of a subproblem. */
+/* The answer to a subproblem that concerns only one relative move. */
 typedef struct sunder_i_plane_answer {
-    sunder_i_verdict verdict; /* feasible only if all other things asked about are irrelevant */
-    double u[2];              /* then: the move of q less that of p */
+    sunder_i_verdict verdict; /* feasible only if no other thing that is asked about matters */
+    double u[2];              /* if feasible or free: the move of q less that of p */
     uint32_t p, q;            /* bodies; q may be SUNDER_I_GROUND */
-    bool free;                /* a place was met where nothing is forbidden */
+    bool free;                /* a place was found where nothing is forbidden */
     size_t root;
 } sunder_i_plane_answer;
 
-/* The question of the one body of a subproblem that may move, among what stands, or of its two. */
+/* Decides a subproblem with one movable body among fixed things, or about the relative move of its two movable
+ * bodies. */
 sunder_status sunder_i_branching_plane(sunder_i_branching *branching, sunder_i_plane_answer *answer, sunder_error *err);
-/* The same of some places alone: feasible if nothing is in the way at one of them, else unknown. */
+/* The same for n places only: feasible if nothing forbids one of them, else unknown. */
 sunder_status sunder_i_branching_plane_try(sunder_i_branching *branching, const double (*at)[2], size_t n,
                                            sunder_i_plane_answer *answer, sunder_error *err);
-/* The bodies that the plane is about; false: it is about none. */
+/* Sets *p and *q to the bodies whose relative move the subproblem concerns. Returns false if it concerns more. */
 bool sunder_i_branching_plane_bodies(const sunder_i_branching *branching, uint32_t *p, uint32_t *q);
 
 /* ---- precedents.c ------------------------------------------------------------------------------------------------ */
 
-/* What is known of those bodies. */
+/* Returns the entry of bodies p and q. The next function records a free place in an entry. */
 sunder_i_precedent *sunder_i_precedents_take(sunder_i_precedents *precedents, uint32_t p, uint32_t q);
 void sunder_i_precedent_note_place(sunder_i_precedent *precedent, const double u[2]);
-/* False if memory is out. */
+/* Records the things that a proof uses. Returns false if memory is out. */
 bool sunder_i_precedent_note_proof(sunder_i_precedent *precedent, const sunder_i_model *model,
                                    const sunder_proof *proof, bool fine);
-/* The things that may suffice for a proof, among those asked about; 0: no fewer than all. */
+/* Sets `set` to the things that may suffice for a proof, among those asked about, and returns their number; 0 if these
+ * are all. */
 size_t sunder_i_precedent_things(const sunder_i_precedent *precedent, const sunder_i_subproblem *asked,
                                  uint32_t set[SUNDER_I_PRECEDENT_THINGS + 2]);
 
 /* ---- proof_record.c ---------------------------------------------------------------------------------------------- */
 
-/* The part of the record below a node, by itself. NULL if memory is out. */
+/* Returns the part of the record below a node as a proof. Returns NULL if memory is out. */
 sunder_proof *sunder_i_proof_of(const sunder_i_branching *branching, size_t root);
 
 #endif

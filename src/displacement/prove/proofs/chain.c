@@ -1,9 +1,9 @@
 /* A proof by chains of pushes: finds the forces of long chains directly, which branching would find one link at a time.
  *
- * Where limits leave two pieces only one way past each other, every solution keeps n.(t_j - t_i) >= d. Along a chain of
- * such links, each with a force of 1, the sum of program.c is the sum of all d, less the limits' share at each body: L
- * |n - n'| between two links, L at an end, 0 at a fixed thing. Let t be the moves of the result, which satisfy every
- * pair except the one in question. Then the sum equals the violation of that pair's own d, less
+ * If limits leave two pieces only one way past each other, every solution satisfies one inequality n.(t_j - t_i) >= d,
+ * a *link*. Along a chain of links, each with a force of 1, the sum of program.c is the sum of all d, less the limits'
+ * share at each body: L |n - n'| between two links, L at an end, 0 at a fixed thing. Let t be the moves of the result,
+ * which satisfy every pair except the one in question. Then the sum equals the violation of that pair's own d, less
  *
  *     the slack n.(t_j - t_i) - d of each link,
  *     L |n - n'| - t.(n - n') at each body between two, and L - t.n at the end,
@@ -12,10 +12,10 @@
  * as in [Joh77], and the search stops where the cost reaches the pair's violation: in a row without slack it ends at
  * once, in a row in its original place it ends with the row.
  *
- * Every way that limits leave the pair needs its own chain. The proof has a node for each link, whose other ways
- * contradict the limits of its two bodies, and a leaf with the forces of the chain, summed as in every proof; so a near
- * miss is never called proved. Only links between bodies of the cluster are used, since the final places of others are
- * not known.
+ * Every half-plane that limits leave the pair needs its own chain. The proof has a node for each link, whose other
+ * half-planes contradict the limits of its two bodies, and a leaf with the forces of the chain, summed as in every
+ * proof; so a near miss is never called proved. Only links between bodies of the cluster are used, since the final
+ * places of others are not known.
  *
  * Links at the ends of a chain that are not needed are dropped; a chain cannot do without an inner link. */
 #include "displacement/prove/proofs/chain.h"
@@ -39,7 +39,7 @@ static bool comes_before(const void *a, const void *b)
     return p->cost != q->cost ? p->cost < q->cost : p->link < q->link;
 }
 
-/* What it costs that a body is pushed along n, and pushes along m; or ends the chain. */
+/* Returns the cost at a body that is pushed along n and pushes along m; with m NULL, at the end of the chain. */
 static double turn(const sunder_i_chains *g, uint32_t body, const double n[2], const double m[2])
 {
     const double limit = sunder_i_limit_of(&g->of.model->body[body]);
@@ -56,11 +56,12 @@ static bool is_pair(const sunder_i_chains *g, const sunder_i_chain_link *k, cons
     return (a == q->a && b == q->b) || (a == q->b && b == q->a);
 }
 
-/* From a body that is pushed along n, by way of `from`, to all that it may push. False if memory is out. */
+/* Continues from a body that is pushed along n, through link `from`, to all bodies that it may push. Returns false if
+ * memory is out. */
 static bool push_on(sunder_i_chains *g, const sunder_i_subproblem *q, uint32_t body, const double n[2], uint32_t from,
                     double cost, double most)
 {
-    const double along[2] = {n[0], n[1]}; /* links move */
+    const double along[2] = {n[0], n[1]}; /* the array of links may be moved */
     if (sunder_i_limit_of(&g->of.model->body[body]) == 0) return true;
     const sunder_i_chain_links *of = sunder_i_chains_find(g, body);
     if (!of) return false;
@@ -79,8 +80,8 @@ static bool push_on(sunder_i_chains *g, const sunder_i_subproblem *q, uint32_t b
     return true;
 }
 
-/* The cheapest end of a chain that begins where a body is pushed along n, if it costs less than `most`, which is then
- * what it costs; *last: its last link, or none. False if memory is out. */
+/* Finds the cheapest end of a chain that begins at a body pushed along n. *found is set if it costs less than *most,
+ * which then becomes its cost; *last is its last link, or SUNDER_I_NO_LINK. Returns false if memory is out. */
 static bool find_end(sunder_i_chains *g, const sunder_i_subproblem *q, uint32_t body, const double n[2], uint32_t *last,
                      double *most, bool *found)
 {
@@ -111,15 +112,15 @@ static bool find_end(sunder_i_chains *g, const sunder_i_subproblem *q, uint32_t 
 
 /* ---- Both ends of a pair ----------------------------------------------------------------------------------------- */
 
-/* The links of one end, from the pair on, and what each costs if it is the last; before these what it costs that there
- * is none. */
+/* The links on one side of the pair, from the pair on. end[k] is the cost of the chain of the first k links, so
+ * `end[0]` is the cost of an empty chain. */
 typedef struct half {
     uint32_t *link;
     double *end; /* [n + 1] */
     size_t n, capacity, end_capacity;
 } half;
 
-/* Those up to `last`. False if memory is out. */
+/* Stores the links up to `last`. Returns false if memory is out. */
 static bool take_half(const sunder_i_chains *g, uint32_t body, const double n[2], uint32_t last, half *out)
 {
     out->n = 0;
@@ -137,7 +138,7 @@ static bool take_half(const sunder_i_chains *g, uint32_t body, const double n[2]
     return true;
 }
 
-/* The fewest links of both that cost less than `most`; false: there are none. */
+/* Finds the fewest links of both halves whose chain costs less than `most`. Returns false if there are none. */
 static bool shorten(const half of[2], double most, size_t keep[2])
 {
     const size_t all = of[0].n + of[1].n;
@@ -162,7 +163,7 @@ static bool append(sunder_i_pushing *chain, const half of[2], const size_t keep[
     return true;
 }
 
-/* A chain for a way of the pair's pieces; *found. False if memory is out. */
+/* Finds a chain for a half-plane of the pair's pieces; *found. Returns false if memory is out. */
 static bool find_chain(sunder_i_chains *g, const sunder_i_subproblem *q, const sunder_i_chain_link *pair,
                        const sunder_i_half_plane *way, half of[2], sunder_i_pushing *chain, bool *found)
 {
@@ -201,7 +202,7 @@ typedef struct finding {
     size_t way_capacity, chain_capacity;
 } finding;
 
-/* Is it another way than those before it are? */
+/* Is half-plane k open, considering that it is a case behind the open ones before it? */
 static bool is_open(const sunder_i_half_plane *way, size_t k, const bool *open, double reach)
 {
     bool is = sunder_i_chain_is_open(&way[k], reach);
@@ -210,7 +211,7 @@ static bool is_open(const sunder_i_half_plane *way, size_t k, const bool *open, 
     return is;
 }
 
-/* Do all links of a chain go along nearly the same line? */
+/* Are all links of a chain nearly on the same line? */
 static bool is_straight(const sunder_i_chains *g, const sunder_i_half_plane *way, const sunder_i_pushing *chain)
 {
     bool is = true;
@@ -221,7 +222,7 @@ static bool is_straight(const sunder_i_chains *g, const sunder_i_half_plane *way
     return is;
 }
 
-/* The two pieces of the pair; each open way needs a chain. False if memory is out. */
+/* Tests two pieces of the pair: each open half-plane needs a chain. Returns false if memory is out. */
 static bool ask_pieces(finding *f, const sunder_i_chain_link *pair)
 {
     sunder_i_chains *g = f->g;
@@ -258,14 +259,14 @@ static bool ask_pieces(finding *f, const sunder_i_chain_link *pair)
     return ok && !failed;
 }
 
-/* All pieces of a thing and another that are near: until there is a proof. False if memory is out. */
+/* Tests all near pieces of things a and b until there is a proof. Returns false if memory is out. */
 static bool ask_things(finding *f, uint32_t a, uint32_t b)
 {
     const sunder_i_model *model = f->g->of.model;
     const uint32_t i = model->body_of[a], j = model->body_of[b];
     const sunder_i_body *p = &model->body[i], *r = &model->body[j];
     double clearance;
-    f->g->of.a = f->q->a; /* links belong to the remaining pairs */
+    f->g->of.a = f->q->a; /* the pair in question owes its full distance only here, not in links */
     f->g->of.b = f->q->b;
     const bool owe = sunder_i_branching_owe(&f->g->branching, a, b, &clearance);
     f->g->of.a = f->g->of.b = SUNDER_I_NOBODY;
@@ -290,7 +291,7 @@ static bool ask_things(finding *f, uint32_t a, uint32_t b)
     return true;
 }
 
-/* The same for all parts of a barrier. */
+/* Tests all parts of a barrier in the same way. */
 static bool ask_parts(finding *f, uint32_t a, uint32_t barrier)
 {
     const sunder_i_model *model = f->g->of.model;
@@ -330,7 +331,7 @@ sunder_status sunder_i_chains_decide(sunder_i_chains *chains, const sunder_i_sub
     return ok && sunder_i_look() ? SUNDER_OK : sunder_i_no_memory(err);
 }
 
-/* ---- Of a cluster ------------------------------------------------------------------------------------------------ */
+/* ---- The chains of a cluster ------------------------------------------------------------------------------------- */
 
 sunder_i_chains *sunder_i_chains_new(const sunder_i_subproblem *cluster, bool all)
 {

@@ -1,16 +1,16 @@
-/* The shortest chain through a pair if every pair owes its full distance, listed or not: it proves that these few
- * cannot all be solved, whatever happens elsewhere.
+/* The shortest chain through a pair if every pair owes its full distance, whether it is listed or not. It proves that
+ * these few pairs cannot all be solved, whatever happens elsewhere.
  *
  * No positions are known here, and the sums are those at the start: along a row the d of each link, less L |n - n'| at
  * each body between two and L at the end (chain.c). The gain of a link may have either sign, so there are no
  * potentials. But chains are short, and are built one link at a time from either end of the pair: of the chains of k
- * links the best few are kept. The shortest pair of ends that together have a positive sum are the chain,
+ * links the best few are kept. The result is the shortest pair of ends whose sum with the pair is positive,
  *
  *       o <- o <- (i   j) -> o -> o -> o
  *      one end     pair     the other
  *
- * provided that no proper part of it, without one or both ends, is positive by itself: then every member is needed, as
- * far as chains tell. A positive part without the pair is a reason of its own, for other pairs. */
+ * provided that no proper part of it, without one or both ends, has a positive sum: then every member is needed, as far
+ * as chains can show. A positive part without the pair is a reason of its own, for other pairs. */
 #include "displacement/prove/proofs/chain.h"
 #include "displacement/prove/proofs/tuning.h"
 
@@ -19,31 +19,32 @@
 
 typedef struct reached {
     uint32_t link;
-    uint32_t from; /* the place in the round before */
-    double won;    /* by all up to this one, but for the end */
+    uint32_t from; /* the index of the previous link in the round before */
+    double won;    /* the sum up to this link, without the loss at the end */
 } reached;
 
-/* Chains from one end of the pair, by rounds: those of k links are round[first[k]] to round[first[k + 1]]. */
+/* The chains from one end of the pair, by rounds: those of k links are item[first[k]] to item[first[k + 1] - 1]. */
 typedef struct reach {
-    uint32_t body; /* which is pushed along n */
+    uint32_t body; /* the body at this end of the pair, which is pushed along n */
     double n[2];
-    double least; /* what a chain has to have won, but for the limit of its last body, to be gone on with */
+    double least; /* a chain is continued only if its sum exceeds this by more than the limit of its last body */
     reached item[FEWEST_MOST * FEWEST_KEPT];
     size_t first[FEWEST_MOST + 2];
-    size_t rounds;                /* of those that exist */
-    double won[FEWEST_MOST + 1];  /* the best sum with this many links, the end included; -INFINITY: none */
-    size_t best[FEWEST_MOST + 1]; /* its last */
+    size_t rounds;                /* the number of rounds */
+    double won[FEWEST_MOST + 1];  /* the best sum of a chain of this many links, with the loss at its end; -INFINITY if
+                                   * there is none */
+    size_t best[FEWEST_MOST + 1]; /* the index of its last link */
 } reach;
 
 static double limit_of(const sunder_i_chains *g, uint32_t body) { return sunder_i_limit_of(&g->of.model->body[body]); }
 
-/* What is lost where a body is pushed along n and pushes along m. */
+/* Returns the loss at a body that is pushed along n and pushes along m. */
 static double turn(const sunder_i_chains *g, uint32_t body, const double n[2], const double m[2])
 {
     return limit_of(g, body) * hypot(n[0] - m[0], n[1] - m[1]);
 }
 
-/* Is the body on the way to a place of round k? */
+/* Is the body on the path to item `at` of round k? */
 static bool is_behind(const sunder_i_chains *g, const reach *r, size_t k, size_t at, uint32_t body)
 {
     for (; k > 0; k--) {
@@ -53,7 +54,7 @@ static bool is_behind(const sunder_i_chains *g, const reach *r, size_t k, size_t
     return r->body == body;
 }
 
-/* Adds a chain of this length if it is among the best few; unordered. */
+/* Adds a chain to round k if it is among the best few; these are unordered. */
 static void keep(reach *r, size_t k, const reached *found)
 {
     reached *item = r->item + r->first[k];
@@ -68,12 +69,13 @@ static void keep(reach *r, size_t k, const reached *found)
     if (found->won > item[least].won) item[least] = *found;
 }
 
-/* Extends chain `at` of round k (0: the pair itself) by the bodies that its last body may push, except `other`.
- * False if memory is out. */
+/* Extends chain `at` of round k (for k = 0, the pair itself) by the bodies that its last body may push, except `other`.
+ * Returns false if memory is out. */
 static bool push_on(sunder_i_chains *g, reach *r, size_t k, size_t at, uint32_t other)
 {
     const uint32_t body = k ? g->link[r->item[at].link].j : r->body;
-    const double *first = k ? g->link[r->item[at].link].n : r->n, n[2] = {first[0], first[1]}; /* links move */
+    /* the array of links may be moved */
+    const double *first = k ? g->link[r->item[at].link].n : r->n, n[2] = {first[0], first[1]};
     const double won = k ? r->item[at].won : 0;
     if (limit_of(g, body) == 0) return true;
     const sunder_i_chain_links *of = sunder_i_chains_find(g, body);
@@ -90,7 +92,7 @@ static bool push_on(sunder_i_chains *g, reach *r, size_t k, size_t at, uint32_t 
     return true;
 }
 
-/* The most that chains of k links win. */
+/* Records the greatest sum of the chains of k links. */
 static void note_end(const sunder_i_chains *g, reach *r, size_t k)
 {
     r->won[k] = k ? -INFINITY : -limit_of(g, r->body);
@@ -102,7 +104,7 @@ static void note_end(const sunder_i_chains *g, reach *r, size_t k)
     }
 }
 
-/* Extends one end by a link; other: the body that it may not reach. False if memory is out. */
+/* Extends one end by a link. other: the body that it may not reach. Returns false if memory is out. */
 static bool go_on(sunder_i_chains *g, reach *r, uint32_t other)
 {
     const size_t k = r->rounds;
@@ -115,7 +117,7 @@ static bool go_on(sunder_i_chains *g, reach *r, uint32_t other)
 }
 
 /* The part beyond a body gains at most its limit, or that part would be positive by itself; nor does the other end of
- * the pair gain more than the limit of the body there. */
+ * the pair gain more than the limit of the body there. `least` follows from this. */
 static void begin(const sunder_i_chains *g, reach *r, uint32_t body, double nx, double ny, double least)
 {
     r->least = least;
@@ -127,16 +129,16 @@ static void begin(const sunder_i_chains *g, reach *r, uint32_t body, double nx, 
     note_end(g, r, 0);
 }
 
-/* ---- Does any stretch of it win by itself? ----------------------------------------------------------------------- */
+/* ---- Is a proper part of the chain positive? --------------------------------------------------------------------- */
 
-/* A chain of bodies from one end to the other: d and n are the length and the direction of the half-plane of each
- * link; limit is how far each of the bodies may move. */
+/* A chain of bodies from one end to the other. d and n are the right side and the normal of each link; limit has the
+ * limits of the bodies, one more than links. */
 typedef struct row {
     double d[2 * FEWEST_MOST + 1], n[2 * FEWEST_MOST + 1][2], limit[2 * FEWEST_MOST + 2];
     size_t links;
 } row;
 
-/* The links of an end from the pair on, into link[k]. */
+/* Writes the k links of the best chain of one end, from the pair on, to `link`. */
 static void list(const reach *r, size_t k, uint32_t *link)
 {
     for (size_t at = r->best[k]; k > 0; k--) {
@@ -169,7 +171,7 @@ static void make_row(const sunder_i_chains *g, const sunder_i_chain_link *pair, 
     }
 }
 
-/* Does one win that is not all of it? */
+/* Does a proper part of the row have a positive sum? */
 static bool has_less(const row *r)
 {
     for (size_t from = 0; from < r->links; from++) {
@@ -183,10 +185,10 @@ static bool has_less(const row *r)
     return false;
 }
 
-/* ---- The fewest -------------------------------------------------------------------------------------------------- */
+/* ---- The shortest chain ------------------------------------------------------------------------------------------ */
 
-/* Combines this many links of one end with that many of the other: a chain, if the sum is positive and both ends are
- * needed. False if memory is out. */
+/* Combines the best chain of `right` links of one end with that of `left` links of the other. It is the result if the
+ * sum is positive and no proper part is; *found. Returns false if memory is out. */
 static bool try_chain(const sunder_i_chains *g, const sunder_i_chain_link *pair, const sunder_i_half_plane *way,
                       const reach of[2], size_t right, size_t left, sunder_i_pushing *chain, bool *found)
 {

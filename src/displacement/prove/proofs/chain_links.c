@@ -1,4 +1,4 @@
-/* Two pieces whose bodies' limits leave them one way past each other: a link of chains (chain.c). */
+/* Links of chains (chain.c): two pieces to which the limits of their bodies leave only one way past each other. */
 #include "displacement/layer/reads.h"
 #include "displacement/prove/proofs/chain.h"
 #include "displacement/prove/proofs/tuning.h"
@@ -13,14 +13,14 @@
 
 static double at(const double n[2], const double *u) { return n[0] * u[0] + n[1] * u[1]; }
 
-/* ---- Ways that are left ------------------------------------------------------------------------------------------ */
+/* ---- Half-planes that are left ----------------------------------------------------------------------------------- */
 
 bool sunder_i_chain_is_open(const sunder_i_half_plane *way, double reach)
 {
     return way->d <= reach + CHAIN_HAIR * (reach + fabs(way->d));
 }
 
-/* The farthest that a relative move within reach goes along the one, and not as far as the other says. */
+/* Computes the greatest component along way->n of a relative move within reach that is behind the other line. */
 bool sunder_i_chain_is_open_behind(const sunder_i_half_plane *way, const sunder_i_half_plane *behind, double reach)
 {
     if (!sunder_i_chain_is_open(way, reach)) return false;
@@ -47,14 +47,14 @@ bool sunder_i_chain_only_way(sunder_i_half_plane *way, size_t n, double reach)
     return false;
 }
 
-/* What all open ways imply together: beyond which line are all of them, up to the arcs on the circle of reachable
- * moves? False: the common line says too little, or nothing.
+/* Computes the line that all open half-planes imply together, up to the arcs on the circle of reachable moves. Returns
+ * false if there is none, or if it implies too little.
  *
  *         , - ~ - ,
- *      ,'     w1   \',     The reachable moves beyond a line are the hull of an arc. So the moves beyond any of several
- *     /          \  | \    lines are in the hull of all their arcs, which has one line, the chord. It is moved outward
- *    |     o      \ |  |   slightly, so that each way, with no move beyond the chord, contradicts the limits.
- *     \         w2/\| /
+ *      ,'     w1   \',     The reachable moves beyond a line are the hull of an arc. So the moves beyond any of
+ *     /          \  | \    several lines are in the hull of all their arcs, which is bounded by one line, the chord.
+ *    |     o      \ |  |   It is moved outward slightly, so that each half-plane, with no move beyond the chord,
+ *     \         w2/\| /    contradicts the limits.
  *      ',       /  ,|'
  *         ' - ~ - ' */
 static bool make_chord(const sunder_i_half_plane *way, size_t n, double reach, sunder_i_half_plane *out)
@@ -106,7 +106,7 @@ void sunder_i_chains_stand(const sunder_i_chains *chains, uint32_t body, double 
     t[1] = moves ? chains->of.model->move[2 * (size_t)body + 1] : 0;
 }
 
-/* Those that a body may meet, or that stand, in near, ascending. */
+/* Sets g->branching.near to the bodies, ascending, that the body may meet: fixed ones, and those of the cluster. */
 static bool find_near(sunder_i_chains *g, uint32_t of)
 {
     const sunder_i_model *model = g->of.model;
@@ -128,7 +128,7 @@ static bool find_near(sunder_i_chains *g, uint32_t of)
     return true;
 }
 
-/* The link of two pieces, if there is one. False if memory is out. */
+/* Adds the link of two pieces, if there is one. Returns false if memory is out. */
 static bool link_pieces(sunder_i_chains *g, uint32_t i, const sunder_i_body_piece *a, uint32_t j,
                         const sunder_i_body_piece *b)
 {

@@ -1,15 +1,15 @@
-/* The record of a chain as of any other branch and bound: a node for each of its links. */
+/* Records a chain in the form of any other branch and bound: a node for each of its links. */
 #include "displacement/prove/proofs/chain.h"
 
 #include <string.h>
 
-/* One node of the way down, and the claim that leads on. */
+/* The state of building one branch of the tree. */
 typedef struct builder {
     sunder_i_branching *c;
-    sunder_i_claim *claim; /* of the chain so far */
+    sunder_i_claim *claim; /* the claims of the chain up to now */
     size_t claims, capacity;
     size_t root;
-    size_t open; /* the way whose next is the node to come; SIZE_MAX: the root */
+    size_t open; /* the half-plane below which the next node hangs; SIZE_MAX: it is the root */
 } builder;
 
 static void hang(builder *b, size_t node)
@@ -20,14 +20,14 @@ static void hang(builder *b, size_t node)
         b->c->way[b->open].next = node;
 }
 
-/* Only memory that is out makes it false. */
+/* Records that memory is out if `ok` is false. Returns ok. */
 static bool must(const builder *b, bool ok)
 {
     b->c->failed = b->c->failed || !ok;
     return ok;
 }
 
-/* The node of two pieces, with the ways in scratch. False if memory is out. */
+/* Adds a node for two pieces, with the half-planes in scratch. Returns false if memory is out. */
 static bool add_node(builder *b, const sunder_i_chain_link *l, size_t ways, size_t *node)
 {
     const sunder_i_violation o = {.p = l->i, .q = l->j, .a = l->a, .b = l->b, .clearance = l->clearance};
@@ -36,14 +36,15 @@ static bool add_node(builder *b, const sunder_i_chain_link *l, size_t ways, size
     return true;
 }
 
-/* Two places, and a node that is about them. */
+/* Two places, and the node about them. */
 typedef struct between {
     uint32_t i, j;
     size_t node;
 } between;
 
-/* A leaf for a way that contradicts the limits of its two, or with one of those before it out of the question. False:
- * it does not, by a hair, or memory is out. */
+/* Adds a leaf for half-plane `way` of a node: it contradicts the limits of its two bodies, alone or together with one
+ * of the n half-planes before it that are excluded. Returns false if it does not, because of rounding, or if memory is
+ * out. */
 static bool add_dead_end(builder *b, const between *at, size_t way, const size_t *behind, size_t n)
 {
     sunder_i_branching *c = b->c;
@@ -58,7 +59,7 @@ static bool add_dead_end(builder *b, const between *at, size_t way, const size_t
     return true;
 }
 
-/* What the way says is of the chain, whose next node hangs below it. False if memory is out. */
+/* Adds the claim of half-plane `way` to the chain; the next node hangs below it. Returns false if memory is out. */
 static bool go_on(builder *b, const between *at, size_t way)
 {
     sunder_i_branching *c = b->c;
@@ -71,7 +72,8 @@ static bool go_on(builder *b, const between *at, size_t way)
     return true;
 }
 
-/* The node of a link, whose first way leads on and no other. False: not so by a hair, or memory is out. */
+/* Adds the node of a link, in which only the first half-plane leads on. Returns false if that fails because of
+ * rounding, or if memory is out. */
 static bool add_link(builder *b, const sunder_i_chain_link *l)
 {
     sunder_i_branching *c = b->c;
@@ -88,7 +90,7 @@ static bool add_link(builder *b, const sunder_i_chain_link *l)
     return go_on(b, &at, first);
 }
 
-/* All forces are 1: do they win more than the limits lose? */
+/* Adds the last leaf, with all forces 1, if their sum exceeds the loss by the limits. */
 static bool add_end(builder *b)
 {
     sunder_i_branching *c = b->c;
@@ -104,7 +106,7 @@ static bool add_end(builder *b)
     return true;
 }
 
-/* The pair's node, below which each of its ways has its chain, or a dead end. */
+/* Builds the tree: the pair's node, and below each of its half-planes a chain or a dead end. */
 static bool build(builder *b, const sunder_i_chains *g, const sunder_i_chain_link *pair, const sunder_i_half_plane *way,
                   size_t ways, const sunder_i_pushing *chain, size_t *behind)
 {

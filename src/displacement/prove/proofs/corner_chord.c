@@ -1,15 +1,16 @@
 /* Chords across corners that two sides of barriers share.
  *
- * Each side casts its shadow from the anchor a (geometry/obstacle_shadow.h). Where sides pb and bq meet in b, on either
- * side of the ray from a through b, the two shadows share the ray beyond b as their boundary. All of it is forbidden,
+ * Each side casts its shadow from the anchor a (geometry/obstacle_shadow.h). If sides pb and bq meet in b, on opposite
+ * sides of the ray from a through b, the two shadows share the ray beyond b as their boundary. All of it is forbidden,
  * but the lines of either shadow leave a gap around it, as narrow as rounding, that no line closes.
  *
  * Let p' be in the shadow of pb, q' in that of bq, and let the chord p'q' cross the ray at c, beyond b. The shadow of
  * pb is convex, contains p' and c, and contains everything behind any of its points; so it contains everything behind
  * p'c. The same holds for q'. So everything behind the chord is in the union of the two shadows, exactly and whatever
- * p' and q' are. Its ways are claims like others; and its lines pass the gap well to the left and the right.
+ * p' and q' are. The half-planes past the chord are used like those of any piece, and its lines pass the gap at some
+ * distance on the left and right.
  *
- * The corner is cut off by a little (CHORD of the sides), and the chord is moved away from the anchor until it passes
+ * The chord cuts off a little of the corner (CHORD of the sides), and is moved away from the anchor until it passes
  * beyond b, and a little more (BEYOND), so that rounding to doubles does no harm. Predicates test the required
  * properties on the doubles. The sliver between b and the chord is not covered. */
 #include "displacement/prove/proofs/plane.h"
@@ -37,7 +38,7 @@ const sunder_i_side *sunder_i_branching_side_of(const sunder_i_model *model, con
     return NULL;
 }
 
-/* Is the place in the shadow of the segment from b to p? */
+/* Is `place` in the shadow of the segment from b to p, seen from a? */
 static bool is_shaded(const double a[2], const double b[2], const double p[2], const double place[2])
 {
     const int turn = side_of(a, b, p);
@@ -45,8 +46,8 @@ static bool is_shaded(const double a[2], const double b[2], const double p[2], c
            side_of(b, p, place) == -side_of(b, p, a);
 }
 
-/* Does what the chord casts lie in the shadows of both? In front of the anchor all of the way, so it passes the ray
- * beyond b where b is on the anchor's side of it. */
+/* Does the shadow of the chord lie in the shadows of the two sides? The chord is in front of the anchor everywhere, so
+ * it crosses the ray beyond b if b is on the anchor's side of it. */
 static bool is_behind(const double a[2], const double b[2], const double p[2], const double q[2], const double chord[4])
 {
     if (!is_shaded(a, b, p, chord) || !is_shaded(a, b, q, chord + 2)) return false;
@@ -68,7 +69,7 @@ bool sunder_i_branching_make_chord(const double a[2], const double b[2], const d
         u[c] = way[c] + CHORD * (p[c] - b[c]);
         v[c] = way[c] + CHORD * (q[c] - b[c]);
     }
-    /* Where uv crosses the ray, as a multiple of the distance of b. */
+    /* Where the segment uv crosses the ray, as a multiple of the distance of b. */
     const double left = cross(way, u), right = cross(way, v);
     if (!(size > 0) || !(left * right < 0)) return false;
     const double share = left / (left - right), passes = ((1 - share) * dot(u, way) + share * dot(v, way)) / size;
@@ -100,23 +101,23 @@ size_t sunder_i_branching_chord_ways(sunder_i_branching *branching, const sunder
     return sunder_i_half_planes_past(&parting, branching->scratch);
 }
 
-/* ---- In the plane of one move ------------------------------------------------------------------------------------ */
+/* ---- Chords in the plane of one relative move -------------------------------------------------------------------- */
 
-/* A side, from its end that the anchor's way leads by. */
+/* A side that begins near the anchor's path: `end` is its end near the path, `other` the other end. */
 typedef struct spoke {
     const sunder_i_plane_obstacle *of;
     const sunder_i_side *side;
     const double *end, *other;
 } spoke;
 
-/* Does the way of the anchor lead through that end, nearly? It moves by -u. */
+/* Does the anchor's path pass nearly through `end`? Relative to the side the anchor moves by -u. */
 static bool is_beside(const double a[2], const double end[2], const double u[2])
 {
     const double to[2] = {end[0] - a[0], end[1] - a[1]}, along = -dot(to, u);
     return along > 0 && fabs(cross(to, u)) <= BESIDE * along;
 }
 
-/* The spoke of an obstacle that is a side; false: it has none. */
+/* Finds the spoke of an obstacle that is a side. Returns false if it has none. */
 static bool find_spoke(const sunder_i_plane *g, const sunder_i_plane_obstacle *o, const double u[2], spoke *s)
 {
     const sunder_i_model *model = g->c->model;
@@ -134,7 +135,8 @@ static bool find_spoke(const sunder_i_plane *g, const sunder_i_plane_obstacle *o
     return false;
 }
 
-/* Do the chord across the corner that two spokes share, and its ways, leave the move out? */
+/* Does the chord across the corner that two spokes share exclude the move u? Sets *chord, and the number *ways of its
+ * half-planes, which are in scratch. */
 static bool shuts(sunder_i_plane *g, const spoke *s, const spoke *r, const double u[2], sunder_i_chord *chord,
                   size_t *ways)
 {

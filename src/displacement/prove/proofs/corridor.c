@@ -1,14 +1,14 @@
-/* A body that can only slide along a line, and whose lattice has no other place on that line.
+/* A body that can only slide along a line, and for which doubles have no other place on that line.
  *
- * A block on both sides of a straight road, in conflict with it on both, may get no nearer to either side: it can only
- * slide along the road. Over the reals that is a solution; but after a move all corners must be doubles, so moves are
+ * A block between the two sides of a straight road, in conflict with both, may come no nearer to either: it can only
+ * slide along the road. Over the reals that is a solution. But after a move all corners must be doubles, so moves are
  * multiples of the unit in the last place of the coordinates. On the line of a segment whose ends are doubles, the next
  * such place is as far away as the segment is long, divided by the common divisor of its two coordinates. Usually that
  * is beyond any limit.
  *
- * So where branching has found a solution over the reals, this file tests whether one of its bodies is held between two
- * such lines. The lines have to be known without any rounding. The pair of a line is listed, and may stand no worse
- * than at the start:
+ * So if branching has found a solution over the reals, this file tests whether one of its bodies is held between two
+ * such lines. The lines must be known without any rounding. The pair of a line is listed, and may be no worse than at
+ * the start:
  *
  *       A - B grown by the distance at the start         N = a normal of A - B, a vector of doubles: its edge has
  *      ___________________________                           corners of doubles, and their difference is one
@@ -16,14 +16,15 @@
  *      _____P___________Q______                              distance of the whole pair at the start
  *              A - B           \
  *
- * N.u >= 0 then replaces the adjacent way among the ways of the pair of parts, as half_planes.c finds them: that line
- * only has to cover its own part of the forbidden boundary, as long as no other edge is nearly parallel to it. That the
- * pair of parts had the distance of the whole pair is tested exactly (layer/barrier_pairs.h).
+ * N.u >= 0 then replaces the corresponding half-plane of the pair of parts, as half_planes.c finds it: that line only
+ * has to cover its own part of the forbidden boundary, as long as no other edge is nearly parallel to it. That the pair
+ * of parts had the distance of the whole pair is tested exactly (layer/barrier_pairs.h).
  *
  * For an overlap with a barrier, no single pair of parts may be as deep as the whole: a feature across a road of
- * several pieces leaves it by the last of them. There the line is the one at which this last piece lets go of the road,
- * so that its slack v (feasibility.h) has to take it there, n.(u + v) >= h. If the overlap was at most h / |n| deep, no
- * v contributes more than h along n, and n.u >= 0 again. The depth is tested against the hull of the feature, exactly.
+ * several pieces leaves it by the last of them. There the line is the one at which this last piece leaves the road, so
+ * that the slack v (feasibility.h) has to take the feature there, n.(u + v) >= h. If the overlap was at most h / |n|
+ * deep, no v contributes more than h along n, and n.u >= 0 again. The depth is tested against the hull of the feature,
+ * exactly.
  *
  * Two opposite lines of one body make the first two branches; between them the limit of the body is 0 (branches.c). */
 #include "displacement/layer/barrier_pairs.h"
@@ -39,9 +40,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- Exactly --------------------------------------------------------------------------------------------------- */
+/* ---- Exact arithmetic ------------------------------------------------------------------------------------------ */
 
-/* q - p, if that is a double. The rounding error of a difference is itself a double [Knu97, 4.2.2]. */
+/* Sets *out to q - p. Returns false if that is not a double. The rounding error of a difference is itself a double
+ * [Knu97, 4.2.2]. */
 static bool subtract(double q, double p, double *out)
 {
     const double s = q - p, back = s - q;
@@ -49,7 +51,7 @@ static bool subtract(double q, double p, double *out)
     return isfinite(s) && (q - (s - back)) - (p + back) == 0;
 }
 
-/* Is p q - r s nothing? */
+/* Is p q - r s = 0, exactly? */
 static bool are_equal_products(double p, double q, double r, double s)
 {
     const double a = p * q, b = r * s;
@@ -60,7 +62,7 @@ static bool are_parallel(const double m[2], const double n[2]) { return are_equa
 
 static double dot(const double p[2], const double q[2]) { return p[0] * q[0] + p[1] * q[1]; }
 
-/* A multiple of the normal that is still one of doubles, about 1 long. */
+/* Scales the normal by a factor such that it still consists of doubles and is about 1 long. */
 static void scale(double n[2])
 {
     const int e = ilogb(hypot(n[0], n[1]));
@@ -73,10 +75,10 @@ static void scale(double n[2])
     }
 }
 
-/* ---- The lattice ------------------------------------------------------------------------------------------------- */
+/* ---- The places that doubles have -------------------------------------------------------------------------------- */
 
-/* The exponent of the unit of one coordinate, wherever the body may go: all of its corners stay between two powers of
- * two that follow each other. */
+/* Finds the exponent of the unit of coordinate c. Returns false unless all corners stay between two consecutive powers
+ * of two, wherever the body may go. */
 static bool find_unit(const sunder_i_model *model, const sunder_i_body *body, size_t c, int *unit)
 {
     double low = INFINITY, high = -INFINITY;
@@ -94,7 +96,7 @@ static bool find_unit(const sunder_i_model *model, const sunder_i_body *body, si
     return *unit >= -1022;
 }
 
-/* v = odd * 2^exponent. */
+/* Writes v = odd * 2^exponent, and returns the odd number. */
 static uint64_t odd_part(double v, int *exponent)
 {
     uint64_t m = (uint64_t)ldexp(frexp(fabs(v), exponent), 53);
@@ -113,8 +115,8 @@ static uint64_t common_divisor(uint64_t p, uint64_t q)
     return p;
 }
 
-/* Are all other places of the line n.t = 0 beyond the body's limit? Places have i and j units; with n0 = p / unit 0
- * and n1 = q / unit 1 they have p i + q j = 0, and the nearest is q and -p, divided by what they have in common. */
+/* Are all other places of the line n.t = 0 beyond the body's limit? A place has i and j units. With n0 = p / unit 0 and
+ * n1 = q / unit 1 it satisfies p i + q j = 0, and the nearest is (q, -p), divided by the common divisor. */
 static bool is_alone(const sunder_i_model *model, const sunder_i_body *body, const double n[2])
 {
     int unit[2], e[2];
@@ -128,15 +130,15 @@ static bool is_alone(const sunder_i_model *model, const sunder_i_body *body, con
     return hypot(i, j) > body->limit * (1 + 0x1p-40);
 }
 
-/* ---- A line ------------------------------------------------------------------------------------------------------ */
+/* ---- The line of one pair of parts ------------------------------------------------------------------------------- */
 
-/* Two parts of a pair, and the line of u that passes where they stood. */
+/* Two parts of a pair, and the line of relative moves that passes the original place. */
 typedef struct facing {
     sunder_i_corridor_wall wall;
-    double a[2 * WALL_CORNERS], b[2 * WALL_CORNERS]; /* their corners as given */
+    double a[2 * WALL_CORNERS], b[2 * WALL_CORNERS]; /* the corners of the parts as given */
 } facing;
 
-/* Computes in `n` the unscaled normal of edge k of A - B: the edges of A come first, then those of B. False if
+/* Computes in `n` the unscaled normal of edge k of A - B: the edges of A come first, then those of B. Returns false if
  * doubles cannot hold it exactly. */
 static bool normal_of(const facing *f, size_t k, double n[2])
 {
@@ -151,7 +153,7 @@ static bool normal_of(const facing *f, size_t k, double n[2])
     return exact_x && exact_y;
 }
 
-/* The corner that is farthest along n. */
+/* Returns the corner that is farthest along sign * n. */
 static const double *farthest(const double *xy, size_t corners, const double n[2], double sign)
 {
     const double *best = xy;
@@ -162,7 +164,7 @@ static const double *farthest(const double *xy, size_t corners, const double n[2
     return best;
 }
 
-/* How far u = 0 is from the line of an edge of A - B, negative inside. */
+/* Returns the distance of u = 0 beyond the line of an edge of A - B with normal n, negative inside. */
 static double beyond(const facing *f, const double n[2])
 {
     const double *p = farthest(f->a, f->wall.a->corners, n, 1), *q = farthest(f->b, f->wall.b->corners, n, -1),
@@ -170,7 +172,7 @@ static double beyond(const facing *f, const double n[2])
     return -dot(n, d) / hypot(n[0], n[1]);
 }
 
-/* Does the foot of u = 0 on the k-th edge lie on that, a hair from its ends? */
+/* Is the foot of the perpendicular from u = 0 to edge k on that edge, at least a hair from its ends? */
 static bool has_foot(const facing *f, size_t k, const double n[2], double hair)
 {
     const size_t na = f->wall.a->corners, nb = f->wall.b->corners;
@@ -183,7 +185,7 @@ static bool has_foot(const facing *f, size_t k, const double n[2], double hair)
     return dot(to_p, e) < -room && dot(to_q, e) > room;
 }
 
-/* Nearly so, but not just so. */
+/* Are the two normals nearly parallel, but not exactly? */
 static bool are_nearly_parallel(const double n[2], const double other[2])
 {
     const double size = hypot(other[0], other[1]) * hypot(n[0], n[1]);
@@ -191,8 +193,8 @@ static bool are_nearly_parallel(const double n[2], const double other[2])
            fabs(n[0] * other[1] - n[1] * other[0]) < NEARLY_PARALLEL * size;
 }
 
-/* Of all other edges: none is nearly parallel to the k-th, save for those that are just so; and none is less deep,
- * where the parts are in each other. */
+/* Is edge k unambiguous? No other edge is nearly parallel to it, except exactly; and if the parts overlap, all others
+ * are deeper. */
 static bool stands_out(const facing *f, size_t k, const double n[2], double hair)
 {
     const double depth = beyond(f, n);
@@ -206,11 +208,12 @@ static bool stands_out(const facing *f, size_t k, const double n[2], double hair
     return true;
 }
 
-/* Is the k-th edge of A - B such a line? */
+/* Is edge k of A - B such a line? If so, stores its normal. */
 static bool is_line(const sunder_i_branching *c, facing *f, size_t k, double clearance)
 {
     double *n = f->wall.n;
-    /* Long enough that no edge that turns from it has a line in common with it (half_planes.c: less than a hair). */
+    /* The edge must be so long that any edge not parallel to it has a direction of its own (half_planes.c: less than a
+     * hair). */
     if (!normal_of(f, k, n) || !(NEARLY_PARALLEL * hypot(n[0], n[1]) > 8 * c->hair)) return false;
     if (!(fabs(beyond(f, n) - clearance) <= c->hair)) return false;
     if (!(clearance >= 0 ? has_foot(f, k, n, c->hair) : beyond(f, n) < -c->hair)) return false;
@@ -219,9 +222,9 @@ static bool is_line(const sunder_i_branching *c, facing *f, size_t k, double cle
     return true;
 }
 
-/* ---- A line that a translation out of an overlap has to reach ---------------------------------------------------- */
+/* ---- A line that the translation out of an overlap has to reach -------------------------------------------------- */
 
-/* Is none of the corners farther along n than corner `at`, exactly? */
+/* Is no corner farther along n than corner `at`, exactly? */
 static bool is_extreme(const double *xy, size_t corners, const double n[2], const double at[2])
 {
     for (size_t k = 0; k < corners; k++) {
@@ -234,8 +237,8 @@ static bool is_extreme(const double *xy, size_t corners, const double n[2], cons
     return true;
 }
 
-/* The k-th edge of A - B, with the extreme corners `hull` of the feature that A belongs to: an edge such that moving
- * the whole feature beyond it, along n, takes exactly the depth of the pair's overlap at the start. */
+/* Is edge k of A - B such that moving the whole feature beyond it, along n, takes exactly the depth of the pair's
+ * overlap at the start? hull: the extreme corners of the feature that A belongs to. */
 static bool is_far_line(const sunder_i_branching *c, facing *f, size_t k, const double *hull, size_t corners)
 {
     double *n = f->wall.n, d[2];
@@ -253,7 +256,7 @@ static bool is_far_line(const sunder_i_branching *c, facing *f, size_t k, const 
     return true;
 }
 
-/* ---- The lines of a body ----------------------------------------------------------------------------------------- */
+/* ---- All lines of a body ----------------------------------------------------------------------------------------- */
 
 typedef struct looking {
     sunder_i_branching *branching;
@@ -264,13 +267,14 @@ typedef struct looking {
     sunder_error *err;
 } looking;
 
-/* Are its corners known as the nearest doubles, or drawn in? */
+/* Are the corners of feature f known only as rounded doubles, or moved because they are far? */
 static bool is_vague(const sunder_i_model *model, uint32_t f)
 {
     return sunder_i_thing_shape(model, f)->rational || model->body[model->body_of[f]].far;
 }
 
-/* Takes the line, if the pair stood as `part`, of the feature, and the other thing's part did. */
+/* Adds the line if the whole pair had the same distance as these two parts. part: the corners of the part of the
+ * feature. */
 static void take_line(looking *g, const facing *f, const double *part, size_t corners)
 {
     const sunder_i_corridor_wall *w = &f->wall;
@@ -310,7 +314,8 @@ static void look_at_depth(looking *g, const sunder_i_body_piece *a, const sunder
         if (is_far_line(g->branching, &f, k, hull, corners)) take_line(g, &f, hull, corners);
 }
 
-/* The corners of the hull of a feature, as given, counter-clockwise and strictly convex; false: it is none so. */
+/* Finds the convex hull of a feature, with corners as given, counter-clockwise. Returns false if it is not strictly
+ * convex. */
 static bool find_hull(const sunder_i_model *model, uint32_t f, double **hull, size_t *corners)
 {
     const sunder_shape *shape = sunder_i_thing_shape(model, f);
@@ -331,7 +336,7 @@ static bool find_hull(const sunder_i_model *model, uint32_t f, double **hull, si
     return *corners > 2;
 }
 
-/* All pieces of the feature, and of the barrier those that its hull meets. */
+/* Tests all pieces of feature f with the pieces of the barrier that its hull meets. */
 static void look_at_overlap(looking *g, uint32_t f, const sunder_i_requirement *r)
 {
     sunder_i_branching *c = g->branching;
@@ -353,14 +358,14 @@ static void look_at_overlap(looking *g, uint32_t f, const sunder_i_requirement *
     sunder_i_free(hull);
 }
 
-/* Feature f of the mover, and what stands: a feature, or part of a barrier. */
+/* Tests feature f of the body with a fixed thing `standing`: a feature, or a part of a barrier. */
 static void look_at_pair(looking *g, uint32_t f, uint32_t standing, double clearance)
 {
     const sunder_i_model *model = g->branching->model;
     const sunder_i_body *p = &model->body[g->mover], *q = &model->body[model->body_of[standing]];
     const double reach = fabs(clearance) + g->branching->hair;
     const sunder_i_body_pieces *of_p = sunder_i_pieces_of(model, p), *of_q = sunder_i_pieces_of(model, q);
-    sunder_i_branching_join(g->branching, model->body_of[standing]); /* which tells how large a hair is */
+    sunder_i_branching_join(g->branching, model->body_of[standing]); /* this determines the size of a hair */
     if (!of_p || !of_q) g->status = sunder_i_no_memory(g->err);
     for (uint32_t k = 0; k < p->pieces && !g->status; k++) {
         const sunder_i_body_piece *a = &of_p->piece[k];
@@ -403,7 +408,8 @@ static void look_at_requirement(looking *g, const sunder_i_requirement *r)
 
 static bool is_of(const sunder_i_model *model, uint32_t thing, uint32_t body) { return model->body_of[thing] == body; }
 
-/* Two lines of the body that leave it one place; slack: or lines that a slack has to reach. */
+/* Chooses two opposite lines that leave the body only one place. slack: lines that a slack has to reach may be used,
+ * too. */
 static bool choose(const looking *g, bool slack, sunder_i_corridor_wall out[2])
 {
     const sunder_i_model *model = g->branching->model;

@@ -1,14 +1,15 @@
-/* A few bodies, their limits, and the things they meet: is there no solution, or does this one hold?
+/* A few bodies, their limits, and the things they meet: is there no solution, or is this one?
  *
- * The branch and bound starts with all bodies in place. A candidate (program.c) has violated distances (violations.c),
- * and each has several ways out (half_planes.c), one of which every solution takes: each way is a branch. Either every
- * branch is infeasible (branches.c), or a candidate violates nothing. A body takes part once another met it; a body
- * that is never met stays in place and is irrelevant. So the size of a branch and bound is that of the conflict.
+ * The branch and bound starts with all bodies at their original positions. A candidate (program.c) violates some
+ * distances (violations.c). Each violation has several half-planes (half_planes.c), in one of which every solution
+ * lies: each is a branch. Either every branch is infeasible (branches.c), or a candidate violates nothing. A body takes
+ * part once another one meets it; a body that is never met stays in place and is irrelevant. So the size of a branch
+ * and bound is that of the conflict.
  *
- * The question never demands more than a solution owes: pairs that are held to less, pairs that may overlap (one lies,
- * or could come to lie, in the other, and the rules allow it) and bodies without a limit are left out. Gaps and limits
- * are round where a line touches them and cut off inside elsewhere. So nothing that has a solution is ever called
- * infeasible; and every figure that supports a verdict is rounded against it. */
+ * The question never demands more than a solution owes: pairs with reduced requirements keep those; pairs that may
+ * overlap (one lies, or could come to lie, in the other, and the rules allow it) and bodies without a limit are left
+ * out. Arcs of gaps and limits are replaced by lines that demand at most what the arcs do. So nothing that has a
+ * solution is ever called infeasible; and every number that supports a verdict is rounded against it. */
 #include "displacement/prove/proofs/branching.h"
 
 #include <math.h>
@@ -33,7 +34,7 @@ static void clear(sunder_i_branching *c)
     sunder_i_free(c->near.item);
 }
 
-/* The candidate, by ascending bodies; slacks, which come last then, are none of it. */
+/* Returns the candidate, sorted by bodies. Slacks, which are last then, are left out. */
 static sunder_i_solution take_solution(sunder_i_branching *c)
 {
     for (size_t k = 1; k < c->bodies; k++) {
@@ -50,7 +51,7 @@ static sunder_i_solution take_solution(sunder_i_branching *c)
     return (sunder_i_solution){c->body, c->t, c->bodies - c->slacks};
 }
 
-/* Of one body that moves among what stands, or of two: their relative move. */
+/* Makes the solution from the answer about one relative move: that of one body among fixed things, or of two bodies. */
 static sunder_status take_plane_solution(const sunder_i_branching *c, const sunder_i_plane_answer *found,
                                          sunder_i_solution *out, sunder_error *err)
 {
@@ -69,14 +70,14 @@ static sunder_status take_plane_solution(const sunder_i_branching *c, const sund
     return SUNDER_OK;
 }
 
-/* What a question in the plane of one relative move came to. */
+/* The result of a question about one relative move. */
 typedef struct plane_told {
-    bool free;       /* there is a place where nothing is forbidden there */
-    double place[2]; /* then */
+    bool free;       /* there is a place where nothing is forbidden */
+    double place[2]; /* if free: that place */
 } plane_told;
 
-/* What the plane of one relative move tells of it: an answer, or that there is a free place, or neither. places: NULL,
- * or n places that alone are looked at. */
+/* Decides the question in the plane of one relative move; the answer may remain unknown. places: NULL, or only these n
+ * places are tested. */
 static sunder_status decide_in_plane(const sunder_i_subproblem *subproblem, const double (*places)[2], size_t n,
                                      sunder_i_decision *decision, plane_told *told, sunder_error *err)
 {
@@ -100,7 +101,7 @@ static sunder_status decide_in_plane(const sunder_i_subproblem *subproblem, cons
     return status;
 }
 
-/* First with lines as coarse as requested. */
+/* Decides with coarse half-planes first, if requested, and with exact ones if these leave a free place. */
 static sunder_status ask_all(const sunder_i_subproblem *subproblem, sunder_i_decision *decision, plane_told *told,
                              sunder_error *err)
 {
@@ -120,7 +121,7 @@ static sunder_status ask_all(const sunder_i_subproblem *subproblem, sunder_i_dec
     return status;
 }
 
-/* By an earlier answer. */
+/* Tries to answer by an earlier answer: its free places, then the things of its proof. */
 static sunder_status ask_precedent(const sunder_i_subproblem *subproblem, const sunder_i_precedent *precedent,
                                    sunder_i_decision *decision, plane_told *told, sunder_error *err)
 {

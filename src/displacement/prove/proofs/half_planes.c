@@ -1,9 +1,9 @@
-/* Half-planes such that every u that separates A from B + u lies in one of them, proved in doubles.
+/* Half-planes such that every relative move u that separates A from B + u lies in one of them, proved in doubles.
  *
- * Let K = A + (-B). Without a clearance the two are apart exactly when u is not in the interior of K, with a clearance
- * g exactly when u is not in the interior of K grown by the disc of radius g; call it O. Take any half-planes n.u >= d
- * such that each point of the boundary of O lies in one, and let T be the set of points in none of them. T is convex,
- * so connected, and misses that boundary; so if one point of T is in O, all of T is, and every u outside O is in one of
+ * Let K = A + (-B). Without a clearance the two are apart exactly if u is not in the interior of K; with a clearance g,
+ * exactly if u is not in the interior O of K grown by the disc of radius g. Take any half-planes n.u >= d such that
+ * each point of the boundary of O lies in one, and let T be the set of points in none of them. T is convex, so
+ * connected, and misses that boundary. So if one point of T is in O, all of T is, and every u outside O is in one of
  * the half-planes. So nothing needs to be known exactly: n may be any vector near the normal of an edge PQ, as long as
  * d is at most n.P and n.Q. Even the order in which edges of A and B are merged may be wrong where they are parallel up
  * to rounding: the boundary is then another closed curve in K around the same point.
@@ -15,20 +15,20 @@
  *              |
  *
  * So at a corner up to a thirteenth of the clearance is lost. If a given place satisfies all of these lines but not the
- * clearance, a line made for that place covers a turn so small that the place is behind it.
+ * clearance, a line made for that place covers so small an angle that the place is behind it.
  *
  * Edges that turn little, or not at all (two walls that face each other make one each), share one line, that of their
- * chord: two lines that differ by rounding only would each be a case, and the cases of a row of houses double with
- * each.
+ * chord. Otherwise two lines that differ only by rounding would each be a case, and the number of cases of a row of
+ * houses would double with each.
  *
  * A negative clearance -s: some v with |v| <= s takes u + v out of the interior of K. If T, made without a clearance,
- * contains all of u + v, then there is no such v; so the half-planes move inward by s.
+ * contains all such u + v, there is no such v; so the half-planes move inward by s.
  *
  * Rounding, with e = 2^-53 and S the sum over both coordinates of the greatest |a| + |b| + |offset|: corners less their
- * origin are off by e of themselves, and P = (a - b) - offset takes two more roundings: 3 e S in all, for both
- * coordinates. n.P adds 3 e |P|, and the last sum one more. So 8 e S = 2^-50 S is enough. The direction of an edge of
- * length l is off by at most 2^-50 S / l, its tilt: the point Q + g n1 of the true n1 is within the line's offset up to
- * a share of its square, an arc's up to its own size. */
+ * origin have an error of e of themselves, and P = (a - b) - offset takes two more roundings: 3 e S in all, for both
+ * coordinates. n.P adds 3 e |P|, and the last sum one more. So 8 e S = 2^-50 S suffices. The direction of an edge of
+ * length l has an error, its tilt, of at most 2^-50 S / l: the point Q + g n1 for the true n1 is within the line's
+ * offset up to a share of the square of the tilt, an arc's up to the tilt itself. */
 #include "displacement/prove/proofs/half_planes.h"
 #include "displacement/geometry/obstacle.h"
 
@@ -42,14 +42,15 @@
 
 #define UNIT 0x1p-50
 
-/* Corners that turn by less than this cosine tells are within an edge's own rounding. */
+/* Corners with a turn whose cosine exceeds this are within the rounding errors of their edges. */
 #define STRAIGHT (1 - 0x1p-51)
-/* Up to these one line, or two, go round a corner, else four. */
+/* The number of lines round a corner depends on the cosine of its turn: one above SLIGHT, two above SQUARE, else
+ * four. */
 #define SLIGHT 0.92
 #define SQUARE -0.01
-/* Half the turn that a line may stand for that is made for one place. */
+/* Half the greatest angle that a line made for one place covers. */
 #define WIDEST 0.3
-/* Edges that one line may tell of. */
+/* The greatest number of edges that share one line. */
 #define MOST_IN_RUN 16
 
 typedef struct side {
@@ -61,8 +62,8 @@ typedef struct walk {
     sunder_i_half_plane *way;
     size_t n;
     double slack, size;
-    double inner[2]; /* a point of the interior of K */
-    bool holds;      /* it is in T so far */
+    double inner[2]; /* a point in the interior of K */
+    bool holds;      /* it is in T, as far as lines have been made */
 } walk;
 
 static double dot(const double p[2], const double q[2]) { return p[0] * q[0] + p[1] * q[1]; }
@@ -75,7 +76,7 @@ static void add(walk *w, const double n[2], double base, double off)
     w->way[w->n++] = (sunder_i_half_plane){.n = {n[0], n[1]}, .d = d + off};
 }
 
-/* Consecutive edges of K that share one line: that of their chord. */
+/* A run: consecutive edges of K that share one line, that of their chord. */
 typedef struct run {
     double corner[2 * (MOST_IN_RUN + 1)];
     size_t edges;
@@ -90,8 +91,8 @@ static void begin_run(run *r, const double from[2], const double to[2], const si
     r->first = r->last = *s;
 }
 
-/* Can two runs, the second continuing the first, share one line? Between edges that turn by t, a chord of length l is
- * at most l tan(t / 2) / 2 from any corner, or l t / 2 where t is small. */
+/* Can two runs, the second of which continues the first, share one line? Between edges that turn by t, a chord of
+ * length l is at most l tan(t / 2) / 2 from any corner, or about l t / 4 if t is small; the test uses l sin(t) / 2. */
 static bool can_join(const walk *w, const run *r, const run *next)
 {
     const double sine = r->first.n[0] * next->last.n[1] - r->first.n[1] * next->last.n[0];
@@ -107,8 +108,8 @@ static void join(run *r, const run *next)
     r->last = next->last;
 }
 
-/* Every corner of the run is beyond its line, and so is everything at the gap's distance from it along any normal of
- * the run. These normals agree with the line's up to a share of the square of their turn. */
+/* Adds the line of a run. Every corner of the run is beyond it, and so is everything at the gap's distance from it
+ * along any normal of the run. These normals agree with the line's up to a share of the square of their turn. */
 static void add_run(walk *w, const run *r)
 {
     const double g = w->parting->clearance, *p = r->corner, *q = r->corner + 2 * r->edges;
@@ -135,7 +136,7 @@ static void bisect(const double n1[2], const double n2[2], double out[2])
     out[1] /= length;
 }
 
-/* Lines round corner q, in 2^halvings parts of the turn from n1 to n2. */
+/* Adds 2^halvings lines round corner q, which cover equal parts of the turn from n1 to n2. */
 static void add_arc(walk *w, const double q[2], const double n1[2], const double n2[2], double tilt, int halvings)
 {
     double n[2];
@@ -151,7 +152,7 @@ static void add_arc(walk *w, const double q[2], const double n1[2], const double
 
 static double cross(const double p[2], const double q[2]) { return p[0] * q[1] - p[1] * q[0]; }
 
-/* As many lines as the turn takes; none, if there is none. */
+/* Adds the number of lines that the turn from n1 to n2 takes; none if there is no turn. */
 static void add_arcs(walk *w, const double q[2], const double n1[2], const double n2[2], double tilt)
 {
     const double cosine = dot(n1, n2);
@@ -159,7 +160,7 @@ static void add_arcs(walk *w, const double q[2], const double n1[2], const doubl
         add_arc(w, q, n1, n2, tilt, cosine > SLIGHT ? 0 : cosine > SQUARE ? 1 : 2);
 }
 
-/* The direction, turned by an angle, but no farther than to the end. */
+/* Sets out to the direction n turned by `angle`, but no farther than to `end`. */
 static void turn_to(const double n[2], double angle, const double end[2], double out[2])
 {
     const double c = cos(angle), s = sin(angle), v[2] = {c * n[0] - s * n[1], s * n[0] + c * n[1]};
@@ -169,8 +170,9 @@ static void turn_to(const double n[2], double angle, const double end[2], double
     out[1] = beyond ? end[1] : v[1] / length;
 }
 
-/* Is the given place within the clearance of corner q, in a direction between the two? Then one line is turned to it,
- * with an offset such that it passes between the place and the arc. */
+/* If the given place is nearer to corner q than the clearance, in a direction between the two edges' normals, adds
+ * lines round q, one of which is made for the place: it covers a small angle around it, so that it passes between the
+ * place and the arc. Returns false otherwise. */
 static bool turn_at(walk *w, const double q[2], const side *from, const side *to)
 {
     const double *at = w->parting->at, g = w->parting->clearance, tilt = from->tilt + to->tilt;
@@ -193,7 +195,8 @@ static void turn(walk *w, const double q[2], const side *from, const side *to)
     if (!turn_at(w, q, from, to)) add_arcs(w, q, from->n, to->n, from->tilt + to->tilt);
 }
 
-/* The next edge of K: it joins the last run, or is another. The first run may yet be joined by the last, and waits. */
+/* Adds the next edge of K: it joins the last run, or begins a new one. The first run is kept until the end, since the
+ * last run may join it. */
 static void take_run(walk *w, run *first, run *last, const run *now)
 {
     if (last->edges && can_join(w, last, now)) {
@@ -245,7 +248,8 @@ size_t sunder_i_half_planes_between(const sunder_i_parting *parting, sunder_i_ha
 {
     walk w = {.parting = parting, .way = out, .holds = true};
     measure(&w);
-    /* From the lowest corner of A less the highest of B, both sequences of edges turn from direction 0 to 2 pi. */
+    /* From the lowest corner of A less the highest of B, the directions of both sequences of edges increase from 0 to 2
+     * pi. */
     const size_t a0 = sunder_i_extreme_corner(parting->a, parting->na, 1),
                  b0 = sunder_i_extreme_corner(parting->b, parting->nb, -1);
     sunder_i_merge m = sunder_i_merge_of((uint32_t)parting->na, (uint32_t)parting->nb);

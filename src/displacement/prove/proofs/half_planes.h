@@ -1,39 +1,41 @@
-/* By which lines a convex part of one feature may pass a convex part of another. */
+/* The lines by which a convex part of one feature may pass a convex part of another. */
 #ifndef SUNDER_I_HALF_PLANES_H
 #define SUNDER_I_HALF_PLANES_H
 
 #include <stddef.h>
 
-/* Two convex polygons, counter-clockwise, each relative to an origin, and what they owe each other: to be `clearance`
- * apart or, if that is negative, to need a translation of no more than -clearance to be so with none. */
+/* Two convex polygons, counter-clockwise, each relative to an origin, and the distance that they owe: to be `clearance`
+ * apart; or, if that is negative, that some translation no longer than -clearance makes their interiors disjoint. */
 typedef struct sunder_i_parting {
     const double *a, *b;
     size_t na, nb;
     double offset[2]; /* the origin of B less that of A */
-    double vague;     /* corners are off by 2^-52 of this besides their own rounding: 0 if coordinates are doubles */
+    double vague;     /* corners have an error of 2^-52 of this besides their own rounding; 0 if coordinates are
+                       * doubles */
     double clearance;
-    const double *at; /* NULL, or a relative move at which the lines are to tell whether the clearance is kept */
-    double coarse;    /* by how much lines may fall short, where one can replace several */
+    const double *at; /* NULL, or a relative move at which the lines must decide whether the clearance is kept */
+    double coarse;    /* the distance by which lines may demand less, so that one can replace several */
 } sunder_i_parting;
 
-/* A half-plane of relative moves u of B. */
+/* A half-plane of relative moves u of B ("way": one of the ways in which the two may be separated). */
 typedef struct sunder_i_half_plane {
-    double n[2], d; /* n.u >= d; n of length 1 within 2^-51 */
-    double at;      /* n.u - d at the given place */
+    double n[2], d; /* the half-plane is n.u >= d; n has length 1 within 2^-51 */
+    double at;      /* n.u - d at the given relative move */
     size_t next;    /* in a proof: the node for this case */
 } sunder_i_half_plane;
 
 #define SUNDER_I_HALF_PLANES_A_CORNER 5
 #define SUNDER_I_HALF_PLANES_MORE 8
 
-/* Half-planes such that every u outside the shadow of A + (-B) from the origin (geometry/obstacle_shadow.h), or on its
- * boundary, lies in one of them, exactly. One of the two is an anchor, of one corner, and the clearance does not apply.
- * Room and answer as below; also 0 where the origin is too near to the obstacle. */
+/* Computes half-planes such that every u outside the shadow of A + (-B) from the origin (geometry/obstacle_shadow.h),
+ * or on its boundary, lies in one of them, exactly. One of the two polygons is an anchor, of one corner, and the
+ * clearance does not apply. Room and result are as below; the result is also 0 if the origin is too near to the
+ * obstacle. */
 size_t sunder_i_half_planes_past(const sunder_i_parting *parting, sunder_i_half_plane *out);
 
-/* Half-planes such that every u at which the two keep their clearance lies in one of them, exactly. out: room for
- * SUNDER_I_HALF_PLANES_A_CORNER (na + nb) + SUNDER_I_HALF_PLANES_MORE of them. Returns how many; 0 where rounding hides
- * the parts' own interior. */
+/* Computes half-planes such that every u at which the two keep their clearance lies in one of them, exactly. out: room
+ * for SUNDER_I_HALF_PLANES_A_CORNER (na + nb) + SUNDER_I_HALF_PLANES_MORE of them. Returns their number; 0 if rounding
+ * hides the interior of the parts. */
 size_t sunder_i_half_planes_between(const sunder_i_parting *parting, sunder_i_half_plane *out);
 
 #endif

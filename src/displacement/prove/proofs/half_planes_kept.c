@@ -1,6 +1,6 @@
-/* A cache of the ways between two pieces that are made for no particular place: they are the same for every candidate
- * of a tree, and needed in hundreds of thousands of its nodes. Two pairs that hash to one slot evict each other. The
- * cache only saves time: ways are the same, and their cost is counted the same. */
+/* A cache of the half-planes between two pieces that are not made for a particular place. They are the same for every
+ * candidate of a tree, and are needed in hundreds of thousands of its nodes. Two pairs that hash to one slot evict each
+ * other. The cache only saves time: the half-planes are the same, and their cost is counted the same. */
 #include "displacement/prove/proofs/branching.h"
 #include "displacement/prove/proofs/tuning.h"
 
@@ -8,7 +8,7 @@
 
 #include <string.h>
 
-/* Are its corners known as the nearest doubles, or drawn in? */
+/* Are the corners of feature f known only as rounded doubles, or moved because they are far? */
 static bool is_vague(const sunder_i_model *model, uint32_t f)
 {
     return sunder_i_thing_shape(model, f)->rational || model->body[model->body_of[f]].far;
@@ -44,14 +44,14 @@ size_t sunder_i_branching_fill_ways(sunder_i_branching *branching, const sunder_
 }
 
 struct sunder_i_half_planes_kept {
-    const sunder_i_body_piece *a, *b; /* NULL: nothing is kept here */
+    const sunder_i_body_piece *a, *b; /* NULL: the slot is empty */
     double clearance;
     bool shadow;
     sunder_i_half_plane *way;
     size_t n, capacity;
 };
 
-/* By what the piece is, not by where it is kept: that is another place in every run. */
+/* Hashes what the piece is, not its address, which differs in every run. */
 static uint64_t mix(const sunder_i_body_piece *piece)
 {
     uint64_t bits[4], mixed = piece->feature;
@@ -73,7 +73,7 @@ void sunder_i_branching_forget_ways(sunder_i_branching *branching)
     branching->kept = NULL;
 }
 
-/* Makes them, and keeps them here; false if memory is out. */
+/* Computes the half-planes and stores them in this slot. Returns false if memory is out. */
 static bool keep(sunder_i_branching *c, struct sunder_i_half_planes_kept *here, const sunder_i_body *p,
                  const sunder_i_body *q, const struct sunder_i_half_planes_kept *asked)
 {

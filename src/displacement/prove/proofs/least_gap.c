@@ -1,11 +1,11 @@
-/* For which smaller gaps does a proof that there is no solution still prove it?
+/* For which smaller gaps does a proof that there is no solution still hold?
  *
- * Let C be the convex set A - B of a node, and K what is behind all of its ways: K lies in C grown by a disc of the
- * clearance r. With all its lines n.u = d drawn in by e |n|, e <= r, what is behind them is a K' that grown by a disc
- * of e lies in K, and so in C grown by r - e and by e. What lies in a convex set when both are grown alike lies in it
- * before: K' lies in C grown by r - e. So the proof is one for a gap that is smaller by e, if the ways of all nodes
- * that owe the gap say n.u >= d - e |n| and each leaf remains a contradiction: what its forces win falls by a multiple
- * of e, and what limits lose stays the same.
+ * Let C be the convex set A - B of a node, and K what is behind all of its half-planes: K lies in C grown by a disc of
+ * the clearance r. Move all its lines n.u = d inwards by e |n|, e <= r. What is behind them is a K' such that K' grown
+ * by a disc of radius e lies in K, and so in C grown by r - e and by e. If one set lies in a convex set after both are
+ * grown alike, it does so before: K' lies in C grown by r - e. So the proof holds for a gap that is smaller by e if the
+ * half-planes of all nodes that owe the gap are n.u >= d - e |n| and each leaf remains a contradiction: the sum of its
+ * forces falls by a multiple of e, and the loss by limits stays the same.
  *
  * It is computed in doubles, roughly: it decides which gaps are not asked about, and no verdict. */
 #include "displacement/prove/proofs/branching.h"
@@ -27,7 +27,8 @@ static double owed(const shrinking *g, const sunder_proof_node *node)
     return sunder_i_branching_owed(g->subproblem, (uint32_t)node->a, (uint32_t)node->b);
 }
 
-/* Does it owe the layer's gap? What a listed pair is held to, and what a barrier is owed by its own gap, stays. */
+/* Does the node's pair owe the layer's gap? Reduced requirements of listed pairs, and gaps of barriers of their own, do
+ * not change. */
 static bool owes_gap(const shrinking *g, const sunder_proof_node *node)
 {
     return !node->shadow && node->clearance >= owed(g, node) &&
@@ -41,7 +42,7 @@ static double limit_of(const shrinking *g, uint32_t body)
     return isfinite(b->limit) ? b->limit : g->proof->within;
 }
 
-/* What the limit of a body loses; told once. */
+/* Returns the loss by the limit of a thing's body, and resets its sum so that it is counted once. */
 static double take_lost(shrinking *g, size_t thing)
 {
     const uint32_t body = g->model->body_of[thing];
@@ -51,7 +52,7 @@ static double take_lost(shrinking *g, size_t thing)
     return lost;
 }
 
-/* By how much smaller a gap may be for the leaf to remain a contradiction. */
+/* Returns by how much the gap may be reduced so that the leaf remains a contradiction. */
 static double shrink_leaf(shrinking *g, const sunder_proof_node *leaf)
 {
     const sunder_proof_force *force = g->proof->force + leaf->force;
@@ -74,7 +75,8 @@ static double shrink_leaf(shrinking *g, const sunder_proof_node *leaf)
     return falls > 0 ? sunder_i_max(won, 0) / falls : INFINITY;
 }
 
-/* The same of what a pair owes: that may not fall below what a listed one is held to. */
+/* Returns by how much the gap may be reduced because of a node: the distance owed may not fall below the requirement of
+ * a listed pair. */
 static double shrink_owed(const shrinking *g, const sunder_proof_node *node)
 {
     const double all = owed(g, node);

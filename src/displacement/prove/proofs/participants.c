@@ -1,4 +1,4 @@
-/* The participants of a branch and bound, and what they owe each other. */
+/* The participants of a branch and bound, and the distances that they owe each other. */
 #include "displacement/layer/reads.h"
 #include "displacement/layer/resolution.h"
 #include "displacement/prove/proofs/branching.h"
@@ -9,8 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Limits and features, by which lengths a branch and bound tells what is small: a hair is 2^-40 of the longest
- * limit, and more than what rounding does to places (half_planes.c). */
+/* Updates the lengths that decide what is small: a hair is 2^-40 of the longest limit, and exceeds the rounding errors
+ * of places (half_planes.c). */
 static void set_scale(sunder_i_branching *c, const sunder_i_body *b, double limit)
 {
     const sunder_i_body *first = &c->model->body[c->subproblem->body[0]];
@@ -27,7 +27,7 @@ uint32_t sunder_i_branching_place(const sunder_i_branching *branching, uint32_t 
     return SUNDER_I_GROUND;
 }
 
-/* One more place. */
+/* Adds a participant, and returns its place. */
 static uint32_t add(sunder_i_branching *c, uint32_t body, double limit)
 {
     const size_t n = c->bodies + 1;
@@ -102,7 +102,7 @@ void sunder_i_branching_begin(sunder_i_branching *branching, size_t first)
                    2 * sizeof *branching->t);
 }
 
-/* Could the two, moving as far as they may, come nearer than the gap? By their boxes. */
+/* Could the two bodies, moved within their limits, come nearer than the gap? Decided by their boxes. */
 static bool is_in_reach(const sunder_i_model *model, const sunder_i_body *p, const sunder_i_body *q)
 {
     const double reach = (p->fixed ? 0 : p->limit) + (q->fixed ? 0 : q->limit) + model->rules.gap;
@@ -112,7 +112,7 @@ static bool is_in_reach(const sunder_i_model *model, const sunder_i_body *p, con
     return p->pieces && q->pieces && sunder_i_box_meet(box, q->box);
 }
 
-/* Those of the reserve that could meet body `of`: appended to c->near. */
+/* Appends the bodies of the reserve that could meet body `of` to c->near. Returns false if memory is out. */
 static bool find_in_reach(sunder_i_branching *c, uint32_t of)
 {
     const sunder_i_model *model = c->model;
@@ -155,7 +155,7 @@ static bool is_heeded(const sunder_i_branching *c, uint32_t f)
     return !q->feature || sunder_i_set_has(q->feature, q->features, sunder_i_whole_of(c->model, f));
 }
 
-/* Are the two of bodies that can move, one of them? How far they can, at most. */
+/* Do the features belong to two bodies, at least one of which can move? *reach is the sum of the two limits. */
 static bool can_move(const sunder_i_branching *c, uint32_t f, uint32_t g, double *reach)
 {
     const sunder_i_model *model = c->model;

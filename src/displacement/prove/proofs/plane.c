@@ -1,16 +1,16 @@
-/* The same question in one plane: for a single movable body among fixed things, or for two bodies by themselves, where
- * only their relative move matters.
+/* The same question for one relative move: for a single movable body among fixed things, or for two bodies by
+ * themselves.
  *
- * Then the claims leave a convex polygon of moves, and each thing that forbids moves covers a part of it. So all pieces
- * within reach have their ways made once, and the polygon is divided by the ways of one piece: of those that cover its
- * middle, the one that covers most of the polygon. Each part is divided again, by the pieces that meet it. An empty
- * part is a leaf: the two or three claims whose lines bound it, with the limit, contradict each other. A middle that no
- * piece covers is a place where nothing is forbidden.
+ * Then the claims leave a convex polygon of relative moves, and each thing that forbids moves covers a part of it. So
+ * the half-planes of all pieces within reach are computed once, and the polygon is divided by those of one piece: of
+ * the pieces that cover its middle, the one that covers most of the polygon. Each part is divided again, by the pieces
+ * that meet it. An empty part is a leaf: the two or three claims whose lines bound it, with the limit, contradict each
+ * other. If no piece covers the middle, it is a place where nothing is forbidden.
  *
  * The polygon is in doubles, and decides nothing: it selects the claims to be tested (program.c). The record is a tree
  * like any other.
  *
- * A block of eighty houses between five roads has some hundred pieces in its way, thirty of which suffice: by
+ * A block of eighty houses between five roads has some hundred pieces in its way, thirty of which suffice. By
  * candidates (branches.c) the whole block would be examined again in each node, and the proof would take a hundred
  * times as long. */
 #include "displacement/prove/proofs/plane.h"
@@ -18,9 +18,9 @@
 #include <math.h>
 #include <string.h>
 
-/* ---- Dividing ---------------------------------------------------------------------------------------------------- */
+/* ---- Division ---------------------------------------------------------------------------------------------------- */
 
-/* Do the claim and those two sides, or some of them, contradict the limits? */
+/* Is it proved that the claim and the claims of two sides, or some of them, contradict the limits? */
 static bool contradict(sunder_i_plane *g, uint32_t claim, const uint32_t by[2])
 {
     sunder_i_branching *c = g->c;
@@ -35,7 +35,7 @@ static bool contradict(sunder_i_plane *g, uint32_t claim, const uint32_t by[2])
            sunder_i_branching_contradict(c, all, 3);
 }
 
-/* Is the region beyond the limits? */
+/* Is it proved that the region is beyond the limits? by: the claims of its sides nearest to 0. */
 static bool is_out_of_reach(sunder_i_plane *g, const uint32_t by[2])
 {
     for (size_t k = 0; k < 2; k++) {
@@ -45,7 +45,7 @@ static bool is_out_of_reach(sunder_i_plane *g, const uint32_t by[2])
     return false;
 }
 
-/* A region's place among those of the question at hand, and of that which is known. */
+/* A region's number among those of the present question, and among those of the cached one. */
 typedef struct place {
     uint32_t made, known;
 } place;
@@ -53,17 +53,17 @@ typedef struct place {
 static sunder_status divide(sunder_i_plane *g, const sunder_i_plane_region *r, place at, unsigned level,
                             sunder_i_verdict *verdict, sunder_i_levels *levels, size_t *root, sunder_error *err);
 
-/* What the cases of a node say, as they are gone through. */
+/* The state while the cases of a node are examined. */
 typedef struct cases {
-    sunder_i_plane_region rest; /* behind the ways so far */
-    bool none;                  /* that is nothing, by what this claim and sides say */
+    sunder_i_plane_region rest; /* the region behind the lines of the cases up to now */
+    bool none;                  /* that region is empty, which `claim` and the claims of two sides `by` prove */
     uint32_t claim, by[2];
-    unsigned thin; /* how often it was nothing but a sliver */
-    place below;   /* of the first way's */
+    unsigned thin; /* the number of times that only a sliver was left */
+    place below;   /* the numbers of the first case's region */
 } cases;
 
-/* The same where by are the sides that bound what was there. Where many lines meet in a corner they may be the wrong
- * two: then any others are taken that do, or none. */
+/* The same as contradict() if `by` are the sides next to what was cut off. If many lines meet in a corner they may be
+ * the wrong two: then any other two that contradict are taken, or none. */
 static bool any_contradict(sunder_i_plane *g, uint32_t claim, uint32_t by[2])
 {
     if (contradict(g, claim, by)) return true;
@@ -74,11 +74,12 @@ static bool any_contradict(sunder_i_plane *g, uint32_t claim, uint32_t by[2])
     return false;
 }
 
-/* Keeps what has n.u >= d. False: that is nothing, which the claim and sides prove, if anything does.
+/* Clips the region to n.u >= d. Returns false if nothing is left, which the claim and the sides `by` prove, if anything
+ * does.
  *
- * Where pieces touch, as the parts of a house do, what two claims leave is a line, or a point: no area, and no
- * contradiction. What covers the seam shows it, if the claims are taken for a little less than they say, here and in
- * no proof. */
+ * If pieces touch, as the parts of a house do, two claims may leave a line or a point: no area, and no contradiction. A
+ * piece that covers the common boundary of the two shows that it is forbidden, if the claims are taken to say slightly
+ * less, here and in no proof. */
 static bool keep(sunder_i_plane *g, sunder_i_plane_region *r, const double n[2], double d, uint32_t claim,
                  uint32_t by[2], unsigned *thin)
 {
@@ -89,7 +90,7 @@ static bool keep(sunder_i_plane *g, sunder_i_plane_region *r, const double n[2],
     return true;
 }
 
-/* One case: beyond this way, and behind those before it. *dead: it is void by itself. */
+/* Examines one case: beyond this line, and behind those before it. *dead is set if the case is infeasible by itself. */
 static sunder_status divide_case(sunder_i_plane *g, cases *s, size_t node, size_t way, unsigned level, bool *dead,
                                  sunder_i_verdict *verdict, sunder_i_levels *levels, size_t *root, sunder_error *err)
 {
@@ -117,7 +118,7 @@ static sunder_status divide_case(sunder_i_plane *g, cases *s, size_t node, size_
     return SUNDER_OK;
 }
 
-/* What comes now is behind this way. */
+/* Continues behind the line of this case. */
 static bool go_behind(sunder_i_plane *g, cases *s, size_t node, size_t way, unsigned level)
 {
     const sunder_i_half_plane *w = &g->c->way[way];
@@ -148,7 +149,8 @@ static sunder_status divide_all(sunder_i_plane *g, const sunder_i_plane_region *
         status = divide_case(g, &s, node, way, level, &dead, verdict, &used, &below, err);
         if (status || *verdict != SUNDER_I_INFEASIBLE) break;
         c->way[way].next = below;
-        if (!sunder_i_levels_has(&used, level)) { /* it does not use what the case says: it proves the node */
+        if (!sunder_i_levels_has(&used, level)) { /* the proof does not use the claim of this case, so it proves the
+                                                   * node */
             *root = below;
             *levels = used;
             break;
@@ -163,9 +165,9 @@ static sunder_status divide_all(sunder_i_plane *g, const sunder_i_plane_region *
     return status;
 }
 
-/* What a region is divided by: an obstacle, or a chord. */
+/* The obstacle or chord that divides a region. */
 typedef struct divider {
-    const sunder_i_plane_obstacle *obstacle; /* NULL: nothing is in the way */
+    const sunder_i_plane_obstacle *obstacle; /* NULL: nothing forbids the middle */
     size_t ways;
     sunder_i_chord chord;
     bool across;
@@ -209,7 +211,7 @@ static sunder_status divide(sunder_i_plane *g, const sunder_i_plane_region *r, p
     divider d;
     size_t node;
     if (!find_divider(g, r, at, middle, &d)) return sunder_i_no_memory(err);
-    if (!d.obstacle && !g->thin) { /* a sliver is forbidden, by a hair */
+    if (!d.obstacle && !g->thin) { /* a sliver is forbidden, up to rounding */
         *verdict = SUNDER_I_FEASIBLE;
         memcpy(g->free, middle, sizeof middle);
     }
@@ -223,8 +225,8 @@ static sunder_status divide(sunder_i_plane *g, const sunder_i_plane_region *r, p
 
 /* ---- The question ------------------------------------------------------------------------------------------------ */
 
-/* Which two bodies it is about: the one that may move, or the two, in whichever order they are asked about. False:
- * there are more. */
+/* Finds the bodies of the relative move: the one that may move, or the two, in whichever order they are given. Returns
+ * false if there are more. */
 static bool find_bodies(const sunder_i_branching *c, sunder_i_plane *g)
 {
     const sunder_i_subproblem *asked = c->subproblem;
@@ -243,7 +245,7 @@ static bool find_bodies(const sunder_i_branching *c, sunder_i_plane *g)
     return moving == 1 || moving == 2;
 }
 
-/* Is no other body relevant? */
+/* Are all other bodies irrelevant? */
 static bool is_all(const sunder_i_branching *c, const sunder_i_plane *g)
 {
     const sunder_i_subproblem *asked = c->subproblem;
@@ -258,7 +260,7 @@ static bool is_all(const sunder_i_branching *c, const sunder_i_plane *g)
     return true;
 }
 
-/* Finds what is forbidden. False if memory is out. */
+/* Lists the obstacles. Returns false if memory is out. */
 static bool begin(sunder_i_branching *c, sunder_i_plane *g, sunder_i_planes *own)
 {
     g->i = sunder_i_branching_join(c, g->p);

@@ -1,10 +1,10 @@
-/* A cache of the pieces that divided a plane, for nearly equal questions: without one feature of a proof, or about the
- * next conflict of the same two blocks.
+/* A cache of the obstacles that divided a plane, for nearly equal questions: without one feature of a proof, or about
+ * the next conflict of the same two blocks.
  *
  * A region is divided by the obstacle that covers its middle and most of it. If that obstacle is forbidden in the next
  * question, too, it is still the best of everything forbidden before; so only new obstacles have to be examined, a few
- * pieces of the pair in question, or none. If it remains the best, the regions that its ways leave are the same, and so
- * on. So the choices equal those made without the cache, and their counted cost is the same. */
+ * pieces of the pair in question, or none. If it remains the best, the regions that its half-planes leave are the same,
+ * and so on. So the choices equal those made without the cache, and their counted cost is the same. */
 #include "displacement/prove/proofs/plane.h"
 
 #include "base/list.h"
@@ -21,7 +21,7 @@ void sunder_i_plane_choices_free(sunder_i_plane_choices *choices)
     memset(choices, 0, sizeof *choices);
 }
 
-/* Was that run not forbidden then? */
+/* Was the run not forbidden in that question? */
 static bool is_fresh(const sunder_i_plane_choices *then, uint32_t run)
 {
     return run >= then->runs || !then->asked[run];

@@ -1,4 +1,4 @@
-/* Which pieces cover a place in the plane of one relative move, and by which of them is a region divided? By the one
+/* Which obstacles cover a place in the plane of one relative move, and by which of them is a region divided? By the one
  * that covers its middle and most of it. */
 #include "displacement/prove/proofs/plane.h"
 
@@ -7,7 +7,7 @@
 #include <math.h>
 #include <string.h>
 
-/* Does it hold the place, in its box, and all about it as far as that? */
+/* Does the obstacle contain the place u, and everything within the distance `about` of it? u must be in its box. */
 static bool holds(sunder_i_plane *g, sunder_i_plane_item *item, const double u[2], double about)
 {
     const sunder_i_plane_obstacle *o = &g->kept->obstacle[item->at];
@@ -21,7 +21,7 @@ static bool holds(sunder_i_plane *g, sunder_i_plane_item *item, const double u[2
     return true;
 }
 
-/* An upper bound on the area that the two boxes share. */
+/* Returns an upper bound of the area that two boxes share. */
 static double most_shared(const double box[4], const double of[4])
 {
     const double x = (box[2] < of[2] ? box[2] : of[2]) - (box[0] > of[0] ? box[0] : of[0]),
@@ -39,13 +39,14 @@ static double shared(const sunder_i_plane *g, const sunder_i_plane_obstacle *o, 
     return sunder_i_plane_area_of(&part);
 }
 
-/* The obstacle to divide a region by. */
+/* The best obstacle to divide a region by, up to now. */
 typedef struct choice {
     double box[4], whole, about, share;
     const sunder_i_plane_obstacle *best;
 } choice;
 
-/* Takes that one instead if it holds the place and takes more of the region, of equals if it was found first. */
+/* Replaces the best obstacle by this one if it contains the place u and covers more of the region; of equal ones the
+ * one found first is kept. */
 static void weigh(sunder_i_plane *g, const sunder_i_plane_region *r, const double u[2], sunder_i_plane_item *item,
                   choice *to)
 {
@@ -67,8 +68,11 @@ const sunder_i_plane_obstacle *sunder_i_plane_choose(sunder_i_plane *plane, cons
     choice to = {.share = -1};
     sunder_i_box_clear(to.box);
     for (uint32_t k = 0; k < region->n; k++) sunder_i_box_include(to.box, region->xy + 2 * k);
-    to.whole = sunder_i_plane_area(region) * (1 - 0x1p-30); /* a piece that covers this much covers all */
-    if (plane->thin) to.about = 2 * SLIVER * plane->reach;  /* what begins in a seam does not cover it */
+    to.whole = sunder_i_plane_area(region) * (1 - 0x1p-30); /* an obstacle that covers at least this area covers the
+                                                             * whole region */
+    if (plane->thin)
+        to.about = 2 * SLIVER * plane->reach; /* an obstacle that begins at the common boundary of two
+                                                             * others does not cover it */
     if (known) {
         to.share = known->share;
         to.best = known->obstacle == SUNDER_I_NO_CHOICE ? NULL : &plane->kept->obstacle[known->obstacle];
@@ -90,7 +94,7 @@ const sunder_i_plane_obstacle *sunder_i_plane_choose(sunder_i_plane *plane, cons
     return to.best;
 }
 
-/* Does it hold the place, by lines that are made for that? Its ways are in c->scratch then. */
+/* Does the obstacle contain the place u by half-planes made for u? These are then in c->scratch, *ways of them. */
 static bool holds_closely(sunder_i_plane *g, size_t at, const double u[2], size_t *ways)
 {
     sunder_i_branching *c = g->c;

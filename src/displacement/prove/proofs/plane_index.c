@@ -1,9 +1,10 @@
 /* Which obstacles are near a place in the plane of one relative move?
  *
  * Between two blocks of dozens of houses there are tens of thousands of obstacles; a place is in some hundred of them,
- * and thousands of places are tested. So there is a tree of boxes over all obstacles, along a curve; later ones are
- * appended and tested one by one, until they are too many. Obstacles that a question ignores are still in the tree:
- * their run is skipped. A question that considers only a small part of them lists these, and tests each. */
+ * and thousands of places are tested. So there is a tree of boxes over all obstacles, in the order of a space-filling
+ * curve. Later obstacles are appended and tested one by one, until they are too many. Obstacles that a question ignores
+ * are still in the tree: their runs are skipped. A question that has only a small part of the obstacles lists these,
+ * and tests each. */
 #include "displacement/prove/proofs/plane.h"
 
 #include "spatial/curve.h"
@@ -57,7 +58,7 @@ bool sunder_i_plane_index_list(const struct sunder_i_plane_kept *kept, const sun
     return true;
 }
 
-/* Those of the question by themselves. */
+/* Lists all obstacles of the present question. Returns false if memory is out. */
 static bool list_all(sunder_i_plane *g)
 {
     size_t n = 0;
@@ -75,7 +76,7 @@ bool sunder_i_plane_index_begin(sunder_i_plane *plane)
     return true;
 }
 
-/* Those of the items that are asked, and in whose boxes the place is. */
+/* Adds those items of [item, end) to plane->place that are forbidden and whose boxes contain the place u. */
 static void take(sunder_i_plane *g, sunder_i_plane_item *item, const sunder_i_plane_item *end, const double u[2])
 {
     const sunder_i_plane_run *run = g->kept->run;
@@ -83,7 +84,7 @@ static void take(sunder_i_plane *g, sunder_i_plane_item *item, const sunder_i_pl
         if (sunder_i_plane_is_in(item->box, u) && run[item->run].asked) g->place[g->about_place++] = item;
 }
 
-/* A short list is tested entirely. Without branches: half of them would be mispredicted. */
+/* A short list is tested completely, without branches, half of which would be mispredicted. */
 static void take_few(sunder_i_plane *g, const double u[2])
 {
     size_t n = 0;

@@ -1,7 +1,7 @@
-/* A cache of the planes of relative moves, for questions about the same bodies: two blocks of dozens of houses stand in
- * a hundred conflicts, each of which is examined, and again without each feature of its proof (report/no_room.c). The
- * pieces are the same each time, tens of thousands of them, and so are the ways of all except those in question. The
- * cache only saves time: answers are the same, and their cost is counted the same. */
+/* A cache of the planes of relative moves, for questions about the same bodies. Two blocks of dozens of houses have a
+ * hundred conflicts, each of which is examined, and again without each feature of its proof (report/no_room.c). The
+ * obstacles are the same each time, tens of thousands of them, and so are the half-planes of all except those in
+ * question. The cache only saves time: answers are the same, and their cost is counted the same. */
 #include "displacement/prove/proofs/plane.h"
 
 #include "base/stage_switch.h"
@@ -33,7 +33,7 @@ static bool is_of(const struct sunder_i_plane_kept *kept, const sunder_i_plane *
            sunder_i_stage_is_on("memo", "planes");
 }
 
-/* The most recently used one stands first. */
+/* The most recently used entry is moved to the front. */
 struct sunder_i_plane_kept *sunder_i_planes_take(sunder_i_planes *planes, const sunder_i_plane *plane)
 {
     size_t at = 0;

@@ -1,7 +1,8 @@
-/* The obstacles in the plane of one relative move: pieces that are nearer than they owe, and pieces that anchors may
- * not pass. Which pieces qualify depends on the model alone, and is found once for all questions about the two bodies;
- * what they owe each other depends on the question, and most questions agree on nearly all of it. The ways of each are
- * made at most once, as in violations.c, when the first place near it is tested; most are never needed. */
+/* The obstacles in the plane of one relative move: pairs of pieces that must keep a distance, and pieces that anchors
+ * may not pass. Which pieces qualify depends on the model alone, and is found once for all questions about the two
+ * bodies. The distance they owe each other depends on the question, and is the same for nearly all pieces in most
+ * questions. The half-planes of each are made at most once, as in violations.c, when the first place near it is tested;
+ * most are never needed. */
 #include "displacement/layer/reads.h"
 #include "displacement/prove/proofs/plane.h"
 
@@ -16,7 +17,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { PIECES, JUMPS, SIDES }; /* of sunder_i_plane_kept.looked */
+enum { PIECES, JUMPS, SIDES }; /* indices of sunder_i_plane_kept.looked */
 
 typedef struct finding {
     const sunder_i_model *model;
@@ -25,9 +26,9 @@ typedef struct finding {
     struct sunder_i_plane_kept *kept;
 } finding;
 
-/* ---- What there is ----------------------------------------------------------------------------------------------- */
+/* ---- Finding obstacles ------------------------------------------------------------------------------------------- */
 
-/* One more obstacle between those two, of the last run or of a new one. */
+/* Appends an obstacle between things f and g, to the last run or to a new one. Returns false if memory is out. */
 static bool append(const finding *w, const sunder_i_plane_obstacle *obstacle, uint32_t f, uint32_t g, bool side)
 {
     struct sunder_i_plane_kept *kept = w->kept;
@@ -75,7 +76,8 @@ static bool find_pieces(const finding *w, uint32_t other)
     return true;
 }
 
-/* Adds a piece that an anchor may not pass, if it is within reach; swapped: the anchor belongs to q. */
+/* Adds the shadow of a piece from an anchor, if it may be within reach. swapped: the anchor belongs to q. Returns false
+ * if memory is out. */
 static bool find_shadow(const finding *w, uint32_t q, const sunder_i_body_piece *anchor,
                         const sunder_i_body_piece *piece, bool swapped, uint32_t f, bool side)
 {
@@ -87,7 +89,7 @@ static bool find_shadow(const finding *w, uint32_t q, const sunder_i_body_piece 
     return !sunder_i_shadow_may_reach(a->box, b->box, offset, way) || append(w, &obstacle, f, piece->feature, side);
 }
 
-/* Over which pieces of one could anchors of the other jump? swapped: the anchors are those of q. */
+/* Adds the pieces of one body over which anchors of the other could jump. swapped: the anchors are those of q. */
 static bool find_jumps(const finding *w, uint32_t q, bool swapped)
 {
     const sunder_i_model *model = w->model;
@@ -108,7 +110,7 @@ static bool find_jumps(const finding *w, uint32_t q, bool swapped)
     return true;
 }
 
-/* Sides of a part of a barrier. */
+/* Adds the sides of a part of a barrier. */
 static bool find_sides(const finding *w, uint32_t part)
 {
     const sunder_i_model *model = w->model;
@@ -167,7 +169,8 @@ static int by_things(const void *a, const void *b)
     return (p->first > q->first) - (p->first < q->first);
 }
 
-/* Makes one run of all obstacles between the same two things, so that what they owe is determined once. */
+/* Makes one run of all obstacles between the same two things, so that the distance they owe is determined once. Returns
+ * false if memory is out. */
 static bool join_runs(struct sunder_i_plane_kept *kept)
 {
     sunder_i_plane_obstacle *all = sunder_i_alloc(kept->n, sizeof *all);
@@ -204,10 +207,10 @@ bool sunder_i_plane_find(const sunder_i_plane *plane, struct sunder_i_plane_kept
            sunder_i_reserve(&kept->box, &kept->box_capacity, 4 * kept->n, sizeof *kept->box);
 }
 
-/* ---- What is forbidden ------------------------------------------------------------------------------------------- */
+/* ---- Which obstacles are forbidden ------------------------------------------------------------------------------- */
 
-/* A box such that every relative move within the limits outside of it is behind all ways of an obstacle: its ways cover
- * A + (-B) with its clearance, or its shadow, i.e. the part of it up to a bounded multiple of its distance. */
+/* Computes a box such that every relative move within the limits outside of it is outside the obstacle. The obstacle is
+ * A + (-B) grown by its clearance, or a shadow: the part of it up to a bounded multiple of its distance. */
 void sunder_i_plane_bound(const sunder_i_plane *plane, const sunder_i_plane_obstacle *obstacle, double clearance,
                           double box[4])
 {
@@ -234,11 +237,12 @@ void sunder_i_plane_bound(const sunder_i_plane *plane, const sunder_i_plane_obst
     if (sqrt(square) > far + margin || !(box[0] <= box[2] && box[1] <= box[3])) sunder_i_box_clear(box);
 }
 
-/* What limits leave of what is behind the ways in c->scratch: its box. False: nothing. */
+/* Sets box to the box of what limits leave of the set behind the half-planes in c->scratch. Returns false if nothing is
+ * left. */
 static bool is_within_reach(const sunder_i_plane *g, size_t ways, double box[4])
 {
     const sunder_i_branching *c = g->c;
-    const double beyond = g->disc.xy[0] * (1 + 0x1p-20); /* a line so far off has all of the disc on one side */
+    const double beyond = g->disc.xy[0] * (1 + 0x1p-20); /* a line farther away has the whole disc on one side */
     for (size_t k = 0; k < ways; k++)
         if (c->scratch[k].d < -beyond) return false;
     sunder_i_plane_polygon r;
@@ -259,7 +263,7 @@ bool sunder_i_plane_make_ways(sunder_i_plane *plane, size_t at)
     double box[4];
     const size_t ways = sunder_i_branching_fill_ways(plane->c, &model->body[plane->p], o->a, &model->body[o->q], o->b,
                                                      o->clearance, o->shadow, NULL);
-    plane->c->looked = looked; /* it was counted when it was listed */
+    plane->c->looked = looked; /* this work was counted when the obstacle was listed */
     o->made = true;
     o->ways = 0;
     if (plane->c->failed || !is_within_reach(plane, ways, box)) return !plane->c->failed;
@@ -275,7 +279,8 @@ bool sunder_i_plane_make_ways(sunder_i_plane *plane, size_t at)
     return true;
 }
 
-/* Lists what limits may leave anything of. */
+/* Lists the obstacles of a run of which limits may leave something, for this clearance. Returns false if memory is
+ * out. */
 static bool make_run(sunder_i_plane *g, size_t at, double clearance)
 {
     struct sunder_i_plane_kept *kept = g->kept;
@@ -298,7 +303,7 @@ static bool make_run(sunder_i_plane *g, size_t at, double clearance)
     return true;
 }
 
-/* The same obstacles as those of a run, for another clearance: a run behind all others. False if memory is out. */
+/* Appends a run of the same obstacles as run `of`, for another clearance. Returns false if memory is out. */
 static bool add_run(struct sunder_i_plane_kept *kept, size_t of)
 {
     const size_t size = kept->run[of].end - kept->run[of].first, n = kept->n + size;

@@ -1,4 +1,4 @@
-/* Convex polygons of relative moves, in doubles: they decide nothing, and tell which claims to ask about. */
+/* Convex polygons of relative moves, in doubles: they decide nothing, and tell which claims to test. */
 #include "displacement/prove/proofs/plane.h"
 
 #include "base/extremes.h"
@@ -37,7 +37,7 @@ bool sunder_i_plane_clip(sunder_i_plane_region *region, const double n[2], doubl
     for (uint32_t k = 0; k < region->n; k++) {
         const double *u = region->xy + 2 * k, *v = region->xy + 2 * (k + 1 < region->n ? k + 1 : 0);
         const double s = at[k] - d, t = at[k + 1 < region->n ? k + 1 : 0] - d;
-        if (out.n + 2 > PLANE_CORNERS) return true; /* too many corners: it is left as large as it was */
+        if (out.n + 2 > PLANE_CORNERS) return true; /* too many corners: the region is not cut */
         if (s >= 0) {
             memcpy(out.xy + 2 * out.n, u, 2 * sizeof *u);
             out.claim[out.n++] = s == 0 && t < 0 ? claim : region->claim[k];
@@ -59,7 +59,7 @@ bool sunder_i_plane_clip(sunder_i_plane_region *region, const double n[2], doubl
 
 bool sunder_i_plane_clip_behind(sunder_i_plane_polygon *polygon, const sunder_i_half_plane *way)
 {
-    double off[PLANE_CORNERS + 1], out[2 * PLANE_CORNERS]; /* off: how far corners are behind it */
+    double off[PLANE_CORNERS + 1], out[2 * PLANE_CORNERS]; /* off: the distances of the corners behind the line */
     uint32_t n = 0;
     bool cut = false;
     for (uint32_t k = 0; k < polygon->n; k++) {
@@ -71,7 +71,7 @@ bool sunder_i_plane_clip_behind(sunder_i_plane_polygon *polygon, const sunder_i_
     for (uint32_t k = 0; k < polygon->n; k++) {
         const double *u = polygon->xy + 2 * k, *v = polygon->xy + 2 * (k + 1 < polygon->n ? k + 1 : 0), s = off[k],
                      t = off[k + 1];
-        if (n + 2 > PLANE_CORNERS) return true; /* as above */
+        if (n + 2 > PLANE_CORNERS) return true; /* too many corners: the polygon is not cut */
         if (s >= 0) {
             out[2 * n] = u[0];
             out[2 * n++ + 1] = u[1];
@@ -108,7 +108,7 @@ double sunder_i_plane_distance(const sunder_i_plane_region *region, double place
         const double *u = region->xy + 2 * k, *v = region->xy + 2 * (k + 1 < region->n ? k + 1 : 0);
         const double e[2] = {v[0] - u[0], v[1] - u[1]}, square = sunder_i_plane_at(e, e),
                      along = -sunder_i_plane_at(e, u);
-        if (e[0] * u[1] - e[1] * u[0] > 0) inside = false; /* the origin is to the right */
+        if (e[0] * u[1] - e[1] * u[0] > 0) inside = false; /* the origin is to the right of this side */
         const double share = square > 0 ? sunder_i_min(sunder_i_max(along / square, 0), 1) : 0;
         const double w[2] = {u[0] + share * e[0], u[1] + share * e[1]}, off = hypot(w[0], w[1]);
         if (!(off < least)) continue;

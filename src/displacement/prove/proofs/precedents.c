@@ -1,16 +1,16 @@
-/* Earlier answers about the same bodies, tried first for the next question.
+/* Earlier results about the same bodies, tried first for the next question.
  *
- * Two blocks of dozens of houses, one of them in a yard of the other, are in a hundred conflicts, and each is examined:
- * has it a solution, if all others stay? The obstacle is nearly always the same few walls of the yard. So the things
- * that sufficed for the last proof, and the two in question, are tried first; the answer is a proof for the whole, and
- * a small one. And if one conflict has a solution, the same relative move solves most others: a place that was free
- * before is tested before any search. The verdict is the same as without; only the proof, or the solution, may
- * differ. */
+ * Two blocks of dozens of houses, one of them in a courtyard of the other, have a hundred conflicts, and each is
+ * examined: does it have a solution if all others stay? The obstacle is nearly always the same few walls of the
+ * courtyard. So the things that sufficed for the last proof, and the two in question, are tried first; the answer is a
+ * proof for the whole, and a small one. If one conflict has a solution, the same relative move solves most others: a
+ * place that was free before is tested before any search. The verdict is the same as without; only the proof, or the
+ * solution, may differ. */
 #include "displacement/prove/proofs/branching.h"
 
 #include <string.h>
 
-/* Moves the entry of those bodies to the front, evicting the least recently used one if needed. */
+/* Moves the entry of these bodies to the front, evicting the least recently used one if needed. */
 sunder_i_precedent *sunder_i_precedents_take(sunder_i_precedents *precedents, uint32_t p, uint32_t q)
 {
     size_t at = 0;

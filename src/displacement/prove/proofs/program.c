@@ -1,17 +1,17 @@
 /* The convex program of one node of a branch and bound, and the proof that it has no solution.
  *
- * The claims up to the node say n.(t_j - t_i) >= d, and the limits |t| <= L. Forces f >= 0 on the claims, of any size,
- * prove that no t satisfies both if
+ * The claims up to the node are n.(t_j - t_i) >= d, and the limits are |t| <= L. Forces f >= 0 on the claims, of any
+ * size, prove that no t satisfies both if
  *
- *     sum of f d  >  sum over the bodies of L |sum of f n, signed by the side of the pair|,
+ *     sum of f d  >  sum over the bodies of L |sum of f n, with the sign of the body's side of the pair|,
  *
- * since any t would make the left side at most the sum of f n.(t_j - t_i), which is at most the right [Farkas; BV04,
- * section 5.8]. The program's own forces are tried, however inexact the program's own arithmetic was.
+ * since for any t the left side would be at most the sum of f n.(t_j - t_i), which is at most the right side [Farkas;
+ * BV04, section 5.8]. The program's own forces are tried, however inexact its arithmetic was.
  *
- * Limits enter the program as tangents, added where a solution exceeds one. The program finds the solution nearest to
- * the last candidate (quadratic/nearest.c), which satisfied all except the last claim, and so is few steps away; it
- * demands slightly more than the claims say (a hair). If it has a solution, but not with that hair, it is solved
- * without it, and then with half a hair less, since between two walls in one line there is room for rounding only. */
+ * Limits enter the program as tangents, added where a solution exceeds a limit. The program finds the solution nearest
+ * to the last candidate (quadratic/nearest.c), which satisfied all except the last claim, and so is few steps away. It
+ * demands slightly more than the claims (a hair). If it has a solution, but not with that hair, it is solved without
+ * it, and then with half a hair less, since between two walls in one line there is room for rounding only. */
 #include "displacement/prove/proofs/branching.h"
 #include "displacement/prove/proofs/tuning.h"
 
@@ -20,16 +20,16 @@
 
 #include <math.h>
 
-/* ---- The sum ----------------------------------------------------------------------------------------------------- */
+/* ---- The sum of the forces --------------------------------------------------------------------------------------- */
 
-/* Resets the sums of the bodies that claims are about, however many take part. */
+/* Resets the sums of the bodies of a claim. */
 static void begin(sunder_i_branching *c, const sunder_i_claim *s)
 {
     c->net[2 * s->i] = c->net[2 * s->i + 1] = c->weight[s->i] = 0;
     if (s->j != SUNDER_I_GROUND) c->net[2 * s->j] = c->net[2 * s->j + 1] = c->weight[s->j] = 0;
 }
 
-/* The share of a body's limit in the sum; each is counted once. */
+/* Returns the loss by the limit of body b, and resets its sum so that it is counted once. */
 static double take_lost(sunder_i_branching *c, uint32_t b, double share)
 {
     const double *net = c->net + 2 * (size_t)b;
@@ -38,9 +38,10 @@ static double take_lost(sunder_i_branching *c, uint32_t b, double share)
     return lost;
 }
 
-/* Rounding, with e = 2^-53 and N claims, |n| <= 1 + 4 e: a sum of N products is off by (N + 1) e of the sum of their
- * magnitudes, and that by as much of itself. A body's net force is so off by 2 (N + 2) e of its weight, the sum of the
- * forces on it, each way. What follows takes four times that, and 2^-1000 for what falls below the normal numbers. */
+/* Rounding, with e = 2^-53 and N claims, |n| <= 1 + 4 e: a sum of N products has an error of (N + 1) e of the sum of
+ * their magnitudes, which is computed with the same relative error. A body's net force has an error of 2 (N + 2) e of
+ * its weight, the sum of the magnitudes of the forces on it, along each axis. The code takes four times that, and
+ * 2^-1000 for underflow. */
 bool sunder_i_branching_is_contradiction(sunder_i_branching *branching)
 {
     const double share = (double)(branching->claims + branching->bodies + 8) * 0x1p-50;
@@ -66,8 +67,8 @@ bool sunder_i_branching_is_contradiction(sunder_i_branching *branching)
     return isfinite(all) && won - share * all - 0x1p-1000 > lost * (1 + share);
 }
 
-/* Forces on two claims of one pair, such that they balance at the shortest relative move that is as both say; false if
- * one alone tells that move. */
+/* Sets the forces of two claims of one pair so that they balance at the shortest relative move that satisfies both.
+ * Returns false if one claim alone determines that move. */
 static bool balance(sunder_i_claim *p, sunder_i_claim *q)
 {
     const double sign = p->i == q->i ? 1 : -1, cosine = sign * (p->n[0] * q->n[0] + p->n[1] * q->n[1]);
@@ -96,7 +97,8 @@ bool sunder_i_branching_is_dead_end(sunder_i_branching *branching)
     return false;
 }
 
-/* Forces of three such that they pull nowhere; false: none. */
+/* Sets the forces of three claims so that their sum is zero. Returns false if that is impossible with positive
+ * forces. */
 static bool balance_three(sunder_i_claim *p, sunder_i_claim *q, sunder_i_claim *r)
 {
     const double of_p = q->n[0] * r->n[1] - q->n[1] * r->n[0], of_q = r->n[0] * p->n[1] - r->n[1] * p->n[0],
@@ -122,14 +124,14 @@ bool sunder_i_branching_contradict(sunder_i_branching *branching, const uint32_t
 
 static double at(const double n[2], const double *t) { return n[0] * t[0] + n[1] * t[1]; }
 
-/* By how much the candidate misses what a claim says. */
+/* Returns by how much the candidate violates a claim. */
 static double missed_by(const sunder_i_branching *c, const sunder_i_claim *s)
 {
     return s->d - (s->j == SUNDER_I_GROUND ? 0 : at(s->n, c->t + 2 * (size_t)s->j)) + at(s->n, c->t + 2 * (size_t)s->i);
 }
 
-/* One more constraint: body b may not go beyond its limit where it is on its way to there, as that looks from the
- * candidate. False if it is there already. */
+/* Adds a constraint: body b may not go beyond its limit in the direction `to`. Returns false if there is nearly the
+ * same tangent already. */
 static bool add_tangent(sunder_i_branching *c, uint32_t b, const double to[2])
 {
     sunder_i_quadratic *p = &c->program;
@@ -145,7 +147,8 @@ static bool add_tangent(sunder_i_branching *c, uint32_t b, const double to[2])
     return true;
 }
 
-/* Adds the claims, each increased by that amount, and tangents for bodies at their limit. */
+/* Sets up the program: the claims, each increased by `margin`, and tangents for bodies at their limits. Returns false
+ * if memory is out. */
 static bool load(sunder_i_branching *c, double margin)
 {
     sunder_i_quadratic *p = &c->program;
@@ -165,7 +168,7 @@ static bool load(sunder_i_branching *c, double margin)
     return !c->failed && sunder_i_nearest_begin(&c->nearest, p);
 }
 
-/* Tangents where the solution oversteps a limit; false: there is none to add. */
+/* Adds tangents where the solution exceeds a limit. Returns false if there is none to add. */
 static bool add_tangents(sunder_i_branching *c)
 {
     bool added = false;
@@ -176,7 +179,7 @@ static bool add_tangents(sunder_i_branching *c)
     return added;
 }
 
-/* Does the solution keep the limits, and say what the claims do, up to a hair? Then it is the candidate. */
+/* Makes the solution the candidate. Does it satisfy limits and claims up to a hair? */
 static bool is_candidate(sunder_i_branching *c)
 {
     double worst = 0;

@@ -1,5 +1,4 @@
-/* The record of a branch and bound as a proof of its own: what hangs below one node, in one piece of memory for each
- * array. */
+/* Copies the part of a branch and bound's record below one node to a proof, with one block of memory for each array. */
 #include "displacement/prove/proofs/branching.h"
 
 #include "base/invariant.h"
@@ -7,11 +6,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Of the two sides. */
+/* The number of corners of the two sides of a chord. */
 enum { CHORD_CORNERS = 4 };
 
-/* Adds to `sum` the nodes, ways, forces and corners of the subtree at node `at`, which tell the memory it takes;
- * *deepest: of its nodes. */
+/* Adds to `sum` the nodes, half-planes, forces and corners of the subtree at node `at`, for the memory it takes.
+ * *deepest: the depth of its deepest node. */
 static void count(const sunder_i_branching *c, size_t at, size_t depth, sunder_proof *sum, size_t *deepest)
 {
     const sunder_i_node *node = &c->node[at];
@@ -33,8 +32,8 @@ typedef struct copying {
     sunder_proof_way *way;
     sunder_proof_force *force;
     double *corner;
-    size_t *path;      /* nodes of the record on the way down ... */
-    size_t *path_copy; /* ... and of the proof */
+    size_t *path;      /* the nodes of the record on the path down */
+    size_t *path_copy; /* the same nodes in the proof */
 } copying;
 
 static size_t copy_part(copying *g, const sunder_i_body_piece *piece)
@@ -53,7 +52,7 @@ static size_t copy_chord(copying *g, const sunder_i_chord *chord)
     return at;
 }
 
-/* Copies both sides of a chord as pairs of end points; returns their index. */
+/* Copies both sides of a chord as pairs of end points, and returns their index. */
 static size_t copy_sides(copying *g, const sunder_i_chord *chord)
 {
     const size_t at = g->proof->corners;
@@ -65,7 +64,7 @@ static size_t copy_sides(copying *g, const sunder_i_chord *chord)
     return at;
 }
 
-/* Of a node on the way down. */
+/* Returns the number in the proof of a node on the path down. */
 static size_t copy_of(const copying *g, size_t node)
 {
     size_t level = 0;

@@ -5,15 +5,16 @@
  * that boundary, the set of points in none of them is convex and misses it. So if one of its points is in O, all are,
  * and every point outside O, or on its boundary, is in one of the half-planes.
  *
- * A side that faces the origin, or seems to, gives n.u >= d with d at most n.P and n.Q, whatever n. A ray from the
+ * A side that faces the origin, or seems to, gives n.u >= d with d at most n.P and n.Q, whatever n is. A ray from the
  * corner L consists of all s L, s >= 1: so its line goes through the origin (d = 0), and n is tilted towards L until
- * n.C > 0 for every corner C that may be the true tangent corner in place of L, each in its direction up to rounding.
- * For the sides between the two, which lie between such corners.
+ * n.C > 0 for every corner C that may be the true tangent corner in place of L, having the same direction up to
+ * rounding. The same holds for the sides between the two, which lie between such corners.
  *
- * Rounding: corners of K are off by less than the slack of half_planes.c in each coordinate. Two corners that are taken
- * for one direction, although their cross product has the other sign, satisfy that by at most 4 slack (|C| + |L|). So C
- * is beside the line of L by at most 8 slack (1 + |C| / |L|), which is less than the tilt times |C| where that is 2^6
- * slack / m, m the least distance of a corner. If m is below 2^16 slack, there is no answer. */
+ * Rounding: corners of K have an error of less than the slack of half_planes.c in each coordinate. Two corners that
+ * count as being in one direction, although their cross product has the other sign, have a cross product of at most 4
+ * slack (|C| + |L|). So C is at most 8 slack (1 + |C| / |L|) beside the line of L, which is less than the tilt times
+ * |C| if the tilt is 2^6 slack / m, where m is the least distance of a corner. If m is below 2^16 slack, there is no
+ * answer. */
 #include "displacement/geometry/obstacle_shadow.h"
 #include "displacement/prove/proofs/half_planes.h"
 
@@ -28,7 +29,8 @@
 
 static double dot(const double p[2], const double q[2]) { return p[0] * q[0] + p[1] * q[1]; }
 
-/* Corner k of A + (-B), where one of the two is a single corner; the other's order is reversed if it is B. */
+/* Sets out to corner k of A + (-B), where one of the two is a single corner. If the other is B its order is
+ * reversed. */
 static void corner(const sunder_i_parting *p, size_t k, double out[2])
 {
     const double *a = p->a + 2 * (p->na > 1 ? k : 0), *b = p->b + 2 * (p->nb > 1 ? k : 0);
@@ -63,7 +65,7 @@ static size_t tangent(const sunder_i_parting *p, size_t n, double sign)
     return best;
 }
 
-/* The half-plane beyond the ray from that corner; sign +1: to its left. */
+/* Returns the half-plane beyond the ray through corner l: to its left with sign +1, else to its right. */
 static sunder_i_half_plane beside(const double l[2], double sign, double tilt)
 {
     const double length = sqrt(dot(l, l)), d[2] = {l[0] / length, l[1] / length};
@@ -81,7 +83,7 @@ size_t sunder_i_half_planes_past(const sunder_i_parting *parting, sunder_i_half_
     for (size_t k = 0; k < n; k++) {
         corner(parting, k, u);
         least = sunder_i_min(least, sqrt(dot(u, u)));
-        for (int c = 0; c < 2; c++) middle[c] += 2 * u[c] / (double)n; /* well within the shadow */
+        for (int c = 0; c < 2; c++) middle[c] += 2 * u[c] / (double)n; /* a point well inside the shadow */
     }
     if (!(least >= FAR_ENOUGH * slack)) return 0;
     const double tilt = TILT * slack / least;
@@ -96,7 +98,7 @@ size_t sunder_i_half_planes_past(const sunder_i_parting *parting, sunder_i_half_
         const double m[2] = {e[1] / length, -e[0] / length};
         if (!(length > 0)) continue;
         const double d = sunder_i_min(dot(m, u), dot(m, v)) - slack;
-        /* m is the outer normal: the origin sees the side where it lies beyond it, at d < 0, or may. */
+        /* m is the outer normal: the origin sees the side if it lies beyond it, at d < 0, up to rounding. */
         if (d < slack) out[ways++] = (sunder_i_half_plane){.n = {m[0], m[1]}, .d = d};
     }
     for (size_t k = 0; k < ways; k++)

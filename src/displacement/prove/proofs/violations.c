@@ -1,5 +1,5 @@
-/* What a candidate runs into: pairs of convex pieces that are nearer than they owe, anchors that jumped over a piece or
- * crossed a side, and the ways out. */
+/* The violations of a candidate: pairs of convex pieces that are nearer than they owe, anchors that jumped over a piece
+ * or crossed a side; and the half-planes of each. */
 #include "displacement/geometry/anchor_reach.h"
 #include "displacement/layer/barrier_parts.h"
 #include "displacement/layer/reads.h"
@@ -15,7 +15,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The pieces of a body; NULL, and noted, if memory is out. */
+/* Returns the pieces of a body; if memory is out, returns NULL and sets c->failed. */
 static const sunder_i_body_pieces *pieces_of(sunder_i_branching *c, const sunder_i_body *body)
 {
     const sunder_i_body_pieces *pieces = sunder_i_pieces_of(c->model, body);
@@ -34,7 +34,8 @@ double sunder_i_branching_depth(const sunder_i_branching *branching, size_t ways
     return ways ? -at : -INFINITY;
 }
 
-/* How deep the pieces of two bodies are in each other at the relative move u, or an anchor in a shadow. */
+/* Returns how deep the pieces of two bodies are in each other at the relative move u, or how deep an anchor is in a
+ * shadow. */
 static double find_depth(sunder_i_branching *c, const sunder_i_body *p, const sunder_i_body_piece *a,
                          const sunder_i_body *q, const sunder_i_body_piece *b, double clearance, bool shadow,
                          const double u[2])
@@ -46,7 +47,7 @@ static double find_depth(sunder_i_branching *c, const sunder_i_body *p, const su
     return n ? -at : -INFINITY;
 }
 
-/* The same by ways that are made for u. */
+/* The same by half-planes that are made for u. */
 static double find_depth_closely(sunder_i_branching *c, const sunder_i_body *p, const sunder_i_body_piece *a,
                                  const sunder_i_body *q, const sunder_i_body_piece *b, double clearance,
                                  const double u[2])
@@ -69,7 +70,7 @@ static standing stand(const sunder_i_branching *c, uint32_t body)
     return s;
 }
 
-/* Is that what a slack is for? */
+/* Is this clearance to be kept by a slack instead of by each pair of parts? */
 static bool has_slack(const sunder_i_branching *c, const sunder_i_body *p, const sunder_i_body *q, double clearance)
 {
     return c->subproblem->slack && clearance < 0 &&
@@ -110,7 +111,7 @@ static void look_at(sunder_i_branching *c, const standing *s, const standing *r,
     }
 }
 
-/* Of that is the passing of a piece by an anchor; swapped: which is r's. */
+/* Tests whether an anchor passed a piece. swapped: the anchor is of r. A deeper violation replaces *worst. */
 static void look_at_shadow(sunder_i_branching *c, const standing *s, const standing *r, const double u[2],
                            const sunder_i_body_piece *anchor, const sunder_i_body_piece *piece, bool swapped,
                            sunder_i_violation *worst)
@@ -121,7 +122,7 @@ static void look_at_shadow(sunder_i_branching *c, const standing *s, const stand
         *worst = (sunder_i_violation){s->number, r->number, a, b, 0, depth, NULL, true, false, false, false, NULL};
 }
 
-/* The move of the barrier, as the feature's body sees it, that is to part the two. */
+/* Sets u to the move of the barrier, relative to the feature's body, that has to separate the two. */
 static void move_of_slack(const sunder_i_branching *c, const sunder_i_requirement *required, const double *t,
                           double u[2])
 {
@@ -130,7 +131,7 @@ static void move_of_slack(const sunder_i_branching *c, const sunder_i_requiremen
     for (size_t x = 0; x < 2; x++) u[x] = v[x] - t[x];
 }
 
-/* Does the slack part the pieces of feature f from this part of the barrier? */
+/* Tests whether the slack separates the pieces of feature f from this part of the barrier. */
 static void look_at_part(sunder_i_branching *c, const standing *s, uint32_t f, uint32_t part, const double u[2],
                          const sunder_i_requirement *required, sunder_i_violation *worst)
 {
@@ -162,7 +163,7 @@ static void look_at_part(sunder_i_branching *c, const standing *s, uint32_t f, u
     }
 }
 
-/* A feature and a barrier that it is held to an overlap with. */
+/* Tests a feature and a barrier with which it may keep an overlap. */
 static void look_at_slack(sunder_i_branching *c, const standing *s, const sunder_i_requirement *required,
                           sunder_i_violation *worst)
 {
@@ -181,7 +182,7 @@ static void look_at_slack(sunder_i_branching *c, const standing *s, const sunder
             look_at_part(c, s, f, c->near.item[k], u, required, worst);
 }
 
-/* Over which pieces of one did anchors of the other jump? swapped: the anchors are those of r. */
+/* Tests whether anchors of one body jumped over pieces of the other. swapped: the anchors are those of r. */
 static void look_past(sunder_i_branching *c, const standing *s, const standing *r, bool swapped,
                       sunder_i_violation *worst)
 {
@@ -211,7 +212,7 @@ static void look_past(sunder_i_branching *c, const standing *s, const standing *
     }
 }
 
-/* Which sides of the one, part of a barrier, did side anchors of the other cross? swapped: the part is s. */
+/* Tests whether side anchors of one body crossed sides of the other, a part of a barrier. swapped: the part is s. */
 static void look_across(sunder_i_branching *c, const standing *s, const standing *r, bool swapped,
                         sunder_i_violation *worst)
 {
@@ -251,7 +252,7 @@ static void look_at_all(sunder_i_branching *c, const standing *s, const standing
     look_past(c, s, r, true, worst);
 }
 
-/* Bodies that a member of this one may meet, in c->near, ascending. */
+/* Sets c->near to the bodies, ascending, that a member of this one may meet. */
 static bool find_near(sunder_i_branching *c, const standing *s)
 {
     const sunder_i_model *model = c->model;
@@ -262,7 +263,7 @@ static bool find_near(sunder_i_branching *c, const standing *s)
         if (!model->present[f]) continue;
         for (uint32_t x = 0; x < 4; x++) box[x] = sunder_i_home_box(model, f)[x] + s->t[x & 1];
         if (sunder_i_forbids_paths(model))
-            sunder_i_box_join(box, sunder_i_home_box(model, f)); /* what it passed on its way, too */
+            sunder_i_box_join(box, sunder_i_home_box(model, f)); /* what it passed on its path counts, too */
         sunder_i_box_grow(box, model->rules.gap, grown);
         c->looked += LOOK_WORK;
         if (!sunder_i_look_about(model, &model->tree, grown, &c->near)) return false;
@@ -271,7 +272,8 @@ static bool find_near(sunder_i_branching *c, const standing *s)
     return true;
 }
 
-/* First violations that add no participant, so that small sets are settled before they grow; then the deepest. */
+/* Violations that add no participant come first, so that small sets are settled before they grow; then the deeper
+ * one. */
 static bool comes_before(const sunder_i_violation *o, const sunder_i_violation *than)
 {
     return o->known != than->known ? o->known : o->depth > than->depth;
@@ -286,7 +288,7 @@ static size_t insert(sunder_i_violation deepest[SUNDER_I_CHOICES], size_t n, con
     return n;
 }
 
-/* Those of the slacks of a body's members. Returns how many there are now. */
+/* Tests the slacks of a body's members, and returns the new number of violations. */
 static size_t look_at_slacks(sunder_i_branching *c, const standing *s, sunder_i_violation deepest[SUNDER_I_CHOICES],
                              size_t n)
 {
@@ -320,7 +322,7 @@ size_t sunder_i_branching_violations(sunder_i_branching *branching, sunder_i_vio
             o.known = true;
             n = insert(deepest, n, &o);
         }
-        /* The others stand where they were. */
+        /* All other bodies are at their original positions. */
         if (!find_near(branching, &s)) branching->failed = true;
         for (size_t k = 0; k < branching->near.n && !branching->failed; k++) {
             sunder_i_violation o = {.depth = 2 * branching->hair};
@@ -341,7 +343,7 @@ static int by_nearness(const void *a, const void *b)
     return p->n[0] != q->n[0] ? (p->n[0] < q->n[0] ? 1 : -1) : (p->n[1] < q->n[1]) - (p->n[1] > q->n[1]);
 }
 
-/* Copies the cached ways into c->scratch. */
+/* Copies the cached half-planes into c->scratch, and returns their number. */
 static size_t take_ways(sunder_i_branching *c, const sunder_i_body *p, const sunder_i_body_piece *a,
                         const sunder_i_body *q, const sunder_i_body_piece *b, double clearance, bool shadow)
 {
