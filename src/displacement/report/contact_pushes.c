@@ -201,7 +201,7 @@ sunder_status sunder_i_report_pushes(sunder_report *report, sunder_i_solver *sol
 {
     if (!solver->model.rules.keep_pushes) return SUNDER_OK;
     /* Without proofs they have not been computed yet. */
-    const sunder_status status = solver->groups.waived ? SUNDER_OK : sunder_i_solver_waive(solver, err);
+    const sunder_status status = solver->groups.waived ? SUNDER_OK : sunder_i_solver_list_waivers(solver, err);
     if (status) return status;
     found_pushes found[LOTS_AT_ONCE];
     size_t capacity = 0;

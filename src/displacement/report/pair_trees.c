@@ -130,7 +130,7 @@ sunder_status sunder_i_report_pair_trees(const sunder_report *report, sunder_i_s
     double *load = sunder_i_calloc(solver->model.bodies, sizeof *load);
     sunder_status status = which && load ? SUNDER_OK : sunder_i_no_memory(err);
     const size_t n = status ? 0 : list_pairs(report, &solver->model, parts, which);
-    if (!status && n) status = sunder_i_solver_waive(solver, err);
+    if (!status && n) status = sunder_i_solver_list_waivers(solver, err);
     for (size_t b = 0; b < solver->model.bodies; b++) parts->by_trees[b] = 0;
     if (!status && n) status = prove_all(report, solver, which, n, load, parts->by_trees, trees, err);
     sunder_i_free(which);

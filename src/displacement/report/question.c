@@ -547,7 +547,7 @@ sunder_status sunder_i_foresight_holds(const sunder_i_foresight *foresight, cons
     double *move = status ? NULL : sunder_i_calloc(2 * x.model.bodies, sizeof *move);
     if (!status && !move) status = sunder_i_no_memory(err);
     if (!status) carry_over(f, &x, move);
-    if (!status) status = sunder_i_solver_stand(&x, move, yes, err);
+    if (!status) status = sunder_i_solver_place_all(&x, move, yes, err);
     if (!status && *yes) status = is_solved(g, f->about, conflict, &x, &what, yes, &longest, err);
     if (!status && *yes) status = find_jump(g, f->about, &x, SUNDER_I_NOBODY, &jumps, err);
     *yes = *yes && !jumps;

@@ -59,7 +59,7 @@ static sunder_status improve_clusters(void *context, size_t begin, size_t end, s
     return SUNDER_OK;
 }
 
-static sunder_status invite_to_clusters(void *context, size_t begin, size_t end, sunder_error *err)
+static sunder_status find_blocking_neighbours(void *context, size_t begin, size_t end, sunder_error *err)
 {
     const sunder_i_solver *s = context;
     for (size_t k = begin; k < end; k++) {
@@ -68,7 +68,7 @@ static sunder_status invite_to_clusters(void *context, size_t begin, size_t end,
         double *move = sunder_i_solver_load_moves(s, c);
         sunder_i_reading reading;
         sunder_i_reads_begin(&reading, &s->model, sunder_i_reader_for(s, c));
-        const bool ok = sunder_i_cluster_invite(&s->model, c, move);
+        const bool ok = sunder_i_cluster_find_blocking(&s->model, c, move);
         sunder_i_reads_end(&reading);
         if (!ok) return sunder_i_no_memory(err);
     }
@@ -80,7 +80,7 @@ static sunder_status join_guests(sunder_i_solver *s, sunder_error *err)
 {
     bool any = false;
     sunder_status status =
-        sunder_i_parallel(s->model.rules.threads, s->clusters, SUNDER_I_GRAIN_WHOLE, invite_to_clusters, s, err);
+        sunder_i_parallel(s->model.rules.threads, s->clusters, SUNDER_I_GRAIN_WHOLE, find_blocking_neighbours, s, err);
     for (size_t k = 0; k < s->clusters && !status; k++)
         for (size_t g = 0; g < s->cluster[k].guests && !status; g++) {
             const sunder_i_id_pair *pair = &s->cluster[k].guest[g];

@@ -23,7 +23,7 @@ static bool goes_elsewhere(const sunder_i_solver *s, uint32_t b, const double *t
 }
 
 /* exact: can it be moved so without rounding? */
-static void place(sunder_i_solver *s, uint32_t b, const double *to, bool exact)
+static void place_body(sunder_i_solver *s, uint32_t b, const double *to, bool exact)
 {
     sunder_i_model *model = &s->model;
     const sunder_i_body *body = &model->body[b];
@@ -39,7 +39,7 @@ static void place(sunder_i_solver *s, uint32_t b, const double *to, bool exact)
 
 void sunder_i_solver_place(sunder_i_solver *solver, uint32_t b, const double *move)
 {
-    if (goes_elsewhere(solver, b, move)) place(solver, b, move, sunder_i_is_exact_move(&solver->model, b, move));
+    if (goes_elsewhere(solver, b, move)) place_body(solver, b, move, sunder_i_is_exact_move(&solver->model, b, move));
 }
 
 typedef struct committing {
@@ -66,7 +66,7 @@ static void take_moves(sunder_i_solver *s, const sunder_i_cluster *c, const bool
 {
     const size_t first = (size_t)(c->body - s->body);
     for (size_t k = first; k < first + c->n; k++)
-        if (goes_elsewhere(s, s->body[k], s->move + 2 * k)) place(s, s->body[k], s->move + 2 * k, exact[k]);
+        if (goes_elsewhere(s, s->body[k], s->move + 2 * k)) place_body(s, s->body[k], s->move + 2 * k, exact[k]);
 }
 
 sunder_status sunder_i_solver_commit(sunder_i_solver *solver, sunder_error *err)

@@ -49,7 +49,7 @@ sunder_status sunder_i_solver_begin_again(sunder_i_solver *solver, const bool *b
 /* Of two bodies in conflict at the start the one whose moves are coarse beside the other is fixed from now on. */
 sunder_status sunder_i_solver_begin_holding(sunder_i_solver *solver, sunder_error *err);
 /* The same as things stand, if it can be. */
-void sunder_i_solver_hold(sunder_i_solver *solver);
+void sunder_i_solver_hold_coarse(sunder_i_solver *solver);
 /* Is a body held? */
 bool sunder_i_solver_any_held(const sunder_i_solver *solver);
 /* Bodies that are held and still in conflict, or that might be of use, may move from now on: *any, and then what hangs
@@ -106,7 +106,7 @@ sunder_status sunder_i_solver_settle(sunder_i_solver *solver, double from, doubl
 /* Sorted, each once. */
 void sunder_i_sort_given_up(sunder_i_model *model);
 /* Takes over the relaxations that clusters made, and those that they ended. */
-sunder_status sunder_i_solver_take_over(sunder_i_solver *solver, sunder_error *err);
+sunder_status sunder_i_solver_take_relaxations(sunder_i_solver *solver, sunder_error *err);
 
 /* ---- reconsider.c ------------------------------------------------------------------------------------------------ */
 
@@ -150,7 +150,7 @@ void sunder_i_groups_free(sunder_i_groups *groups);
 /* ---- optimise.c -------------------------------------------------------------------------------------------------- */
 
 /* The listed pairs in the present layout, and the demands on them: s->groups.waived. */
-sunder_status sunder_i_solver_waive(sunder_i_solver *solver, sunder_error *err);
+sunder_status sunder_i_solver_list_waivers(sunder_i_solver *solver, sunder_error *err);
 /* Proves of each contact group how little it could cost; what is found to be cheaper is taken. */
 sunder_status sunder_i_solver_optimise(sunder_i_solver *solver, sunder_error *err);
 
@@ -177,7 +177,7 @@ sunder_status sunder_i_solver_prove(const sunder_i_solver *solver, const sunder_
                                     sunder_i_verdict *verdict, double *gap, sunder_error *err);
 /* Puts all movable bodies at their places in a layout, [2 * bodies] rounded, and relates them. *well: no limit is
  * exceeded, and nothing jumps. */
-sunder_status sunder_i_solver_stand(sunder_i_solver *solver, const double *move, bool *well, sunder_error *err);
+sunder_status sunder_i_solver_place_all(sunder_i_solver *solver, const double *move, bool *well, sunder_error *err);
 /* Relaxes those that are. Before the model is cut, so that nothing more is asked about them. */
 sunder_status sunder_i_solver_spare(sunder_i_solver *solver, const sunder_i_spared *spared, sunder_error *err);
 

@@ -42,9 +42,9 @@ void sunder_i_solver_free(sunder_i_solver *solver)
     sunder_i_body_states_free(&solver->states);
     sunder_i_free(solver->widened);
     sunder_i_changes_free(&solver->changes);
-    sunder_i_free(solver->alone);
-    sunder_i_free(solver->alone_work);
-    sunder_i_free(solver->crowd);
+    sunder_i_free(solver->asked);
+    sunder_i_free(solver->asked_work);
+    sunder_i_free(solver->crowd_size);
     sunder_i_free(solver->measured);
     sunder_i_free(solver->limit);
     sunder_i_free(solver->went);
@@ -67,8 +67,8 @@ sunder_status sunder_i_solver_init(sunder_i_solver *solver, sunder_error *err)
     solver->parent = sunder_i_alloc(n, sizeof *solver->parent);
     solver->widened = sunder_i_calloc(n, sizeof *solver->widened);
     solver->carrier = sunder_i_alloc(n, sizeof *solver->carrier);
-    solver->crowd = sunder_i_calloc(n, sizeof *solver->crowd);
-    if (!solver->parent || !solver->widened || !solver->carrier || !solver->crowd ||
+    solver->crowd_size = sunder_i_calloc(n, sizeof *solver->crowd_size);
+    if (!solver->parent || !solver->widened || !solver->carrier || !solver->crowd_size ||
         !sunder_i_body_states_init(&solver->states, n) ||
         !sunder_i_changes_init(&solver->changes, solver->model.things))
         return sunder_i_no_memory(err);
@@ -126,7 +126,7 @@ const uint32_t *sunder_i_solver_members(const sunder_i_solver *solver, uint32_t 
     return *n ? solver->body + first : NULL;
 }
 
-sunder_i_cluster *sunder_i_solver_cluster_with(const sunder_i_solver *solver, uint32_t root)
+sunder_i_cluster *sunder_i_solver_cluster_at_root(const sunder_i_solver *solver, uint32_t root)
 {
     size_t n, low = 0, high = solver->clusters;
     const uint32_t *member = sunder_i_solver_members(solver, root, &n);
@@ -142,7 +142,7 @@ sunder_i_cluster *sunder_i_solver_cluster_with(const sunder_i_solver *solver, ui
 
 sunder_i_cluster *sunder_i_solver_cluster_of(const sunder_i_solver *solver, uint32_t body)
 {
-    return sunder_i_solver_cluster_with(solver, sunder_i_union_find(solver->parent, body));
+    return sunder_i_solver_cluster_at_root(solver, sunder_i_union_find(solver->parent, body));
 }
 
 bool sunder_i_solver_any_of(const sunder_i_solver *solver, const uint32_t *body, size_t n, sunder_i_body_test test)
@@ -169,7 +169,7 @@ bool *sunder_i_solver_connected_with(const sunder_i_solver *solver, sunder_i_bod
 
 #ifndef NDEBUG
 /* Clusters are disjoint but for fixed bodies, and their members ascend. */
-static const char *check(const sunder_i_solver *s)
+static const char *check_clusters(const sunder_i_solver *s)
 {
     size_t members = 0;
     for (size_t k = 0; k < s->clusters; members += s->cluster[k++].n) {
@@ -195,21 +195,21 @@ void sunder_i_solver_forget_clusters(sunder_i_solver *solver)
 }
 
 /* Allocates the results for this many edges. Old contents are lost if the memory is too small. */
-static bool make_room(sunder_i_solver *s)
+static bool reserve_clusters(sunder_i_solver *s)
 {
-    if (s->room >= s->edges && s->cluster) return true;
+    if (s->edge_room >= s->edges && s->cluster) return true;
     sunder_i_free(s->member);
     sunder_i_free(s->body);
     sunder_i_free(s->move);
     sunder_i_free(s->cluster);
-    s->room = s->edges + s->edges / SPARE_ROOM;
-    s->member = sunder_i_alloc(2 * s->room, sizeof *s->member);
-    s->body = sunder_i_alloc(2 * s->room, sizeof *s->body);
-    s->move = sunder_i_alloc(4 * s->room, sizeof *s->move);
-    s->cluster = sunder_i_alloc(s->room, sizeof *s->cluster);
-    s->listed = SUNDER_I_NONE_LISTED;
+    s->edge_room = s->edges + s->edges / SPARE_ROOM;
+    s->member = sunder_i_alloc(2 * s->edge_room, sizeof *s->member);
+    s->body = sunder_i_alloc(2 * s->edge_room, sizeof *s->body);
+    s->move = sunder_i_alloc(4 * s->edge_room, sizeof *s->move);
+    s->cluster = sunder_i_alloc(s->edge_room, sizeof *s->cluster);
+    s->edges_listed = SUNDER_I_NONE_LISTED;
     const bool ok = s->member && s->body && s->move && s->cluster;
-    if (!ok) s->room = 0; /* some of it is not there */
+    if (!ok) s->edge_room = 0; /* some of it is not there */
     return ok;
 }
 
@@ -217,7 +217,7 @@ static bool make_room(sunder_i_solver *s)
  * False if memory is out. */
 static bool list_members(sunder_i_solver *s)
 {
-    if (s->listed == s->edges) return true;
+    if (s->edges_listed == s->edges) return true;
     uint64_t *key = sunder_i_alloc(2 * s->edges, sizeof *key);
     size_t n = 0;
     s->members = 0;
@@ -233,7 +233,7 @@ static bool list_members(sunder_i_solver *s)
         s->member[s->members] = (sunder_i_cluster_member){(uint32_t)(key[k] >> 32), (uint32_t)key[k]};
         s->body[s->members++] = (uint32_t)key[k];
     }
-    s->listed = ok ? s->edges : SUNDER_I_NONE_LISTED;
+    s->edges_listed = ok ? s->edges : SUNDER_I_NONE_LISTED;
     sunder_i_free(key);
     return ok;
 }
@@ -245,7 +245,7 @@ static bool is_new_crowd(const sunder_i_solver *s, const sunder_i_cluster *c)
     if (!(s->model.rules.effort > 0) || c->limited || c->brief || c->n < CROWD) return false;
     const size_t most = c->n <= LARGE_GROWN_CROWD ? c->n - 1 : c->n / 2;
     for (size_t k = 0; k < c->n; k++)
-        if (s->crowd[c->body[k]] > most) return false;
+        if (s->crowd_size[c->body[k]] > most) return false;
     return true;
 }
 
@@ -253,7 +253,7 @@ static bool is_new_crowd(const sunder_i_solver *s, const sunder_i_cluster *c)
 sunder_status sunder_i_solver_gather(sunder_i_solver *solver, sunder_error *err)
 {
     free_clusters(solver);
-    if (!make_room(solver) || !list_members(solver)) {
+    if (!reserve_clusters(solver) || !list_members(solver)) {
         solver->members = 0;
         return sunder_i_no_memory(err);
     }
@@ -270,9 +270,9 @@ sunder_status sunder_i_solver_gather(sunder_i_solver *solver, sunder_error *err)
         c->body = solver->body + first;
         c->n = end - first;
         c->margin = sunder_i_solver_margin(solver, c->body, c->n);
-        c->crowd = is_new_crowd(solver, c);
+        c->starts_from_areas = is_new_crowd(solver, c);
     }
-    SUNDER_I_CHECK(check(solver), solver->members);
+    SUNDER_I_CHECK(check_clusters(solver), solver->members);
     return SUNDER_OK;
 }
 

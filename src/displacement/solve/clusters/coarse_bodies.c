@@ -66,7 +66,7 @@ static bool is_free_to_hold(const sunder_i_solver *solver, uint32_t b)
 
 /* Where no corner is near, those that are farther away than the nearest coarse coordinate are drawn in for the search,
  * so that products of lengths are doubles. */
-static void fix(sunder_i_solver *solver, sunder_i_body *body, double stretch)
+static void fix_body(sunder_i_solver *solver, sunder_i_body *body, double stretch)
 {
     body->held = body->fixed = true;
     if (body->far) return;
@@ -87,13 +87,13 @@ static void hold_beside(sunder_i_solver *solver, uint32_t b, uint32_t neighbour)
     const double stretch = stretch_of(solver, beside);
     const bool coarse = ldexp(COARSE_PLACES, last_place(box)) > stretch;
     if (!body->held && (coarse || body->far) && is_free_to_hold(solver, b)) {
-        fix(solver, body, stretch);
+        fix_body(solver, body, stretch);
         sunder_i_body_event(&solver->states, b, SUNDER_I_IS_HELD);
     }
     if (body->held && coarse) sunder_i_body_event(&solver->states, b, SUNDER_I_IS_HELD_AS_COARSE);
 }
 
-static void hold(sunder_i_solver *solver, const sunder_i_relations *relations)
+static void hold_coarse_bodies(sunder_i_solver *solver, const sunder_i_relations *relations)
 {
     for (size_t k = 0; k < relations->n; k++) {
         const sunder_i_relation *r = &relations->pair[k];
@@ -126,13 +126,13 @@ sunder_status sunder_i_solver_begin_holding(sunder_i_solver *solver, sunder_erro
     if (!sunder_i_body_states_init(&solver->states, solver->model.bodies)) return sunder_i_no_memory(err);
     solver->may_hold = true;
     for (size_t b = 0; b < solver->model.bodies; b++) sunder_i_find_far_corners(&solver->model, &solver->model.body[b]);
-    hold(solver, &solver->start);
+    hold_coarse_bodies(solver, &solver->start);
     return SUNDER_OK;
 }
 
-void sunder_i_solver_hold(sunder_i_solver *solver)
+void sunder_i_solver_hold_coarse(sunder_i_solver *solver)
 {
-    if (solver->may_hold) hold(solver, &solver->now);
+    if (solver->may_hold) hold_coarse_bodies(solver, &solver->now);
 }
 
 bool sunder_i_solver_any_held(const sunder_i_solver *solver)

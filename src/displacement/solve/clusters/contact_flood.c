@@ -14,7 +14,7 @@
 #include <string.h>
 
 /* Contacts are found for this many bodies at a time, on all threads, before the results are joined. */
-enum { BODIES_OF_A_LOT = 64, LOTS_AT_ONCE = 64 };
+enum { BODIES_OF_A_BATCH = 64, BATCHES_AT_ONCE = 64 };
 
 typedef enum standing { ELSEWHERE, WAITS, IN_TURN, LOOKED_AT } standing;
 
@@ -28,12 +28,12 @@ typedef struct flooding {
     sunder_i_flood *out;
     unsigned char *standing; /* [bodies] */
     size_t turn;             /* the first of the current batch */
-    contacts lot[LOTS_AT_ONCE];
+    contacts batch[BATCHES_AT_ONCE];
 } flooding;
 
 static bool is_fixed(const flooding *f, uint32_t body) { return f->solver->model.body[body].fixed; }
 
-static bool count(flooding *f, uint32_t body)
+static bool enqueue_body(flooding *f, uint32_t body)
 {
     if (f->standing[body] != ELSEWHERE || is_fixed(f, body)) return true;
     f->standing[body] = WAITS;
@@ -41,28 +41,28 @@ static bool count(flooding *f, uint32_t body)
 }
 
 /* The bodies that moved or are in conflict. */
-static bool count_all(flooding *f)
+static bool enqueue_starting_bodies(flooding *f)
 {
     const sunder_i_solver *s = f->solver;
     bool ok = true;
     for (uint32_t b = 0; b < s->model.bodies && ok; b++)
-        if (s->model.move[2 * b] != 0 || s->model.move[2 * b + 1] != 0) ok = count(f, b);
+        if (s->model.move[2 * b] != 0 || s->model.move[2 * b + 1] != 0) ok = enqueue_body(f, b);
     for (size_t k = 0; k < s->now.n && ok; k++) {
         const sunder_i_relation *r = &s->now.pair[k];
         if (sunder_i_is_conflict_of_bodies(&s->model, r))
-            ok = count(f, s->model.body_of[r->a]) && count(f, s->model.body_of[r->b]);
+            ok = enqueue_body(f, s->model.body_of[r->a]) && enqueue_body(f, s->model.body_of[r->b]);
     }
     return ok;
 }
 
 /* Of two bodies in the flood the earlier looks for the contact; of two in one batch the lesser. */
-static bool asks(const flooding *f, uint32_t b, uint32_t other)
+static bool looks_for_contact(const flooding *f, uint32_t b, uint32_t other)
 {
     return other != b && f->standing[other] != LOOKED_AT && (f->standing[other] != IN_TURN || b < other);
 }
 
 /* Bodies that stand about one. */
-static bool look_about(const flooding *f, uint32_t b, sunder_i_list *near)
+static bool find_near_bodies(const flooding *f, uint32_t b, sunder_i_list *near)
 {
     const sunder_i_model *model = &f->solver->model;
     const sunder_i_body *body = &model->body[b];
@@ -83,11 +83,11 @@ static bool look_about(const flooding *f, uint32_t b, sunder_i_list *near)
 static bool find_contacts(const flooding *f, uint32_t b, sunder_i_list *near, contacts *out)
 {
     const sunder_i_model *model = &f->solver->model;
-    if (!look_about(f, b, near)) return false;
+    if (!find_near_bodies(f, b, near)) return false;
     for (size_t k = 0; k < near->n; k++) {
         const uint32_t other = near->item[k];
         bool contact = false;
-        if (!asks(f, b, other)) continue;
+        if (!looks_for_contact(f, b, other)) continue;
         if (!sunder_i_are_in_contact(model, b, other, model->move + 2 * (size_t)b, model->move + 2 * (size_t)other,
                                      &contact))
             return false;
@@ -98,23 +98,23 @@ static bool find_contacts(const flooding *f, uint32_t b, sunder_i_list *near, co
     return true;
 }
 
-static sunder_status find_contacts_of_lots(void *context, size_t begin, size_t end, sunder_error *err)
+static sunder_status find_contacts_of_batches(void *context, size_t begin, size_t end, sunder_error *err)
 {
     flooding *f = context;
     sunder_i_list near = {0};
     bool ok = true;
-    for (size_t lot = begin; lot < end && ok; lot++) {
-        const size_t first = f->turn + lot * BODIES_OF_A_LOT;
-        f->lot[lot].n = 0;
-        for (size_t k = first; k < first + BODIES_OF_A_LOT && k < f->out->body.n && ok; k++)
-            ok = sunder_i_step() && find_contacts(f, f->out->body.item[k], &near, &f->lot[lot]);
+    for (size_t batch = begin; batch < end && ok; batch++) {
+        const size_t first = f->turn + batch * BODIES_OF_A_BATCH;
+        f->batch[batch].n = 0;
+        for (size_t k = first; k < first + BODIES_OF_A_BATCH && k < f->out->body.n && ok; k++)
+            ok = sunder_i_step() && find_contacts(f, f->out->body.item[k], &near, &f->batch[batch]);
     }
     sunder_i_free(near.item);
     return ok ? SUNDER_OK : sunder_i_no_memory(err);
 }
 
 /* Joins two that are in contact. Fixed ones join none. */
-static bool join(flooding *f, const sunder_i_id_pair *pair)
+static bool join_contact(flooding *f, const sunder_i_id_pair *pair)
 {
     if (is_fixed(f, pair->b)) {
         if (!sunder_i_reserve(&f->out->touch, &f->out->touch_capacity, f->out->touches + 1, sizeof *f->out->touch))
@@ -123,39 +123,39 @@ static bool join(flooding *f, const sunder_i_id_pair *pair)
         return true;
     }
     sunder_i_union_join(f->out->parent, pair->a, pair->b);
-    return count(f, pair->b);
+    return enqueue_body(f, pair->b);
 }
 
 /* Handles the queue's next bodies in order: as many as LOTS_AT_ONCE lots hold, or all that are left. */
-static sunder_status take_turn(flooding *f, sunder_error *err)
+static sunder_status process_batches(flooding *f, sunder_error *err)
 {
-    const size_t all = (size_t)BODIES_OF_A_LOT * LOTS_AT_ONCE, left = f->out->body.n - f->turn;
-    const size_t n = left < all ? left : all, lots = (n + BODIES_OF_A_LOT - 1) / BODIES_OF_A_LOT;
+    const size_t all = (size_t)BODIES_OF_A_BATCH * BATCHES_AT_ONCE, left = f->out->body.n - f->turn;
+    const size_t n = left < all ? left : all, batches = (n + BODIES_OF_A_BATCH - 1) / BODIES_OF_A_BATCH;
     for (size_t k = 0; k < n; k++) f->standing[f->out->body.item[f->turn + k]] = IN_TURN;
-    const sunder_status status =
-        sunder_i_parallel(f->solver->model.rules.threads, lots, SUNDER_I_GRAIN_WHOLE, find_contacts_of_lots, f, err);
+    const sunder_status status = sunder_i_parallel(f->solver->model.rules.threads, batches, SUNDER_I_GRAIN_WHOLE,
+                                                   find_contacts_of_batches, f, err);
     if (status) return status;
     for (size_t k = 0; k < n; k++) f->standing[f->out->body.item[f->turn + k]] = LOOKED_AT;
     f->turn += n;
-    for (size_t lot = 0; lot < lots; lot++)
-        for (size_t k = 0; k < f->lot[lot].n; k++)
-            if (!join(f, &f->lot[lot].pair[k])) return sunder_i_no_memory(err);
+    for (size_t batch = 0; batch < batches; batch++)
+        for (size_t k = 0; k < f->batch[batch].n; k++)
+            if (!join_contact(f, &f->batch[batch].pair[k])) return sunder_i_no_memory(err);
     sunder_i_pieces_forget(&f->solver->model, SUNDER_I_PIECES_HELD);
     return SUNDER_OK;
 }
 
-static sunder_status flood(flooding *f, sunder_error *err)
+static sunder_status flood_from_queue(flooding *f, sunder_error *err)
 {
     const sunder_i_groups *groups = &f->solver->groups;
     sunder_i_union_init(f->out->parent, f->solver->model.bodies);
-    if (!count_all(f)) return sunder_i_no_memory(err);
+    if (!enqueue_starting_bodies(f)) return sunder_i_no_memory(err);
     for (size_t k = 0; k < groups->joins; k++) {
         const sunder_i_id_pair *joined = &groups->joined[k];
         sunder_i_union_join(f->out->parent, joined->a, joined->b);
-        if (!count(f, joined->a) || !count(f, joined->b)) return sunder_i_no_memory(err);
+        if (!enqueue_body(f, joined->a) || !enqueue_body(f, joined->b)) return sunder_i_no_memory(err);
     }
     sunder_status status = SUNDER_OK;
-    while (f->turn < f->out->body.n && !status) status = take_turn(f, err);
+    while (f->turn < f->out->body.n && !status) status = process_batches(f, err);
     return status;
 }
 
@@ -163,8 +163,8 @@ sunder_status sunder_i_flood_contacts(sunder_i_solver *solver, sunder_i_flood *o
 {
     flooding f = {.solver = solver, .out = out, .standing = sunder_i_calloc(solver->model.bodies, sizeof *f.standing)};
     *out = (sunder_i_flood){.parent = sunder_i_alloc(solver->model.bodies, sizeof *out->parent)};
-    const sunder_status status = f.standing && out->parent ? flood(&f, err) : sunder_i_no_memory(err);
-    for (size_t k = 0; k < LOTS_AT_ONCE; k++) sunder_i_free(f.lot[k].pair);
+    const sunder_status status = f.standing && out->parent ? flood_from_queue(&f, err) : sunder_i_no_memory(err);
+    for (size_t k = 0; k < BATCHES_AT_ONCE; k++) sunder_i_free(f.batch[k].pair);
     sunder_i_free(f.standing);
     return status;
 }

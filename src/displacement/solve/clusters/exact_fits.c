@@ -41,8 +41,8 @@ static bool is_about(const sunder_i_model *model, const sunder_i_trial *t, uint3
     return false;
 }
 
-static bool gather(const sunder_i_model *model, const sunder_i_cluster *c, const sunder_i_trial *t, double reach,
-                   fitting *f)
+static bool gather_bodies(const sunder_i_model *model, const sunder_i_cluster *c, const sunder_i_trial *t, double reach,
+                          fitting *f)
 {
     f->n = 0;
     f->body = sunder_i_alloc(c->n, sizeof *f->body);
@@ -60,7 +60,7 @@ static bool gather(const sunder_i_model *model, const sunder_i_cluster *c, const
 }
 
 /* The trial's goals on the lattice, if they have places there: *found. */
-static sunder_status put_on_lattice(const sunder_i_model *model, const sunder_i_cluster *c, sunder_i_trial *t,
+static sunder_status align_to_steps(const sunder_i_model *model, const sunder_i_cluster *c, sunder_i_trial *t,
                                     bool *found, sunder_error *err)
 {
     const sunder_i_waived none = {0};
@@ -68,8 +68,8 @@ static sunder_status put_on_lattice(const sunder_i_model *model, const sunder_i_
     double reach = model->rules.gap;
     for (size_t k = 0; k < t->n; k++)
         reach = sunder_i_max(reach, model->rules.gap + extent_of(&model->body[t->body[k]]));
-    bool ok =
-        gather(model, c, t, reach, &f) && sunder_i_tight_place(model, &none, f.body, f.n, c->margin, f.move, found);
+    bool ok = gather_bodies(model, c, t, reach, &f) &&
+              sunder_i_tight_place(model, &none, f.body, f.n, c->margin, f.move, found);
     for (size_t k = 0, moved = 0; k < f.n && ok; k++)
         if (moved < t->n && t->body[moved] == f.body[k])
             memcpy(t->goal + 2 * moved++, f.move + 2 * k, 2 * sizeof *f.move);
@@ -91,7 +91,7 @@ static sunder_status take_over(sunder_i_solver *s, sunder_i_cluster *c, const su
         const sunder_i_restored r = sunder_i_restored_of(&s->model, &all->item[k]);
         if (!all->item[k].infeasible && sunder_i_by_id_pair(&r.body, pair) == 0) list[c->restored_n++] = r;
     }
-    const sunder_status status = sunder_i_solver_take_over(s, err);
+    const sunder_status status = sunder_i_solver_take_relaxations(s, err);
     c->restored_n = 0;
     return status;
 }
@@ -142,8 +142,8 @@ static sunder_status share_least(const sunder_i_model *model, const sunder_i_clu
     return status;
 }
 
-static sunder_status fit(sunder_i_solver *s, sunder_i_cluster *c, const sunder_i_id_pair *pair, look how, bool *well,
-                         sunder_error *err)
+static sunder_status fit_pair(sunder_i_solver *s, sunder_i_cluster *c, const sunder_i_id_pair *pair, look how,
+                              bool *well, sunder_error *err)
 {
     const sunder_i_model *model = &s->model;
     const double none[2] = {0, 0},
@@ -155,7 +155,7 @@ static sunder_status fit(sunder_i_solver *s, sunder_i_cluster *c, const sunder_i
                                               : sunder_i_cluster_fit(model, c, pair->a, pair->b, room,
                                                                      how == SEARCH_FROM_HOME, move, &found, err);
     if (!status && found && !sunder_i_trial_take_moved(&t, c, move)) status = sunder_i_no_memory(err);
-    if (!status && found) status = put_on_lattice(model, c, &t, &found, err);
+    if (!status && found) status = align_to_steps(model, c, &t, &found, err);
     if (!status && found) status = sunder_i_trial_place(&t, none, err);
     *well = t.well;
     if (!status && *well) status = take_over(s, c, pair, err);
@@ -187,7 +187,7 @@ static sunder_status fit_all(sunder_i_solver *s, const sunder_i_id_pair *pair, s
         status = may_fit(s, c, &pair[k], &may, err);
         if (status || !may || in_vain[c - s->cluster] == FITS_IN_VAIN) continue;
         for (look how = SHARE_LEAST; how < LOOKS && !well && !status; how++)
-            status = fit(s, c, &pair[k], how, &well, err);
+            status = fit_pair(s, c, &pair[k], how, &well, err);
         in_vain[c - s->cluster] = well ? 0 : in_vain[c - s->cluster] + 1;
     }
     return status;

@@ -5,7 +5,7 @@
 
 /* Pairs whose requirement is restored: they have no relaxation, and bodies without any relaxation between them are not
  * given up. */
-static bool restore(sunder_i_model *model, const sunder_i_cluster *cluster, size_t clusters)
+static bool restore_pairs(sunder_i_model *model, const sunder_i_cluster *cluster, size_t clusters)
 {
     size_t n = 0, out = 0;
     for (size_t k = 0; k < clusters; k++) n += cluster[k].restored_n;
@@ -40,7 +40,7 @@ void sunder_i_sort_given_up(sunder_i_model *model)
 
 /* Merges the clusters' relaxations into those of the model and replaces those of the same features. Pairs that were
  * not proved infeasible are noted as given up. */
-static bool take_relaxations(sunder_i_solver *s)
+static bool merge_relaxations(sunder_i_solver *s)
 {
     sunder_i_model *model = &s->model;
     const sunder_i_cluster *cluster = s->cluster;
@@ -76,8 +76,8 @@ static bool take_relaxations(sunder_i_solver *s)
     return sunder_i_relaxations_index(all, model);
 }
 
-sunder_status sunder_i_solver_take_over(sunder_i_solver *solver, sunder_error *err)
+sunder_status sunder_i_solver_take_relaxations(sunder_i_solver *solver, sunder_error *err)
 {
-    const bool ok = restore(&solver->model, solver->cluster, solver->clusters) && take_relaxations(solver);
+    const bool ok = restore_pairs(&solver->model, solver->cluster, solver->clusters) && merge_relaxations(solver);
     return ok ? SUNDER_OK : sunder_i_no_memory(err);
 }

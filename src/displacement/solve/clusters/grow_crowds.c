@@ -25,14 +25,15 @@ typedef struct growth {
     bool *placed;        /* [bodies] those of crowds that have rough places ... */
     double *box;         /* [4 * bodies] ... and what they occupy there */
     sunder_i_rtree tree; /* of these boxes */
-    bool *held;          /* [bodies] may not go anywhere, or is in a cluster with such a body */
+    bool *unabsorbable;  /* [bodies] may not go anywhere, or is in a cluster with such a body */
     sunder_i_list near;  /* scratch */
 } growth;
 
 /* Smaller ones begin anew at any growth, which takes them next to no time. */
 static bool is_large_crowd(const sunder_i_solver *s, const sunder_i_cluster *c)
 {
-    return c->crowd && c->n > LARGE_GROWN_CROWD && sunder_i_solver_any_of(s, c->body, c->n, sunder_i_is_due);
+    return c->starts_from_areas && c->n > LARGE_GROWN_CROWD &&
+           sunder_i_solver_any_of(s, c->body, c->n, sunder_i_is_due);
 }
 
 /* The rough places of one crowd after the other, as boxes. */
@@ -58,26 +59,28 @@ static sunder_status place_crowds(void *context, size_t begin, size_t end, sunde
     return status;
 }
 
-static void find_held(growth *g)
+static void find_unabsorbable(growth *g)
 {
     const sunder_i_solver *s = g->solver;
     for (uint32_t b = 0; b < s->model.bodies; b++) {
         const sunder_i_body *body = &s->model.body[b];
-        g->held[b] = !sunder_i_may_move(body) || body->pinned || body->limit < INFINITY || sunder_i_is_aside(s, b);
+        g->unabsorbable[b] =
+            !sunder_i_may_move(body) || body->pinned || body->limit < INFINITY || sunder_i_is_aside(s, b);
     }
     for (size_t k = 0; k < s->clusters; k++)
-        for (size_t m = 0; m < s->cluster[k].n && s->cluster[k].limited; m++) g->held[s->cluster[k].body[m]] = true;
+        for (size_t m = 0; m < s->cluster[k].n && s->cluster[k].limited; m++)
+            g->unabsorbable[s->cluster[k].body[m]] = true;
 }
 
 static bool may_join(const growth *g, uint32_t b, uint32_t other)
 {
-    return !g->held[other] &&
+    return !g->unabsorbable[other] &&
            sunder_i_union_find(g->solver->parent, b) != sunder_i_union_find(g->solver->parent, other);
 }
 
 /* The bodies that a crowd's body runs into at its place: those of crowds at theirs, and all others at their present
  * ones. */
-static bool meet(growth *g, uint32_t b)
+static bool join_met_bodies(growth *g, uint32_t b)
 {
     sunder_i_solver *s = g->solver;
     const double *box = g->box + 4 * (size_t)b;
@@ -97,7 +100,7 @@ static bool meet(growth *g, uint32_t b)
     return true;
 }
 
-static bool meet_all(growth *g)
+static bool join_all_met_bodies(growth *g)
 {
     const sunder_i_solver *s = g->solver;
     bool ok = true;
@@ -107,14 +110,14 @@ static bool meet_all(growth *g)
         sunder_i_reading reading;
         sunder_i_reads_begin(&reading, &s->model, sunder_i_reader_for(s, c));
         for (size_t m = 0; m < c->n && ok; m++)
-            if (g->placed[c->body[m]]) ok = meet(g, c->body[m]);
+            if (g->placed[c->body[m]]) ok = join_met_bodies(g, c->body[m]);
         sunder_i_reads_end(&reading);
     }
     return ok;
 }
 
 /* One round: *any, if crowds are others now. */
-static sunder_status grow(growth *g, bool *any, sunder_error *err)
+static sunder_status grow_once(growth *g, bool *any, sunder_error *err)
 {
     sunder_i_solver *s = g->solver;
     const size_t edges = s->edges;
@@ -122,8 +125,8 @@ static sunder_status grow(growth *g, bool *any, sunder_error *err)
     sunder_status status = sunder_i_solver_for_clusters(s, place_crowds, g, err);
     if (!status) status = sunder_i_rtree_build(g->box, g->placed, s->model.bodies, &g->tree, err);
     if (status) return status;
-    find_held(g);
-    if (!meet_all(g)) status = sunder_i_no_memory(err);
+    find_unabsorbable(g);
+    if (!join_all_met_bodies(g)) status = sunder_i_no_memory(err);
     sunder_i_rtree_free(&g->tree);
     *any = s->edges > edges;
     if (!status && *any) status = sunder_i_solver_gather(s, err);
@@ -144,13 +147,13 @@ sunder_status sunder_i_solver_grow_crowds(sunder_i_solver *solver, sunder_error 
     growth g = {.solver = solver,
                 .placed = sunder_i_alloc(solver->model.bodies, sizeof *g.placed),
                 .box = sunder_i_alloc(4 * solver->model.bodies, sizeof *g.box),
-                .held = sunder_i_alloc(solver->model.bodies, sizeof *g.held)};
-    sunder_status status = g.placed && g.box && g.held ? SUNDER_OK : sunder_i_no_memory(err);
+                .unabsorbable = sunder_i_alloc(solver->model.bodies, sizeof *g.unabsorbable)};
+    sunder_status status = g.placed && g.box && g.unabsorbable ? SUNDER_OK : sunder_i_no_memory(err);
     bool any = true;
-    for (int k = 0; k < CROWDS_GROWN && any && !status; k++) status = grow(&g, &any, err);
+    for (int k = 0; k < CROWDS_GROWN && any && !status; k++) status = grow_once(&g, &any, err);
     sunder_i_free(g.placed);
     sunder_i_free(g.box);
-    sunder_i_free(g.held);
+    sunder_i_free(g.unabsorbable);
     sunder_i_free(g.near.item);
     return status;
 }

@@ -33,7 +33,7 @@ void sunder_i_held_layout_free(sunder_i_held_layout *layout)
 /* ---- Kept -------------------------------------------------------------------------------------------------------- */
 
 /* A copy of n items; NULL if memory is out. */
-static void *copy_of(const void *from, size_t n, size_t size)
+static void *copy_items(const void *from, size_t n, size_t size)
 {
     void *to = sunder_i_alloc(n, size);
     if (to && n) memcpy(to, from, n * size);
@@ -64,14 +64,14 @@ sunder_status sunder_i_solver_keep_held(const sunder_i_solver *solver, sunder_i_
 {
     const sunder_i_model *model = &solver->model;
     const size_t n = model->bodies;
-    layout->move = copy_of(model->move, 2 * n, sizeof *layout->move);
+    layout->move = copy_items(model->move, 2 * n, sizeof *layout->move);
     layout->held = sunder_i_alloc(n, sizeof *layout->held);
-    layout->widened = copy_of(solver->widened, n, sizeof *layout->widened);
+    layout->widened = copy_items(solver->widened, n, sizeof *layout->widened);
     layout->improved = sunder_i_alloc(n, sizeof *layout->improved);
-    layout->edge = copy_of(solver->edge, solver->edges, sizeof *layout->edge);
+    layout->edge = copy_items(solver->edge, solver->edges, sizeof *layout->edge);
     layout->edges = solver->edges;
     layout->conflict = list_conflicts(solver, &layout->conflicts);
-    layout->given_up = copy_of(model->given_up, model->given_up_n, sizeof *layout->given_up);
+    layout->given_up = copy_items(model->given_up, model->given_up_n, sizeof *layout->given_up);
     layout->given_up_n = model->given_up_n;
     bool ok = layout->move && layout->held && layout->widened && layout->improved && layout->edge && layout->conflict &&
               layout->given_up && keep_states(model, layout);
@@ -100,7 +100,7 @@ typedef struct comparing {
     tally *of;      /* [bodies] by roots */
 } comparing;
 
-static void join(const comparing *c, const sunder_i_id_pair *pair, size_t n)
+static void join_pairs(const comparing *c, const sunder_i_id_pair *pair, size_t n)
 {
     const sunder_i_body *body = c->solver->model.body;
     for (size_t k = 0; k < n; k++)
@@ -135,13 +135,13 @@ static bool is_bent(const comparing *c, uint32_t b)
     return false;
 }
 
-static void compare(const comparing *c, const sunder_i_id_pair *now, size_t n)
+static void compare_layouts(const comparing *c, const sunder_i_id_pair *now, size_t n)
 {
     const sunder_i_model *model = &c->solver->model;
-    join(c, c->solver->edge, c->solver->edges);
-    join(c, c->held->edge, c->held->edges);
-    join(c, now, n);
-    join(c, c->held->conflict, c->held->conflicts);
+    join_pairs(c, c->solver->edge, c->solver->edges);
+    join_pairs(c, c->held->edge, c->held->edges);
+    join_pairs(c, now, n);
+    join_pairs(c, c->held->conflict, c->held->conflicts);
     for (size_t k = 0; k < n; k++) tally_of(c, &now[k])->free_conflicts++;
     for (size_t k = 0; k < c->held->conflicts; k++) tally_of(c, &c->held->conflict[k])->held_conflicts++;
     for (uint32_t b = 0; b < model->bodies; b++) {
@@ -175,7 +175,7 @@ static bool find_better_held(const sunder_i_solver *solver, const sunder_i_held_
     *any = false;
     if (ok) {
         sunder_i_union_init(c.root, bodies);
-        compare(&c, now, n);
+        compare_layouts(&c, now, n);
         for (uint32_t b = 0; b < bodies; b++) {
             back[b] = !solver->model.body[b].fixed && is_held_better(&c.of[sunder_i_union_find(c.root, b)]);
             *any = *any || back[b];

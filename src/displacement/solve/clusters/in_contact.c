@@ -26,7 +26,7 @@ static sunder_status find_places(const sunder_i_solver *s, const sunder_i_group 
 
 /* What the moves cost more than those that the bodies have; a difference of two numbers that are nearly equal, so it is
  * added up body by body. */
-static double dearer(const sunder_i_model *model, const sunder_i_group *g, const double *move)
+static double cost_increase(const sunder_i_model *model, const sunder_i_group *g, const double *move)
 {
     double more = 0;
     for (size_t k = 0; k < g->n; k++) {
@@ -36,7 +36,7 @@ static double dearer(const sunder_i_model *model, const sunder_i_group *g, const
     return more;
 }
 
-static sunder_status put_in_contact(sunder_i_solver *s, const sunder_i_group *g, sunder_error *err)
+static sunder_status put_group_in_contact(sunder_i_solver *s, const sunder_i_group *g, sunder_error *err)
 {
     const double none[2] = {0, 0};
     const sunder_i_cluster bodies = {.body = g->body, .n = g->n};
@@ -49,7 +49,7 @@ static sunder_status put_in_contact(sunder_i_solver *s, const sunder_i_group *g,
     sunder_i_reads_begin(&reading, &s->model, g->number);
     sunder_status status = find_places(s, g, move, &found, err);
     sunder_i_reads_end(&reading);
-    if (!status && found && dearer(&s->model, g, move) < 0) {
+    if (!status && found && cost_increase(&s->model, g, move) < 0) {
         if (!sunder_i_trial_take_moved(&t, &bodies, move)) status = sunder_i_no_memory(err);
         if (!status) status = sunder_i_trial_place(&t, none, err);
     }
@@ -73,7 +73,7 @@ sunder_status sunder_i_solver_put_in_contact(sunder_i_solver *solver, sunder_err
     for (size_t k = 0; k < solver->groups.n && !status; k++) {
         const sunder_i_group *g = &solver->groups.group[k];
         if (sunder_i_solver_any_of(solver, g->body, g->n, sunder_i_is_wanted) && has_moved(&solver->model, g))
-            status = put_in_contact(solver, g, err);
+            status = put_group_in_contact(solver, g, err);
     }
     return status;
 }

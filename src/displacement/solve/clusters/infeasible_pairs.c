@@ -31,7 +31,7 @@ static bool is_left(const judging *g, const sunder_i_relation *r)
            sunder_i_solver_is_spared(g->solver, g->spared, r->a, r->b);
 }
 
-static sunder_status judge(void *context, size_t begin, size_t end, sunder_error *err)
+static sunder_status judge_pairs(void *context, size_t begin, size_t end, sunder_error *err)
 {
     const judging *g = context;
     const sunder_i_model *model = g->model;
@@ -62,8 +62,9 @@ static bool is_known(const sunder_i_relaxations *list, const sunder_i_relaxation
 }
 
 /* Takes over what was found of pair r. */
-static sunder_status note(sunder_i_solver *s, const sunder_i_relation *r, const sunder_i_relaxation *relaxation,
-                          const sunder_i_resolution *resolution, sunder_error *err)
+static sunder_status take_judgement(sunder_i_solver *s, const sunder_i_relation *r,
+                                    const sunder_i_relaxation *relaxation, const sunder_i_resolution *resolution,
+                                    sunder_error *err)
 {
     sunder_i_model *model = &s->model;
     if (relaxation->infeasible && is_known(&model->relaxations, relaxation)) return SUNDER_OK;
@@ -95,9 +96,9 @@ sunder_status sunder_i_solver_find_infeasible(sunder_i_solver *solver, const sun
                  .resolution = sunder_i_calloc(n, sizeof *g.resolution)};
     sunder_status status = g.relaxation && g.resolution ? SUNDER_OK : sunder_i_no_memory(err);
     if (!status) status = sunder_i_inclusions_note_nested(&solver->model, &solver->start, err);
-    if (!status) status = sunder_i_parallel(solver->model.rules.threads, n, SUNDER_I_GRAIN_PAIRS, judge, &g, err);
+    if (!status) status = sunder_i_parallel(solver->model.rules.threads, n, SUNDER_I_GRAIN_PAIRS, judge_pairs, &g, err);
     for (size_t k = 0; !status && k < n; k++)
-        status = note(solver, &solver->start.pair[k], &g.relaxation[k], &g.resolution[k], err);
+        status = take_judgement(solver, &solver->start.pair[k], &g.relaxation[k], &g.resolution[k], err);
     if (!status && !sunder_i_relaxations_index(&solver->model.relaxations, &solver->model))
         status = sunder_i_no_memory(err);
     sunder_i_free(g.relaxation);

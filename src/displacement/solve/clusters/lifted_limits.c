@@ -23,7 +23,7 @@
 /* ---- Without limits ---------------------------------------------------------------------------------------------- */
 
 /* Marks what hangs together with a pair that limits cannot part; relaxations wait until the limits are back. */
-static bool set_aside(sunder_i_solver *s)
+static bool set_infeasible_aside(sunder_i_solver *s)
 {
     sunder_i_model *model = &s->model;
     const uint32_t *root = sunder_i_solver_conflict_roots(s);
@@ -61,7 +61,7 @@ sunder_status sunder_i_solver_lift_limits(sunder_i_solver *solver, bool *lifted,
         if (!model->body[b].fixed) model->body[b].limit = INFINITY;
         sunder_i_body_event(&solver->states, b, SUNDER_I_LIMIT_IS_LIFTED);
     }
-    return set_aside(solver) ? SUNDER_OK : sunder_i_no_memory(err);
+    return set_infeasible_aside(solver) ? SUNDER_OK : sunder_i_no_memory(err);
 }
 
 /* ---- What went too far ------------------------------------------------------------------------------------------- */
@@ -87,7 +87,7 @@ static void send_home(sunder_i_solver *s, const bool *back)
 }
 
 /* Does the cluster's solution cost more than any within the limits? */
-static bool is_beyond_use(const sunder_i_solver *s, const sunder_i_cluster *c)
+static bool costs_more_than_limits(const sunder_i_solver *s, const sunder_i_cluster *c)
 {
     double cost = 0, most = 0;
     for (size_t k = 0; k < c->n; k++) {
@@ -102,14 +102,14 @@ static bool is_beyond_use(const sunder_i_solver *s, const sunder_i_cluster *c)
 }
 
 /* Of two bodies that met, of different clusters: these would be one from now on. */
-static void note_running(const sunder_i_solver *s, uint32_t i, uint32_t j, uint32_t *root)
+static void join_if_running(const sunder_i_solver *s, uint32_t i, uint32_t j, uint32_t *root)
 {
     if (sunder_i_is_aside(s, i) || sunder_i_is_aside(s, j) || s->model.body[i].fixed || s->model.body[j].fixed) return;
     sunder_i_union_join(root, sunder_i_union_find(s->parent, i), sunder_i_union_find(s->parent, j));
 }
 
 /* What clusters would become together, by their roots. */
-static void join_running(const sunder_i_solver *s, uint32_t *root)
+static void join_running_clusters(const sunder_i_solver *s, uint32_t *root)
 {
     const sunder_i_model *model = &s->model;
     sunder_i_union_init(root, model->bodies);
@@ -117,23 +117,24 @@ static void join_running(const sunder_i_solver *s, uint32_t *root)
         const sunder_i_relation *r = &s->now.pair[k];
         if (!sunder_i_is_conflict_of_bodies(model, r) || sunder_i_relaxations_find(&model->relaxations, r->a, r->b))
             continue;
-        note_running(s, model->body_of[r->a], model->body_of[r->b], root);
+        join_if_running(s, model->body_of[r->a], model->body_of[r->b], root);
     }
     for (size_t k = 0; k < s->jumps.n; k++)
-        note_running(s, model->body_of[s->jumps.pair[k].a], model->body_of[s->jumps.pair[k].b], root);
+        join_if_running(s, model->body_of[s->jumps.pair[k].a], model->body_of[s->jumps.pair[k].b], root);
 }
 
 /* Marks the clusters, by their roots, that are beyond use and would become part of a crowd. root, size: [bodies]
  * scratch. */
-static void find_running(const sunder_i_solver *s, uint32_t *root, size_t *size, bool *running)
+static void find_running_clusters(const sunder_i_solver *s, uint32_t *root, size_t *size, bool *running)
 {
-    join_running(s, root);
+    join_running_clusters(s, root);
     for (size_t k = 0; k < s->clusters; k++)
         size[sunder_i_union_find(root, s->member[s->cluster[k].body - s->body].root)] += s->cluster[k].n;
     for (size_t k = 0; k < s->clusters; k++) {
         const uint32_t own = s->member[s->cluster[k].body - s->body].root;
         const size_t together = size[sunder_i_union_find(root, own)];
-        running[own] = together > s->cluster[k].n && together > MOST_LIFTED && is_beyond_use(s, &s->cluster[k]);
+        running[own] =
+            together > s->cluster[k].n && together > MOST_LIFTED && costs_more_than_limits(s, &s->cluster[k]);
     }
 }
 
@@ -159,7 +160,7 @@ sunder_status sunder_i_solver_set_far_aside(sunder_i_solver *solver, sunder_erro
     bool *running = sunder_i_calloc(n, sizeof *running), *back = sunder_i_calloc(n, sizeof *back);
     sunder_status status = root && size && running && back ? SUNDER_OK : sunder_i_no_memory(err);
     if (!status) {
-        find_running(solver, root, size, running);
+        find_running_clusters(solver, root, size, running);
         if (set_running_aside(solver, running, back)) {
             send_home(solver, back);
             status = sunder_i_solver_relate(solver, err);
@@ -175,7 +176,7 @@ sunder_status sunder_i_solver_set_far_aside(sunder_i_solver *solver, sunder_erro
 /* ---- Within them ------------------------------------------------------------------------------------------------- */
 
 /* Marks the sets of two bodies that met, if one of them was set aside. */
-static void note_meeting(sunder_i_solver *s, uint32_t i, uint32_t j, bool *root)
+static void mark_meeting(sunder_i_solver *s, uint32_t i, uint32_t j, bool *root)
 {
     if (!sunder_i_is_aside(s, i) && !sunder_i_is_aside(s, j)) return;
     root[sunder_i_union_find(s->parent, i)] = root[sunder_i_union_find(s->parent, j)] = true;
@@ -192,14 +193,14 @@ static void find_offenders(sunder_i_solver *s, bool *root)
             root[sunder_i_union_find(s->parent, b)] = true;
     for (size_t k = 0; k < s->now.n; k++) {
         const sunder_i_relation *r = &s->now.pair[k];
-        if (sunder_i_is_conflict_of_bodies(model, r)) note_meeting(s, model->body_of[r->a], model->body_of[r->b], root);
+        if (sunder_i_is_conflict_of_bodies(model, r)) mark_meeting(s, model->body_of[r->a], model->body_of[r->b], root);
     }
     for (size_t k = 0; k < s->jumps.n; k++)
-        note_meeting(s, model->body_of[s->jumps.pair[k].a], model->body_of[s->jumps.pair[k].b], root);
+        mark_meeting(s, model->body_of[s->jumps.pair[k].a], model->body_of[s->jumps.pair[k].b], root);
 }
 
 /* Forgets what these bodies were joined with, and what was given up of them. */
-static bool forget(sunder_i_solver *s, const bool *back)
+static bool forget_bodies(sunder_i_solver *s, const bool *back)
 {
     sunder_i_model *model = &s->model;
     sunder_i_relaxations *relaxations = &model->relaxations;
@@ -207,7 +208,7 @@ static bool forget(sunder_i_solver *s, const bool *back)
     for (size_t e = 0; e < s->edges; e++)
         if (!back[s->edge[e].a] && !back[s->edge[e].b]) s->edge[out++] = s->edge[e];
     s->edges = 0;
-    s->listed = SUNDER_I_NONE_LISTED;
+    s->edges_listed = SUNDER_I_NONE_LISTED;
     sunder_i_union_init(s->parent, model->bodies);
     for (size_t e = 0; e < out; e++) sunder_i_solver_add_edge(s, s->edge[e].a, s->edge[e].b); /* there is room */
     out = 0;
@@ -229,7 +230,7 @@ static bool is_limited(const sunder_i_solver *s, uint32_t body) { return s->mode
 
 /* Within limits more can be proved, and a pair with a solution without them may have none: every cluster with a limited
  * body is examined again. (Clusters without limits are left as they are.) */
-static bool doubt(sunder_i_solver *s)
+static bool doubt_limited_clusters(sunder_i_solver *s)
 {
     sunder_i_model *model = &s->model;
     size_t out = 0;
@@ -237,10 +238,10 @@ static bool doubt(sunder_i_solver *s)
     if (!doubtful) return false;
     for (uint32_t b = 0; b < model->bodies; b++)
         sunder_i_body_event(&s->states, b, doubtful[b] ? SUNDER_I_IS_DOUBTED : SUNDER_I_IS_CERTAIN);
-    for (size_t k = 0; k < s->alone_n; k++)
-        if (!doubtful[model->body_of[s->alone[k].a]] && !doubtful[model->body_of[s->alone[k].b]])
-            s->alone[out++] = s->alone[k];
-    s->alone_n = out;
+    for (size_t k = 0; k < s->asked_n; k++)
+        if (!doubtful[model->body_of[s->asked[k].a]] && !doubtful[model->body_of[s->asked[k].b]])
+            s->asked[out++] = s->asked[k];
+    s->asked_n = out;
     sunder_i_free(doubtful);
     return true;
 }
@@ -248,7 +249,8 @@ static bool doubt(sunder_i_solver *s)
 sunder_status sunder_i_solver_begin_again(sunder_i_solver *solver, const bool *back, sunder_error *err)
 {
     send_home(solver, back);
-    const sunder_status status = forget(solver, back) ? sunder_i_solver_relate(solver, err) : sunder_i_no_memory(err);
+    const sunder_status status =
+        forget_bodies(solver, back) ? sunder_i_solver_relate(solver, err) : sunder_i_no_memory(err);
     /* Otherwise a body that once was in a cluster with a fixed body would count as already tested against it. */
     return status ? status : sunder_i_solver_gather(solver, err);
 }
@@ -264,7 +266,7 @@ sunder_status sunder_i_solver_restore_limits(sunder_i_solver *solver, sunder_err
         if (!sunder_i_is_aside(solver, b))
             memcpy(model->lifted + 2 * (size_t)b, model->move + 2 * (size_t)b, 2 * sizeof *model->move);
     for (size_t b = 0; b < model->bodies; b++) model->body[b].limit = solver->limit[b];
-    if (!status && !doubt(solver)) status = sunder_i_no_memory(err);
+    if (!status && !doubt_limited_clusters(solver)) status = sunder_i_no_memory(err);
     if (!status) {
         find_offenders(solver, root);
         for (uint32_t b = 0; b < model->bodies; b++) {

@@ -8,7 +8,7 @@
 #include <string.h>
 
 /* The inner one goes as far as it may, and the holder comes to meet it. */
-static void send(sunder_i_solver *s, const sunder_i_entry *e)
+static void send_inside(sunder_i_solver *s, const sunder_i_entry *e)
 {
     const sunder_i_model *model = &s->model;
     const uint32_t inner = model->body_of[e->a_inside ? e->a : e->b],
@@ -17,10 +17,10 @@ static void send(sunder_i_solver *s, const sunder_i_entry *e)
     const double own = sunder_i_limit_of(&model->body[inner]), share = length > own ? own / length : 1;
     for (int k = 0; k < 2; k++) {
         const uint32_t b = k ? holder : inner;
-        const double *move = model->move + 2 * (size_t)b, part = k ? -(1 - share) : share;
-        if (model->body[b].fixed || part == 0 || move[0] != 0 || move[1] != 0) continue;
+        const double *move = model->move + 2 * (size_t)b, factor = k ? -(1 - share) : share;
+        if (model->body[b].fixed || factor == 0 || move[0] != 0 || move[1] != 0) continue;
         double to[2];
-        for (int c = 0; c < 2; c++) to[c] = sign * part * e->place[c];
+        for (int c = 0; c < 2; c++) to[c] = sign * factor * e->place[c];
         sunder_i_round_move(model, b, to, to, NULL);
         sunder_i_solver_place(s, b, to);
     }
@@ -32,7 +32,7 @@ sunder_status sunder_i_solver_move_inside(sunder_i_solver *solver, sunder_error 
     sunder_i_changes_clear(&solver->changes);
     for (size_t k = 0; k < solver->entries; k++) {
         const uint32_t i = solver->model.body_of[solver->entry[k].a], j = solver->model.body_of[solver->entry[k].b];
-        send(solver, &solver->entry[k]);
+        send_inside(solver, &solver->entry[k]);
         if (!sunder_i_solver_add_edge(solver, i, j)) return sunder_i_no_memory(err);
     }
     return sunder_i_solver_relate(solver, err);

@@ -64,7 +64,7 @@ static size_t list_requirements(const sunder_i_solver *s, sunder_i_requirement *
 static bool was_asked(const sunder_i_solver *s, const sunder_i_relaxation *t)
 {
     const sunder_i_id_pair key = {t->a, sunder_i_whole_of(&s->model, t->b)};
-    return s->alone_n && bsearch(&key, s->alone, s->alone_n, sizeof key, sunder_i_by_id_pair);
+    return s->asked_n && bsearch(&key, s->asked, s->asked_n, sizeof key, sunder_i_by_id_pair);
 }
 
 /* wanted: [bodies] of clusters that are */
@@ -106,7 +106,8 @@ static double far_for(const sunder_i_model *model, const uint32_t *body, size_t 
 
 /* Asks for a solution with a margin for rounding. If there is none, asks again without the margin, since a place may
  * just fit. Adds the effort of both to *work. */
-static sunder_status ask(sunder_i_subproblem *p, sunder_i_decision *decision, uint64_t *work, sunder_error *err)
+static sunder_status ask_question(sunder_i_subproblem *p, sunder_i_decision *decision, uint64_t *work,
+                                  sunder_error *err)
 {
     bool tight = false;
     sunder_status status = sunder_i_decide(p, decision, err);
@@ -183,8 +184,8 @@ static sunder_status ask_clusters(void *context, size_t begin, size_t end, sunde
                                      .b = sunder_i_whole_of(model, t->b),
                                      .required = g->required,
                                      .required_n = g->required_n,
-                                     .margin =
-                                         MARGINS * sunder_i_solver_cluster_with(g->solver, g->question[q].root)->margin,
+                                     .margin = MARGINS *
+                                               sunder_i_solver_cluster_at_root(g->solver, g->question[q].root)->margin,
                                      .no_plane = true, /* a solution is looked for, which it has none of */
                                      .effort = effort_for(model, t, in_vain),
                                      .most = MOST_BODIES};
@@ -197,7 +198,7 @@ static sunder_status ask_clusters(void *context, size_t begin, size_t end, sunde
             uint64_t work = 0;
             sunder_i_reading reading;
             sunder_i_reads_begin(&reading, model, g->question[q].root);
-            status = ask(&p, decision, &work, err);
+            status = ask_question(&p, decision, &work, err);
             sunder_i_reads_end(&reading);
             g->asked[q] = true;
             const sunder_i_verdict verdict = decision->verdict;
@@ -231,7 +232,7 @@ static bool is_held(const asking *g, const sunder_i_relaxation *t, const sunder_
     return bsearch(&key, g->required, g->required_n, sizeof key, sunder_i_by_id_pair) != NULL;
 }
 
-static bool propose(const asking *g, uint32_t which, const sunder_i_solution *solution, proposal *out)
+static bool make_proposal(const asking *g, uint32_t which, const sunder_i_solution *solution, proposal *out)
 {
     const sunder_i_model *model = &g->solver->model;
     const sunder_i_relaxations *all = &model->relaxations;
@@ -248,7 +249,7 @@ static bool propose(const asking *g, uint32_t which, const sunder_i_solution *so
 }
 
 /* Its bodies are one cluster, if none is of another proposal's. *fits: they are. */
-static bool join(sunder_i_solver *s, const sunder_i_solution *solution, bool *taken, bool *fits)
+static bool join_solution(sunder_i_solver *s, const sunder_i_solution *solution, bool *taken, bool *fits)
 {
     *fits = true;
     for (size_t k = 0; k < solution->bodies && *fits; k++)
@@ -268,9 +269,9 @@ static bool list_proposals(sunder_i_solver *s, const asking *g, size_t clusters,
         if (decision->verdict != SUNDER_I_FEASIBLE) continue;
         size_t last = g->first[k]; /* of the cluster's questions that was asked */
         while (last + 1 < g->first[k + 1] && g->asked[last + 1]) last++;
-        ok = join(s, &decision->solution, taken, &fits);
+        ok = join_solution(s, &decision->solution, taken, &fits);
         g->asked[last] = fits;
-        if (ok && fits) ok = propose(g, g->question[last].relaxation, &decision->solution, &list[(*n)++]);
+        if (ok && fits) ok = make_proposal(g, g->question[last].relaxation, &decision->solution, &list[(*n)++]);
     }
     for (size_t k = 0; k < *n; k++) list[k].root = sunder_i_union_find(s->parent, list[k].solution->body[0]);
     sunder_i_free(taken);
@@ -300,8 +301,8 @@ static sunder_i_waiver *waive_others(const resuming *g, uint32_t which, size_t *
 }
 
 /* Where the search finds no margin: lined up to the last bit. */
-static sunder_status line_up(const resuming *g, const proposal *x, sunder_i_cluster *c, double *move, bool *done,
-                             sunder_error *err)
+static sunder_status align_exactly(const resuming *g, const proposal *x, sunder_i_cluster *c, double *move, bool *done,
+                                   sunder_error *err)
 {
     sunder_i_waived waived = {0};
     sunder_i_waiver *others = waive_others(g, x->which, &waived.n);
@@ -318,7 +319,7 @@ static sunder_status line_up(const resuming *g, const proposal *x, sunder_i_clus
     return ok ? SUNDER_OK : sunder_i_no_memory(err);
 }
 
-static void place(const sunder_i_cluster *c, const sunder_i_solution *solution, double *move)
+static void place_solution(const sunder_i_cluster *c, const sunder_i_solution *solution, double *move)
 {
     for (size_t k = 0, at = 0; k < solution->bodies; k++) {
         while (c->body[at] < solution->body[k]) at++;
@@ -326,19 +327,20 @@ static void place(const sunder_i_cluster *c, const sunder_i_solution *solution, 
     }
 }
 
-static sunder_status resume(const resuming *g, const proposal *x, sunder_i_cluster *c, double *move, sunder_error *err)
+static sunder_status resume_proposal(const resuming *g, const proposal *x, sunder_i_cluster *c, double *move,
+                                     sunder_error *err)
 {
     const size_t size = 2 * c->n * sizeof *move;
     double *stood = sunder_i_alloc(2 * c->n, sizeof *stood);
     bool done = false;
     if (!stood) return sunder_i_no_memory(err);
     memcpy(stood, move, size);
-    place(c, x->solution, move);
+    place_solution(c, x->solution, move);
     sunder_status status = sunder_i_cluster_resume(&g->solver->model, c, x->restored, x->n, move, &done, err);
     if (!status && !done) {
         memcpy(move, stood, size);
-        place(c, x->solution, move);
-        status = line_up(g, x, c, move, &done, err);
+        place_solution(c, x->solution, move);
+        status = align_exactly(g, x, c, move, &done, err);
     }
     if (!done) memcpy(move, stood, size);
     sunder_i_free(stood);
@@ -357,7 +359,7 @@ static sunder_status resume_clusters(void *context, size_t begin, size_t end, su
         sunder_i_reading reading;
         sunder_i_reads_begin(&reading, &g->solver->model, root);
         for (size_t p = 0; p < g->n && !status; p++)
-            if (g->proposal[p].root == root) status = resume(g, &g->proposal[p], c, move, err);
+            if (g->proposal[p].root == root) status = resume_proposal(g, &g->proposal[p], c, move, err);
         sunder_i_reads_end(&reading);
     }
     return status;
@@ -366,12 +368,12 @@ static sunder_status resume_clusters(void *context, size_t begin, size_t end, su
 /* Each is asked about once: what was thought to have a solution, and does not for the search, will not do. */
 static bool note_asked(sunder_i_solver *s, const asking *g, size_t questions)
 {
-    if (!sunder_i_reserve(&s->alone, &s->alone_capacity, s->alone_n + questions, sizeof *s->alone)) return false;
+    if (!sunder_i_reserve(&s->asked, &s->asked_capacity, s->asked_n + questions, sizeof *s->asked)) return false;
     for (size_t q = 0; q < questions; q++) {
         const sunder_i_relaxation *t = &s->model.relaxations.item[g->question[q].relaxation];
-        if (g->asked[q]) s->alone[s->alone_n++] = (sunder_i_id_pair){t->a, sunder_i_whole_of(&s->model, t->b)};
+        if (g->asked[q]) s->asked[s->asked_n++] = (sunder_i_id_pair){t->a, sunder_i_whole_of(&s->model, t->b)};
     }
-    if (s->alone_n) qsort(s->alone, s->alone_n, sizeof *s->alone, sunder_i_by_id_pair);
+    if (s->asked_n) qsort(s->asked, s->asked_n, sizeof *s->asked, sunder_i_by_id_pair);
     return true;
 }
 
@@ -390,7 +392,8 @@ static void trace_questions(const sunder_i_solver *s, const asking *g, size_t cl
         }
 }
 
-static sunder_status go_on(sunder_i_solver *s, const asking *asked, size_t clusters, bool *changed, sunder_error *err)
+static sunder_status resume_from_solutions(sunder_i_solver *s, const asking *asked, size_t clusters, bool *changed,
+                                           sunder_error *err)
 {
     resuming g = {.solver = s, .asked = asked};
     proposal *list = sunder_i_calloc(clusters, sizeof *list);
@@ -406,7 +409,7 @@ static sunder_status go_on(sunder_i_solver *s, const asking *asked, size_t clust
             status =
                 sunder_i_parallel(s->model.rules.threads, s->clusters, SUNDER_I_GRAIN_WHOLE, resume_clusters, &g, err);
         if (!status) status = sunder_i_solver_commit(s, err);
-        if (!status) status = sunder_i_solver_take_over(s, err);
+        if (!status) status = sunder_i_solver_take_relaxations(s, err);
         if (!status) status = sunder_i_solver_relate(s, err);
     }
     for (size_t k = 0; k < g.n; k++) sunder_i_free(list[k].restored);
@@ -426,16 +429,16 @@ sunder_status sunder_i_solver_ask_one_by_one(sunder_i_solver *solver, bool *chan
     bool *asked = sunder_i_calloc(n, sizeof *asked),
          *wanted = sunder_i_solver_connected_with(solver, sunder_i_is_wanted);
     sunder_i_decision *decision = sunder_i_calloc(n, sizeof *decision);
-    if (!solver->alone_work) solver->alone_work = sunder_i_calloc(solver->model.bodies, sizeof *solver->alone_work);
-    if (!status && (!list || !first || !required || !asked || !wanted || !decision || !solver->alone_work))
+    if (!solver->asked_work) solver->asked_work = sunder_i_calloc(solver->model.bodies, sizeof *solver->asked_work);
+    if (!status && (!list || !first || !required || !asked || !wanted || !decision || !solver->asked_work))
         status = sunder_i_no_memory(err);
     if (!status) {
         list_questions(solver, wanted, list, first, &clusters);
-        asking g = {solver,  list, first, required, list_requirements(solver, required), asked, solver->alone_work,
+        asking g = {solver,  list, first, required, list_requirements(solver, required), asked, solver->asked_work,
                     decision};
         status = sunder_i_parallel(solver->model.rules.threads, clusters, SUNDER_I_GRAIN_WHOLE, ask_clusters, &g, err);
         if (!status) trace_questions(solver, &g, clusters);
-        if (!status) status = go_on(solver, &g, clusters, changed, err);
+        if (!status) status = resume_from_solutions(solver, &g, clusters, changed, err);
     }
     for (size_t k = 0; k < clusters && decision; k++) sunder_i_decision_clear(&decision[k]);
     sunder_i_free(list);

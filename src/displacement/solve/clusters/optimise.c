@@ -81,7 +81,7 @@ static sunder_status list_pair(sunder_i_solver *s, const sunder_i_relation *r, c
     return status;
 }
 
-sunder_status sunder_i_solver_waive(sunder_i_solver *solver, sunder_error *err)
+sunder_status sunder_i_solver_list_waivers(sunder_i_solver *solver, sunder_error *err)
 {
     sunder_i_groups *groups = &solver->groups;
     sunder_i_waiver *before = groups->waived;
@@ -98,7 +98,7 @@ sunder_status sunder_i_solver_waive(sunder_i_solver *solver, sunder_error *err)
 }
 
 /* Groups with a body that is pinned are left as they stand. */
-static void hold(sunder_i_solver *s)
+static void hold_pinned_groups(sunder_i_solver *s)
 {
     for (size_t k = 0; k < s->groups.n; k++)
         for (size_t m = 0; m < s->groups.group[k].n; m++)
@@ -107,7 +107,7 @@ static void hold(sunder_i_solver *s)
 
 /* The steps that the group's bodies have left, STEPS_EACH for each body; a small group counts as one of a minimum size.
  * A body that has spent all gets a part again, so that something is proved of a group that forms late, too. */
-static uint64_t allowance(const sunder_i_solver *s, const sunder_i_group *g)
+static uint64_t steps_allowed(const sunder_i_solver *s, const sunder_i_group *g)
 {
     size_t movers = 0;
     for (size_t m = 0; m < g->n; m++) movers += !s->model.body[g->body[m]].fixed;
@@ -133,7 +133,8 @@ static sunder_status prove_groups(void *context, size_t begin, size_t end, sunde
         if (g->state != SUNDER_I_TO_BE_PROVED || !is_group_wanted(s, g)) continue;
         sunder_i_reading reading;
         sunder_i_reads_begin(&reading, &s->model, g->number);
-        const sunder_status status = sunder_i_group_prove(&s->model, &waived, s->groups.of, g, allowance(s, g), err);
+        const sunder_status status =
+            sunder_i_group_prove(&s->model, &waived, s->groups.of, g, steps_allowed(s, g), err);
         sunder_i_reads_end(&reading);
         if (status) return status;
     }
@@ -141,7 +142,7 @@ static sunder_status prove_groups(void *context, size_t begin, size_t end, sunde
 }
 
 /* Bodies pay for the proofs that were made in this round, all of a group alike. */
-static void charge(sunder_i_solver *s)
+static void charge_bodies(sunder_i_solver *s)
 {
     for (size_t k = 0; k < s->groups.n; k++) {
         sunder_i_group *g = &s->groups.group[k];
@@ -160,7 +161,7 @@ typedef struct taking {
     sunder_i_id_pair mended; /* no pair before this one stands worse: what mends one leaves no other so */
 } taking;
 
-static void place(taking *t, size_t k, bool back)
+static void place_group(taking *t, size_t k, bool back)
 {
     const sunder_i_group *g = &t->solver->groups.group[k];
     for (size_t m = 0; m < g->n; m++) {
@@ -198,7 +199,7 @@ static bool put_back(taking *t, uint32_t k, bool known)
     if (!g || !sunder_i_group_is_cheaper(g)) return false;
     const bool tight = g->state == SUNDER_I_IS_CHEAPER_TIGHT;
     g->state = SUNDER_I_TO_BE_PROVED;
-    place(t, k, true);
+    place_group(t, k, true);
     /* A layout that rounding spoiled is sought again with a wider margin; a place without spare room is not, unless
      * another body stood in it. */
     for (size_t m = 0; m < g->n; m++) {
@@ -217,7 +218,7 @@ static bool put_back(taking *t, uint32_t k, bool known)
 /* Puts back the groups that moved one or the other of two features: *any, if there was one. Of two groups that run into
  * each other the first stays, if possible: they are examined again, together. known: the two know nothing of each other
  * beyond their group. */
-static void part(taking *t, uint32_t a, uint32_t b, bool known, bool *any)
+static void put_back_either(taking *t, uint32_t a, uint32_t b, bool known, bool *any)
 {
     const uint32_t p = t->solver->model.body_of[a], q = t->solver->model.body_of[b], i = t->by[p], j = t->by[q];
     const sunder_i_group *group = t->solver->groups.group;
@@ -239,7 +240,7 @@ static bool note_joined(sunder_i_groups *groups, uint32_t one, uint32_t other)
 /* The same for a jump, which pieces may not show: an anchor that moves along a diagonal between two pieces meets
  * neither. From now on these two use the pieces that cover their diagonals (layer/diagonal_covers.c). And the feature
  * jumped over may now be far away: so the two groups are joined. False if memory is out. */
-static bool part_jump(taking *t, uint32_t a, uint32_t b, bool *any)
+static bool put_back_jump(taking *t, uint32_t a, uint32_t b, bool *any)
 {
     sunder_i_groups *groups = &t->solver->groups;
     const uint32_t body[2] = {t->solver->model.body_of[a], t->solver->model.body_of[b]};
@@ -249,7 +250,7 @@ static bool part_jump(taking *t, uint32_t a, uint32_t b, bool *any)
     const bool known = diagonals[body[0]] && diagonals[body[1]];
     for (int k = 0; k < 2; k++) sunder_i_body_event(states, body[k], SUNDER_I_JUMPS_IN_PROOF);
     groups->with_diagonals = true;
-    part(t, a, b, known, any);
+    put_back_either(t, a, b, known, any);
     return group[0] == group[1] || group[0] == SUNDER_I_NOBODY || group[1] == SUNDER_I_NOBODY ||
            note_joined(groups, group[0], group[1]);
 }
@@ -291,7 +292,7 @@ static sunder_status mend_first(taking *t, bool *any, sunder_error *err)
         if (status || !worse) continue;
         status = sunder_i_solver_mend(s, &r, t->budget, any, err);
         t->mended = *any ? (sunder_i_id_pair){r.a, r.b} : (sunder_i_id_pair){0, 0};
-        if (!status && !*any) part(t, r.a, r.b, true, any);
+        if (!status && !*any) put_back_either(t, r.a, r.b, true, any);
     }
     return status;
 }
@@ -307,11 +308,12 @@ static sunder_status put_back_offenders(taking *t, bool *any, sunder_error *err)
     for (size_t k = 0; k < s->now.n; k++) {
         const sunder_i_relation *r = &s->now.pair[k];
         bool may_stay;
-        if (!is_outdated(s, r->a, r->b) && is_in_question(t, r, &may_stay) && !may_stay) part(t, r->a, r->b, true, any);
+        if (!is_outdated(s, r->a, r->b) && is_in_question(t, r, &may_stay) && !may_stay)
+            put_back_either(t, r->a, r->b, true, any);
     }
     for (size_t k = 0; k < s->jumps.n && !status; k++) {
         const sunder_i_id_pair *p = &s->jumps.pair[k];
-        if (!is_outdated(s, p->a, p->b) && !part_jump(t, p->a, p->b, any)) status = sunder_i_no_memory(err);
+        if (!is_outdated(s, p->a, p->b) && !put_back_jump(t, p->a, p->b, any)) status = sunder_i_no_memory(err);
     }
     if (*any) t->mended = (sunder_i_id_pair){0, 0};
     return status || *any ? status : mend_first(t, any, err);
@@ -334,7 +336,7 @@ static sunder_status take_over(sunder_i_solver *s, bool *any, sunder_error *err)
         sunder_i_changes_clear(&s->changes);
         for (size_t k = 0; k < s->groups.n; k++) {
             if (!sunder_i_group_is_cheaper(&s->groups.group[k])) continue;
-            place(&t, k, false);
+            place_group(&t, k, false);
             if (!is_exact(&s->model, &s->groups.group[k])) put_back(&t, (uint32_t)k, true);
             again = true;
         }
@@ -355,7 +357,7 @@ static sunder_status take_over(sunder_i_solver *s, bool *any, sunder_error *err)
 }
 
 /* Groups where one is in the other's way, or that have a common guest. */
-static bool join(sunder_i_solver *s, bool *any)
+static bool join_groups(sunder_i_solver *s, bool *any)
 {
     sunder_i_groups *groups = &s->groups;
     bool ok = true;
@@ -409,11 +411,11 @@ static sunder_status trace_groups(sunder_i_solver *s, sunder_error *err)
 static sunder_status prove_all(sunder_i_solver *s, bool *again, sunder_error *err)
 {
     bool moved = false;
-    hold(s);
+    hold_pinned_groups(s);
     sunder_status status = prove_each(s, err);
     if (!status) status = trace_groups(s, err);
-    if (!status) charge(s);
-    if (!status) status = join(s, again) ? take_over(s, &moved, err) : sunder_i_no_memory(err);
+    if (!status) charge_bodies(s);
+    if (!status) status = join_groups(s, again) ? take_over(s, &moved, err) : sunder_i_no_memory(err);
     *again = *again || moved;
     return status;
 }
@@ -422,12 +424,12 @@ sunder_status sunder_i_solver_optimise(sunder_i_solver *solver, sunder_error *er
 {
     bool again = solver->model.rules.effort > 0;
     if (!again) return SUNDER_OK;
-    sunder_status status = sunder_i_solver_waive(solver, err);
+    sunder_status status = sunder_i_solver_list_waivers(solver, err);
     if (!status) status = sunder_i_solver_gather_groups(solver, err);
     for (int round = 0; round < OPTIMISED && again && !status; round++) {
         if (solver->groups.with_diagonals) status = sunder_i_model_cover_diagonals(&solver->model, err);
         if (!status) status = prove_all(solver, &again, err);
-        if (again && !status) status = sunder_i_solver_waive(solver, err);
+        if (again && !status) status = sunder_i_solver_list_waivers(solver, err);
         if (again && !status) status = sunder_i_solver_gather_groups(solver, err);
     }
     return status;

@@ -149,7 +149,7 @@ static sunder_status decide_some(void *context, size_t begin, size_t end, sunder
     return status;
 }
 
-static void mark(const components *all, const sunder_i_model *model, uint32_t body, bool *by_root_of)
+static void mark_component(const components *all, const sunder_i_model *model, uint32_t body, bool *by_root_of)
 {
     if (!model->body[body].fixed) by_root_of[all->root_of[body]] = true;
 }
@@ -172,7 +172,7 @@ static bool was_asked(const sunder_i_solver *s, uint32_t root)
 }
 
 /* Marks the components in which a pair was given up, but for those that were asked about before in vain. */
-static sunder_status ask(const sunder_i_solver *s, const components *all, bool *asked, sunder_error *err)
+static sunder_status mark_asked(const sunder_i_solver *s, const components *all, bool *asked, sunder_error *err)
 {
     const sunder_i_model *model = &s->model;
     bool *root = sunder_i_calloc(model->bodies, sizeof *root);
@@ -183,8 +183,8 @@ static sunder_status ask(const sunder_i_solver *s, const components *all, bool *
         return sunder_i_no_memory(err);
     }
     for (size_t k = 0; k < model->given_up_n; k++) {
-        mark(all, model, model->given_up[k].a, root);
-        mark(all, model, model->given_up[k].b, root);
+        mark_component(all, model, model->given_up[k].a, root);
+        mark_component(all, model, model->given_up[k].b, root);
     }
     for (size_t k = 0; k < all->n; k++)
         asked[k] =
@@ -215,7 +215,7 @@ static bool take_back(sunder_i_model *model, const sunder_i_solution *solution)
 }
 
 /* Puts the bodies where the solution has them; what it moved becomes one cluster, with which the search goes on. */
-static bool go_on_from(sunder_i_solver *s, const component *c, const sunder_i_solution *solution)
+static bool take_solution(sunder_i_solver *s, const component *c, const sunder_i_solution *solution)
 {
     bool ok = take_back(&s->model, solution);
     for (size_t k = 0; k < solution->bodies; k++) {
@@ -258,7 +258,7 @@ sunder_status sunder_i_solver_reconsider(sunder_i_solver *solver, bool *changed,
     sunder_i_decision *decision = sunder_i_calloc(all.n, sizeof *decision);
     sunder_i_requirement *required = sunder_i_alloc(solver->model.relaxations.n, sizeof *required);
     if (!status && (!asked || !decision || !required)) status = sunder_i_no_memory(err);
-    if (!status) status = ask(solver, &all, asked, err);
+    if (!status) status = mark_asked(solver, &all, asked, err);
     if (!status) {
         asking g = {solver, all.component, asked, required, list_requirements(&solver->model, required), decision};
         status = sunder_i_parallel(solver->model.rules.threads, all.n, SUNDER_I_GRAIN_WHOLE, decide_some, &g, err);
@@ -271,7 +271,7 @@ sunder_status sunder_i_solver_reconsider(sunder_i_solver *solver, bool *changed,
             continue;
         }
         *changed = true;
-        if (!go_on_from(solver, &all.component[k], &decision[k].solution)) status = sunder_i_no_memory(err);
+        if (!take_solution(solver, &all.component[k], &decision[k].solution)) status = sunder_i_no_memory(err);
     }
     for (size_t k = 0; k < all.n && decision; k++) sunder_i_decision_clear(&decision[k]);
     sunder_i_free(asked);

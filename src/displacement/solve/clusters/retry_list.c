@@ -38,7 +38,7 @@ static int by_ease(const void *a, const void *b)
     if (p->overlap != q->overlap) return p->overlap ? -1 : 1;
     if (p->missing != q->missing) return p->missing < q->missing ? -1 : 1;
     const int order = sunder_i_by_id_pair(&p->body, &q->body);
-    return order ? order : (p->part > q->part) - (p->part < q->part);
+    return order ? order : (p->single > q->single) - (p->single < q->single);
 }
 
 static size_t list_claims(const sunder_i_solver *s, claim *list)
@@ -99,7 +99,7 @@ static bool list_retries(const sunder_i_solver *s, retries *out)
         add_retry(out, &x);
         for (size_t k = first; k < end && end - first > 1; k++) {
             x = retry_of(&s->model, c, out->relaxation + k, 1);
-            x.part = k - first + 1;
+            x.single = k - first + 1;
             add_retry(out, &x);
         }
     }
@@ -245,6 +245,6 @@ sunder_status sunder_i_solver_retry(sunder_i_solver *solver, sunder_error *err)
     sunder_i_free(all.relaxation);
     if (!status) status = sunder_i_solver_trace_clusters(solver, err);
     if (!status) status = sunder_i_solver_commit(solver, err);
-    if (!status) status = sunder_i_solver_take_over(solver, err);
+    if (!status) status = sunder_i_solver_take_relaxations(solver, err);
     return status ? status : sunder_i_solver_relate(solver, err);
 }

@@ -44,7 +44,7 @@ static sunder_status note_solved(sunder_i_solver *s, sunder_error *err)
             c->outcome == SUNDER_I_FOUND_CHEAPEST ? SUNDER_I_IS_SOLVED_CHEAPEST : SUNDER_I_IS_SOLVED;
         for (size_t m = 0; m < c->n; m++) {
             sunder_i_body_event(&s->states, c->body[m], event);
-            if (c->crowd) s->crowd[c->body[m]] = (uint32_t)c->n;
+            if (c->starts_from_areas) s->crowd_size[c->body[m]] = (uint32_t)c->n;
         }
         if (!(c->measured.least > 0)) continue;
         if (!sunder_i_reserve(&s->measured, &s->measured_capacity, s->measured_n + 1, sizeof *s->measured))
@@ -56,7 +56,7 @@ static sunder_status note_solved(sunder_i_solver *s, sunder_error *err)
 
 /* What has not moved yet and is cut by the edge of its holder, which has: it starts from where the holder would carry
  * it, so that the cluster begins from a position without conflicts. */
-static void carry(sunder_i_solver *s, uint32_t f, uint32_t g)
+static void carry_inner_body(sunder_i_solver *s, uint32_t f, uint32_t g)
 {
     const sunder_i_model *model = &s->model;
     sunder_i_inclusion_state state;
@@ -108,7 +108,7 @@ static sunder_status heed_relaxation(sunder_i_solver *s, const sunder_i_relation
 
 /* What a cluster's solution should have given two of its bodies, and by rounding did not: it is solved again with a
  * wider margin, if that may still grow. */
-static void widen(sunder_i_solver *s, uint32_t a, uint32_t c, bool *any)
+static void widen_margin(sunder_i_solver *s, uint32_t a, uint32_t c, bool *any)
 {
     const uint32_t i = s->model.body_of[a], j = s->model.body_of[c];
     const uint32_t b = s->model.body[i].fixed ? j : i;
@@ -128,7 +128,7 @@ static sunder_status find_jumps(sunder_i_solver *s, bool *any, sunder_error *err
         const uint32_t i = model->body_of[s->jumps.pair[k].a], j = model->body_of[s->jumps.pair[k].b];
         if (sunder_i_is_aside(s, i) || sunder_i_is_aside(s, j)) continue;
         if (are_together(s, i, j)) {
-            widen(s, s->jumps.pair[k].a, s->jumps.pair[k].b, any);
+            widen_margin(s, s->jumps.pair[k].a, s->jumps.pair[k].b, any);
             continue;
         }
         if (!solve_together(s, i, j)) return sunder_i_no_memory(err);
@@ -145,7 +145,7 @@ static sunder_status find_work(sunder_i_solver *s, bool *any, sunder_error *err)
 {
     sunder_i_model *model = &s->model;
     *any = false;
-    sunder_i_solver_hold(s);
+    sunder_i_solver_hold_coarse(s);
     for (size_t k = 0; k < s->now.n; k++) {
         const sunder_i_relation *r = &s->now.pair[k];
         const uint32_t i = model->body_of[r->a], j = model->body_of[r->b];
@@ -160,7 +160,7 @@ static sunder_status find_work(sunder_i_solver *s, bool *any, sunder_error *err)
         if (!are_together(s, i, j)) {
             if (!solve_together(s, i, j)) return sunder_i_no_memory(err);
             sunder_i_trace_pair(model, "check", "in conflict: solved together from now on", r->a, r->b);
-            carry(s, r->a, r->b);
+            carry_inner_body(s, r->a, r->b);
             *any = true;
             continue;
         }
@@ -174,7 +174,7 @@ static sunder_status find_work(sunder_i_solver *s, bool *any, sunder_error *err)
             *any = true;
             continue;
         }
-        widen(s, r->a, r->b, any);
+        widen_margin(s, r->a, r->b, any);
     }
     return find_jumps(s, any, err);
 }
@@ -205,7 +205,7 @@ sunder_status sunder_i_solver_settle(sunder_i_solver *solver, double from, doubl
         status = sunder_i_solver_commit(solver, err);
         if (!status) status = note_solved(solver, err);
         for (size_t k = 0; k < solver->members; k++) solver->carrier[solver->body[k]] = SUNDER_I_NOBODY;
-        if (!status) status = sunder_i_solver_take_over(solver, err);
+        if (!status) status = sunder_i_solver_take_relaxations(solver, err);
         if (!status) status = sunder_i_solver_relate(solver, err);
         if (!status) status = sunder_i_solver_set_far_aside(solver, err);
         if (!status) status = find_work(solver, &any, err);

@@ -17,7 +17,7 @@ typedef struct judging {
     bool *shut;
 } judging;
 
-static sunder_status judge(void *context, size_t begin, size_t end, sunder_error *err)
+static sunder_status judge_pairs(void *context, size_t begin, size_t end, sunder_error *err)
 {
     const judging *g = context;
     for (size_t k = begin; k < end; k++)
@@ -47,7 +47,7 @@ static size_t list_pairs(const sunder_i_solver *s, sunder_i_id_pair *pair)
 }
 
 /* Might they be? */
-static sunder_status suspect(void *context, size_t begin, size_t end, sunder_error *err)
+static sunder_status suspect_pairs(void *context, size_t begin, size_t end, sunder_error *err)
 {
     const judging *g = context;
     (void)err;
@@ -65,26 +65,26 @@ static size_t keep_shut(sunder_i_id_pair *pair, const bool *shut, size_t n)
 }
 
 /* A conflict of two bodies that are shut in: is it by itself? */
-typedef struct matter {
+typedef struct shut_in_conflict {
     sunder_i_id_pair bodies, pair;
     bool shut;
     sunder_i_relaxation relaxation;
-} matter;
+} shut_in_conflict;
 
 static int by_bodies(const void *a, const void *b)
 {
-    const matter *p = a, *q = b;
+    const shut_in_conflict *p = a, *q = b;
     const int order = sunder_i_by_id_pair(&p->bodies, &q->bodies);
     return order ? order : sunder_i_by_id_pair(&p->pair, &q->pair);
 }
 
 static int by_pair(const void *a, const void *b)
 {
-    return sunder_i_by_id_pair(&((const matter *)a)->pair, &((const matter *)b)->pair);
+    return sunder_i_by_id_pair(&((const shut_in_conflict *)a)->pair, &((const shut_in_conflict *)b)->pair);
 }
 
 /* Those of two bodies, n of them. */
-static sunder_status judge_features(const sunder_i_model *model, matter *list, size_t n, sunder_error *err)
+static sunder_status judge_features(const sunder_i_model *model, shut_in_conflict *list, size_t n, sunder_error *err)
 {
     sunder_i_id_pair *pair = sunder_i_alloc(n, sizeof *pair);
     sunder_i_relaxation *relaxation = sunder_i_alloc(n, sizeof *relaxation);
@@ -107,21 +107,21 @@ static sunder_status judge_features(const sunder_i_model *model, matter *list, s
 
 typedef struct judging_features {
     const sunder_i_model *model;
-    matter *matter;
+    shut_in_conflict *shut_in_conflict;
     const size_t *first; /* [pairs of bodies + 1] */
 } judging_features;
 
-static sunder_status judge_some(void *context, size_t begin, size_t end, sunder_error *err)
+static sunder_status judge_pairs_of_bodies(void *context, size_t begin, size_t end, sunder_error *err)
 {
     const judging_features *g = context;
     sunder_status status = SUNDER_OK;
     for (size_t k = begin; k < end && !status; k++)
-        status = judge_features(g->model, g->matter + g->first[k], g->first[k + 1] - g->first[k], err);
+        status = judge_features(g->model, g->shut_in_conflict + g->first[k], g->first[k + 1] - g->first[k], err);
     return status;
 }
 
 /* The conflicts between these bodies, n pairs, sorted; how many. out NULL: they are counted only. */
-static size_t find_conflicts(const sunder_i_solver *s, const sunder_i_id_pair *list, size_t n, matter *out)
+static size_t find_conflicts(const sunder_i_solver *s, const sunder_i_id_pair *list, size_t n, shut_in_conflict *out)
 {
     size_t found = 0;
     for (size_t k = 0; k < s->start.n; k++) {
@@ -129,15 +129,15 @@ static size_t find_conflicts(const sunder_i_solver *s, const sunder_i_id_pair *l
         if (!sunder_i_is_open_conflict(&s->model, r) || sunder_i_is_barrier(&s->model, r->b)) continue;
         const sunder_i_id_pair bodies = bodies_of(&s->model, r);
         if (!bsearch(&bodies, list, n, sizeof bodies, sunder_i_by_id_pair)) continue;
-        if (out) out[found] = (matter){.bodies = bodies, .pair = {r->a, r->b}};
+        if (out) out[found] = (shut_in_conflict){.bodies = bodies, .pair = {r->a, r->b}};
         found++;
     }
     return found;
 }
 
 /* The same by pairs of bodies, whose first ones are told. */
-static void list_conflicts(const sunder_i_solver *s, const sunder_i_id_pair *list, size_t n, matter *out, size_t *first,
-                           size_t *pairs)
+static void list_conflicts(const sunder_i_solver *s, const sunder_i_id_pair *list, size_t n, shut_in_conflict *out,
+                           size_t *first, size_t *pairs)
 {
     const size_t found = find_conflicts(s, list, n, out);
     if (found) qsort(out, found, sizeof *out, by_bodies);
@@ -147,7 +147,8 @@ static void list_conflicts(const sunder_i_solver *s, const sunder_i_id_pair *lis
     first[*pairs] = found;
 }
 
-static sunder_status leave(sunder_i_model *model, const matter *m, sunder_i_relaxations *more, sunder_error *err)
+static sunder_status leave_conflict(sunder_i_model *model, const shut_in_conflict *m, sunder_i_relaxations *more,
+                                    sunder_error *err)
 {
     sunder_i_trace_pair(model, "jumps",
                         m->shut ? "proved: no solution without a jump" : "left with a pair that is shut in",
@@ -161,12 +162,12 @@ static sunder_status leave(sunder_i_model *model, const matter *m, sunder_i_rela
 }
 
 /* Leaves the conflicts between these bodies, n pairs, sorted. */
-static sunder_status relax(sunder_i_solver *s, const sunder_i_id_pair *list, size_t n, sunder_error *err)
+static sunder_status relax_conflicts(sunder_i_solver *s, const sunder_i_id_pair *list, size_t n, sunder_error *err)
 {
     sunder_i_model *model = &s->model;
     sunder_i_relaxations more = {0};
     const size_t conflicts = find_conflicts(s, list, n, NULL);
-    matter *found = sunder_i_alloc(conflicts, sizeof *found);
+    shut_in_conflict *found = sunder_i_alloc(conflicts, sizeof *found);
     size_t *first = sunder_i_alloc(conflicts + 1, sizeof *first), pairs = 0;
     model->shut_in = sunder_i_alloc(conflicts, sizeof *model->shut_in);
     model->given_up = sunder_i_alloc(conflicts, sizeof *model->given_up);
@@ -174,9 +175,10 @@ static sunder_status relax(sunder_i_solver *s, const sunder_i_id_pair *list, siz
     sunder_status status = ok ? SUNDER_OK : sunder_i_no_memory(err);
     if (ok) list_conflicts(s, list, n, found, first, &pairs);
     judging_features g = {model, found, first};
-    if (!status) status = sunder_i_parallel(model->rules.threads, pairs, SUNDER_I_GRAIN_WHOLE, judge_some, &g, err);
+    if (!status)
+        status = sunder_i_parallel(model->rules.threads, pairs, SUNDER_I_GRAIN_WHOLE, judge_pairs_of_bodies, &g, err);
     if (ok && conflicts) qsort(found, conflicts, sizeof *found, by_pair);
-    for (size_t k = 0; k < conflicts && !status; k++) status = leave(model, &found[k], &more, err);
+    for (size_t k = 0; k < conflicts && !status; k++) status = leave_conflict(model, &found[k], &more, err);
     for (size_t k = 0; k < more.n && !status; k++)
         if (!sunder_i_relaxations_add(&model->relaxations, &more.item[k])) status = sunder_i_no_memory(err);
     sunder_i_relaxations_free(&more);
@@ -210,13 +212,13 @@ sunder_status sunder_i_solver_find_shut_in(sunder_i_solver *solver, sunder_error
     size_t n = list_pairs(solver, pair);
     judging g = {model, pair, sunder_i_calloc(n, sizeof *g.shut)};
     sunder_status status = g.shut ? SUNDER_OK : sunder_i_no_memory(err);
-    if (!status) status = sunder_i_parallel(model->rules.threads, n, SUNDER_I_GRAIN_TESTS, suspect, &g, err);
+    if (!status) status = sunder_i_parallel(model->rules.threads, n, SUNDER_I_GRAIN_TESTS, suspect_pairs, &g, err);
     if (!status) n = keep_shut(pair, g.shut, n);
     if (!status && n) status = find_seams(model, pair, n, err);
-    if (!status) status = sunder_i_parallel(model->rules.threads, n, SUNDER_I_GRAIN_WHOLE, judge, &g, err);
+    if (!status) status = sunder_i_parallel(model->rules.threads, n, SUNDER_I_GRAIN_WHOLE, judge_pairs, &g, err);
     const size_t out = status ? 0 : keep_shut(pair, g.shut, n);
     if (!status && out) {
-        status = relax(solver, pair, out, err);
+        status = relax_conflicts(solver, pair, out, err);
         sunder_i_id_pair *confined = sunder_i_realloc(pair, out, sizeof *pair);
         model->confined = confined ? confined : pair;
         model->confined_n = out;

@@ -1,5 +1,5 @@
-/* The work on one layer, from its relations to its moves: what the stages share. (How one cluster is solved is a
- * question to the search: solve/search/cluster.h.) */
+/* The state that the stages of the work on one layer share. (solve/search/cluster.h is the interface of the search for
+ * the moves of one cluster.) */
 #ifndef SUNDER_I_SOLVER_H
 #define SUNDER_I_SOLVER_H
 
@@ -18,73 +18,74 @@ typedef struct sunder_i_cluster_member {
     uint32_t root, body;
 } sunder_i_cluster_member;
 
-/* Features a and b, one of which is to get inside the other: a move of b that brings them there. */
+/* Two features that limits keep from being separated: one of them is moved inside the other. */
 typedef struct sunder_i_entry {
     uint32_t a, b;
-    bool a_inside;
-    double place[2];
+    bool a_inside;   /* a goes inside b; otherwise b inside a */
+    double place[2]; /* the least move of b relative to a that brings this about */
 } sunder_i_entry;
 
 /* The contact groups of the layout. */
 typedef struct sunder_i_groups {
     sunder_i_group *group;
     size_t n;
-    uint32_t *of;            /* [bodies] the number of the group; SUNDER_I_NOBODY: it stands alone, or is fixed */
-    sunder_i_waiver *waived; /* pairs that are listed; sorted */
+    uint32_t *of;            /* [bodies] number of the body's group; SUNDER_I_NOBODY: fixed, or in no group */
+    sunder_i_waiver *waived; /* [waived_n] pairs left in conflict, and the demands on them; sorted */
     size_t waived_n;
-    sunder_i_id_pair *joined; /* bodies that proofs take together */
+    sunder_i_id_pair *joined; /* [joins] pairs of bodies that a proof has to treat in one group */
     size_t joins, capacity;
-    double *spent;       /* [bodies] steps of proofs */
+    double *spent;       /* [bodies] steps that proofs of the body's groups have taken */
     bool with_diagonals; /* a body is SUNDER_I_WITH_DIAGONALS */
 } sunder_i_groups;
 
-/* Members of clusters are to be listed, whatever edges there are. */
+/* Value of edges_listed: the members of clusters have to be listed again. */
 #define SUNDER_I_NONE_LISTED SIZE_MAX
 
 typedef struct sunder_i_solver {
     sunder_i_barriers barriers;
-    sunder_layer layer; /* in the order of work, with parts of barriers behind the features */
+    sunder_layer layer; /* in the order of work; the parts of barriers follow the features */
     sunder_i_model model;
     sunder_i_placement placement;
-    sunder_i_relations start, now;
-    sunder_i_depth *depth; /* [depths] of those pairs of start that were asked about, which are few ... */
+    sunder_i_relations start, now; /* exact relations of near pairs: in the input, and in the present layout */
+    sunder_i_depth *depth;         /* [depths] how deep pairs of `start` overlapped, of those for which it was needed */
     size_t depths, depth_capacity;
-    uint32_t *depth_at;    /* [start.n] ... index of that of each, plus one; 0: not computed. NULL: none */
-    sunder_i_jumps jumps;  /* as the features stand */
-    sunder_i_entry *entry; /* pairs that cannot be parted, but go inside */
+    uint32_t *depth_at;    /* [start.n] index into depth[], plus one; 0: not computed. NULL: no depth was computed */
+    sunder_i_jumps jumps;  /* pairs of features of which one jumped over the other, in the present layout */
+    sunder_i_entry *entry; /* [entries] */
     size_t entries, entry_capacity;
-    sunder_i_id_pair *edge;
+    sunder_i_id_pair *edge; /* [edges] pairs of bodies that are solved together */
     size_t edges, edge_capacity;
     uint32_t *conflict_root;     /* see sunder_i_solver_conflict_roots() */
-    uint32_t *parent;            /* [bodies] union-find over edges */
+    uint32_t *parent;            /* [bodies] union-find over the edges between movable bodies */
     sunder_i_body_states states; /* [bodies] */
-    unsigned char *widened;      /* [bodies] how often the margin grew */
-    sunder_i_changes changes;    /* what moved in this round */
-    sunder_i_id_pair *alone;     /* things of pairs that were asked about by themselves (one_by_one.c); sorted */
-    size_t alone_n, alone_capacity;
-    uint64_t *alone_work;        /* [bodies] what those questions took in vain, by one body of each pair */
-    uint32_t *crowd;             /* [bodies] in how large a crowd it began where prices of area put it; 0: in none */
-    sunder_bound_pair *measured; /* features that were asked how far they have to go apart; some more than once */
+    unsigned char *widened;      /* [bodies] how often the margin of the body's cluster grew, fourfold each time */
+    sunder_i_changes changes;    /* features that have moved since pairs were last related */
+    sunder_i_id_pair *asked;     /* [asked_n] pairs of things that one_by_one.c has asked about; sorted */
+    size_t asked_n, asked_capacity;
+    uint64_t *asked_work; /* [bodies] effort of the questions that found no solution, noted at one body of the pair */
+    uint32_t *crowd_size; /* [bodies] bodies of the crowd in which it last started from prices of area; 0: in none */
+    sunder_bound_pair *measured; /* [measured_n] pairs of features with a known least separation; some repeat */
     size_t measured_n, measured_capacity;
-    double *limit;                   /* [bodies] the limits, while they are lifted; NULL: they never were */
-    double *went;                    /* [2 * bodies] where those stood that were set aside because they went too far */
-    sunder_i_relaxations waiting;    /* of what was set aside */
-    uint32_t *carrier;               /* [bodies] whose place to start from instead of its own, or SUNDER_I_NOBODY */
-    sunder_i_cluster_member *member; /* cluster after cluster, bodies ascending */
+    double *limit;                   /* [bodies] the limits, while they are lifted; NULL: limits were never lifted */
+    double *went;                    /* [2 * bodies] where bodies stood that were set aside since they went too far */
+    sunder_i_relaxations waiting;    /* relaxations to be restored together with the limits */
+    uint32_t *carrier;               /* [bodies] the body whose move it starts from, or SUNDER_I_NOBODY: its own */
+    sunder_i_cluster_member *member; /* [members] cluster after cluster, bodies ascending */
     size_t members;
-    uint32_t *body; /* the bodies of member[] */
-    double *move;   /* [2 * members] */
+    uint32_t *body; /* [members] the bodies of member[] */
+    double *move;   /* [2 * members] moves of these in the search */
     sunder_i_cluster *cluster;
     size_t clusters;
-    size_t room, listed;                      /* edges that there is room for here; and that member[] is of */
-    bool brief;                               /* the first cluster without a solution ends it: nothing is given up */
-    bool hopeless;                            /* there was one */
-    double refuted;                           /* then: larger gaps have none, either, roughly */
-    bool had_limits;                          /* limits were lifted at first */
-    bool may_hold;                            /* bodies may be held (coarse_bodies.c) */
-    bool any_let_go;                          /* bodies that were held were let go */
-    struct sunder_i_held_layout *held_layout; /* before that (cluster_stages.h); lent */
-    sunder_i_groups groups;                   /* contact groups, and what is proved of them; with effort 0 nothing */
+    size_t edge_room;    /* member[], body[], move[] and cluster[] have room for the clusters of this many edges */
+    size_t edges_listed; /* member[] lists the ends of this many edges */
+    bool brief;          /* a question about one conflict: the first cluster without a solution ends the work */
+    bool hopeless;       /* then: there is no solution, or none was found */
+    double refuted;      /* then: about the least gap for which the proof found shows that there is no solution */
+    bool had_limits;     /* limits were lifted at first */
+    bool may_hold;       /* bodies may be held (coarse_bodies.c) */
+    bool any_let_go;     /* held bodies were let go */
+    struct sunder_i_held_layout *held_layout; /* the layout before that (cluster_stages.h); lent */
+    sunder_i_groups groups;
 } sunder_i_solver;
 
 /* ---- body_state.c: the states of bodies -------------------------------------------------------------------------- */
@@ -92,7 +93,7 @@ typedef struct sunder_i_solver {
 /* NULL, or what is wrong with the states of bodies between two stages. In builds that assert. */
 const char *sunder_i_solver_check_states(const sunder_i_solver *solver);
 
-/* Is this so of the body? */
+/* A property of a body. */
 typedef bool (*sunder_i_body_test)(const sunder_i_solver *solver, uint32_t body);
 
 static inline bool sunder_i_is_in(const sunder_i_solver *s, sunder_i_aspect aspect, uint32_t b, unsigned char state)
@@ -146,7 +147,7 @@ bool sunder_i_solver_has_member(const sunder_i_solver *solver, uint32_t root, ui
 /* The members of the cluster of that root, ascending; NULL and none if it is no cluster's. */
 const uint32_t *sunder_i_solver_members(const sunder_i_solver *solver, uint32_t root, size_t *n);
 /* The cluster of that root, or that the body is of, as they were last gathered; NULL: none. */
-sunder_i_cluster *sunder_i_solver_cluster_with(const sunder_i_solver *solver, uint32_t root);
+sunder_i_cluster *sunder_i_solver_cluster_at_root(const sunder_i_solver *solver, uint32_t root);
 sunder_i_cluster *sunder_i_solver_cluster_of(const sunder_i_solver *solver, uint32_t body);
 /* Does any of the n bodies that may move pass the test? */
 bool sunder_i_solver_any_of(const sunder_i_solver *solver, const uint32_t *body, size_t n, sunder_i_body_test test);

@@ -87,8 +87,8 @@ static bool are_heeded(const sunder_i_subproblem *q, const sunder_i_relation *r)
 
 /* Is there a conflict to be solved that provably has no solution, or has each one by itself? Conflicts of the same two
  * bodies are one question, since all that are not spared have to hold. *gap: then, of that proof. */
-static sunder_status prove(const sunder_i_solver *s, const sunder_i_proving *how, sunder_i_subproblem *q,
-                           sunder_i_verdict *verdict, double *gap, sunder_error *err)
+static sunder_status prove_conflicts(const sunder_i_solver *s, const sunder_i_proving *how, sunder_i_subproblem *q,
+                                     sunder_i_verdict *verdict, double *gap, sunder_error *err)
 {
     const sunder_i_model *model = &s->model;
     sunder_i_id_pair last = {SUNDER_I_NOBODY, SUNDER_I_NOBODY};
@@ -142,7 +142,7 @@ sunder_status sunder_i_solver_prove(const sunder_i_solver *solver, const sunder_
                                  .planes = how->planes,
                                  .precedents = how->precedents,
                                  .most = MOST_BODIES};
-        status = prove(solver, how, &q, verdict, gap, err);
+        status = prove_conflicts(solver, how, &q, verdict, gap, err);
     }
     sunder_i_free(required);
     return status;
@@ -150,7 +150,7 @@ sunder_status sunder_i_solver_prove(const sunder_i_solver *solver, const sunder_
 
 /* ---- By a layout ------------------------------------------------------------------------------------------------- */
 
-sunder_status sunder_i_solver_stand(sunder_i_solver *solver, const double *move, bool *well, sunder_error *err)
+sunder_status sunder_i_solver_place_all(sunder_i_solver *solver, const double *move, bool *well, sunder_error *err)
 {
     const sunder_i_model *model = &solver->model;
     sunder_i_list near = {0};

@@ -34,7 +34,7 @@ static bool is_to_be_parted(const sunder_i_trial *t, const sunder_i_relation *r)
 }
 
 /* Is the pair in no conflict but one that it was in, in no overlap that had ended, and no worse than at the start? */
-static sunder_status look_at_pair(void *context, const sunder_i_relation *r, bool *on, sunder_error *err)
+static sunder_status check_pair(void *context, const sunder_i_relation *r, bool *on, sunder_error *err)
 {
     sunder_i_trial *t = context;
     if (!sunder_i_solver_is_always_listed(t->solver, r)) return SUNDER_OK;
@@ -62,7 +62,7 @@ static bool can_go(const sunder_i_trial *t, const double to[2])
 }
 
 /* Puts the bodies of a trial there, or back where they stood (to: NULL). */
-static sunder_status put(sunder_i_trial *t, const double *to, sunder_error *err)
+static sunder_status put_bodies(sunder_i_trial *t, const double *to, sunder_error *err)
 {
     sunder_i_solver *s = t->solver;
     sunder_status status = SUNDER_OK;
@@ -78,7 +78,7 @@ static sunder_status put(sunder_i_trial *t, const double *to, sunder_error *err)
 }
 
 /* The neighbours of the trial's bodies in the present layout. */
-static bool note_about(sunder_i_trial *t)
+static bool note_neighbours(sunder_i_trial *t)
 {
     const sunder_i_solver *s = t->solver;
     bool ok = true;
@@ -101,17 +101,17 @@ sunder_status sunder_i_trial_place(sunder_i_trial *trial, const double to[2], su
     if (!can_go(trial, to)) return SUNDER_OK;
     trial->well = true;
     trial->about.n = 0;
-    sunder_status status = note_about(trial) ? put(trial, to, err) : sunder_i_no_memory(err);
+    sunder_status status = note_neighbours(trial) ? put_bodies(trial, to, err) : sunder_i_no_memory(err);
     for (size_t k = 0; k < trial->n && trial->well && !status; k++)
         status =
-            sunder_i_placement_visit(&s->model, &s->placement, trial->body[k], &trial->near, look_at_pair, trial, err);
+            sunder_i_placement_visit(&s->model, &s->placement, trial->body[k], &trial->near, check_pair, trial, err);
     for (size_t k = 0; k < trial->n && trial->well && !status; k++) {
         bool jumps;
         status = sunder_i_jumps_of_body(&s->jumps, &s->model, trial->body[k], &trial->near, &jumps, err);
         trial->well = !jumps;
     }
     if (status) return status;
-    return trial->well ? sunder_i_solver_relate_near(s, &trial->about, err) : put(trial, NULL, err);
+    return trial->well ? sunder_i_solver_relate_near(s, &trial->about, err) : put_bodies(trial, NULL, err);
 }
 
 bool sunder_i_trial_take_moved(sunder_i_trial *trial, const sunder_i_cluster *cluster, const double *move)

@@ -72,7 +72,7 @@ static bool is_alike(const sunder_i_trial *t, uint32_t b, uint32_t other, double
 }
 
 /* The bodies around body b with the same move. */
-static sunder_status take_alike(sunder_i_trial *t, uint32_t b, double hair, sunder_error *err)
+static sunder_status take_bodies_alike(sunder_i_trial *t, uint32_t b, double hair, sunder_error *err)
 {
     const sunder_i_model *model = &t->solver->model;
     const sunder_i_body *p = &model->body[b];
@@ -100,7 +100,7 @@ static sunder_status take_alike(sunder_i_trial *t, uint32_t b, double hair, sund
 
 /* In a pushed row no body may stand worse to the next, so the row has to move as one to the last bit: all take the move
  * of the body with the coarsest coordinates. */
-static sunder_status try_together(sunder_i_trial *t, sunder_error *err)
+static sunder_status try_common_move(sunder_i_trial *t, sunder_error *err)
 {
     double coarsest = 0, to[2] = {0, 0};
     sunder_status status = SUNDER_OK;
@@ -115,7 +115,7 @@ static sunder_status try_together(sunder_i_trial *t, sunder_error *err)
             coarsest = coarse;
             memcpy(to, t->stood + 2 * k, sizeof to);
         }
-        status = take_alike(t, t->body[k], ALIKE * coarsest, err);
+        status = take_bodies_alike(t, t->body[k], ALIKE * coarsest, err);
     }
     for (size_t k = 0; k < t->n; k++) t->taken[t->body[k]] = false;
     t->well = false;
@@ -125,11 +125,11 @@ static sunder_status try_together(sunder_i_trial *t, sunder_error *err)
 }
 
 /* The ways to mend a pair, the smallest first; what is in common: both coordinates, or one. */
-typedef enum way { NEARBY, PARTNER, TOGETHER } way;
+typedef enum remedy { NEARBY, PARTNER, TOGETHER } remedy;
 static const struct {
-    way way;
+    remedy remedy;
     unsigned along;
-} ways[] = {{NEARBY, 3}, {PARTNER, 3}, {PARTNER, 1}, {PARTNER, 2}, {TOGETHER, 3}, {TOGETHER, 1}, {TOGETHER, 2}};
+} remedies[] = {{NEARBY, 3}, {PARTNER, 3}, {PARTNER, 1}, {PARTNER, 2}, {TOGETHER, 3}, {TOGETHER, 1}, {TOGETHER, 2}};
 
 size_t *sunder_i_solver_patience(const sunder_i_solver *solver)
 {
@@ -144,17 +144,17 @@ sunder_status sunder_i_solver_mend(sunder_i_solver *solver, const sunder_i_relat
     const uint32_t pair[2] = {solver->model.body_of[r->a], solver->model.body_of[r->b]};
     sunder_i_trial t = {.solver = solver};
     sunder_status status = SUNDER_OK;
-    for (size_t k = 0; k < sizeof ways / sizeof *ways && !t.well && !status; k++)
+    for (size_t k = 0; k < sizeof remedies / sizeof *remedies && !t.well && !status; k++)
         for (int e = 0; e < 2 && !t.well && !status; e++) {
             const double *other = solver->model.move + 2 * (size_t)pair[1 - e], to[2] = {other[0], other[1]};
             t.n = 0;
-            t.along = ways[k].along;
+            t.along = remedies[k].along;
             if (!sunder_i_may_move(&solver->model.body[pair[e]])) continue;
             t.budget = &budget[sunder_i_union_find(solver->parent, pair[e])];
             if (!sunder_i_trial_take(&t, pair[e])) status = sunder_i_no_memory(err);
-            if (!status && ways[k].way == NEARBY) status = try_nearby(&t, err);
-            if (!status && ways[k].way == PARTNER) status = sunder_i_trial_place(&t, to, err);
-            if (!status && ways[k].way == TOGETHER) status = try_together(&t, err);
+            if (!status && remedies[k].remedy == NEARBY) status = try_nearby(&t, err);
+            if (!status && remedies[k].remedy == PARTNER) status = sunder_i_trial_place(&t, to, err);
+            if (!status && remedies[k].remedy == TOGETHER) status = try_common_move(&t, err);
         }
     *well = t.well;
     sunder_i_trial_free(&t);
@@ -165,7 +165,8 @@ sunder_status sunder_i_solver_mend(sunder_i_solver *solver, const sunder_i_relat
 
 /* Asks the search for places that leave the pair better by the margin, near where all stand: *well, if there are such,
  * and they hold. */
-static sunder_status ease(sunder_i_solver *s, const sunder_i_relation *r, bool others, bool *well, sunder_error *err)
+static sunder_status demand_margin(sunder_i_solver *s, const sunder_i_relation *r, bool others, bool *well,
+                                   sunder_error *err)
 {
     const uint32_t i = s->model.body_of[r->a], j = s->model.body_of[r->b];
     sunder_i_trial t = {.solver = s};
@@ -178,7 +179,7 @@ static sunder_status ease(sunder_i_solver *s, const sunder_i_relation *r, bool o
     const double none[2] = {0, 0};
     double *move = sunder_i_solver_load_moves(s, c);
     bool done;
-    status = sunder_i_cluster_ease(&s->model, c, r->a, r->b, others, move, &done, err);
+    status = sunder_i_cluster_demand_margin(&s->model, c, r->a, r->b, others, move, &done, err);
     if (!status && done && !sunder_i_trial_take_moved(&t, c, move)) status = sunder_i_no_memory(err);
     if (!status && done) status = sunder_i_trial_place(&t, none, err);
     *well = t.well;
@@ -195,7 +196,7 @@ static double cost_of(const sunder_i_solver *s, uint32_t b)
 }
 
 /* Pins the one whose move is cheaper, of those that may move and did; either if none did, which cannot be. */
-static sunder_status pin(sunder_i_solver *s, uint32_t i, uint32_t j, sunder_error *err)
+static sunder_status pin_either(sunder_i_solver *s, uint32_t i, uint32_t j, sunder_error *err)
 {
     const double home[2] = {0, 0};
     const bool may_i = sunder_i_may_move(&s->model.body[i]), may_j = sunder_i_may_move(&s->model.body[j]);
@@ -216,7 +217,7 @@ static sunder_status pin_jumps(sunder_i_solver *s, bool *pinned, sunder_error *e
     sunder_status status = SUNDER_OK;
     while (s->jumps.n && !status) {
         *pinned = true;
-        status = pin(s, s->model.body_of[s->jumps.pair[0].a], s->model.body_of[s->jumps.pair[0].b], err);
+        status = pin_either(s, s->model.body_of[s->jumps.pair[0].a], s->model.body_of[s->jumps.pair[0].b], err);
     }
     return status;
 }
@@ -258,7 +259,7 @@ static void begin_pass(const sunder_i_solver *s, waiting *w)
 
 /* Holds a pinned body, and with it a cluster of at most MOST_HELD bodies. What stands about the body is in its way
  * until the cluster settles. */
-static void hold(sunder_i_solver *s, waiting *w, uint32_t body)
+static void hold_body(sunder_i_solver *s, waiting *w, uint32_t body)
 {
     const uint32_t root = sunder_i_union_find(s->parent, body);
     if (s->model.body[body].fixed) return;
@@ -271,16 +272,16 @@ static bool is_held(const sunder_i_solver *s, const waiting *w, uint32_t body)
     return !s->model.body[body].fixed && (w->body[body] || w->cluster[sunder_i_union_find(s->parent, body)]);
 }
 
-/* ease(), with others and without, unless too much of that was in vain. */
-static sunder_status ease_either_way(sunder_i_solver *s, const sunder_i_relation *r, waiting *w, bool *well,
-                                     sunder_error *err)
+/* demand_margin(), with others and without, unless too much of that was in vain. */
+static sunder_status demand_margin_either_way(sunder_i_solver *s, const sunder_i_relation *r, waiting *w, bool *well,
+                                              sunder_error *err)
 {
     const uint32_t i = s->model.body_of[r->a], j = s->model.body_of[r->b];
     const uint32_t root = sunder_i_union_find(s->parent, s->model.body[i].fixed ? j : i);
     sunder_status status = SUNDER_OK;
     *well = false;
     if (w->vain[root] >= EASED_IN_VAIN) return SUNDER_OK;
-    for (int others = 1; others >= 0 && !status && !*well; others--) status = ease(s, r, others, well, err);
+    for (int others = 1; others >= 0 && !status && !*well; others--) status = demand_margin(s, r, others, well, err);
     if (!*well) w->vain[root] += w->size[root];
     return status;
 }
@@ -317,15 +318,15 @@ sunder_status sunder_i_solver_uphold(sunder_i_solver *solver, sunder_error *err)
             any = true;
             if (is_held(solver, &held, i) || is_held(solver, &held, j)) continue;
             status = sunder_i_solver_mend(solver, &r, budget, &well, err);
-            if (!status && !well) status = ease_either_way(solver, &r, &held, &well, err);
+            if (!status && !well) status = demand_margin_either_way(solver, &r, &held, &well, err);
             if (!status)
                 sunder_i_trace_pair(&solver->model, "worse than at the start",
                                     well ? "mended" : "one of the two put back", r.a, r.b);
             if (status || well) continue;
             pinned = true;
-            status = pin(solver, i, j, err);
-            hold(solver, &held, i);
-            hold(solver, &held, j);
+            status = pin_either(solver, i, j, err);
+            hold_body(solver, &held, i);
+            hold_body(solver, &held, j);
         }
         if (pinned && !status) status = sunder_i_solver_settle(solver, SOUGHT, SOUGHT, err);
     }

@@ -10,7 +10,7 @@
 #include <math.h>
 
 /* Bodies that clash with the cluster's body i at that place. */
-static void invite_for(sunder_i_search *s, sunder_i_cluster *cluster, uint32_t i, const double place[2])
+static void add_blocking(sunder_i_search *s, sunder_i_cluster *cluster, uint32_t i, const double place[2])
 {
     for (uint32_t j = (uint32_t)cluster->n; j < s->n && !s->failed; j++) {
         if (!s->away[j]) continue;
@@ -24,7 +24,7 @@ static void invite_for(sunder_i_search *s, sunder_i_cluster *cluster, uint32_t i
     }
 }
 
-static void invite(sunder_i_search *s, sunder_i_cluster *cluster)
+static void find_blocking(sunder_i_search *s, sunder_i_cluster *cluster)
 {
     for (size_t k = s->own; k < s->n; k++) s->away[k] = sunder_i_may_move(&s->model->body[s->body[k]]);
     const double cost = sunder_i_search_cost(s, s->t);
@@ -32,15 +32,15 @@ static void invite(sunder_i_search *s, sunder_i_cluster *cluster)
         const double *t = s->t + 2 * i, square = t[0] * t[0] + t[1] * t[1];
         double place[2];
         if (!(s->mass[i] > 0) || !(square > COSTLY * cost * 2 * s->mass[i])) continue;
-        if (sunder_i_search_free_body(s, i, NEARER * sqrt(square), place)) invite_for(s, cluster, i, place);
+        if (sunder_i_search_free_body(s, i, NEARER * sqrt(square), place)) add_blocking(s, cluster, i, place);
     }
 }
 
-bool sunder_i_cluster_invite(const sunder_i_model *model, sunder_i_cluster *cluster, const double *move)
+bool sunder_i_cluster_find_blocking(const sunder_i_model *model, sunder_i_cluster *cluster, const double *move)
 {
     sunder_i_search s;
     const bool begun = sunder_i_search_init_about(&s, model, cluster, move);
-    if (begun) invite(&s, cluster);
+    if (begun) find_blocking(&s, cluster);
     const bool ok = begun && !s.failed;
     sunder_i_search_free(&s);
     return ok;

@@ -168,7 +168,7 @@ static bool is_covered_at(const covering *o, size_t obstacle, const between *b, 
 
 /* Does one obstacle cover all of it? It is convex: so it does if it covers the corners of a polygon about that, of the
  * ends of the chords and of tangents of the arcs between them. */
-static bool covers(const covering *o, size_t obstacle, const between *b)
+static bool is_covered_by_one(const covering *o, size_t obstacle, const between *b)
 {
     const double radius = b->disc->radius;
     const double begin = acos(sunder_i_min(1, b->out / radius)), end = acos(sunder_i_max(-1, b->low / radius));
@@ -225,7 +225,7 @@ static double half_chord(const between *b, double out)
 }
 
 /* Usually the ends of the outer chord are what is not covered. */
-static bool cover(covering *o, const between *b)
+static bool is_segment_covered(covering *o, const between *b)
 {
     const double radius = b->disc->radius;
     if (b->out <= sunder_i_max(b->low, -radius) || b->low >= radius) return true;
@@ -235,7 +235,7 @@ static bool cover(covering *o, const between *b)
         place_at(b, side * half_chord(b, out), out, end);
         if (!is_covered_by_any(o, end)) return false;
     }
-    if (covers(o, o->last, b)) return true;
+    if (is_covered_by_one(o, o->last, b)) return true;
     const double across = half_chord(b, out < 0 ? out : sunder_i_max(0, b->low));
     return o->n > 1 && cover_strip(o, b, -across, 0, STRIP_HALVINGS) && cover_strip(o, b, 0, across, STRIP_HALVINGS);
 }
@@ -248,12 +248,12 @@ static double find_line(covering *o, const double n[2], double known, double d, 
     const double centre = n[0] * about->centre[0] + n[1] * about->centre[1];
     const double nothing = sunder_i_max(known, centre - about->radius);
     between b = {about, n, known - centre, d - hair - centre};
-    if (cover(o, &b)) return d - hair;
+    if (is_segment_covered(o, &b)) return d - hair;
     int near = 0, far = LINE_HALVINGS;
     while (far - near > 1) {
         const int k = (near + far) / 2;
         b.out = d - ldexp(d - nothing, -k) - centre;
-        if (cover(o, &b))
+        if (is_segment_covered(o, &b))
             near = k;
         else
             far = k;
@@ -263,13 +263,13 @@ static double find_line(covering *o, const double n[2], double known, double d, 
 
 /* ---- The obstacles of a pair ------------------------------------------------------------------------------------- */
 
-static void add_obstacle(sunder_i_search *s, const sunder_i_piece_pair *part, void *context)
+static void add_obstacle(sunder_i_search *s, const sunder_i_piece_pair *pair, void *context)
 {
     covering *o = context;
     size_t n;
     double gap;
-    if (part->shadow || part->inclusion != SUNDER_I_LAPSED || o->n == MOST_COVERING) return;
-    const sunder_i_obstacle_edge *edge = sunder_i_search_edges(s, part, &n, &gap);
+    if (pair->shadow || pair->inclusion != SUNDER_I_LAPSED || o->n == MOST_COVERING) return;
+    const sunder_i_obstacle_edge *edge = sunder_i_search_edges(s, pair, &n, &gap);
     if (!edge || sunder_i_support_at(edge, n, o->disc.centre).distance > gap + o->disc.radius) return;
     if (!sunder_i_reserve(&o->edge, &o->capacity, o->edges + n, sizeof *o->edge)) {
         s->failed = true;
@@ -281,18 +281,18 @@ static void add_obstacle(sunder_i_search *s, const sunder_i_piece_pair *part, vo
     o->first[o->n] = o->edges;
 }
 
-static const double *place(const bounding *b, uint32_t i)
+static const double *place_of_body(const bounding *b, uint32_t i)
 {
     return b->s->mass[i] > 0 ? b->program.t + 2 * i : b->s->t + 2 * i;
 }
 
 /* Is more known of it now? */
-static bool learn(bounding *b, acting *a)
+static bool raise_line(bounding *b, acting *a)
 {
     sunder_i_search *s = b->s;
     const sunder_i_constraint *c = a->constraint;
     if (sunder_i_is_tangent(c) || a->d >= c->d - 2 * s->tolerance) return false;
-    const double *p = place(b, a->i), *q = place(b, a->j);
+    const double *p = place_of_body(b, a->i), *q = place_of_body(b, a->j);
     const double mass = s->mass[a->i] + s->mass[a->j], back = mass * a->force;
     const double radius = sqrt(2 * mass * sunder_i_max(0, b->cost - b->least));
     covering *o = &b->about;
@@ -315,7 +315,7 @@ static bool learn(bounding *b, acting *a)
 /* ---- All of them ------------------------------------------------------------------------------------------------- */
 
 /* x, and V by the forces: whatever they are, no moves that keep the constraints cost less (weak duality). */
-static bool solve(bounding *b)
+static bool solve_bound(bounding *b)
 {
     sunder_i_quadratic *p = &b->program;
     p->n = 0;
@@ -335,14 +335,14 @@ static bool solve(bounding *b)
 }
 
 /* How much less any solution may cost, as a share; told more closely while it is more than `enough`. */
-static double approach(bounding *b, double enough)
+static double raise_bound(bounding *b, double enough)
 {
     double left = 1;
     for (int round = 0; round < FORCED_ROUNDS && left > enough && !b->s->failed; round++) {
         bool any = false;
-        for (size_t k = 0; k < b->n; k++) any = learn(b, &b->acting[k]) || any;
+        for (size_t k = 0; k < b->n; k++) any = raise_line(b, &b->acting[k]) || any;
         if (!any) break;
-        if (!solve(b)) b->s->failed = true;
+        if (!solve_bound(b)) b->s->failed = true;
         left = sunder_i_max(0, 1 - b->least / b->cost);
     }
     return left;
@@ -362,7 +362,7 @@ static double find_left(sunder_i_search *s, double enough)
     b.program.t = sunder_i_calloc(2 * s->n, sizeof *b.program.t);
     const bool ok = b.acting && b.program.constraint && b.program.t;
     if (!ok) s->failed = true;
-    const double left = ok && find_acting(&b) ? approach(&b, enough) : 1;
+    const double left = ok && find_acting(&b) ? raise_bound(&b, enough) : 1;
     sunder_i_free(b.about.edge);
     sunder_i_free(b.acting);
     sunder_i_free(b.program.constraint);
@@ -407,7 +407,7 @@ static bool is_cheapest_below(sunder_i_search *s)
 
 bool sunder_i_search_is_cheapest(sunder_i_search *search)
 {
-    const bool down = sunder_i_search_goes_down(search);
+    const bool down = sunder_i_search_runs_without_proofs(search);
     const double enough = down ? NEARLY_CHEAPEST : CHEAPEST, left = find_left(search, enough);
     if (search->failed || left > enough) return false;
     return left <= CHEAPEST || is_cheapest_below(search);

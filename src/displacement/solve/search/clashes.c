@@ -23,23 +23,23 @@ static void look_at(sunder_i_search *s, uint32_t i, uint32_t j, void *context)
     s->clash[s->clashes++] = (sunder_i_clash){i, j, v};
 }
 
-void sunder_i_search_look_at(sunder_i_search *search, const double *t, uint32_t i, uint32_t j)
+void sunder_i_search_add_clash(sunder_i_search *search, const double *t, uint32_t i, uint32_t j)
 {
     look l = {t, 0};
     look_at(search, i, j, &l);
 }
 
-double sunder_i_search_look(sunder_i_search *search, const double *t)
+double sunder_i_search_find_clashes(sunder_i_search *search, const double *t)
 {
     look l = {t, 0};
     search->clashes = 0;
-    sunder_i_search_near(search, t, search->gap, look_at, &l);
-    sunder_i_search_passing(search, t, search->gap, look_at, &l);
-    for (uint32_t k = 0; k < search->n; k++) l.worst = sunder_i_max(l.worst, sunder_i_search_overstep(search, k, t));
+    sunder_i_search_visit_near(search, t, search->gap, look_at, &l);
+    sunder_i_search_visit_passing(search, t, search->gap, look_at, &l);
+    for (uint32_t k = 0; k < search->n; k++) l.worst = sunder_i_max(l.worst, sunder_i_search_excess(search, k, t));
     return l.worst;
 }
 
-void sunder_i_search_look_again(sunder_i_search *search, const double *t, uint32_t i)
+void sunder_i_search_update_clashes(sunder_i_search *search, const double *t, uint32_t i)
 {
     size_t out = 0;
     for (size_t k = 0; k < search->clashes; k++)

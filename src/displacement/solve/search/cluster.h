@@ -16,12 +16,12 @@ typedef enum sunder_i_outcome {
 typedef struct sunder_i_cluster {
     uint32_t *body; /* members, ascending; fixed ones too */
     size_t n;
-    double about;  /* each body looks at least this far, times a factor (surroundings.c) */
-    double margin; /* what is demanded beyond the gap, to cover rounding */
-    bool touching; /* two alone may stand without the margin: no exact check has failed yet */
-    bool crowd;    /* it begins from where prices of area put it */
-    bool limited;  /* by limits, fixed bodies, the rule against jumps: it may have no solution */
-    bool brief;    /* if no solution is found nothing is given up, and nothing moves */
+    double about;           /* each body looks at least this far, times a factor (surroundings.c) */
+    double margin;          /* what is demanded beyond the gap, to cover rounding */
+    bool touching;          /* two alone may stand without the margin: no exact check has failed yet */
+    bool starts_from_areas; /* it begins from where prices of area put it */
+    bool limited;           /* by limits, fixed bodies, the rule against jumps: it may have no solution */
+    bool brief;             /* if no solution is found nothing is given up, and nothing moves */
     sunder_i_outcome outcome;
     sunder_bound_pair measured;       /* two features that were asked how far they have to go apart; least 0: none */
     sunder_i_relaxations relaxations; /* of pairs that its solution gave up, or in place of older ones; owned */
@@ -38,7 +38,7 @@ typedef struct sunder_i_retry {
     sunder_i_id_pair body;
     const uint32_t *relaxation; /* [relaxations] between members of theirs: places in the model's */
     size_t relaxations;
-    size_t part;    /* 0: all of theirs, which are asked together; else which of them, by itself, from 1 on */
+    size_t single;  /* 0: all of theirs, which are asked together; else which of them, by itself, from 1 on */
     bool overlap;   /* do members overlap? */
     bool resolve;   /* ask for all that is owed, of those that are not infeasible */
     bool disjoint;  /* ask, at least, that they do not overlap, those that can be parted so far */
@@ -91,8 +91,8 @@ sunder_status sunder_i_cluster_descend(const sunder_i_model *model, const sunder
 /* A pair of things that is left in conflict, and that rounding made slightly worse: *done, if it and the bodies around
  * it have places where it stands better by the margin; rounded. All others keep what they owe or are held to; others:
  * moved pairs that are left in conflict get the margin, too, otherwise only those that have it. */
-sunder_status sunder_i_cluster_ease(const sunder_i_model *model, const sunder_i_cluster *cluster, uint32_t a,
-                                    uint32_t b, bool others, double *move, bool *done, sunder_error *err);
+sunder_status sunder_i_cluster_demand_margin(const sunder_i_model *model, const sunder_i_cluster *cluster, uint32_t a,
+                                             uint32_t b, bool others, double *move, bool *done, sunder_error *err);
 
 /* ---- fit_given_up.c ---------------------------------------------------------------------------------------------- */
 
@@ -106,6 +106,6 @@ sunder_status sunder_i_cluster_fit(const sunder_i_model *model, const sunder_i_c
 
 /* Finds bodies of the cluster that would have a nearer place but for others that might move: pairs of the two go to
  * cluster->guest. False if memory is out. */
-bool sunder_i_cluster_invite(const sunder_i_model *model, sunder_i_cluster *cluster, const double *move);
+bool sunder_i_cluster_find_blocking(const sunder_i_model *model, sunder_i_cluster *cluster, const double *move);
 
 #endif

@@ -90,8 +90,8 @@ void sunder_i_search_free(sunder_i_search *search)
     sunder_i_free(search->clash);
     sunder_i_relaxations_free(&search->relaxations);
     sunder_i_free(search->restored);
-    sunder_i_rtree_free(&search->ways);
-    sunder_i_free(search->went);
+    sunder_i_rtree_free(&search->visited);
+    sunder_i_free(search->visited_at);
     sunder_i_free(search->about.item);
     sunder_i_free(search->scratch.xy);
     sunder_i_grown_cache_free(&search->grown);
@@ -124,10 +124,10 @@ size_t sunder_i_search_movers(const sunder_i_search *search)
 
 uint32_t sunder_i_search_place_of(const sunder_i_search *search, uint32_t body)
 {
-    for (size_t part = 0; part < 2; part++) {
-        const uint32_t *set = part ? search->body + search->own : search->body;
+    for (size_t half = 0; half < 2; half++) {
+        const uint32_t *set = half ? search->body + search->own : search->body;
         const uint32_t *found =
-            bsearch(&body, set, part ? search->n - search->own : search->own, sizeof body, sunder_i_by_number);
+            bsearch(&body, set, half ? search->n - search->own : search->own, sizeof body, sunder_i_by_number);
         if (found) return (uint32_t)(found - search->body);
     }
     return SUNDER_I_NOBODY;

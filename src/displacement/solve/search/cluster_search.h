@@ -11,78 +11,77 @@
 #include "displacement/solve/search/cluster.h"
 #include "displacement/solve/search/measures.h"
 
-/* Two bodies of the cluster, by their places in it, and what they miss. */
+/* Two bodies, by their indices in the search, that are nearer to each other than they may be. */
 typedef struct sunder_i_clash {
     uint32_t i, j;
-    double violation;
+    double violation; /* the shortfall of their distance */
 } sunder_i_clash;
 
 typedef struct sunder_i_search {
     const sunder_i_model *model;
     const uint32_t *body;       /* [n] the bodies; the first `own` may move, unless fixed */
-    size_t n, own;              /* ascending up to `own`, and from there on */
-    uint32_t *listed;           /* their list, if the search owns it */
-    double gap;                 /* the gap and the margin */
-    double tolerance;           /* a violation below this counts as none: a quarter of the margin, or ... */
-    bool roughly;               /* ... the violation that still has to be repaired */
-    double *mass;               /* [n] 1 / (2 weight), or 0 */
-    double *place;              /* [2 n] of a large crowd: where each comes from; NULL */
-    bool *away;                 /* [n] taken out: not there for others that look for room */
-    double *t;                  /* [2 n] where they stand */
-    double *box;                /* [4 n] of the bodies as they stand, relative to the first body's origin */
+    size_t n, own;              /* bodies ascend below index `own`, and again from there on */
+    uint32_t *listed;           /* the array of `body`, if the search owns it */
+    double gap;                 /* the gap plus the margin */
+    double tolerance;           /* a smaller violation counts as none: a quarter of the margin, unless set otherwise */
+    bool roughly;               /* larger violations are tolerated for now, and are repaired later */
+    double *mass;               /* [n] 1 / (2 weight); 0: the body does not move */
+    double *place;              /* [2 n] origins of the bodies of a large crowd; otherwise NULL */
+    bool *away;                 /* [n] ignored while room is looked for */
+    double *t;                  /* [2 n] the present moves */
+    double *box;                /* [4 n] boxes at the present moves, relative to the first body's origin */
     uint32_t *order;            /* [n] for sweeps over boxes */
     sunder_i_quadratic program; /* its constraints are kept sorted by key */
-    double *next;               /* [2 n] the program's result */
-    bool ended;                 /* nothing was in its way but what the program knows, ... */
-    double seen;                /* ... by a search that found this violation there, ... */
-    uint64_t seen_steps;        /* ... and took this many steps */
-    uint32_t tangents;          /* number of limits added so far, which identifies them */
-    sunder_i_constraint *old;   /* the previous round's, for the forces */
+    double *next;               /* [2 n] solution of the program */
+    bool ended;                 /* the solution violates nothing that the program does not know; then: */
+    double seen;                /* the greatest violation at the solution ... */
+    uint64_t seen_steps;        /* ... and the steps that it took to find it */
+    uint32_t tangents;          /* tangents of limits added so far; the number identifies a tangent */
+    sunder_i_constraint *old;   /* [old_n] constraints of the previous round, whose forces new ones start from */
     size_t old_n, old_capacity;
-    sunder_i_clash *clash; /* result of the last search */
+    sunder_i_clash *clash; /* [clashes] found by the last call of sunder_i_search_find_clashes() */
     size_t clashes, clash_capacity;
-    sunder_i_relaxations relaxations; /* of pairs that this search has given up; they come before those of the model */
-    sunder_i_restored *restored;      /* those of the model that do not count; sorted */
+    sunder_i_relaxations relaxations; /* of pairs that this search gave up; they precede those of the model */
+    sunder_i_restored *restored;      /* [restored_n] relaxations of the model that do not count here; sorted */
     size_t restored_n, restored_capacity;
-    double cap; /* no body is sent farther than this, whatever its limit; INFINITY unless set */
-    struct sunder_i_neighbourhood *neighbourhood; /* lent: changes are tried in it; NULL: with all */
-    sunder_i_rtree ways;                          /* for a large cluster (visited_boxes.c) ... */
-    double *went;                                 /* [2 n] ... for where they stood then; NULL: there is none yet */
-    double least_way;                             /* a body that passed another has moved farther than this (shadows.c)
-                                                   * ... */
-    bool least_known;                             /* ... if it was computed */
-    sunder_i_list about;                          /* neighbours found by the last query */
+    double cap;                                   /* an upper bound of all moves, besides limits; INFINITY: none */
+    struct sunder_i_neighbourhood *neighbourhood; /* changes are tried with these bodies alone; NULL: with all; lent */
+    sunder_i_rtree visited;   /* boxes of the paths from home, of a large cluster (visited_boxes.c) */
+    double *visited_at;       /* [2 n] moves that `visited` holds for; NULL: there is no index yet */
+    double least_passing;     /* a body that passed another has moved farther than this plus the gap (shadows.c) */
+    bool least_passing_known; /* it was computed */
+    sunder_i_list about;      /* indices found by sunder_i_search_find_about() */
     sunder_i_scratch scratch;
-    sunder_i_obstacles obstacles;    /* about what a free place is looked for */
-    sunder_i_grown_cache grown;      /* obstacles of pieces as they stood there */
+    sunder_i_obstacles obstacles;    /* obstacles of the body for which room is looked for */
+    sunder_i_grown_cache grown;      /* grown obstacles of pairs of pieces */
     sunder_i_obstacle_cache cache;   /* obstacles of pairs of pieces */
-    sunder_i_measures measures;      /* what pairs miss */
-    sunder_i_obstacle_edge *shifted; /* one that is not kept there */
+    sunder_i_measures measures;      /* violations of pairs of bodies */
+    sunder_i_obstacle_edge *shifted; /* scratch: edges of an obstacle that no cache keeps */
     size_t shifted_capacity;
     double extent;          /* the mean size of the bodies */
-    double settled;         /* a round that gains less of the cost is the last */
-    uint64_t steps, effort; /* work done, in constraints looked at; how much may be done for better sides */
-    int clashing;           /* rounds that end in a clash before a descent gives up */
-    uint64_t patience;      /* a descent gives up when the work reaches this ... */
-    const double *lead;     /* [2 n] pairs that are free here get the sides that they have here; NULL */
-    const double *back;     /* [2 n] ... or when it comes back to here; NULL */
-    double hope; /* ... or, from a free position, when its projected cost exceeds this; INFINITY: no such test */
-    bool failed; /* memory is out */
+    double settled;         /* a round that gains a smaller share of the cost is the last one */
+    uint64_t steps, effort; /* constraints examined so far; the work at which the search for better sides ends */
+    int clashing;           /* a descent gives up after this many rounds that end in clashes ... */
+    uint64_t patience;      /* ... or when the work reaches this ... */
+    const double *back;     /* ... or when a program ends at these moves, [2 n]; NULL: no such test ... */
+    double hope;            /* ... or when its expected final cost exceeds this; INFINITY: no such test */
+    const double *lead;     /* [2 n] moves at which the sides of free pairs are chosen; NULL: at the present moves */
+    bool failed;            /* memory is out */
 } sunder_i_search;
 
-/* Looks at the bodies as they stand at move (two doubles a body, copied). */
+/* Begins a search for n bodies at the given moves, [2 n], which are copied. On failure the caller frees it, too. */
 bool sunder_i_search_init(sunder_i_search *search, const sunder_i_model *model, const uint32_t *body, size_t n,
                           double margin, const double *move);
 void sunder_i_search_free(sunder_i_search *search);
-/* NULL, or what is wrong with it: bodies ascend, as said above, positions are numbers, pairs restored are sorted. In
- * builds that assert. */
+/* The checker, for builds that assert: bodies ascend, moves are numbers, restored pairs are sorted. Returns NULL, or
+ * what does not hold. */
 const char *sunder_i_search_check(const sunder_i_search *search);
 /* Work done so far, in constraints looked at. */
 static inline uint64_t sunder_i_search_work(const sunder_i_search *s) { return s->steps + s->program.work; }
 /* How far body i may be sent. */
 double sunder_i_search_limit(const sunder_i_search *search, uint32_t i);
 /* By how much it is farther at t, by more than a hair; else 0 (limits.c). */
-double sunder_i_search_overstep(const sunder_i_search *search, uint32_t i, const double *t);
+double sunder_i_search_excess(const sunder_i_search *search, uint32_t i, const double *t);
 /* How many of its bodies may move. */
 size_t sunder_i_search_movers(const sunder_i_search *search);
 /* The place of a body of the model in the search, or SUNDER_I_NOBODY. */
@@ -102,16 +101,17 @@ bool sunder_i_search_init_about(sunder_i_search *search, const sunder_i_model *m
 /* Called for every pair of bodies, one of them movable, that stand within reach of each other at t. */
 typedef void (*sunder_i_visit_pair)(sunder_i_search *search, uint32_t i, uint32_t j, void *context);
 
-void sunder_i_search_near(sunder_i_search *search, const double *t, double reach, sunder_i_visit_pair visit,
-                          void *context);
+void sunder_i_search_visit_near(sunder_i_search *search, const double *t, double reach, sunder_i_visit_pair visit,
+                                void *context);
 /* The same for every pair that might, were one of them, or both, where it came from. */
-void sunder_i_search_near_or_home(sunder_i_search *search, double reach, sunder_i_visit_pair visit, void *context);
+void sunder_i_search_visit_near_or_home(sunder_i_search *search, double reach, sunder_i_visit_pair visit,
+                                        void *context);
 
 /* ---- visited_boxes.c: where bodies have been --------------------------------------------------------------------- */
 
 /* The bodies that body i could meet or pass, anywhere within reach of its original place: a superset, as indices in
  * ascending order, in search->about. False if memory is out. */
-bool sunder_i_search_about(sunder_i_search *search, uint32_t i, double reach);
+bool sunder_i_search_find_about(sunder_i_search *search, uint32_t i, double reach);
 
 /* ---- piece_pairs.c: what two bodies owe each other, piece by piece ----------------------------------------------- */
 
@@ -133,22 +133,22 @@ typedef struct sunder_i_piece_pair {
 } sunder_i_piece_pair;
 
 /* The support line of its obstacle, or shadow, of these edges, that is farthest below u. */
-static inline sunder_i_support sunder_i_search_support(const sunder_i_piece_pair *part,
+static inline sunder_i_support sunder_i_search_support(const sunder_i_piece_pair *pair,
                                                        const sunder_i_obstacle_edge *edge, size_t n, const double u[2])
 {
-    return part->shadow ? sunder_i_shadow_support_at(edge, n, u) : sunder_i_support_at(edge, n, u);
+    return pair->shadow ? sunder_i_shadow_support_at(edge, n, u) : sunder_i_support_at(edge, n, u);
 }
 
-typedef void (*sunder_i_visit_piece_pair)(sunder_i_search *search, const sunder_i_piece_pair *part, void *context);
+typedef void (*sunder_i_visit_piece_pair)(sunder_i_search *search, const sunder_i_piece_pair *pair, void *context);
 
 /* All pairs of pieces of the two whose boxes are within reach of each other at relative position u, and the shadows
  * that come as near; yields: they are held to their relaxations, where there are any. */
 void sunder_i_search_piece_pairs(sunder_i_search *search, uint32_t i, uint32_t j, const double u[2], double reach,
                                  bool yields, sunder_i_visit_piece_pair visit, void *context);
 /* Of that: the walls of `holder` that are within reach of the pieces of `other`, which stands at v from it.
- * part->offset is the caller's; swapped: the holder is j. */
+ * pair->offset is the caller's; swapped: the holder is j. */
 void sunder_i_search_walls(sunder_i_search *search, const sunder_i_body *holder, const sunder_i_body *other,
-                           const double v[2], double reach, sunder_i_piece_pair *part, bool swapped,
+                           const double v[2], double reach, sunder_i_piece_pair *pair, bool swapped,
                            sunder_i_visit_piece_pair visit, void *context);
 /* The relaxation that pieces a and b are held to; NULL: none, they owe each other the gap. */
 const sunder_i_relaxation *sunder_i_search_relaxation(const sunder_i_search *search, const sunder_i_body_piece *a,
@@ -157,10 +157,10 @@ const sunder_i_relaxation *sunder_i_search_relaxation(const sunder_i_search *sea
 double sunder_i_search_shift(const sunder_i_relaxation *relaxation, uint32_t of_j, double *corner, size_t n);
 /* Its obstacle A + (-B), in search->scratch, shifted by its relaxation: how many corners (0: memory is out), and
  * the gap that it owes. */
-size_t sunder_i_search_obstacle(sunder_i_search *search, const sunder_i_piece_pair *part, double *gap);
+size_t sunder_i_search_obstacle(sunder_i_search *search, const sunder_i_piece_pair *pair, double *gap);
 /* The same as edges, *n of them, which stay until the next call; of a shadow those of shadow.h. NULL: memory is out, or
  * it casts none. */
-const sunder_i_obstacle_edge *sunder_i_search_edges(sunder_i_search *search, const sunder_i_piece_pair *part, size_t *n,
+const sunder_i_obstacle_edge *sunder_i_search_edges(sunder_i_search *search, const sunder_i_piece_pair *pair, size_t *n,
                                                     double *gap);
 
 /* Returns by how much pair (i, j) violates the gap at relative position u. If it does and is relaxed, *yields is set
@@ -186,8 +186,8 @@ static inline void sunder_i_search_body_shadows(sunder_i_search *search, const s
 }
 /* Every pair of bodies, one of them movable, that may have passed each other on their way from home to t, or are
  * within reach of it, and do not stand within reach of each other there. */
-void sunder_i_search_passing(sunder_i_search *search, const double *t, double reach, sunder_i_visit_pair visit,
-                             void *context);
+void sunder_i_search_visit_passing(sunder_i_search *search, const double *t, double reach, sunder_i_visit_pair visit,
+                                   void *context);
 /* Is it such a pair? */
 bool sunder_i_search_may_pass(const sunder_i_search *search, const double *t, uint32_t i, uint32_t j, double reach);
 
@@ -195,10 +195,10 @@ bool sunder_i_search_may_pass(const sunder_i_search *search, const double *t, ui
 
 /* Fills search->clash with the pairs that violate the gap at t, or their relaxation; returns the worst violation, of
  * a limit of moves too. */
-double sunder_i_search_look(sunder_i_search *search, const double *t);
+double sunder_i_search_find_clashes(sunder_i_search *search, const double *t);
 /* After a look at t, body i went elsewhere: what it clashes with now, in place of what it did. */
-void sunder_i_search_look_again(sunder_i_search *search, const double *t, uint32_t i);
+void sunder_i_search_update_clashes(sunder_i_search *search, const double *t, uint32_t i);
 /* Appends pair (i, j) to search->clash if it clashes at t. */
-void sunder_i_search_look_at(sunder_i_search *search, const double *t, uint32_t i, uint32_t j);
+void sunder_i_search_add_clash(sunder_i_search *search, const double *t, uint32_t i, uint32_t j);
 
 #endif

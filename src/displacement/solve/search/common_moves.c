@@ -25,7 +25,7 @@ static void join_alike(sunder_i_search *s, uint32_t i, uint32_t j, void *context
 /* Parts by pushing what clashes, each once. Returns whether nothing does any more. */
 static bool push_apart(sunder_i_search *s)
 {
-    if (sunder_i_search_look(s, s->t) <= s->tolerance) return true;
+    if (sunder_i_search_find_clashes(s, s->t) <= s->tolerance) return true;
     sunder_i_pushed pushed;
     const size_t n = s->clashes;
     sunder_i_clash *list = sunder_i_alloc(n, sizeof *list);
@@ -39,10 +39,10 @@ static bool push_apart(sunder_i_search *s)
     }
     sunder_i_pushed_free(&pushed);
     sunder_i_free(list);
-    return !s->failed && sunder_i_search_look(s, s->t) <= s->tolerance;
+    return !s->failed && sunder_i_search_find_clashes(s, s->t) <= s->tolerance;
 }
 
-void sunder_i_search_go_together(sunder_i_search *search)
+void sunder_i_search_equalise_moves(sunder_i_search *search)
 {
     const size_t size = 2 * search->n * sizeof *search->t;
     uint32_t *root = sunder_i_alloc(search->n, sizeof *root);
@@ -51,7 +51,7 @@ void sunder_i_search_go_together(sunder_i_search *search)
     if (!search->failed) {
         memcpy(stood, search->t, size);
         sunder_i_union_init(root, search->n);
-        sunder_i_search_near(search, search->t, 2 * search->gap, join_alike, root);
+        sunder_i_search_visit_near(search, search->t, 2 * search->gap, join_alike, root);
         for (uint32_t k = 0; k < search->n; k++)
             memcpy(search->t + 2 * (size_t)k, stood + 2 * (size_t)sunder_i_union_find(root, k), 2 * sizeof *search->t);
         if (!search->failed && !push_apart(search)) memcpy(search->t, stood, size);

@@ -34,19 +34,19 @@ typedef struct sighted {
     size_t first; /* of the pair's constraints */
 } sighted;
 
-static void constrain_part(sunder_i_search *s, const sunder_i_piece_pair *part, void *context)
+static void constrain_pieces(sunder_i_search *s, const sunder_i_piece_pair *pair, void *context)
 {
-    const sighted *pair = context;
-    const sighting *at = pair->at;
-    if (look_up(at->known, at->known_n, part->key)) return;
+    const sighted *bodies = context;
+    const sighting *at = bodies->at;
+    if (look_up(at->known, at->known_n, pair->key)) return;
     double gap;
     size_t n;
-    const sunder_i_obstacle_edge *edge = sunder_i_search_edges(s, part, &n, &gap);
+    const sunder_i_obstacle_edge *edge = sunder_i_search_edges(s, pair, &n, &gap);
     if (!edge) return;
-    sunder_i_support h = sunder_i_search_support(part, edge, n, at->near);
-    if (h.distance > (part->shadow ? gap : sunder_i_max(s->gap, gap)) + at->reach) return;
-    if (at->near != at->u) h = sunder_i_search_support(part, edge, n, at->u);
-    const sunder_i_constraint *before = look_up(s->old, s->old_n, part->key);
+    sunder_i_support h = sunder_i_search_support(pair, edge, n, at->near);
+    if (h.distance > (pair->shadow ? gap : sunder_i_max(s->gap, gap)) + at->reach) return;
+    if (at->near != at->u) h = sunder_i_search_support(pair, edge, n, at->u);
+    const sunder_i_constraint *before = look_up(s->old, s->old_n, pair->key);
     double d = h.support + gap;
     /* If the position violates d by at most the tolerance, d is lowered to the present value. Otherwise an exact
      * fit, missed by a hair on two sides, would be a contradiction. (While `roughly` is set, nothing is forgiven:
@@ -54,26 +54,26 @@ static void constrain_part(sunder_i_search *s, const sunder_i_piece_pair *part, 
     const double now = h.n[0] * at->u[0] + h.n[1] * at->u[1];
     if (!s->roughly && now < d && now >= d - s->tolerance) d = now;
     /* A body that does not move counts at its place. */
-    uint32_t ends[2] = {pair->i, pair->j};
+    uint32_t ends[2] = {bodies->i, bodies->j};
     for (int e = 0; e < 2; e++) {
         const double *t = s->t + 2 * ends[e];
         if (s->mass[ends[e]] > 0) continue;
         d += (e ? -1 : 1) * (h.n[0] * t[0] + h.n[1] * t[1]);
         ends[e] = SUNDER_I_GROUND;
     }
-    sunder_i_search_add_constraint(s, pair->first,
+    sunder_i_search_add_constraint(s, bodies->first,
                                    &(sunder_i_constraint){.i = ends[0],
                                                           .j = ends[1],
                                                           .n = {h.n[0], h.n[1]},
                                                           .d = d,
                                                           .force = before ? before->force : 0,
-                                                          .key = part->key});
+                                                          .key = pair->key});
 }
 
 static void constrain_pair(sunder_i_search *s, uint32_t i, uint32_t j, const sighting *at)
 {
     sighted pair = {at, i, j, s->program.n};
-    sunder_i_search_piece_pairs(s, i, j, at->near, at->reach + s->gap, at->yields, constrain_part, &pair);
+    sunder_i_search_piece_pairs(s, i, j, at->near, at->reach + s->gap, at->yields, constrain_pieces, &pair);
 }
 
 /* The most by which a free place beside round corners of the pair exceeds the distance owed. A body that is separated
@@ -97,7 +97,7 @@ typedef struct around {
     bool clashing;
 } around;
 
-static void constrain(sunder_i_search *s, uint32_t i, uint32_t j, void *context)
+static void constrain_bodies(sunder_i_search *s, uint32_t i, uint32_t j, void *context)
 {
     around *a = context;
     double reach = a->reach;
@@ -144,8 +144,8 @@ bool sunder_i_search_constrain(sunder_i_search *search, double reach, bool as_it
     p->capacity = capacity;
     p->n = 0;
     around a = {.t = search->t, .reach = reach, .as_it_stands = as_it_stands};
-    sunder_i_search_near(search, search->t, search->gap + reach, constrain, &a);
-    sunder_i_search_passing(search, search->t, search->gap + reach, constrain, &a);
+    sunder_i_search_visit_near(search, search->t, search->gap + reach, constrain_bodies, &a);
+    sunder_i_search_visit_passing(search, search->t, search->gap + reach, constrain_bodies, &a);
     for (size_t k = 0; k < search->old_n && !search->failed; k++)
         if (sunder_i_is_tangent(&search->old[k]) && search->old[k].force > 0)
             sunder_i_search_add_constraint(search, p->n, &search->old[k]);
@@ -160,7 +160,7 @@ bool sunder_i_search_constrain(sunder_i_search *search, double reach, bool as_it
 static void constrain_met(sunder_i_search *s, const sunder_i_constraint *known, size_t known_n)
 {
     const uint64_t before = s->steps;
-    s->seen = sunder_i_search_look(s, s->next);
+    s->seen = sunder_i_search_find_clashes(s, s->next);
     s->seen_steps = s->steps - before;
     const size_t clashes = s->clashes;
     for (size_t c = 0; c < clashes && !s->failed; c++) {

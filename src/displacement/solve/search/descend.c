@@ -57,7 +57,7 @@ static bool is_out_of_patience(const sunder_i_search *s) { return sunder_i_searc
 
 /* Solves; what long chains leave of the hard constraints is made good by asking for that much more. Returns the
  * violation left. */
-static double solve(sunder_i_search *s, double softness)
+static double solve_program(sunder_i_search *s, double softness)
 {
     sunder_i_quadratic *p = &s->program;
     const double hurry = sunder_i_max(s->tolerance / SOLVED_TO,
@@ -87,10 +87,10 @@ static double solve(sunder_i_search *s, double softness)
 static double solve_further(sunder_i_search *s)
 {
     sunder_i_quadratic *p = &s->program;
-    if (!(p->most_cost > 0)) return solve(s, 0);
+    if (!(p->most_cost > 0)) return solve_program(s, 0);
     const double v = sunder_i_quadratic_mend(p, s->tolerance / SOLVED_TO, s->extent, s->settled / PART_OF_SETTLED);
     if (v < 0) s->failed = true;
-    return v >= 0 && v <= s->tolerance ? v : solve(s, 0);
+    return v >= 0 && v <= s->tolerance ? v : solve_program(s, 0);
 }
 
 /* The program around s->t with everything that its solution runs into. */
@@ -100,7 +100,7 @@ static double solve_lazily(sunder_i_search *s, double softness)
     const int most = softness > 0 ? MOST_SOFT_ADDITIONS : MOST_ADDITIONS;
     s->ended = false;
     for (int k = 0; k < most && !is_out_of_patience(s) && !s->failed; k++) {
-        v = k > 0 && softness == 0 ? solve_further(s) : solve(s, softness);
+        v = k > 0 && softness == 0 ? solve_further(s) : solve_program(s, softness);
         /* No solution: what lies in the way of where it went astray is of no interest. */
         if (softness == 0 && v > NO_SOLUTION * (s->extent + s->gap)) break;
         s->ended = !sunder_i_search_constrain_further(s);
@@ -113,14 +113,14 @@ static double solve_lazily(sunder_i_search *s, double softness)
  * is still valid, and its work is counted once more. */
 static double look_at_end(sunder_i_search *s)
 {
-    if (!s->ended) return sunder_i_search_look(s, s->next);
+    if (!s->ended) return sunder_i_search_find_clashes(s, s->next);
     s->steps += s->seen_steps;
     return s->seen;
 }
 
 /* Around a position with clashes: solves softly; and then hard, if the violation is small compared with the moves and
  * the hard program turns out to have a solution. */
-static double compromise(sunder_i_search *s, double softness)
+static double solve_compromise(sunder_i_search *s, double softness)
 {
     const double v = solve_lazily(s, softness);
     if (v > NEARLY_SOLVED * (longest_move(s) + s->gap) || s->failed) return v;
@@ -209,7 +209,7 @@ typedef struct descent {
 } descent;
 
 /* Within limits ways are short, and what is missed roughly may be all that there is. */
-static bool is_large(const sunder_i_search *s)
+static bool descends_coarsely(const sunder_i_search *s)
 {
     if (sunder_i_search_movers(s) <= LARGE_CROWD_LED) return false;
     for (uint32_t k = 0; k < s->n; k++)
@@ -225,7 +225,7 @@ static void descent_free(descent *d)
 
 static bool descent_init(descent *d, sunder_i_search *s)
 {
-    const bool crowd = sunder_i_search_movers(s) > LARGE_CROWD, large = is_large(s);
+    const bool crowd = sunder_i_search_movers(s) > LARGE_CROWD, large = descends_coarsely(s);
     const double part = large ? PART_OF_LARGE_CROWD : crowd ? PART_OF_CROWD : SMALL_PART;
     const double farthest = sunder_i_max(s->gap / 2, s->extent / part);
     /* At least a margin: a body in a free place keeps a hair more than the distance owed from its neighbours. A crowd
@@ -264,7 +264,7 @@ static double solve_round(descent *d, bool clashing)
 {
     sunder_i_search *s = d->s;
     if (clashing) {
-        const double v = compromise(s, d->softness);
+        const double v = solve_compromise(s, d->softness);
         d->softness = sunder_i_max(d->softness / HARDENING, HARDEST);
         return v;
     }
@@ -294,7 +294,7 @@ static void take_step(descent *d, bool is_free, double left, double cost)
 
 typedef enum outcome { ON, SETTLED_DOWN, IN_VAIN } outcome;
 
-static outcome go_round(descent *d)
+static outcome run_round(descent *d)
 {
     sunder_i_search *s = d->s;
     const uint64_t before = sunder_i_search_work(s);
@@ -327,13 +327,13 @@ static outcome go_round(descent *d)
 }
 
 /* From s->t, to where nothing is gained any more. */
-static bool go_down(sunder_i_search *s)
+static bool descend_by_rounds(sunder_i_search *s)
 {
     descent d;
     if (!descent_init(&d, s)) s->failed = true;
     outcome last = ON;
     for (int round = 0; round < MOST_ROUNDS && last == ON && !is_out_of_patience(s) && !s->failed; round++)
-        last = go_round(&d);
+        last = run_round(&d);
     if (last != SETTLED_DOWN && !d.is_free && d.left < INFINITY && !s->failed)
         memcpy(s->t, d.best, 2 * s->n * sizeof *s->t);
     descent_free(&d);
@@ -344,18 +344,18 @@ bool sunder_i_search_descend(sunder_i_search *search)
 {
     const double tolerance = search->tolerance, settled = search->settled;
     search->program.most_cost = most_cost(search);
-    if (!is_large(search)) return go_down(search);
+    if (!descends_coarsely(search)) return descend_by_rounds(search);
     search->tolerance = sunder_i_max(tolerance, ROUGHLY * search->extent);
     search->settled = sunder_i_max(settled, ROUGHLY_SETTLED);
     search->roughly = true;
-    const bool found = go_down(search);
+    const bool found = descend_by_rounds(search);
     search->roughly = false;
     search->tolerance = tolerance;
     search->settled = settled;
-    return found && go_down(search);
+    return found && descend_by_rounds(search);
 }
 
-bool sunder_i_search_make_good(sunder_i_search *search)
+bool sunder_i_search_repair(sunder_i_search *search)
 {
     double left = INFINITY;
     for (int round = 0; round < MOST_MENDING && left > search->tolerance && !search->failed; round++) {
@@ -381,7 +381,7 @@ static void join_constrained(const sunder_i_search *s, uint32_t *root)
 }
 
 /* Do they form at most one connected set? */
-static bool is_one_part(const sunder_i_search *s, uint32_t *root)
+static bool is_one_component(const sunder_i_search *s, uint32_t *root)
 {
     uint32_t first = SUNDER_I_NOBODY;
     for (size_t k = 0; k < s->program.n; k++) {
@@ -393,7 +393,7 @@ static bool is_one_part(const sunder_i_search *s, uint32_t *root)
     return true;
 }
 
-void sunder_i_search_settle_parts(sunder_i_search *search)
+void sunder_i_search_settle_components(sunder_i_search *search)
 {
     uint32_t *root = sunder_i_alloc(search->n, sizeof *root);
     bool *unsolved = sunder_i_calloc(search->n, sizeof *unsolved);
@@ -402,7 +402,7 @@ void sunder_i_search_settle_parts(sunder_i_search *search)
     if (!search->failed) {
         /* If one part has no solution the others are still solved. */
         join_constrained(search, root);
-        search->program.most_cost = is_one_part(search, root) ? most_cost(search) : 0;
+        search->program.most_cost = is_one_component(search, root) ? most_cost(search) : 0;
         solve_lazily(search, 0);
         join_constrained(search, root);
         for (size_t k = 0; k < search->program.n; k++) {
@@ -419,12 +419,12 @@ void sunder_i_search_settle_parts(sunder_i_search *search)
     sunder_i_free(unsolved);
 }
 
-void sunder_i_search_lower(sunder_i_search *search)
+void sunder_i_search_descend_or_stay(sunder_i_search *search)
 {
     const size_t size = 2 * search->n * sizeof *search->t;
     double *stand = sunder_i_alloc(2 * search->n, sizeof *stand);
     search->failed = search->failed || !stand;
-    if (!search->failed && sunder_i_search_look(search, search->t) <= search->tolerance) {
+    if (!search->failed && sunder_i_search_find_clashes(search, search->t) <= search->tolerance) {
         memcpy(stand, search->t, size);
         search->program.n = 0;
         if (!sunder_i_search_descend(search)) memcpy(search->t, stand, size);

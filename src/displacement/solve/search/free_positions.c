@@ -14,21 +14,21 @@
 /* ---- Where there is room ----------------------------------------------------------------------------------------- */
 
 /* What a body is made of: its pieces, or the outlines of its members where pieces would be too many. */
-static uint32_t parts_of(const sunder_i_body *body, bool coarse) { return coarse ? body->members : body->pieces; }
+static uint32_t count_shapes(const sunder_i_body *body, bool coarse) { return coarse ? body->members : body->pieces; }
 
-static const sunder_i_body_piece *find_parts(sunder_i_search *s, const sunder_i_body *body, bool coarse)
+static const sunder_i_body_piece *find_shapes(sunder_i_search *s, const sunder_i_body *body, bool coarse)
 {
     const sunder_i_body_pieces *fine = coarse ? NULL : sunder_i_pieces_of(s->model, body);
-    const sunder_i_body_piece *part = coarse ? sunder_i_outlines_of(s->model, body) : fine ? fine->piece : NULL;
-    if (!part) s->failed = true;
-    return part;
+    const sunder_i_body_piece *shape = coarse ? sunder_i_outlines_of(s->model, body) : fine ? fine->piece : NULL;
+    if (!shape) s->failed = true;
+    return shape;
 }
 
-static void add_wall(sunder_i_search *s, const sunder_i_piece_pair *part, void *context)
+static void add_wall(sunder_i_search *s, const sunder_i_piece_pair *pair, void *context)
 {
     sunder_i_obstacles *o = context;
     double gap;
-    const size_t n = sunder_i_search_obstacle(s, part, &gap);
+    const size_t n = sunder_i_search_obstacle(s, pair, &gap);
     if (n) sunder_i_obstacles_add(o, s->scratch.xy, n, sunder_i_max(gap, 0) + 2 * s->tolerance);
 }
 
@@ -36,10 +36,10 @@ static void add_wall(sunder_i_search *s, const sunder_i_piece_pair *part, void *
 static void add_walls(sunder_i_search *s, sunder_i_obstacles *o, const sunder_i_body *p, const sunder_i_body *q,
                       const double offset[2], const double v[2], double reach, bool relaxed)
 {
-    sunder_i_piece_pair part = {.offset = {offset[0], offset[1]}, .relaxed = relaxed};
+    sunder_i_piece_pair pair = {.offset = {offset[0], offset[1]}, .relaxed = relaxed};
     const double back[2] = {-v[0], -v[1]};
-    if (p->has->walls) sunder_i_search_walls(s, p, q, v, reach, &part, false, add_wall, o);
-    if (q->has->walls) sunder_i_search_walls(s, q, p, back, reach, &part, true, add_wall, o);
+    if (p->has->walls) sunder_i_search_walls(s, p, q, v, reach, &pair, false, add_wall, o);
+    if (q->has->walls) sunder_i_search_walls(s, q, p, back, reach, &pair, true, add_wall, o);
 }
 
 /* Shadows as obstacles: moved by `shift`, and as far as they matter. */
@@ -48,12 +48,12 @@ typedef struct shading {
     double shift[2], far;
 } shading;
 
-static void add_shadow(sunder_i_search *s, const sunder_i_piece_pair *part, void *context)
+static void add_shadow(sunder_i_search *s, const sunder_i_piece_pair *pair, void *context)
 {
     shading *shade = context;
     double gap;
     size_t n;
-    const sunder_i_obstacle_edge *edge = sunder_i_search_edges(s, part, &n, &gap);
+    const sunder_i_obstacle_edge *edge = sunder_i_search_edges(s, pair, &n, &gap);
     if (!edge) return;
     double *corner = sunder_i_scratch_reserve(&s->scratch, n + 3);
     if (!corner) {
@@ -80,13 +80,13 @@ typedef struct shade {
     bool deep;
 } shade;
 
-static void take_shade(sunder_i_search *s, const sunder_i_piece_pair *part, void *context)
+static void take_shade(sunder_i_search *s, const sunder_i_piece_pair *pair, void *context)
 {
     shade *at = context;
     double gap;
     size_t n;
-    const sunder_i_obstacle_edge *edge = sunder_i_search_edges(s, part, &n, &gap);
-    at->deep = at->deep || (edge && sunder_i_search_support(part, edge, n, at->u).distance < gap);
+    const sunder_i_obstacle_edge *edge = sunder_i_search_edges(s, pair, &n, &gap);
+    at->deep = at->deep || (edge && sunder_i_search_support(pair, edge, n, at->u).distance < gap);
 }
 
 /* Does the move `at` of q lie in a shadow between it and p, which moved by t? */
@@ -99,13 +99,13 @@ static bool is_shaded(sunder_i_search *s, const sunder_i_body *p, const double t
     return found.deep;
 }
 
-static double extent(const double box[4]) { return sunder_i_max(box[2] - box[0], box[3] - box[1]); }
+static double box_extent(const double box[4]) { return sunder_i_max(box[2] - box[0], box[3] - box[1]); }
 
 /* Might they, or what a relaxation shifts, be within r of each other at v? No least translation is longer than the
  * boxes. */
 static bool are_near(const sunder_i_body *p, const sunder_i_body *q, const double v[2], double r)
 {
-    const double far = r + extent(p->box) + extent(q->box);
+    const double far = r + box_extent(p->box) + box_extent(q->box);
     const double box[4] = {p->box[0] - v[0] - far, p->box[1] - v[1] - far, p->box[2] - v[0] + far,
                            p->box[3] - v[1] + far};
     return sunder_i_box_meet(box, q->box);
@@ -143,8 +143,8 @@ static void add_obstacles(sunder_i_search *s, sunder_i_obstacles *o, const sunde
     const bool relaxed =
         sunder_i_search_is_relaxed(s, (uint32_t)(p - model->body), (uint32_t)(q - model->body), &shift);
     const double r = reach + s->gap + shift;
-    const uint32_t np = parts_of(p, coarse_p), nq = parts_of(q, coarse_q);
-    const sunder_i_body_piece *of_p = find_parts(s, p, coarse_p), *of_q = find_parts(s, q, coarse_q);
+    const uint32_t np = count_shapes(p, coarse_p), nq = count_shapes(q, coarse_q);
+    const sunder_i_body_piece *of_p = find_shapes(s, p, coarse_p), *of_q = find_shapes(s, q, coarse_q);
     if (!of_p || !of_q) return;
     if ((p->has->walls || q->has->walls) && (relaxed || model->inclusions))
         add_walls(s, o, p, q, offset, v, r, relaxed);
@@ -261,15 +261,16 @@ size_t sunder_i_search_free_pair(sunder_i_search *search, uint32_t i, uint32_t j
     double shift;
     const bool relaxed = sunder_i_search_is_relaxed(search, search->body[i], search->body[j], &shift);
     /* Its cost grows with the depth: blocks that lie deep in each other are parted by their outlines. */
-    const double shallow = sunder_i_max(2 * search->gap, SHALLOW * sunder_i_min(extent(p->box), extent(q->box)));
+    const double shallow =
+        sunder_i_max(2 * search->gap, SHALLOW * sunder_i_min(box_extent(p->box), box_extent(q->box)));
     if (many && most == 1 && model->inclusions == 0 && !relaxed && ps && qs && !ps->flat && !qs->flat &&
         free_pair_exactly(search, ps, qs, target, shallow, places[0]) && !is_shaded(search, p, none, q, places[0]))
         return 1;
-    double all = BEYOND_ALL * (extent(p->box) + extent(q->box) + search->gap);
+    double all = BEYOND_ALL * (box_extent(p->box) + box_extent(q->box) + search->gap);
     const bool confined = sunder_i_search_is_confined(search, i, j, target, &all);
-    double reach = sunder_i_max(2 * search->gap, PAIR_REACH * sunder_i_min(extent(p->box), extent(q->box)));
+    double reach = sunder_i_max(2 * search->gap, PAIR_REACH * sunder_i_min(box_extent(p->box), box_extent(q->box)));
     /* Beside a point, to which no gap is owed, it begins with the other one's size: from 0 it would not grow. */
-    if (!(reach > 0)) reach = PAIR_REACH * sunder_i_max(extent(p->box), extent(q->box));
+    if (!(reach > 0)) reach = PAIR_REACH * sunder_i_max(box_extent(p->box), box_extent(q->box));
     for (;; reach *= PAIR_GROWTH) {
         if (confined) reach = sunder_i_min(reach, all);
         const size_t n = find_beside(search, p, q, many, target, reach, spread, !confined && reach > all, most, places);
@@ -341,14 +342,14 @@ static uint64_t count_around(const others *all, const double at[2], double reach
             box[c] = p->box[c] + p->origin[c & 1] + at[c & 1] - q->origin[c & 1] - t[c & 1] +
                      (c < 2 ? -1 : 1) * (reach + s->gap);
         if (!sunder_i_box_meet(box, q->box)) continue;
-        const sunder_i_body_piece *piece = find_parts(s, q, false);
+        const sunder_i_body_piece *piece = find_shapes(s, q, false);
         for (uint32_t l = 0; piece && l < q->pieces; l++) n += sunder_i_box_meet(box, piece[l].box);
     }
     return n;
 }
 
 /* Obstacles for body i from all the others, within reach of place `at`. */
-static void surround(others *all, sunder_i_obstacles *o, const double at[2], double reach)
+static void add_surroundings(others *all, sunder_i_obstacles *o, const double at[2], double reach)
 {
     sunder_i_search *s = all->search;
     const sunder_i_model *model = s->model;
@@ -402,7 +403,7 @@ static size_t find_among(others *all, const double home[2], double reach, size_t
     size_t n = 0;
     sunder_i_obstacles *o = &s->obstacles;
     sunder_i_obstacles_clear(o);
-    surround(all, o, home, reach);
+    add_surroundings(all, o, home, reach);
     for (int shadows = 0; shadows < 2; shadows++) {
         n = sunder_i_free_places(o, home, reach, 0, most, place, &s->steps, &s->failed);
         if (n == 0 && o->n && outside_all(o, home, reach, place[0])) n = 1;
@@ -418,7 +419,7 @@ static bool is_clear_at(sunder_i_search *s, uint32_t i, const double place[2])
 {
     const double stood[2] = {s->t[2 * i], s->t[2 * i + 1]};
     memcpy(s->t + 2 * (size_t)i, place, sizeof stood);
-    const bool clear = sunder_i_search_look(s, s->t) <= s->tolerance;
+    const bool clear = sunder_i_search_find_clashes(s, s->t) <= s->tolerance;
     memcpy(s->t + 2 * (size_t)i, stood, sizeof stood);
     return clear;
 }
@@ -429,11 +430,11 @@ static bool find_free_place(sunder_i_search *s, uint32_t i, double limit, double
 {
     const sunder_i_body *p = &s->model->body[s->body[i]];
     const double home[2] = {0, 0}, now = hypot(s->t[2 * i], s->t[2 * i + 1]);
-    for (double reach = 2 * s->gap + sunder_i_max(now, BODY_REACH * extent(p->box));; reach *= BODY_GROWTH) {
+    for (double reach = 2 * s->gap + sunder_i_max(now, BODY_REACH * box_extent(p->box));; reach *= BODY_GROWTH) {
         if (reach > limit) reach = limit;
         others about = {.search = s, .i = i};
         const double r = reach + s->gap, box[4] = {p->box[0] - r, p->box[1] - r, p->box[2] + r, p->box[3] + r};
-        if (!find_others(s, p, box, &about.foreign) || !sunder_i_search_about(s, i, r)) s->failed = true;
+        if (!find_others(s, p, box, &about.foreign) || !sunder_i_search_find_about(s, i, r)) s->failed = true;
         double places[MOST_PLACES][2];
         size_t n = s->failed ? 0 : find_among(&about, home, reach, clear ? MOST_PLACES : 1, places), k = 0;
         while (clear && k < n && !s->failed && !is_clear_at(s, i, places[k])) k++;
@@ -449,14 +450,14 @@ static bool find_free_place(sunder_i_search *s, uint32_t i, double limit, double
 static double beyond_all(const sunder_i_search *s, uint32_t i)
 {
     const sunder_i_rtree *tree = s->model->standing;
-    return BEYOND_ALL *
-           (extent(tree->box + 4 * (tree->level[tree->levels] - 1)) + extent(s->model->body[s->body[i]].box) + s->gap);
+    return BEYOND_ALL * (box_extent(tree->box + 4 * (tree->level[tree->levels] - 1)) +
+                         box_extent(s->model->body[s->body[i]].box) + s->gap);
 }
 
 bool sunder_i_search_free_body(sunder_i_search *search, uint32_t i, double limit, double place[2])
 {
     const double now = hypot(search->t[2 * i], search->t[2 * i + 1]),
-                 size = extent(search->model->body[search->body[i]].box);
+                 size = box_extent(search->model->body[search->body[i]].box);
     double all = beyond_all(search, i);
     if (!search->model->rules.jumps)
         all = sunder_i_min(all, now + FARTHEST_LEAP * (sunder_i_min(size, search->extent) + search->gap));

@@ -112,7 +112,7 @@ static void try_from_home(sunder_i_search *s)
 
 /* Beyond this number, pairs that were given up in excess are not all asked for again; yet they are few enough to be
  * given up gradually. */
-static bool is_crowd(const sunder_i_search *s) { return s->n >= CROWD && s->n <= LARGE_CROWD; }
+static bool restarts_from_home(const sunder_i_search *s) { return s->n >= CROWD && s->n <= LARGE_CROWD; }
 
 /* Gives up the cheapest pairs, continues from there, and so on, more at once each time, as far as the effort goes.
  * Returns whether nothing clashes in the end.
@@ -124,15 +124,15 @@ static bool give_up_gradually(sunder_i_search *s, const sunder_i_clash *at_home,
 {
     const uint64_t work = sunder_i_search_work(s), times = (GIVE_UP_TIMES - 1) * work;
     const uint64_t little = work + PATIENCE + PATIENCE_EACH * (uint64_t)s->n;
-    const uint64_t more = is_crowd(s) ? GIVE_UP_OF_CROWD : times < GIVE_UP_MOST ? times : GIVE_UP_MOST;
+    const uint64_t more = restarts_from_home(s) ? GIVE_UP_OF_CROWD : times < GIVE_UP_MOST ? times : GIVE_UP_MOST;
     const uint64_t end = work + more + little;
     bool done = false;
     for (double share = FIRST_SHARE; !done && !s->failed && sunder_i_search_work(s) < end; share /= MORE) {
-        sunder_i_search_settle_parts(s);
-        if (!s->failed) sunder_i_search_look(s, s->t);
+        sunder_i_search_settle_components(s);
+        if (!s->failed) sunder_i_search_find_clashes(s, s->t);
         if (s->failed || !relax_cheapest(s, at_home, n, share)) break;
         s->patience = end;
-        if (is_crowd(s))
+        if (restarts_from_home(s))
             send_all_home(s);
         else
             s->clashing = CLASHING_AGAIN;
@@ -154,7 +154,7 @@ sunder_i_clash *sunder_i_search_at_home(sunder_i_search *search, size_t *n)
     if (!stand) return NULL;
     memcpy(stand, search->t, 2 * search->n * sizeof *stand);
     for (uint32_t k = 0; k < search->n; k++) sunder_i_search_send_home(search, k);
-    sunder_i_search_look(search, search->t);
+    sunder_i_search_find_clashes(search, search->t);
     memcpy(search->t, stand, 2 * search->n * sizeof *stand);
     sunder_i_free(stand);
     *n = search->clashes;
@@ -189,7 +189,7 @@ static void settle_at_home(sunder_i_search *s)
     memcpy(stand, s->t, 2 * s->n * sizeof *stand);
     for (uint32_t k = 0; k < s->n; k++)
         if (hypot(s->t[2 * k], s->t[2 * k + 1]) <= NEARLY_HOME * s->extent) sunder_i_search_send_home(s, k);
-    if (sunder_i_search_look(s, s->t) > s->tolerance) memcpy(s->t, stand, 2 * s->n * sizeof *stand);
+    if (sunder_i_search_find_clashes(s, s->t) > s->tolerance) memcpy(s->t, stand, 2 * s->n * sizeof *stand);
     sunder_i_free(stand);
 }
 
@@ -197,14 +197,14 @@ static void settle_at_home(sunder_i_search *s)
 static size_t count_clashes(sunder_i_search *s, const double *t)
 {
     size_t n = 0;
-    sunder_i_search_look(s, t);
+    sunder_i_search_find_clashes(s, t);
     for (size_t k = 0; k < s->clashes; k++) n += s->clash[k].violation > MENDED * s->tolerance;
     return n;
 }
 
 /* Do fewer clash where the search began than at its end, and few beside those that clashed at home? Then most of it was
  * solved before, in parts that ran into each other. */
-static bool was_solved_in_parts(sunder_i_search *s, const double *start, size_t at_home)
+static bool was_solved_separately(sunder_i_search *s, const double *start, size_t at_home)
 {
     const size_t clashes = count_clashes(s, s->t), then = count_clashes(s, start);
     return then < clashes && then <= at_home / FEW_LEFT;
@@ -241,7 +241,7 @@ static bool give_up_about(sunder_i_search *s, const double *start, const sunder_
     s->failed = s->failed || !about;
     s->patience = sunder_i_search_work(s) + GIVE_UP_MOST + PATIENCE_EACH * (uint64_t)s->n;
     for (int ring = 0; ring < MOST_RINGS && !done && !s->failed; ring++) {
-        sunder_i_search_look(s, s->t);
+        sunder_i_search_find_clashes(s, s->t);
         if (!s->failed) relax_about(s, at_home, n, about);
         memcpy(s->t, start, size);
         s->program.n = 0;
@@ -257,9 +257,9 @@ static bool give_up_about(sunder_i_search *s, const double *start, const sunder_
 static void end_free(sunder_i_search *s, const sunder_i_clash *at_home, size_t n, bool done, bool pushed)
 {
     if (!s->failed) sunder_i_search_yield(s, at_home, n, 0);
-    sunder_i_search_lower(s);
+    sunder_i_search_descend_or_stay(s);
     if (done && !s->failed) settle_at_home(s);
-    if (pushed && !s->failed) sunder_i_search_go_together(s);
+    if (pushed && !s->failed) sunder_i_search_equalise_moves(s);
 }
 
 bool sunder_i_search_give_up_at_home(sunder_i_search *search, const double *start)
@@ -280,13 +280,14 @@ void sunder_i_search_give_up(sunder_i_search *search, const double *start)
     bool done = false;
     sunder_i_clash *at_home = sunder_i_search_at_home(search, &n);
     search->failed = search->failed || !at_home;
-    const bool parts = !search->failed && search->n >= CROWD && was_solved_in_parts(search, start, n);
+    const bool separately = !search->failed && search->n >= CROWD && was_solved_separately(search, start, n);
     const bool pushed = !search->failed && sunder_i_search_push_from_home(search, start, at_home, n, LEFT_BY_PUSHING);
     if (!search->failed) done = pushed;
     if (!search->failed && !done && search->n > LARGE_CROWD) begin_again(search, start);
-    if (!search->failed && !done && (!parts || is_crowd(search))) done = give_up_gradually(search, at_home, n);
-    if (!search->failed && !done && !parts) begin_again(search, start);
-    if (!search->failed && !done && parts) {
+    if (!search->failed && !done && (!separately || restarts_from_home(search)))
+        done = give_up_gradually(search, at_home, n);
+    if (!search->failed && !done && !separately) begin_again(search, start);
+    if (!search->failed && !done && separately) {
         sunder_i_relaxations_free(&search->relaxations);
         done = give_up_about(search, start, at_home, n);
     }
@@ -294,7 +295,7 @@ void sunder_i_search_give_up(sunder_i_search *search, const double *start)
     if (!search->failed && !done) {
         /* What rounding took of what was solved before is no reason to give anything up. */
         sunder_i_search_yield(search, at_home, n, MENDED * search->tolerance);
-        if (!search->failed) sunder_i_search_make_good(search);
+        if (!search->failed) sunder_i_search_repair(search);
     }
     end_free(search, at_home, n, done, pushed);
     sunder_i_free(at_home);

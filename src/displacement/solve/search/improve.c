@@ -93,7 +93,7 @@ static void try_near(sunder_i_search *s, double *best, double *cost)
     const double longest = longest_move(s, &below);
     for (size_t k = 0; k < s->n; k++)
         if (s->mass[k] > 0) s->t[2 * k] = s->t[2 * k + 1] = 0;
-    if (longest > FAR * sunder_i_search_look(s, s->t) && !s->failed) {
+    if (longest > FAR * sunder_i_search_find_clashes(s, s->t) && !s->failed) {
         s->cap = below;
         s->patience = sunder_i_search_work(s) + NEAR_PATIENCE + sunder_i_search_work(s) / NEAR_SHARE;
         s->program.n = 0;
@@ -256,7 +256,7 @@ static void try_once(sunder_i_search *s, rank *order, vain *v, double *best, dou
 static void try_all(sunder_i_search *s, rank *order, double *best, double *cost)
 {
     vain v = {0};
-    const int most = sunder_i_search_goes_down(s) ? BETTER_ROUNDS_SOON : BETTER_ROUNDS;
+    const int most = sunder_i_search_runs_without_proofs(s) ? BETTER_ROUNDS_SOON : BETTER_ROUNDS;
     for (int round = 0; round < most && has_time(s) && !s->failed; round++) {
         const double start = *cost;
         try_once(s, order, &v, best, cost);
@@ -268,18 +268,19 @@ static void try_all(sunder_i_search *s, rank *order, double *best, double *cost)
 /* Does it stand without clashes? What rounding took of the margin is made good first. */
 static bool is_free_start(sunder_i_search *s)
 {
-    const double missed = sunder_i_search_look(s, s->t);
+    const double missed = sunder_i_search_find_clashes(s, s->t);
     return missed <= s->tolerance || (missed <= MENDED * s->tolerance && !s->failed && sunder_i_search_descend(s));
 }
 
 /* From s->t, which is free, to the cheapest that is found, in best; near is scratch of the same size. */
-static void improve(sunder_i_search *s, rank *order, double *best, double *near)
+static void improve_layout(sunder_i_search *s, rank *order, double *best, double *near)
 {
     const size_t size = 2 * s->n * sizeof *best;
     memcpy(best, s->t, size);
     double cost = sunder_i_search_cost(s, s->t);
     sunder_i_search_attempt(s, best, &cost); /* otherwise it was tested for the first solution */
-    if (!sunder_i_search_goes_down(s) && sunder_i_search_is_cheapest(s)) { /* else done for the first solution */
+    if (!sunder_i_search_runs_without_proofs(s) &&
+        sunder_i_search_is_cheapest(s)) { /* else done for the first solution */
         memcpy(best, s->t, size);
         return;
     }
@@ -314,7 +315,7 @@ sunder_status sunder_i_cluster_improve(const sunder_i_model *model, const sunder
         if (s.effort > BETTER_MOST) s.effort = BETTER_MOST;
         const double before = sunder_i_search_cost(&s, s.t);
         if (is_free_start(&s)) {
-            improve(&s, order, best, near);
+            improve_layout(&s, order, best, near);
             memcpy(s.t, best, 2 * s.n * sizeof *best);
             const bool cheaper = sunder_i_search_cost(&s, best) < before;
             s.n = cluster->n;

@@ -40,7 +40,7 @@ bool sunder_i_search_jump(sunder_i_search *search)
     sunder_i_search_clip(search);
     bool *stuck = sunder_i_calloc(search->n, sizeof *stuck);
     if (!stuck) search->failed = true;
-    if (!search->failed) sunder_i_search_look(search, search->t);
+    if (!search->failed) sunder_i_search_find_clashes(search, search->t);
     /* A body that jumps clashes with nothing where it lands, so the number of clashing bodies falls each time. */
     size_t at = 0;
     for (size_t k = 0; k <= 2 * search->n && at < search->clashes && sunder_i_search_work(search) < search->patience &&
@@ -53,13 +53,13 @@ bool sunder_i_search_jump(sunder_i_search *search)
             continue;
         }
         memcpy(search->t + 2 * who, place, sizeof place);
-        sunder_i_search_look_again(search, search->t, who);
+        sunder_i_search_update_clashes(search, search->t, who);
         at = 0;
     }
     sunder_i_free(stuck);
     if (search->failed) return false;
     SUNDER_I_CHECK(sunder_i_search_check(search), search->n);
-    return sunder_i_search_look(search, search->t) <= search->tolerance;
+    return sunder_i_search_find_clashes(search, search->t) <= search->tolerance;
 }
 
 bool sunder_i_search_jump_soon(sunder_i_search *search)

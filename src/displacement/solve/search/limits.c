@@ -12,23 +12,23 @@
 /* By how much a move may exceed its limit and still count as within it: less than the tolerance; for small coordinates
  * a share of the limit that is larger than the error of programs, and than the margin of an exact fit, which rounding
  * to the limit then repairs. */
-static double slack(const sunder_i_search *s, double limit)
+static double slack_of_limit(const sunder_i_search *s, double limit)
 {
     return sunder_i_max(s->tolerance / 2, limit * LIMIT_SLACK);
 }
 
-double sunder_i_search_overstep(const sunder_i_search *search, uint32_t i, const double *t)
+double sunder_i_search_excess(const sunder_i_search *search, uint32_t i, const double *t)
 {
     const double limit = sunder_i_search_limit(search, i);
     if (!(search->mass[i] > 0) || limit == INFINITY) return 0;
     const double over = hypot(t[2 * i], t[2 * i + 1]) - limit;
-    return over > slack(search, limit) ? over : 0;
+    return over > slack_of_limit(search, limit) ? over : 0;
 }
 
 bool sunder_i_search_is_beyond(const sunder_i_search *search, const double *t)
 {
     for (uint32_t k = 0; k < search->n; k++)
-        if (sunder_i_search_overstep(search, k, t) > 0) return true;
+        if (sunder_i_search_excess(search, k, t) > 0) return true;
     return false;
 }
 
@@ -89,7 +89,7 @@ bool sunder_i_search_constrain_limits(sunder_i_search *search)
     const size_t before = search->program.n;
     for (uint32_t k = 0; k < search->n; k++) {
         double push[2];
-        if (!(sunder_i_search_overstep(search, k, search->next) > 0)) continue;
+        if (!(sunder_i_search_excess(search, k, search->next) > 0)) continue;
         const bool acts = push_on(search, before, k, push);
         add_tangent(search, before, k, search->next + 2 * k);
         if (acts) add_tangent(search, before, k, push);

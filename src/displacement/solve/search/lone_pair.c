@@ -24,14 +24,14 @@ static uint32_t only_feature(const sunder_i_model *model, uint32_t body)
 static bool is_lone_pair(const sunder_i_search *s, const sunder_i_cluster *cluster)
 {
     double reach;
-    return s->n == 2 && !cluster->crowd && s->mass[0] + s->mass[1] > 0 && !sunder_i_may_be_inside(&s->model->rules) &&
-           only_feature(s->model, s->body[0]) != SUNDER_I_NOBODY &&
+    return s->n == 2 && !cluster->starts_from_areas && s->mass[0] + s->mass[1] > 0 &&
+           !sunder_i_may_be_inside(&s->model->rules) && only_feature(s->model, s->body[0]) != SUNDER_I_NOBODY &&
            only_feature(s->model, s->body[1]) != SUNDER_I_NOBODY &&
            !sunder_i_search_is_relaxed(s, s->body[0], s->body[1], &reach);
 }
 
 /* What takes them farther apart than this is beyond their limits. */
-static double farthest(const sunder_i_search *s)
+static double farthest_apart(const sunder_i_search *s)
 {
     double sum = 0;
     for (uint32_t k = 0; k < 2; k++) sum += s->mass[k] > 0 ? sunder_i_search_limit(s, k) : 0;
@@ -51,7 +51,7 @@ static bool stand_apart(sunder_i_search *s, const double away[2])
             s->t[c] = (share - 1) * longer * away[c];
             s->t[2 + c] = share * longer * away[c];
         }
-        if (sunder_i_search_look(s, s->t) <= s->tolerance) return true;
+        if (sunder_i_search_find_clashes(s, s->t) <= s->tolerance) return true;
     }
     return false;
 }
@@ -115,8 +115,8 @@ static sunder_status stand_in_contact(sunder_i_search *s, const sunder_bound_pai
     return status;
 }
 
-sunder_status sunder_i_search_part_lone_pair(sunder_i_search *search, sunder_i_cluster *cluster, bool *done,
-                                             sunder_error *err)
+sunder_status sunder_i_search_separate_lone_pair(sunder_i_search *search, sunder_i_cluster *cluster, bool *done,
+                                                 sunder_error *err)
 {
     *done = false;
     if (search->failed || !is_lone_pair(search, cluster)) return SUNDER_OK;
@@ -124,7 +124,8 @@ sunder_status sunder_i_search_part_lone_pair(sunder_i_search *search, sunder_i_c
                                     .b = only_feature(search->model, search->body[1])};
     const double stood[4] = {search->t[0], search->t[1], search->t[2], search->t[3]};
     sunder_i_resolution r;
-    const sunder_status status = sunder_i_resolve_things(search->model, pair.a, pair.b, farthest(search), &r, err);
+    const sunder_status status =
+        sunder_i_resolve_things(search->model, pair.a, pair.b, farthest_apart(search), &r, err);
     if (status || r.beyond || !(r.least > 0)) return status;
     cluster->measured = pair;
     cluster->measured.least = r.least;

@@ -49,7 +49,7 @@ static void yield_rest(sunder_i_search *s)
     sunder_i_free(at_home);
 }
 
-static bool anybody_is_pinned(const sunder_i_search *s)
+static bool has_pinned_body(const sunder_i_search *s)
 {
     for (size_t k = 0; k < s->n; k++)
         if (s->model->body[s->body[k]].pinned) return true;
@@ -57,7 +57,7 @@ static bool anybody_is_pinned(const sunder_i_search *s)
 }
 
 /* By more than a hair; else all is put back. */
-static bool mend(sunder_i_search *s, const sunder_i_clash *clash, size_t n)
+static bool mend_clashes(sunder_i_search *s, const sunder_i_clash *clash, size_t n)
 {
     const size_t size = 2 * s->n * sizeof *s->t;
     double *stood = sunder_i_alloc(2 * s->n, sizeof *stood);
@@ -89,17 +89,17 @@ bool sunder_i_search_mend_few(sunder_i_search *search)
     const double tolerance = search->tolerance;
     size_t n = 0;
     bool done = false;
-    if (search->failed || sunder_i_search_movers(search) <= LARGE_CROWD || !anybody_is_pinned(search) ||
+    if (search->failed || sunder_i_search_movers(search) <= LARGE_CROWD || !has_pinned_body(search) ||
         sunder_i_search_is_beyond(search, search->t))
         return false;
-    sunder_i_search_look(search, search->t);
+    sunder_i_search_find_clashes(search, search->t);
     if (search->failed) return false;
     /* If the margin has grown since they were settled, most pairs violate it; the part that they keep was found to be
      * sufficient. */
     search->tolerance *= MARGIN_LEFT;
     sunder_i_clash *list = list_clashes(search, &n);
     search->failed = !list;
-    if (!search->failed && n && n <= search->n / FEW_CLASHES) done = mend(search, list, n);
+    if (!search->failed && n && n <= search->n / FEW_CLASHES) done = mend_clashes(search, list, n);
     search->tolerance = tolerance;
     sunder_i_free(list);
     return done && !search->failed;

@@ -58,13 +58,13 @@ static void visit_near(sunder_i_search *s, const double *t, double reach, bool o
     }
 }
 
-void sunder_i_search_near(sunder_i_search *search, const double *t, double reach, sunder_i_visit_pair visit,
-                          void *context)
+void sunder_i_search_visit_near(sunder_i_search *search, const double *t, double reach, sunder_i_visit_pair visit,
+                                void *context)
 {
     visit_near(search, t, reach, false, visit, context);
 }
 
-void sunder_i_search_near_or_home(sunder_i_search *search, double reach, sunder_i_visit_pair visit, void *context)
+void sunder_i_search_visit_near_or_home(sunder_i_search *search, double reach, sunder_i_visit_pair visit, void *context)
 {
     visit_near(search, search->t, reach, true, visit, context);
 }

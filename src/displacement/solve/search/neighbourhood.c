@@ -70,7 +70,7 @@ static void take_in(sunder_i_neighbourhood *v, uint32_t i)
 
 /* The pair, those that they could run into, and those that these could, up to `most` that move; then those that stand
  * about them. v->wider: there would have been more. */
-static bool gather(sunder_i_neighbourhood *v, uint32_t i, uint32_t j, size_t most, double reach)
+static bool gather_bodies(sunder_i_neighbourhood *v, uint32_t i, uint32_t j, size_t most, double reach)
 {
     v->n = 0;
     v->wider = false;
@@ -98,7 +98,7 @@ static bool gather(sunder_i_neighbourhood *v, uint32_t i, uint32_t j, size_t mos
 }
 
 /* The search among those gathered; it borrows the relaxations of the whole search. */
-static bool begin(sunder_i_neighbourhood *v, sunder_i_search *part)
+static bool begin_search(sunder_i_neighbourhood *v, sunder_i_search *inner)
 {
     sunder_i_search *s = v->all;
     sunder_i_set_make(v->place, v->n);
@@ -107,38 +107,38 @@ static bool begin(sunder_i_neighbourhood *v, sunder_i_search *part)
         memcpy(v->t + 2 * k, s->t + 2 * (size_t)v->place[k], 2 * sizeof *v->t);
     }
     /* Places go by number up to s->own, and again from there: bodies are ascending in both, and so they are here. */
-    if (!sunder_i_search_init(part, s->model, v->body, v->n, s->gap - s->model->rules.gap, v->t)) return false;
-    part->own = 0;
+    if (!sunder_i_search_init(inner, s->model, v->body, v->n, s->gap - s->model->rules.gap, v->t)) return false;
+    inner->own = 0;
     for (size_t k = 0; k < v->n; k++) {
-        part->own += v->place[k] < s->own;
-        if (!v->moves[v->place[k]]) part->mass[k] = 0;
+        inner->own += v->place[k] < s->own;
+        if (!v->moves[v->place[k]]) inner->mass[k] = 0;
     }
-    part->tolerance = s->tolerance;
-    part->extent = s->extent;
-    part->relaxations = s->relaxations;
-    part->restored = s->restored;
-    part->restored_n = s->restored_n;
-    part->cache = s->cache; /* and returns there */
+    inner->tolerance = s->tolerance;
+    inner->extent = s->extent;
+    inner->relaxations = s->relaxations;
+    inner->restored = s->restored;
+    inner->restored_n = s->restored_n;
+    inner->cache = s->cache; /* and returns there */
     memset(&s->cache, 0, sizeof s->cache);
-    part->patience = PATIENCE + PATIENCE_EACH * (uint64_t)v->n;
+    inner->patience = PATIENCE + PATIENCE_EACH * (uint64_t)v->n;
     return true;
 }
 
 /* Gives back what was lent: before the whole is looked at, which would begin another one. */
-static void give_back_cache(sunder_i_neighbourhood *v, sunder_i_search *part)
+static void give_back_cache(sunder_i_neighbourhood *v, sunder_i_search *inner)
 {
-    if (part->cache.slots) v->all->cache = part->cache;
-    memset(&part->cache, 0, sizeof part->cache);
+    if (inner->cache.slots) v->all->cache = inner->cache;
+    memset(&inner->cache, 0, sizeof inner->cache);
 }
 
-static void end(sunder_i_neighbourhood *v, sunder_i_search *part)
+static void end_search(sunder_i_neighbourhood *v, sunder_i_search *inner)
 {
-    v->all->steps += part->steps + part->program.work;
-    v->all->failed = v->all->failed || part->failed;
-    memset(&part->relaxations, 0, sizeof part->relaxations);
-    part->restored = NULL;
-    give_back_cache(v, part);
-    sunder_i_search_free(part);
+    v->all->steps += inner->steps + inner->program.work;
+    v->all->failed = v->all->failed || inner->failed;
+    memset(&inner->relaxations, 0, sizeof inner->relaxations);
+    inner->restored = NULL;
+    give_back_cache(v, inner);
+    sunder_i_search_free(inner);
     for (size_t k = 0; k < v->n; k++) v->moves[v->place[k]] = false;
 }
 
@@ -174,7 +174,7 @@ static bool is_free(sunder_i_neighbourhood *v, const double *stood)
 }
 
 /* Puts those that move there: a place for each of v->place. */
-static void put(sunder_i_neighbourhood *v, const double *t)
+static void put_bodies(sunder_i_neighbourhood *v, const double *t)
 {
     for (size_t k = 0; k < v->n; k++) {
         double box[4];
@@ -186,50 +186,50 @@ static void put(sunder_i_neighbourhood *v, const double *t)
 }
 
 /* Begins with the pair and those about it as they stand. On failure it has ended. */
-static bool open_part(sunder_i_neighbourhood *v, uint32_t i, uint32_t j, size_t most, double reach,
-                      sunder_i_search *part)
+static bool open_search(sunder_i_neighbourhood *v, uint32_t i, uint32_t j, size_t most, double reach,
+                        sunder_i_search *inner)
 {
-    memset(part, 0, sizeof *part);
-    if (gather(v, i, j, most, reach) && begin(v, part)) return true;
-    part->failed = true;
-    end(v, part);
+    memset(inner, 0, sizeof *inner);
+    if (gather_bodies(v, i, j, most, reach) && begin_search(v, inner)) return true;
+    inner->failed = true;
+    end_search(v, inner);
     return false;
 }
 
 /* Ends the part. Where its search is done, all are put where it went, if nothing is in the way there; else back. */
-static bool end_where_it_went(sunder_i_neighbourhood *v, sunder_i_search *part, bool done)
+static bool end_where_it_went(sunder_i_neighbourhood *v, sunder_i_search *inner, bool done)
 {
-    if (done && !part->failed) {
-        give_back_cache(v, part);
-        put(v, part->t);
+    if (done && !inner->failed) {
+        give_back_cache(v, inner);
+        put_bodies(v, inner->t);
         done = is_free(v, NULL);
-        if (!done) put(v, v->t);
+        if (!done) put_bodies(v, v->t);
     }
-    end(v, part);
+    end_search(v, inner);
     return done && !v->all->failed;
 }
 
 bool sunder_i_neighbourhood_settle(sunder_i_neighbourhood *neighbourhood, uint32_t i, uint32_t j, size_t most,
                                    double reach)
 {
-    sunder_i_search part;
-    if (!open_part(neighbourhood, i, j, most, reach, &part)) return false;
-    bool done = neighbourhood->moving > 0 && sunder_i_search_descend(&part);
-    if (!done && neighbourhood->moving && !part.failed && sunder_i_search_jump_soon(&part)) {
-        part.patience += PATIENCE + PATIENCE_EACH * (uint64_t)neighbourhood->n;
-        done = sunder_i_search_descend(&part);
+    sunder_i_search inner;
+    if (!open_search(neighbourhood, i, j, most, reach, &inner)) return false;
+    bool done = neighbourhood->moving > 0 && sunder_i_search_descend(&inner);
+    if (!done && neighbourhood->moving && !inner.failed && sunder_i_search_jump_soon(&inner)) {
+        inner.patience += PATIENCE + PATIENCE_EACH * (uint64_t)neighbourhood->n;
+        done = sunder_i_search_descend(&inner);
     }
-    return end_where_it_went(neighbourhood, &part, done);
+    return end_where_it_went(neighbourhood, &inner, done);
 }
 
-bool sunder_i_neighbourhood_make_good(sunder_i_neighbourhood *neighbourhood, uint32_t i, uint32_t j, size_t most,
-                                      double reach)
+bool sunder_i_neighbourhood_repair(sunder_i_neighbourhood *neighbourhood, uint32_t i, uint32_t j, size_t most,
+                                   double reach)
 {
-    sunder_i_search part;
-    if (!open_part(neighbourhood, i, j, most, reach, &part)) return false;
-    part.patience *= MENDING_TIMES;
-    const bool done = neighbourhood->moving > 0 && sunder_i_search_make_good(&part);
-    return end_where_it_went(neighbourhood, &part, done);
+    sunder_i_search inner;
+    if (!open_search(neighbourhood, i, j, most, reach, &inner)) return false;
+    inner.patience *= MENDING_TIMES;
+    const bool done = neighbourhood->moving > 0 && sunder_i_search_repair(&inner);
+    return end_where_it_went(neighbourhood, &inner, done);
 }
 
 /* What those that move cost, standing at t, a place for each of v->place, less what they cost at `best`, one for
@@ -249,25 +249,25 @@ static double costs_more(const sunder_i_neighbourhood *v, const double *t, const
 double sunder_i_neighbourhood_descend(sunder_i_neighbourhood *neighbourhood, uint32_t i, uint32_t j, size_t most,
                                       double reach, const double *best, double least)
 {
-    sunder_i_search part;
+    sunder_i_search inner;
     double gain = 0;
-    if (!open_part(neighbourhood, i, j, most, reach, &part)) return 0;
+    if (!open_search(neighbourhood, i, j, most, reach, &inner)) return 0;
     for (size_t k = 0; k < neighbourhood->n; k++)
         memcpy(neighbourhood->t + 2 * k, best + 2 * (size_t)neighbourhood->place[k], 2 * sizeof *neighbourhood->t);
-    part.settled = neighbourhood->all->settled;
-    part.patience = part.steps + SHORT_PATIENCE + SHORT_PATIENCE_EACH * (uint64_t)neighbourhood->n;
-    part.hope = sunder_i_search_cost(&part, neighbourhood->t);
-    if (sunder_i_search_descend(&part) && !part.failed) gain = -costs_more(neighbourhood, part.t, best);
+    inner.settled = neighbourhood->all->settled;
+    inner.patience = inner.steps + SHORT_PATIENCE + SHORT_PATIENCE_EACH * (uint64_t)neighbourhood->n;
+    inner.hope = sunder_i_search_cost(&inner, neighbourhood->t);
+    if (sunder_i_search_descend(&inner) && !inner.failed) gain = -costs_more(neighbourhood, inner.t, best);
     if (gain > least) {
-        give_back_cache(neighbourhood, &part);
-        put(neighbourhood, part.t);
+        give_back_cache(neighbourhood, &inner);
+        put_bodies(neighbourhood, inner.t);
         if (!is_free(neighbourhood, NULL)) gain = 0;
     }
     if (!(gain > least)) {
-        put(neighbourhood, neighbourhood->t);
+        put_bodies(neighbourhood, neighbourhood->t);
         gain = 0;
     }
-    end(neighbourhood, &part);
+    end_search(neighbourhood, &inner);
     return gain;
 }
 
@@ -280,7 +280,7 @@ bool sunder_i_neighbourhood_put(sunder_i_neighbourhood *neighbourhood, const dou
         neighbourhood->body[k] = s->body[i];
         memcpy(neighbourhood->t + 2 * i, s->t + 2 * i, 2 * sizeof *neighbourhood->t);
     }
-    put(neighbourhood, to);
+    put_bodies(neighbourhood, to);
     const bool free = is_free(neighbourhood, neighbourhood->t);
     for (size_t k = 0; k < neighbourhood->n && !free; k++) {
         const uint32_t i = neighbourhood->place[k];

@@ -25,8 +25,8 @@ void sunder_i_neighbourhood_free(sunder_i_neighbourhood *neighbourhood);
 bool sunder_i_neighbourhood_settle(sunder_i_neighbourhood *neighbourhood, uint32_t i, uint32_t j, size_t most,
                                    double reach);
 /* The same from a layout whose constraints are violated by rounding only; the solution is looked for near it. */
-bool sunder_i_neighbourhood_make_good(sunder_i_neighbourhood *neighbourhood, uint32_t i, uint32_t j, size_t most,
-                                      double reach);
+bool sunder_i_neighbourhood_repair(sunder_i_neighbourhood *neighbourhood, uint32_t i, uint32_t j, size_t most,
+                                   double reach);
 /* Starts from the solution `best`, with i and j at other places, and descends with i, j and the bodies around them,
  * while all others stay. A solution that is cheaper than `best` by more than `least` is kept, and the difference is
  * returned; otherwise all bodies are put back to `best`, and 0 is returned. */

@@ -47,7 +47,7 @@ static sunder_i_id_pair in_order(uint32_t p, uint32_t q)
 /* Except for those without one at present. */
 static void spare_others(sunder_i_search *s, uint32_t i, uint32_t j)
 {
-    sunder_i_search_look(s, s->t);
+    sunder_i_search_find_clashes(s, s->t);
     sunder_i_id_pair *clash = sunder_i_alloc(s->clashes, sizeof *clash);
     size_t n = 0, kept = 0;
     s->failed = s->failed || !clash;
@@ -77,15 +77,15 @@ static bool make_good(sunder_i_search *s, uint32_t i, uint32_t j)
     bool done = false, wider = true;
     if (!sunder_i_neighbourhood_init(&about, s)) s->failed = true;
     for (size_t k = 0; k < sizeof stage / sizeof *stage && wider && !done && !s->failed; k++) {
-        done = sunder_i_neighbourhood_make_good(&about, i, j, stage[k], s->gap);
+        done = sunder_i_neighbourhood_repair(&about, i, j, stage[k], s->gap);
         wider = about.wider;
     }
     sunder_i_neighbourhood_free(&about);
     return done;
 }
 
-sunder_status sunder_i_cluster_ease(const sunder_i_model *model, const sunder_i_cluster *cluster, uint32_t a,
-                                    uint32_t b, bool others, double *move, bool *done, sunder_error *err)
+sunder_status sunder_i_cluster_demand_margin(const sunder_i_model *model, const sunder_i_cluster *cluster, uint32_t a,
+                                             uint32_t b, bool others, double *move, bool *done, sunder_error *err)
 {
     sunder_i_search s;
     bool ok = sunder_i_search_init_about(&s, model, cluster, move) && ask_margins(&s, a, b);

@@ -57,29 +57,29 @@ const sunder_i_relaxation *sunder_i_search_relaxation(const sunder_i_search *sea
 }
 
 /* Does the wall keep the piece inside, by the rules or by a relaxation? */
-static bool keeps(const sunder_i_search *s, const sunder_i_body_piece *wall, const sunder_i_body_piece *piece,
-                  sunder_i_piece_pair *part)
+static bool keeps_inside(const sunder_i_search *s, const sunder_i_body_piece *wall, const sunder_i_body_piece *piece,
+                         sunder_i_piece_pair *pair)
 {
-    if (sunder_i_keeps_inside(s->model, wall->feature, piece->feature, &part->inclusion)) return true;
-    if (!part->relaxed) return false;
+    if (sunder_i_keeps_inside(s->model, wall->feature, piece->feature, &pair->inclusion)) return true;
+    if (!pair->relaxed) return false;
     const sunder_i_relaxation *relaxation = sunder_i_search_relaxation(s, wall, piece);
-    part->inclusion = SUNDER_I_LENIENT;
+    pair->inclusion = SUNDER_I_LENIENT;
     return relaxation && relaxation->inside && sunder_i_is_inner(s->model, piece->feature, wall->feature);
 }
 
 /* Do the pieces let each other alone? */
 static bool are_exempt(const sunder_i_search *s, const sunder_i_body_piece *a, const sunder_i_body_piece *b,
-                       sunder_i_piece_pair *part)
+                       sunder_i_piece_pair *pair)
 {
-    part->inclusion = SUNDER_I_LAPSED;
-    if (part->relaxed) part->relaxation = sunder_i_search_relaxation(s, a, b);
+    pair->inclusion = SUNDER_I_LAPSED;
+    if (pair->relaxed) pair->relaxation = sunder_i_search_relaxation(s, a, b);
     return (s->model->inclusions && sunder_i_is_included(s->model, a->feature, b->feature)) ||
-           (part->relaxation && part->relaxation->inside);
+           (pair->relaxation && pair->relaxation->inside);
 }
 
 typedef struct visiting {
     sunder_i_search *s;
-    sunder_i_piece_pair *part;
+    sunder_i_piece_pair *pair;
     const sunder_i_body_piece *from; /* n parts of one body, or walls, numbered from `first` on ... */
     uint32_t n, first;
     const sunder_i_body_pieces *of; /* ... whose pieces these are; NULL: walls */
@@ -95,14 +95,14 @@ typedef struct visiting {
 static inline void visit_piece(const visiting *to, uint32_t k, const double box[4], uint32_t l)
 {
     const sunder_i_body_piece *a = &to->from[k], *b = &to->facing->piece[l];
-    sunder_i_piece_pair *part = to->part;
+    sunder_i_piece_pair *pair = to->pair;
     if (!sunder_i_box_meet(box, b->box)) return;
-    part->relaxation = NULL;
-    if (to->of ? are_exempt(to->s, a, b, part) : !keeps(to->s, a, b, part)) return;
-    part->key = (uint64_t)!to->of << 62 | (uint64_t)(to->first + k) << 32 | (to->other->piece + l);
-    part->a = to->swapped ? b : a;
-    part->b = to->swapped ? a : b;
-    to->call(to->s, part, to->context);
+    pair->relaxation = NULL;
+    if (to->of ? are_exempt(to->s, a, b, pair) : !keeps_inside(to->s, a, b, pair)) return;
+    pair->key = (uint64_t)!to->of << 62 | (uint64_t)(to->first + k) << 32 | (to->other->piece + l);
+    pair->a = to->swapped ? b : a;
+    pair->b = to->swapped ? a : b;
+    to->call(to->s, pair, to->context);
 }
 
 /* The box of a part as the other body sees it, grown. */
@@ -152,28 +152,28 @@ static inline uint32_t visit_some(const visiting *to, uint32_t begin, const doub
 {
     sunder_i_search *s = to->s;
     double box[PARTS_AT_ONCE][4], all[4], seen[4];
-    uint32_t part[PARTS_AT_ONCE], piece[MOST_FACING], parts = 0, k = begin;
+    uint32_t chosen[PARTS_AT_ONCE], piece[MOST_FACING], n = 0, k = begin;
     sunder_i_box_clear(all);
     box_of_other(to->other, v, reach, seen);
-    for (; k < to->n && parts < PARTS_AT_ONCE; k++) {
+    for (; k < to->n && n < PARTS_AT_ONCE; k++) {
         if (to->of && is_run_beside(to->of, to->first + k, to->n - k, seen)) {
             k += SUNDER_I_RUN - 1;
             continue;
         }
         if (!sunder_i_box_meet(to->from[k].box, seen)) continue;
-        box_seen(&to->from[k], v, reach, box[parts]);
-        if (!sunder_i_box_meet(box[parts], to->other->box)) continue;
-        sunder_i_box_join(all, box[parts]);
-        part[parts++] = k;
+        box_seen(&to->from[k], v, reach, box[n]);
+        if (!sunder_i_box_meet(box[n], to->other->box)) continue;
+        sunder_i_box_join(all, box[n]);
+        chosen[n++] = k;
     }
     if (!sunder_i_steps((k - begin) * (1 + (size_t)to->other->pieces / 8))) s->failed = true;
-    if (parts == 0) return k;
+    if (n == 0) return k;
     const uint32_t facing = find_facing(to, all, piece);
-    for (uint32_t i = 0; i < parts; i++)
+    for (uint32_t i = 0; i < n; i++)
         if (facing <= MOST_FACING)
-            for (uint32_t l = 0; l < facing && !s->failed; l++) visit_piece(to, part[i], box[i], piece[l]);
+            for (uint32_t l = 0; l < facing && !s->failed; l++) visit_piece(to, chosen[i], box[i], piece[l]);
         else
-            for (uint32_t l = 0; l < to->other->pieces && !s->failed; l++) visit_piece(to, part[i], box[i], l);
+            for (uint32_t l = 0; l < to->other->pieces && !s->failed; l++) visit_piece(to, chosen[i], box[i], l);
     return k;
 }
 
@@ -200,12 +200,12 @@ static inline void visit_all(const visiting *to, const double v[2], double reach
 }
 
 void sunder_i_search_walls(sunder_i_search *search, const sunder_i_body *holder, const sunder_i_body *other,
-                           const double v[2], double reach, sunder_i_piece_pair *part, bool swapped,
+                           const double v[2], double reach, sunder_i_piece_pair *pair, bool swapped,
                            sunder_i_visit_piece_pair visit, void *context)
 {
     const sunder_i_body_pieces *facing = sunder_i_pieces_of(search->model, other);
     const visiting to = {.s = search,
-                         .part = part,
+                         .pair = pair,
                          .from = search->model->wall + holder->has->wall,
                          .n = holder->has->walls,
                          .first = holder->has->wall,
@@ -222,7 +222,7 @@ void sunder_i_search_walls(sunder_i_search *search, const sunder_i_body *holder,
 
 /* The same of pieces of both. */
 static void visit_pieces(sunder_i_search *s, const sunder_i_body *p, const sunder_i_body *q, const double v[2],
-                         double reach, sunder_i_piece_pair *part, sunder_i_visit_piece_pair visit, void *context)
+                         double reach, sunder_i_piece_pair *pair, sunder_i_visit_piece_pair visit, void *context)
 {
     const sunder_i_body_pieces *of = sunder_i_pieces_of(s->model, p), *facing = sunder_i_pieces_of(s->model, q);
     if (!of || !facing) {
@@ -230,7 +230,7 @@ static void visit_pieces(sunder_i_search *s, const sunder_i_body *p, const sunde
         return;
     }
     const visiting to = {.s = s,
-                         .part = part,
+                         .pair = pair,
                          .from = of->piece,
                          .n = p->pieces,
                          .first = p->piece,
@@ -247,18 +247,18 @@ void sunder_i_search_piece_pairs(sunder_i_search *search, uint32_t i, uint32_t j
 {
     const sunder_i_model *model = search->model;
     const sunder_i_body *p = &model->body[search->body[i]], *q = &model->body[search->body[j]];
-    sunder_i_piece_pair part = {.offset = {q->origin[0] - p->origin[0], q->origin[1] - p->origin[1]}};
-    const double v[2] = {part.offset[0] + u[0], part.offset[1] + u[1]}, back[2] = {-v[0], -v[1]};
+    sunder_i_piece_pair pair = {.offset = {q->origin[0] - p->origin[0], q->origin[1] - p->origin[1]}};
+    const double v[2] = {pair.offset[0] + u[0], pair.offset[1] + u[1]}, back[2] = {-v[0], -v[1]};
     double shift = 0;
-    part.relaxed = yields && sunder_i_search_is_relaxed(search, search->body[i], search->body[j], &shift);
+    pair.relaxed = yields && sunder_i_search_is_relaxed(search, search->body[i], search->body[j], &shift);
     reach += shift;
-    visit_pieces(search, p, q, v, reach, &part, visit, context);
+    visit_pieces(search, p, q, v, reach, &pair, visit, context);
     /* Shadows are seldom in the way: no more of them than that are looked for ahead. */
     const double ahead = sunder_i_min(reach - shift - search->gap, search->gap / LEAST_REACH);
     sunder_i_search_body_shadows(search, p, q, u, search->gap - model->rules.gap + ahead, visit, context);
-    if (!part.relaxed && model->inclusions == 0) return;
-    if (p->has->walls) sunder_i_search_walls(search, p, q, v, reach, &part, false, visit, context);
-    if (q->has->walls) sunder_i_search_walls(search, q, p, back, reach, &part, true, visit, context);
+    if (!pair.relaxed && model->inclusions == 0) return;
+    if (p->has->walls) sunder_i_search_walls(search, p, q, v, reach, &pair, false, visit, context);
+    if (q->has->walls) sunder_i_search_walls(search, q, p, back, reach, &pair, true, visit, context);
 }
 
 double sunder_i_search_shift(const sunder_i_relaxation *relaxation, uint32_t of_j, double *corner, size_t n)
@@ -270,20 +270,20 @@ double sunder_i_search_shift(const sunder_i_relaxation *relaxation, uint32_t of_
 }
 
 /* A + (-B), as it is. */
-static size_t make_obstacle(sunder_i_search *s, const sunder_i_piece_pair *part)
+static size_t make_obstacle(sunder_i_search *s, const sunder_i_piece_pair *pair)
 {
-    const sunder_i_body_piece *a = part->a, *b = part->b;
-    return sunder_i_obstacle_corners(a->corner, a->corners, b->corner, b->corners, part->offset, &s->scratch);
+    const sunder_i_body_piece *a = pair->a, *b = pair->b;
+    return sunder_i_obstacle_corners(a->corner, a->corners, b->corner, b->corners, pair->offset, &s->scratch);
 }
 
 /* What two pieces without a relaxation owe each other, n edges of its obstacle given. */
-static double owed(const sunder_i_search *s, const sunder_i_piece_pair *part, const sunder_i_obstacle_edge *edge,
-                   size_t n)
+static double owed_by_pair(const sunder_i_search *s, const sunder_i_piece_pair *pair,
+                           const sunder_i_obstacle_edge *edge, size_t n)
 {
     const double margin = s->gap - s->model->rules.gap, home[2] = {0, 0};
-    if (part->shadow) return sunder_i_min(margin, sunder_i_shadow_support_at(edge, n, home).distance);
-    if (part->inclusion == SUNDER_I_LAPSED) return sunder_i_search_owed(s, part->a, part->b);
-    if (part->inclusion == SUNDER_I_STRICT) return margin;
+    if (pair->shadow) return sunder_i_min(margin, sunder_i_shadow_support_at(edge, n, home).distance);
+    if (pair->inclusion == SUNDER_I_LAPSED) return sunder_i_search_owed(s, pair->a, pair->b);
+    if (pair->inclusion == SUNDER_I_STRICT) return margin;
     return sunder_i_min(margin, sunder_i_support_at(edge, n, home).distance);
 }
 
@@ -296,11 +296,11 @@ static const sunder_i_obstacle_edge *take_edges(sunder_i_search *s, size_t *n)
 }
 
 /* Those of a shadow; they are not kept. */
-static const sunder_i_obstacle_edge *shadow_edges(sunder_i_search *s, const sunder_i_piece_pair *part, size_t *n,
+static const sunder_i_obstacle_edge *shadow_edges(sunder_i_search *s, const sunder_i_piece_pair *pair, size_t *n,
                                                   double *gap)
 {
     s->steps++;
-    const size_t corners = make_obstacle(s, part);
+    const size_t corners = make_obstacle(s, pair);
     if (!corners || !sunder_i_steps(1 + corners / 8) ||
         !sunder_i_reserve(&s->shifted, &s->shifted_capacity, corners + 1, sizeof *s->shifted)) {
         s->failed = true;
@@ -308,39 +308,39 @@ static const sunder_i_obstacle_edge *shadow_edges(sunder_i_search *s, const sund
     }
     *n = sunder_i_shadow_edges(s->scratch.xy, corners, s->shifted);
     if (*n == 0) return NULL;
-    *gap = owed(s, part, s->shifted, *n);
+    *gap = owed_by_pair(s, pair, s->shifted, *n);
     return s->shifted;
 }
 
-const sunder_i_obstacle_edge *sunder_i_search_edges(sunder_i_search *search, const sunder_i_piece_pair *part, size_t *n,
+const sunder_i_obstacle_edge *sunder_i_search_edges(sunder_i_search *search, const sunder_i_piece_pair *pair, size_t *n,
                                                     double *gap)
 {
-    if (part->shadow) return shadow_edges(search, part, n, gap);
+    if (pair->shadow) return shadow_edges(search, pair, n, gap);
     const sunder_i_obstacle_edge *edge =
-        part->relaxation ? NULL : sunder_i_obstacle_cache_find(&search->cache, part->key, n);
+        pair->relaxation ? NULL : sunder_i_obstacle_cache_find(&search->cache, pair->key, n);
     *gap = search->gap;
     search->steps++;
     if (!edge) {
-        *n = make_obstacle(search, part);
-        if (*n && part->relaxation) {
-            *gap = sunder_i_min(sunder_i_search_owed(search, part->a, part->b),
-                                sunder_i_search_shift(part->relaxation, part->b->feature, search->scratch.xy, *n));
+        *n = make_obstacle(search, pair);
+        if (*n && pair->relaxation) {
+            *gap = sunder_i_min(sunder_i_search_owed(search, pair->a, pair->b),
+                                sunder_i_search_shift(pair->relaxation, pair->b->feature, search->scratch.xy, *n));
             edge = take_edges(search, n);
         } else if (*n) {
-            edge = sunder_i_obstacle_cache_add(&search->cache, part->key, search->scratch.xy, n);
+            edge = sunder_i_obstacle_cache_add(&search->cache, pair->key, search->scratch.xy, n);
         }
     }
     if (!edge || !sunder_i_steps(1 + *n / 8)) search->failed = true;
-    if (edge && !part->relaxation) *gap = owed(search, part, edge, *n);
+    if (edge && !pair->relaxation) *gap = owed_by_pair(search, pair, edge, *n);
     return edge;
 }
 
-size_t sunder_i_search_obstacle(sunder_i_search *search, const sunder_i_piece_pair *part, double *gap)
+size_t sunder_i_search_obstacle(sunder_i_search *search, const sunder_i_piece_pair *pair, double *gap)
 {
     size_t n = 0;
-    sunder_i_search_edges(search, part, &n, gap);
-    n = search->failed ? 0 : make_obstacle(search, part);
-    if (n && part->relaxation) sunder_i_search_shift(part->relaxation, part->b->feature, search->scratch.xy, n);
+    sunder_i_search_edges(search, pair, &n, gap);
+    n = search->failed ? 0 : make_obstacle(search, pair);
+    if (n && pair->relaxation) sunder_i_search_shift(pair->relaxation, pair->b->feature, search->scratch.xy, n);
     if (n == 0) search->failed = true;
     return n;
 }
@@ -352,17 +352,17 @@ typedef struct missing {
     double worst;
 } missing;
 
-static void measure_part(sunder_i_search *s, const sunder_i_piece_pair *part, void *context)
+static void measure_pieces(sunder_i_search *s, const sunder_i_piece_pair *pair, void *context)
 {
     missing *m = context;
     double gap;
     size_t n;
-    const sunder_i_obstacle_edge *edge = sunder_i_search_edges(s, part, &n, &gap);
-    if (edge) m->worst = sunder_i_max(m->worst, gap - sunder_i_search_support(part, edge, n, m->u).distance);
+    const sunder_i_obstacle_edge *edge = sunder_i_search_edges(s, pair, &n, &gap);
+    if (edge) m->worst = sunder_i_max(m->worst, gap - sunder_i_search_support(pair, edge, n, m->u).distance);
 }
 
 /* Returns the shortfall of pair (i, j) at `u` as if no pair were relaxed. It depends on `u` alone, so it is kept. */
-static double measure(sunder_i_search *s, uint32_t i, uint32_t j, const double u[2])
+static double measure_pair(sunder_i_search *s, uint32_t i, uint32_t j, const double u[2])
 {
     missing m = {u, 0};
     sunder_i_measure *known = sunder_i_measures_slot(&s->measures, s->n, i, j, u);
@@ -375,20 +375,20 @@ static double measure(sunder_i_search *s, uint32_t i, uint32_t j, const double u
         return known->missed;
     }
     const uint64_t before = s->steps;
-    sunder_i_search_piece_pairs(s, i, j, u, s->gap, false, measure_part, &m);
+    sunder_i_search_piece_pairs(s, i, j, u, s->gap, false, measure_pieces, &m);
     if (!s->failed) *known = (sunder_i_measure){i, j, {u[0], u[1]}, m.worst, s->steps - before};
     return m.worst;
 }
 
 double sunder_i_search_pair(sunder_i_search *search, uint32_t i, uint32_t j, const double u[2], bool *yields)
 {
-    missing m = {u, measure(search, i, j, u)};
+    missing m = {u, measure_pair(search, i, j, u)};
     double shift;
     *yields = false;
     if (m.worst <= search->tolerance || !sunder_i_search_is_relaxed(search, search->body[i], search->body[j], &shift))
         return m.worst;
     *yields = true;
     m.worst = 0;
-    sunder_i_search_piece_pairs(search, i, j, u, search->gap, true, measure_part, &m);
+    sunder_i_search_piece_pairs(search, i, j, u, search->gap, true, measure_pieces, &m);
     return m.worst;
 }

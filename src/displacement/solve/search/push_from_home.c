@@ -34,7 +34,7 @@ static bool give_up_all(sunder_i_search *s, const double *start, const sunder_i_
             s->failed = true;
     }
     if (!s->failed && !sunder_i_relaxations_index(&s->relaxations, s->model)) s->failed = true;
-    return !s->failed && sunder_i_search_look(s, s->t) <= s->tolerance;
+    return !s->failed && sunder_i_search_find_clashes(s, s->t) <= s->tolerance;
 }
 
 /* Pushes, goes down, pushes again, as long as that takes back any number. Returns whether the first left more than that
@@ -46,7 +46,7 @@ static bool push_all(sunder_i_search *s, double share)
     if (s->failed || (double)s->relaxations.n <= share * (double)all) return false;
     for (size_t before = all; before - s->relaxations.n > before / LEAST_PUSHED && !s->failed;) {
         before = s->relaxations.n;
-        sunder_i_search_lower(s);
+        sunder_i_search_descend_or_stay(s);
         sunder_i_search_push_back(s);
     }
     return !s->failed;

@@ -28,7 +28,7 @@
 #include <math.h>
 #include <string.h>
 
-static double at(const double n[2], const double *u) { return n[0] * u[0] + n[1] * u[1]; }
+static double component_along(const double n[2], const double *u) { return n[0] * u[0] + n[1] * u[1]; }
 
 /* ---- Memory ------------------------------------------------------------------------------------------------------ */
 
@@ -58,7 +58,7 @@ void sunder_i_pushed_free(sunder_i_pushed *pushed)
         sunder_i_free(pushed->front[e].reached);
         sunder_i_free(pushed->front[e].heap);
     }
-    for (size_t w = 0; w < PUSHED_WAYS; w++) sunder_i_free(pushed->ways[w].next);
+    for (size_t w = 0; w < PUSHED_DIRECTIONS; w++) sunder_i_free(pushed->survey[w].next);
     sunder_i_free(pushed->of);
     sunder_i_free(pushed->to);
     sunder_i_neighbourhood_free(&pushed->about);
@@ -74,7 +74,7 @@ static bool comes_before(const void *a, const void *b)
     return p->progress != q->progress ? p->progress > q->progress : p->body < q->body;
 }
 
-static void reach(const sunder_i_pushed *p, sunder_i_push_front *f, uint32_t k, double spare)
+static void reach_body(const sunder_i_pushed *p, sunder_i_push_front *f, uint32_t k, double spare)
 {
     sunder_i_search *s = p->about.all;
     const sunder_i_body *b = &s->model->body[s->body[k]], *first = &s->model->body[s->body[0]];
@@ -86,22 +86,23 @@ static void reach(const sunder_i_pushed *p, sunder_i_push_front *f, uint32_t k, 
     if (f->spare[k] == INFINITY) f->reached[f->n++] = k;
     f->spare[k] = spare;
     const double place[2] = {b->origin[0] - first->origin[0], b->origin[1] - first->origin[1]};
-    sunder_i_heap_push(f->heap, &f->waiting, sizeof *f->heap, &(sunder_i_push){spare, at(f->along, place), k},
-                       comes_before);
+    sunder_i_heap_push(f->heap, &f->waiting, sizeof *f->heap,
+                       &(sunder_i_push){spare, component_along(f->along, place), k}, comes_before);
 }
 
-static void begin(const sunder_i_pushed *p, sunder_i_push_front *f, uint32_t k, const double along[2], double most)
+static void begin_front(const sunder_i_pushed *p, sunder_i_push_front *f, uint32_t k, const double along[2],
+                        double most)
 {
     for (size_t m = 0; m < f->n; m++) f->spare[f->reached[m]] = INFINITY;
     f->n = f->waiting = 0;
     f->along[0] = along[0];
     f->along[1] = along[1];
     f->most = most;
-    reach(p, f, k, 0);
+    reach_body(p, f, k, 0);
 }
 
 /* Looks at the next, if there is any that is pushed. but: the body at the other end of the pair. */
-static bool go_on(sunder_i_pushed *p, sunder_i_push_front *f, uint32_t end, uint32_t but)
+static bool advance_front(sunder_i_pushed *p, sunder_i_push_front *f, uint32_t end, uint32_t but)
 {
     sunder_i_search *s = p->about.all;
     sunder_i_push e;
@@ -114,11 +115,11 @@ static bool go_on(sunder_i_pushed *p, sunder_i_push_front *f, uint32_t end, uint
     s->steps += 1 + of->n;
     for (size_t k = 0; k < of->n && !s->failed; k++) {
         const sunder_i_push_line *l = &of->line[k];
-        const double on = at(l->n, f->along);
+        const double on = component_along(l->n, f->along);
         if (!(on > PUSHED_BESIDE) || (e.body == end && l->other == but)) continue;
         const double *t = s->t + 2 * (size_t)l->other, *own = s->t + 2 * (size_t)e.body;
         const double spare = l->n[0] * (t[0] - own[0]) + l->n[1] * (t[1] - own[1]) - l->d;
-        reach(p, f, l->other, e.spare + (spare > s->tolerance ? spare / on : 0));
+        reach_body(p, f, l->other, e.spare + (spare > s->tolerance ? spare / on : 0));
     }
     return true;
 }
@@ -128,12 +129,12 @@ bool sunder_i_pushed_reaches(sunder_i_pushed *pushed, uint32_t i, uint32_t j, co
     const double back[2] = {-n[0], -n[1]};
     sunder_i_push_front *f = pushed->front;
     if (sunder_i_pushed_is_in_vain(pushed, i, j, n, missing)) return false;
-    begin(pushed, &f[0], j, n, missing);
-    begin(pushed, &f[1], i, back, missing);
+    begin_front(pushed, &f[0], j, n, missing);
+    begin_front(pushed, &f[1], i, back, missing);
     bool any = true;
     while (any && f[0].most + f[1].most >= missing && !pushed->about.all->failed) {
-        any = go_on(pushed, &f[0], j, i);
-        any = go_on(pushed, &f[1], i, j) || any;
+        any = advance_front(pushed, &f[0], j, i);
+        any = advance_front(pushed, &f[1], i, j) || any;
     }
     if (f[0].most + f[1].most >= missing && !pushed->about.all->failed) return true;
     sunder_i_pushed_note_in_vain(pushed);
@@ -151,7 +152,7 @@ static double count_pushed(const sunder_i_push_front *f)
 }
 
 /* The side of fewer goes farther, by as much as it is less: so the squares of all moves are least. */
-static void divide(const sunder_i_push_front f[2], double missing, double share[2])
+static void divide_between_fronts(const sunder_i_push_front f[2], double missing, double share[2])
 {
     const double right = count_pushed(&f[0]), left = count_pushed(&f[1]);
     share[0] = right + left > 0 ? missing * left / (right + left) : missing / 2;
@@ -173,7 +174,7 @@ bool sunder_i_pushed_part(sunder_i_pushed *pushed, double missing)
 {
     sunder_i_search *s = pushed->about.all;
     double share[2];
-    divide(pushed->front, missing, share);
+    divide_between_fronts(pushed->front, missing, share);
     pushed->about.n = 0;
     for (size_t e = 0; e < 2; e++) {
         const sunder_i_push_front *f = &pushed->front[e];

@@ -5,7 +5,7 @@
 #include "displacement/solve/search/neighbourhood.h"
 
 /* Number of directions for which obstacles are remembered. */
-#define PUSHED_WAYS 64
+#define PUSHED_DIRECTIONS 64
 
 /* The distance that a body keeps from another: n.(t_other - t) >= d, whichever of the two moves. */
 typedef struct sunder_i_push_line {
@@ -42,11 +42,11 @@ typedef struct sunder_i_push_front {
 } sunder_i_push_front;
 
 /* For one direction: failed questions since the shortest paths to limits were computed, and these paths. */
-typedef struct sunder_i_push_ways {
+typedef struct sunder_i_push_survey {
     size_t in_vain; /* how many were looked at */
     uint32_t *next; /* [n] the next body that a body pushes; SUNDER_I_NOBODY: its own limit stops it. NULL: not
                      * computed */
-} sunder_i_push_ways;
+} sunder_i_push_survey;
 
 typedef struct sunder_i_pushed {
     sunder_i_neighbourhood about;
@@ -54,7 +54,7 @@ typedef struct sunder_i_pushed {
     sunder_i_push_front front[2];
     double reach; /* nothing is to give way any farther */
     double *to;   /* [2 n] */
-    sunder_i_push_ways ways[PUSHED_WAYS];
+    sunder_i_push_survey survey[PUSHED_DIRECTIONS];
 } sunder_i_pushed;
 
 /* For a search without clashes, in which no pair misses more than `reach`. False if memory is out; the caller frees it

@@ -20,13 +20,13 @@
 
 #define FULL_TURN 6.28318530717958647692
 
-static size_t way_along(const double along[2])
+static size_t direction_of(const double along[2])
 {
     const double turns = atan2(along[1], along[0]) / FULL_TURN + 1;
-    return (size_t)(turns * PUSHED_WAYS + 0.5) % PUSHED_WAYS;
+    return (size_t)(turns * PUSHED_DIRECTIONS + 0.5) % PUSHED_DIRECTIONS;
 }
 
-static double dot(const double a[2], const double b[2]) { return a[0] * b[0] + a[1] * b[1]; }
+static double dot_product(const double a[2], const double b[2]) { return a[0] * b[0] + a[1] * b[1]; }
 
 /* What it takes, along there, until the body that the line is of pushes the other; or is pushed by it, if n.along is
  * negative. */
@@ -60,7 +60,7 @@ typedef struct survey {
     size_t waiting, capacity;
 } survey;
 
-static void give(survey *v, uint32_t k, double most, uint32_t next)
+static void lower_room(survey *v, uint32_t k, double most, uint32_t next)
 {
     if (!(most < v->most[k])) return;
     if (!sunder_i_reserve(&v->heap, &v->capacity, v->waiting + 1, sizeof *v->heap)) {
@@ -73,23 +73,23 @@ static void give(survey *v, uint32_t k, double most, uint32_t next)
 }
 
 /* Those that push the body. Lines between two are nearly the same for both. */
-static void ask_back(survey *v, uint32_t k)
+static void lower_pushers(survey *v, uint32_t k)
 {
     sunder_i_search *s = v->pushed->about.all;
     const sunder_i_push_lines *of = sunder_i_pushed_lines(v->pushed, k);
     s->steps += 1 + of->n;
     for (size_t m = 0; m < of->n && !s->failed; m++) {
         const sunder_i_push_line *l = &of->line[m];
-        const double on = dot(l->n, v->along);
-        if (on < -PUSHED_BESIDE) give(v, l->other, v->most[k] + spare_of(s, l, k, on), k);
+        const double on = dot_product(l->n, v->along);
+        if (on < -PUSHED_BESIDE) lower_room(v, l->other, v->most[k] + spare_of(s, l, k, on), k);
     }
 }
 
-static void look_for_ways(sunder_i_pushed *p, size_t way)
+static void survey_direction(sunder_i_pushed *p, size_t direction)
 {
     sunder_i_search *s = p->about.all;
-    sunder_i_push_ways *w = &p->ways[way];
-    const double angle = FULL_TURN * (double)way / PUSHED_WAYS;
+    sunder_i_push_survey *w = &p->survey[direction];
+    const double angle = FULL_TURN * (double)direction / PUSHED_DIRECTIONS;
     survey v = {.pushed = p, .along = {cos(angle), sin(angle)}};
     if (!w->next) w->next = sunder_i_alloc(s->n, sizeof *w->next);
     v.next = w->next;
@@ -98,12 +98,12 @@ static void look_for_ways(sunder_i_pushed *p, size_t way)
     for (size_t k = 0; k < s->n && !s->failed; k++) v.most[k] = INFINITY;
     for (uint32_t k = 0; k < s->n && !s->failed; k++) {
         v.next[k] = SUNDER_I_NOBODY;
-        give(&v, k, sunder_i_pushed_room(p, k, v.along), SUNDER_I_NOBODY);
+        lower_room(&v, k, sunder_i_pushed_room(p, k, v.along), SUNDER_I_NOBODY);
     }
     while (v.waiting && !s->failed) {
         giving g;
         sunder_i_heap_pop(v.heap, &v.waiting, sizeof g, &g, gives_less);
-        if (g.most <= v.most[g.body]) ask_back(&v, g.body);
+        if (g.most <= v.most[g.body]) lower_pushers(&v, g.body);
     }
     w->in_vain = 0;
     sunder_i_free(v.most);
@@ -117,7 +117,7 @@ static double spare_between(sunder_i_pushed *p, uint32_t k, uint32_t other, cons
     const sunder_i_push_lines *of = sunder_i_pushed_lines(p, k);
     double least = INFINITY;
     for (size_t m = 0; m < of->n; m++) {
-        const double on = dot(of->line[m].n, along);
+        const double on = dot_product(of->line[m].n, along);
         if (of->line[m].other == other && on > PUSHED_BESIDE)
             least = sunder_i_min(least, spare_of(p->about.all, &of->line[m], k, on));
     }
@@ -129,7 +129,7 @@ static double spare_between(sunder_i_pushed *p, uint32_t k, uint32_t other, cons
 static double most_along(sunder_i_pushed *p, uint32_t end, uint32_t but, const double along[2], double enough)
 {
     sunder_i_search *s = p->about.all;
-    const uint32_t *next = p->ways[way_along(along)].next;
+    const uint32_t *next = p->survey[direction_of(along)].next;
     double most = enough, spare = 0;
     size_t hops = 0; /* ways that changed since may go in a circle */
     for (uint32_t k = end; next && hops < s->n && spare < most && !s->failed; k = next[k], hops++) {
@@ -150,9 +150,9 @@ bool sunder_i_pushed_is_in_vain(sunder_i_pushed *pushed, uint32_t i, uint32_t j,
 void sunder_i_pushed_note_in_vain(sunder_i_pushed *pushed)
 {
     for (size_t e = 0; e < 2; e++) {
-        const size_t way = way_along(pushed->front[e].along);
-        pushed->ways[way].in_vain += pushed->front[e].n;
-        if (pushed->ways[way].in_vain > PUSHED_SURVEY * pushed->about.all->n && !pushed->about.all->failed)
-            look_for_ways(pushed, way);
+        const size_t direction = direction_of(pushed->front[e].along);
+        pushed->survey[direction].in_vain += pushed->front[e].n;
+        if (pushed->survey[direction].in_vain > PUSHED_SURVEY * pushed->about.all->n && !pushed->about.all->failed)
+            survey_direction(pushed, direction);
     }
 }

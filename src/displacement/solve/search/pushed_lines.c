@@ -16,15 +16,15 @@ typedef struct taking {
     const double *from; /* where the pair stands */
 } taking;
 
-static void take_line(sunder_i_search *s, const sunder_i_piece_pair *part, void *context)
+static void take_line(sunder_i_search *s, const sunder_i_piece_pair *pair, void *context)
 {
     const taking *g = context;
     sunder_i_push_lines *out = g->out;
     double gap;
     size_t n;
-    const sunder_i_obstacle_edge *edge = sunder_i_search_edges(s, part, &n, &gap);
+    const sunder_i_obstacle_edge *edge = sunder_i_search_edges(s, pair, &n, &gap);
     if (!edge) return;
-    const sunder_i_support h = sunder_i_search_support(part, edge, n, g->from);
+    const sunder_i_support h = sunder_i_search_support(pair, edge, n, g->from);
     const double sign = g->turned ? -1 : 1;
     if (!sunder_i_reserve(&out->line, &out->capacity, out->n + 1, sizeof *out->line)) {
         s->failed = true;
@@ -82,14 +82,14 @@ typedef struct worst {
     double missing, n[2];
 } worst;
 
-static void note_worst(sunder_i_search *s, const sunder_i_piece_pair *part, void *context)
+static void note_worst(sunder_i_search *s, const sunder_i_piece_pair *pair, void *context)
 {
     worst *w = context;
     double gap;
     size_t n;
-    const sunder_i_obstacle_edge *edge = sunder_i_search_edges(s, part, &n, &gap);
+    const sunder_i_obstacle_edge *edge = sunder_i_search_edges(s, pair, &n, &gap);
     if (!edge) return;
-    const sunder_i_support h = sunder_i_search_support(part, edge, n, w->u);
+    const sunder_i_support h = sunder_i_search_support(pair, edge, n, w->u);
     if (!(gap - h.distance > w->missing)) return;
     *w = (worst){w->u, gap - h.distance, {h.n[0], h.n[1]}};
 }

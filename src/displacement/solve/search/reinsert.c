@@ -40,7 +40,7 @@ typedef struct reordering {
 
 /* ---- Whose sides are in doubt ------------------------------------------------------------------------------------ */
 
-static double extent(const sunder_i_search *s, uint32_t i)
+static double body_extent(const sunder_i_search *s, uint32_t i)
 {
     const double *box = s->model->body[s->body[i]].box;
     return sunder_i_min(box[2] - box[0], box[3] - box[1]);
@@ -53,11 +53,11 @@ static bool find_doubtful(reordering *r)
     bool *deep = sunder_i_calloc(s->n, sizeof *deep);
     if (home && deep) {
         for (size_t k = 0; k < 2 * s->n; k++) home[k] = s->mass[k / 2] > 0 ? 0 : s->t[k];
-        sunder_i_search_look(s, home);
+        sunder_i_search_find_clashes(s, home);
         for (size_t k = 0; k < s->clashes; k++) {
             const sunder_i_clash *c = &s->clash[k];
             worst = sunder_i_max(worst, c->violation);
-            if (c->violation - s->gap > DEEP * sunder_i_min(extent(s, c->i), extent(s, c->j)))
+            if (c->violation - s->gap > DEEP * sunder_i_min(body_extent(s, c->i), body_extent(s, c->j)))
                 deep[c->i] = deep[c->j] = true;
         }
         for (uint32_t k = 0; k < s->n; k++) {
@@ -76,7 +76,7 @@ static bool find_doubtful(reordering *r)
 /* ---- Out, and in again ------------------------------------------------------------------------------------------- */
 
 /* How far apart the boxes of two bodies are, where they came from (share 0) or where they stand (1). */
-static double apart(const sunder_i_search *s, uint32_t i, uint32_t j, double share)
+static double boxes_apart(const sunder_i_search *s, uint32_t i, uint32_t j, double share)
 {
     const sunder_i_body *p = &s->model->body[s->body[i]], *q = &s->model->body[s->body[j]];
     double d[2];
@@ -88,19 +88,20 @@ static double apart(const sunder_i_search *s, uint32_t i, uint32_t j, double sha
 }
 
 /* That body, and those that stand, or stood, nearest to it: n in all. */
-static void choose(reordering *r, uint32_t first, size_t n)
+static void choose_bodies(reordering *r, uint32_t first, size_t n)
 {
     const sunder_i_search *s = r->search;
     size_t m = 0;
     for (uint32_t k = 0; k < s->n; k++)
         if (s->mass[k] > 0)
-            r->near[m++] = (ranked){k == first ? -1 : sunder_i_min(apart(s, first, k, 0), apart(s, first, k, 1)), k};
+            r->near[m++] =
+                (ranked){k == first ? -1 : sunder_i_min(boxes_apart(s, first, k, 0), boxes_apart(s, first, k, 1)), k};
     qsort(r->near, m, sizeof *r->near, by_rank);
     for (size_t k = 0; k < n; k++) r->out[k] = r->near[k].index;
 }
 
 /* Shuffled by a sequence that is always the same (xorshift). */
-static void shuffle(uint32_t *order, size_t n, uint64_t *state)
+static void shuffle_bodies(uint32_t *order, size_t n, uint64_t *state)
 {
     for (size_t k = n; k-- > 1;) {
         *state ^= *state << 13;
@@ -125,7 +126,7 @@ static bool is_in_vain(reordering *r, double start)
     sunder_i_search *s = r->search;
     if (is_known(r, start)) return true;
     r->tried[r->tries++] = start;
-    return !(s->model->rules.effort > 0) && start < r->cost && sunder_i_search_look(s, s->t) > s->tolerance;
+    return !(s->model->rules.effort > 0) && start < r->cost && sunder_i_search_find_clashes(s, s->t) > s->tolerance;
 }
 
 /* Takes the n bodies in r->out out, puts them back in this order, and lets all descend. A body without a place returns
@@ -177,8 +178,8 @@ static void try_orders(reordering *r, size_t n, size_t most_useless, uint64_t mo
         const size_t out = n ? n : 2 + k / r->doubtfuls % (MOST_OUT - 1);
         if (before + last >= most_work) break;
         const size_t taken = out < r->moving ? out : r->moving;
-        choose(r, r->doubtful[k % r->doubtfuls].index, taken);
-        shuffle(r->out, taken, &state);
+        choose_bodies(r, r->doubtful[k % r->doubtfuls].index, taken);
+        shuffle_bodies(r->out, taken, &state);
         const size_t in_vain = put_back(r, taken);
         useless = in_vain ? useless + in_vain : 0;
         last = sunder_i_search_work(s) - before;

@@ -7,7 +7,7 @@
 #include <string.h>
 
 /* From now on these do not count. */
-static bool restore(sunder_i_search *s, const sunder_i_restored *restored, size_t n)
+static bool restore_relaxed(sunder_i_search *s, const sunder_i_restored *restored, size_t n)
 {
     if (!sunder_i_reserve(&s->restored, &s->restored_capacity, n, sizeof *s->restored)) return false;
     if (n) memcpy(s->restored, restored, n * sizeof *s->restored);
@@ -48,7 +48,7 @@ static sunder_status turn_overlaps(sunder_i_search *s, uint32_t i, uint32_t j, s
 static sunder_status turn_all(sunder_i_search *s, sunder_error *err)
 {
     sunder_status status = SUNDER_OK;
-    sunder_i_search_look(s, s->t);
+    sunder_i_search_find_clashes(s, s->t);
     for (size_t k = 0; k < s->clashes && !status; k++) status = turn_overlaps(s, s->clash[k].i, s->clash[k].j, err);
     if (!status && !sunder_i_relaxations_index(&s->relaxations, s->model)) status = sunder_i_no_memory(err);
     return status;
@@ -61,7 +61,7 @@ sunder_status sunder_i_cluster_resume(const sunder_i_model *model, sunder_i_clus
                                       sunder_error *err)
 {
     sunder_i_search s;
-    bool ok = sunder_i_search_init_about(&s, model, cluster, move) && restore(&s, restored, n);
+    bool ok = sunder_i_search_init_about(&s, model, cluster, move) && restore_relaxed(&s, restored, n);
     sunder_status status = ok ? turn_all(&s, err) : SUNDER_OK;
     s.patience = sunder_i_search_work(&s) + PATIENCE + PATIENCE_EACH * (uint64_t)s.n;
     *done = ok && !status && sunder_i_search_descend(&s);

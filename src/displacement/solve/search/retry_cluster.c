@@ -58,7 +58,7 @@ static size_t find_restored(const sunder_i_search *s, const sunder_i_relaxation 
 
 /* From now on the model's relaxations of this retry do not count, but for those that are infeasible; or they do
  * again. */
-static bool restore(sunder_i_search *s, const sunder_i_retry *x)
+static bool restore_retry(sunder_i_search *s, const sunder_i_retry *x)
 {
     if (!sunder_i_reserve(&s->restored, &s->restored_capacity, s->restored_n + x->relaxations, sizeof *s->restored))
         return false;
@@ -145,11 +145,11 @@ static bool settle_one(retrying *p, size_t k, size_t level)
 }
 
 /* Asks for the full distance of one pair, or for no overlap. */
-static bool grant(retrying *p, size_t k, size_t level, bool resolve)
+static bool grant_retry(retrying *p, size_t k, size_t level, bool resolve)
 {
     sunder_i_search *s = p->search;
     const sunder_i_retry *x = &p->retry[k];
-    if (!(resolve ? restore(s, x) : ask_disjoint(s, x))) {
+    if (!(resolve ? restore_retry(s, x) : ask_disjoint(s, x))) {
         s->failed = true;
         return false;
     }
@@ -164,7 +164,7 @@ static bool grant(retrying *p, size_t k, size_t level, bool resolve)
 /* The questions in order: as few overlaps as possible, then as few pairs. The relaxations between two bodies are first
  * asked about together; if that has no solution, each. */
 typedef struct request {
-    bool overlap, resolve, part;
+    bool overlap, resolve, single;
 } request;
 
 static const request requests[] = {{true, true, false}, {true, true, true},   {true, false, false},
@@ -176,10 +176,10 @@ static bool is_out(const retrying *p, size_t k, const request *r)
 {
     const sunder_i_retry *x = &p->retry[k];
     bool known;
-    if (p->settled[k] || x->overlap != r->overlap || (x->part > 0) != r->part ||
+    if (p->settled[k] || x->overlap != r->overlap || (x->single > 0) != r->single ||
         !(r->resolve ? x->resolve : x->disjoint))
         return true;
-    if (!r->part) return false;
+    if (!r->single) return false;
     const sunder_i_relaxation *t = relaxation_of(p->search, x, 0);
     find_restored(p->search, t, &known);
     return known || sunder_i_relaxations_find(&p->search->relaxations, t->a, t->b);
@@ -200,7 +200,7 @@ static bool is_useless(const retrying *p, const useless *u, size_t level)
 }
 
 /* Asks one question for all pairs concerned, stage by stage. */
-static void ask_all(retrying *p, const request *r)
+static void ask_request(retrying *p, const request *r)
 {
     sunder_i_search *s = p->search;
     size_t most = RETRIES_IN_VAIN;
@@ -210,7 +210,7 @@ static void ask_all(retrying *p, const request *r)
         bool any = false;
         for (size_t k = 0; k < p->n && !s->failed && sunder_i_search_work(s) < p->effort; k++) {
             if ((p->in_vain[k] && level < STAGES) || is_out(p, k, r) || is_useless(p, &u, level)) continue;
-            p->settled[k] = grant(p, k, level, r->resolve);
+            p->settled[k] = grant_retry(p, k, level, r->resolve);
             p->any = p->any || p->settled[k];
             any = any || p->settled[k];
             u.asked++;
@@ -226,7 +226,7 @@ static void ask_all(retrying *p, const request *r)
 
 /* Lets the pairs that were in conflict at the start, and are not now, be as they were then, but that none overlaps:
  * their relaxations are in `list`. */
-static void sacrifice(sunder_i_search *s, sunder_i_relaxations *list)
+static void sacrifice_pairs(sunder_i_search *s, sunder_i_relaxations *list)
 {
     size_t n = 0, out = 0;
     sunder_i_clash *clash = sunder_i_search_at_home(s, &n);
@@ -250,7 +250,7 @@ static void sacrifice(sunder_i_search *s, sunder_i_relaxations *list)
 }
 
 /* Takes the relaxations back, those first that least is missing of, where there is a solution without. */
-static void redeem(retrying *p, sunder_i_relaxations *list)
+static void redeem_pairs(retrying *p, sunder_i_relaxations *list)
 {
     sunder_i_search *s = p->search;
     for (size_t k = 0; k < list->n && !s->failed; k++) {
@@ -261,7 +261,8 @@ static void redeem(retrying *p, sunder_i_relaxations *list)
         list->item[best] = list->item[k];
         list->item[k] = t;
         sunder_i_relaxations_remove(&s->relaxations, s->model, &t);
-        if (sunder_i_search_look(s, s->t) <= s->tolerance || (sunder_i_search_work(s) < p->effort && settle_all(p)))
+        if (sunder_i_search_find_clashes(s, s->t) <= s->tolerance ||
+            (sunder_i_search_work(s) < p->effort && settle_all(p)))
             continue;
         if (!s->failed && !sunder_i_relaxations_insert(&s->relaxations, s->model, &t)) s->failed = true;
     }
@@ -277,7 +278,7 @@ static bool grant_from_home(retrying *p, size_t k)
     memcpy(stood, s->t, 2 * s->n * sizeof *stood);
     for (size_t i = 0; i < s->n; i++)
         if (s->mass[i] > 0) s->t[2 * i] = s->t[2 * i + 1] = 0;
-    const bool granted = grant(p, k, STAGES, false);
+    const bool granted = grant_retry(p, k, STAGES, false);
     if (!granted) memcpy(s->t, stood, 2 * s->n * sizeof *stood);
     sunder_i_free(stood);
     return granted;
@@ -285,19 +286,19 @@ static bool grant_from_home(retrying *p, size_t k)
 
 /* Separates remaining overlaps that end only if other pairs give up their gap. An overlap counts for more than any
  * number of such pairs. */
-static void trade(retrying *p)
+static void trade_pairs(retrying *p)
 {
     sunder_i_search *s = p->search;
     for (size_t k = 0; k < p->n && p->moving <= MOST_TRADING && sunder_i_search_work(s) < p->effort && !s->failed;
          k++) {
         sunder_i_relaxations list = {0};
         const sunder_i_retry *x = &p->retry[k];
-        const request r = {x->overlap, false, x->part > 0};
+        const request r = {x->overlap, false, x->single > 0};
         if (!x->overlap || is_out(p, k, &r)) continue;
-        sacrifice(s, &list);
-        p->settled[k] = list.n && !s->failed && (grant(p, k, STAGES, false) || grant_from_home(p, k));
+        sacrifice_pairs(s, &list);
+        p->settled[k] = list.n && !s->failed && (grant_retry(p, k, STAGES, false) || grant_from_home(p, k));
         p->any = p->any || p->settled[k];
-        if (p->settled[k]) redeem(p, &list);
+        if (p->settled[k]) redeem_pairs(p, &list);
         for (size_t t = 0; t < list.n && !p->settled[k]; t++)
             sunder_i_relaxations_remove(&s->relaxations, s->model, &list.item[t]);
         sunder_i_relaxations_free(&list);
@@ -309,7 +310,7 @@ static void trade(retrying *p)
  * hundreds from being tried. */
 static bool is_in_order(sunder_i_search *s)
 {
-    const double hair = 2 * s->tolerance, missed = sunder_i_search_look(s, s->t);
+    const double hair = 2 * s->tolerance, missed = sunder_i_search_find_clashes(s, s->t);
     if (s->failed || missed <= s->tolerance) return !s->failed;
     if (missed <= hair) {
         s->tolerance = hair;
@@ -337,12 +338,12 @@ static void retry_all(sunder_i_search *s, const sunder_i_retry *retry, size_t n)
     const uint64_t effort = RETRY_EFFORT + RETRY_EFFORT_EACH * (uint64_t)p.moving + RETRY_EFFORT_PAIR * pairs;
     p.in_vain_most = effort / SHARE_IN_VAIN > WORK_IN_VAIN ? effort / SHARE_IN_VAIN : WORK_IN_VAIN;
     for (size_t k = 0; k < REQUESTS && !s->failed; k++) {
-        if (!requests[k].part) p.effort = sunder_i_search_work(s) + effort / 2;
-        ask_all(&p, &requests[k]);
+        if (!requests[k].single) p.effort = sunder_i_search_work(s) + effort / 2;
+        ask_request(&p, &requests[k]);
     }
     p.effort = sunder_i_search_work(s) + effort / 2;
-    if (!s->failed && s->model->rules.gap > 0) trade(&p);
-    if (p.any && p.moving > FEW) sunder_i_search_lower(s);
+    if (!s->failed && s->model->rules.gap > 0) trade_pairs(&p);
+    if (p.any && p.moving > FEW) sunder_i_search_descend_or_stay(s);
     sunder_i_neighbourhood_free(&p.neighbourhood);
     sunder_i_free(p.settled);
     sunder_i_free(p.in_vain);

@@ -52,16 +52,16 @@ bool sunder_i_search_constrain_further(sunder_i_search *search);
  * compromise. */
 bool sunder_i_search_descend(sunder_i_search *search);
 /* Descends from a position without clashes, or stays there. */
-void sunder_i_search_lower(sunder_i_search *search);
+void sunder_i_search_descend_or_stay(sunder_i_search *search);
 /* Descends from search->t; keeps the result if it is free and cheaper than *cost, else returns to best. */
 bool sunder_i_search_attempt(sunder_i_search *search, double *best, double *cost);
 /* From t, with violations of at most a hair: finds the nearest layout that violates nothing on the sides taken there,
  * ignoring cheaper ones. True if there is one; it is t then. */
-bool sunder_i_search_make_good(sunder_i_search *search);
+bool sunder_i_search_repair(sunder_i_search *search);
 /* A compromise misses a little everywhere, where there is a contradiction and where there is none. Of the sets of
  * bodies that have nothing to do with each other those go where the program in full sends them, if that solves it for
  * them. */
-void sunder_i_search_settle_parts(sunder_i_search *search);
+void sunder_i_search_settle_components(sunder_i_search *search);
 
 /* ---- jump.c: out of clashes -------------------------------------------------------------------------------------- */
 
@@ -113,7 +113,7 @@ void sunder_i_search_push_back(sunder_i_search *search);
 /* ---- common_moves.c ---------------------------------------------------------------------------------------------- */
 
 /* Those that stand near each other and went the same way but for a hair go the same way. */
-void sunder_i_search_go_together(sunder_i_search *search);
+void sunder_i_search_equalise_moves(sunder_i_search *search);
 
 /* ---- mend_few.c -------------------------------------------------------------------------------------------------- */
 
@@ -134,8 +134,8 @@ bool sunder_i_search_push_from_home(sunder_i_search *search, const double *start
 
 /* If the cluster is two features that are independent of all others: separates them at the least cost, and sets *done;
  * else all is as before. The measurements made for it are in cluster->measured in any case. */
-sunder_status sunder_i_search_part_lone_pair(sunder_i_search *search, sunder_i_cluster *cluster, bool *done,
-                                             sunder_error *err);
+sunder_status sunder_i_search_separate_lone_pair(sunder_i_search *search, sunder_i_cluster *cluster, bool *done,
+                                                 sunder_error *err);
 
 /* ---- solve_cluster.c: how a search ends -------------------------------------------------------------------------- */
 
@@ -148,7 +148,10 @@ void sunder_i_search_hand_over(sunder_i_search *search, sunder_i_cluster *cluste
 
 /* Are solutions taken down to the last of it here? Not where proofs follow: these go down by themselves, and begin from
  * where the search ends without this. */
-static inline bool sunder_i_search_goes_down(const sunder_i_search *s) { return !(s->model->rules.effort > 0); }
+static inline bool sunder_i_search_runs_without_proofs(const sunder_i_search *s)
+{
+    return !(s->model->rules.effort > 0);
+}
 /* Is none cheaper than s->t, a solution, with the program that it solves, whatever the sides, but for rounding? It is
  * taken down to the last of it then; else all is as it was. That it is not the cheapest is never said. */
 bool sunder_i_search_is_cheapest(sunder_i_search *search);

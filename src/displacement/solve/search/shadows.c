@@ -22,17 +22,17 @@
 /* ---- Of two bodies ----------------------------------------------------------------------------------------------- */
 
 /* The same for a box of p and one of the other body; swapped: p is the second of the two. */
-static bool may_reach(const double p[4], const double other[4], const double offset[2], const double way[4],
+static bool may_reach(const double p[4], const double other[4], const double offset[2], const double path[4],
                       bool swapped)
 {
-    return swapped ? sunder_i_shadow_may_reach(other, p, offset, way)
-                   : sunder_i_shadow_may_reach(p, other, offset, way);
+    return swapped ? sunder_i_shadow_may_reach(other, p, offset, path)
+                   : sunder_i_shadow_may_reach(p, other, offset, path);
 }
 
 /* Shadows of pieces of `other` from the anchors of `p`, of those that may reach `far`; swapped: p is the second of the
  * two. */
-static void visit_from(sunder_i_search *s, const sunder_i_body *p, const sunder_i_body *other, const double way[4],
-                       double far, sunder_i_piece_pair *part, bool swapped, sunder_i_visit_piece_pair visit,
+static void visit_from(sunder_i_search *s, const sunder_i_body *p, const sunder_i_body *other, const double path[4],
+                       double far, sunder_i_piece_pair *pair, bool swapped, sunder_i_visit_piece_pair visit,
                        void *context)
 {
     const sunder_i_model *model = s->model;
@@ -45,18 +45,18 @@ static void visit_from(sunder_i_search *s, const sunder_i_body *p, const sunder_
         const uint32_t f = model->member[p->member + m];
         const sunder_i_body_piece *anchor = &of->anchor[m];
         if (!anchor->corners || model->clear[f] > far ||
-            !may_reach(anchor->box, other->box, part->offset, way, swapped))
+            !may_reach(anchor->box, other->box, pair->offset, path, swapped))
             continue;
         for (uint32_t l = 0; l < other->pieces && !s->failed; l++) {
             const sunder_i_body_piece *piece = &pieces->piece[l];
             const sunder_i_body_piece *a = swapped ? piece : anchor, *b = swapped ? anchor : piece;
-            if (!sunder_i_shadow_may_reach(a->box, b->box, part->offset, way) ||
+            if (!sunder_i_shadow_may_reach(a->box, b->box, pair->offset, path) ||
                 sunder_i_is_held(model, f, piece->feature))
                 continue;
-            part->a = a;
-            part->b = b;
-            part->key = UINT64_C(1) << 61 | (uint64_t)f << 32 | (other->piece + l);
-            visit(s, part, context);
+            pair->a = a;
+            pair->b = b;
+            pair->key = UINT64_C(1) << 61 | (uint64_t)f << 32 | (other->piece + l);
+            visit(s, pair, context);
         }
         if (!sunder_i_steps(1 + other->pieces / 8)) s->failed = true;
     }
@@ -64,23 +64,23 @@ static void visit_from(sunder_i_search *s, const sunder_i_body *p, const sunder_
 }
 
 /* Lines of `other`, part of a barrier, from the side anchors of `p`. */
-static void visit_sides(sunder_i_search *s, const sunder_i_body *p, const sunder_i_body *other, const double way[4],
-                        sunder_i_piece_pair *part, bool swapped, sunder_i_visit_piece_pair visit, void *context)
+static void visit_sides(sunder_i_search *s, const sunder_i_body *p, const sunder_i_body *other, const double path[4],
+                        sunder_i_piece_pair *pair, bool swapped, sunder_i_visit_piece_pair visit, void *context)
 {
     const sunder_i_model *model = s->model;
     for (uint32_t m = 0; m < p->members; m++) {
         const uint32_t f = model->member[p->member + m];
         const sunder_i_body_piece *anchor = &model->side_anchor[f];
-        if (!anchor->corners || !may_reach(anchor->box, other->box, part->offset, way, swapped)) continue;
+        if (!anchor->corners || !may_reach(anchor->box, other->box, pair->offset, path, swapped)) continue;
         for (uint32_t l = other->has->side; l < other->has->side + other->has->sides && !s->failed; l++) {
             const sunder_i_side *side = &model->side[l];
-            part->a = swapped ? &side->piece : anchor;
-            part->b = swapped ? anchor : &side->piece;
-            if (!sunder_i_shadow_may_reach(part->a->box, part->b->box, part->offset, way) ||
+            pair->a = swapped ? &side->piece : anchor;
+            pair->b = swapped ? anchor : &side->piece;
+            if (!sunder_i_shadow_may_reach(pair->a->box, pair->b->box, pair->offset, path) ||
                 !sunder_i_side_faces(model, side, f))
                 continue;
-            part->key = UINT64_C(3) << 60 | (uint64_t)f << 30 | l;
-            visit(s, part, context);
+            pair->key = UINT64_C(3) << 60 | (uint64_t)f << 30 | l;
+            visit(s, pair, context);
         }
         if (!sunder_i_steps(1 + other->has->sides / 8)) s->failed = true;
     }
@@ -89,11 +89,11 @@ static void visit_sides(sunder_i_search *s, const sunder_i_body *p, const sunder
 
 /* May one of them have sides that the other may not cross, which are within reach of the way? swapped: it is p. */
 static bool may_cross(const sunder_i_model *model, const sunder_i_body *p, const sunder_i_body *q,
-                      const double offset[2], const double way[4], bool *swapped)
+                      const double offset[2], const double path[4], bool *swapped)
 {
     *swapped = p->has->sides > 0;
-    if (p->has->sides) return sunder_i_shadow_may_reach(p->box, sunder_i_side_anchors(model, q), offset, way);
-    return q->has->sides && sunder_i_shadow_may_reach(sunder_i_side_anchors(model, p), q->box, offset, way);
+    if (p->has->sides) return sunder_i_shadow_may_reach(p->box, sunder_i_side_anchors(model, q), offset, path);
+    return q->has->sides && sunder_i_shadow_may_reach(sunder_i_side_anchors(model, p), q->box, offset, path);
 }
 
 /* May one of them jump over the other, were it not for the rule? */
@@ -107,17 +107,18 @@ void sunder_i_search_visit_shadows(sunder_i_search *search, const sunder_i_body 
 {
     const double offset[2] = {q->origin[0] - p->origin[0], q->origin[1] - p->origin[1]};
     const double far = fabs(u[0]) + fabs(u[1]) + reach;
-    double way[4];
+    double path[4];
     bool swapped;
-    sunder_i_shadow_path_box(u, reach, way);
-    const bool crosses = may_cross(search->model, p, q, offset, way, &swapped), jumps = may_jump(search->model, p, q),
-               from_p = jumps && p->clear <= far && sunder_i_anchors_may_reach(search->model, p, q, false, offset, way),
-               from_q = jumps && q->clear <= far && sunder_i_anchors_may_reach(search->model, p, q, true, offset, way);
+    sunder_i_shadow_path_box(u, reach, path);
+    const bool crosses = may_cross(search->model, p, q, offset, path, &swapped), jumps = may_jump(search->model, p, q),
+               from_p =
+                   jumps && p->clear <= far && sunder_i_anchors_may_reach(search->model, p, q, false, offset, path),
+               from_q = jumps && q->clear <= far && sunder_i_anchors_may_reach(search->model, p, q, true, offset, path);
     if (!crosses && !from_p && !from_q) return;
-    sunder_i_piece_pair part = {.offset = {offset[0], offset[1]}, .inclusion = SUNDER_I_LAPSED, .shadow = true};
-    if (crosses) visit_sides(search, swapped ? q : p, swapped ? p : q, way, &part, swapped, visit, context);
-    if (from_p) visit_from(search, p, q, way, far, &part, false, visit, context);
-    if (from_q) visit_from(search, q, p, way, far, &part, true, visit, context);
+    sunder_i_piece_pair pair = {.offset = {offset[0], offset[1]}, .inclusion = SUNDER_I_LAPSED, .shadow = true};
+    if (crosses) visit_sides(search, swapped ? q : p, swapped ? p : q, path, &pair, swapped, visit, context);
+    if (from_p) visit_from(search, p, q, path, far, &pair, false, visit, context);
+    if (from_q) visit_from(search, q, p, path, far, &pair, true, visit, context);
 }
 
 void sunder_i_search_shadows(sunder_i_search *search, uint32_t i, uint32_t j, const double u[2], double reach,
@@ -155,19 +156,19 @@ bool sunder_i_search_may_pass(const sunder_i_search *search, const double *t, ui
     const sunder_i_body *p = &search->model->body[search->body[i]], *q = &search->model->body[search->body[j]];
     const double offset[2] = {q->origin[0] - p->origin[0], q->origin[1] - p->origin[1]};
     const double u[2] = {t[2 * j] - t[2 * i], t[2 * j + 1] - t[2 * i + 1]};
-    double way[4];
+    double path[4];
     bool swapped;
     if (!sunder_i_forbids_paths(search->model)) return false;
-    sunder_i_shadow_path_box(u, reach - search->model->rules.gap, way);
-    if (may_cross(search->model, p, q, offset, way, &swapped)) return true;
+    sunder_i_shadow_path_box(u, reach - search->model->rules.gap, path);
+    if (may_cross(search->model, p, q, offset, path, &swapped)) return true;
     if (!may_jump(search->model, p, q)) return false;
-    return sunder_i_anchors_may_reach(search->model, p, q, false, offset, way) ||
-           sunder_i_anchors_may_reach(search->model, p, q, true, offset, way);
+    return sunder_i_anchors_may_reach(search->model, p, q, false, offset, path) ||
+           sunder_i_anchors_may_reach(search->model, p, q, true, offset, path);
 }
 
 /* A body that passed another, and stands clear of it by more than the gap, has moved farther than this plus the gap: to
  * the nearest feature that does not contain its anchor; or out of its own box, with its side anchor. */
-static double least_way(const sunder_i_search *s)
+static double least_passing(const sunder_i_search *s)
 {
     double least = INFINITY;
     for (size_t k = 0; k < s->n; k++) {
@@ -183,7 +184,7 @@ static double least_way(const sunder_i_search *s)
 
 static double length_of(const double *t, size_t k) { return sqrt(t[2 * k] * t[2 * k] + t[2 * k + 1] * t[2 * k + 1]); }
 
-static double longest(const sunder_i_search *s, const double *t)
+static double longest_move(const sunder_i_search *s, const double *t)
 {
     double square = 0;
     for (size_t k = 0; k < s->n; k++) {
@@ -205,14 +206,14 @@ static int by_left(const void *a, const void *b)
     return p->body < q->body ? -1 : p->body > q->body;
 }
 
-void sunder_i_search_passing(sunder_i_search *search, const double *t, double reach, sunder_i_visit_pair visit,
-                             void *context)
+void sunder_i_search_visit_passing(sunder_i_search *search, const double *t, double reach, sunder_i_visit_pair visit,
+                                   void *context)
 {
     if (!sunder_i_forbids_paths(search->model) || search->n < 2) return;
     /* The moves of two bodies that passed each other are together longer than this. */
-    if (!search->least_known) search->least_way = least_way(search);
-    search->least_known = true;
-    const double least = search->least_way + search->model->rules.gap, most = longest(search, t);
+    if (!search->least_passing_known) search->least_passing = least_passing(search);
+    search->least_passing_known = true;
+    const double least = search->least_passing + search->model->rules.gap, most = longest_move(search, t);
     if (2 * most < least) return;
     swept *list = sunder_i_alloc(search->n, sizeof *list);
     if (!list) {

@@ -79,7 +79,7 @@ static size_t list_near(const shaking *k, uint32_t middle)
 }
 
 /* Rotates the moves of the n nearest bodies, all by the same angle: a body pushed to one side goes to another. */
-static void turn(shaking *k, size_t n)
+static void turn_moves(shaking *k, size_t n)
 {
     const double angle = 6.283185307179586 * draw_unit(&k->random), c = cos(angle), s = sin(angle);
     for (size_t m = 0; m < n; m++) {
@@ -91,17 +91,17 @@ static void turn(shaking *k, size_t n)
 }
 
 /* The n nearest are let go: to where they came from, or halfway, and up to half their size beside that. */
-static void let_go(shaking *k, size_t n)
+static void release_bodies(shaking *k, size_t n)
 {
     sunder_i_search *s = &k->search;
-    const double part = sunder_i_draw(&k->random) & 1 ? 0.5 : 0;
+    const double share = sunder_i_draw(&k->random) & 1 ? 0.5 : 0;
     for (size_t m = 0; m < n; m++) {
         const uint32_t at = k->near[m].at;
         const sunder_i_body *body = &s->model->body[s->body[at]];
         const double size = (body->box[2] - body->box[0] + body->box[3] - body->box[1]) / 2;
         for (size_t c = 0; c < 2; c++) {
             double *t = &s->t[2 * (size_t)at + c];
-            *t = part * *t + (draw_unit(&k->random) - 0.5) * size;
+            *t = share * *t + (draw_unit(&k->random) - 0.5) * size;
         }
     }
 }
@@ -110,7 +110,8 @@ static void let_go(shaking *k, size_t n)
 static bool begins_free(shaking *k)
 {
     sunder_i_search *s = &k->search;
-    if (sunder_i_search_look(s, s->t) > s->tolerance && (s->failed || !sunder_i_search_descend(s))) return false;
+    if (sunder_i_search_find_clashes(s, s->t) > s->tolerance && (s->failed || !sunder_i_search_descend(s)))
+        return false;
     memcpy(k->best, s->t, 2 * s->n * sizeof *k->best);
     k->cost = sunder_i_search_cost(s, s->t);
     return true;
@@ -159,9 +160,9 @@ static bool shake_about(shaking *k, uint32_t middle, bool turned)
     const size_t most = movers < SHAKEN ? movers : SHAKEN;
     const size_t n = most < 2 ? most : 2 + sunder_i_draw(&k->random) % (most - 1);
     if (turned)
-        turn(k, n);
+        turn_moves(k, n);
     else
-        let_go(k, n);
+        release_bodies(k, n);
     if (!take_forces(k)) s->failed = true;
     s->patience = sunder_i_search_work(s) + k->patience;
     if (sunder_i_search_attempt(s, k->best, &k->cost) && !k->far && !keep_forces(k)) s->failed = true;
@@ -173,7 +174,7 @@ static bool shake_about(shaking *k, uint32_t middle, bool turned)
 static uint64_t work_of(uint64_t steps, uint64_t each) { return steps < UINT64_MAX / each ? each * steps : UINT64_MAX; }
 
 /* Until this much work is done, or a good part of it without a gain; as long again if no descent ended by then. */
-static void shake(shaking *k, uint64_t work)
+static void shake_within(shaking *k, uint64_t work)
 {
     sunder_i_search *s = &k->search;
     double cost = k->cost;
@@ -220,7 +221,7 @@ static sunder_status shake_group(shaking *k, const sunder_i_model *model, const 
         if (k->far)
             shake_patiently(k, work_of(steps, SHAKE_WORK_MOST));
         else
-            shake(k, work_of(steps, SHAKE_WORK));
+            shake_within(k, work_of(steps, SHAKE_WORK));
         better = k->cost < cost;
     }
     ok = ok && k->best && !s->failed;
@@ -252,11 +253,11 @@ sunder_status sunder_i_group_shake(const sunder_i_model *model, const sunder_i_w
     return status;
 }
 
-static sunder_status descend(const sunder_i_model *model, uint32_t *body, size_t n, double margin, double cost,
-                             double *move, bool *found, sunder_error *err)
+static sunder_status descend_group(const sunder_i_model *model, uint32_t *body, size_t n, double margin, double cost,
+                                   double *move, bool *found, sunder_error *err)
 {
     const sunder_i_cluster cluster = {.body = body, .n = n, .margin = margin};
     return sunder_i_cluster_descend(model, &cluster, cost, move, found, err);
 }
 
-const sunder_i_layout_search sunder_i_group_search = {descend, sunder_i_group_shake};
+const sunder_i_layout_search sunder_i_group_search = {descend_group, sunder_i_group_shake};

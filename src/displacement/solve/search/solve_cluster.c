@@ -66,7 +66,7 @@ static bool may_give_up(const solving *x) { return x->cluster->limited && !x->cl
 
 static bool is_unsolved(const solving *x) { return !x->done; }
 
-static bool is_unsolved_crowd(const solving *x) { return !x->done && x->cluster->crowd; }
+static bool is_unsolved_crowd(const solving *x) { return !x->done && x->cluster->starts_from_areas; }
 
 static bool may_give_up_at_once(const solving *x) { return !x->done && may_give_up(x) && has_limits(x->s); }
 
@@ -99,7 +99,7 @@ static bool is_unsolved_lone_body(const solving *x)
 
 static bool may_be_cheapest(const solving *x)
 {
-    return x->done && !x->alone && !x->given_up && !x->cluster->brief && sunder_i_search_goes_down(x->s);
+    return x->done && !x->alone && !x->given_up && !x->cluster->brief && sunder_i_search_runs_without_proofs(x->s);
 }
 
 static bool may_give_up_pairs(const solving *x) { return !x->done && may_give_up(x); }
@@ -109,7 +109,7 @@ static bool may_give_up_pairs(const solving *x) { return !x->done && may_give_up
 static sunder_status part_lone_pair(solving *x, int jumps, sunder_error *err)
 {
     (void)jumps;
-    const sunder_status status = sunder_i_search_part_lone_pair(x->s, x->cluster, &x->alone, err);
+    const sunder_status status = sunder_i_search_separate_lone_pair(x->s, x->cluster, &x->alone, err);
     x->done = x->cheapest = x->alone;
     return status;
 }
@@ -152,7 +152,7 @@ static bool find_free(solving *x, int jumps)
     return x->done;
 }
 
-static sunder_status descend(solving *x, int jumps, sunder_error *err)
+static sunder_status descend_cluster(solving *x, int jumps, sunder_error *err)
 {
     (void)err;
     find_free(x, jumps);
@@ -182,7 +182,7 @@ static sunder_status begin_from_lifted(solving *x, int jumps, sunder_error *err)
     return SUNDER_OK;
 }
 
-static sunder_status spread(solving *x, int jumps, sunder_error *err)
+static sunder_status spread_cluster(solving *x, int jumps, sunder_error *err)
 {
     (void)jumps;
     (void)err;
@@ -238,17 +238,18 @@ static const stage stages[] = {
     {"begin crowd", is_unsolved_crowd, begin_crowd, 0},
     {"mend few", may_give_up_at_once, mend_few, 0},
     {"give up at home", may_give_up_at_once, give_up_at_home, 0},
-    {"descend", is_unsolved, descend, MOST_JUMPS},
+    {"descend", is_unsolved, descend_cluster, MOST_JUMPS},
     {"waive margins", is_unsolved_question, waive_margins, MOST_JUMPS},
     {"begin from lifted", was_lifted, begin_from_lifted, MOST_JUMPS},
-    {"spread", is_unsolved, spread, 0},
+    {"spread", is_unsolved, spread_cluster, 0},
     {"place lone body", is_unsolved_lone_body, place_lone_body, 0},
     {"ask whether cheapest", may_be_cheapest, ask_whether_cheapest, 0},
     {"give up", may_give_up_pairs, give_up, 0},
 };
 
 /* A stage that changed anything is noted, where the layer is traced. */
-static sunder_status note(const solving *before, const solving *x, const char *name, double cost, sunder_error *err)
+static sunder_status note_stage(const solving *before, const solving *x, const char *name, double cost,
+                                sunder_error *err)
 {
     const double now = sunder_i_search_cost(x->s, x->s->t);
     const char *outcome = x->given_up ? "solved but for pairs given up" : x->done ? "solved" : "not solved";
@@ -263,7 +264,7 @@ static sunder_status run_stage(solving *x, const stage *y, sunder_error *err)
     const solving before = *x;
     const double cost = sunder_i_search_cost(x->s, x->s->t);
     const sunder_status status = y->run(x, y->jumps, err);
-    return status || x->s->failed ? status : note(&before, x, y->name, cost, err);
+    return status || x->s->failed ? status : note_stage(&before, x, y->name, cost, err);
 }
 
 sunder_status sunder_i_cluster_solve(const sunder_i_model *model, sunder_i_cluster *cluster, double *move,

@@ -63,7 +63,7 @@ static bool try_share(sunder_i_search *s, const double centre[2], double share)
         for (uint32_t c = 0; c < 2; c++) s->t[2 * k + c] = share * (at[c] - centre[c]);
     }
     s->program.n = 0; /* the forces belong to places that are left */
-    const bool clear = sunder_i_search_look(s, s->t) <= s->tolerance;
+    const bool clear = sunder_i_search_find_clashes(s, s->t) <= s->tolerance;
     return (clear || (share >= ENOUGH_SPREAD && sunder_i_search_jump(s))) && sunder_i_search_descend(s);
 }
 
@@ -76,12 +76,12 @@ bool sunder_i_search_spread(sunder_i_search *search)
     if (!best) search->failed = true;
     if (search->failed) return false;
     memcpy(best, search->t, size);
-    sunder_i_search_look(search, search->t);
+    sunder_i_search_find_clashes(search, search->t);
     size_t least = search->clashes;
     bool done = false;
     for (double share = LEAST_SPREAD; share <= MOST_SPREAD && !done && !search->failed; share *= 2) {
         done = try_share(search, centre, share);
-        if (!done) sunder_i_search_look(search, search->t);
+        if (!done) sunder_i_search_find_clashes(search, search->t);
         if (done || search->clashes < least) memcpy(best, search->t, size);
         if (search->clashes < least) least = search->clashes;
     }

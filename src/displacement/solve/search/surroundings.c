@@ -8,7 +8,7 @@
 #include <math.h>
 #include <string.h>
 
-static double farthest(const double t[2]) { return sunder_i_max(fabs(t[0]), fabs(t[1])); }
+static double larger_coordinate(const double t[2]) { return sunder_i_max(fabs(t[0]), fabs(t[1])); }
 
 /* How far bodies of the cluster go, one with another. */
 static double mean_move(const sunder_i_model *model, const sunder_i_cluster *cluster, const double *own)
@@ -17,7 +17,7 @@ static double mean_move(const sunder_i_model *model, const sunder_i_cluster *clu
     size_t n = 0;
     for (size_t k = 0; k < cluster->n; k++) {
         if (model->body[cluster->body[k]].fixed) continue;
-        sum += farthest(own + 2 * k);
+        sum += larger_coordinate(own + 2 * k);
         n++;
     }
     return n ? sum / (double)n : 0;
@@ -32,8 +32,9 @@ static bool find_surroundings(const sunder_i_model *model, const sunder_i_cluste
     for (size_t k = 0; k < cluster->n; k++) {
         const sunder_i_body *b = &model->body[cluster->body[k]];
         if (b->fixed || b->pieces == 0) continue;
-        const double reach = model->rules.gap + cluster->margin +
-                             MOVES_ABOUT * sunder_i_max(sunder_i_max(farthest(own + 2 * k), mean), cluster->about);
+        const double reach =
+            model->rules.gap + cluster->margin +
+            MOVES_ABOUT * sunder_i_max(sunder_i_max(larger_coordinate(own + 2 * k), mean), cluster->about);
         double box[4];
         sunder_i_body_box(b, none, reach, box);
         if (!sunder_i_look_about(model, model->standing, box, hits)) return false;

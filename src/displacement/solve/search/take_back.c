@@ -63,13 +63,13 @@ static bool is_between(const sunder_i_search *s, const sunder_i_relaxation *t, c
 }
 
 /* What is given up between the two does not count from now on; or it does again. */
-static void claim(sunder_i_search *s, const sunder_i_relaxations *all, const wish *w)
+static void claim_pair(sunder_i_search *s, const sunder_i_relaxations *all, const wish *w)
 {
     for (size_t k = 0; k < all->n; k++)
         if (is_between(s, &all->item[k], w)) sunder_i_relaxations_remove(&s->relaxations, s->model, &all->item[k]);
 }
 
-static void waive(sunder_i_search *s, const sunder_i_relaxations *all, const wish *w)
+static void waive_pair(sunder_i_search *s, const sunder_i_relaxations *all, const wish *w)
 {
     for (size_t k = 0; k < all->n && !s->failed; k++)
         if (is_between(s, &all->item[k], w) && !sunder_i_relaxations_insert(&s->relaxations, s->model, &all->item[k]))
@@ -100,11 +100,11 @@ static size_t ask_few(sunder_i_search *s, const sunder_i_relaxations *all, wish 
         const wish w = list[k];
         bool granted = false;
         if (in_vain < TAKE_BACK_FEW_IN_VAIN && !s->failed) {
-            claim(s, all, &w);
+            claim_pair(s, all, &w);
             granted =
                 sunder_i_neighbourhood_settle(&about, sunder_i_search_place_of(s, w.i),
                                               sunder_i_search_place_of(s, w.j), TAKE_BACK_FEW, s->gap + 2 * w.missing);
-            if (!granted) waive(s, all, &w);
+            if (!granted) waive_pair(s, all, &w);
             in_vain = granted ? 0 : in_vain + 1;
         }
         if (!granted) list[left++] = w;
@@ -123,9 +123,9 @@ static size_t ask_whole(sunder_i_search *s, const sunder_i_relaxations *all, wis
         const wish w = list[k];
         bool granted = false;
         if (in_vain < TAKE_BACK_IN_VAIN && !s->failed && sunder_i_search_work(s) < end) {
-            claim(s, all, &w);
+            claim_pair(s, all, &w);
             granted = settle_whole(s, stand);
-            if (!granted) waive(s, all, &w);
+            if (!granted) waive_pair(s, all, &w);
             in_vain = granted ? 0 : in_vain + 1;
         }
         if (!granted) list[left++] = w;
@@ -138,7 +138,7 @@ static size_t ask_whole(sunder_i_search *s, const sunder_i_relaxations *all, wis
 /* Separates a pair that misses at most `most`, if the bodies in the way can be pushed along: straight on, else at half
  * the angle to either side, which for two that meet corner to corner is along a row. Returns whether nothing is missed
  * then. */
-static bool push(sunder_i_search *s, sunder_i_pushed *p, uint32_t i, uint32_t j, double most)
+static bool push_pair(sunder_i_search *s, sunder_i_pushed *p, uint32_t i, uint32_t j, double most)
 {
     static const double turn[3][2] = {{1, 0}, {HALF_WAY, HALF_WAY}, {HALF_WAY, -HALF_WAY}};
     double n[2];
@@ -162,11 +162,11 @@ static size_t push_each(sunder_i_search *s, sunder_i_pushed *p, const sunder_i_r
         const wish w = list[k];
         const uint32_t i = sunder_i_search_place_of(s, w.i), j = sunder_i_search_place_of(s, w.j);
         const bool is_out = s->failed || i == SUNDER_I_NOBODY || j == SUNDER_I_NOBODY || sunder_i_search_work(s) >= end;
-        if (is_out || !push(s, p, i, j, most)) {
+        if (is_out || !push_pair(s, p, i, j, most)) {
             list[left++] = w;
             continue;
         }
-        claim(s, all, &w);
+        claim_pair(s, all, &w);
         sunder_i_pushed_renew(p, i, j);
     }
     return left;
@@ -210,7 +210,7 @@ static void take_back(sunder_i_search *s, const sunder_i_relaxations *all, wish 
     sunder_i_free(stand);
 }
 
-static void begin(sunder_i_search *s, bool by_pushing_alone)
+static void begin_take_back(sunder_i_search *s, bool by_pushing_alone)
 {
     sunder_i_relaxations all = {0};
     for (size_t k = 0; k < s->relaxations.n && !s->failed; k++)
@@ -224,6 +224,6 @@ static void begin(sunder_i_search *s, bool by_pushing_alone)
     sunder_i_free(list);
 }
 
-void sunder_i_search_take_back(sunder_i_search *search) { begin(search, false); }
+void sunder_i_search_take_back(sunder_i_search *search) { begin_take_back(search, false); }
 
-void sunder_i_search_push_back(sunder_i_search *search) { begin(search, true); }
+void sunder_i_search_push_back(sunder_i_search *search) { begin_take_back(search, true); }

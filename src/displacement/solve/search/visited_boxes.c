@@ -11,7 +11,7 @@
 #include <string.h>
 
 /* From the first body's origin, so that where the layer lies makes no difference. */
-static void box_of_way(const sunder_i_search *s, uint32_t k, double box[4])
+static void box_of_path(const sunder_i_search *s, uint32_t k, double box[4])
 {
     const sunder_i_body *b = &s->model->body[s->body[k]], *first = &s->model->body[s->body[0]];
     for (uint32_t c = 0; c < 4; c++) {
@@ -20,18 +20,18 @@ static void box_of_way(const sunder_i_search *s, uint32_t k, double box[4])
     }
 }
 
-static bool build(sunder_i_search *s)
+static bool build_index(sunder_i_search *s)
 {
     double *box = sunder_i_alloc(4 * s->n, sizeof *box);
     bool *present = sunder_i_alloc(s->n, sizeof *present);
     bool ok = box && present;
-    sunder_i_rtree_free(&s->ways);
+    sunder_i_rtree_free(&s->visited);
     for (uint32_t k = 0; ok && k < s->n; k++) {
-        box_of_way(s, k, box + 4 * (size_t)k);
+        box_of_path(s, k, box + 4 * (size_t)k);
         present[k] = s->model->body[s->body[k]].pieces > 0;
     }
-    ok = ok && sunder_i_rtree_build(box, present, s->n, &s->ways, NULL) == SUNDER_OK;
-    if (ok) memcpy(s->went, s->t, 2 * s->n * sizeof *s->went);
+    ok = ok && sunder_i_rtree_build(box, present, s->n, &s->visited, NULL) == SUNDER_OK;
+    if (ok) memcpy(s->visited_at, s->t, 2 * s->n * sizeof *s->visited_at);
     sunder_i_free(box);
     sunder_i_free(present);
     return ok;
@@ -40,22 +40,22 @@ static bool build(sunder_i_search *s)
 /* To where the bodies stand now. */
 static bool bring_up_to_date(sunder_i_search *s)
 {
-    if (!s->went) {
-        s->went = sunder_i_alloc(2 * s->n, sizeof *s->went);
-        return s->went && build(s);
+    if (!s->visited_at) {
+        s->visited_at = sunder_i_alloc(2 * s->n, sizeof *s->visited_at);
+        return s->visited_at && build_index(s);
     }
-    if (memcmp(s->went, s->t, 2 * s->n * sizeof *s->went) == 0) return true;
+    if (memcmp(s->visited_at, s->t, 2 * s->n * sizeof *s->visited_at) == 0) return true;
     for (uint32_t k = 0; k < s->n; k++) {
         double box[4];
-        if (memcmp(s->went + 2 * k, s->t + 2 * k, 2 * sizeof *s->went) == 0) continue;
-        memcpy(s->went + 2 * k, s->t + 2 * k, 2 * sizeof *s->went);
-        box_of_way(s, k, box);
-        if (s->model->body[s->body[k]].pieces) sunder_i_rtree_move(&s->ways, k, box);
+        if (memcmp(s->visited_at + 2 * k, s->t + 2 * k, 2 * sizeof *s->visited_at) == 0) continue;
+        memcpy(s->visited_at + 2 * k, s->t + 2 * k, 2 * sizeof *s->visited_at);
+        box_of_path(s, k, box);
+        if (s->model->body[s->body[k]].pieces) sunder_i_rtree_move(&s->visited, k, box);
     }
-    return !sunder_i_rtree_is_worn(&s->ways) || build(s);
+    return !sunder_i_rtree_is_worn(&s->visited) || build_index(s);
 }
 
-bool sunder_i_search_about(sunder_i_search *search, uint32_t i, double reach)
+bool sunder_i_search_find_about(sunder_i_search *search, uint32_t i, double reach)
 {
     sunder_i_list *about = &search->about;
     const sunder_i_body *p = &search->model->body[search->body[i]], *first = &search->model->body[search->body[0]];
@@ -68,7 +68,7 @@ bool sunder_i_search_about(sunder_i_search *search, uint32_t i, double reach)
     }
     for (uint32_t c = 0; c < 4; c++)
         box[c] = p->box[c] + (p->origin[c & 1] - first->origin[c & 1]) + (c < 2 ? -reach : reach);
-    if (!bring_up_to_date(search) || !sunder_i_rtree_query(&search->ways, box, about)) return false;
+    if (!bring_up_to_date(search) || !sunder_i_rtree_query(&search->visited, box, about)) return false;
     about->n = sunder_i_set_make(about->item, about->n);
     return true;
 }

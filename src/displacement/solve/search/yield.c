@@ -52,7 +52,7 @@ static void add_pair(sunder_i_search *s, uint32_t i, uint32_t j, void *context)
 
 static void find_neighbours(sunder_i_search *s, neighbours *g)
 {
-    sunder_i_search_near_or_home(s, s->gap, add_pair, g);
+    sunder_i_search_visit_near_or_home(s, s->gap, add_pair, g);
     g->first = sunder_i_calloc(s->n + 1, sizeof *g->first);
     g->other = sunder_i_alloc(2 * g->pairs, sizeof *g->other);
     s->failed = s->failed || !g->first || !g->other;
@@ -73,7 +73,7 @@ static void look_at_changed(sunder_i_search *s, const neighbours *g, const bool 
         if (!changed[i]) continue;
         for (size_t k = g->first[i]; k < g->first[i + 1] && !s->failed; k++) {
             const uint32_t j = g->other[k];
-            if (!changed[j] || i < j) sunder_i_search_look_at(s, s->t, i < j ? i : j, i < j ? j : i);
+            if (!changed[j] || i < j) sunder_i_search_add_clash(s, s->t, i < j ? i : j, i < j ? j : i);
         }
     }
 }
@@ -103,7 +103,7 @@ void sunder_i_search_yield(sunder_i_search *search, const sunder_i_clash *at_hom
     neighbours near = {0};
     bool *changed = sunder_i_alloc(search->n, sizeof *changed);
     search->failed = search->failed || !changed;
-    if (!search->failed) sunder_i_search_look(search, search->t);
+    if (!search->failed) sunder_i_search_find_clashes(search, search->t);
     while (!search->failed && yield_once(search, at_home, n, hair, changed)) {
         if (!near.first) find_neighbours(search, &near);
         if (!search->failed) look_at_changed(search, &near, changed);

@@ -257,7 +257,7 @@ static void test_one_by_one(void **state)
     assert_true(sunder_i_relaxations_index(&model->relaxations, model));
     assert_int_equal(sunder_i_solver_ask_one_by_one(&c.solver, &changed, &err), SUNDER_OK);
     uint64_t work = 0;
-    for (size_t b = 0; b < model->bodies; b++) work += c.solver.alone_work[b];
+    for (size_t b = 0; b < model->bodies; b++) work += c.solver.asked_work[b];
     /* The two that are far away go on from theirs. Of the field's a few were asked with less and less, and then as many
      * briefly as there are powers of two; each ends at the next look at a program after its effort, or where too many
      * bodies take part. */

@@ -101,7 +101,7 @@ static void test_a_large_crowd(void **state)
         const double tolerance = s->tolerance, settled = s->settled;
         assert_true(sunder_i_search_descend(s));
         assert_true(s->tolerance == tolerance && s->settled == settled && !s->roughly && !s->lead);
-        assert_true(sunder_i_search_look(s, s->t) <= s->tolerance);
+        assert_true(sunder_i_search_find_clashes(s, s->t) <= s->tolerance);
         if (run) assert_memory_equal(found, s->t, sizeof found);
         memcpy(found, s->t, sizeof found);
         const double cost = sunder_i_search_cost(s, s->t);
@@ -119,7 +119,7 @@ static void test_with_a_limit(void **state)
     sunder_i_search *s = &f->search;
     f->of.model.body[7].limit = 40;
     assert_true(sunder_i_search_descend(s));
-    assert_true(sunder_i_search_look(s, s->t) <= s->tolerance);
+    assert_true(sunder_i_search_find_clashes(s, s->t) <= s->tolerance);
     assert_true(hypot(s->t[14], s->t[15]) <= 40);
     scene_field_free(f);
 }

@@ -51,7 +51,7 @@ static void begin(pair *p, const double stood[4])
     memcpy(p->stood, stood, sizeof p->stood);
     p->cluster = (sunder_i_cluster){.body = b->body, .n = b->scene.n, .margin = margin};
     assert_true(sunder_i_search_init(&p->search, &b->of.model, b->body, b->scene.n, margin, stood));
-    assert_int_equal(sunder_i_search_part_lone_pair(&p->search, &p->cluster, &p->done, &err), SUNDER_OK);
+    assert_int_equal(sunder_i_search_separate_lone_pair(&p->search, &p->cluster, &p->done, &err), SUNDER_OK);
     if (!p->done) assert_memory_equal(p->search.t, stood, sizeof p->stood);
 }
 
@@ -100,7 +100,7 @@ static void test_the_least_is_paid(void **state)
         if (p.done) {
             const double *t = p.search.t, w = s->feature[0].weight, v = s->feature[1].weight;
             const double share = s->feature[1].fixed ? w : w * v / (w + v);
-            assert_true(sunder_i_search_look(&p.search, t) <= p.search.tolerance);
+            assert_true(sunder_i_search_find_clashes(&p.search, t) <= p.search.tolerance);
             assert_true(fabs(hypot(t[2] - t[0], t[3] - t[1]) - least.distance) <= 16 * margin);
             assert_true(fabs(sunder_i_search_cost(&p.search, t) - share * least.distance * least.distance) <=
                         1e-9 * (1 + least.distance) * (1 + w + v));

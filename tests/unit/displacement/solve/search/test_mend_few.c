@@ -36,7 +36,7 @@ static scene_field *begin(size_t side)
 static size_t disturb(scene_field *f, size_t every)
 {
     for (size_t k = every / 2; k < f->n; k += every) f->search.t[2 * k] = 1.5;
-    sunder_i_search_look(&f->search, f->search.t);
+    sunder_i_search_find_clashes(&f->search, f->search.t);
     return f->search.clashes;
 }
 
@@ -51,7 +51,7 @@ static void test_few(void **state)
     double stood[2 * MOST];
     memcpy(stood, s->t, sizeof stood);
     assert_true(sunder_i_search_mend_few(s));
-    assert_true(sunder_i_search_look(s, s->t) <= s->tolerance);
+    assert_true(sunder_i_search_find_clashes(s, s->t) <= s->tolerance);
     assert_int_equal(s->relaxations.n, 0);
     size_t moved = 0;
     for (size_t k = 0; k < f->n; k++) moved += memcmp(stood + 2 * k, s->t + 2 * k, 2 * sizeof *stood) != 0;

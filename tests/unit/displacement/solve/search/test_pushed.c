@@ -128,7 +128,7 @@ static void test_row(void **state)
     size_t missing_most = 0;
     for (size_t k = 0; k < s.relaxations.n; k++) missing_most += s.relaxations.item[k].gap == 2;
     assert_int_equal(missing_most, 50);
-    assert_true(sunder_i_search_look(&s, s.t) <= s.tolerance);
+    assert_true(sunder_i_search_find_clashes(&s, s.t) <= s.tolerance);
     assert_near(s.t[2 * 60] - s.t[0], 3.5);
     end_row(&b, &s);
 }
@@ -202,9 +202,9 @@ static void test_together(void **state)
     begin_row(&b, &s, apart, 5, 2);
     sunder_i_search_push_back(&s);
     for (size_t k = 0; k < 6; k++) s.t[2 * k] += (double)k * s.tolerance / 3;
-    sunder_i_search_go_together(&s);
+    sunder_i_search_equalise_moves(&s);
     assert_false(s.failed);
-    assert_true(sunder_i_search_look(&s, s.t) <= s.tolerance);
+    assert_true(sunder_i_search_find_clashes(&s, s.t) <= s.tolerance);
     size_t same = 0;
     for (size_t k = 1; k < 6; k++) same += s.t[2 * k] == s.t[2 * (k - 1)];
     assert_int_equal(same, s.relaxations.n); /* all but where the row was opened */

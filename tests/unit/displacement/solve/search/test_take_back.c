@@ -202,7 +202,7 @@ static void ask_for_margin(double room, bool others, bool expected)
     relax(&b, &b.of.model.relaxations, 0, 1);
     b.move[2] = b.of.model.move[2] = -hair;
     const sunder_i_cluster c = {.body = b.body, .n = 3, .margin = margin, .limited = true};
-    assert_int_equal(sunder_i_cluster_ease(&b.of.model, &c, 0, 1, others, b.move, &done, &err), SUNDER_OK);
+    assert_int_equal(sunder_i_cluster_demand_margin(&b.of.model, &c, 0, 1, others, b.move, &done, &err), SUNDER_OK);
     assert_int_equal(done, expected);
     if (done) {
         assert_true(between(b.move, x, 0, 1) >= 1 + margin / 2);
