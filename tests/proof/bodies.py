@@ -1,7 +1,12 @@
 """What a line of the lower bound is about: bodies, what they weigh there, and what they are shifted by."""
+from collections import namedtuple
 from fractions import Fraction
 
 from form import demand
+
+
+# What is kept of a tree, or of prices, that hold.
+Proved = namedtuple("Proved", "group bound bodies weights shifts own_weight nodes cuts")
 
 
 class Bodies:
@@ -39,3 +44,6 @@ class Bodies:
         demand(0 < Fraction(told["weight"]) <= own, "a body weighs more than its members")
         self.own_weight[self.bodies[k]] = own
         return Fraction(told["weight"])
+
+    def proved(self):
+        return Proved(self.group, self.bound, self.bodies, self.weights, self.shifts, self.own_weight, len(self.nodes), len(self.cuts))

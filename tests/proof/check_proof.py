@@ -66,25 +66,27 @@ class Checker:
         self.result = Result(self.problem, options.result) if options.result else None
 
     def check(self, lines):
-        """lines: as JSON has them. What holds, in words."""
+        """lines: as JSON has them, to be gone through twice. What holds, in words."""
         proof, problem = form.Proof(lines, self.known), self.problem
         check_header(proof.head, problem.options, problem.name)
         problem.blocks.demand_all(proof.blocks)
         problem.list_conflicts(proof.conflicts)
         listed = repr(sorted(problem.listed.items()))
-        found = [self.once(tree, listed, self.check_tree) for tree in proof.trees]
+        found, proved = [], 0
+        for key, told in proof.verdicts_and_trees():
+            if key == "group":
+                found.append(self.once(told, listed, self.check_tree))
+            else:
+                proved += self.once(told, listed, self.check_verdict)
         total, bound = trees.add_up(found), proof.head["lower_bound"]
         demand(total >= bound, "the bound proved is", shown(total), "and not", bound)
-        proved = sum(self.once(c, listed, self.check_verdict) for c in proof.conflicts)
-        said = (f"bound {bound:.9g}: {len(found)} trees, {sum(len(t.nodes) for t in found)} nodes, "
-                f"{sum(len(t.cuts) for t in found)} cuts; {len(proof.blocks)} blocks; "
-                f"{proved} of {len(proof.conflicts)} conflicts with proofs")
-        return said + ("; " + self.result.check(proof.conflicts, total) if self.result else "")
+        said = (f"bound {bound:.9g}: {len(found)} trees, {sum(t.nodes for t in found)} nodes, {sum(t.cuts for t in found)} cuts; "
+                f"{len(proof.blocks)} blocks; {proved} of {len(proof.conflicts)} conflicts with proofs; ")
+        return said + (self.result.check(proof.conflicts, total) if self.result else "the list of conflicts is the file's own")
 
     def keep(self, lines):
         """These lines, which stay as they are, are not read again; nor, beside the same conflicts, asked about again if they held."""
-        proof = form.Proof(lines, {})
-        self.known = dict(zip(map(id, lines), [proof.head, *({"block": b} for b in proof.blocks), *proof.conflicts, *proof.trees]))
+        self.known = dict(zip(map(id, lines), [found for _, found in form.Proof(lines, {}).entries()]))
         self.kept = {id(line) for line in self.known.values()}
 
     def once(self, line, listed, check):
@@ -99,7 +101,7 @@ class Checker:
     def check_tree(self, told):
         tree = (Prices if "prices" in told else trees.Tree)(self.problem, told)
         tree.check()
-        return tree
+        return tree.proved()
 
     def check_verdict(self, told):
         return verdicts.check(self.problem, told)
@@ -111,19 +113,26 @@ def answer(checker, lines):
         return 0, checker.check(lines())
     except Refused as why:
         return 1, f"refused: {why}"
+    except (NotRead, OSError) as why:
+        return 2, f"not asked about: {why}"
     except (KeyError, TypeError, ValueError, IndexError, ArithmeticError, RecursionError) as why:  # of which form.py leaves none
         return 1, f"refused: not in the form of a proof: {type(why).__name__}: {why}"
+
+
+def printable(said):
+    """One line, whatever the file has for names."""
+    return "".join(c if c.isprintable() else ascii(c)[1:-1] for c in said)
 
 
 def main(words):
     options, began = read_options(words), time.time()
     try:
         checker = Checker(options)
-    except (NotRead, Refused, KeyError, ValueError, OSError, sqlite3.Error) as why:
-        print(f"not asked about: {why}")
+    except (NotRead, Refused, KeyError, ValueError, ArithmeticError, OSError, sqlite3.Error) as why:
+        print(printable(f"not asked about: {why}"))
         return 2
-    status, said = answer(checker, lambda: form.read(options.proof))
-    print(said + ("" if status else f" ({time.time() - began:.1f} s)"))
+    status, said = answer(checker, lambda: form.File(options.proof))
+    print(printable(said) + ("" if status else f" ({time.time() - began:.1f} s)"))
     return status
 
 

@@ -1,10 +1,11 @@
-"""Can the judge of forgeries see? Each of the checker's own tests is switched off, one at a time, and what it refused is asked again:
+"""Is each of the checker's own tests needed? They are switched off, one at a time, and what the test refused is asked again:
 
-    python3 checks_off.py RUNS [--seed S] [--tries N] [--only WORDS]
+    python3 checks_off.py RUNS DIRECTORY [--seed S] [--tries N] [--only WORDS]
 
-RUNS as of forgeries.py; of each kind of change of each member one is drawn. A test is a demand() of a file in MODULES. With it off, what
-it refused is refused by other tests, or accepted; and of what is accepted the judge has to find something that is not true. What is
-accepted and not seen, and tests that no forgery meets, stand in UNSEEN, with the reason; a test that is neither fails.
+A test is a demand() of a file in MODULES. RUNS as of forgeries.py: of each kind of change of each member one is drawn. DIRECTORY gets the
+layers of false_proofs.py. With the test off, what it refused is refused by other tests, or accepted. A false proof that is accepted
+shows that the test is needed; so does a forgery of which the judge finds something that is not true, or one that ends in an exception.
+What is accepted and not seen, and tests that nothing meets, stand in UNSEEN, with the reason; a test that is neither fails.
 """
 import argparse
 import ast
@@ -16,6 +17,7 @@ from collections import defaultdict
 
 import bodies
 import decided
+import false_proofs
 import forgeries
 import form
 import prices
@@ -26,68 +28,8 @@ import verdicts
 
 MODULES = {m.__name__ + ".py": m for m in (trees, bodies, prices, verdicts, decided, problem)}
 ENDLESS = {"a node has two parents:"}  # without which the search does not end
-TRUE = "one change leaves true what the node says, though not for the reasons that it gives"
-FORM = "form.py, or the list of the result, refuses such a file before"
-LAYER = "asked of the layer and the options, not of the file"
-FEW = "no run has what one change would make of it; test_proof.sh and mutations.py ask"
 UNSEEN = {
-    "a force on a cut that is not on the way to its node": TRUE,
-    "may lie in each other": FEW,
-    "a piece of another pair": TRUE,
-    "that is not the side anchor of": TRUE,
-    "has no sides": FEW,
-    "a line that does not pass where the two stood": FEW,
-    "a shadow of what holds the anchor": "an anchor that is held is refused before, and a side anchor lies on no side",
-    "an empty node with children": FEW,
-    "a cut of one body": "such a cut says 0 >= d, which is true of most",
-    "a cone that is no child's first cut": FEW,
-    "forces of discs, and no disc": "these forces are used for nothing",
-    "a disc at the root": FEW,
-    "there is no barrier": FEW,
-    "features may lie in each other, and owe nothing then": LAYER,
-    "who pays prices moves:": FEW,
-    "a body pays twice:": "bodies are no blocks then, or there twice",
-    "are listed": FEW,
-    "side and unit are powers of two": "sides that are not are asked about in squares of another size, and prove less",
-    "a grid of too many nodes": "only memory is at stake",
-    "a price at the border": "what one price at the border gains is less than what the prices lack of the result's cost",
-    "prices that are too large": FEW,
-    "a node that no way leads to": "what no way leads to is asked about by no leaf",
-    "slack, where nothing is held to an overlap": FEW,
-    "a line beyond where the parts let go of each other": FEW,
-    "no ways are heeded by the reason": FEW,
-    "a side, where there is no limit": FEW,
-    "the way of a bystander:": FEW,
-    "a barrier, where there is no limit": FEW,
-    "a bystander, where there is no limit:": FEW,
-    "what is contained may stay so": FEW,
-    "what is in another may go deeper:": FEW,
-    "a listed pair is held to more than it had:": FEW,
-    "held to what it had, and not listed:": FEW,
-    "held to a depth that is not known:": FEW,
-    "held to a distance that is more than they owe:": FEW,
-    "a force is on another case": TRUE,
-    "a line between two that move": FEW,
-    "lines that are not opposite to each other": TRUE,
-    "two lines of two bodies": FEW,
-    "a lattice without a limit": LAYER,
-    "there is another place on the line": FEW,
-    "a line that is not told exactly": TRUE,
-    "a line that the slack may reach by itself": FEW,
-    "a coordinate may come to nothing": LAYER,
-    "a coordinate may leave its binade": LAYER,
-    "a length for those without a limit, and no proof": "no proof uses the length",
-    "the reason": FORM, "may not overlap": FORM, "do not overlap": FORM,
-    "no proof, and none is found, that": "the verdicts of the runs are true, and found without a proof, too",
-    "no solution, and no proof:": "the verdicts of the runs are true without their proofs",
-    "jumps are allowed": LAYER,
-    "two barriers are called": LAYER,
-    "the limit of": LAYER, "the weight of": LAYER,
-    "never move": FEW, "are of one block": FEW, "is ignored, or nothing": FEW,
-    "there is no": FORM, "that is no anchor of": FORM, "holds the anchor of": FEW, "the side anchor of": FEW,
-    "a side is a segment, and has an anchor": FEW, "faces away from": FEW, "sides that share no corner": FEW,
-    "two sides on one side of the way through their corner": FEW, "an end of a chord that no side shadows": TRUE,
-    "a chord before the corner": FEW,
+    "a side, where there is no limit": "what two anchors may do that lines shut in, but for a narrow way of each, far away: no case is made",
 }
 
 
@@ -127,6 +69,16 @@ def refused_by(runs, drawn):
     return found
 
 
+def cases_refused_by(cases):
+    """{place of a demand: [false proof]}"""
+    found = defaultdict(list)
+    for case in cases:
+        Switch.last = None
+        case.answer()
+        found[Switch.last].append(case)
+    return found
+
+
 def places_of():
     """Every demand() of the modules: {(file, line): what it says}"""
     found = {}
@@ -139,6 +91,9 @@ def places_of():
     return found
 
 
+EXCEPTIONS = KeyError, TypeError, ValueError, IndexError, ArithmeticError, RecursionError, MemoryError
+
+
 def ask(runs, place, asked, tries):
     """(what the judge found, how many were accepted, how many asked)"""
     Switch.off, accepted, n = place, 0, 0
@@ -146,10 +101,10 @@ def ask(runs, place, asked, tries):
         n += 1
         try:
             said, is_accepted = runs[k].wrong_with(runs[k].make(*what))
-        except (KeyError, TypeError, ValueError, IndexError, ArithmeticError, RecursionError) as why:
+        except EXCEPTIONS as why:
             said, is_accepted = f"the judge stumbles: {why!r}", True
         accepted += is_accepted
-        if is_accepted and said:
+        if said:
             break
     else:
         said = None
@@ -157,9 +112,26 @@ def ask(runs, place, asked, tries):
     return (f"{runs[k].path}, line {what[0] + 1}, {'.'.join(map(str, what[1]))}, {what[2]}: {said}" if said else None), accepted, n
 
 
+def ask_false(place, cases):
+    """The name of the first of these that is accepted, or that ends in an exception."""
+    Switch.off = place
+    for case in cases:
+        try:
+            status, said = case.answer()
+        except EXCEPTIONS:
+            status, said = 0, ""
+        if status != 1 or "not in the form of a proof" in said:
+            break
+    else:
+        case = None
+    Switch.off = None
+    return case and case.name
+
+
 def main(words):
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("runs")
+    parser.add_argument("directory")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--tries", type=int, default=300)
     parser.add_argument("--only", default="")
@@ -168,12 +140,14 @@ def main(words):
         module.demand = Switch()
     with open(options.runs, encoding="utf-8") as file:
         runs = [forgeries.Run(told) for told in json.load(file)]
-    found = refused_by(runs, one_of_each(runs, options.seed))
-    wrong = 0
+    found, wrong = refused_by(runs, one_of_each(runs, options.seed)), 0
+    false = cases_refused_by(false_proofs.prepared(options.directory))
     for place, words in places_of().items():
         if options.only not in f"{place[0]} {words}" or words in ENDLESS:
             continue
-        said, accepted, n = ask(runs, place, found.get(place, []), options.tries)
+        said, accepted, n = ask_false(place, false.get(place, [])), 0, 0
+        if not said:
+            said, accepted, n = ask(runs, place, found.get(place, []), options.tries)
         blind = not said and (accepted or not n)
         wrong += blind and words not in UNSEEN
         print("seen  " if said else "others" if not blind else "UNSEEN" if words in UNSEEN else "WRONG ",

@@ -6,6 +6,6 @@ command -v python3 >/dev/null || { echo "skipped: no python3"; exit 77; }
 
 forge_generated
 write_runs runs.json
-python3 "$here/checks_off.py" runs.json >said 2>&1 || fail "$(grep -v '^seen\|^others\|^UNSEEN' said)"
+python3 "$here/checks_off.py" runs.json . >said 2>&1 || fail "$(grep -v '^seen\|^others\|^UNSEEN' said)"
 cut -c 1-6 said | sort | uniq -c
 finish

@@ -85,9 +85,6 @@ class Piece:
         self.near = max(int(FINE * owed) - 1, 0) ** 2
         self.inside = 2 if owed == 0 else (math.ceil(-FINE * owed) + 2) ** 2
 
-    def holds_origin(self):
-        return len(self.edges) > 0 and all(ex * y >= ey * x for x, y, ex, ey, _ in self.edges)
-
     def holds(self, fine, corner):
         """Is the corner in it, whatever was rounded?"""
         if self.shadow:

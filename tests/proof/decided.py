@@ -17,10 +17,11 @@ MOST_STEPS = 20_000
 def check(problem, told):
     """A conflict without a proof of its own."""
     a, b, reason = told["a"], told["b"], told["reason"]
-    demand((reason == "same_block") == bool(told.get("inside_block")), "the reason", reason, "of", a, "and", b)
+    demand(reason == "unresolved" or not told["blocked_by"], "blocked_by is not what decides about", a, "and", b)
     still = not problem.is_barrier(a) and all(limit_of(problem, k) == 0 for k in (a, b))
     if reason == "fixed":
         demand(still, "one of", a, "and", b, "may move")
+        demand(is_too_near(problem, a, b), a, "and", b, "stand as far apart as they owe")
     elif reason == "kept":
         demand(problem.options.contained == "ignore" and is_kept(problem, a, b), a, "and", b, "may not overlap")
     elif reason == "same_block":
@@ -33,8 +34,11 @@ def check(problem, told):
         demand(reason == "unresolved" and not told.get("crowded"), "no solution, and no proof:", a, b)
 
 
-def body_of(problem, key):
-    return (key,) if problem.is_barrier(key) else problem.block(key)
+def is_too_near(problem, a, b):
+    """As they stand at the start."""
+    p, q = (problem.whole(k) for k in ((a, b) if problem.whole(a).area else (b, a)))
+    owed = problem.required(a, b)
+    return plane.interiors_meet(p, q) or (owed > 0 and plane.nearer(p, q, owed))
 
 
 def limit_of(problem, key):
@@ -55,6 +59,7 @@ def is_shut(problem, a, b, jumps):
     reach = None if None in limits else sum(map(Fraction, limits)) * problem.lattice.unit
     if reach is None and not jumps:
         return False
+    problem.demand_outside(a, b, reach, None if reach is None else reach * reach)
     near = farthest_near(problem, a, b)
     pieces = pieces_between(problem, a, b)
     if jumps:

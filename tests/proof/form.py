@@ -211,31 +211,66 @@ def read_line(text):
 
 
 class Proof:
-    """head, blocks (lists of FIDs), conflicts and trees (as the lines have them). known: what was read of lines before, by id()."""
+    """head; blocks (lists of FIDs); conflicts, as the lines have them but without their proofs. Verdicts and trees are read one at a time, for
+    files may be larger than memory. lines: as JSON has them, to be gone through twice. known: what was read of lines before, by id()."""
 
     def __init__(self, lines, known):
-        demand(lines, "an empty proof")
-        demand(type(lines[0]) is dict and lines[0].get("sunder_proof") == VERSION, "no proof of this version")
-        self.head = known.get(id(lines[0])) or head(lines[0], "head")
-        found = {key: [] for key in LINES}
-        order = list(LINES)
-        at = 0
-        for k, line in enumerate(lines[1:], 2):
-            key = next((w for w in order if type(line) is dict and w in line), None)
+        self.lines, self.known, self.head = lines, known, None
+        self.blocks, self.conflicts = [], []
+        for key, found in self.entries():
+            if key == "head":
+                self.head = found
+            elif key == "block":
+                self.blocks.append(found["block"])
+            elif key == "conflict":
+                self.conflicts.append(without_proof(found))
+            else:
+                break
+        demand(self.head, "an empty proof")
+        demand(len(self.conflicts) == self.head["conflicts"], "lines are missing")
+        demand([c["conflict"] for c in self.conflicts] == list(range(len(self.conflicts))), "conflicts are not in order")
+
+    def entries(self):
+        """(kind of line, what is read of it)"""
+        order, at = ["head", *LINES], 0
+        for k, line in enumerate(self.lines, 1):
+            demand(type(line) is dict and (k > 1 or line.get("sunder_proof") == VERSION), "no proof of this version")
+            key = "head" if k == 1 else next((w for w in LINES if w in line), None)
             demand(key, "line", k, "is of no kind")
             demand(order.index(key) >= at, "line", k, "comes too late: blocks, conflicts, groups")
             at = order.index(key)
-            found[key].append(known.get(id(line)) or LINES[key](line, f"line {k}"))
-        self.blocks = [line["block"] for line in found["block"]]
-        self.conflicts, self.trees = found["conflict"], found["group"]
-        demand(len(self.conflicts) == self.head["conflicts"] and len(self.trees) == self.head["trees"], "lines are missing")
-        demand([c["conflict"] for c in self.conflicts] == list(range(len(self.conflicts))), "conflicts are not in order")
-        numbers = [0] + [t["group"] for t in self.trees]
-        demand(numbers[:2] in ([0], [0, 0]) and all(b - a in (0, 1) for a, b in zip(numbers, numbers[1:])),
-               "groups are not in order")
+            yield key, self.known.get(id(line)) or {"head": head, **LINES}[key](line, f"line {k}")
+
+    def verdicts_and_trees(self):
+        trees = last = 0
+        again = iter(self.conflicts)
+        for key, found in self.entries():
+            demand(key != "conflict" or without_proof(found) == next(again, None), "the file is another than it was a moment ago")
+            if key == "group":
+                demand(found["group"] - last in (0, 1) and (trees or not found["group"]), "groups are not in order")
+                trees, last = trees + 1, found["group"]
+            if key in ("conflict", "group"):
+                yield key, found
+        demand(trees == self.head["trees"] and next(again, None) is None, "lines are missing")
+
+
+def without_proof(conflict):
+    return {name: value for name, value in conflict.items() if name != "proof"}
+
+
+class File:
+    """The lines of a file, as JSON has them; they are read whenever they are gone through."""
+
+    def __init__(self, path):
+        self.path = path
+
+    def __iter__(self):
+        with open(self.path, encoding="utf-8") as file:
+            try:
+                yield from map(read_line, file)
+            except UnicodeDecodeError as why:
+                raise Refused(f"a line that is no JSON: {why}") from None
 
 
 def read(path):
-    """Its lines, as JSON has them."""
-    with open(path, encoding="utf-8") as file:
-        return [read_line(line) for line in file]
+    return list(File(path))

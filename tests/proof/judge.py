@@ -351,8 +351,10 @@ class VerdictOf:
                 x, y = (sign * v for v in way["n"])
                 terms = [(body, s * x, s * y) for body, s in ((self.places.body(node["a"]), -1), (self.places.body(node["b"]), 1))
                          if not self.places.is_barrier(body[0]) and body != resting]
-                if node.get("slack"):
-                    terms.append((("slack", frozenset((node["a"], node["b"])), node["clearance"]), x, y))
+                if node.get("slack"):  # if the two are named the other way round, it is the opposite
+                    turned_round = str(node["a"]) > str(node["b"])
+                    slack = "slack", frozenset((node["a"], node["b"])), node["clearance"]
+                    terms.append((slack, -x, -y) if turned_round else (slack, x, y))
                 sides.append((terms, sign * way["d"]))
         return meeting(sides, self.limit)
 

@@ -18,23 +18,6 @@ def sink_node(line):
     return ("whole numbers",)
 
 
-def price_border(line):
-    line["prices"]["rows"][1] = [line["prices"]["columns"] // 2, 1]
-    return ("at the border",)
-
-
-def price_side(line):
-    row = max(line["prices"]["rows"], key=len)
-    row[:] = [1] + [1] * (row[0] - 1) + row[1:]
-    return ("at the border",)
-
-
-def widen_row(line):
-    row = max(line["prices"]["rows"], key=len)
-    row += [0] * line["prices"]["columns"]
-    return ("too many prices",)
-
-
 def raise_claim(line):
     line["bound"] *= 1.05
     return (FALLS_SHORT,)
@@ -45,9 +28,9 @@ def raise_unit(line):
     return (FALLS_SHORT,)
 
 
-def odd_unit(line):
-    line["prices"]["unit"] *= 1.5
-    return ("powers of two",)
+def odd_side(line):
+    line["prices"]["side"] *= 1.5
+    return ("power of two",)
 
 
 def halve_side(line):
@@ -88,7 +71,6 @@ def part_block(line):
     return False
 
 
-PRICES = {"price": raise_node, "price below 0": sink_node, "priced border": price_border, "priced side": price_side,
-          "wide row": widen_row, "raised prices": raise_claim, "raised unit": raise_unit, "odd unit": odd_unit,
-          "halved side": halve_side, "moved grid": move_grid, "payer twice": pay_twice, "left out": leave_out,
+PRICES = {"price": raise_node, "price below 0": sink_node, "raised prices": raise_claim, "raised unit": raise_unit,
+          "odd side": odd_side, "halved side": halve_side, "moved grid": move_grid, "payer twice": pay_twice, "left out": leave_out,
           "shifted payer": shift_body, "parted block": part_block}

@@ -10,6 +10,7 @@ from form import demand, shown
 
 PARTS = 8      # squares of moves are divided in so many, either way
 MOST_NODES = 1 << 26
+BORDER = 2     # so many nodes around the grid have a price of 0, like all beyond
 FIRST_LOOK = 8  # moves are looked at so many squares far, and farther where that does not tell
 
 
@@ -56,14 +57,14 @@ class Prices(Bodies):
     # ---- Which bodies owe the gap to each other
 
     def demand_strangers(self):
-        """Every feature owes the gap to those of all other bodies."""
+        """Every feature owes the gap to those of all other bodies; two that stand still owe each other nothing."""
         problem, of = self.problem, {}
+        demand(sum(problem.body_limit(body) == 0 for body in self.bodies) < 2, "two who pay prices stand still")
         demand(problem.options.contained != "ignore", "features may lie in each other, and owe nothing then")
         for k, body in enumerate(self.bodies):
             demand(self.weights[k] is not None, "who pays prices moves:", *body)
             demand(self.shifts[k] == (0, 0), "who pays prices has no shift:", *body)
             for fid in body:
-                demand(fid not in of, "a body pays twice:", fid)
                 of[fid] = k
         by_name = {str(fid): k for fid, k in of.items()}
         for a, b in problem.listed:
@@ -75,12 +76,12 @@ class Grid:
 
     def __init__(self, told):
         self.side, self.unit = Fraction(told["side"]), Fraction(told["unit"])
-        demand(is_power_of_two(self.side) and is_power_of_two(self.unit), "side and unit are powers of two")
-        self.x, self.y, self.columns = told["x"], told["y"], told["columns"]
+        demand(is_power_of_two(self.side), "side is a power of two")
+        self.x, self.y = told["x"] - BORDER, told["y"] - BORDER
+        self.columns = max([told["columns"], *(row[0] + len(row) - 1 for row in told["rows"] if row)])
         demand(self.columns * len(told["rows"]) <= MOST_NODES, "a grid of too many nodes")
-        self.price = [self.read_row(row) for row in told["rows"]]
-        border = self.price[:2] + self.price[-2:] + [row[:2] + row[-2:] for row in self.price]
-        demand(not any(map(any, border)), "a price at the border")
+        nothing = [[0] * (self.columns + 2 * BORDER)] * BORDER
+        self.price = [*nothing, *map(self.read_row, told["rows"]), *nothing]
         self.kink = find_kinks(self.price)
         self.price_rows, self.kink_rows = ([array("Q", row) for row in what] for what in (self.price, self.kink))
 
@@ -88,8 +89,7 @@ class Grid:
         demand(all(0 <= n < 1 << 32 for n in told), "prices are whole numbers from 0 to 2^32 - 1")
         before = told[0] if told else 0
         after = self.columns - before - len(told[1:])
-        demand(after >= 0, "a row of too many prices")
-        return [0] * before + told[1:] + [0] * after
+        return [0] * (BORDER + before) + told[1:] + [0] * (after + BORDER)
 
 
 def find_kinks(price):
@@ -120,15 +120,17 @@ class Payer:
         times a row is a product of two numbers, whose digits are the rows'."""
         width, (x, y) = len(own[0]), self.at
         top = max(map(max, own)) * max((max(r, default=0) for r in rows), default=0)
-        demand(top * width * len(own) < 1 << 63, "prices that are too large")
-        digits = [number(array("Q", row[::-1])) for row in own]
+        size = 1 if top * width * len(own) < 1 << 63 else 2  # of a digit, in units of 64 bits
+        digits = [number(array("Q", row[::-1]), size) for row in own]
         window = {}
         for j in range(max(0, y - reach), min(len(rows), y + len(own) + reach)):
-            window[j] = number(cut_out(rows[j], x - reach, width + 2 * reach))
+            window[j] = number(cut_out(rows[j], x - reach, width + 2 * reach), size)
         found = []
         for dy in range(-reach, reach + 1):
             total = sum(d * window.get(y + dy + j, 0) for j, d in enumerate(digits) if d)
-            slots = array("Q", total.to_bytes(8 * (2 * width + 2 * reach), "little"))
+            slots = array("Q", total.to_bytes(8 * size * (2 * width + 2 * reach), "little"))
+            if size == 2:
+                slots = [low + (high << 64) for low, high in zip(slots[::2], slots[1::2])]
             found.append(slots[width - 1:width + 2 * reach])
         return found
 
@@ -194,5 +196,10 @@ def cut_out(row, start, n):
     return array("Q", bytes(8 * before)) + own + array("Q", bytes(8 * (n - before - len(own))))
 
 
-def number(digits):
+def number(digits, size):
+    """Of digits of `size` times 64 bits."""
+    if size == 2:
+        wide = array("Q", bytes(16 * len(digits)))
+        wide[::2] = digits
+        digits = wide
     return int.from_bytes(digits.tobytes(), "little")

@@ -9,7 +9,7 @@ from exact import anchor, plane, side_anchor
 import geopackage
 from cover import hull
 from blocks import Blocks
-from form import demand
+from form import NotRead, demand
 from lengths import Units
 from pieces import in_polygon, in_union
 from repair import area_of, members_of, repaired
@@ -101,8 +101,8 @@ class Problem:
         self.points = Symbols(options, self.units).place(layer) if options.points else {}
         self.tolerance = options.touch_tolerance if options.touch_tolerance is not None else options.gap / 10
         self.given, self.areas, self.median = {fid: f[1] for fid, f in layer.features.items()}, {}, None
-        for fid, (attributes, polygons, lines) in layer.features.items():
-            layer.features[fid] = attributes, [repaired(p) for p in polygons], lines
+        for fid, (attributes, polygons, _) in layer.features.items():  # lines of a collection are no part of a feature
+            layer.features[fid] = attributes, [repaired(p) for p in polygons], []
         self.standing = {fid: f[1] for fid, f in layer.features.items()}
         fixed = layer.fids(path, options.fixed_where)
         self.ignored = layer.fids(path, options.ignore_where)
@@ -129,7 +129,8 @@ class Problem:
         self.occupied = {}  # bodies and sides of squares: see prices.py
         self.sides = set()
         for key, polygons, lines, width, gap, side in barriers:
-            demand(key not in self.things, "two barriers are called", key)
+            if key in self.things:
+                raise NotRead(f"two barriers are called {key}")
             self.things[key] = Thing(self.lattice, polygons, lines)
             self.owed[key] = self.lattice(width / 2) + self.lattice(gap)
             if side:
@@ -184,13 +185,15 @@ class Problem:
         field = geopackage.number_of(self.attributes[fid], options.max_shift_field)
         if field is not None:
             found = field
-            demand(0 <= found < math.inf, "the limit of", fid, "is", found)
+            if not 0 <= found < math.inf:
+                raise NotRead(f"the limit of {fid} is {found}")
         return found
 
-    def limit(self, fid):
-        return 0.0 if fid in self.fixed or fid in self.skipped else self.own_limit(fid)
+    def limit(self, key):
+        return 0.0 if self.is_barrier(key) or key in self.fixed or key in self.skipped else self.own_limit(key)
 
     def body_limit(self, fids):
+        """Of a block, or of a barrier."""
         limits = [v for v in map(self.limit, fids) if v is not None]
         return min(limits) if limits else None
 
@@ -203,7 +206,8 @@ class Problem:
             found = math.sqrt(found) if options.weight == "sqrt-area" else found
         field = geopackage.number_of(self.attributes[fid], options.weight_field)
         found *= 1.0 if field is None else field
-        demand(0 < found < math.inf, "the weight of", fid, "is", found)
+        if not 0 < found < math.inf:
+            raise NotRead(f"the weight of {fid} is {found}")
         return found
 
     def area(self, fid):
@@ -226,9 +230,12 @@ class Problem:
     def demand_owed(self, a, b):
         """Do the two owe each other the gap, in every placement that the bound is about?"""
         demand(a in self.things and b in self.things, "there is no", a, "or", b)
-        demand(not (self.is_barrier(a) and self.is_barrier(b)), a, "and", b, "never move")
+        demand(self.may_move(a) or self.may_move(b), "neither", a, "nor", b, "moves")
         demand(b not in self.block(a), a, "and", b, "are of one block")
         demand(a not in self.skipped and b not in self.skipped, a, "or", b, "is ignored, or nothing")
+
+    def may_move(self, key):
+        return not self.is_barrier(key) and self.body_limit(self.block(key)) != 0
 
     def clearance(self, a, b, told):
         """The clearance of the two, in units of the lattice. A listed pair has at most the distance at the start. If
@@ -267,7 +274,6 @@ class Problem:
 
     def demand_part(self, key, corners):
         """Corners of a part of it, on the lattice."""
-        demand(key in self.things, "there is no", key)
         part = tuple(self.lattice.point(p) for p in corners)
         demand(self.things[key].has_part(part), "a part does not lie in", key)
         return part
@@ -288,9 +294,9 @@ class Problem:
         return part
 
     def demand_anchor(self, key, corners, other):
-        demand(len(corners) == 1 and key in self.things and not self.is_barrier(key), "that is no anchor of", key)
-        self.demand_anchor_of(key, corners[0])
-        place = self.lattice.point(corners[0])
+        corner, = corners
+        self.demand_anchor_of(key, corner)
+        place = self.lattice.point(corner)
         demand(not self.things[other].holds_place(place), other, "holds the anchor of", key)
         return (place,)
 
@@ -307,6 +313,8 @@ class Problem:
     def demand_listed(self, told):
         a, b = told["a"], told["b"]
         demand(a in self.things and b in self.things and a != b, "a conflict of", a, "and", b)
+        demand(not {a, b} & self.skipped, a, "or", b, "is ignored, or nothing, and has no conflict")
+        demand(not (self.is_barrier(a) and self.is_barrier(b)), a, "and", b, "are barriers, and have no conflict")
         demand(bool(told.get("inside_block")) == (b in self.block(a)), a, "and", b, "are of one block, or are not")
 
     def demand_shadow(self, a, told_a, b, told_b):
@@ -316,6 +324,7 @@ class Problem:
                 return self.demand_side(a, told_a, b, told_b), self.demand_side_anchor(b, told_b)
             return self.demand_side_anchor(a, told_a), self.demand_side(b, told_b, a, told_a)
         demand(not self.options.allow_jumps, "jumps are allowed")
+        demand(1 in (len(told_a), len(told_b)), "a shadow without the anchor of", a, "or", b)
         if len(told_a) == 1:
             place = self.demand_anchor(a, told_a, b)
             return place, self.demand_passed(b, told_b, a, place[0])
@@ -363,8 +372,8 @@ class Problem:
         return p, q
 
     def demand_chord(self, node):
-        """A chord of two sides (of two barriers, or one) that share a corner and lie on either side of the anchor's
-        path through it: a segment from the shadow of one to that of the other. The path meets it no nearer than the
+        """A chord of two sides (of two barriers, or one) that share a corner: a segment from the shadow of one to that of
+        the other. The anchor's path through the corner, or the rest of that ray, meets the chord's line no nearer than the
         corner."""
         a, b, c, anchor = node["a"], node["b"], node["c"], node["A"]
         demand(all(self.is_barrier(k) for k in (b, c)) and not self.is_barrier(a), "a chord of what are no barriers")
@@ -375,11 +384,9 @@ class Problem:
         demand(len(shared) == 1 and len(node["B"]) == 2, "sides that share no corner")
         corner, = shared
         chord = tuple(tuple(Fraction(x) * self.lattice.unit for x in p) for p in node["B"])
-        others = [next(p for p in side if p != corner) for side in sides]
-        turns = [turn(place, corner, p) for p in others]
-        demand(turns[0] * turns[1] < 0, "two sides on one side of the way through their corner")
-        for t, p, end in zip(turns, others, chord):
-            far = turn(corner, p, place)
+        for side, end in zip(sides, chord):
+            p = next(p for p in side if p != corner)
+            t, far = turn(place, corner, p), turn(corner, p, place)
             demand(t * turn(place, corner, end) > 0 and t * turn(place, p, end) <= 0 and
                    far != 0 and far * turn(corner, p, end) <= 0, "an end of a chord that no side shadows")
         of_anchor, of_corner = turn(*chord, place), turn(*chord, corner)
@@ -406,14 +413,22 @@ class Problem:
             self.anchors[fid] = anchor(members, 1)
         return self.anchors[fid]
 
-    def may_be_inside(self, a, b, reach):
-        """Could a move no longer than this (each way) bring one into the other? By their boxes."""
+    def ways_inside(self, a, b):
+        """How far along x and along y one has to move, at least, to lie in the other up to the tolerance; by their boxes."""
         p, q, t = self.whole(a).box, self.whole(b).box, self.lattice(self.tolerance)
         for x, y in ((p, q), (q, p)):
-            if all(x[c + 2] - x[c] <= y[c + 2] - y[c] + 2 * t and x[c] >= y[c] - t - reach and
-                   x[c + 2] <= y[c + 2] + t + reach for c in (0, 1)):
-                return True
-        return False
+            low, high = [y[c] - t - x[c] for c in (0, 1)], [y[c + 2] + t - x[c + 2] for c in (0, 1)]
+            if low[0] <= high[0] and low[1] <= high[1]:
+                yield [max(low[c], -high[c], 0) for c in (0, 1)]
+
+    def demand_outside(self, a, b, reach, square=None):
+        """With --contained ignore: no relative move within the limits takes one of the two features into the other. reach: the longest
+        along x and y, or with `square` the square of the longest; None: there is none."""
+        if self.options.contained != "ignore" or self.is_barrier(a) or self.is_barrier(b):
+            return
+        for x, y in self.ways_inside(a, b):
+            out = x * x + y * y > square if square is not None else reach is not None and max(x, y) > reach
+            demand(out, a, "and", b, "may come to lie in each other")
 
 
 def turn(p, q, u):

@@ -99,12 +99,10 @@ class Tree(Bodies):
         if shadow:
             parts = problem.demand_shadow(a, told["A"], b, told["B"])
         else:
-            if problem.options.contained == "ignore" and not (problem.is_barrier(a) or problem.is_barrier(b)):
-                self.root(i, j)
-                demand(not problem.may_be_inside(a, b, self.reach[i, j]), a, "and", b, "may lie in each other")
+            self.root(i, j)
+            problem.demand_outside(a, b, self.reach[i, j])
             parts = problem.demand_part(a, told["A"]), problem.demand_part(b, told["B"])
         piece = Piece(*parts, 0 if shadow else problem.clearance(a, b, told.get("clearance")), shadow)
-        demand(not (shadow and piece.holds_origin()), "a shadow of what holds the anchor")
         return (i, j), piece
 
     def demand_covered(self, region, i, j, named):
@@ -132,7 +130,6 @@ class Tree(Bodies):
                 if not state[parent][2]:
                     del state[parent]
             if children[k]:
-                demand(not empty, "an empty node with children")
                 demand(len(children[k]) in (1, 3), "node", k, "has a child too few")
                 if len(children[k]) == 3:
                     self.demand_cones([self.nodes[c]["cuts"] for c in children[k]])
@@ -155,7 +152,6 @@ class Tree(Bodies):
             if told["kind"] == "limit":
                 self.check_limit(*self.cut(first + at))
                 continue
-            demand(j is not None and i != j, "a cut of one body")
             line = line_of(told["n"], told["d"], self.unit)
             region = self.region(regions, i, j)
             if told["kind"] == "cone":
@@ -170,8 +166,6 @@ class Tree(Bodies):
             regions[i, j] = clip(region, line)
         if "empty" in node:
             i, j = (index(node["empty"][c], len(self.bodies), "body") for c in "ij")
-            demand(i != j, "an empty place between a body and itself")
-            demand("by" not in node or discs, "forces of discs, and no disc")
             self.demand_covered(self.region(regions, i, j), i, j, node["empty"]["pieces"])
             return value, regions, True
         if node["forces"]:
@@ -185,10 +179,9 @@ class Tree(Bodies):
                "a limit's cut takes away what the limit leaves")
 
     def forces_below(self, node):
-        """What the forces that the discs of a node stand on prove: they are of the nodes above."""
+        """What the forces that the discs of a node stand on prove: they are of the nodes above. There are none at the root."""
         parent = node["parent"]
-        demand(parent is not None, "a disc at the root")
-        told = node["by"] if "by" in node else self.nodes[parent]["forces"]
+        told = node["by"] if "by" in node else [] if parent is None else self.nodes[parent]["forces"]
         return self.push(self.read_forces(told, parent))
 
     def demand_cones(self, cuts):

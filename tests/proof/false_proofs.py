@@ -1,0 +1,121 @@
+"""False proofs, made from scratch by one who has read the checker: each has to be refused, for what is wrong with it.
+
+    python3 false_proofs.py DIRECTORY [NAME ...]
+
+Unlike forgeries.py this changes no honest file: each case has a layer, options and lines of its own, which hold but for one thing. That
+the proof is false is shown as well: by moves that keep all that the claim is about, and cost less than the bound or have what is said to
+have no solution (judge_places.py decides); or by looking up what is claimed. Of some cases nothing is false but the form, and a
+checker without the test in question would end in an exception of Python. DIRECTORY gets the layers.
+"""
+import os
+import sys
+from fractions import Fraction
+
+import check_proof
+import form
+from drafts import write_layer
+from judge_places import Places
+
+STUMBLES = "the form"
+
+
+class Case:
+    """name; words of the refusal; layer (FID: feature); barriers (name: features); options, as the command has them; lines(problem); moves
+    (FID: move) that contradict the claim, a function of the problem that looks it up, or STUMBLES; the number of the false conflict, None
+    if the bound is false."""
+
+    def __init__(self, name, refusal, layer, lines, moves, options="", barriers=None, conflict=None):
+        self.name, self.refusal, self.layer, self.lines_of, self.moves = name, refusal, layer, lines, moves
+        self.options, self.barriers, self.conflict = options, barriers or {}, conflict
+
+    def prepare(self, directory):
+        path = os.path.join(directory, self.name + ".gpkg")
+        write_layer(path, "buildings", self.layer)
+        words = ["none.jsonl", path, "--layer", "buildings", *self.options.split()]
+        for name, (features, spec) in self.barriers.items():
+            file = os.path.join(directory, f"{self.name}.{name}.gpkg")
+            write_layer(file, name, features)
+            words += ["--barrier", f"{file},{spec}" if spec else file]
+        self.checker = check_proof.Checker(check_proof.read_options(words))
+        self.problem = self.checker.problem
+        self.lines = self.lines_of(self.problem)
+
+    def answer(self):
+        return check_proof.answer(self.checker, lambda: self.lines)
+
+    # ---- Is it false?
+
+    def is_false(self):
+        if self.moves == STUMBLES:
+            return True
+        if callable(self.moves):
+            return self.moves(self.problem)
+        moves = {fid: tuple(map(Fraction, t)) for fid, t in self.moves.items()}
+        told = self.lines[1 + self.conflict] if self.conflict is not None else None
+        cost = sum(Fraction(self.problem.weight(f)) * (x * x + y * y) for f, (x, y) in moves.items())
+        return self.allows(told, moves) and (told is not None or cost < Fraction(self.lines[0]["lower_bound"]))
+
+    def allows(self, told, moves):
+        """Do these moves keep all that the bound, or the verdict, is about?"""
+        problem, places = self.problem, Places(self.problem)
+        places.list_conflicts([line for line in self.lines if "conflict" in line and line is not told])
+        bodies = list(dict.fromkeys(problem.block(k) for k in problem.place if k not in problem.skipped))
+        for members in bodies:
+            x, y = moves.get(members[0], (0, 0))
+            limit = problem.body_limit(members)
+            if limit is not None and x * x + y * y > Fraction(limit) ** 2:
+                return False
+        bodies += [(key,) for key in problem.owed]
+        pairs = [(p, q) for k, p in enumerate(bodies) for q in bodies[k + 1:] if problem.may_move(p[0]) or problem.may_move(q[0])]
+        return all(self.pair_allows(told, places, p, q, self.relative(moves, p, q)) for p, q in pairs)
+
+    def relative(self, moves, p, q):
+        return tuple(int((Fraction(v) - Fraction(w)) * self.problem.lattice.unit)
+                     for v, w in zip(moves.get(q[0], (0, 0)), moves.get(p[0], (0, 0))))
+
+    def pair_allows(self, told, places, p, q, u):
+        """By what the reason is about: the pair alone, with sides, without jumps, all that is not listed."""
+        if told is None or told["reason"] == "no_room":
+            return places.bodies_may(p, q, u)
+        a, b = told["a"], told["b"]
+        own = [(k, l) for k in p for l in q if {k, l} == {a, b}]
+        barrier = self.problem.is_barrier(p[0]) or self.problem.is_barrier(q[0])
+        if not all(places.pair_may(k, l, u, None) for k, l in own):
+            return False
+        if told["reason"] == "jump" and {p, q} == {places.body(a), places.body(b)} or (barrier and told["reason"] in ("side", "jump")):
+            return places.may_go(p[0], q[0], u)
+        return True
+
+    def wrong(self):
+        """None, or what is wrong with the case."""
+        if not self.is_false():
+            return "what it claims is not shown to be false"
+        status, said = self.answer()
+        if status != 1 or self.refusal not in said or "not in the form of a proof" in said:
+            return f"not refused for what is wrong: {said}"
+        return None
+
+
+def all_cases():
+    import false_bounds
+    import false_lattices
+    import false_verdicts
+    return [case for module in (false_bounds, false_verdicts, false_lattices) for case in module.CASES]
+
+
+def prepared(directory, names=()):
+    cases = [case for case in all_cases() if not names or case.name in names]
+    for case in cases:
+        case.prepare(directory)
+    return cases
+
+
+def main(words):
+    cases = prepared(words[0], words[1:])
+    wrong = [f"{case.name}: {said}" for case in cases for said in [case.wrong()] if said]
+    print("\n".join([*wrong, f"{len(cases)} false proofs: {len(wrong)} wrong"]))
+    return 1 if wrong else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
