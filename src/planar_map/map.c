@@ -222,12 +222,6 @@ uint32_t sunder_i_planar_map_edge_covered(const sunder_i_planar_map *map, uint32
     return map->trapezoid[map->edge[e].up].covered - map->edge[e].sides[0];
 }
 
-void sunder_i_planar_map_line(const sunder_i_planar_map *map, uint32_t h, sunder_i_big line[3])
-{
-    const sunder_i_map_line *l = &map->line[map->edge[h >> 1].line];
-    for (int i = 0; i < 3; i++) line[i] = h & 1 ? sunder_i_big_neg(l->abc[i]) : l->abc[i];
-}
-
 void sunder_i_planar_map_size(const sunder_i_planar_map *map, sunder_i_map_size *out)
 {
     out->vertices = map->vertices - map->dead_vertices;

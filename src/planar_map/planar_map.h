@@ -135,9 +135,6 @@ uint32_t sunder_i_planar_map_sides(const sunder_i_planar_map *map, uint32_t h);
 uint32_t sunder_i_planar_map_edge_covered(const sunder_i_planar_map *map, uint32_t e);
 /* covered of the face left of h; does not need faces(). */
 uint32_t sunder_i_planar_map_left_covered(const sunder_i_planar_map *map, uint32_t h);
-/* The supporting line of h: xyw[0] x + xyw[1] y + xyw[2] = 0 on it, > 0 left of it. Only a positive multiple is
- * fixed. */
-void sunder_i_planar_map_line(const sunder_i_planar_map *map, uint32_t h, sunder_i_big line[3]);
 
 /* Is edge f steeper than edge e (+1), or less steep (-1), or parallel to it (0)? In the sheared order. */
 int sunder_i_planar_map_turn(sunder_i_planar_map *map, uint32_t e, uint32_t f);

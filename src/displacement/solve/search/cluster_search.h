@@ -169,13 +169,10 @@ double sunder_i_search_pair(sunder_i_search *search, uint32_t i, uint32_t j, con
 
 /* ---- shadows.c: which bodies may not pass which ------------------------------------------------------------------ */
 
-/* All shadows of bodies i and j that may lie within reach of relative position u. */
-void sunder_i_search_shadows(sunder_i_search *search, uint32_t i, uint32_t j, const double u[2], double reach,
-                             sunder_i_visit_piece_pair visit, void *context);
-/* The same between any two bodies of the model. Most go by less than there is room about their anchors. */
+/* Visits all shadows of two bodies of the model that may lie within reach of relative position u. The inline function
+ * answers for most pairs: they move by less than the room about their anchors. */
 void sunder_i_search_visit_shadows(sunder_i_search *search, const sunder_i_body *p, const sunder_i_body *q,
                                    const double u[2], double reach, sunder_i_visit_piece_pair visit, void *context);
-
 static inline void sunder_i_search_body_shadows(sunder_i_search *search, const sunder_i_body *p, const sunder_i_body *q,
                                                 const double u[2], double reach, sunder_i_visit_piece_pair visit,
                                                 void *context)

@@ -121,13 +121,6 @@ void sunder_i_search_visit_shadows(sunder_i_search *search, const sunder_i_body 
     if (from_q) visit_from(search, q, p, path, far, &pair, true, visit, context);
 }
 
-void sunder_i_search_shadows(sunder_i_search *search, uint32_t i, uint32_t j, const double u[2], double reach,
-                             sunder_i_visit_piece_pair visit, void *context)
-{
-    sunder_i_search_body_shadows(search, &search->model->body[search->body[i]], &search->model->body[search->body[j]],
-                                 u, reach, visit, context);
-}
-
 /* ---- Which bodies may have passed which -------------------------------------------------------------------------- */
 
 /* Where body k was on its way from home to t, from the first body's origin. */
