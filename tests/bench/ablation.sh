@@ -48,16 +48,17 @@ draw() { # NAME CLUSTERS INPUT LAYER OPTION ...
 }
 draw_town() { # NAME INPUT LAYER
     local roads=(--max-shift 10 --barrier "$2,layer=roads,width=5")
-    draw "$1_roads" 13 "$2" "$3" --gap 3 "${roads[@]}"
-    draw "$1_roads_gap0" 7 "$2" "$3" --gap 0 "${roads[@]}"
-    draw "$1_free" 11 "$2" "$3" --gap 3
-    draw "$1_soon" 5 "$2" "$3" --gap 3 --effort 0 "${roads[@]}"
+    draw "$1_roads" 11 "$2" "$3" --gap 3 "${roads[@]}"
+    draw "$1_roads_gap0" 6 "$2" "$3" --gap 0 "${roads[@]}"
+    draw "$1_free" 9 "$2" "$3" --gap 3
+    draw "$1_limits" 5 "$2" "$3" --gap 5 --max-shift 5
+    draw "$1_soon" 4 "$2" "$3" --gap 3 --effort 0 "${roads[@]}"
     draw "$1_soon_free" 3 "$2" "$3" --gap 5 --effort 0
 }
 draw_rules() { # NAME INPUT LAYER: with other rules
     draw "$1_jumps" 4 "$2" "$3" --gap 3 --max-shift 20 --allow-jumps --barrier "$2,layer=roads,width=5"
     draw "$1_contained" 4 "$2" "$3" --gap 2 --contained separate --no-blocks
-    draw "$1_limits" 4 "$2" "$3" --gap 4 --max-shift 3 --effort 3
+    draw "$1_effort" 4 "$2" "$3" --gap 4 --max-shift 3 --effort 3
 }
 draw_real() {
     draw_town krems "$data/krems_2013.gpkg" buildings
@@ -85,7 +86,7 @@ draw_synthetic() {
 make_corpus() {
     if [ -d "$data" ]; then draw_real; else draw_synthetic; fi
     # Those that end within the steps have eight columns.
-    nice "$build/run_corpus" "$work/drawn" --most "$light" | awk -F'\t' 'NF == 8 { print $1 }' >"$work/names"
+    nice "$build/run_corpus" "$work/drawn" --most "$light" | awk -F'\t' 'NF == 8 && n++ < 300 { print $1 }' >"$work/names"
     awk 'NR == FNR { keep[$1] = 1; next } $1 == "cluster" { on = $2 in keep } on' "$work/names" "$work/drawn" >"$corpus.part"
     mv "$corpus.part" "$corpus"
 }
