@@ -1,11 +1,12 @@
-/* What bodies cost together, by prices of area. */
+/* Computes a lower bound on the joint cost of bodies from prices of area, over a sequence of ever finer grids. */
 #include "displacement/prove/areas/climb.h"
 
 #include "base/extremes.h"
 
 #include <math.h>
 
-/* As integers. False if memory is out. */
+/* Rounds the prices of `price` ([nodes of out->grid]) to whole numbers of out->unit and stores them in out->price,
+ * which the caller frees. Returns false if memory is out. */
 static bool round_prices(const float *price, sunder_i_prices *out)
 {
     const size_t nodes = sunder_i_grid_nodes(&out->grid);
@@ -19,7 +20,8 @@ static bool round_prices(const float *price, sunder_i_prices *out)
     return out->price;
 }
 
-/* What the prices of one grid prove; they are kept if it is more. False if memory is out. */
+/* Computes the bound that the prices of the present grid prove. If it exceeds *bound, these prices replace *best, and
+ * *bound is set to it; otherwise both remain. Returns false if memory is out. */
 static bool prove(const sunder_i_climb *l, sunder_i_prices *best, double *bound)
 {
     sunder_i_prices own = {.grid = l->grid};

@@ -1,10 +1,13 @@
-/* Prices that prove much: the dual function of prices (README.md), raised by projected gradients.
+/* Finds prices that prove a large bound: the dual function of the prices (README.md) is maximised by projected gradient
+ * steps.
  *
- * What a payer pays is the least over its places, which has corners: a place that is cheapest by a hair pays for all of
- * its area, and the next step is drawn to another. So the least is taken softly, as -T log of the sum of exp(-f / T)
- * over places, whose gradient has the body a little everywhere that is nearly as cheap. Steps are those of Barzilai and
- * Borwein, shortened where they prove less than the least of the last ten values, a variant of [BMR00]. None of this
- * needs to be right: what the prices prove is worked out of them alone (price_proof.c). */
+ * A payer pays the least total over its moves. As a function of the prices that minimum is not smooth: the move that is
+ * cheapest by a tiny amount determines the whole gradient, and the next step makes another move the cheapest. It is
+ * therefore replaced by a soft minimum, -T log of the sum of exp(-f / T) over the moves, where f is the total of a
+ * move; its gradient gives each move that is nearly the cheapest a share of the payer. Step lengths are those of
+ * Barzilai and Borwein; a step is shortened if its value is less than the least of the last ten values, a variant of
+ * [BMR00]. An error here cannot make a bound wrong, since the bound is computed from the final prices alone
+ * (price_proof.c). */
 #include "displacement/prove/areas/areas.h"
 #include "displacement/prove/areas/tuning.h"
 #include "displacement/prove/areas/window.h"
@@ -16,14 +19,14 @@
 #include <math.h>
 #include <string.h>
 
-/* The part of a payer's mass that is at a move, in squares. */
+/* One move of a payer, by whole squares, and the share of the payer's mass that takes that move. */
 typedef struct part {
     int64_t dx, dy;
-    double paid;  /* there */
-    double share; /* of 1 */
+    double paid;  /* the cost of the move plus the price of the area occupied after it */
+    double share; /* the fraction of the payer, between 0 and 1 */
 } part;
 
-/* Where one payer is, and what it pays. */
+/* The moves among which one payer is divided at the present prices, and the soft minimum that it pays. */
 typedef struct answer {
     part *part; /* [parts] */
     size_t parts, capacity;
@@ -36,22 +39,23 @@ typedef struct ascent {
     size_t n;
     double patience;
     unsigned threads;
-    float *price, *half; /* [nodes] excess demand, blurred; scratch */
-    answer *answer;      /* [AT_ONCE] for payers that are evaluated together */
+    float *price, *half; /* [nodes] `price`: the prices after smoothing; `half`: scratch space for the smoothing */
+    answer *answer;      /* [AT_ONCE] the answers of the payers that are evaluated together */
 } ascent;
 
-/* Asking one payer. */
+/* The evaluation of one payer at given prices. */
 typedef struct asking {
     const ascent *ascent;
     const sunder_i_payer *payer;
     const float *price;
     answer *answer;
-    double farthest; /* the square of how far it may go, in squares */
-    double *glance;  /* what it pays at every GLANCES-th place, either way */
+    double farthest; /* the square of the payer's limit, in squares of the grid */
+    double *glance;  /* what the payer pays at the sampled moves, one in GLANCES along either axis */
     size_t glance_capacity;
 } asking;
 
-/* The sum of mass times price over n nodes of a row; in four sums that do not wait for each other. */
+/* Returns the sum of mass[i] * price[i] over i < n. It uses four partial sums, so that one addition need not wait for
+ * the one before. */
 static float price_of_row(const int32_t *mass, const float *price, size_t n)
 {
     float sum[4] = {0, 0, 0, 0};
@@ -62,7 +66,8 @@ static float price_of_row(const int32_t *mass, const float *price, size_t n)
     return (sum[0] + sum[1]) + (sum[2] + sum[3]);
 }
 
-/* The price of the payer's area there, in squares. */
+/* Returns the price of the area that payer mass `m` occupies after a move by (dx, dy) squares; the area is counted in
+ * squares. */
 static double price_of(const ascent *a, const sunder_i_masses *m, const float *price, int64_t dx, int64_t dy)
 {
     const sunder_i_part_on_grid w = sunder_i_part_on(a->grid, m, dx, dy);
@@ -73,7 +78,7 @@ static double price_of(const ascent *a, const sunder_i_masses *m, const float *p
     return sum / (double)SUNDER_I_MASS_OF_SQUARE;
 }
 
-/* Adds this share of the payer's mass there. */
+/* Adds `share` times the mass `m`, moved by (dx, dy) squares, to the demand slope[] at the nodes. */
 static void occupy(const ascent *a, const sunder_i_masses *m, double share, int64_t dx, int64_t dy, float *slope)
 {
     const sunder_i_part_on_grid w = sunder_i_part_on(a->grid, m, dx, dy);
@@ -85,15 +90,17 @@ static void occupy(const ascent *a, const sunder_i_masses *m, double share, int6
     }
 }
 
-/* It is where it answered; slope: what is asked for there. */
+/* Adds the payer's mass to the demand slope[], divided among the moves of the answer `s` according to their shares.
+ * Shares of at most LITTLE are left out. */
 static void occupy_all(const ascent *a, const sunder_i_masses *m, const answer *s, float *slope)
 {
     for (const part *p = s->part; p < s->part + s->parts; p++)
         if (p->share > LITTLE) occupy(a, m, p->share, p->dx, p->dy, slope);
 }
 
-/* How far the payer looks, in squares: where the way costs more than to stay, nothing is cheaper; nor farther out than
- * just beyond the grid. */
+/* Returns how far from its original position the payer has to be evaluated, in squares. `stays` is the price of
+ * staying, `heat` the temperature T. Farther moves cost more than staying by themselves, exceed the limit, or go so far
+ * outside the grid that moving on changes no price. */
 static int64_t reach_of(const asking *a, double stays, double heat)
 {
     const double reach = sqrt((stays + TOO_DEAR * heat) / a->payer->weight),
@@ -101,8 +108,8 @@ static int64_t reach_of(const asking *a, double stays, double heat)
     return (int64_t)sunder_i_min(sunder_i_min(reach, beyond), a->payer->limit / a->ascent->grid->side);
 }
 
-/* Returns the cost of the way to place (dx, dy) plus its price, or the cost of the way alone if this is >= `most`.
- * Beyond the limit: INFINITY. */
+/* Returns the cost of the move by (dx, dy) squares plus the price of the area occupied after it. If the cost of the
+ * move alone is >= `most`, that cost is returned without the price. Returns INFINITY if the move exceeds the limit. */
 static double paid_at(const asking *a, int64_t dx, int64_t dy, double most)
 {
     const double square = (double)(dx * dx + dy * dy), way = a->payer->weight * square;
@@ -110,7 +117,9 @@ static double paid_at(const asking *a, int64_t dx, int64_t dy, double most)
     return way < most ? way + price_of(a->ascent, &a->payer->masses, a->price, dx, dy) : way;
 }
 
-/* Looks at one place in GLANCES^2, `half` of them from the middle: the least that is paid. */
+/* Evaluates the moves by multiples of GLANCES squares, up to `half` multiples along either axis, and stores what is
+ * paid in a->glance. Returns the least of these values and `stays`. Moves that by themselves cost more than that least
+ * plus `doubt` are stored without their price. */
 static double glance(const asking *a, double stays, double doubt, int64_t half)
 {
     double least = stays, *seen = a->glance;
@@ -122,8 +131,9 @@ static double glance(const asking *a, double stays, double doubt, int64_t half)
     return least;
 }
 
-/* May a place between these four be as cheap as that? What is paid changes little more from there to there than
- * between them. */
+/* Returns whether a move between four sampled ones may cost less than `most`. seen[0], seen[1], seen[across] and
+ * seen[across + 1] are what is paid at the samples; it is assumed that between them the value falls below the least by
+ * no more than the four values differ. */
 static bool may_be_cheap(const double *seen, size_t across, double most)
 {
     const double low = sunder_i_min(sunder_i_min(seen[0], seen[1]), sunder_i_min(seen[across], seen[across + 1]));
@@ -131,7 +141,8 @@ static bool may_be_cheap(const double *seen, size_t across, double most)
     return low - (high - low) < most;
 }
 
-/* The places of one cell that may count. False if memory is out. */
+/* Adds the moves of the sampling cell (x, y), GLANCES x GLANCES of them, to the answer if they cost less than *least +
+ * doubt; *least is lowered to the least found. Returns false if memory is out. */
 static bool list_cell(asking *a, int64_t x, int64_t y, double doubt, double *least)
 {
     answer *s = a->answer;
@@ -146,7 +157,8 @@ static bool list_cell(asking *a, int64_t x, int64_t y, double doubt, double *lea
     return true;
 }
 
-/* Turns what is paid at each place into its share of the payer, and computes the payer's soft minimum. */
+/* Computes the share of each listed move from what is paid there, at temperature `heat`, and the payer's soft minimum.
+ * `least` is the least that is paid. Moves that are dearer than it by TOO_DEAR temperatures are removed. */
 static void weigh_shares(answer *s, double heat, double least)
 {
     double sum = 0;
@@ -162,7 +174,8 @@ static void weigh_shares(answer *s, double heat, double least)
     s->value = least - heat * log(sum);
 }
 
-/* The payer's places, each with its share of it. False if memory is out. */
+/* Finds the moves among which the payer is divided, with their shares. `stays` is what the payer pays without a move.
+ * Returns false if memory is out. */
 static bool find_shares(asking *a, double stays)
 {
     const sunder_i_payer *payer = a->payer;
@@ -183,7 +196,8 @@ static bool find_shares(asking *a, double stays)
     return true;
 }
 
-/* Finds the payer's parts: one whole part if staying costs nothing. False if memory is out. */
+/* Computes the answer of the payer a->payer. If staying costs nothing, the payer stays with all of its mass; otherwise
+ * its shares are found. Returns false if memory is out. */
 static bool ask_payer(asking *a)
 {
     answer *s = a->answer;
@@ -196,7 +210,7 @@ static bool ask_payer(asking *a)
     return true;
 }
 
-/* Payers that are evaluated at once, from the first of them. */
+/* Payers that are evaluated at once: those from index `first` on. */
 typedef struct batch {
     const ascent *ascent;
     const float *price;
@@ -217,8 +231,8 @@ static sunder_status ask_some(void *context, size_t begin, size_t end, sunder_er
     return ok ? SUNDER_OK : sunder_i_no_memory(err);
 }
 
-/* Evaluates payers from the first on, as many at once as there is room for their answers: their number; 0 if memory is
- * out. */
+/* Evaluates the payers from index `first` on, at most AT_ONCE of them. Returns how many were evaluated, or 0 if memory
+ * is out. */
 static size_t ask_at_once(const ascent *a, const float *price, size_t first)
 {
     batch b = {a, price, first};
@@ -226,17 +240,20 @@ static size_t ask_at_once(const ascent *a, const float *price, size_t first)
     return sunder_i_parallel(a->threads, n, SUNDER_I_GRAIN_PAIRS, ask_some, &b, NULL) ? 0 : n;
 }
 
-/* Each node's mean with its neighbours, 1 : 2 : 1 along one axis: from in[] to out[], [nodes]; beyond the border all
- * are 0. */
+/* Smooths a field along one axis: out[k] becomes the mean of in[k] and its two neighbours at distance `stride`, with
+ * weights 2, 1 and 1. Both arrays have one entry for each node; entries outside the grid count as 0. */
 static void blur_along(const sunder_i_grid *l, size_t stride, const float *restrict in, float *restrict out)
 {
-    const size_t nodes = sunder_i_grid_nodes(l), last = nodes - stride; /* a grid is wider than its borders */
+    /* a grid has more rows than its two borders, so nodes > stride */
+    const size_t nodes = sunder_i_grid_nodes(l), last = nodes - stride;
     for (size_t k = 0; k < stride; k++) out[k] = (2 * in[k] + in[k + stride]) / 4;
     for (size_t k = stride; k < last; k++) out[k] = (in[k - stride] + 2 * in[k] + in[k + stride]) / 4;
     for (size_t k = last; k < nodes; k++) out[k] = (in[k - stride] + 2 * in[k]) / 4;
 }
 
-/* The same along both axes, BLURRED times. The operator is its own transpose; demand has a margin for the spread. */
+/* Smooths `field` along both axes, BLURRED times. The operator equals its transpose, so it also turns the gradient by
+ * smoothed prices into the gradient by the unsmoothed ones. The border without prices is wide enough for what the
+ * smoothing spreads. */
 static void blur(const ascent *a, float *field)
 {
     for (int k = 0; k < BLURRED; k++) {
@@ -245,7 +262,8 @@ static void blur(const ascent *a, float *field)
     }
 }
 
-/* What prices promise that are `wish`, blurred, and the direction in which that grows. False if memory is out. */
+/* Computes the dual function at the unsmoothed prices `wish`: sets *value to the (soft) bound and slope[] to its
+ * gradient. Returns false if memory is out. */
 static bool ask_all(ascent *a, const float *wish, float *slope, double *value)
 {
     const size_t nodes = sunder_i_grid_nodes(a->grid);
@@ -256,7 +274,7 @@ static bool ask_all(ascent *a, const float *wish, float *slope, double *value)
         *value -= a->price[k];
         slope[k] = -1;
     }
-    /* Sums are taken in the order of payers, whichever thread asked them. */
+    /* Answers are added in the order of the payers, so the sum does not depend on which thread computed them. */
     for (size_t first = 0, n; first < a->n; first += n) {
         n = ask_at_once(a, a->price, first);
         if (!n) return false;
@@ -269,8 +287,9 @@ static bool ask_all(ascent *a, const float *wish, float *slope, double *value)
     return true;
 }
 
-/* Nodes at the border have no price: two rows and columns on each side, and what blurring spreads. Of row j the first
- * inner node and the end of them; none of some rows. */
+/* Sets *first and *end to the range of nodes of row j that may have a price, the inner nodes; the range is empty for
+ * the rows of the border. The border has two rows and columns on each side that keep the price 0, and those over which
+ * smoothing spreads. */
 static void inner_nodes(const sunder_i_grid *l, size_t j, size_t *first, size_t *end)
 {
     const size_t border = SUNDER_I_GRID_BORDER, row = j * l->columns;
@@ -279,8 +298,8 @@ static void inner_nodes(const sunder_i_grid *l, size_t j, size_t *first, size_t 
     *end = any ? row + l->columns - border : *first;
 }
 
-/* Prices of a coarser grid, being blurred, may lie beyond the inner nodes that this grid allows to have a price: these
- * are removed. A shortened step would keep part of them, nearer to the border with each level. */
+/* Sets the prices outside the inner nodes to 0. Smoothed prices of a coarser grid may be positive there. Steps that are
+ * shortened would remove them only in part, and with each finer grid they would come nearer to the border. */
 static void keep_inner(const sunder_i_grid *l, float *price)
 {
     for (size_t j = 0; j < l->rows; j++) {
@@ -296,14 +315,16 @@ typedef struct place {
     double value;
 } place;
 
-/* To `to` of one node. */
+/* Sets step[k] to the change that brings the price of node k to `to`, and adds the change of value that the gradient
+ * predicts for it to *gain. */
 static inline void propose_node(const place *at, size_t k, double to, float *step, double *gain)
 {
     step[k] = (float)to - at->price[k];
     *gain += (double)step[k] * (double)at->slope[k];
 }
 
-/* The step from `at`, so long, as far as prices stay at 0 or more; *gain: what it promises at first. */
+/* Computes the step from `at` along the gradient with step length `length`, cut off where a price would become
+ * negative. *gain is the increase of the value that the gradient predicts. */
 static void propose(const sunder_i_grid *l, const place *at, double length, float *step, double *gain)
 {
     *gain = 0;
@@ -319,7 +340,8 @@ static void propose(const sunder_i_grid *l, const place *at, double length, floa
     }
 }
 
-/* The length of the next step, from what the last did to the slope. */
+/* Returns the length of the next step, by the formula of Barzilai and Borwein from the last two points. If the gradient
+ * did not turn against the step, the length is STEP_BLIND. */
 static double next_length(const sunder_i_grid *l, const place *from, const place *to)
 {
     double ways = 0, turns = 0;
@@ -331,7 +353,9 @@ static double next_length(const sunder_i_grid *l, const place *from, const place
     return turns > 0 ? sunder_i_min(sunder_i_max(ways / turns, STEP_LEAST), STEP_MOST) : STEP_BLIND;
 }
 
-/* As much of the step as promises something beyond `least`; `other` is where that leads. */
+/* Moves by the step, or by a share of it, to `other`. The share is reduced by the factor SHORTER, at most SHORTENED
+ * times in all, until the value exceeds `least` by the share ENOUGH of the increase that is predicted by `gain`.
+ * Returns false if memory is out. */
 static bool go(ascent *a, const place *at, place *other, const float *step, double gain, double least)
 {
     double share = 1;
@@ -397,7 +421,7 @@ bool sunder_i_prices_ascend(const sunder_i_grid *grid, const sunder_i_payer *pay
     return ok;
 }
 
-/* Weighted mean of the places that the payer chose. */
+/* Sets move[] to the mean of the moves in the answer, weighted by their shares. */
 static void find_mean(const ascent *a, const answer *s, double move[2])
 {
     move[0] = move[1] = 0;

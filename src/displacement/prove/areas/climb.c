@@ -1,5 +1,5 @@
-/* Payers, and grids that tell them well enough: on a coarse one prices spread in few rounds, on finer ones they are
- * told better. */
+/* Prepares the payers and the sequence of grids. On a coarse grid prices spread over long distances in few rounds;
+ * finer grids then represent them more precisely. */
 #include "displacement/prove/areas/climb.h"
 #include "displacement/prove/areas/tuning.h"
 
@@ -12,7 +12,9 @@
 
 static bool has_area(const sunder_i_outline *outline) { return outline->rings && outline->area > 0; }
 
-/* Outlines, and the box of where they stood and stand. */
+/* Builds the outlines of the bodies and l->box, which contains all of them at their original and at their present
+ * position and is enlarged by `about` times the size of a body. Sets l->size to the side of a square of mean area, or
+ * to 0 if fewer than FEWEST bodies have an area. */
 static sunder_status find_outlines(sunder_i_climb *l, double about, sunder_error *err)
 {
     double area = 0;
@@ -36,8 +38,9 @@ static sunder_status find_outlines(sunder_i_climb *l, double about, sunder_error
     return SUNDER_OK;
 }
 
-/* Nodes at multiples of `coarse` squares, so that coarser grids are among them, with a border all about. False: there
- * would be too many. */
+/* Sets *out to a grid of squares of side `side` that covers l->box and a border around it. Its first node and its
+ * numbers of squares are multiples of `coarse`, so that the nodes of a grid with squares `coarse` times as large are
+ * among its nodes. Returns false if it would have more than MOST_NODES nodes or too large indices. */
 static bool lay_grid(const sunder_i_climb *l, double side, unsigned coarse, sunder_i_grid *out)
 {
     const double step = side * coarse, border = SUNDER_I_GRID_BORDER;
@@ -52,7 +55,9 @@ static bool lay_grid(const sunder_i_climb *l, double side, unsigned coarse, sund
     return true;
 }
 
-/* The coarsest, which is one in 2^LEVELS of the finest, or less where that would have too many nodes. */
+/* Chooses the side of the finest grid and the number of coarser grids, each with squares of twice the side. There are
+ * LEVELS coarser grids, or fewer if the finest grid would have too many nodes and is therefore replaced by a coarser
+ * one. */
 static void choose_sides(sunder_i_climb *l)
 {
     sunder_i_grid fine;
@@ -101,7 +106,8 @@ static bool spans_too_much(const sunder_i_outline *o, double side)
     return !(o->box[2] - o->box[0] < (MOST_SPAN - 2) * side && o->box[3] - o->box[1] < (MOST_SPAN - 2) * side);
 }
 
-/* False if memory is out. */
+/* Makes the payers for `grid`: the bodies that have an area and do not span too many squares. Returns false if memory
+ * is out. */
 static bool make_payers(sunder_i_climb *l, const sunder_i_grid *grid)
 {
     free_masses(l);
@@ -116,7 +122,7 @@ static bool make_payers(sunder_i_climb *l, const sunder_i_grid *grid)
     return true;
 }
 
-/* The price at a place of the coarse grid; 0 beyond it. */
+/* Returns the price at the node with global indices (x, y) of the coarse grid, or 0 if the grid has no such node. */
 static float price_at(const sunder_i_grid *grid, const float *price, int64_t x, int64_t y)
 {
     const int64_t i = x - grid->x, j = y - grid->y;
@@ -124,7 +130,8 @@ static float price_at(const sunder_i_grid *grid, const float *price, int64_t x, 
     return inside ? price[(size_t)j * grid->columns + (size_t)i] : 0;
 }
 
-/* The same prices on a grid of half the side, bilinear; all 0 before the first. */
+/* Returns the prices of the previous grid on a grid of half the side, interpolated bilinearly, or prices of 0 if there
+ * is no previous grid. The caller owns the array. Returns NULL if memory is out. */
 static float *refine(const sunder_i_climb *l, const sunder_i_grid *fine)
 {
     float *out = sunder_i_calloc(sunder_i_grid_nodes(fine), sizeof *out);

@@ -1,4 +1,5 @@
-/* Prices of area from a coarse grid to finer ones: what the bound and the places of a crowd have in common. */
+/* Computes prices of area on a sequence of grids, from a coarse one to finer ones. Both the lower bound (areas.c) and
+ * the starting positions (places.c) use it. */
 #ifndef SUNDER_I_AREAS_CLIMB_H
 #define SUNDER_I_AREAS_CLIMB_H
 
@@ -6,26 +7,30 @@
 
 typedef struct sunder_i_climb {
     const sunder_i_model *model;
-    const uint32_t *body; /* [n] */
+    const uint32_t *body; /* [n] borrowed */
     size_t n;
-    sunder_i_outline *outline; /* [n] */
-    sunder_i_payer *payer;     /* [payers] those that have any area, in their order */
+    sunder_i_outline *outline; /* [n] owned */
+    sunder_i_payer *payer;     /* [payers] owned; one for each body that has an area and does not span too many squares,
+                                * in the order of body[] */
     size_t payers;
-    double box[4]; /* of all places that may have a price */
-    double size;   /* of a body of mean area; 0: too few bodies have any */
-    double side;   /* of the next grid */
+    double box[4]; /* the rectangle within which there may be prices */
+    double size;   /* the side of a square of the bodies' mean area; 0 if too few bodies have an area */
+    double side;   /* the side of a square of the next grid */
     double patience;
-    unsigned left, coarser; /* grids to come, the next one among them; it is one in 2^coarser of the finest */
-    sunder_i_grid grid;     /* the last, and its prices */
+    unsigned left, coarser; /* `left`: the number of grids still to come; `coarser`: the number of grids before the
+                             * finest, so that the first has squares 2^coarser times as large */
+    sunder_i_grid grid;     /* the last grid, and the prices on it (owned) */
     float *price;
 } sunder_i_climb;
 
-/* about: how far from where bodies stood and stand there may be a price, in sizes of bodies. Failure leaves what is
- * freed. */
+/* Prepares the sequence of grids for the n bodies of body[], which is borrowed. `about` is the distance from the
+ * bodies' original and present positions up to which there may be a price, in multiples of the size of a body. The
+ * caller calls sunder_i_climb_free() even if this fails. */
 sunder_status sunder_i_climb_init(sunder_i_climb *climb, const sunder_i_model *model, const uint32_t *body, size_t n,
                                   double about, sunder_error *err);
 void sunder_i_climb_free(sunder_i_climb *climb);
-/* Prices on the next grid, from those on the last; only while climb->left > 0. False if memory is out. */
+/* Computes prices on the next grid, starting from those on the last. It may be called only while climb->left > 0.
+ * Returns false if memory is out. */
 bool sunder_i_climb_on(sunder_i_climb *climb);
 
 #endif

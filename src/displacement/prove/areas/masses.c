@@ -1,13 +1,15 @@
-/* How a body's area is distributed to the nodes of a grid.
+/* Distributes a body's area over the nodes of a grid.
  *
- * Rings are clipped to each row of squares, and the result to each square [SH74]: by Green's formula the edges that
- * clipping adds along the border cancel in integrals, whatever the ring. A square gives its four nodes the integrals of
- * (1 - u) (1 - v), u (1 - v), (1 - u) v and u v, (u, v) the place in it.
+ * Each ring is clipped to a row of squares, and the result to each square of the row [SH74]. For rings that are not
+ * convex the clipping adds edges along the border of the square; by Green's formula their contributions to the
+ * integrals cancel. A square gives its four nodes the integrals of (1 - u) (1 - v), u (1 - v), (1 - u) v and u v, where
+ * (u, v) is the position in the square.
  *
- * Rounding. Coordinates are divided by a power of two, and subtraction leaves fewer digits: exact. A corner that
- * clipping makes is off by some units in the last place of numbers below 2^12, the most squares that a body may span; a
- * corner of the outline by one unit of the layer's numbers. Either changes the area by a bounded amount for each
- * corner; masses are reduced by more than that. */
+ * Rounding: Coordinates are divided by a power of two, and the subtraction leaves fewer digits, so both are exact. A
+ * corner that clipping makes has an error of a few units in the last place of numbers below 2^12, which is the largest
+ * number of squares that a body may span. A corner of the outline has an error of one unit of the layer's grid of
+ * coordinates. Each corner can thus change the area by a bounded amount only, and the masses are reduced by more than
+ * these amounts. */
 #include "displacement/prove/areas/areas.h"
 #include "displacement/prove/areas/tuning.h"
 
@@ -29,7 +31,7 @@ static bool push(ring *r, double x, double y)
     return true;
 }
 
-/* What of the ring has sign * coordinate c <= sign * at. */
+/* Writes to *out the part of the ring in which sign * (coordinate c) <= sign * at. Returns false if memory is out. */
 static bool clip(const ring *in, int c, double at, double sign, ring *out)
 {
     out->n = 0;
@@ -47,13 +49,15 @@ static bool clip(const ring *in, int c, double at, double sign, ring *out)
     return true;
 }
 
-/* What of the ring has from <= coordinate c <= from + 1. */
+/* Writes to *out the part of the ring in which from <= coordinate c <= from + 1; `half` is scratch space. Returns false
+ * if memory is out. */
 static bool slice(const ring *in, int c, double from, ring *half, ring *out)
 {
     return clip(in, c, from, -1, half) && clip(half, c, from + 1, 1, out);
 }
 
-/* The integrals of 1, u, v and u v over what the ring encloses, (u, v) relative to (x, y). */
+/* Computes the integrals of 1, u, v and u v over the area that the ring encloses, where (u, v) is the position relative
+ * to (x, y). */
 static void integrate(const ring *r, double x, double y, double out[4])
 {
     for (int k = 0; k < 4; k++) out[k] = 0;
@@ -69,8 +73,8 @@ static void integrate(const ring *r, double x, double y, double out[4])
 
 typedef struct spreading {
     ring whole, row, square, half;
-    double *mass;  /* [columns * rows] of nodes, in squares */
-    double *doubt; /* likewise: how many corners had a part in it */
+    double *mass;  /* [columns * rows] the mass of each node, in squares */
+    double *doubt; /* [columns * rows] for each node the number of corners that entered its mass */
     size_t columns, rows;
 } spreading;
 
@@ -86,7 +90,7 @@ static void give(spreading *s, size_t i, size_t j)
     }
 }
 
-/* The squares that a part of a ring meets, along one axis. */
+/* Sets *from and *to to the range of squares that the ring meets along axis c, cut to 0 .. most. */
 static void span_of(const ring *r, int c, size_t most, size_t *from, size_t *to)
 {
     double low = INFINITY, high = -INFINITY;
@@ -114,7 +118,8 @@ static bool spread(spreading *s)
     return true;
 }
 
-/* Whole numbers, less than what was found by more than it may be off. */
+/* Rounds the masses down to whole numbers, each reduced by more than its possible error. `doubt_each` is the possible
+ * error per corner, in the unit of the whole numbers. */
 static void settle(const spreading *s, double doubt_each, sunder_i_masses *masses)
 {
     double most = 0;

@@ -1,6 +1,6 @@
-/* What a body occupies: its union, grown by a polygon within the disc of half the gap. Two bodies that keep the gap do
- * not share any of it, for what is nearer than half the gap to both would be a place where they are nearer than the
- * gap. Less than all of it does as well. */
+/* Builds the area that a body occupies: its union, grown by a polygon inside the disc whose radius is half the gap. The
+ * occupied areas of two bodies that keep the gap are disjoint, since a place nearer than half the gap to both bodies
+ * would make their distance less than the gap. A subset of the occupied area is a valid area for the bound as well. */
 #include "displacement/layer/relate.h"
 #include "displacement/prove/areas/areas.h"
 #include "displacement/prove/areas/tuning.h"
@@ -10,7 +10,7 @@
 
 #include <string.h>
 
-/* Area and box, of rings as they are. */
+/* Computes the area and the bounding box of the rings as they are. */
 static void measure(sunder_i_outline *o)
 {
     sunder_i_box_clear(o->box);
@@ -51,7 +51,8 @@ static sunder_status take_rings(const sunder_shape *shape, sunder_i_outline *o, 
     return SUNDER_OK;
 }
 
-/* Members of one shape may overlap, and count once. */
+/* Sets *out to the union of the members of `shape`, since members may overlap and their common area must count once.
+ * The caller frees *out. */
 static sunder_status unite(const sunder_shape *shape, sunder_shape **out, sunder_error *err)
 {
     sunder_sum *sum = NULL;

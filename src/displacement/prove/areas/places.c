@@ -1,6 +1,7 @@
-/* Where a crowd may begin: each body at the mean of the places that prices of area leave it to choose from. Bodies that
- * coincide spread in all directions, and bodies in a row do not pass each other, as in optimal transport; so their
- * sides are mostly right when the search begins, and little remains to be done. */
+/* Proposes starting positions for many bodies at the same place: each body gets the mean of the moves that are nearly
+ * the cheapest for it at prices of area. Bodies that coincide are spread in all directions, and bodies in a row do not
+ * pass each other, as in optimal transport. So most pairs are already on the right sides of each other when the search
+ * begins, and few corrections remain. */
 #include "displacement/prove/areas/climb.h"
 #include "displacement/prove/areas/tuning.h"
 
@@ -12,7 +13,7 @@ sunder_status sunder_i_areas_places(const sunder_i_model *model, const uint32_t 
     sunder_i_climb l;
     *found = false;
     sunder_status status = sunder_i_climb_init(&l, model, body, n, ROOM_ABOUT * sqrt((double)n), err);
-    /* The finest tells how much is proved, and no places. */
+    /* The finest grid increases what is proved but does not improve the positions; it is left out. */
     const unsigned last = rough && l.left > 1 ? l.left - 1 : 1;
     while (!status && l.left > last)
         if (!sunder_i_climb_on(&l)) status = sunder_i_no_memory(err);

@@ -1,11 +1,13 @@
-/* What prices prove, in integers.
+/* Computes the bound that prices prove, in integers.
  *
- * Let g(t) be the price of the payer's area when it moved by t, and k a place of the grid. For k <= t <= k + 1 (in
- * squares) the four values at the corners determine g up to the kinks of the prices: along one axis the price at a
- * point of the body is linear except for one kink, at a node, and where that is convex, by d, the chord is above it by
- * at most d / 4. So g(t) is at least the bilinear mean of the corners less E / 4, with E the sum over the body's
- * squares of their mass times the greatest such d that they may meet, in x and in y. And |t|^2 is below its own mean
- * over a square of side s by at most s^2 / 2, so squares are divided further, by the mean alone. */
+ * Let g(t) be the price of the area that the payer occupies after the move t, in squares, and k a move by whole
+ * squares. For k <= t <= k + 1 (in both coordinates) g is determined by its values at the four corners up to the kinks
+ * of the prices. Along one axis the price at a point of the body is linear in t except for one kink, at a node. If the
+ * kink is convex and the slope changes by d, the chord lies above the function by at most d / 4. So g(t) is at least
+ * the bilinear interpolation of the corners minus E / 4, where E is the sum over the body's squares of their mass times
+ * the greatest such d that the square may meet, for x plus the same for y. Also, |t|^2 is less than its own bilinear
+ * interpolation over a square of side s by at most s^2 / 2; to keep that small, squares are subdivided, which needs
+ * only the interpolation. */
 #include "displacement/prove/areas/areas.h"
 #include "displacement/prove/areas/window.h"
 
@@ -16,25 +18,28 @@
 
 #include <math.h>
 
-/* Squares are divided into this many parts along either axis, and everything is counted in units of this fraction. */
+/* Each square is divided into PARTS parts along either axis. Totals are counted in units of 1 / PARTS_SQUARE of the
+ * unit of masses times prices. */
 #define PARTS 8
 #define PARTS_SQUARE (PARTS * PARTS)
 
 typedef struct field {
     const sunder_i_prices *prices;
-    uint32_t *kink;   /* [nodes] four times what the squares about the node may be less by, a unit of mass */
-    int64_t sharpest; /* of these */
+    uint32_t *kink;   /* [nodes] four times the amount by which prices may be below their interpolation in the squares
+                       * around the node, for one unit of mass */
+    int64_t sharpest; /* the largest entry of kink[] */
 } field;
 
-/* One payer, at work. */
+/* The evaluation of one payer. */
 typedef struct asking {
     const field *field;
     const sunder_i_payer *payer;
-    int64_t weight; /* of a move by one square */
-    int64_t reach;  /* nodes of moves that have room in `price` */
-    int64_t *price; /* [(2 * reach + 1)^2] */
-    int64_t least;  /* in parts */
-    int64_t doubt;  /* what kinks may take from any square at most, in parts */
+    int64_t weight; /* the cost of a move by one square */
+    int64_t reach;  /* the largest move along either axis for which `price` has room, in squares */
+    int64_t *price; /* [(2 * reach + 1)^2] the prices of the payer's area after each move by whole squares */
+    int64_t least;  /* the least total found so far, in units of 1 / PARTS_SQUARE */
+    int64_t doubt;  /* the largest amount by which kinks may lower the total in any square, in units of 1 /
+                     * PARTS_SQUARE */
 } asking;
 
 static int64_t price_at(const sunder_i_prices *p, int64_t i, int64_t j)
@@ -45,7 +50,8 @@ static int64_t price_at(const sunder_i_prices *p, int64_t i, int64_t j)
                : p->price[(size_t)j * l->columns + (size_t)i];
 }
 
-/* How much prices turn up at three nodes in a row, of three such rows, at most. */
+/* Returns the largest second difference of the prices in direction (di, dj), or 0 if none is positive. It is taken over
+ * three neighbouring lines of three nodes each, of which (i, j) is the first node of the first. */
 static int64_t turn_of(const sunder_i_prices *p, int64_t i, int64_t j, int64_t di, int64_t dj)
 {
     int64_t most = 0;
@@ -57,7 +63,8 @@ static int64_t turn_of(const sunder_i_prices *p, int64_t i, int64_t j, int64_t d
     return most;
 }
 
-/* What a square may be less by: what is in it meets prices from its own nodes to those of the next but one. */
+/* Returns a bound on the kinks, in x plus in y, that a mass in square (i, j) may meet when it moves by less than a
+ * square: it meets prices from the nodes of its own square to those of the next square but one. */
 static int64_t kink_of_square(const sunder_i_prices *p, int64_t i, int64_t j)
 {
     return turn_of(p, i, j, 1, 0) + turn_of(p, i, j, 0, 1);
@@ -79,8 +86,8 @@ static void find_kinks(field *f)
         }
 }
 
-/* The sum over the payer's nodes, when it moved by (dx, dy), of what is at the node there: times its mass and `more`.
- * Both are below 2^32 (are_small()). */
+/* Returns the sum over the payer's nodes, after a move by (dx, dy) squares, of (the mass of the node + more) *
+ * what[node of the grid at that place]. Both factors are below 2^32, which are_small() ensures. */
 static int64_t sum_at(const asking *a, const uint32_t *what, int64_t more, int64_t dx, int64_t dy)
 {
     const sunder_i_masses *m = &a->payer->masses;
@@ -101,7 +108,7 @@ static int64_t *slot(const asking *a, int64_t dx, int64_t dy)
     return &a->price[(dy + a->reach) * (2 * a->reach + 1) + dx + a->reach];
 }
 
-/* Prices of all moves that are exactly this many squares long along one axis, and no longer along the other. */
+/* Computes the prices of all moves for which the larger of |dx| and |dy| is exactly r. */
 static void price_ring(const asking *a, int64_t r)
 {
     for (int64_t dy = -r; dy <= r; dy++) {
@@ -110,7 +117,7 @@ static void price_ring(const asking *a, int64_t r)
     }
 }
 
-/* The least of its parts' corners, in parts. */
+/* Returns the least total over the corners of the parts of square (x, y), in units of 1 / PARTS_SQUARE. */
 static int64_t least_corner(const asking *a, int64_t x, int64_t y)
 {
     const int64_t p00 = *slot(a, x, y), p10 = *slot(a, x + 1, y), p01 = *slot(a, x, y + 1),
@@ -132,16 +139,18 @@ static int64_t least4(int64_t a, int64_t b, int64_t c, int64_t d)
     return p < q ? p : q;
 }
 
-/* What a move in the square from (x, y) costs at least. */
+/* Lowers a->least to a lower bound on what the payer pays for any move in the square from (x, y) to (x + 1, y + 1), if
+ * that is less. */
 static void ask_square(asking *a, int64_t x, int64_t y)
 {
     const int64_t dx = x < 0 ? -x - 1 : x, dy = y < 0 ? -y - 1 : y, square = dx * dx + dy * dy;
     const double side = a->field->prices->grid.side, limit = a->payer->limit;
     if ((double)square * (side * side) > limit * limit * (1 + 0x1p-48)) return;
-    int64_t low = PARTS_SQUARE * a->weight * square; /* the way alone */
+    int64_t low = PARTS_SQUARE * a->weight * square; /* the cost of the move alone */
     if (low >= a->least) return;
     const int64_t corner = least4(*slot(a, x, y), *slot(a, x + 1, y), *slot(a, x, y + 1), *slot(a, x + 1, y + 1));
-    if (low + PARTS_SQUARE * corner - a->doubt >= a->least) return; /* most are: their kinks need no look */
+    /* true of most squares, for which the sum over the kinks is not needed */
+    if (low + PARTS_SQUARE * corner - a->doubt >= a->least) return;
     const int64_t less = PARTS_SQUARE / 4 * sum_at(a, a->field->kink, a->payer->masses.slack, x, y);
     const int64_t roughly = low + PARTS_SQUARE * corner - less;
     if (roughly >= a->least) return;
@@ -151,7 +160,7 @@ static void ask_square(asking *a, int64_t x, int64_t y)
     if (low < a->least) a->least = low;
 }
 
-/* All squares, from the middle outwards, until the way alone costs as much. */
+/* Examines all squares in rings from the middle outwards, until the cost of the move alone is at least a->least. */
 static void ask_rings(asking *a)
 {
     price_ring(a, 0);
@@ -164,21 +173,23 @@ static void ask_rings(asking *a)
     }
 }
 
-/* How far the payer looks, in squares: to where the way costs as much as to stay, its limit, or the end of the grid,
- * whichever is nearest. */
+/* Returns how far the payer has to be examined, in squares: up to where the move alone costs as much as the price of
+ * staying, `stays`, or to the payer's limit, or to `beyond`, from where on the payer lies outside the grid; whichever
+ * is nearest. Two squares are added. */
 static int64_t reach_of(const asking *a, int64_t stays, int64_t beyond)
 {
     const double reach = sunder_i_min(sqrt((double)stays / (double)a->weight), (double)beyond);
     return (int64_t)sunder_i_min(reach, a->payer->limit / a->field->prices->grid.side) + 2;
 }
 
-/* *paid: in parts, no more than what the payer pays wherever it goes. False if memory is out. */
+/* Sets *paid to a lower bound on what the payer pays for any move, in units of 1 / PARTS_SQUARE. Returns false if
+ * memory is out. */
 static bool ask_payer(const field *f, const sunder_i_payer *payer, int64_t *paid)
 {
     asking a = {.field = f,
                 .payer = payer,
                 .weight = (int64_t)(payer->weight * (double)SUNDER_I_MASS_OF_SQUARE / f->prices->unit)};
-    /* To stay is one of its moves. */
+    /* Staying is one of the payer's moves. */
     const int64_t stays = sum_at(&a, f->prices->price, 0, 0, 0);
     a.least = *paid = PARTS_SQUARE * stays;
     if (stays == 0) return true;
@@ -191,16 +202,16 @@ static bool ask_payer(const field *f, const sunder_i_payer *payer, int64_t *paid
     if (!a.price) return false;
     ask_rings(&a);
     sunder_i_free(a.price);
-    /* For places beyond the grid, which were not looked at, only the move is paid: at least that to the grid's
-     * border. */
+    /* Moves beyond the grid were not examined. There the payer pays for its move only, which is at least the move to
+     * the border of the grid. */
     if (a.reach > beyond && PARTS_SQUARE * a.weight * beyond * beyond < a.least)
         a.least = PARTS_SQUARE * a.weight * beyond * beyond;
     *paid = a.least;
     return true;
 }
 
-/* Are all numbers below 2^61, and masses with their slack below 2^32? A way that costs more than to stay is not looked
- * along. */
+/* Returns whether all numbers that can occur stay below 2^61, and masses with their slack below 2^32. Moves that alone
+ * cost more than staying need not be considered for this, since they are not examined. */
 static bool are_small(const sunder_i_prices *prices, const sunder_i_payer *payer, size_t n)
 {
     for (size_t k = 0; k < n; k++) {
@@ -213,7 +224,8 @@ static bool are_small(const sunder_i_prices *prices, const sunder_i_payer *payer
     return true;
 }
 
-/* Kinks are of nodes of the grid: those about a price at its border would be beyond, and left out. */
+/* Returns whether the two outermost rows and columns have no price. Kinks are stored for nodes of the grid only; a
+ * price at the border would cause kinks outside, which would be missed. */
 static bool is_free_at_border(const sunder_i_prices *p)
 {
     const size_t columns = p->grid.columns, rows = p->grid.rows;
@@ -224,7 +236,7 @@ static bool is_free_at_border(const sunder_i_prices *p)
     return true;
 }
 
-/* Exactly. */
+/* Adds `value` to the total without rounding, in two halves of 32 bits. */
 static void add(sunder_total *total, int64_t value)
 {
     sunder_total_add(total, (double)(value >> 32) * 0x1p32);
@@ -234,7 +246,7 @@ static void add(sunder_total *total, int64_t value)
 typedef struct questions {
     const field *field;
     const sunder_i_payer *payer;
-    int64_t *paid; /* [payers] */
+    int64_t *paid; /* [payers] what each payer pays at least */
 } questions;
 
 static sunder_status ask_some(void *context, size_t begin, size_t end, sunder_error *err)
@@ -245,7 +257,7 @@ static sunder_status ask_some(void *context, size_t begin, size_t end, sunder_er
     return SUNDER_OK;
 }
 
-/* What all pay, added to the total. False if memory is out. */
+/* Adds what all payers pay at least to *total. Returns false if memory is out. */
 static bool ask_all(const field *f, const sunder_i_payer *payer, size_t n, unsigned threads, sunder_total *total)
 {
     questions q = {f, payer, sunder_i_alloc(n, sizeof *q.paid)};

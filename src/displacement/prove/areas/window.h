@@ -1,13 +1,15 @@
-/* What of a payer is on the grid when it moved by whole squares: which of its own nodes, and over which of the grid's
- * they are. */
+/* Determines which part of a payer's masses lies on the grid after a move by whole squares: which of its own nodes, and
+ * the nodes of the grid under them. */
 #ifndef SUNDER_I_AREAS_WINDOW_H
 #define SUNDER_I_AREAS_WINDOW_H
 
 #include "displacement/prove/areas/areas.h"
 
 typedef struct sunder_i_part_on_grid {
-    size_t column, columns, row, rows; /* of the payer: the first, and past the last */
-    int64_t x, y;                      /* the grid's node under the payer's (0, 0), which may be beyond its border */
+    size_t column, columns, row, rows; /* the range of the payer's own nodes: `column` and `row` are the first,
+                                        * `columns` and `rows` one past the last */
+    int64_t x, y;                      /* the node of the grid under the payer's node (0, 0); it may lie outside the
+                                        * grid */
 } sunder_i_part_on_grid;
 
 static inline sunder_i_part_on_grid sunder_i_part_on(const sunder_i_grid *grid, const sunder_i_masses *m, int64_t dx,
@@ -22,14 +24,14 @@ static inline sunder_i_part_on_grid sunder_i_part_on(const sunder_i_grid *grid, 
     return (sunder_i_part_on_grid){(size_t)left, (size_t)right, (size_t)low, (size_t)high, x, y};
 }
 
-/* The grid's node under the first of row j of the window. */
+/* Returns the index of the grid's node under the first node of row j of the window `w`. */
 static inline size_t sunder_i_part_node(const sunder_i_grid *grid, const sunder_i_part_on_grid *w, size_t j)
 {
     return (size_t)(w->y + (int64_t)j) * grid->columns + (size_t)(w->x + (int64_t)w->column);
 }
 
-/* A payer that moved by this many squares along either axis is beyond the grid, where nothing has a price. Payers stand
- * on the grid. */
+/* Returns a number of squares such that a payer that moves by it along either axis lies outside the grid, where all
+ * prices are 0. A payer's original position lies on the grid. */
 static inline int64_t sunder_i_beyond_grid(const sunder_i_grid *grid, const sunder_i_masses *m)
 {
     const size_t columns = grid->columns + m->columns, rows = grid->rows + m->rows;
