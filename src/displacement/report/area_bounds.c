@@ -1,10 +1,12 @@
-/* Bounds by area: what parts of the layer cost because their bodies share no area, where pairs and contact groups prove
- * much less than the cost.
+/* Computes lower bounds by prices of area for those parts of the layer in which pairs and contact groups prove much
+ * less than the cost.
  *
- * A crowd has many parts, since contact groups are the bodies that push each other in the final layout. So parts that
- * were solved together are bounded together, if little is proved of them, along with bodies that are in no part and
- * were solved with them. Among these, bodies count that pairwise owe each other the gap. Of two bodies in a listed
- * conflict only the larger one counts; where features may lie in others, and owe them nothing then, neither does. */
+ * Bodies that crowd around one place form many independent parts, since contact groups consist of bodies that push each
+ * other in the final layout. Parts whose bodies were solved together are therefore bounded together, and bodies that
+ * belong to no part but were solved with them are added. Parts of which nearly the whole cost is proved are left out.
+ * The bound may use only bodies that all have to keep the gap from each other. So of two bodies in a listed conflict
+ * only the larger one is used. Nothing is computed if features may lie inside others, because such pairs need not keep
+ * a gap. */
 #include "displacement/layer/resolution.h"
 #include "displacement/report/report.h"
 #include "displacement/report/tuning.h"
@@ -19,12 +21,13 @@
 typedef struct payers {
     sunder_i_solver *s;
     sunder_i_parts *parts;
-    double *cost;             /* [bodies] of each part, at its root */
-    uint32_t *crowd;          /* [bodies] union-find over parts, and bodies that were solved together */
-    sunder_i_id_pair *member; /* crowd after crowd: its root, a body */
+    double *cost;             /* [bodies] the cost of each part, at the part's root */
+    uint32_t *crowd;          /* [bodies] union-find that joins parts whose bodies were solved together; a set of it is
+                               * a joint part */
+    sunder_i_id_pair *member; /* (root of the joint part, body), grouped by joint part */
     size_t members;
-    bool *left_out; /* [bodies] */
-    uint32_t *body; /* of one crowd */
+    bool *left_out; /* [bodies] the body is in a listed conflict with a larger one */
+    uint32_t *body; /* scratch: the bodies of one joint part that are used */
 } payers;
 
 static double extent(const sunder_i_model *model, uint32_t body)
@@ -33,7 +36,8 @@ static double extent(const sunder_i_model *model, uint32_t body)
     return (box[2] - box[0]) * (box[3] - box[1]);
 }
 
-/* Of two that are listed one is left out: the smaller, or the later of equals. */
+/* Marks, for each listed conflict of two bodies, the body with the smaller box in left_out[]; of equal boxes the body
+ * of the feature with the larger number, r->b. */
 static void leave_out_listed(payers *p)
 {
     const sunder_i_model *model = &p->s->model;
@@ -46,7 +50,8 @@ static void leave_out_listed(payers *p)
     }
 }
 
-/* Is nearly all that the part costs proved of it? */
+/* Returns whether the part with this root needs no bound by areas, since at least the share AREAS_ASKED of its cost is
+ * proved. */
 static bool is_settled(const payers *p, uint32_t root)
 {
     return p->cost[root] > 0 && sunder_i_part_bound(p->parts, root) >= AREAS_ASKED * p->cost[root];
@@ -62,7 +67,7 @@ static void find_costs(payers *p)
     }
 }
 
-/* Crowd after crowd, those that move and are of no part that is settled. */
+/* Lists the movable bodies of parts that are not settled, grouped by joint part. */
 static void list_members(payers *p)
 {
     const sunder_i_model *model = &p->s->model;
@@ -79,7 +84,7 @@ static void list_members(payers *p)
     qsort(p->member, p->members, sizeof *p->member, sunder_i_by_id_pair);
 }
 
-/* The cost of the crowd, and what is proved of its parts. */
+/* Sets *cost to the cost of the n members of a joint part, and *proved to what is proved of their parts so far. */
 static void measure(const payers *p, const sunder_i_id_pair *member, size_t n, double *cost, double *proved)
 {
     sunder_total costs = {0}, bounds = {0};
@@ -91,7 +96,8 @@ static void measure(const payers *p, const sunder_i_id_pair *member, size_t n, d
     *proved = sunder_total_nearest(&bounds);
 }
 
-/* Its bound is that of all its parts, which have none of their own any more. */
+/* Makes the bound by areas the bound of the joint part. It is recorded at the root area->root; all other parts of the
+ * joint part get none of their own (-1). */
 static sunder_status take(payers *p, sunder_i_area_bound *area, const sunder_i_id_pair *member, size_t members,
                           sunder_error *err)
 {
@@ -118,7 +124,7 @@ static sunder_status ask_crowd(payers *p, const sunder_i_id_pair *member, size_t
     if (!status) status = sunder_i_areas_bound(model, p->body, n, &out->prices, &out->bound, err);
     const bool better = !status && out->bound > proved;
     if (better) {
-        p->parts->areas++; /* freed with the parts from here on */
+        p->parts->areas++; /* from here on sunder_i_parts_free() frees its arrays */
         return take(p, out, member, members, err);
     }
     sunder_i_free(out->prices.price);
@@ -161,7 +167,7 @@ sunder_status sunder_i_report_area_bounds(sunder_i_solver *solver, sunder_i_part
     return status;
 }
 
-/* ---- For a reader ------------------------------------------------------------------------------------------------ */
+/* ---- Bounds by area in the written proof ------------------------------------------------------------------------- */
 
 static bool record(const sunder_i_model *model, sunder_i_area_bound *area, sunder_bound_tree *out)
 {

@@ -1,5 +1,6 @@
-/* What stands in the way of a conflict: the features of the proof that it has no room; where there is no proof, those
- * that the two rest against, as they stand. */
+/* Determines which features and barriers block a remaining conflict. If there is a proof that the conflict has no
+ * solution, they are the features and barriers that the proof uses; otherwise those that the two features of the
+ * conflict rest against at their present positions. */
 #include "displacement/layer/reads.h"
 #include "displacement/report/report.h"
 #include "displacement/report/tuning.h"
@@ -10,7 +11,9 @@
 
 #include <math.h>
 
-/* Features of other blocks within the gap, and a hair, of feature f. */
+/* Appends to `blockers` the features and barriers of other bodies that are not farther from feature f than they have to
+ * be, plus a small tolerance. Features and barriers of the conflict's own bodies are left out, and features that may
+ * lie inside f. */
 static sunder_status find_around(const sunder_i_solver *s, const sunder_conflict *c, uint32_t f, sunder_i_list *near,
                                  sunder_i_list *blockers, sunder_error *err)
 {
@@ -80,12 +83,13 @@ sunder_status sunder_i_report_blockers(sunder_report *report, const sunder_i_sol
         sunder_conflict *c = &report->conflict[k];
         const size_t first = blockers.n;
         if (c->inside_block || c->reason == SUNDER_REASON_KEPT) continue;
-        if (c->reason == SUNDER_REASON_FIXED || c->reason == SUNDER_REASON_MAX_SHIFT) continue; /* limits alone */
+        /* here limits are the only cause */
+        if (c->reason == SUNDER_REASON_FIXED || c->reason == SUNDER_REASON_MAX_SHIFT) continue;
         if (!report->proof[k])
             status = find_blockers(solver, c, &near, &blockers, err);
         else if (!take_from_proof(&solver->model, c, report->proof[k], &blockers))
             status = sunder_i_no_memory(err);
-        if (blockers.n == first) continue; /* nothing to name, and perhaps no list yet */
+        if (blockers.n == first) continue; /* no blockers; blockers.item may still be NULL */
         c->n_blocked_by = sunder_i_set_make(&blockers.item[first], blockers.n - first);
         blockers.n = first + c->n_blocked_by;
     }

@@ -1,11 +1,12 @@
-/* The lower bound from pairs.
+/* Computes the lower bound that the pairs in conflict prove.
  *
- * If d is the least separation of a pair, every solution has |t_i| + |t_j| >= d. So its cost is at least the optimum of
+ * If d_ij is the least relative move that separates the pair (i, j), every solution has |t_i| + |t_j| >= d_ij for the
+ * moves t of the two bodies. So its cost is at least the optimum of
  *     min sum w_i r_i^2,  r_i + r_j >= d_ij,  r >= 0,  r_i = 0 where i is fixed,
  * and by weak duality at least sum l_ij d_ij - sum_i (sum_j l_ij)^2 / (4 w_i), over bodies i that may move, for any
  * l >= 0. Coordinate ascent finds the multipliers l; they need not be optimal, only non-negative. The value is then
- * computed with every operation rounded against us: terms that are added downwards, terms that are subtracted
- * upwards. */
+ * computed so that no rounding can make it too large: terms that are added are rounded downwards, and terms that are
+ * subtracted upwards. */
 #include "displacement/report/report.h"
 #include "displacement/report/tuning.h"
 
@@ -16,11 +17,12 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* One step down, or up, covers the half unit that a single operation rounds by. */
+/* Return the next smaller and the next larger double. One such step covers the half unit in the last place by which a
+ * single operation rounds. */
 static double down(double v) { return nextafter(v, -INFINITY); }
 static double up(double v) { return nextafter(v, INFINITY); }
 
-/* A lower bound of the weight of a body: its members' weights are added downwards. */
+/* Returns a lower bound of the weight of a body: the weights of its members, each addition rounded downwards. */
 static double weight_below(const sunder_i_model *model, const sunder_i_body *body)
 {
     double w = 0;
@@ -31,7 +33,8 @@ static double weight_below(const sunder_i_model *model, const sunder_i_body *bod
     return w;
 }
 
-/* Over the pairs that `which` lists, which hang together: so what is far from them has no say in when it ends. */
+/* Runs coordinate ascent on the n pairs whose indices are which[].b, a connected component of the pairs. The number of
+ * sweeps depends on these pairs only. load[body] is the sum of the multipliers of the body's pairs. */
 static void ascend(const sunder_i_model *model, sunder_bound_pair *pairs, const sunder_i_id_pair *which, size_t n,
                    double *load)
 {
@@ -55,8 +58,9 @@ static void ascend(const sunder_i_model *model, sunder_bound_pair *pairs, const 
     }
 }
 
-/* Each component of the pairs by itself; what is fixed holds none together. which: scratch for all pairs, by the
- * component's root and their places. */
+/* Runs the ascent for each connected component of the pairs by itself; fixed bodies do not connect pairs. which: [n]
+ * scratch, filled with (root of the component, index of the pair). Multipliers that are negative or not finite are set
+ * to 0 at the end. */
 static void ascend_all(const sunder_i_model *model, sunder_bound_pair *pairs, sunder_i_id_pair *which, size_t n,
                        uint32_t *root, double *load)
 {
@@ -78,7 +82,8 @@ static void ascend_all(const sunder_i_model *model, sunder_bound_pair *pairs, su
         if (!(pairs[k].multiplier > 0) || !isfinite(pairs[k].multiplier)) pairs[k].multiplier = 0;
 }
 
-/* What the pairs prove of each part of the layer, at its root; downwards. load: [bodies], all 0. */
+/* Adds what the pairs prove of each part of the layer to value[] at the part's root, rounded downwards. load: [bodies],
+ * all 0 before the call. */
 static void add_up(const sunder_i_model *model, const sunder_bound_pair *pairs, size_t n, uint32_t *root, double *load,
                    double *value)
 {
@@ -99,7 +104,8 @@ static void add_up(const sunder_i_model *model, const sunder_bound_pair *pairs, 
 
 static double positive(double value) { return value > 0 && isfinite(value) ? value : 0; }
 
-/* A component that proves nothing gets no multipliers. value: what each proves, at its root. */
+/* Returns the total bound, rounded downwards. value[] contains what is proved of each component, at its root; negative
+ * values are set to 0, and the pairs of such components get the multiplier 0. */
 static double bound_of(const sunder_i_model *model, sunder_bound_pair *pairs, size_t n, uint32_t *root, double *value)
 {
     sunder_total total = {0};
@@ -123,7 +129,7 @@ sunder_status sunder_i_bound(const sunder_i_model *model, sunder_bound_pair *pai
     const bool ok = load && value && root && which;
     if (ok) {
         ascend_all(model, pairs, which, n, root, load);
-        /* Two fixed bodies have no solution at all, and prove nothing. */
+        /* A pair of two fixed bodies has no solution at all, so it contributes nothing to a bound. */
         for (size_t k = 0; k < n; k++)
             if (model->body[model->body_of[pairs[k].a]].fixed && model->body[model->body_of[pairs[k].b]].fixed)
                 pairs[k].multiplier = 0;

@@ -1,4 +1,4 @@
-/* Which pairs the lower bound stands on, and how far apart each has to go. */
+/* Chooses the pairs that the lower bound uses, and measures for each the least relative move that separates it. */
 #include "displacement/layer/barrier_pairs.h"
 #include "displacement/report/report.h"
 
@@ -11,7 +11,8 @@
 typedef struct measuring {
     const sunder_i_model *model;
     sunder_bound_pair *pair;
-    const sunder_bound_pair *known; /* [known_n] measured before; sorted by pairs */
+    const sunder_bound_pair *known; /* [known_n] pairs whose least relative move was measured during the search; sorted
+                                     * by pair */
     size_t known_n;
 } measuring;
 
@@ -41,7 +42,7 @@ static sunder_status measure_pairs(void *context, size_t begin, size_t end, sund
     return SUNDER_OK;
 }
 
-/* How far apart n pairs have to go, which is known of some. */
+/* Measures the least relative move of n pairs; those that the solver has measured are looked up. */
 static sunder_status measure(const sunder_i_solver *s, sunder_bound_pair *pair, size_t n, sunder_error *err)
 {
     sunder_bound_pair *known = sunder_i_alloc(s->measured_n, sizeof *known);
@@ -73,7 +74,8 @@ static uint64_t bodies_of(const sunder_i_model *model, size_t a, size_t b)
     return i < j ? (uint64_t)i << 32 | j : (uint64_t)j << 32 | i;
 }
 
-/* Is it still in conflict, with whatever part of a barrier? */
+/* Returns whether the features of r, or the feature and any part of its barrier, are still in conflict in the
+ * result. */
 static bool is_left(const sunder_i_solver *s, const sunder_i_relation *r)
 {
     const sunder_i_relation key = {.a = r->a, .b = sunder_i_whole_of(&s->model, r->b)};
@@ -83,7 +85,8 @@ static bool is_left(const sunder_i_solver *s, const sunder_i_relation *r)
     return false;
 }
 
-/* For each pair of blocks, the pair of members that is hardest to resolve, among those that were resolved. */
+/* For each pair of bodies in conflict at the start and resolved in the result, keeps the pair of members with the
+ * longest least relative move. */
 sunder_status sunder_i_report_bound(sunder_report *report, const sunder_i_solver *solver, sunder_error *err)
 {
     const sunder_i_model *model = &solver->model;
@@ -106,7 +109,8 @@ sunder_status sunder_i_report_bound(sunder_report *report, const sunder_i_solver
         for (size_t k = 0; k < n; k++)
             key[k] = (key_pair){bodies_of(model, report->bound_pair[k].a, report->bound_pair[k].b), k};
         qsort(key, n, sizeof *key, by_bodies);
-        /* Keep the hardest of each run; a pair that is dropped gets least < 0. */
+        /* Of the pairs of members with the same two bodies only the one with the longest move is kept; the others get
+         * least < 0 and are removed below. */
         for (size_t k = 1; k < n; k++) {
             if (key[k].bodies != key[k - 1].bodies) continue;
             sunder_bound_pair *p = &report->bound_pair[key[k - 1].at], *q = &report->bound_pair[key[k].at];

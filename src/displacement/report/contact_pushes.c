@@ -1,13 +1,12 @@
-/* The pushes that hold the features of a contact group in place: the forces of its last program.
+/* Computes the pushes that hold the features of a contact group in place: the forces of the group's quadratic program
+ * at the result.
  *
- * In the result every pair in contact is on the boundary of its forbidden set, and keeps a half-plane there: one for
- * each piece that it touches. Of all moves that keep these half-planes, and the limits, those of the result cost least,
- * up to rounding, at an optimum; the multipliers tell how hard each pair is pushed. They are computed in doubles, and
- * decide nothing.
- *
- *   several pieces of one pair    one push, the sum of theirs (renumber.c)
- *   a feature at its limit        the limit pushes too, but is no pair
- *   a pair left in conflict       is held to its distance, or its depth, at the start */
+ * In the result every pair in contact lies on the boundary of its forbidden set and keeps one half-plane for each piece
+ * that it touches. Among all moves that keep these half-planes and the limits, the moves of the result have the least
+ * cost, up to rounding, if the result is optimal. The multipliers of the half-planes say how strongly each pair is
+ * pushed. They are computed in floating point and decide nothing. Several half-planes of one pair give one push, the
+ * sum of their forces (renumber.c). A feature at its limit is pushed by the limit too, which is not reported, since it
+ * is no pair. A pair that remains in conflict is held to the distance or the depth that it had at the start. */
 #include "displacement/layer/reads.h"
 #include "displacement/prove/optimum/body_contact.h"
 #include "displacement/quadratic/quadratic.h"
@@ -23,11 +22,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Groups that are handed to a thread together, and how many such lots are done before pieces may be forgotten. */
+/* The number of groups that one task computes, and the number of tasks after which cached pieces may be discarded. */
 #define GROUPS_OF_A_LOT 64
 #define LOTS_AT_ONCE 32
 
-/* Found of some groups, one after the other. */
+/* The pushes found for some groups, in the order of the groups. */
 typedef struct found_pushes {
     sunder_push *push;
     size_t n, capacity;
@@ -38,10 +37,10 @@ typedef struct pressing {
     const sunder_i_group *group;
     sunder_i_waived waived;
     sunder_i_quadratic program;
-    sunder_push *push; /* the pairs that the constraints belong to */
+    sunder_push *push; /* [program.n] the pair that each constraint of `program` belongs to */
     size_t push_capacity;
     sunder_i_list near;
-    sunder_i_contact_list touch; /* of the pair looked at */
+    sunder_i_contact_list touch; /* the contacts of the pair that is examined */
     found_pushes *found;
 } pressing;
 
@@ -51,7 +50,8 @@ static size_t place_of(const sunder_i_group *g, uint32_t body)
     return at ? (size_t)(at - g->body) : SIZE_MAX;
 }
 
-/* The distance that counts as contact, including the margin beyond the gap. */
+/* Returns the distance up to which a and b count as touching: the contact tolerance plus twice the margin that the
+ * group keeps beyond the gap. */
 static double hair_of(const pressing *p, const sunder_i_body *a, const sunder_i_body *b)
 {
     return sunder_i_contact_hair(&p->solver->model, a, b) + 2 * p->group->margin;
@@ -68,7 +68,8 @@ static bool add(pressing *p, const sunder_i_constraint *c, size_t a, size_t b)
     return true;
 }
 
-/* The half-planes of bodies i and j of the group, where they touch. */
+/* Adds the half-planes of bodies i and j of the group to the program, one for each contact. Returns false if memory is
+ * out. */
 static bool add_pair(pressing *p, size_t i, size_t j)
 {
     const sunder_i_model *model = &p->solver->model;
@@ -85,7 +86,9 @@ static bool add_pair(pressing *p, size_t i, size_t j)
     return ok;
 }
 
-/* Those that stand near body i, or near its way there, each pair once. */
+/* Adds the half-planes of body i and all bodies of the group that are near it, or near its path from the original
+ * position if paths are restricted. Pairs of movable bodies are added once, from the body with the smaller index.
+ * Returns false if memory is out. */
 static bool add_pairs_of(pressing *p, size_t i)
 {
     const sunder_i_model *model = &p->solver->model;
@@ -112,7 +115,8 @@ static bool add_pairs_of(pressing *p, size_t i)
     return true;
 }
 
-/* -t.n >= -|t| for one that stands at its limit. */
+/* If body i is at its limit, adds the constraint -t.n >= -|t|, with n in the direction of its move. Returns false if
+ * memory is out. */
 static bool add_limit(pressing *p, size_t i)
 {
     const sunder_i_model *model = &p->solver->model;
@@ -124,7 +128,8 @@ static bool add_limit(pressing *p, size_t i)
     return add(p, &c, SIZE_MAX, SIZE_MAX);
 }
 
-/* What presses, each by itself: those of one pair are added up when their numbers are known. */
+/* Appends a push for each constraint with a positive force. Several pushes of one pair are added up only in renumber.c,
+ * when the final numbers of the features are known. */
 static bool report_forces(pressing *p)
 {
     const sunder_i_quadratic *q = &p->program;
@@ -165,8 +170,8 @@ static bool press(pressing *p, const sunder_i_group *g)
 
 typedef struct pressing_lots {
     const sunder_i_solver *solver;
-    size_t first;        /* group of the first lot */
-    found_pushes *found; /* [LOTS_AT_ONCE] */
+    size_t first;        /* the index of the first group of the first task */
+    found_pushes *found; /* [LOTS_AT_ONCE] the pushes that each task finds */
 } pressing_lots;
 
 static sunder_status press_lots(void *context, size_t begin, size_t end, sunder_error *err)
@@ -200,7 +205,7 @@ static bool append(sunder_report *report, size_t *capacity, const found_pushes *
 sunder_status sunder_i_report_pushes(sunder_report *report, sunder_i_solver *solver, sunder_error *err)
 {
     if (!solver->model.rules.keep_pushes) return SUNDER_OK;
-    /* Without proofs they have not been computed yet. */
+    /* If no proofs were made, the waived pairs have not been determined yet. */
     const sunder_status status = solver->groups.waived ? SUNDER_OK : sunder_i_solver_list_waivers(solver, err);
     if (status) return status;
     found_pushes found[LOTS_AT_ONCE];

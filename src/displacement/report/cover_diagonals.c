@@ -1,11 +1,13 @@
-/* The seams that questions about remaining conflicts may reach. Few conflicts remain in a large layer, and a question
- * about one reaches no farther than the limits from the bodies of its cluster: so most of the layer needs no seams.
+/* Covers the diagonals between the pieces of those bodies that questions about remaining conflicts may reach. In a
+ * large layer few conflicts remain, and a question about one of them reaches no farther than the limits of the bodies
+ * of its cluster; so the covers of most bodies are never needed.
  *
- * A question is about the two bodies of a conflict and the bodies of their clusters that join, which only bodies with a
- * limit do (prove/proofs/participants.c). Each moves at most by its limit; without limits, the two of a conflict at
- * most by the distance that certainly separates them (pair_reasons.c). The question looks at bodies within the gap of
- * these moves, and, where the relative move of two is examined, at fixed things within the gap of where either may go
- * (prove/proofs/plane_obstacles.c). Seams of other bodies are never looked at; having more of them changes nothing. */
+ * A question is about the two bodies of a conflict and those bodies of their clusters that have a limit
+ * (prove/proofs/participants.c). Each of them moves at most by its limit; a body of the conflict without a limit moves
+ * at most by the distance that certainly separates the two (pair_reasons.c). The question looks at bodies within the
+ * gap of these moves. Where the relative move of two bodies is examined, it also looks at fixed features and barriers
+ * within the gap of the places that either may reach (prove/proofs/plane_obstacles.c). Covers of other bodies are never
+ * looked at, so making more of them would change no result. */
 #include "displacement/layer/resolution.h"
 #include "displacement/report/report.h"
 
@@ -16,16 +18,18 @@
 #include <math.h>
 #include <string.h>
 
-/* What is looked up, in features for each that there is, before all have their seams made. */
+/* The number of bodies found by look-ups, for each feature and barrier part of the layer, after which the covers of all
+ * bodies are made instead. */
 #define LOOKED_UP 2
 
 typedef struct looking {
     sunder_i_solver *solver;
-    double *far;     /* [bodies] how far it goes, with a little to spare; negative: it is not asked about */
-    bool *met;       /* [bodies] */
-    bool *gathered;  /* [bodies] by its root: is the cluster asked about? */
-    double most;     /* of these */
-    bool any, fixed; /* is one of them asked about? are there fixed things? */
+    double *far;     /* [bodies] how far the body may move in a question, with a small margin; negative if no question
+                      * is about it */
+    bool *met;       /* [bodies] whether a question may reach the body */
+    bool *gathered;  /* [bodies] whether the cluster with this root was already entered in far[] */
+    double most;     /* the largest entry of far[] */
+    bool any, fixed; /* `any`: some entry of far[] is not negative; `fixed`: the layer has fixed features */
 } looking;
 
 static void ask(looking *l, uint32_t b, double far)
@@ -35,7 +39,8 @@ static void ask(looking *l, uint32_t b, double far)
     l->most = sunder_i_max(l->most, l->far[b]);
 }
 
-/* A body of a conflict, and its cluster, as far as that has limits; what is fixed is of none. */
+/* Enters body b of a conflict, with `without` as its distance if it has no limit, and the bodies of its cluster that
+ * have a limit. A fixed body belongs to no cluster. */
 static void ask_cluster(looking *l, uint32_t b, double without)
 {
     size_t n = 0;
@@ -76,8 +81,8 @@ static void ask_all(looking *l)
     }
 }
 
-/* While it is sought: all conflicts that hang together with one that was given up, since these are asked about together
- * (solve/clusters/reconsider.c), and the clusters of the two, since those are by themselves. */
+/* During the search: enters all conflicts that are connected with one that was given up, since a question is about all
+ * of these at once (solve/clusters/reconsider.c), and the clusters of their bodies. Returns false if memory is out. */
 static bool ask_given_up(looking *l)
 {
     const sunder_i_model *model = &l->solver->model;
@@ -100,8 +105,8 @@ static bool ask_given_up(looking *l)
     return ok;
 }
 
-/* The things within reach of a feature: the fixed ones, or all. *left: how many lookups remain. False if memory is
- * out. */
+/* Marks the bodies within `reach` of feature f: all of them, or only the fixed ones. *left is reduced by the number of
+ * things found. Returns false if memory is out. */
 static bool meet(looking *l, uint32_t f, double reach, bool all, sunder_i_list *near, size_t *left)
 {
     const sunder_i_model *model = &l->solver->model;
@@ -131,7 +136,8 @@ static bool meet_all(looking *l, uint32_t b, sunder_i_list *near, size_t *left)
     return ok;
 }
 
-/* All that is met, ascending. */
+/* Collects all bodies that questions may reach, in ascending order, and makes their covers; if too many things were
+ * found, makes the covers of all bodies. */
 static sunder_status find_some(looking *l, sunder_i_model *model, sunder_error *err)
 {
     const size_t most = LOOKED_UP * model->things;

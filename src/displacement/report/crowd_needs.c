@@ -1,15 +1,17 @@
-/* A limit that would solve all remaining conflicts of a crowd. A question about one pair, with all others as in the
- * result (question.c), is useless in a crowd: no feature has room unless the whole crowd spreads. But layouts of whole
- * clusters are known: the positions of its bodies while limits were lifted; and where these were given up, the cluster
- * stretched as a whole (spread_out.c). The longest move of a layout that is a solution is a limit that suffices for all
- * its pairs.
+/* Finds a limit that would solve the remaining conflicts of a whole cluster. In a dense cluster questions about a
+ * single pair with all other features as in the result (question.c) have no solution, because no feature has room
+ * unless the whole cluster spreads. But layouts of whole clusters are known: the moves of its bodies from the search
+ * without limits, and, where those are no solution, the cluster stretched as a whole (spread_out.c). The longest move
+ * of a layout that is a solution is a sufficient limit for all pairs of the cluster.
  *
- * The layout is checked exactly, in place of the result: the bodies of the cluster are put there, and so is each body
- * in their way that has another place in the layout, until none is in the way or one has no place. Then no pair may be
- * in conflict that is not in conflict in the result, no remaining conflict may be worse than at the start, and nothing
- * may have jumped. All others stand as in the result; afterwards all go back. The cost is to relate a cluster three
- * times, however many of its pairs remain. So crowds are examined before any of their pairs is examined by itself,
- * which is then done for fewer of them (needs.c); of other clusters only what these questions left open. */
+ * A layout is checked exactly, in place of the result: the bodies of the cluster are moved to their places in the
+ * layout, and so is each body that is then in conflict with them and has another place in the layout, until no further
+ * body has to move or one has no other place. Then every pair that is in conflict must also be in conflict in the
+ * result, no remaining conflict may be worse than at the start, and no feature may have jumped. All other bodies stay
+ * as in the result; afterwards all bodies are moved back. The cost is that of finding the conflicts of a cluster three
+ * times, whatever the number of its remaining pairs. Clusters with many conflicts are therefore examined this way
+ * before any of their pairs is examined by itself, and fewer of their pairs are then examined (needs.c); other clusters
+ * are examined this way only if questions about their pairs left some without an answer. */
 #include "displacement/report/report.h"
 #include "displacement/report/tuning.h"
 #include "displacement/solve/clusters/cluster_stages.h"
@@ -24,17 +26,17 @@
 
 typedef struct crowd {
     sunder_report *report;
-    sunder_i_trial trial; /* the bodies that it moves, and their places in the result */
-    sunder_i_list body;   /* the bodies it begins with */
-    const double *goal;   /* [2 * bodies] of the layout */
-    bool *taken;          /* [bodies] */
-    bool *stays;          /* [conflicts] of the report: in conflict in that layout, too */
-    bool any;             /* another body was moved */
+    sunder_i_trial trial; /* the bodies that were moved, and their moves in the result */
+    sunder_i_list body;   /* the bodies that are moved first, those of the cluster */
+    const double *goal;   /* [2 * bodies] the moves in the layout */
+    bool *taken;          /* [bodies] whether the body was moved */
+    bool *stays;          /* [conflicts] whether the report's conflict remains in the layout */
+    bool any;             /* another body was moved in the current round */
 } crowd;
 
 static const double *goal(const crowd *g, uint32_t body) { return g->goal + 2 * (size_t)body; }
 
-/* One body as it stands from now on. */
+/* Moves one body, and updates the placement and the paths for it. */
 static sunder_status put(crowd *g, uint32_t body, const double *move, sunder_error *err)
 {
     sunder_i_solver *s = g->trial.solver;
@@ -43,7 +45,8 @@ static sunder_status put(crowd *g, uint32_t body, const double *move, sunder_err
     return status ? status : sunder_i_jumps_follow(&s->jumps, &s->model, body, err);
 }
 
-/* Puts a body where the layout has it; *done: it may move, and stood elsewhere. */
+/* Moves a body to its place in the layout. Sets *done to whether it did so: the body must be movable, must not have
+ * been moved before, and must have had another place. */
 static sunder_status take(crowd *g, uint32_t body, bool *done, sunder_error *err)
 {
     const sunder_i_model *model = &g->trial.solver->model;
@@ -55,7 +58,7 @@ static sunder_status take(crowd *g, uint32_t body, bool *done, sunder_error *err
     return put(g, body, goal(g, body), err);
 }
 
-/* The conflict of the report, if it is one; else NULL. */
+/* Returns the report's conflict with the pair of relation r, or NULL if there is none. */
 static const sunder_conflict *find_listed(const crowd *g, const sunder_i_relation *r)
 {
     size_t low = 0, high = g->report->conflicts;
@@ -71,7 +74,8 @@ static const sunder_conflict *find_listed(const crowd *g, const sunder_i_relatio
     return NULL;
 }
 
-/* A body in the way goes to its place in the layout, too. */
+/* Moves one of two bodies that are in conflict to its place in the layout. The layout fails (trial.well = false) if
+ * neither can be moved and the pair is not among the report's conflicts. */
 static sunder_status make_way(void *context, const sunder_i_relation *r, bool *on, sunder_error *err)
 {
     crowd *g = context;
@@ -85,7 +89,8 @@ static sunder_status make_way(void *context, const sunder_i_relation *r, bool *o
     return status;
 }
 
-/* Is the pair in no conflict but one that is listed, and no worse than at the start? */
+/* The layout fails if the pair of r is in conflict but is not among the report's conflicts, or if it is worse than at
+ * the start. A conflict of the report is marked in stays[]. */
 static sunder_status look_at_pair(void *context, const sunder_i_relation *r, bool *on, sunder_error *err)
 {
     crowd *g = context;
@@ -119,7 +124,8 @@ static sunder_status ask_for_jumps(crowd *g, sunder_error *err)
     return status;
 }
 
-/* Is that layout a solution, and how far do they go in it? All stand as in the result before and behind. */
+/* Sets trial.well to whether the layout is a solution, and *longest to the longest move of a body that was moved. All
+ * bodies have their moves of the result before and after the call. */
 static sunder_status try_layout(crowd *g, double *longest, sunder_error *err)
 {
     sunder_status status = SUNDER_OK;
@@ -147,7 +153,7 @@ static sunder_status try_layout(crowd *g, double *longest, sunder_error *err)
     return status;
 }
 
-/* The cluster that a conflict belongs to. */
+/* Returns the root of the cluster that the conflict c belongs to. */
 static uint32_t root_of(const sunder_i_solver *s, const sunder_conflict *c)
 {
     const uint32_t i = s->model.body_of[c->a], j = s->model.body_of[c->b];
@@ -159,8 +165,8 @@ static bool is_asked(const sunder_conflict *c)
     return !c->inside_block && c->reason != SUNDER_REASON_KEPT && c->reason != SUNDER_REASON_FIXED;
 }
 
-/* Of one cluster, by a layout: all its conflicts that this solves, if it is a solution; item[] of them, by their
- * places. */
+/* Tries a layout for one cluster, whose n conflicts have the indices item[].b in the report. If it is a solution, *well
+ * is set, and need_shift of all conflicts that it solves becomes at most its longest move. */
 static sunder_status free_by(crowd *g, const double *layout, const sunder_i_id_pair *item, size_t n, bool *well,
                              sunder_error *err)
 {
@@ -169,7 +175,7 @@ static sunder_status free_by(crowd *g, const double *layout, const sunder_i_id_p
     for (size_t k = 0; k < n; k++) g->stays[item[k].b] = false;
     const sunder_status status = try_layout(g, &longest, err);
     *well = !status && g->trial.n && g->trial.well;
-    /* A value rounded once is covered by one unit in the last place more. */
+    /* The length was rounded once, so the next larger double is an upper bound. */
     longest = nextafter(longest, INFINITY);
     for (size_t k = 0; k < n && *well; k++) {
         sunder_conflict *c = &g->report->conflict[item[k].b];
@@ -178,7 +184,8 @@ static sunder_status free_by(crowd *g, const double *layout, const sunder_i_id_p
     return status;
 }
 
-/* Before and after the call, `spread` holds the moves of all bodies in the result. */
+/* Tries the known layouts of one cluster. `spread` contains the moves of all bodies in the result, before and after the
+ * call. */
 static sunder_status free_cluster(crowd *g, const sunder_i_id_pair *item, size_t n, double *spread, sunder_error *err)
 {
     const sunder_i_model *model = &g->trial.solver->model;
@@ -201,7 +208,7 @@ static sunder_status free_cluster(crowd *g, const sunder_i_id_pair *item, size_t
     return status;
 }
 
-/* Conflicts by clusters: the root and the place of each. */
+/* Lists the conflicts as (root of the cluster, index in the report), sorted. Returns their number. */
 static size_t group(const sunder_i_solver *s, const sunder_report *report, sunder_i_id_pair *item)
 {
     size_t n = 0;

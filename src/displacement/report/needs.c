@@ -1,10 +1,10 @@
-/* What would solve a remaining conflict: a longer limit, a smaller gap, one feature less. Each question is answered by
- * a small layer around it (question.c).
+/* Finds what would solve a remaining conflict: a longer limit, a smaller gap, or the removal of one feature. Each
+ * question is answered by a small layer around the conflict (question.c).
  *
- * In a crowd without room hardly any small layer has a solution, and there are thousands of conflicts: the pairs of a
- * cluster are examined in turn until the budget for failures is spent. And a kind of question that usually fails is
- * asked for fewer and fewer of them. (A gap that the result keeps needs no question.) So what is reported of a pair
- * depends on its cluster, never on the rest of the layer. */
+ * In a dense layer hardly any of these small layers has a solution, and there are thousands of conflicts. The pairs of
+ * a cluster are therefore examined in turn until the cluster's budget for failed questions is spent, and a kind of
+ * question that mostly fails is asked less and less often. (A gap that the pair already keeps in the result needs no
+ * question.) What is reported of a pair thus depends on its cluster only, not on the rest of the layer. */
 #include "displacement/layer/barrier_pairs.h"
 #include "displacement/layer/reads.h"
 #include "displacement/layer/resolution.h"
@@ -18,40 +18,43 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* ---- Questions in vain ------------------------------------------------------------------------------------------- */
+/* ---- Failed questions -------------------------------------------------------------------------------------------- */
 
-/* The remaining budget of failures for a cluster: the number of features taking part, and the patience for each kind of
- * question; also for proofs that a question has no answer, which only save the search for one. */
+/* The remaining budget of a cluster. `left` is the number of features that may still take part in failed questions. The
+ * patience counters decide for each kind of question whether it is asked again; `proof` is that of attempts to prove
+ * that a question has no solution, which only save the search for one. */
 typedef struct budget {
     uint64_t left;
     sunder_i_patience shift, gap, gone, proof;
 } budget;
 
-/* ---- A gap that there is in the result --------------------------------------------------------------------------- */
+/* ---- Gaps that the result already keeps -------------------------------------------------------------------------- */
 
-/* Are its needs to be found? */
+/* Returns whether needs are to be found for this conflict. */
 static bool is_asked_about(const sunder_conflict *c) { return !c->inside_block && c->reason != SUNDER_REASON_KEPT; }
 
-/* Is the layer's gap owed between the two, and no other one of the barrier's own? */
+/* Returns whether the conflict is about the layer's gap, and not about a gap that belongs to the barrier. */
 static bool is_about_gap(const sunder_i_solver *s, const sunder_conflict *c)
 {
     return c->b < s->model.features || s->layer.barrier[sunder_i_barrier_of(&s->model, (uint32_t)c->b)].gap < 0;
 }
 
-/* The gap that a conflict keeps as it stands: the distance of two features nearer than the layer's gap, and beside a
- * barrier the part of it beyond the drawn width; -1: none. */
+/* Returns the gap that the pair of the conflict keeps in the result: the distance of two features that are nearer than
+ * the layer's gap, or the part of a feature's distance from a barrier that exceeds the drawn width. Returns -1 if there
+ * is none. */
 static double gap_of(const sunder_i_solver *s, const sunder_conflict *c)
 {
     if (c->depth > 0 || !is_about_gap(s, c)) return -1;
     if (c->kind == SUNDER_CONFLICT_TOO_CLOSE) return sunder_i_max(0, nextafter(c->distance, -INFINITY));
     if (c->kind != SUNDER_CONFLICT_BARRIER_NEAR) return -1;
     const double gap = s->model.rules.gap, width = c->required - gap;
-    /* Three roundings, and those of the distance and of what is required. */
+    /* The last term covers three roundings, and those of c->distance and c->required. */
     return c->distance - width - 0x1p-50 * (c->distance + c->required + gap);
 }
 
-/* The least gap kept by a pair and by all remaining pairs of its two bodies: for that gap the result solves it and its
- * neighbours, without a question. Only if it is positive, and less than the gap asked for. */
+/* For each pair, takes the least gap that the pair and all remaining pairs of its two bodies keep in the result. With
+ * that gap the result itself is a solution for the pair and its neighbours, so it becomes need_gap without a question,
+ * if it is at least 0 and less than the requested gap. */
 static sunder_status keep_what_there_is(const sunder_i_questions *g, sunder_error *err)
 {
     const sunder_i_model *model = &g->solver->model;
@@ -79,14 +82,14 @@ static sunder_status keep_what_there_is(const sunder_i_questions *g, sunder_erro
 
 /* ---- The three needs --------------------------------------------------------------------------------------------- */
 
-/* A failed question. */
+/* Reduces the budget by the number of features and barrier parts that took part in a failed question. */
 static void note_in_vain(const sunder_i_surroundings *a, budget *left)
 {
     const uint64_t took = a->feature.n + a->part.n;
     left->left -= took < left->left ? took : left->left;
 }
 
-/* A question; a failed one reduces the budget by the number of features that took part. */
+/* Asks a question. If the answer is no, the budget is reduced. */
 static sunder_status ask(const sunder_i_questions *g, const sunder_i_surroundings *a, const sunder_conflict *c,
                          const sunder_i_supposition *what, budget *left, sunder_i_answer *answer, sunder_error *err)
 {
@@ -95,8 +98,9 @@ static sunder_status ask(const sunder_i_questions *g, const sunder_i_surrounding
     return status;
 }
 
-/* A limit of moves: what they need where they may go as far as is known, and then less, by halves; less than does for
- * all of a crowd, where that is known (crowd_needs.c). */
+/* Finds a sufficient limit. The first question allows the longest moves of which all neighbours are known, or the limit
+ * that solves the whole cluster if that is known (crowd_needs.c). If it has a solution, the interval below is halved up
+ * to g->halvings times. */
 static sunder_status need_shift(const sunder_i_questions *g, const sunder_i_surroundings *a, sunder_conflict *c,
                                 budget *left, sunder_error *err)
 {
@@ -110,7 +114,7 @@ static sunder_status need_shift(const sunder_i_questions *g, const sunder_i_surr
         const sunder_status status = ask(g, a, c, &what, left, &answer, err);
         if (status) return status;
         if (k == 0) sunder_i_patience_note(&left->shift, answer.yes);
-        /* A value rounded once is covered by one unit in the last place more. */
+        /* The length was rounded once, so the next larger double is an upper bound. */
         if (answer.yes)
             c->need_shift = sunder_i_min(c->need_shift, nextafter(answer.longest, INFINITY));
         else if (k == 0)
@@ -125,14 +129,16 @@ static sunder_status need_shift(const sunder_i_questions *g, const sunder_i_surr
 
 /* ---- The gap ----------------------------------------------------------------------------------------------------- */
 
-/* How far the two may go together. */
+/* Returns the sum of the limits of the conflict's two features, or the limit of its feature if the other is a
+ * barrier. */
 static double reach_of(const sunder_i_model *model, const sunder_conflict *c)
 {
     const double limit = sunder_i_limit_of(&model->body[model->body_of[c->a]]);
     return c->b < model->features ? limit + sunder_i_limit_of(&model->body[model->body_of[c->b]]) : limit;
 }
 
-/* A proved bound of the least relative move that leaves the two that gap, and its length. */
+/* Computes the least relative move with which the pair keeps `gap`: *least is a proved lower bound of its length,
+ * *length the length found. */
 static sunder_status least_for_gap(const sunder_i_model *model, const sunder_conflict *c, double gap, double *least,
                                    double *length, sunder_error *err)
 {
@@ -158,10 +164,10 @@ static sunder_status least_for_gap(const sunder_i_model *model, const sunder_con
     return status;
 }
 
-/* The largest gap up to `most` that the two could keep within their limits by themselves, to within `step`: the pair
- * can keep *does, and no gap larger than *above. The least move that leaves a gap g is usually g longer than the one
- * that separates the two: so the next g is what the limits leave after the last move, and usually the second is
- * right. */
+/* Finds the largest gap up to `most` that the pair could keep by itself within its limits. It can keep the gap *does
+ * (negative if none), and no gap larger than *above; the two differ by at most `step` if PAIR_GAP_ROUNDS rounds
+ * suffice. The least relative move for a gap g is usually longer than the one for gap 0 by g. The next gap tried is
+ * therefore the last one plus what the limits leave after its move; the second try is usually right. */
 static sunder_status gap_of_pair(const sunder_i_model *model, const sunder_conflict *c, double most, double step,
                                  double *does, double *above, sunder_error *err)
 {
@@ -185,7 +191,7 @@ static sunder_status gap_of_pair(const sunder_i_model *model, const sunder_confl
     return SUNDER_OK;
 }
 
-/* Is no other feature or barrier within reach of the question? */
+/* Returns whether the question's layer contains no feature or barrier other than the two of the conflict. */
 static bool are_alone(const sunder_i_model *model, const sunder_i_surroundings *a, const sunder_conflict *c)
 {
     bool alone = a->feature.n == (c->b < model->features ? 2 : 1);
@@ -193,8 +199,8 @@ static bool are_alone(const sunder_i_model *model, const sunder_i_surroundings *
     return alone;
 }
 
-/* The questions about one conflict; high: no larger gap is examined any more; all: all answers also solve the few other
- * listed pairs. */
+/* The questions about the gap of one conflict. `high` is the largest gap that may still have a solution. `all` means
+ * that answers also have to solve the other listed pairs in the small layer, if these are few. */
 typedef struct asked {
     const sunder_i_questions *questions;
     const sunder_i_surroundings *about;
@@ -202,11 +208,12 @@ typedef struct asked {
     budget *left;
     double high;
     bool all;
-    sunder_i_foresight *foresight; /* NULL: none yet, or not looked for */
+    sunder_i_foresight *foresight; /* NULL if it was not made yet, or is not needed */
     bool foresight_of_all;
 } asked;
 
-/* Asks whether there is a solution with that gap, and notes the answer. */
+/* Asks whether there is a solution with this gap, and stores the answer: need_gap if there is one, otherwise the upper
+ * end `high`. */
 static sunder_status try_gap(asked *g, double gap, bool *yes, sunder_error *err)
 {
     const sunder_i_supposition what = {.gap = gap, .gone = SUNDER_I_NOBODY, .all = g->all};
@@ -227,7 +234,7 @@ static void look_ahead_no_more(asked *g)
     g->foresight = NULL;
 }
 
-/* Makes the layer for proofs, if it is not made yet. */
+/* Makes the small layer that is used for proofs, unless it was already made for the same value of `all`. */
 static sunder_status look_ahead(asked *g, bool all, sunder_error *err)
 {
     if (g->foresight && g->foresight_of_all == all) return SUNDER_OK;
@@ -238,8 +245,9 @@ static sunder_status look_ahead(asked *g, bool all, sunder_error *err)
     return sunder_i_foresight_init(g->foresight, g->questions, g->about, g->conflict, all, err);
 }
 
-/* Narrows the interval of the largest gap by proofs, to `step`: low is kept, or may be; high is not, or nothing is
- * known of it. Gaps that they refute are not examined any more. */
+/* Narrows the interval in which the largest gap lies to the width `step`, by proofs. *low is raised to gaps for which
+ * there is a solution (with `in_plane`: to gaps that are not refuted). The upper end is lowered to gaps that are
+ * refuted, or of which nothing is known. g->high is lowered only by refuted gaps. */
 static sunder_status narrow(asked *g, bool in_plane, double step, double *low, double high, sunder_error *err)
 {
     sunder_status status = SUNDER_OK;
@@ -257,8 +265,9 @@ static sunder_status narrow(asked *g, bool in_plane, double step, double *low, d
     return status;
 }
 
-/* Roughly the largest gap with which there is a solution of reals, to within `step`; -1: none is seen. First as if the
- * two were alone among what stands, which is mostly true: then one question more confirms it. */
+/* Sets *gap to about the largest gap with which the small layer has a solution in real numbers, to within `step`, or to
+ * -1 if none is found. First only the plane of the pair's relative moves is examined, as if nothing else could move;
+ * that is mostly right, and one further question confirms it. */
 static sunder_status foresee_gap(asked *g, double step, double *gap, sunder_error *err)
 {
     const double first = isnan(g->conflict->need_gap) ? -step : g->conflict->need_gap;
@@ -281,7 +290,8 @@ static sunder_status foresee_gap(asked *g, double step, double *gap, sunder_erro
     return status;
 }
 
-/* Does the solution of reals that was foreseen hold for doubles, with a gap that is less by a hair? */
+/* Tests whether the solution in real numbers that was found for the gap `seen` is also one in doubles, with a gap that
+ * is smaller by the share NEED_LESS. If so, sets *yes, and need_gap to that gap. */
 static sunder_status try_foreseen(asked *g, double seen, bool *yes, sunder_error *err)
 {
     const double gap = seen * (1 - NEED_LESS);
@@ -290,8 +300,8 @@ static sunder_status try_foreseen(asked *g, double seen, bool *yes, sunder_error
     return status;
 }
 
-/* Of two that no other is about: the gap that their limits leave them is the answer, but for the hair that the search
- * keeps to limits; or a little less where that is still too tight. */
+/* For a pair without neighbours: the largest gap that the two could keep within their limits is the answer, reduced by
+ * the small margin that the search keeps to limits, or by half a step if that is still too large. */
 static sunder_status try_gap_of_pair(asked *g, double step, sunder_error *err)
 {
     const sunder_i_model *model = &g->questions->solver->model;
@@ -308,8 +318,8 @@ static sunder_status try_gap_of_pair(asked *g, double step, sunder_error *err)
     return status;
 }
 
-/* Is there a solution without a gap that solves what few are listed besides, too, if there are any? Then larger gaps
- * have to do so as well. */
+/* If there are few other listed pairs, asks whether a solution without a gap solves them as well. If it does, larger
+ * gaps have to do so too: g->all is set accordingly. */
 static sunder_status try_no_gap_of_all(asked *g, sunder_error *err)
 {
     const double high = g->high;
@@ -328,9 +338,10 @@ static sunder_status try_no_gap(asked *g, sunder_error *err)
     return status;
 }
 
-/* The largest gap with which there is a solution, to within a hundredth of the layer's. For a pair without neighbours
- * it is the pair's own. Else proofs alone tell roughly how large it is, which takes a small part of what searches take,
- * and one search confirms it; where that finds nothing, the gap is halved a few times. */
+/* Finds the largest gap with which there is a solution, to within 1 / NEED_GAP_PARTS of the layer's gap. For a pair
+ * without neighbours it is the pair's own largest gap. Otherwise proofs alone find roughly how large it is, in a small
+ * part of the time that searches take, and one search confirms it. If the result is not confirmed, the interval is
+ * halved by searches a few times. */
 static sunder_status need_gap(asked *g, sunder_error *err)
 {
     sunder_conflict *c = g->conflict;
@@ -354,9 +365,10 @@ static sunder_status need_gap(asked *g, sunder_error *err)
     return status;
 }
 
-/* ---- The feature that leaves ------------------------------------------------------------------------------------- */
+/* ---- Removing one feature ---------------------------------------------------------------------------------------- */
 
-/* Has it a solution without that one? No search looks for what is proved not to be there. */
+/* Sets *yes to whether the conflict has a solution without the feature or barrier `gone`. No search is made if it is
+ * proved that there is none. */
 static sunder_status try_gone(asked *g, uint32_t gone, bool *yes, sunder_error *err)
 {
     const double gap = g->questions->options->gap;
@@ -374,7 +386,8 @@ static sunder_status try_gone(asked *g, uint32_t gone, bool *yes, sunder_error *
     return status;
 }
 
-/* The first of those in the way, without which all others are solved. */
+/* Sets need_gone to the first of the features and barriers that block the conflict without which it has a solution. At
+ * most g->questions->leaves of them are tried. */
 static sunder_status need_gone(asked *g, sunder_error *err)
 {
     sunder_conflict *c = g->conflict;
@@ -402,7 +415,7 @@ static sunder_status find_needs(const sunder_i_questions *g, sunder_conflict *c,
     if (members_that_move(model, c->a) + members_that_move(model, c->b) > NEED_MOST) return SUNDER_OK;
     sunder_status status = sunder_i_surround(g->solver, c, &a, err);
     a.farthest =
-        sunder_i_min(a.farthest, g->options->barrier_reach); /* what it has not been told of may stand beyond */
+        sunder_i_min(a.farthest, g->options->barrier_reach); /* barriers farther away were not read from the input */
     if (!status) status = need_shift(g, &a, c, left, err);
     asked one = {.questions = g, .about = &a, .conflict = c, .left = left, .high = g->options->gap, .all = true};
     if (!status) status = need_gap(&one, err);
@@ -414,7 +427,7 @@ static sunder_status find_needs(const sunder_i_questions *g, sunder_conflict *c,
 
 /* ---- The conflicts of a cluster ---------------------------------------------------------------------------------- */
 
-/* A conflict of the report, and the cluster that it belongs to. */
+/* A conflict, as an index in the report, and the root of the cluster that it belongs to. */
 typedef struct matter {
     uint32_t root, conflict;
 } matter;
@@ -422,12 +435,13 @@ typedef struct matter {
 typedef struct asking {
     const sunder_i_questions *questions;
     const matter *matter;
-    const size_t *first; /* [clusters + 1] matters, cluster after cluster */
-    uint64_t most;       /* may be asked in vain of one */
+    const size_t *first; /* [clusters + 1] the index of the first matter of each cluster, and the end */
+    uint64_t most;       /* the number of features that may take part in failed questions about one cluster */
 } asking;
 
-/* If a crowd has an answer as a whole, few of its pairs are examined by themselves: the other needs are then found for
- * some of them only, but most have no feature to remove, and no shorter limit. */
+/* Returns how many failed questions of a kind are allowed for a cluster. If a limit is already known that solves the
+ * cluster as a whole, few of its pairs are examined by themselves. The other needs are then found for some of them
+ * only, but most of them have neither a feature to remove nor a shorter limit. */
 static sunder_i_patience patience_for(const asking *g, size_t cluster)
 {
     bool known = false;
@@ -459,8 +473,8 @@ static int by_matter(const void *a, const void *b)
     return (p->conflict > q->conflict) - (p->conflict < q->conflict);
 }
 
-/* The conflicts to examine, cluster after cluster; first: where each cluster begins, and the end. Returns the number of
- * clusters. */
+/* Lists the conflicts to examine in list[], grouped by cluster, and sets first[] to the index of the first conflict of
+ * each cluster, followed by the end. Returns the number of clusters. */
 static size_t group(const sunder_i_solver *s, const sunder_report *report, matter *list, size_t *first)
 {
     const sunder_i_model *model = &s->model;

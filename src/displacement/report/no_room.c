@@ -1,13 +1,15 @@
-/* Which remaining conflicts have no room, or belong to a crowd that has none; with a proof of each.
+/* Determines which remaining conflicts provably have no solution ("no_room"), or belong to a dense group of features
+ * for which there is not enough room ("crowded"), and keeps a proof of each.
  *
- * A conflict has no room if it and all unlisted pairs cannot be solved together while every other listed pair stands no
- * worse than at the start. Each is examined by itself (prove/proofs/feasibility.c). A proof is then made irreducible:
- * features are removed one after the other, and a feature stays if its removal leaves nothing provable, and so do all
- * parts of it; as far as the effort goes.
+ * A conflict has no room if it and all pairs that are not listed cannot be solved together while every other listed
+ * pair is no worse than at the start. Each conflict is examined by itself (prove/proofs/feasibility.c). A proof is then
+ * made irreducible: features are removed one after the other, and a feature is kept, with all of its parts, if nothing
+ * can be proved without it; this goes on as long as the effort lasts.
  *
- * In a crowd a pair remains in conflict not because of the unlisted pairs, but because a few features around it, most
- * of them listed too, need more room than there is. A conflict without the proof above is crowded if a chain through it
- * (prove/proofs/chain_fewest.c) proves that the pairs of a few features cannot all be solved, whatever else remains. */
+ * In a dense group a pair remains in conflict not because of the pairs that are not listed, but because a few features
+ * around it, most of them in listed pairs too, need more room than there is. A conflict without a proof of the first
+ * kind is crowded if a chain through it (prove/proofs/chain_fewest.c) proves that the pairs of a few features cannot
+ * all be solved, whatever other conflicts remain. */
 #include "displacement/prove/proofs/feasibility.h"
 #include "displacement/report/report.h"
 #include "displacement/report/tuning.h"
@@ -20,12 +22,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- What listed pairs are held to ------------------------------------------------------------------------------- */
+/* ---- What listed pairs must keep --------------------------------------------------------------------------------- */
 
 typedef struct requiring {
     const sunder_i_solver *solver;
     const sunder_report *report;
-    const uint32_t *listed; /* places in the report's conflicts */
+    const uint32_t *listed; /* indices in the report's conflicts */
     sunder_i_requirement *required;
 } requiring;
 
@@ -42,10 +44,10 @@ static sunder_status find_some_requirements(void *context, size_t begin, size_t 
     return SUNDER_OK;
 }
 
-/* ---- A proof that needs all it says ------------------------------------------------------------------------------ */
+/* ---- Making proofs irreducible ----------------------------------------------------------------------------------- */
 
-/* The things of a proof into a set that has room for them: they are among those of another proof, whose nodes may be
- * fewer. False if memory is out. */
+/* Writes the features and barriers of the proof to set[] and their number to *n. set[] must have room for them; callers
+ * provide room for those of an earlier proof with the same features. Returns false if memory is out. */
 static bool take_features(const sunder_i_model *model, const sunder_proof *proof, uint32_t *set, size_t *n)
 {
     uint32_t *all = sunder_i_alloc(3 * proof->nodes, sizeof *all);
@@ -56,8 +58,9 @@ static bool take_features(const sunder_i_model *model, const sunder_proof *proof
     return true;
 }
 
-/* Removes features that the proof can do without, in order of number, while the effort lasts: the current one, and
- * those that a proof without it no longer uses. *budget: the effort allowed, reduced by what was spent. */
+/* Removes features that the proof does not need, in order of their numbers, as long as the effort lasts. Each step
+ * tries to find a proof without the feature; if it succeeds, the features that the new proof no longer uses are removed
+ * as well. *budget is the effort allowed, and is reduced by what was used. */
 static sunder_status reduce(const sunder_i_subproblem *subproblem, sunder_i_decide_subproblem decide, uint64_t *budget,
                             sunder_proof **proof, sunder_error *err)
 {
@@ -106,13 +109,15 @@ static sunder_status reduce(const sunder_i_subproblem *subproblem, sunder_i_deci
 
 /* ---- The conflicts of a cluster ---------------------------------------------------------------------------------- */
 
-/* A conflict of the report, and the cluster that it belongs to. */
+/* A conflict, as an index in the report, the root of the cluster that it belongs to, and what is known of it. */
 typedef struct matter {
     uint32_t root, conflict;
     bool open;
-    bool fine;  /* by coarse lines there is a solution */
-    bool slack; /* and by fine ones, with a translation for each two parts that are held to an overlap */
-    bool still; /* also with slack; but has it a place that doubles can represent? Tested after everything else */
+    bool fine;  /* with coarse lines there is a solution */
+    bool slack; /* with fine lines, too; a translation is then added for each pair of parts that must keep an overlap no
+                 * deeper than it was */
+    bool still; /* with these translations, too; what remains is whether the bodies have a position in doubles, which is
+                 * tested after everything else */
     bool no_plane;
 } matter;
 
@@ -121,10 +126,10 @@ typedef struct asking {
     sunder_report *report;
     sunder_i_decide_subproblem decide;
     matter *matter;
-    const size_t *first; /* [clusters + 1] matters, cluster after cluster */
+    const size_t *first; /* [clusters + 1] the index of the first matter of each cluster, and the end */
     const sunder_i_requirement *required;
     size_t required_n;
-    uint64_t times; /* multiple of the effort of --effort 1 */
+    uint64_t times; /* the multiple of the effort that --effort 1 allows */
 } asking;
 
 static double farthest_of(const sunder_i_model *model, const uint32_t *body, size_t n)
@@ -137,10 +142,10 @@ static double farthest_of(const sunder_i_model *model, const uint32_t *body, siz
     return farthest;
 }
 
-/* Sets the next way to ask; false if there is none. It asks first with slightly coarse lines, which make smaller
- * proofs; if that has a solution, with the finest lines; if that has one, with a slack for pairs that are held to
- * overlaps. Real arithmetic tells no more. Whether one of the two is held between two lines, without a place that
- * doubles can represent, is asked later. */
+/* Sets the next, more exact kind of question for m, and returns whether there is one. The first kind uses slightly
+ * coarse lines, which give smaller proofs. If that has a solution, the finest lines are used; if that has one, a slack
+ * for pairs that must keep overlaps. Real arithmetic can prove no more than these. Whether one of the two bodies is
+ * held between two lines without a position in doubles (`still`) is asked later. */
 static bool ask_closer(const sunder_i_subproblem *q, matter *m)
 {
     m->still = m->slack || (m->fine && !sunder_i_may_have_slack(q));
@@ -149,15 +154,16 @@ static bool ask_closer(const sunder_i_subproblem *q, matter *m)
     return !m->still;
 }
 
-/* The conflict has the decision's proof from now on, if there is one, which is of that reason; what it can do
- * without is left out, while a budget lasts. Clears the decision. */
+/* If the decision contains a proof, makes it the proof of the conflict and sets the conflict's reason to `reason`.
+ * Features that the proof does not need are removed, within *budget. Clears the decision. */
 static sunder_status keep_proof(const asking *g, const matter *m, const sunder_i_subproblem *asked,
                                 sunder_i_decision *decision, sunder_reason reason, uint64_t *budget, sunder_error *err)
 {
     sunder_i_subproblem q = *asked;
     sunder_proof **proof = &g->report->proof[m->conflict];
     *proof = decision->proof;
-    q.fine_plane = decision->fine_plane; /* what coarse lines do not prove of all they do not prove of fewer */
+    q.fine_plane = decision->fine_plane; /* what coarse lines do not prove for all features they do not prove for
+                                          * fewer */
     decision->proof = NULL;
     sunder_i_decision_clear(decision);
     if (!*proof) return SUNDER_OK;
@@ -168,8 +174,8 @@ static sunder_status keep_proof(const asking *g, const matter *m, const sunder_i
     return SUNDER_OK;
 }
 
-/* The same of one without room: as much is allowed for each of the questions that reduce it as for the proof, or a
- * little. */
+/* Keeps a proof that there is no room. If the proof is reducible, each of the questions that reduce it may take as much
+ * effort as the search for the proof, but at least LITTLE_EFFORT. */
 static sunder_status keep_no_room(const asking *g, const matter *m, sunder_i_subproblem *q, sunder_i_decision *decision,
                                   bool reducible, sunder_error *err)
 {
@@ -181,13 +187,16 @@ static sunder_status keep_no_room(const asking *g, const matter *m, sunder_i_sub
     return status;
 }
 
-/* Asks about one conflict: is there a proof? It is open as long as more effort might tell. */
+/* Asks whether one conflict has a solution, with more and more exact questions, and keeps a proof that it has none.
+ * m->open becomes whether more effort might give an answer. *pool is the effort left for the cluster; effort without a
+ * proof is subtracted. */
 static sunder_status ask(const asking *g, matter *m, sunder_i_subproblem *q, uint64_t *pool, sunder_error *err)
 {
     const sunder_conflict *c = &g->report->conflict[m->conflict];
     const uint32_t body[2] = {g->solver->model.body_of[c->a], g->solver->model.body_of[c->b]};
     q->body = body;
-    q->bodies = sunder_i_is_barrier(q->model, (uint32_t)c->b) ? 1 : 2; /* it is met where it is near */
+    /* a barrier takes part wherever it is near the bodies */
+    q->bodies = sunder_i_is_barrier(q->model, (uint32_t)c->b) ? 1 : 2;
     q->a = (uint32_t)c->a;
     q->b = (uint32_t)c->b;
     sunder_i_decision decision = {0};
@@ -202,7 +211,8 @@ static sunder_status ask(const asking *g, matter *m, sunder_i_subproblem *q, uin
         m->no_plane = m->no_plane || (!q->no_plane && decision.no_plane);
     } while (!status && decision.verdict == SUNDER_I_FEASIBLE && !m->still && ask_closer(q, m));
     m->open = !decision.proof && decision.verdict == SUNDER_I_UNKNOWN && decision.work > q->effort;
-    const bool later = m->still && !q->still; /* it has a solution of reals, and is not asked for one again */
+    const bool later = m->still && !q->still; /* there is a solution in real numbers; this question is not asked
+                                               * again */
     if (!decision.proof && !later) *pool = *pool > decision.work ? *pool - decision.work : 0;
     q->no_plane = false;
     if (!status) return keep_no_room(g, m, q, &decision, true, err);
@@ -210,7 +220,7 @@ static sunder_status ask(const asking *g, matter *m, sunder_i_subproblem *q, uin
     return status;
 }
 
-/* Are they two that move, and one of them without a limit? */
+/* Returns whether both bodies of the conflict may move and at least one has no limit. */
 static bool has_no_limit(const asking *g, const matter *m)
 {
     const sunder_i_model *model = &g->solver->model;
@@ -220,8 +230,8 @@ static bool has_no_limit(const asking *g, const matter *m)
     return p > 0 && r > 0 && p + r == INFINITY;
 }
 
-/* Keeps the proof of a conflict in a crowd. A proof by one straight chain is already irreducible. Any other is
- * reduced, or dropped when the cluster's `budget` is used up. */
+/* Keeps the proof that a conflict is crowded. A proof by a single straight chain is already irreducible. Any other is
+ * reduced, and dropped if the cluster's *budget is used up before it is irreducible. */
 static sunder_status keep_crowded(const asking *g, const matter *m, const sunder_i_subproblem *q,
                                   sunder_i_decision *decision, uint64_t *budget, sunder_error *err)
 {
@@ -241,8 +251,9 @@ static sunder_status keep_crowded(const asking *g, const matter *m, const sunder
     return SUNDER_OK;
 }
 
-/* Does the pair push others to their limits, one after the other? A chain of more than a few links is irreducible from
- * the start, as far as such chains tell. crowd: NULL, or the budget of pairs that belong to a crowd. */
+/* Looks for a chain of features through the pair, each of which pushes the next, up to their limits. A chain of more
+ * than REDUCED_LINKS links is irreducible as it is found, as far as such chains can tell. crowd: NULL, or the budget
+ * for making proofs irreducible if the chain is to prove that the conflict is crowded. */
 static sunder_status ask_chain(const asking *g, matter *m, sunder_i_subproblem *q, sunder_i_chains *chains,
                                uint64_t *crowd, sunder_error *err)
 {
@@ -264,7 +275,8 @@ static sunder_status ask_chain(const asking *g, matter *m, sunder_i_subproblem *
                  : keep_no_room(g, m, q, &decision, links <= REDUCED_LINKS, err);
 }
 
-/* crowd: NULL, or what may be taken by reducing, of those that are of a crowd. */
+/* Looks for chains through all conflicts of a cluster that have no proof yet and whose bodies have limits. crowd: NULL,
+ * or the budget for making proofs irreducible if the chains are to prove that conflicts are crowded. */
 static sunder_status ask_chains(const asking *g, matter *first, const matter *last, sunder_i_subproblem *q,
                                 uint64_t *crowd, sunder_error *err)
 {
@@ -277,8 +289,8 @@ static sunder_status ask_chains(const asking *g, matter *first, const matter *la
     return status;
 }
 
-/* If nothing else was proved: does it belong to a crowd, a few features that all owe each other the full distance,
- * listed or not? */
+/* For conflicts without a proof: looks for chains that prove them crowded. All pairs then have to keep the full
+ * distance, whether they are listed or not. */
 static sunder_status ask_crowd(const asking *g, matter *first, const matter *last, const sunder_i_subproblem *cluster,
                                sunder_error *err)
 {
@@ -294,7 +306,8 @@ static sunder_status ask_crowd(const asking *g, matter *first, const matter *las
     return ask_chains(g, first, last, &q, &budget, err);
 }
 
-/* Those of the two bodies, ascending; *n of them. NULL if memory is out. */
+/* Returns the features of the two bodies in ascending order, which the caller frees, and sets *n to their number.
+ * Returns NULL if memory is out. */
 static uint32_t *members_of(const sunder_i_model *model, const uint32_t body[2], size_t *n)
 {
     const sunder_i_body *p = &model->body[body[0]], *r = &model->body[body[1]];
@@ -306,9 +319,9 @@ static uint32_t *members_of(const sunder_i_model *model, const uint32_t body[2],
     return set;
 }
 
-/* The same for two features where one has no limit: for the two alone, whatever else is near. Beyond the distance at
- * which they are certainly apart only shadows forbid a relative move, and what is shaded there was shaded before
- * (pair_reasons.c). */
+/* Asks the same for two features of which one has no limit. Only the two are considered, whatever else is near. Beyond
+ * the distance at which they certainly do not meet, only shadows forbid a relative move, and the shadow of a forbidden
+ * move has no end (pair_reasons.c); so the two get that distance, twice, as a limit. */
 static sunder_status ask_without_limit(const asking *g, matter *m, const sunder_i_subproblem *q, uint64_t *pool,
                                        sunder_error *err)
 {
@@ -325,9 +338,10 @@ static sunder_status ask_without_limit(const asking *g, matter *m, const sunder_
     return status;
 }
 
-/* All open conflicts of a cluster at one level of effort, before any at the next level. If `patience` questions in a
- * row get no answer, the cluster is too entangled for a proof, and the level is the last. The number falls with each
- * level, since each costs more, and for a crowd where the first level answers nothing. */
+/* Examines all open conflicts of a cluster with one effort, then those still open with a larger effort, and so on. If
+ * `patience` questions in a row get no answer, the cluster is too intertwined for proofs, and that effort is the last.
+ * The number is halved with each larger effort, since each question costs more, and starts smaller if the first effort
+ * gave no answer at all. */
 static sunder_status ask_cluster(const asking *g, matter *first, const matter *last, sunder_i_subproblem *q,
                                  sunder_error *err)
 {
@@ -355,9 +369,9 @@ static sunder_status ask_cluster(const asking *g, matter *first, const matter *l
     return status;
 }
 
-/* Bodies that stay in place because of their lattice are examined once real arithmetic has told everything, with an
- * effort of their own: such questions are large and often unanswered, and must not use up the effort of later ones in
- * the cluster. */
+/* Questions about positions in doubles (`still`) are asked after real arithmetic has given all its answers, with an
+ * effort of their own: they are large and often unanswered, and must not use up the effort for other conflicts of the
+ * cluster. */
 static sunder_status ask_clusters(void *context, size_t begin, size_t end, sunder_error *err)
 {
     const asking *g = context;
@@ -388,9 +402,10 @@ static sunder_status ask_clusters(void *context, size_t begin, size_t end, sunde
     return status;
 }
 
-/* ---- All of them ------------------------------------------------------------------------------------------------- */
+/* ---- All conflicts ----------------------------------------------------------------------------------------------- */
 
-/* The conflicts to be asked about, by clusters; first: where each begins, and the end. Returns how many clusters. */
+/* Lists the conflicts to examine in list[], grouped by cluster, and sets first[] to the index of the first of each
+ * cluster, followed by the end. Returns the number of clusters. */
 static size_t group(const sunder_i_solver *s, const sunder_report *report, const uint32_t *listed, size_t n,
                     matter *list, size_t *first)
 {

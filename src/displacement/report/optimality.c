@@ -1,18 +1,19 @@
-/* The lower bound of the layer: what is proved of its contact groups, of pairs, or by prices of area, summed over the
- * parts.
+/* Computes the lower bound of the layer: the sum over its independent parts of what is proved by contact groups, by
+ * pairs, or by prices of area.
  *
- * No layout costs less than the sum, over disjoint sets of bodies, of the bound of each set. A group's bound assumes
- * that all pairs of its bodies keep their distance, except those that were listed when it was proved; of those it
- * assumes that they stand no worse than at the start, and remain disjoint if they were. So it counts if no other pair
- * of its bodies is listed now, none of them overlaps that did not, and no movable body of it was counted with another
- * group. */
+ * No layout costs less than the sum, over disjoint sets of bodies, of the lower bound of each set. The bound of a
+ * contact group assumes that all pairs of its bodies keep their distance, except those that were listed when it was
+ * proved; for those it assumes that they are no worse than at the start, and that they remain disjoint if they were. It
+ * is therefore counted only if no other pair of its bodies is listed in the result, if no pair overlaps that did not,
+ * and if no movable body of it was counted with another group. */
 #include "displacement/layer/resolution.h"
 #include "displacement/report/report.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-/* The bodies of a group that may move, its guests among them, are its own from here on. False: one was another's. */
+/* Makes the group the owner of its movable bodies, guests included. Returns false if another group owned one of
+ * them. */
 static bool claim(const sunder_i_model *model, const sunder_i_group *g, uint32_t *owner)
 {
     bool own = true;
@@ -25,8 +26,8 @@ static bool claim(const sunder_i_model *model, const sunder_i_group *g, uint32_t
     return own;
 }
 
-/* Groups of whose pairs one is listed that was not when they were proved, or overlaps and did not then: their bound is
- * for nothing. listed: [bodies] scratch, by the numbers of groups. */
+/* Sets the bound of a group to 0 if one of its pairs is listed that was not listed when the bound was proved, or
+ * overlaps and did not overlap then. listed: [bodies] scratch, indexed by the numbers of groups. */
 static void void_bounds(sunder_i_solver *s, const uint32_t *owner, bool *listed)
 {
     sunder_i_groups *groups = &s->groups;
@@ -45,7 +46,7 @@ static void void_bounds(sunder_i_solver *s, const uint32_t *owner, bool *listed)
         if (listed[groups->group[k].number]) groups->group[k].bound = 0;
 }
 
-/* What the group costs as it stands in the end; upwards. */
+/* Returns the cost of the group in the result, rounded upwards. */
 static double cost_of(const sunder_i_model *model, const sunder_i_group *g)
 {
     double cost = 0;
@@ -56,7 +57,7 @@ static double cost_of(const sunder_i_model *model, const sunder_i_group *g)
     return cost * (1 + ((double)g->n + 8) * 0x1p-50);
 }
 
-/* Discards what was proved of groups where it does not hold for the result; sums the others' costs, and counts those
+/* Discards the bounds of groups that do not hold for the result. Computes the cost of each group, and counts the groups
  * that are optimal. */
 static sunder_status count_groups(sunder_layer_summary *summary, sunder_i_solver *s, sunder_error *err)
 {
@@ -77,11 +78,12 @@ static sunder_status count_groups(sunder_layer_summary *summary, sunder_i_solver
     return ok ? SUNDER_OK : sunder_i_no_memory(err);
 }
 
-/* The trees that a bound stands on, of groups and of pairs, become the report's. */
+/* Moves the trees on which the bound is based, those of groups and those of pairs, to the report, which owns them from
+ * then on. */
 static sunder_status take_trees(sunder_report *report, sunder_i_groups *groups, const sunder_i_parts *parts,
                                 sunder_i_bound_trees *of_pairs, sunder_error *err)
 {
-    size_t n = of_pairs->n + parts->areas; /* with room for those of areas */
+    size_t n = of_pairs->n + parts->areas; /* with room for the trees of bounds by area */
     for (size_t k = 0; k < groups->n; k++) n += groups->group[k].trees.n;
     report->bound_tree = sunder_i_calloc(n, sizeof *report->bound_tree);
     if (!report->bound_tree) return sunder_i_no_memory(err);
@@ -104,7 +106,7 @@ static sunder_status take_trees(sunder_report *report, sunder_i_groups *groups, 
     return SUNDER_OK;
 }
 
-/* What is proved of each part, at its root, with or without trees that are kept for a reader. */
+/* Sets proved[] to what is proved of each part, at its root, and keeps the trees if they are wanted. */
 static sunder_status prove_parts(sunder_report *report, sunder_i_solver *s, sunder_i_parts *parts, double *proved,
                                  sunder_error *err)
 {
@@ -119,7 +121,7 @@ static sunder_status prove_parts(sunder_report *report, sunder_i_solver *s, sund
     return status;
 }
 
-/* Sums are exact until they are rounded, once: whatever the order. */
+/* Adds up the bounds. The sums are exact until they are rounded once, so they do not depend on the order. */
 static void add_up(sunder_layer_summary *summary, const double *proved, const double *by_pairs, size_t bodies)
 {
     sunder_total all = {0}, pairs = {0};
@@ -131,7 +133,7 @@ static void add_up(sunder_layer_summary *summary, const double *proved, const do
     summary->lower_bound = sunder_total_below(&all);
 }
 
-/* For worlds to be told apart; the arrays are the report's from here on. */
+/* Keeps what is proved of each part for sunder_i_report_worlds(). The report owns both arrays from then on. */
 static void keep_proved(sunder_report *report, double **proved, sunder_i_parts *parts)
 {
     sunder_i_free(report->proved);

@@ -1,12 +1,14 @@
-/* Why a pair remains in conflict that has no solution by itself, whatever else is in the layer: neither may move; their
- * limits are too short; or sides of barriers, or the rule against jumps, forbid everything within their limits.
+/* Determines why a pair remains in conflict if it has no solution by itself, whatever else is in the layer: neither
+ * body may move; their limits are too short; or sides of barriers, or the rule against jumps, forbid every relative
+ * move within their limits.
  *
- * That a limit is too short is decided by the least translation of the pair, exactly; that no move is left by branch
- * and bound (prove/proofs/feasibility.c), which either proves it or gives no answer. Its proof is kept: it names the
- * features whose shadows are in the way. For limits the same branch and bound makes a record, if one is wanted. Two
- * features that are shut in (solve/clusters/shut_in_pairs.c) are known beforehand; a record is still attempted, and if
- * the effort ends first there is none. If only the feature list is wanted, which is the two themselves, no record is
- * attempted. */
+ * Whether a limit is too short is decided exactly by the least translation that separates the pair. Whether every
+ * relative move is forbidden is decided by branch and bound (prove/proofs/feasibility.c), which either proves it or
+ * gives no answer. Its proof is kept, since it names the features whose shadows block the pair. For limits that are too
+ * short the same branch and bound makes a proof, if proofs are wanted. Of two features that are shut in
+ * (solve/clusters/shut_in_pairs.c) it is known beforehand that they have no solution; a proof is still searched for,
+ * and if the effort does not suffice there is none. If only the names of the features are wanted, and these can be none
+ * but the two themselves, no proof is searched for. */
 #include "displacement/layer/barrier_pairs.h"
 #include "displacement/prove/proofs/feasibility.h"
 #include "displacement/report/report.h"
@@ -25,17 +27,18 @@ static double limit_of(const sunder_i_model *model, size_t f)
     return body->fixed ? 0 : body->limit;
 }
 
-/* What questions about the same two bodies have in common. */
+/* What questions about the same two bodies share. */
 typedef struct common {
     sunder_i_planes planes;
     sunder_i_precedents precedents;
 } common;
 
-/* The rules about relative moves that apply to the question. */
+/* The rules about relative moves that a question takes into account: none, the sides of barriers, or these and the rule
+ * against jumps. */
 typedef enum ways_heeded { NO_WAYS, SIDES, SIDES_AND_JUMPS } ways_heeded;
 
-/* The proof that the pair by itself, under those rules, has no solution; NULL if none is found. Members of their blocks
- * move with them. instead: a limit for bodies that have none. */
+/* Sets *proof to a proof that the pair by itself has no solution under these rules, or to NULL if none is found. The
+ * other members of the two blocks move with them. instead: the limit that is assumed for bodies that have none. */
 static sunder_status prove_alone(const sunder_i_model *model, const sunder_conflict *c, ways_heeded ways,
                                  double instead, common *both, sunder_proof **proof, sunder_error *err)
 {
@@ -66,7 +69,8 @@ static sunder_status prove_alone(const sunder_i_model *model, const sunder_confl
     return status;
 }
 
-/* A length beyond which the two are apart for certain, c->b with all its parts if it is a barrier. */
+/* Returns a length of relative moves beyond which the two certainly are not in conflict; if c->b is a barrier, this
+ * holds for all of its parts. */
 static double far_enough(const sunder_i_model *model, const sunder_conflict *c)
 {
     const uint32_t b = (uint32_t)c->b, body = model->body_of[c->a];
@@ -78,9 +82,10 @@ static double far_enough(const sunder_i_model *model, const sunder_conflict *c)
     return 2 * far;
 }
 
-/* Where one of the two has no limit. Beyond where the two are apart for certain nothing but shadows forbids a relative
- * move, and these have no end: whatever direction leads into one there leads on in it for ever. So what has no solution
- * a little farther than there has none at all. Of two features sides are left out: they are about moves of the one. */
+/* Finds the reason if one of the two has no limit. Beyond the distance at which the two certainly are not in conflict
+ * only shadows forbid a relative move, and a shadow has no end: each direction that enters one there stays in it. So a
+ * pair without a solution up to slightly more than that distance has none at all. For two features the sides of
+ * barriers are ignored, since they restrict the moves of one feature, not the relative move. */
 static sunder_status reason_without_limit(const sunder_i_model *model, sunder_conflict *c, common *both,
                                           sunder_proof **proof, sunder_error *err)
 {
@@ -92,7 +97,8 @@ static sunder_status reason_without_limit(const sunder_i_model *model, sunder_co
     return status;
 }
 
-/* Within limits that by themselves leave a solution. */
+/* Finds the reason if the limits by themselves leave a solution: the rule against jumps, or sides of barriers. A proof
+ * that needs the sides only is preferred. */
 static sunder_status reason_of_ways(const sunder_i_model *model, sunder_conflict *c, common *both, sunder_proof **proof,
                                     sunder_error *err)
 {
@@ -111,14 +117,15 @@ static sunder_status reason_of_ways(const sunder_i_model *model, sunder_conflict
     return status;
 }
 
-/* That the two are shut in is known, and no third feature can have to do with it. */
+/* Returns whether the two features that are shut in are all that would be reported, so that no proof has to be searched
+ * for: only names are kept, and neither feature has a block. */
 static bool is_told_enough(const sunder_i_model *model, const sunder_conflict *c)
 {
     return model->rules.drop_proofs && model->body[model->body_of[c->a]].members == 1 &&
            model->body[model->body_of[c->b]].members == 1;
 }
 
-/* A record that is stripped to the two features it names. */
+/* Sets *proof to an empty proof, which names no feature besides the two. */
 static sunder_status tell_of_nobody(sunder_proof **proof, sunder_error *err)
 {
     *proof = sunder_i_calloc(1, sizeof **proof);
@@ -142,9 +149,10 @@ static sunder_status find_reason(const sunder_i_model *model, sunder_conflict *c
     return model->rules.keep_trees ? prove_alone(model, c, NO_WAYS, 0, both, proof, err) : SUNDER_OK;
 }
 
-/* ---- All of them ------------------------------------------------------------------------------------------------- */
+/* ---- All conflicts ----------------------------------------------------------------------------------------------- */
 
-/* A conflict and its two bodies. The ground stands as the body of every barrier. */
+/* A conflict, as an index in the report, and its two bodies. The bodies of all barriers are replaced by
+ * SUNDER_I_NOBODY. */
 typedef struct matter {
     sunder_i_id_pair bodies;
     uint32_t conflict;
@@ -154,7 +162,7 @@ typedef struct asking {
     const sunder_i_model *model;
     sunder_report *report;
     const matter *matter;
-    const size_t *first; /* [pairs of bodies + 1] */
+    const size_t *first; /* [pairs of bodies + 1] the index of the first matter of each pair, and the end */
 } asking;
 
 static int by_bodies(const void *a, const void *b)
@@ -164,7 +172,7 @@ static int by_bodies(const void *a, const void *b)
     return order ? order : (p->conflict > q->conflict) - (p->conflict < q->conflict);
 }
 
-/* Finds the reasons. Conflicts of the same two bodies follow one another and share `both`: what forbids their moves. */
+/* Finds the reasons of all conflicts. Conflicts of the same two bodies follow one another and share `both`. */
 static sunder_status find_reasons(void *context, size_t begin, size_t end, sunder_error *err)
 {
     const asking *g = context;

@@ -1,14 +1,15 @@
-/* Trees for the bound from pairs, for parts of the layer where it exceeds that of contact groups: the printed bound is
- * what the trees prove, so that a checker can verify it, and the result does not depend on whether a proof is written.
+/* Makes trees for the bound by pairs, for those parts of the layer in which it exceeds the bound of the contact groups.
+ * The printed bound is what the trees prove, so that a checker can verify it and the result does not depend on whether
+ * a proof is written.
  *
- * The bound from pairs is sum l d - sum (sum l)^2 / (4 w), by multipliers l (bound.c). A body's weight is divided among
- * its pairs in proportion to their multipliers: w_ij = w l_ij / sum l. Then the least of w_ij |t_i|^2 + w_ji |t_j|^2
- * over the admissible relative moves of the pair is at least its part of that sum, l d - l^2 / (4 w_ij) - l^2 / (4
- * w_ji), by weak duality. The trees of one group add up if their weights for a body sum to at most its own. So there is
- * a tree of two bodies for each pair, and the trees of a part are one group.
+ * The bound by pairs is sum l d - sum (sum l)^2 / (4 w), with multipliers l (bound.c). The weight of a body is divided
+ * among its pairs in proportion to their multipliers: w_ij = w l_ij / sum l. By weak duality the least value of w_ij
+ * |t_i|^2 + w_ji |t_j|^2 over the admissible relative moves of the pair is at least l d - l^2 / (4 w_ij) - l^2 / (4
+ * w_ji), its part of that sum. The trees of one group may be added up if their weights for each body sum to at most its
+ * weight. So each pair gets a tree of two bodies, and the trees of a part form one group.
  *
- * Such trees prove slightly less, by a share of some 2^-31 that counts as free. They ignore a pair where one may get
- * inside the other, since the two owe each other nothing then. Jumps and sides are not considered, as in the least
+ * Such trees prove slightly less, by a share of about 2^-31. They ignore a pair where one feature may lie inside the
+ * other, since such pairs do not have to keep a distance. Jumps and sides of barriers are ignored, as in the least
  * translation of a pair. */
 #include "displacement/layer/reads.h"
 #include "displacement/prove/optimum/tree.h"
@@ -21,8 +22,9 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Bodies of the pair's tree: the two; or the feature's, and all parts of the barrier that a solution no dearer than the
- * least translation could be kept off by. */
+/* Lists the bodies of a pair's tree: the two bodies; or the body of the feature, and all parts of the barrier that
+ * could be in conflict with it in a solution that costs no more than the least translation. Returns false if memory is
+ * out. */
 static bool find_bodies(const sunder_i_model *model, const sunder_bound_pair *pair, sunder_i_list *body)
 {
     const uint32_t a = model->body_of[pair->a], b = (uint32_t)pair->b;
@@ -45,7 +47,8 @@ static bool find_bodies(const sunder_i_model *model, const sunder_bound_pair *pa
     return true;
 }
 
-/* What the tree of one pair proves, with its shares of the weights; it is added to trees where these are kept. */
+/* Sets *bound to what the tree of one pair proves with the pair's shares of the weights. If trees are kept, the tree is
+ * added to `trees`. */
 static sunder_status prove(const sunder_i_solver *s, const sunder_bound_pair *pair, const double *load,
                            sunder_i_list *body, double *bound, sunder_i_bound_trees *trees, sunder_error *err)
 {
@@ -85,7 +88,8 @@ static uint32_t mover_of(const sunder_i_model *model, const sunder_bound_pair *p
     return model->body[a].fixed ? model->body_of[pair->b] : a;
 }
 
-/* The pairs of parts whose bound may stand on them, part after part: (the part's root, the pair); how many. */
+/* Lists the pairs whose parts may get their bound from trees of pairs, as (root of the part, index of the pair),
+ * sorted. Returns their number. */
 static size_t list_pairs(const sunder_report *report, const sunder_i_model *model, sunder_i_parts *parts,
                          sunder_i_id_pair *which)
 {

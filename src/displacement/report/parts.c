@@ -1,4 +1,4 @@
-/* Which parts of the layer have nothing to do with each other, and what is proved of each. */
+/* Divides the layer into independent parts, and collects what is proved of each. */
 #include "displacement/report/report.h"
 #include "displacement/report/tuning.h"
 
@@ -10,7 +10,7 @@
 
 static bool moves(const sunder_i_model *model, uint32_t body) { return !model->body[body].fixed; }
 
-/* All bodies of the group that may move, guests among them. */
+/* Joins all movable bodies of the group, guests included, in root[]. */
 static void join_group(const sunder_i_model *model, const sunder_i_group *g, uint32_t *root)
 {
     uint32_t first = SUNDER_I_NOBODY;

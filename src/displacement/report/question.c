@@ -1,14 +1,15 @@
-/* A question about a remaining conflict is a layer of its own, solved like any other:
+/* A question about a remaining conflict is a small layer of its own, which is solved like any other. It contains the
+ * two bodies of the conflict and bodies around them at their original positions, with the properties that they were
+ * given except for what the question changes; and all features around these at their positions in the result, as fixed
+ * ones.
  *
- *     the two bodies, and those around them, at their original places    as given, except for what is asked
- *     all features around these                                          as in the result, and fixed
- *
- * and the answer is yes if no movable body of it is left in conflict, except for pairs that are in conflict in the
- * result, too, and are no worse than at the start. If none moved to a place where a feature might be that this layer
- * does not have; and if none jumps over another. So a reported need has a solution: with all others as in the result,
- * the pair is solved, and its neighbours keep what is owed to them. A smaller change may suffice. Neighbours are few,
- * and so are the questions; the cost grows with the number of conflicts, and the answers for a conflict depend on its
- * surroundings alone. */
+ * The answer is yes if no movable body of the small layer is left in conflict, except for pairs that are also in
+ * conflict in the result and are no worse than at the start; if no body moved to a place where the whole layer might
+ * have a feature that the small layer does not have; and if no feature jumps over another. So a reported need has a
+ * solution: with all other features as in the result the pair is solved, and its neighbours keep the distances they
+ * have to keep. A smaller change may also suffice. The number of neighbours is bounded, and so is the number of
+ * questions; the cost grows with the number of conflicts, and the answers for a conflict depend on its surroundings
+ * only. */
 #include "displacement/report/question.h"
 #include "displacement/layer/barrier_pairs.h"
 #include "displacement/layer/reads.h"
@@ -25,7 +26,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- Participants ------------------------------------------------------------------------------------------------ */
+/* ---- The small layer --------------------------------------------------------------------------------------------- */
 
 void sunder_i_surroundings_clear(sunder_i_surroundings *surroundings)
 {
@@ -37,7 +38,7 @@ void sunder_i_surroundings_clear(sunder_i_surroundings *surroundings)
     sunder_i_free(surroundings->part.item);
 }
 
-/* What the conflict lacks: how far its features have to part. */
+/* Returns the length by which the conflict violates what is required: by how far its features have to move apart. */
 static double missing(const sunder_conflict *c) { return c->depth + c->required - c->distance; }
 
 static bool append_members(const sunder_i_model *model, uint32_t body, sunder_i_list *feature)
@@ -49,7 +50,8 @@ static bool append_members(const sunder_i_model *model, uint32_t body, sunder_i_
     return true;
 }
 
-/* Appends to `body` those that reach into a feature's box grown by reach, at home or as they stand. */
+/* Appends to `body` the bodies that reach into the original box of `feature`, grown by `reach`, at their original or
+ * present positions. */
 static bool look_about(const sunder_i_solver *s, uint32_t feature, double reach, sunder_i_list *near,
                        sunder_i_list *body)
 {
@@ -64,7 +66,8 @@ static bool look_about(const sunder_i_solver *s, uint32_t feature, double reach,
     return true;
 }
 
-/* Unless there are enough: the two, and the features around them. */
+/* Appends the body to `moving` unless it is there already, is fixed, or enough are there: two bodies, with more than
+ * NEED_MOVING features together. */
 static bool take_in(const sunder_i_model *model, uint32_t body, sunder_i_list *moving)
 {
     size_t features = model->body[body].members;
@@ -76,7 +79,8 @@ static bool take_in(const sunder_i_model *model, uint32_t body, sunder_i_list *m
     return model->body[body].fixed || enough || sunder_i_list_push(moving, body);
 }
 
-/* Those of the two that may move, then of those about them, in order of number. */
+/* Lists the bodies that move in the question: first those of the conflict that may move, then bodies around them in
+ * ascending order. */
 static bool choose_moving(const sunder_i_solver *s, const sunder_conflict *c, double reach, sunder_i_list *moving)
 {
     const sunder_i_model *model = &s->model;
@@ -95,7 +99,8 @@ static bool choose_moving(const sunder_i_solver *s, const sunder_conflict *c, do
     return ok;
 }
 
-/* What moves takes part as it was given, with its block; whatever stands does so where it is in the result. */
+/* Sets how feature k takes part. Features that move take part as they were given, each with the number of its body as
+ * its block; all others take part fixed, at their position in the result. */
 static sunder_status take_part(const sunder_i_solver *s, sunder_i_surroundings *a, size_t k, sunder_error *err)
 {
     const sunder_i_model *model = &s->model;
@@ -116,8 +121,9 @@ static sunder_status take_part(const sunder_i_solver *s, sunder_i_surroundings *
     return status;
 }
 
-/* Returns the longer of the present moves of the conflict's two features: the answer may be a little longer. Returns
- * 0 beside barriers: there the gap owed includes the drawn width, and larger surroundings would only take longer. */
+/* Returns the longer of the present moves of the conflict's two features, since a sufficient limit may be slightly
+ * longer than it. Returns 0 if one of the two is a barrier: there the required distance already includes the drawn
+ * width, and larger surroundings would only take longer. */
 static double gone_already(const sunder_i_model *model, const sunder_conflict *c)
 {
     if (c->b >= model->features) return 0;
@@ -159,7 +165,8 @@ sunder_status sunder_i_surround(const sunder_i_solver *solver, const sunder_conf
 
 /* ---- One question ------------------------------------------------------------------------------------------------ */
 
-/* Is all that moves where everybody is known? *longest: of the moves. */
+/* Returns whether all movable features of the small layer ended where all features around them are known, and sets
+ * *longest to the longest of their moves. */
 static bool is_known(const sunder_i_surroundings *a, const sunder_i_solver *x, double gap, double *longest)
 {
     const sunder_i_model *model = &x->model;
@@ -177,7 +184,8 @@ static bool is_known(const sunder_i_surroundings *a, const sunder_i_solver *x, d
     return true;
 }
 
-/* A thing of that layer in the numbers of the whole one. */
+/* Returns the number in the whole layer of a feature or barrier part of the small layer. `gone` is the barrier that the
+ * small layer leaves out. */
 static uint32_t whole_number(const sunder_i_questions *g, const sunder_i_surroundings *a, const sunder_i_solver *x,
                              uint32_t thing, uint32_t gone)
 {
@@ -193,7 +201,8 @@ static int by_things(const void *p, const void *q)
     return c->a != d->a ? (c->a < d->a ? -1 : 1) : (c->b > d->b) - (c->b < d->b);
 }
 
-/* A pair that is in conflict there: is it listed, another than the one asked about, and no worse than it stood? */
+/* Sets *may to whether a pair in conflict in the small layer may remain so: it is among the listed pairs, is not the
+ * pair that the question is about, and is no worse than at the start. */
 static sunder_status may_stay(const sunder_i_questions *g, const sunder_i_surroundings *a, const sunder_conflict *c,
                               const sunder_i_solver *x, const sunder_i_relation *r, uint32_t gone, bool *may,
                               sunder_error *err)
@@ -221,7 +230,8 @@ static sunder_status may_stay(const sunder_i_questions *g, const sunder_i_surrou
     return status;
 }
 
-/* Is the pair solved, with all that moves and is owed anything, and what else is listed no worse? */
+/* Sets *yes to whether the small layer is a solution: the pair is solved, movable features keep what is required, and
+ * the other listed pairs are no worse than at the start. *longest is the longest move. */
 static sunder_status is_solved(const sunder_i_questions *g, const sunder_i_surroundings *a, const sunder_conflict *c,
                                const sunder_i_solver *x, const sunder_i_supposition *what, bool *yes, double *longest,
                                sunder_error *err)
@@ -243,7 +253,7 @@ static bool stand_alike(const sunder_i_model *model, uint32_t f, const double t[
     return s[0] == t[0] && s[1] == t[1];
 }
 
-/* Does f, going by t, pass g, which moved as in the result? Or g f? */
+/* Sets *passes to whether feature f, moved by t, passes feature g, which has its move of the result, or g passes f. */
 static sunder_status pass(const sunder_i_model *model, uint32_t f, const double t[2], uint32_t g, bool *passes,
                           sunder_error *err)
 {
@@ -255,7 +265,8 @@ static sunder_status pass(const sunder_i_model *model, uint32_t f, const double 
     return status || *passes ? status : sunder_i_passes(&back, sunder_i_thing_shape(model, f), passes, err);
 }
 
-/* Does f, going by t, cross a side? That layer knows those of lines alone. */
+/* Sets *crosses to whether feature f, moved by t, crosses a side of a barrier. The small layer itself knows only the
+ * sides of lines. */
 static sunder_status cross(const sunder_i_model *model, uint32_t f, const double t[2], const sunder_i_surroundings *a,
                            uint32_t gone, bool *crosses, sunder_error *err)
 {
@@ -266,7 +277,9 @@ static sunder_status cross(const sunder_i_model *model, uint32_t f, const double
     return status;
 }
 
-/* In that layer fixed features are so from the beginning. Is there a jump over one, or is a side crossed? */
+/* Sets *jumps to whether a movable feature of the small layer jumps over a feature that is fixed in the small layer but
+ * moved in the result, or crosses a side. The small layer cannot see this, because in it fixed features always stood
+ * where they are. */
 static sunder_status find_jump(const sunder_i_questions *g, const sunder_i_surroundings *a, const sunder_i_solver *x,
                                uint32_t gone, bool *jumps, sunder_error *err)
 {
@@ -283,7 +296,7 @@ static sunder_status find_jump(const sunder_i_questions *g, const sunder_i_surro
         const double *t = x->model.move + 2 * (size_t)x->model.body_of[k];
         if (!status) status = cross(&s->model, a->feature.item[at], t, a, gone, jumps, err);
         for (size_t m = 0; m < mover.n && !status && !*jumps; m++) {
-            bool moves = false; /* itself, in that layer */
+            bool moves = false; /* it is itself a movable feature of the small layer */
             for (size_t i = 0; i < a->moving && !moves; i++) moves = a->feature.item[i] == mover.item[m];
             if (moves || stand_alike(&s->model, mover.item[m], none) || stand_alike(&s->model, mover.item[m], t))
                 continue;
@@ -294,7 +307,8 @@ static sunder_status find_jump(const sunder_i_questions *g, const sunder_i_surro
     return status;
 }
 
-/* Parts of barriers as barriers of their own: of areas without sides, since some edges of pieces are none. */
+/* Adds the nearby parts of barriers to the small layer, each as a barrier of its own. Parts of areas get no sides,
+ * since some edges of pieces are no edges of the area. */
 static sunder_status set_barriers(const sunder_i_solver *s, const sunder_i_surroundings *a, uint32_t gone,
                                   sunder_layer *layer, sunder_error *err)
 {
@@ -313,7 +327,8 @@ static sunder_status set_barriers(const sunder_i_solver *s, const sunder_i_surro
     return status;
 }
 
-/* The sides crossed by movable features in the whole layer, which has more barriers. */
+/* Gives the movable features the anchors from which the whole layer determines their sides; the whole layer has more
+ * barriers. */
 static sunder_status set_side_anchors(const sunder_i_model *model, const sunder_i_surroundings *a, sunder_layer *layer,
                                       sunder_error *err)
 {
@@ -327,7 +342,8 @@ static sunder_status set_side_anchors(const sunder_i_model *model, const sunder_
     return status;
 }
 
-/* A listed pair of feature k and another thing of that layer: as they are numbered there. */
+/* Appends to *list the pairs of feature k with each occurrence of the feature or barrier `other` in the small layer, in
+ * the small layer's numbers. Returns false if memory is out. */
 static bool spare_pair(const sunder_i_questions *g, const sunder_i_surroundings *a, size_t k, uint32_t other,
                        uint32_t gone, sunder_i_id_pair **list, size_t *n, size_t *capacity)
 {
@@ -346,7 +362,8 @@ static bool spare_pair(const sunder_i_questions *g, const sunder_i_surroundings 
     return true;
 }
 
-/* The other listed pairs, which may stay in conflict; sorted. */
+/* Lists the other listed pairs, which may remain in conflict, in the small layer's numbers; sorted. Returns false if
+ * memory is out. */
 static bool list_spared(const sunder_i_questions *g, const sunder_i_surroundings *a, const sunder_conflict *c,
                         uint32_t gone, sunder_i_id_pair **list, size_t *n)
 {
@@ -383,20 +400,20 @@ static sunder_status make_layer(const sunder_i_questions *g, const sunder_i_surr
     return status ? status : set_barriers(g->solver, a, what->gone, *layer, err);
 }
 
-/* The options of a question. */
+/* Returns the options with which the small layer is solved. */
 static sunder_layer_options options_for(const sunder_i_questions *g, double gap)
 {
     sunder_layer_options options = *g->options;
     options.gap = gap;
     options.touch_tolerance = sunder_i_min(g->solver->model.rules.tolerance, gap / 2);
-    options.no_blocks = true; /* they have numbers */
+    options.no_blocks = true; /* blocks are given by numbers */
     options.threads = 1;
     options.effort = 0;
     options.progress = NULL;
     return options;
 }
 
-/* Is there a solution that leaves those pairs, sorted, as they are? */
+/* Answers the question if the n pairs of spared[], sorted, may remain in conflict. */
 static sunder_status ask_sparing(const sunder_i_questions *g, const sunder_i_surroundings *a, const sunder_conflict *c,
                                  const sunder_i_supposition *what, const sunder_i_id_pair *spared, size_t n,
                                  sunder_i_patience *proof, sunder_i_answer *answer, sunder_error *err)
@@ -417,7 +434,7 @@ static sunder_status ask_sparing(const sunder_i_questions *g, const sunder_i_sur
         sunder_i_solver_free(&x);
     }
     sunder_layer_free(layer);
-    /* A question with a solution does not count as a failed search for a proof. */
+    /* A question with a solution does not count as a failed attempt to prove that there is none. */
     if (found == SUNDER_I_PROOF_FOUND || (found == SUNDER_I_PROOF_IN_VAIN && !answer->yes))
         sunder_i_patience_note(proof, found == SUNDER_I_PROOF_FOUND);
     return status;
@@ -434,8 +451,8 @@ sunder_status sunder_i_few_are_listed(const sunder_i_questions *questions, const
     return ok ? SUNDER_OK : sunder_i_no_memory(err);
 }
 
-/* A few other listed pairs are to be solved, too. If that has no solution and is not required, or if they are many, as
- * beside roads, they may stay. */
+/* Up to NEED_ALL other listed pairs have to be solved too. If that has no solution and what->all is not set, or if they
+ * are more, as along roads, they may remain in conflict. */
 sunder_status sunder_i_ask(const sunder_i_questions *questions, const sunder_i_surroundings *surroundings,
                            const sunder_conflict *conflict, const sunder_i_supposition *what, sunder_i_patience *proof,
                            sunder_i_answer *answer, sunder_error *err)
@@ -453,7 +470,7 @@ sunder_status sunder_i_ask(const sunder_i_questions *questions, const sunder_i_s
     return status;
 }
 
-/* ---- What proofs tell of smaller gaps ---------------------------------------------------------------------------- */
+/* ---- Proofs about smaller gaps ----------------------------------------------------------------------------------- */
 
 sunder_status sunder_i_foresight_init(sunder_i_foresight *foresight, const sunder_i_questions *questions,
                                       const sunder_i_surroundings *surroundings, const sunder_conflict *conflict,
@@ -487,7 +504,7 @@ void sunder_i_foresight_clear(sunder_i_foresight *foresight)
     sunder_i_free(foresight->at);
 }
 
-/* Lists in `heeded` all things of the question's layer except `gone`. False if memory is out. */
+/* Lists in `heeded` all features and barriers of the small layer except `gone`. Returns false if memory is out. */
 static bool list_others(const sunder_i_foresight *f, uint32_t gone, sunder_i_list *heeded)
 {
     const sunder_i_model *there = &f->solver.model, *model = &f->questions->solver->model;
@@ -519,7 +536,8 @@ sunder_status sunder_i_foresee(sunder_i_foresight *foresight, double gap, uint32
     return SUNDER_OK;
 }
 
-/* The moves of its bodies, in another solver of the same layer: shorter by what rounding takes of a limit. */
+/* Copies the moves of the last solution in real numbers to `move`, in the numbers of another solver `x` of the same
+ * small layer. They are shortened by what rounding may add to a limit. */
 static void carry_over(const sunder_i_foresight *f, const sunder_i_solver *x, double *move)
 {
     const sunder_i_solver *s = &f->solver;

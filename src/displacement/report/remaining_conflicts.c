@@ -1,5 +1,5 @@
-/* Conflicts as they are reported: what kind, and how bad. (Why they remain, as far as the pair tells: pair_reasons.c.)
- */
+/* Lists the remaining conflicts: which pairs, of what kind, and how severe. (Why they remain is determined in
+ * pair_reasons.c.) */
 #include "displacement/layer/barrier_pairs.h"
 #include "displacement/report/report.h"
 
@@ -25,15 +25,17 @@ static sunder_conflict_kind kind_of(const sunder_i_model *model, const sunder_i_
                : r->drawn ? SUNDER_CONFLICT_BARRIER_DRAWN
                           : SUNDER_CONFLICT_BARRIER_NEAR;
     if (!r->overlap) return SUNDER_CONFLICT_TOO_CLOSE;
-    /* Members of a block that overlap by more than the tolerance are overlaps, whatever else they are. */
+    /* Members of a block that overlap by more than the tolerance count as overlaps, even if they are also duplicates or
+     * contained. */
     if (is_inside(model, r)) return SUNDER_CONFLICT_OVERLAP;
     return r->duplicate   ? SUNDER_CONFLICT_DUPLICATE
            : r->contained ? SUNDER_CONFLICT_CONTAINED
                           : SUNDER_CONFLICT_OVERLAP;
 }
 
-/* Relation k, and with it those of the same feature to other parts of one barrier, as one to the first of its parts.
- * Returns which comes next. */
+/* Writes relation k to *out. If it is one of a feature and a part of a barrier, all relations of that feature to parts
+ * of the same barrier are combined, with the first part of the barrier as the partner. Returns the index of the next
+ * relation. */
 static size_t take_pair(const sunder_i_model *model, const sunder_i_relations *relations, size_t k,
                         sunder_i_relation *out)
 {
@@ -50,7 +52,8 @@ static size_t take_pair(const sunder_i_model *model, const sunder_i_relations *r
     return k;
 }
 
-/* Inside a block only overlaps beyond the tolerance are listed, unless all are asked for. */
+/* Returns whether the relation is listed as a conflict. Inside a block only overlaps beyond the tolerance are, unless
+ * the rules ask for all. */
 static bool is_listed(const sunder_i_model *model, const sunder_i_relation *r)
 {
     return sunder_i_is_conflict(r) && (!is_inside(model, r) || model->rules.list_inside || (r->overlap && !r->touch));
@@ -78,17 +81,17 @@ void sunder_i_count_relations(const sunder_i_model *model, const sunder_i_relati
         if (sunder_i_next_conflict(model, relations, &k, &a, &b, &c)) sunder_i_count(counts, &c);
 }
 
-/* ---- How bad ----------------------------------------------------------------------------------------------------- */
+/* ---- How severe -------------------------------------------------------------------------------------------------- */
 
-/* A feature where it stands, as a shape whose coordinates hold the move. */
+/* Makes a shape whose coordinates are those of the feature at its present position. */
 static sunder_status placed_shape(const sunder_i_translate *stand, sunder_shape **out, sunder_error *err)
 {
     bool exact;
     return sunder_shape_translate(stand->shape, stand->t[0], stand->t[1], out, &exact, err);
 }
 
-/* The part of convex polygon p (n corners) on the left of the line from a to b; in place of `out`, at most n + 1
- * corners. */
+/* Clips the convex polygon p (n corners) to the left side of the line from a to b. The result, of at most n + 1
+ * corners, is written to `out`. Returns its number of corners. */
 static size_t clip(const double *p, size_t n, const double *a, const double *b, double *out)
 {
     size_t m = 0;
@@ -109,7 +112,7 @@ static size_t clip(const double *p, size_t n, const double *a, const double *b, 
     return m;
 }
 
-/* The corners of one convex piece, relative to an origin. */
+/* Writes the corners of one convex piece, relative to `origin`, to `out`, and returns their number. */
 static size_t corners_of(const sunder_shape *shape, uint32_t piece, const double origin[2], double *out)
 {
     const uint32_t from = piece ? shape->piece_end[piece - 1] : 0;
@@ -137,7 +140,8 @@ static double area_of(const double *p, size_t n)
     return area / 2;
 }
 
-/* A point inside the overlap, to draw from: the mean corner of the largest common part of a convex piece of each. */
+/* Finds a point inside the overlap of a and b from which a link can be drawn: the mean of the corners of the largest
+ * common part of a piece of a and a piece of b. */
 static sunder_status inside_overlap(const sunder_shape *a, const sunder_shape *b, double point[2], sunder_error *err)
 {
     const size_t na = most_corners(a), nb = most_corners(b), room = na + 2 * nb + 2;
@@ -205,12 +209,13 @@ typedef struct describing {
     const sunder_i_model *model;
     const sunder_i_placement *placement;
     sunder_conflict *conflict;
-    bool reasons; /* they are wanted */
+    bool reasons; /* the reasons are wanted */
     const bool *overlap;
 } describing;
 
-/* A feature and a barrier: as the feature stands, and as it stood. The link runs from the feature; where that overlaps
- * the barrier, the least translation is drawn as if the barrier moved, as for two features. */
+/* Measures a feature and a barrier, at the feature's present and original positions. The link starts at the feature. If
+ * the feature overlaps the barrier, the link shows the least translation as if the barrier moved, as for two
+ * features. */
 static sunder_status describe_barrier(const describing *d, sunder_conflict *c, sunder_error *err)
 {
     const sunder_i_model *model = d->model;
@@ -273,7 +278,8 @@ static sunder_status describe(void *context, size_t begin, size_t end, sunder_er
     return SUNDER_OK;
 }
 
-/* Computes the missing distance plus `depth`; NAN inside a block or for a pair that may overlap. */
+/* Returns the missing distance plus the depth of the overlap. Returns NAN inside a block, and for a pair that may
+ * overlap. */
 static double missing_of(const sunder_conflict *c)
 {
     if (c->inside_block || c->reason == SUNDER_REASON_KEPT) return NAN;

@@ -1,5 +1,5 @@
-/* The report on a layer in the order of work, told in the numbers that the caller gave its features; parts of barriers
- * become the barriers that they are of. */
+/* Rewrites a report on the layer in its internal order for the numbers that the caller gave its features. Parts of
+ * barriers become the barriers that they belong to. */
 #include "displacement/report/report.h"
 
 #include "base/invariant.h"
@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A conflict and its proof, which have to be sorted together. */
+/* A conflict and its proof, which are sorted together. */
 typedef struct listed {
     sunder_conflict conflict;
     sunder_proof *proof;
@@ -27,8 +27,8 @@ static int by_number(const void *x, const void *y)
     return a < b ? -1 : a > b;
 }
 
-/* The pair with the lesser number first. The link of two that are apart runs from the first to the second; where they
- * overlap it is a translation of the second, and its opposite one of the first. */
+/* Exchanges the two features of a conflict. The link of two features that do not overlap leads from the first to the
+ * second. If they overlap, it is a translation of the second feature, and its opposite is one of the first. */
 static void turn(sunder_conflict *c)
 {
     const size_t a = c->a;
@@ -43,7 +43,7 @@ static void turn(sunder_conflict *c)
 
 static void number_proof(sunder_proof *proof, const uint32_t *number)
 {
-    sunder_proof_node *node = (sunder_proof_node *)proof->node; /* the report's own */
+    sunder_proof_node *node = (sunder_proof_node *)proof->node; /* the report owns it */
     for (size_t k = 0; k < proof->nodes; k++) {
         if (node[k].ways == 0) continue;
         node[k].a = number[node[k].a];
@@ -81,7 +81,7 @@ static sunder_status number_conflicts(sunder_report *report, const uint32_t *num
 
 static void number_tree(sunder_bound_tree *tree, const uint32_t *number)
 {
-    sunder_bound_body *body = (sunder_bound_body *)tree->body; /* the report's own */
+    sunder_bound_body *body = (sunder_bound_body *)tree->body; /* the report owns them */
     sunder_bound_piece *piece = (sunder_bound_piece *)tree->piece;
     for (size_t k = 0; k < tree->bodies; k++) body[k].thing = number[body[k].thing];
     for (size_t k = 0; k < tree->pieces; k++) {
@@ -92,7 +92,8 @@ static void number_tree(sunder_bound_tree *tree, const uint32_t *number)
 
 static bool is_same_pair(const sunder_push *p, const sunder_push *q) { return p->a == q->a && p->b == q->b; }
 
-/* By pairs; what is of one pair in an order of its own, so that sums do not depend on it. */
+/* Orders pushes by pairs. Pushes of one pair are ordered by their values, so that sums do not depend on the order in
+ * which they were found. */
 static int by_push(const void *x, const void *y)
 {
     const sunder_push *p = x, *q = y;
@@ -103,7 +104,8 @@ static int by_push(const void *x, const void *y)
     return p->n[1] < q->n[1] ? -1 : p->n[1] > q->n[1];
 }
 
-/* By pairs, the lesser first; of each pair one, of the sum of forces. */
+/* Renumbers the pushes so that a < b, sorts them, and replaces the pushes of one pair by a single one with the sum of
+ * their forces. */
 static void number_pushes(sunder_report *report, const uint32_t *number)
 {
     sunder_push *push = report->push;
@@ -126,7 +128,7 @@ static void number_pushes(sunder_report *report, const uint32_t *number)
     report->pushes = n;
 }
 
-/* Blocks by their first members. */
+/* Numbers blocks by their first members. */
 static sunder_status number_blocks(int64_t *block, size_t n, sunder_error *err)
 {
     int64_t *to = sunder_i_alloc(n, sizeof *to);
@@ -141,7 +143,7 @@ static sunder_status number_blocks(int64_t *block, size_t n, sunder_error *err)
     return SUNDER_OK;
 }
 
-/* If several moves are the longest, the first feature's. */
+/* Sets max_feature; if several moves are the longest, it is the first feature with such a move. */
 static void find_longest(sunder_report *report)
 {
     const double most = report->summary.max;
@@ -149,8 +151,9 @@ static void find_longest(sunder_report *report)
         if (hypot(report->move[2 * f], report->move[2 * f + 1]) == most) report->summary.max_feature = f;
 }
 
-/* Reorders n values of `size` bytes, one for each feature, by the features' original numbers: value k goes to place
- * number[k]. A new array replaces the old one, which is freed. False if memory is out. */
+/* Reorders n values of `size` bytes, one for each feature, by the features' original numbers: value k is moved to index
+ * number[k]. `array` points to the pointer to the values; a new array replaces the old one, which is freed. Returns
+ * false if memory is out. */
 static bool number_values(void *array, size_t n, size_t size, const uint32_t *number)
 {
     unsigned char *old, *fresh = sunder_i_alloc(n, size);

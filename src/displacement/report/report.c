@@ -1,4 +1,4 @@
-/* The report: what was done, feature by feature, and what remains. */
+/* The report: the move and status of each feature, and what remains in conflict. */
 #include "displacement/report/report.h"
 #include "displacement/prove/proofs/feasibility.h"
 
@@ -23,7 +23,7 @@ static void report_blocks(sunder_report *r, const sunder_i_model *model)
     for (size_t b = 0; b < model->bodies; b++) {
         const sunder_i_body *body = &model->body[b];
         const int64_t number = body->members > 1 ? (int64_t)model->member[body->member] : -1;
-        if (sunder_i_is_barrier(model, model->member[body->member])) break; /* and all that follow */
+        if (sunder_i_is_barrier(model, model->member[body->member])) break; /* all following bodies are barriers, too */
         for (uint32_t k = 0; k < body->members; k++) r->block[model->member[body->member + k]] = number;
         r->summary.blocks += body->members > 1;
     }
@@ -49,7 +49,7 @@ sunder_status sunder_i_report_features(sunder_report *report, const sunder_i_mod
     return SUNDER_OK;
 }
 
-/* Those left in conflict that might have moved. */
+/* Sets the status of movable features that are still in conflict to blocked. */
 static void report_blocked(sunder_report *report, const sunder_i_model *model)
 {
     for (size_t k = 0; k < report->conflicts; k++) {
@@ -61,7 +61,7 @@ static void report_blocked(sunder_report *report, const sunder_i_model *model)
     }
 }
 
-/* Whose move is not zero moved, even if it is blocked. */
+/* Counts features by status. A blocked feature with a move other than zero is also counted as moved. */
 static void count_statuses(sunder_report *report, const sunder_i_model *model)
 {
     sunder_layer_summary *s = &report->summary;
@@ -145,7 +145,7 @@ void sunder_i_count(sunder_conflict_counts *counts, const sunder_conflict *confl
     case SUNDER_CONFLICT_LIMIT:
     case SUNDER_CONFLICT_SIDE:
     case SUNDER_CONFLICT_JUMP:
-    case SUNDER_CONFLICT_NOT_A_TRANSLATE: break; /* no conflicts of a layer as it stands */
+    case SUNDER_CONFLICT_NOT_A_TRANSLATE: break; /* not used for conflicts of a layer */
     }
 }
 

@@ -1,4 +1,4 @@
-/* The report: what was done, feature by feature, what remains, and what is proved of it. */
+/* The report: the move and status of each feature, what remains in conflict, and what is proved of it. */
 #ifndef SUNDER_I_REPORT_H
 #define SUNDER_I_REPORT_H
 
@@ -11,117 +11,126 @@
 
 struct sunder_report {
     size_t n;
-    double *move;                  /* [2 * n] */
-    sunder_feature_status *status; /* [n] */
-    int64_t *block;                /* [n] */
+    double *move;                  /* [2 * n] the moves, x and y alternating */
+    sunder_feature_status *status; /* [n] the status of each feature */
+    int64_t *block;                /* [n] the block of each feature, as the number of its first member; -1 if it has
+                                    * none */
     sunder_conflict *conflict;
     size_t conflicts;
-    size_t *blocker;      /* what all blocked_by point into */
-    sunder_proof **proof; /* [conflicts] NULL: there is none; the array too, in a check */
-    bool stripped;        /* proofs are stripped to the features they name */
+    size_t *blocker;      /* the array into which blocked_by of all conflicts points */
+    sunder_proof **proof; /* [conflicts] NULL where there is no proof; the array is NULL in a check */
+    bool stripped;        /* proofs contain only the features that they name */
     sunder_bound_pair *bound_pair;
     size_t bound_pairs;
     sunder_bound_tree *bound_tree;
     size_t bound_trees;
     sunder_push *push;
     size_t pushes;
-    /* Where worlds are kept; else NULL: */
+    /* The following are NULL unless the worlds (the parts of the layer that did not influence each other) are
+     * wanted. */
     sunder_world *world;
     size_t worlds, world_room;
-    size_t *world_of; /* [n] as the caller numbers features, like the two that follow */
-    size_t *inside;   /* [n] */
-    bool *inexact;    /* [n] */
-    bool *stands;     /* [n] its block may not move */
+    size_t *world_of; /* [n] in the caller's numbers of features, like the next three arrays */
+    size_t *inside;   /* [n] conflicts at the start inside a block without a world, counted at the first feature */
+    bool *inexact;    /* [n] whether the moved coordinates were rounded */
+    bool *stands;     /* [n] whether the feature's block is fixed */
     sunder_footprint *footprint;
     size_t footprints;
     sunder_world_bound *world_bound;
     size_t world_bounds;
-    bool *thin;                /* [relations at the start] */
-    double *proved, *by_pairs; /* [bodies] what is proved of a part, at its root; by_pairs NULL: all by pairs */
+    bool *thin;                /* [relations at the start] whether the pair overlaps by no more than the rules'
+                                * `thin` */
+    double *proved, *by_pairs; /* [bodies] what is proved of each part, at the part's root, in all and by pairs;
+                                * by_pairs is NULL if all is by pairs */
     sunder_layer_summary summary;
 };
 
-/* A report of nothing as yet. */
+/* Makes an empty report. */
 sunder_status sunder_i_report_new(const sunder_i_model *model, sunder_report **out, sunder_error *err);
-/* Allocates, once, the parts of the report that have an entry for each feature: blocks, and statuses of those that have
- * not moved. */
+/* Allocates the arrays of the report that have an entry for each feature, and fills in blocks and the statuses of
+ * features that have not moved. To be called once. */
 sunder_status sunder_i_report_features(sunder_report *report, const sunder_i_model *model, sunder_error *err);
-/* Moves, statuses and their sums, which are exact until they are rounded once: so they are the same however the work
- * was shared out and however features were listed. */
+/* Fills in moves, statuses, and the sums of them. The sums are exact until they are rounded once, so they do not depend
+ * on the number of threads or on the order of the features. */
 void sunder_i_report_moves(sunder_report *report, const sunder_i_model *model);
 /* Adds one to the count of the conflict's kind. */
 void sunder_i_count(sunder_conflict_counts *counts, const sunder_conflict *conflict);
 
 /* ---- renumber.c -------------------------------------------------------------------------------------------------- */
 
-/* The report on a layer in the order of work, as one on the layer as it was given: number[k] is what feature k was. */
+/* Converts the report from the internal order of features to the caller's: number[k] is the caller's number of feature
+ * k. */
 sunder_status sunder_i_report_renumber(sunder_report *report, const uint32_t *number, sunder_error *err);
 
 /* ---- remaining_conflicts.c --------------------------------------------------------------------------------------- */
 
-/* Fills the report's conflicts from the relations as the features stand. start: the relations and placement before
- * anything moved (equal to the others in a check). reasons: fill the reason of what remains between blocks, as far
- * as it shows in the pair by itself. */
+/* Fills the report's conflicts from the relations of the features at the positions of `placement`. reasons: also
+ * determine why pairs of different bodies remain in conflict, as far as the pair alone shows it. */
 sunder_status sunder_i_report_conflicts(sunder_report *report, const sunder_i_model *model,
                                         const sunder_i_placement *placement, const sunder_i_relations *relations,
                                         bool reasons, sunder_error *err);
-/* The conflict that relation *k is, of a feature and a thing, and which relation comes next; false: it is none. Of the
- * conflict only what is needed to count it. */
+/* Combines relation *k and those of the same feature to other parts of the same barrier, and advances *k to the next
+ * relation. Sets *a to the feature and *b to the other feature or the barrier. Returns whether they are in conflict;
+ * *conflict then has the members that sunder_i_count() needs. */
 bool sunder_i_next_conflict(const sunder_i_model *model, const sunder_i_relations *relations, size_t *k, uint32_t *a,
                             uint32_t *b, sunder_conflict *conflict);
-/* Counts what the relations amount to, without listing it. */
+/* Counts the conflicts among the relations by their kinds, without listing them. */
 void sunder_i_count_relations(const sunder_i_model *model, const sunder_i_relations *relations,
                               sunder_conflict_counts *counts);
 
 /* ---- cover_diagonals.c ------------------------------------------------------------------------------------------- */
 
-/* Makes the seams of all bodies that questions about remaining or given-up conflicts may reach; before any is asked. */
+/* Makes the covers of the diagonals of all bodies that questions about remaining or given-up conflicts may reach. To be
+ * called before any such question. */
 sunder_status sunder_i_report_cover_diagonals(sunder_i_solver *solver, sunder_error *err);
 
 /* ---- pair_reasons.c ---------------------------------------------------------------------------------------------- */
 
-/* Why conflicts between blocks remain, as far as each pair itself tells: `fixed`, `max_shift`, `side`, `jump`,
- * decided exactly; else `unresolved`. Of a side or a jump the proof that it was decided by; of a limit one, if trees
- * are kept and it is found. */
+/* Determines why conflicts between blocks remain, as far as each pair alone shows it: `fixed`, `max_shift`, `side` and
+ * `jump` are decided exactly, otherwise the reason is `unresolved`. For `side` and `jump` the proof is kept; for
+ * `max_shift` a proof is kept if trees are kept and one is found. */
 sunder_status sunder_i_report_reasons(sunder_report *report, const sunder_i_model *model, sunder_error *err);
 
 /* ---- thin_overlaps.c --------------------------------------------------------------------------------------------- */
 
-/* Counts, in the summary, the pairs between blocks that overlap by no more than the rules' `thin`; 0 where that is
- * 0. */
+/* Counts, in the summary, the pairs of different bodies that overlap by no more than the rules' `thin`. The count is 0
+ * if `thin` is 0. */
 sunder_status sunder_i_count_thin_overlaps(const sunder_i_model *model, const sunder_i_placement *placement,
                                            const sunder_i_relations *relations, sunder_report *report,
                                            sunder_error *err);
 
 /* ---- bound.c, bound_pairs.c -------------------------------------------------------------------------------------- */
 
-/* Multipliers for the pairs (blocks by number in body_of), and the bound proved by them. Pairs with least = 0 get
- * none. *proved: where worlds are kept, [bodies] what is proved of each part, at its root; the caller's; else NULL. */
+/* Computes multipliers for the n pairs and the lower bound *bound that they prove. Pairs with least = 0 get the
+ * multiplier 0. If worlds are kept, *proved becomes an array [bodies] of what is proved of each part, at its root,
+ * which the caller frees; otherwise NULL. */
 sunder_status sunder_i_bound(const sunder_i_model *model, sunder_bound_pair *pairs, size_t n, double *bound,
                              double **proved, sunder_error *err);
-/* What they prove of each part of the layer: value[], [bodies] and 0, at its root in the union-find root[]. What is
- * fixed is of no part. False if memory is out. */
+/* Adds to value[] ([bodies], all 0) what the pairs prove of each part of the layer, at its root in the union-find
+ * root[]. Fixed bodies belong to no part. Returns false if memory is out. */
 bool sunder_i_bound_parts(const sunder_i_model *model, const sunder_bound_pair *pairs, size_t n, uint32_t *root,
                           double *value);
-/* Fills the report's pairs for the lower bound, and the bound. */
+/* Fills the report's pairs for the lower bound, and the bound itself. */
 sunder_status sunder_i_report_bound(sunder_report *report, const sunder_i_solver *solver, sunder_error *err);
 
 /* ---- parts.c ----------------------------------------------------------------------------------------------------- */
 
-/* Divides the layer into independent parts: bodies connected by pairs that contribute to a bound, or by a contact group
- * of which something is proved. So which of the two proves more is decided in each part by itself. Fixed bodies connect
- * nothing. */
+/* The independent parts of the layer. Bodies belong to the same part if they are connected by pairs that contribute to
+ * the bound, or by a contact group of which something is proved; fixed bodies connect nothing. In each part it is
+ * decided separately whether its pairs or its groups prove more. */
 typedef struct sunder_i_parts {
-    uint32_t *root;    /* [bodies] union-find */
-    double *by_pairs;  /* [bodies] what the pairs prove of the part; at its root */
-    double *by_trees;  /* [bodies] at first the same; then what trees of these pairs prove, 0 where none are made */
-    double *by_groups; /* [bodies] what its groups prove, added up */
-    double *by_areas;  /* [bodies] what prices of area prove of it, where that is more; -1: of another part with it */
-    struct sunder_i_area_bound *area; /* of those parts, by their roots */
+    uint32_t *root;    /* [bodies] union-find; all bodies of a part have the same root */
+    double *by_pairs;  /* [bodies] what the pairs prove of the part; at its root, like the following */
+    double *by_trees;  /* [bodies] at first equal to by_pairs; then what the trees of these pairs prove, or 0 if no
+                        * trees are made */
+    double *by_groups; /* [bodies] the sum of what the contact groups prove */
+    double *by_areas;  /* [bodies] what prices of area prove, if that is more, otherwise 0; -1 if it is included in the
+                        * bound of another part */
+    struct sunder_i_area_bound *area; /* [areas] the bounds by area */
     size_t areas;
 } sunder_i_parts;
 
-/* What a part costs because its bodies, these, share no area. */
+/* A lower bound on the cost of joint parts, proved because the n bodies listed here may not overlap. */
 typedef struct sunder_i_area_bound {
     uint32_t root;
     double bound;
@@ -130,66 +139,72 @@ typedef struct sunder_i_area_bound {
     sunder_i_prices prices; /* owned */
 } sunder_i_area_bound;
 
-/* Failure leaves what sunder_i_parts_free() takes. */
+/* The caller calls sunder_i_parts_free() even if this fails. */
 sunder_status sunder_i_parts_find(sunder_i_parts *parts, const sunder_report *report, const sunder_i_solver *solver,
                                   sunder_error *err);
 void sunder_i_parts_free(sunder_i_parts *parts);
-/* Do its pairs prove more than its groups by more than trees are short of pairs? Then trees of them are worth it. */
+/* Returns whether trees should be made for the pairs of the body's part: the pairs prove more than the groups, even
+ * after subtracting what trees lose against pairs. */
 bool sunder_i_part_wants_pair_trees(const sunder_i_parts *parts, uint32_t body);
-/* By what is most proved of its part: by trees of pairs? By its groups? */
+/* Return whether trees of pairs, or contact groups, prove the most of the body's part. Both are false if prices of area
+ * do. */
 bool sunder_i_part_is_by_pairs(const sunder_i_parts *parts, uint32_t body);
 bool sunder_i_part_is_by_groups(const sunder_i_parts *parts, uint32_t body);
-/* The better bound of the part whose root the body is; of any other body 0. */
+/* Returns the best bound of the part whose root is `body`, and 0 if `body` is no root. */
 double sunder_i_part_bound(const sunder_i_parts *parts, uint32_t body);
 
 /* ---- area_bounds.c ----------------------------------------------------------------------------------------------- */
 
-/* Computes bounds by area for parts where less than nearly all of the cost is proved. Blocks are united for that. */
+/* Computes bounds by area for the parts of which less than nearly the whole cost is proved. Members of blocks are
+ * united for that. */
 sunder_status sunder_i_report_area_bounds(sunder_i_solver *solver, sunder_i_parts *parts, sunder_error *err);
-/* Adds the tree of each such part. */
+/* Adds a tree to the report for each bound by area. */
 sunder_status sunder_i_report_area_trees(sunder_report *report, const sunder_i_solver *solver, sunder_i_parts *parts,
                                          sunder_error *err);
 
 /* ---- optimality.c ------------------------------------------------------------------------------------------------ */
 
-/* Contact groups, those of them that are optimal, and the bound: of each part of the layer what trees of its pairs, its
- * groups, or prices of area prove, whichever is most; with the trees, where these are kept. */
+/* Computes the number of contact groups, the number of those that are optimal, and the lower bound of the layer: for
+ * each part the largest of what trees of its pairs, its groups, or prices of area prove. Keeps the trees if they are
+ * wanted. */
 sunder_status sunder_i_report_optimality(sunder_report *report, sunder_i_solver *solver, sunder_error *err);
 
 /* ---- pair_trees.c ------------------------------------------------------------------------------------------------ */
 
-/* What trees prove of the pairs of those parts where that may be more than groups do: parts->by_trees. The trees, to be
- * freed by sunder_i_bound_trees_free(), have the roots of their parts for groups, and are kept where proofs are. */
+/* Sets parts->by_trees to what trees prove of the pairs, for parts where that may exceed what the groups prove. If
+ * trees are kept, they are added to `trees` with the root of their part as the group; the caller frees them with
+ * sunder_i_bound_trees_free(). */
 sunder_status sunder_i_report_pair_trees(const sunder_report *report, sunder_i_solver *solver, sunder_i_parts *parts,
                                          sunder_i_bound_trees *trees, sunder_error *err);
 
 /* ---- contact_pushes.c -------------------------------------------------------------------------------------------- */
 
-/* How hard pairs in contact are pressed, where that is wanted. */
+/* Computes the forces of pairs in contact, if the rules ask for them. */
 sunder_status sunder_i_report_pushes(sunder_report *report, sunder_i_solver *solver, sunder_error *err);
 
 /* ---- no_room.c --------------------------------------------------------------------------------------------------- */
 
-/* Answers a question about a few bodies: sunder_i_decide() (prove/proofs/feasibility.h). */
+/* The type of sunder_i_decide() (prove/proofs/feasibility.h), which answers a question about a few bodies. */
 struct sunder_i_subproblem;
 struct sunder_i_decision;
 typedef sunder_status (*sunder_i_decide_subproblem)(const struct sunder_i_subproblem *subproblem,
                                                     struct sunder_i_decision *decision, sunder_error *err);
-/* Tells what cannot be resolved from what was not: of the report's conflicts, those with a proof have "no_room". */
+/* Finds which of the report's conflicts provably have no solution, and sets the reason of these to "no_room". */
 sunder_status sunder_i_report_proofs(sunder_report *report, const sunder_i_solver *solver,
                                      sunder_i_decide_subproblem decide, sunder_error *err);
 
 /* ---- crowd_needs.c ----------------------------------------------------------------------------------------------- */
 
-/* The need_shift of all conflicts of a cluster, from a layout that solves them, if one is known and not all is solved:
- * for clusters of many conflicts (crowds), or for the others. All bodies stand as in the result before and after. */
+/* Sets need_shift of the conflicts of each cluster whose need is still unknown, from a layout of the whole cluster, if
+ * a known one solves them. crowds: examine only the clusters with many conflicts, or only the others. All bodies have
+ * their moves of the result before and after the call. */
 sunder_status sunder_i_report_crowd_needs(sunder_report *report, sunder_i_solver *solver, bool crowds,
                                           sunder_error *err);
 
 /* ---- needs.c ----------------------------------------------------------------------------------------------------- */
 
-/* Is it asked first whether a proof tells that there is no solution, and does one? Or is the layer to be left as it
- * was given, prepared for such questions? */
+/* Whether the solver first attempts to prove that there is no solution (..._WANTED), does not (..._UNASKED), or leaves
+ * the layer unsolved and only prepares it for such proofs (..._LATER); and the outcome of the attempt. */
 typedef enum sunder_i_proof_found {
     SUNDER_I_PROOF_UNASKED,
     SUNDER_I_PROOF_WANTED,
@@ -198,26 +213,28 @@ typedef enum sunder_i_proof_found {
     SUNDER_I_PROOF_FOUND
 } sunder_i_proof_found;
 
-/* Solves a layer without much ado, to where its report would begin: all but those pairs of its features and barriers,
- * sorted, which may stand as they do. *proof: wanted or not, and then what came of it, if it came to that. The solver
- * is to be freed, also on failure. */
+/* Solves a small layer up to the point where its report would begin. The n pairs of spared[], sorted, may remain in
+ * conflict. *proof says whether a proof is wanted, and becomes the outcome if one was attempted. The caller frees the
+ * solver even if this fails. */
 typedef sunder_status (*sunder_i_solve_layer)(const sunder_layer *layer, const sunder_layer_options *options,
                                               const sunder_i_id_pair *spared, size_t n, sunder_i_proof_found *proof,
                                               sunder_i_solver *solver, sunder_error *err);
-/* Fills the conflicts' need_shift, need_gap and need_gone; after what blocks them is known, and what crowds need. */
+/* Fills the conflicts' need_shift, need_gap and need_gone. To be called after sunder_i_report_blockers() and the
+ * examination of dense clusters. */
 sunder_status sunder_i_report_needs(sunder_report *report, const sunder_i_solver *solver,
                                     const sunder_layer_options *options, sunder_i_solve_layer solve, sunder_error *err);
 
 /* ---- spread_out.c ------------------------------------------------------------------------------------------------ */
 
-/* Moves that separate boxes which are in conflict at the start, for bodies in ascending order, and for the bodies that
- * stand where they move to: into goal, which has an entry for each body. *found: there are such moves. */
+/* Computes moves that separate the boxes which are in conflict at the start, for the bodies of `body` in ascending
+ * order. Bodies that stand where these move to are added to `body`. The moves are written to goal[], which has two
+ * entries for each body of the model. Sets *found to whether there are such moves. */
 sunder_status sunder_i_spread_out(const sunder_i_solver *solver, sunder_i_list *body, double *goal, bool *found,
                                   sunder_error *err);
 
 /* ---- worlds.c ---------------------------------------------------------------------------------------------------- */
 
-/* Which parts of the layer had nothing to do with each other, where that is wanted; last of all. */
+/* Determines which parts of the layer did not influence each other, if the rules ask for it. To be called last. */
 sunder_status sunder_i_report_worlds(sunder_report *report, const sunder_i_solver *solver, sunder_error *err);
 
 /* ---- blockers.c -------------------------------------------------------------------------------------------------- */

@@ -1,17 +1,20 @@
-/* A layout of a cluster that needs no search: the cluster, and all bodies that stand where it expands to, is stretched
- * about its middle, by one factor along x and one along y; each body moves with the centre of its box.
+/* Makes a layout of a cluster without a search: the cluster, together with all bodies that stand where it expands to, is
+ * stretched about its centre by one factor sx along x and one factor sy along y. Each body moves with the centre of its
+ * box.
  *
- * Two boxes that must be a gap apart are so along x if sx is at least the required distance divided by that of their
- * centres, or along y if sy is. A pair that was apart along an axis comes no nearer along it. So every conflict demands
- * an sx or an sy,
+ * The boxes of two bodies keep the gap along x if sx is at least the required distance of their centres along x divided
+ * by the present one; likewise along y with sy. A pair that keeps the gap along an axis comes no nearer along it. So
+ * each conflict needs either sx >= x or sy >= y, with numbers x and y of its own, shown as the points (x, y):
  *
- *       sy |  x               and any (sx, sy) is sufficient that has each of the points to its left or below it: of
- *          |    x   x         the corners of that staircase the one is taken for which the body farthest from the
- *          |  x   x           middle, at a corner of the cluster's box, has the shortest move.
+ *       sy |  x
+ *          |    x   x
+ *          |  x   x
  *          +----------- sx
  *
- * Boxes of features at an angle demand more than the features do, and shapes other than boxes may still be in conflict:
- * the caller has to check. */
+ * A pair of factors (sx, sy) is sufficient if each point lies to its left or below it. Such pairs are bounded by a
+ * staircase; the corner of the staircase is chosen for which a corner of the cluster's box, the farthest place from the
+ * centre, moves least. The boxes of features at an angle need larger factors than the features do, and features that
+ * are no boxes may still be in conflict afterwards. The caller has to check. */
 #include "displacement/report/report.h"
 #include "displacement/report/tuning.h"
 #include "displacement/solve/clusters/solver.h"
@@ -22,7 +25,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* A conflict's demand on the factors: one of the two suffices. */
+/* The factors that a conflict needs: a factor of at least x along x, or of at least y along y. */
 typedef struct asked {
     double x, y;
 } asked;
@@ -33,7 +36,7 @@ static int by_x_from_the_greatest(const void *a, const void *b)
     return p->x != q->x ? (p->x < q->x ? 1 : -1) : (p->y < q->y) - (p->y > q->y);
 }
 
-/* The body's box where it stands at home: its middle and half its size. */
+/* Computes the centre and the half extents of the body's box at its original position. */
 static void box_of(const sunder_i_solver *s, uint32_t body, double middle[2], double half[2])
 {
     const double home[2] = {0, 0};
@@ -45,7 +48,7 @@ static void box_of(const sunder_i_solver *s, uint32_t body, double middle[2], do
     }
 }
 
-/* The demand of a pair in conflict. */
+/* Returns the factors that separate the boxes of bodies i and j by the gap. */
 static asked ask(const sunder_i_solver *s, uint32_t i, uint32_t j)
 {
     double at[2], from[2], half[2], other[2], need[2];
@@ -55,7 +58,8 @@ static asked ask(const sunder_i_solver *s, uint32_t i, uint32_t j)
     return (asked){need[0], need[1]};
 }
 
-/* The demands of the conflicts of these bodies at the start; n of them. NULL if memory is out. */
+/* Returns the factors needed by the conflicts of these bodies at the start, which the caller frees, and sets *n to
+ * their number. Returns NULL if memory is out. */
 static asked *list_asked(const sunder_i_solver *s, const uint32_t *body, size_t bodies, size_t *n)
 {
     asked *list = sunder_i_alloc(1, sizeof *list);
@@ -80,7 +84,8 @@ static asked *list_asked(const sunder_i_solver *s, const uint32_t *body, size_t 
     return list;
 }
 
-/* The corner of the staircase with the shortest way for half the box of the cluster. False: there is none. */
+/* Chooses the pair of factors for which a corner of the cluster's box, of half extents half[], moves least. Returns
+ * false if there is none. */
 static bool choose(asked *list, size_t n, const double half[2], double factor[2])
 {
     double y = 1, least = INFINITY;
@@ -97,7 +102,8 @@ static bool choose(asked *list, size_t n, const double half[2], double factor[2]
     return isfinite(least);
 }
 
-/* Of these bodies; half: of the box of their middles, which is what stretches. */
+/* Computes the centre and the half extents of the box around the centres of the n bodies; this box is what is
+ * stretched. */
 static void find_extent(const sunder_i_solver *s, const uint32_t *body, size_t n, double middle[2], double half[2])
 {
     double box[4];
@@ -113,8 +119,8 @@ static void find_extent(const sunder_i_solver *s, const uint32_t *body, size_t n
     }
 }
 
-/* Moves are whole multiples of it: the unit in the last place of the largest coordinate that there will be, or one
- * greater, so that doubles hold what is moved. */
+/* Returns a power of 2 whose multiples the moves are: at least the unit in the last place of the largest coordinate
+ * that can occur, so that moved coordinates are exact. */
 static double unit_of(const double middle[2], const double half[2], const double factor[2])
 {
     double largest = 0;
@@ -124,12 +130,12 @@ static double unit_of(const double middle[2], const double half[2], const double
     return largest > 0 ? ldexp(1, exponent - DBL_MANT_DIG) : 1;
 }
 
-/* How a cluster is stretched. */
+/* The centre, the half extents and the factors by which a cluster is stretched. */
 typedef struct stretch {
     double middle[2], half[2], factor[2];
 } stretch;
 
-/* Appends those that may move and stand where these are stretched to. False if memory is out. */
+/* Appends the movable bodies that reach into the stretched box. Returns false if memory is out. */
 static bool take_in(const sunder_i_solver *s, const stretch *g, sunder_i_list *body)
 {
     sunder_i_list near = {0};
@@ -148,7 +154,7 @@ static bool take_in(const sunder_i_solver *s, const stretch *g, sunder_i_list *b
     return ok;
 }
 
-/* The factors for all of these demands. */
+/* Computes the stretch that the conflicts of all these bodies need. Sets *found to whether there is one. */
 static sunder_status find_stretch(const sunder_i_solver *s, const sunder_i_list *body, stretch *g, bool *found,
                                   sunder_error *err)
 {

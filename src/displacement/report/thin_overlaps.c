@@ -1,5 +1,6 @@
-/* How many pairs would a small tolerance join? Layers drawn without snapping have tiny overlaps along common walls; a
- * user who leaves the tolerance at 0 gets them as conflicts, with this hint. */
+/* Counts the pairs that a small tolerance would turn into neighbours. Layers that were drawn without snapping have tiny
+ * overlaps along common walls. A user who leaves the tolerance at 0 gets them as conflicts; the report then gives this
+ * count as a hint. */
 #include "displacement/report/report.h"
 
 #include "base/parallel.h"
@@ -9,7 +10,7 @@ typedef struct thin_search {
     const sunder_i_placement *placement;
     const sunder_i_relations *relations;
     const sunder_shape *disc;
-    bool *thin; /* [relations] */
+    bool *thin; /* [relations] whether the overlap is thin */
 } thin_search;
 
 static sunder_status look_at(void *context, size_t begin, size_t end, sunder_error *err)

@@ -1,11 +1,11 @@
-/* Worlds: parts of the layer that did not influence each other.
+/* Determines the worlds of a layer: its parts that did not influence each other.
  *
- * Two bodies are of one world if they were ever solved together, if they are in conflict or in contact, or if a place
- * read on behalf of one was a place where the other stood at any time. So had a world's bodies, and the fixed things
- * near them, been the whole layer, every question would have had the same answer, and each body would stand where it
- * does. Reads are recorded as boxes (layer/reads.h): a part of a layer that holds everything that meets a world's boxes
- * yields that world exactly as the whole layer does. A block is read as a whole, whichever member was met: its other
- * end may be fixed. */
+ * Two bodies belong to the same world if they were ever solved together, if they are in conflict or in contact, or if
+ * the solver examined, on behalf of one, a place where the other ever was. If the layer had contained only the bodies
+ * of a world and the fixed features near them, every question would have had the same answer, and each body would end
+ * where it does. The places examined are recorded as boxes (layer/reads.h): a part of the layer that holds everything
+ * that meets the boxes of a world gives the same result for that world as the whole layer. A block is always read as a
+ * whole, whichever member was met, because its other end may be fixed. */
 #include "displacement/layer/resolution.h"
 #include "displacement/report/report.h"
 
@@ -14,22 +14,23 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Beyond the distance owed: contact has a small tolerance. */
+/* The relative tolerance by which contact may exceed the required distance. */
 #define HAIR 0x1p-16
 
 typedef struct gathering {
     const sunder_i_solver *solver;
     const sunder_i_model *model;
     double reach;
-    uint32_t *root; /* [bodies] union-find */
-    bool *active;   /* [bodies] it had something to do with another */
-    /* [bodies] of a set before worlds look into each other; at its root: */
+    uint32_t *root; /* [bodies] union-find of bodies that influenced each other */
+    bool *active;   /* [bodies] the body influenced another, or was influenced */
+    /* [bodies] boxes of each set of root[], at its root: the places read, the places seen, the places where its bodies
+     * stood */
     double (*read)[4], (*seen)[4], (*wrote)[4];
 } gathering;
 
 static bool stands(const sunder_i_model *model, uint32_t body) { return model->body[body].fixed; }
 
-/* From where the body stood to wherever it went. */
+/* Computes the box of the places where the body stood, from its original to every later position. */
 static void box_of(const sunder_i_model *model, uint32_t body, double box[4])
 {
     const sunder_i_body *b = &model->body[body];
@@ -42,8 +43,8 @@ static void box_of(const sunder_i_model *model, uint32_t body, double box[4])
     for (int c = 0; c < 4; c++) box[c] += went[c];
 }
 
-/* Two that have to do with each other. What is fixed holds no two together, but two that are fixed, and in conflict for
- * ever, are of a world too. */
+/* Records that bodies i and j influenced each other. A fixed body does not join two sets; but two fixed bodies in
+ * conflict with each other belong to a world, too. */
 static void meet(gathering *g, uint32_t i, uint32_t j)
 {
     const sunder_i_model *model = g->model;
@@ -54,7 +55,7 @@ static void meet(gathering *g, uint32_t i, uint32_t j)
     g->active[i] = true;
     if (sunder_i_is_barrier_body(model, &model->body[j])) return;
     if (stands(model, j) && !stands(model, i)) {
-        /* That it is fixed may be a member's affair, at the other end of its block. */
+        /* Whether the block is fixed may depend on a member at its other end, so all of it is marked as seen. */
         double box[4];
         box_of(model, j, box);
         sunder_i_box_join(g->model->read[i].seen, box);
@@ -86,7 +87,7 @@ static void meet_groups(gathering *g)
     for (size_t k = 0; k < groups->joins; k++) meet(g, groups->joined[k].a, groups->joined[k].b);
 }
 
-/* ---- Where it looked, and where it stood ------------------------------------------------------------------------- */
+/* ---- Where sets looked, and where they stood --------------------------------------------------------------------- */
 
 static void find_boxes(gathering *g)
 {
@@ -108,13 +109,13 @@ static void find_boxes(gathering *g)
     }
     for (uint32_t b = 0; b < g->model->bodies; b++) {
         if (!g->active[b] || sunder_i_union_find(g->root, b) != b) continue;
-        /* Whether a block ends there is told by what stands next to it. */
+        /* Whether a block ends here depends on what is next to it, so the box is grown. */
         sunder_i_box_grow(g->seen[b], g->reach, g->seen[b]);
         sunder_i_box_join(g->seen[b], g->read[b]);
     }
 }
 
-/* Joins a body with all bodies that stood where it was read. */
+/* Joins, in world[], sets that stood where another set looked. */
 static sunder_status meet_readers(gathering *g, uint32_t *world, sunder_error *err)
 {
     const size_t n = g->model->bodies;
@@ -138,9 +139,9 @@ static sunder_status meet_readers(gathering *g, uint32_t *world, sunder_error *e
     return status;
 }
 
-/* ---- What is told of them ---------------------------------------------------------------------------------------- */
+/* ---- What is reported -------------------------------------------------------------------------------------------- */
 
-/* Worlds by their first features; feature by feature whose it is. */
+/* Numbers the worlds in the order of their first features, and sets world_of of each feature. */
 static sunder_status number_worlds(sunder_report *report, const gathering *g, uint32_t *world, sunder_error *err)
 {
     const sunder_i_model *model = g->model;
@@ -177,7 +178,7 @@ static size_t world_of_body(const sunder_report *report, const gathering *g, uin
     return report->world_of[g->solver->layer.number[g->model->member[b->member]]];
 }
 
-/* Whose pair of the model's is it? SIZE_MAX: it is inside a block that nothing happened to. */
+/* Returns the world of a pair of the model's numbers, or SIZE_MAX if both are in a block that influenced nothing. */
 static size_t world_of_pair(const sunder_report *report, const gathering *g, uint32_t a, uint32_t b)
 {
     const size_t n = g->model->features;
@@ -215,7 +216,8 @@ static sunder_status list_footprints(sunder_report *report, const gathering *g, 
     return SUNDER_OK;
 }
 
-/* Counts each conflict in its world; those inside a block that nothing happened to with the first of the two. */
+/* Counts each conflict in its world. A conflict inside a block without a world is counted with the first of its two
+ * features. */
 static sunder_status count_pairs(sunder_report *report, const gathering *g, sunder_error *err)
 {
     const sunder_i_relations *const list[2] = {&g->solver->start, &g->solver->now};
@@ -242,7 +244,7 @@ static sunder_status count_pairs(sunder_report *report, const gathering *g, sund
     return SUNDER_OK;
 }
 
-/* What is proved of the part whose root is the body. */
+/* Returns what is proved of the part whose root is `body`. */
 static sunder_world_bound bound_of(const sunder_report *report, uint32_t body)
 {
     if (!report->proved) return (sunder_world_bound){0, 0};
@@ -251,7 +253,7 @@ static sunder_world_bound bound_of(const sunder_report *report, uint32_t body)
 
 static bool is_any(sunder_world_bound bound) { return bound.proved > 0 || bound.by_pairs > 0; }
 
-/* Counts each world's contact groups and lists the bounds proved of its parts. */
+/* Counts the contact groups of each world, and lists what is proved of its parts. */
 static sunder_status count_proved(sunder_report *report, const gathering *g, sunder_error *err)
 {
     const sunder_i_groups *groups = &g->solver->groups;
@@ -277,7 +279,7 @@ static sunder_status count_proved(sunder_report *report, const gathering *g, sun
     return SUNDER_OK;
 }
 
-/* By the caller's numbers of features. */
+/* Stores for each feature, in the caller's numbers, whether its coordinates were rounded and whether it is fixed. */
 static sunder_status keep_each(sunder_report *report, const gathering *g, sunder_error *err)
 {
     const sunder_i_model *model = g->model;
