@@ -1,9 +1,9 @@
-/* Which rules were broken between one layer and another, whatever moved the features?
+/* Checks which rules were broken between two versions of a layer, whatever program moved the features.
  *
- * Features are matched by their places in the two layers. Each has to be a translate, as doubles hold it; its move is
- * then checked against its limit, together with all others against the rule against jumps, and against the sides of
- * barriers. No pair that is in conflict afterwards may stand worse than before. Blocks, limits and fixed features are
- * those of the layer before. */
+ * Features are matched by their indices in the two layers. Each feature has to be a translate of what it was, up to the
+ * rounding of its coordinates to doubles. Its move is checked against its limit, against the rule against jumps
+ * together with the moves of all others, and against the sides of barriers. No pair that is in conflict afterwards may
+ * be worse than before. Blocks, limits and fixed features are those of the layer before. */
 #include "displacement/layer/barrier_pairs.h"
 #include "displacement/layer/rounding.h"
 #include "displacement/report/report.h"
@@ -18,14 +18,14 @@
 
 typedef struct comparison {
     const sunder_layer *before, *after;
-    sunder_i_barriers barriers;   /* of `before` */
-    sunder_layer layer;           /* `before`, and parts of these behind it; cleared by itself */
-    sunder_i_model model;         /* of all that */
-    sunder_i_placement placement; /* first of `before`, then of `after` */
+    sunder_i_barriers barriers;   /* those of `before` */
+    sunder_layer layer;           /* the features of `before`, followed by the parts of its barriers; owned */
+    sunder_i_model model;         /* made of `layer` */
+    sunder_i_placement placement; /* first the positions in `before`, then those in `after` */
     sunder_i_relations start, now;
     sunder_i_jumps jumps;
-    double *move;     /* [2 * features] */
-    bool *translated; /* [features] it is a translate */
+    double *move;     /* [2 * features] the move of each feature between the two layers */
+    bool *translated; /* [features] whether the feature is a translate */
     sunder_conflict *found;
     size_t n, capacity;
 } comparison;
@@ -52,9 +52,9 @@ static sunder_conflict *add(comparison *c, sunder_conflict_kind kind, size_t a, 
     return &c->found[c->n++];
 }
 
-/* ---- Feature by feature ------------------------------------------------------------------------------------------ */
+/* ---- Single features --------------------------------------------------------------------------------------------- */
 
-/* The way of the anchor of a, as seen from what moved by s. */
+/* Sets the link of conflict `out` to the path of feature a's anchor, as seen from something that moved by s. */
 static void draw(const comparison *c, size_t a, const double s[2], sunder_conflict *out)
 {
     sunder_shape_anchor(c->before->shape[a], out->from);
@@ -67,7 +67,7 @@ static sunder_status check_feature(comparison *c, uint32_t f, sunder_error *err)
     const double none[2] = {0, 0}, *t = c->move + 2 * (size_t)f;
     const bool there = was && !sunder_shape_is_empty(was), still = is && !sunder_shape_is_empty(is);
     c->translated[f] = there == still && (!there || sunder_i_move_between(was, is, c->move + 2 * f));
-    /* For a repaired set, the shape as given is not the one written: then its move is not known. */
+    /* If the geometry was repaired on input, the shape as given is not the one written; the move is then not known. */
     if (!c->translated[f] && there && still && sunder_shape_repaired(was)) return SUNDER_OK;
     if (!c->translated[f])
         return add(c, SUNDER_CONFLICT_NOT_A_TRANSLATE, f, SIZE_MAX) ? SUNDER_OK : sunder_i_no_memory(err);
@@ -84,7 +84,8 @@ static sunder_status check_feature(comparison *c, uint32_t f, sunder_error *err)
 
 /* ---- Pairs ------------------------------------------------------------------------------------------------------- */
 
-/* A feature's side anchor crossed a side of a part; of a barrier that is told once. */
+/* Records that feature f crossed a side of a barrier part with its side anchor. Of each barrier this is recorded once
+ * for a feature. */
 static sunder_status tell_side(comparison *c, uint32_t f, uint32_t part, sunder_error *err)
 {
     const size_t barrier = c->layer.number[part];
@@ -112,7 +113,7 @@ static sunder_status tell_jump(comparison *c, uint32_t f, uint32_t g, sunder_err
     return SUNDER_OK;
 }
 
-/* Crossed sides, and jumps of one feature over another, or of both. */
+/* Checks for crossed sides, and for jumps of one feature over another. */
 static sunder_status check_ways(comparison *c, sunder_error *err)
 {
     c->jumps.paths.own = c->move;
@@ -129,7 +130,7 @@ static sunder_status check_ways(comparison *c, sunder_error *err)
     return status;
 }
 
-/* The features as they stand in `after`. */
+/* Puts the features at their positions in `after`. */
 static sunder_status place_after(comparison *c, sunder_error *err)
 {
     sunder_i_placement *p = &c->placement;
@@ -150,7 +151,7 @@ static sunder_status place_after(comparison *c, sunder_error *err)
     return status;
 }
 
-/* Is it in conflict between blocks, and does it stand worse than it did? */
+/* Sets *worse to whether the pair of r is in conflict between different bodies and is worse than before. */
 static sunder_status is_worse(const comparison *c, const sunder_i_relation *r, bool *worse, sunder_error *err)
 {
     const sunder_i_relation *was = sunder_i_relations_find(&c->start, r->a, r->b);
@@ -166,7 +167,7 @@ static sunder_status is_worse(const comparison *c, const sunder_i_relation *r, b
     return sunder_i_pair_worsened(&before, &after, worse, err);
 }
 
-/* Leaves only those in c->now. */
+/* Keeps in c->now only the relations of pairs that are worse than before. */
 static sunder_status find_worse(comparison *c, sunder_error *err)
 {
     size_t out = 0;
@@ -180,7 +181,7 @@ static sunder_status find_worse(comparison *c, sunder_error *err)
     return status;
 }
 
-/* Those pairs as the report describes conflicts, and how far they stood from each other before. */
+/* Records these pairs as the report describes conflicts, with their distances before. */
 static sunder_status check_pairs(comparison *c, sunder_report *report, sunder_error *err)
 {
     sunder_status status = place_after(c, err);
@@ -209,7 +210,7 @@ static sunder_status check_pairs(comparison *c, sunder_report *report, sunder_er
     return status;
 }
 
-/* ---- The whole --------------------------------------------------------------------------------------------------- */
+/* ---- The whole comparison ---------------------------------------------------------------------------------------- */
 
 static sunder_status begin(comparison *c, const sunder_layer_options *options, sunder_error *err)
 {

@@ -1,12 +1,12 @@
-/* A whole layer: conflicts make clusters, clusters are solved, what they run into joins them, and exact checks have the
- * last word.
+/* Separates or checks a whole layer. Bodies in conflict form clusters, clusters are solved, bodies that a solved
+ * cluster then runs into join it, and exact tests decide what is in conflict:
  *
- *     relations as it stands --> edges between bodies --> clusters --> moves, rounded
- *            ^                                                           |
- *            +---- relations of what moved, exact <----------------------+
+ *     relations of the features --> edges between bodies --> clusters --> moves, rounded
+ *            ^                                                              |
+ *            +------------- relations of the moved features, exact <--------+
  *
- * That is one run of rounds (solve/clusters/settle.c). The order of these runs is a table (solve_layer.c); here is what
- * comes before and after them. */
+ * Such rounds are run by solve/clusters/settle.c, and solve_layer.c contains the order in which it is called, as a
+ * table. This file contains what comes before and after. */
 #include "displacement/prove/proofs/feasibility.h"
 #include "displacement/report/report.h"
 #include "displacement/solve/clusters/cluster_stages.h"
@@ -19,10 +19,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Shares of the whole that are done, roughly: when bounds and pushes are known, and when proofs are. */
+/* Approximate shares of the whole work that are done when bounds and pushes are known, and when proofs are. */
 #define BOUNDED 0.84
 #define PROVED 0.9
-/* Relates all pairs; movers_only: except pairs of two fixed ones. */
+/* Determines the relations of all near pairs; with `movers_only`, except pairs of two fixed features. */
 static sunder_status relate(sunder_i_solver *s, bool movers_only, sunder_error *err)
 {
     if (!movers_only) return sunder_i_placement_relate(&s->model, &s->placement, NULL, &s->start, err);
@@ -36,7 +36,8 @@ static sunder_status relate(sunder_i_solver *s, bool movers_only, sunder_error *
     return status;
 }
 
-/* What a layer is read for: all of it; what stands where, in the order of the input; can what moves be solved? */
+/* What a layer is read for: to separate its features; to list the conflicts in the order of the input; or to find out
+ * whether its movable features have a solution. */
 typedef enum purpose { TO_SEPARATE, TO_CHECK, TO_ANSWER } purpose;
 
 static sunder_status start(sunder_i_solver *s, const sunder_layer *layer, const sunder_layer_options *options,
@@ -59,7 +60,7 @@ static sunder_status start(sunder_i_solver *s, const sunder_layer *layer, const 
     return sunder_i_count_thin_overlaps(&s->model, &s->placement, &s->start, *report, err);
 }
 
-/* Relations now are those of the start. False if memory is out. */
+/* Makes s->now equal to the relations of the start. Returns false if memory is out. */
 static bool begin_as_at_start(sunder_i_solver *s)
 {
     const size_t n = s->start.n, size = sizeof *s->now.pair;
@@ -69,7 +70,8 @@ static bool begin_as_at_start(sunder_i_solver *s)
     return true;
 }
 
-/* What else is settled beforehand: the bodies in doubles, relations as they stand. */
+/* Prepares the data of the search: the bodies in doubles, the features that are shut in, and the relations of the
+ * start. */
 static sunder_status prepare(sunder_i_solver *s, sunder_error *err)
 {
     sunder_status status = sunder_i_model_cut(&s->model, err);
@@ -81,7 +83,7 @@ static sunder_status prepare(sunder_i_solver *s, sunder_error *err)
     return begin_as_at_start(s) ? SUNDER_OK : sunder_i_no_memory(err);
 }
 
-/* To where the report begins. */
+/* Does everything up to the point where the report begins. */
 static sunder_status work(sunder_i_solver *s, const sunder_layer *layer, const sunder_layer_options *options,
                           sunder_report **report, sunder_error *err)
 {
@@ -117,9 +119,10 @@ static sunder_status look_for_proof(sunder_i_solver *s, const sunder_i_spared *l
     return status;
 }
 
-/* A question about a conflict: a small layer of its own, without a report. Does all of it have a solution? A pair
- * without one, a proof, or a cluster without a result ends it, and nothing is given up or improved. (Only a feature
- * that has to leave another one takes a failed search to find that out.) */
+/* Answers a question about a conflict: solves a small layer without a report, to find out whether all of it has a
+ * solution. Work ends with the first pair that has no solution, with a proof, or with a cluster without a result; no
+ * pair is given up, and no layout is improved. (If a contained feature has to leave its holder, this is found out only
+ * by a search that fails, so work does not end then.) */
 static sunder_status work_briefly(const sunder_layer *layer, const sunder_layer_options *options,
                                   const sunder_i_id_pair *pair, size_t n, sunder_i_proof_found *proof,
                                   sunder_i_solver *s, sunder_error *err)
@@ -137,7 +140,7 @@ static sunder_status work_briefly(const sunder_layer *layer, const sunder_layer_
     if (s->hopeless) return SUNDER_OK;
     status = sunder_i_solver_spare(s, &list, err);
     if (!status) status = prepare(s, err);
-    /* Two may be shut in, too. */
+    /* Preparation may find that the two are shut in. */
     s->hopeless = s->brief && sunder_i_solver_is_beyond_limits(s, &list);
     if (!status && s->brief && !s->hopeless && *proof == SUNDER_I_PROOF_WANTED)
         status = look_for_proof(s, &list, proof, err);
@@ -147,8 +150,9 @@ static sunder_status work_briefly(const sunder_layer *layer, const sunder_layer_
     return status;
 }
 
-/* Relations once more of all that does not stand as it was given, so that the verdict leans on none that was found on
- * the way. Two that do stand so are what they were found to be when nothing had moved. */
+/* Determines the relations of all features that moved or were rounded once more, so that the report is based on no
+ * relation that was found during the search. A pair in which neither feature did so has the relation that was found at
+ * the start. */
 static sunder_status relate_last(sunder_i_solver *s, sunder_error *err)
 {
     sunder_i_changes elsewhere;
@@ -164,7 +168,7 @@ static sunder_status relate_last(sunder_i_solver *s, sunder_error *err)
     return status ? status : sunder_i_jumps_update(&s->jumps, &s->model, NULL, err);
 }
 
-/* Reports progress, if nothing failed so far. */
+/* Reports progress, unless `status` is an error already. */
 static sunder_status reach(const sunder_i_solver *s, double fraction, sunder_status status, sunder_error *err)
 {
     if (status || sunder_i_progress(&s->model.rules, fraction)) return status;
@@ -181,7 +185,7 @@ static void trace_conflicts(sunder_i_solver *s, const sunder_report *report)
     }
 }
 
-/* What remains, why, what would free it, and what no solution can beat. */
+/* Determines what remains and why, what would free it, and the lower bound of the cost. */
 static sunder_status explain(sunder_i_solver *s, const sunder_layer_options *options, sunder_report *report,
                              sunder_error *err)
 {
@@ -202,11 +206,11 @@ static sunder_status explain(sunder_i_solver *s, const sunder_layer_options *opt
     return reach(s, SUNDER_PROGRESS_EXPLAINED, status, err);
 }
 
-/* The result in the layer's order. */
+/* Writes the result to the report, in the internal order of features. */
 static sunder_status fill_report(sunder_i_solver *s, sunder_report *report, sunder_error *err)
 {
     sunder_i_pieces_forget(&s->model, SUNDER_I_PIECES_HELD);
-    /* What says how all stand is needed no longer, unless another layer may come to lie beside this one. */
+    /* The positions are not needed any more, unless worlds are kept for a layer that is combined of several. */
     if (!s->model.rules.keep_worlds) sunder_i_placement_free(&s->model, &s->placement);
     const sunder_status status = sunder_i_report_features(report, &s->model, err);
     if (status) return status;
@@ -214,8 +218,8 @@ static sunder_status fill_report(sunder_i_solver *s, sunder_report *report, sund
     return sunder_i_report_worlds(report, s, err);
 }
 
-/* Relates all pairs once more, explains the result, and then verifies it: that the pairs are as found is known since
- * they were related. */
+/* Determines the relations of moved features once more, explains the result, and then verifies that no remaining
+ * conflict is worse than at the start. That no other pair is in conflict is known from the relations. */
 static sunder_status conclude(sunder_i_solver *s, const sunder_layer_options *options, sunder_report *report,
                               double began, sunder_error *err)
 {
@@ -236,7 +240,8 @@ static sunder_status conclude(sunder_i_solver *s, const sunder_layer_options *op
     return SUNDER_OK;
 }
 
-/* In the caller's numbers. That takes room for all moves once more, so what they were found with goes first. */
+/* Converts the report to the caller's numbers. That needs room for all moves once more, so the solver is freed
+ * first. */
 static sunder_status renumber(sunder_i_solver *s, sunder_report *report, sunder_error *err)
 {
     uint32_t *number = s->layer.number;

@@ -1,13 +1,13 @@
 /* The order of the stages of one layer, as two tables.
  *
- * `passes` is the order of the whole work: a search without limits, and then, if a limit is overstepped, one within
- * them (what oversteps no limit is not changed by it); after each, proofs of contact groups; at last the check that no
- * pair stands worse than it stood.
+ * `passes` is the order of the whole work: a search without limits; if a limit is exceeded, a search within the limits,
+ * which leaves the moves that exceed no limit as they are; after each search, proofs of contact groups; at the end the
+ * check that no pair is worse than at the start.
  *
- * `seeking` is the order of one search. A stage is run again as long as it changes something, up to its budget of
- * rounds; after each change clusters are settled (solve/clusters/settle.c), since a change makes new conflicts. A stage
- * does nothing to a cluster that has no use for it, so that the result of a cluster does not depend on how long others
- * take. */
+ * `seeking` is the order of the stages of one search. A stage is run again as long as it changes something, up to its
+ * number of rounds. After each change clusters are settled (solve/clusters/settle.c), since a change makes new
+ * conflicts. A stage leaves a cluster unchanged if it does not apply to it, so that the result of a cluster does not
+ * depend on the number of rounds that others take. */
 #include "displacement/solve_layer.h"
 
 #include "displacement/report/report.h"
@@ -16,22 +16,22 @@
 #include "base/invariant.h"
 #include "base/stage_switch.h"
 
-/* Shares of the whole that are done, roughly: when the search without limits ends; the other ones are in the headers.
- */
+/* The approximate share of the whole work that is done when the search without limits ends. The other shares are in the
+ * headers. */
 #define FOUND_WITHOUT_LIMITS 0.4
 #define FOUND SUNDER_PROGRESS_SOLVED
 
 typedef struct stage {
     const char *name;
-    /* Precondition of each round; NULL: none. */
+    /* The condition under which a round is run; NULL if there is none. */
     sunder_status (*applies)(const sunder_i_solver *s, bool *applies, sunder_error *err);
-    /* *changed: clusters are to be settled, and the stage may have one more round. */
+    /* Runs one round. *changed becomes whether clusters have to be settled and the stage may have another round. */
     sunder_status (*run)(sunder_i_solver *s, bool *changed, sunder_error *err);
-    int rounds;      /* budget: rounds at most */
-    double from, to; /* the share of the search that its settling takes, of 1 */
+    int rounds;      /* the largest number of rounds */
+    double from, to; /* the range of the search's progress, from 0 to 1, that settling after this stage covers */
 } stage;
 
-/* ---- Preconditions ----------------------------------------------------------------------------------------------- */
+/* ---- Conditions -------------------------------------------------------------------------------------------------- */
 
 static bool any_body(const sunder_i_solver *s, sunder_i_body_test test)
 {
@@ -99,7 +99,7 @@ static sunder_status has_no_effort(const sunder_i_solver *s, bool *applies, sund
 
 /* ---- Stages of one search ---------------------------------------------------------------------------------------- */
 
-/* Most layers leave nothing to be proved, or little. */
+/* Covers the diagonals that proofs may need, if there are pairs to be examined; most layers have few or none. */
 static sunder_status cover_diagonals_for_proofs(sunder_i_solver *s, sunder_error *err)
 {
     return s->model.given_up_n ? sunder_i_report_cover_diagonals(s, err) : SUNDER_OK;
@@ -111,7 +111,7 @@ static sunder_status choose_holders(sunder_i_solver *s, bool *changed, sunder_er
     return sunder_i_solver_choose_holders(s, err);
 }
 
-/* Settling alone. */
+/* Only causes the clusters to be settled. */
 static sunder_status settle(sunder_i_solver *s, bool *changed, sunder_error *err)
 {
     (void)s;
@@ -120,7 +120,7 @@ static sunder_status settle(sunder_i_solver *s, bool *changed, sunder_error *err
     return SUNDER_OK;
 }
 
-/* Given up pairs are looked at again, each time with what the search ran into since. */
+/* Examines the pairs that were given up once more, each time with the bodies that the search has met since. */
 static sunder_status reconsider(sunder_i_solver *s, bool *changed, sunder_error *err)
 {
     const sunder_status status = cover_diagonals_for_proofs(s, err);
@@ -136,7 +136,8 @@ static sunder_status mark_for_retry(sunder_i_solver *s, bool *changed, sunder_er
     return SUNDER_OK;
 }
 
-/* Given up pairs are asked once more: each time what is granted runs into others, and more is given up. */
+/* Tries the pairs that were given up once more. In each round bodies that get their way run into others, and more pairs
+ * are given up. */
 static sunder_status retry(sunder_i_solver *s, bool *changed, sunder_error *err)
 {
     const sunder_status status = sunder_i_solver_retry(s, err);
@@ -145,14 +146,14 @@ static sunder_status retry(sunder_i_solver *s, bool *changed, sunder_error *err)
     return status;
 }
 
-/* Clusters that joined since better sides were last looked for are improved once more. */
+/* Improves the clusters that were joined since better sides were last looked for. */
 static sunder_status improve(sunder_i_solver *s, bool *changed, sunder_error *err)
 {
     *changed = true;
     return sunder_i_solver_improve(s, err);
 }
 
-/* Pairs are asked about one by one: each time one in a cluster is solved. */
+/* Examines the pairs that were given up one at a time; in each round one pair of each cluster is solved. */
 static sunder_status ask_one_by_one(sunder_i_solver *s, bool *changed, sunder_error *err)
 {
     const sunder_status status = cover_diagonals_for_proofs(s, err);
@@ -172,9 +173,9 @@ static const stage seeking[] = {
     {"ask one by one", NULL, ask_one_by_one, 16, 6. / 7, 1}, {"fit exactly", NULL, fit_exactly, 1, 1, 1},
 };
 
-/* ---- The driver -------------------------------------------------------------------------------------------------- */
+/* ---- Running the tables ------------------------------------------------------------------------------------------ */
 
-/* One stage, in its rounds. Progress of the walk goes from `from` to `to`. */
+/* Runs the rounds of one stage. `from` and `to` are the progress at the beginning and the end of the search. */
 static sunder_status run_stage(sunder_i_solver *s, const stage *x, double from, double to, sunder_error *err)
 {
     sunder_status status = SUNDER_OK;
@@ -194,7 +195,7 @@ static sunder_status run_stage(sunder_i_solver *s, const stage *x, double from, 
     return status;
 }
 
-/* Runs the stages of a table. */
+/* Runs the stages of a table, in order. */
 static sunder_status walk(sunder_i_solver *s, const stage *table, size_t n, double from, double to, sunder_error *err)
 {
     sunder_status status = SUNDER_OK;
@@ -234,7 +235,8 @@ static sunder_status seek_first(sunder_i_solver *s, bool *changed, sunder_error 
     return seek(s, SUNDER_I_PREPARED, s->had_limits ? FOUND_WITHOUT_LIMITS : FOUND, err);
 }
 
-/* What was solved is proved, and what is found to be cheaper is taken; then margins go, where doubles hold contact. */
+/* Proves contact groups and accepts the cheaper layouts that are found. Then removes the margins where features can be
+ * in exact contact in doubles. */
 static sunder_status optimise(sunder_i_solver *s, bool *changed, sunder_error *err)
 {
     (void)changed;
@@ -261,8 +263,8 @@ static sunder_status keep_held(sunder_i_solver *s, bool *changed, sunder_error *
     return sunder_i_solver_keep_held(s, s->held_layout, err);
 }
 
-/* Held bodies that still are in conflict may move: what has no solution with them is solved once more, and the better
- * of the two layouts is taken. */
+/* Allows held bodies that are still in conflict to move. Clusters that have no solution with them are solved once more,
+ * and the better of the two layouts is kept. */
 static sunder_status let_go(sunder_i_solver *s, bool *changed, sunder_error *err)
 {
     (void)changed;
@@ -287,7 +289,7 @@ static sunder_status uphold(sunder_i_solver *s, bool *changed, sunder_error *err
     return sunder_i_solver_uphold(s, err);
 }
 
-/* What was mended, or settled about what was, is proved once more; nothing gets worse by that. */
+/* Proves once more the groups of bodies that were changed since; no layout gets worse by that. */
 static sunder_status prove_all(sunder_i_solver *s, bool *changed, sunder_error *err)
 {
     (void)changed;

@@ -4,10 +4,10 @@
 
 #include "displacement/solve/clusters/solver.h"
 
-/* The share of the whole work that is done when the solver is prepared, roughly. */
+/* The approximate share of the whole work that is done when the solver is prepared. */
 #define SUNDER_I_PREPARED 0.1
 
-/* Finds the moves: all stages, in the order of the tables. */
+/* Finds the moves: runs all stages, in the order of the tables. */
 sunder_status sunder_i_layer_solve(sunder_i_solver *solver, sunder_error *err);
 
 #endif
