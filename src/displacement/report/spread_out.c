@@ -1,6 +1,6 @@
-/* Makes a layout of a cluster without a search: the cluster, together with all bodies that stand where it expands to, is
- * stretched about its centre by one factor sx along x and one factor sy along y. Each body moves with the centre of its
- * box.
+/* Makes a layout of a cluster without a search: the cluster, together with all bodies that stand where it expands to,
+ * is stretched about its centre by one factor sx along x and one factor sy along y. Each body moves with the centre of
+ * its box.
  *
  * The boxes of two bodies keep the gap along x if sx is at least the required distance of their centres along x divided
  * by the present one; likewise along y with sy. A pair that keeps the gap along an axis comes no nearer along it. So
