@@ -4,8 +4,8 @@
 
 #include "base/parallel.h"
 
-/* Is there nothing to be done for it, or was it not requested? If each of several clusters that merged was the
- * cheapest, so is their union. */
+/* Is nothing to be done for the cluster? It is not wanted, or better sides were looked for, or its layout is known to
+ * be the cheapest. If each of several clusters that merged was the cheapest, so is their union. */
 static bool is_cluster_improved(const sunder_i_solver *s, const sunder_i_cluster *c)
 {
     bool improved = true, cheapest = true;
@@ -75,7 +75,7 @@ static sunder_status find_blocking_neighbours(void *context, size_t begin, size_
     return SUNDER_OK;
 }
 
-/* Neighbours in the way of a cluster join it. */
+/* Joins the neighbours that block bodies of a cluster to that cluster. */
 static sunder_status join_guests(sunder_i_solver *s, sunder_error *err)
 {
     bool any = false;

@@ -22,7 +22,7 @@ static bool goes_elsewhere(const sunder_i_solver *s, uint32_t b, const double *t
     return !s->model.body[b].fixed && memcmp(s->model.move + 2 * (size_t)b, to, 2 * sizeof *to) != 0;
 }
 
-/* exact: can it be moved so without rounding? */
+/* Moves body b to `to`; exact: its coordinates need no rounding there. */
 static void place_body(sunder_i_solver *s, uint32_t b, const double *to, bool exact)
 {
     sunder_i_model *model = &s->model;
@@ -44,7 +44,7 @@ void sunder_i_solver_place(sunder_i_solver *solver, uint32_t b, const double *mo
 
 typedef struct committing {
     const sunder_i_solver *solver;
-    bool *exact; /* [members] of clusters that were worked on */
+    bool *exact; /* [members] does the new move need no rounding? for clusters that were worked on */
 } committing;
 
 static sunder_status find_some_exact(void *context, size_t begin, size_t end, sunder_error *err)

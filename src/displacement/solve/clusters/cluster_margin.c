@@ -5,10 +5,9 @@
 
 #include <math.h>
 
-/* What is asked beyond the gap so that rounding the moves, and the search's own rounding, cannot eat into it: a
- * power of two, two to four units in the last place of the largest coordinate; four times as much for each failed
- * check. So where a shift keeps coordinates in their binades the search, which reckons from the bodies' own origins,
- * does the same. */
+/* The margin covers the rounding of moves, and of the search itself. It is a power of two, two to four units in the
+ * last place of the largest coordinate, and grows fourfold with each failed check. So if a shift of the layer keeps
+ * coordinates in their binades, the search, which computes relative to the bodies' own origins, does the same. */
 double sunder_i_solver_margin(const sunder_i_solver *solver, const uint32_t *b, size_t n)
 {
     double largest = 0;

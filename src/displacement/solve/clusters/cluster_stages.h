@@ -1,207 +1,215 @@
-/* The stages of the work on one layer, in about the order in which ../../separate_layer.c calls them. */
+/* The stages of the work on one layer; ../../solve_layer.c calls most of them. */
 #ifndef SUNDER_I_SOLVER_STAGES_H
 #define SUNDER_I_SOLVER_STAGES_H
 
 #include "displacement/prove/proofs/feasibility.h"
 #include "displacement/solve/clusters/solver.h"
 
-/* Pairs that a question leaves as they are, sorted. */
+/* Pairs that a question leaves in conflict, sorted. */
 typedef struct sunder_i_spared {
-    const sunder_i_id_pair *pair; /* between the numbers of features and barriers in the two orders */
+    const sunder_i_id_pair *pair; /* [n] numbers of features and barriers in the layer of the caller */
     size_t n;
 } sunder_i_spared;
 
 /* ---- infeasible_pairs.c ------------------------------------------------------------------------------------------ */
 
-/* Finds, exactly, the pairs that cannot be resolved within their limits, and relaxes them; and those that cannot be
- * separated, but may go inside, which are kept there from then on. Before the model is cut. spared: pairs that the
- * question leaves as they are, which need no test; NULL: none. */
+/* Before the model is cut into pieces: finds, exactly, the pairs that cannot be resolved within their limits, and
+ * relaxes them; and the pairs that can only be resolved by moving one feature inside the other (solver->entry). spared:
+ * pairs that need no test; NULL: none. */
 sunder_status sunder_i_solver_find_infeasible(sunder_i_solver *solver, const sunder_i_spared *spared,
                                               sunder_error *err);
 
 /* ---- shut_in_pairs.c --------------------------------------------------------------------------------------------- */
 
-/* Finds two bodies, in conflict, that nothing but a jump takes clear of each other, and leaves what is between them. */
+/* Finds pairs of bodies in conflict that only a jump could separate, and relaxes the conflicts between them. */
 sunder_status sunder_i_solver_find_shut_in(sunder_i_solver *solver, sunder_error *err);
 
 /* ---- shut_in_conflicts.c ----------------------------------------------------------------------------------------- */
 
-/* Of n conflicts between two bodies those that are proved to have no solution, all others being held no worse than they
- * stood, are called infeasible. */
+/* Marks as infeasible those of n conflicts between two bodies that are proved to have no solution while the other
+ * conflicts are no worse than at the start. */
 sunder_status sunder_i_find_unsolvable(const sunder_i_model *model, const sunder_i_id_pair *bodies,
                                        sunder_i_relaxation *relaxation, size_t n, sunder_error *err);
 
 /* ---- lifted_limits.c --------------------------------------------------------------------------------------------- */
 
-/* Lets bodies go as far as they like, but for those that are set aside. *lifted: there were limits. */
+/* Lifts all limits, except if there are barriers, and sets aside the bodies connected with pairs that no moves within
+ * their limits can separate. *lifted: there were limits, and they are lifted now. */
 sunder_status sunder_i_solver_lift_limits(sunder_i_solver *solver, bool *lifted, sunder_error *err);
-/* As long as they are lifted: clusters that run into others from where they cannot stay go home, and are set aside. */
+/* While limits are lifted: clusters that cost more than their limits allow, and have run into others, return home and
+ * are set aside. */
 sunder_status sunder_i_solver_set_far_aside(sunder_i_solver *solver, sunder_error *err);
-/* Bodies that went too far go back to their original places, to be solved within their limits: these are in force from
- * then on. */
+/* Limits are in force again. Bodies that exceed theirs, and all that are connected with these, return to their original
+ * places, to be solved within their limits. */
 sunder_status sunder_i_solver_restore_limits(sunder_i_solver *solver, sunder_error *err);
 
-/* Marked bodies go back, their joins and relaxations are dropped; clusters are gathered anew. */
+/* The bodies marked in back[bodies] return to their original places; their edges, relaxations and given-up pairs are
+ * dropped, and clusters are gathered again. */
 sunder_status sunder_i_solver_begin_again(sunder_i_solver *solver, const bool *back, sunder_error *err);
 
 /* ---- coarse_bodies.c --------------------------------------------------------------------------------------------- */
 
-/* Of two bodies in conflict at the start the one whose moves are coarse beside the other is fixed from now on. */
+/* Fixes, of two bodies in conflict at the start, the one whose moves are coarse for the other. */
 sunder_status sunder_i_solver_begin_holding(sunder_i_solver *solver, sunder_error *err);
-/* The same as things stand, if it can be. */
+/* The same for the conflicts of the present layout, if bodies may be held at all. */
 void sunder_i_solver_hold_coarse(sunder_i_solver *solver);
-/* Is a body held? */
+/* Is any body held? */
 bool sunder_i_solver_any_held(const sunder_i_solver *solver);
-/* Bodies that are held and still in conflict, or that might be of use, may move from now on: *any, and then what hangs
- * together with them, which is what is wanted from now on, has begun again. */
+/* Releases held bodies that are still in conflict, or whose moves may be of use. *any if there are such: then all
+ * bodies connected with them have begun again, and are what the present pass works on. */
 sunder_status sunder_i_solver_let_go(sunder_i_solver *solver, bool *any, sunder_error *err);
-/* What was held is fixed no longer, for the report; nothing is proved of it but by pairs. */
+/* For the report: held bodies are no longer fixed, and the bounds of their contact groups are dropped, since they were
+ * proved for fixed bodies. */
 void sunder_i_solver_end_holding(sunder_i_solver *solver);
 
 /* ---- held_or_free.c ---------------------------------------------------------------------------------------------- */
 
-/* A layout that has held bodies, and the state it depends on. All zero: no layout. */
+/* The layout with held bodies, and the state that belongs to it. A zeroed struct has no layout. */
 typedef struct sunder_i_held_layout {
     double *move;               /* [2 * bodies] */
     bool *held, *improved;      /* [bodies] */
     unsigned char *widened;     /* [bodies] */
-    sunder_i_id_pair *edge;     /* [edges] bodies */
-    sunder_i_id_pair *conflict; /* [conflicts] bodies, of each two features in conflict */
+    sunder_i_id_pair *edge;     /* [edges] pairs of bodies */
+    sunder_i_id_pair *conflict; /* [conflicts] pairs of bodies, one for each pair of features in conflict */
     sunder_i_id_pair *given_up;
     size_t edges, conflicts, given_up_n;
     sunder_i_inclusion_state *state; /* [inclusions] */
     sunder_i_relaxations relaxations;
 } sunder_i_held_layout;
 
-/* The layout as it stands. Failure leaves what sunder_i_held_layout_free() takes. */
+/* Stores the present layout. On failure the caller frees it, too. */
 sunder_status sunder_i_solver_keep_held(const sunder_i_solver *solver, sunder_i_held_layout *layout, sunder_error *err);
-/* Takes it back where it is better than what was found since, cluster by cluster. */
+/* Returns to the stored layout, cluster by cluster, where it is better than the present one. */
 sunder_status sunder_i_solver_take_better(sunder_i_solver *solver, const sunder_i_held_layout *layout,
                                           sunder_error *err);
 void sunder_i_held_layout_free(sunder_i_held_layout *layout);
 
 /* ---- move_inside.c ----------------------------------------------------------------------------------------------- */
 
-/* Sends those there that cannot be parted, but go inside. */
+/* Moves the pairs of solver->entry inside each other. */
 sunder_status sunder_i_solver_move_inside(sunder_i_solver *solver, sunder_error *err);
 
 /* ---- holders.c --------------------------------------------------------------------------------------------------- */
 
-/* What lies in two that are in conflict is kept in one of them. */
+/* A body that lies in two bodies in conflict is kept in one of them from now on: chooses which. */
 sunder_status sunder_i_solver_choose_holders(sunder_i_solver *solver, sunder_error *err);
 
 /* ---- grow_crowds.c ----------------------------------------------------------------------------------------------- */
 
-/* Crowds that are to be solved absorb the bodies that they will run into. After clusters were gathered, and blocks
- * united. */
+/* After clusters were gathered and blocks united: large crowds that are due absorb the bodies that they will run
+ * into. */
 sunder_status sunder_i_solver_grow_crowds(sunder_i_solver *solver, sunder_error *err);
 
 /* ---- settle.c ---------------------------------------------------------------------------------------------------- */
 
-/* Solves clusters until nothing is in conflict but what was given up. Progress goes from `from` to `to`. */
+/* Solves clusters, round by round, until the only conflicts are pairs that were given up. Progress goes from `from` to
+ * `to`. */
 sunder_status sunder_i_solver_settle(sunder_i_solver *solver, double from, double to, sunder_error *err);
 
 /* ---- given_up.c -------------------------------------------------------------------------------------------------- */
 
-/* Sorted, each once. */
+/* Sorts model->given_up and removes duplicates. */
 void sunder_i_sort_given_up(sunder_i_model *model);
-/* Takes over the relaxations that clusters made, and those that they ended. */
+/* Moves the relaxations that the clusters made to the model, and drops those of the model that the clusters ended. */
 sunder_status sunder_i_solver_take_relaxations(sunder_i_solver *solver, sunder_error *err);
 
 /* ---- reconsider.c ------------------------------------------------------------------------------------------------ */
 
-/* Examines given-up pairs again. A pair that has a solution after all is put there, which is to be settled:
- * *changed. */
+/* Asks, for each component of conflicts with a given-up pair, whether all its pairs have a joint solution. If one is
+ * found the bodies move there: *changed, and clusters have to be settled. */
 sunder_status sunder_i_solver_reconsider(sunder_i_solver *solver, bool *changed, sunder_error *err);
 
 /* ---- one_by_one.c ------------------------------------------------------------------------------------------------ */
 
-/* The same of single pairs, the others staying in conflict. */
+/* The same for single given-up pairs, while the other conflicts remain. */
 sunder_status sunder_i_solver_ask_one_by_one(sunder_i_solver *solver, bool *changed, sunder_error *err);
 
 /* ---- exact_fits.c ------------------------------------------------------------------------------------------------ */
 
-/* And of such as fit exactly, where coordinates lie on a lattice. */
+/* The same for pairs that may fit exactly, since their coordinates are multiples of a common step. */
 sunder_status sunder_i_solver_fit_exactly(sunder_i_solver *solver, sunder_error *err);
 
 /* ---- retry_list.c ------------------------------------------------------------------------------------------------ */
 
-/* Once nothing joins clusters any more: asks for given-up pairs once more, a cluster at a time. */
+/* Tries given-up pairs once more, in each cluster with a body that is SUNDER_I_TO_RETRY. */
 sunder_status sunder_i_solver_retry(sunder_i_solver *solver, sunder_error *err);
 
 /* ---- better_sides.c ---------------------------------------------------------------------------------------------- */
 
-/* Were better sides looked for since any cluster that is wanted was last solved? */
+/* *improved if better sides were looked for in each wanted cluster since it was last solved. */
 sunder_status sunder_i_solver_is_improved(const sunder_i_solver *solver, bool *improved, sunder_error *err);
-/* Better sides, for each of those clusters that was solved since they were last looked for. */
+/* Looks for better sides in the wanted clusters that were solved since the last time. */
 sunder_status sunder_i_solver_improve(sunder_i_solver *solver, sunder_error *err);
 
 /* ---- in_contact.c ------------------------------------------------------------------------------------------------ */
 
-/* Contact groups that are wanted take places without a margin, where doubles hold them. After they were gathered. */
+/* After contact groups were gathered: moves wanted groups to places without a margin, if doubles can represent them. */
 sunder_status sunder_i_solver_put_in_contact(sunder_i_solver *solver, sunder_error *err);
 
 /* ---- contact_groups.c -------------------------------------------------------------------------------------------- */
 
-/* The contact groups as they stand. One that is as it was keeps its proof. */
+/* Finds the contact groups of the present layout. A group that has not changed keeps its proof. */
 sunder_status sunder_i_solver_gather_groups(sunder_i_solver *solver, sunder_error *err);
 void sunder_i_groups_free(sunder_i_groups *groups);
 
 /* ---- optimise.c -------------------------------------------------------------------------------------------------- */
 
-/* The listed pairs in the present layout, and the demands on them: s->groups.waived. */
+/* Lists the conflicts of the present layout, and the demands on them, in solver->groups.waived. */
 sunder_status sunder_i_solver_list_waivers(sunder_i_solver *solver, sunder_error *err);
-/* Proves of each contact group how little it could cost; what is found to be cheaper is taken. */
+/* Proves a lower bound of the cost of each contact group; cheaper layouts found on the way are used. */
 sunder_status sunder_i_solver_optimise(sunder_i_solver *solver, sunder_error *err);
 
 /* ---- spared_pairs.c ---------------------------------------------------------------------------------------------- */
 
-/* Is it one of those? */
+/* Is (a, b) one of the spared pairs? */
 bool sunder_i_solver_is_spared(const sunder_i_solver *solver, const sunder_i_spared *spared, uint32_t a, uint32_t b);
-/* Is there a pair that was found to have no solution, and that is not spared? */
+/* Is there a relaxed pair, with a movable body, that is not spared? */
 bool sunder_i_solver_is_beyond_limits(const sunder_i_solver *solver, const sunder_i_spared *spared);
-/* What is asked of proofs. */
+/* Input and output of sunder_i_solver_prove(). */
 typedef struct sunder_i_proving {
-    const sunder_i_spared *spared;   /* they are relaxed */
-    const sunder_i_list *heeded;     /* NULL, or nothing else is: things, of a barrier the first part, ascending */
-    sunder_i_planes *planes;         /* of this solver */
-    sunder_i_precedents *precedents; /* NULL, or likewise */
-    bool in_plane;                   /* of relative moves of two bodies alone, which tells less, sooner */
-    double *move;                    /* NULL, or [2 * bodies] where solutions are put */
+    const sunder_i_spared *spared;   /* pairs that stay in conflict */
+    const sunder_i_list *heeded;     /* ascending; conflicts of other things are ignored; the first part stands for a
+                                      * barrier. NULL: none is ignored */
+    sunder_i_planes *planes;         /* planes of this solver, kept between calls */
+    sunder_i_precedents *precedents; /* earlier proofs of this solver; or NULL */
+    bool in_plane;                   /* use the plane of relative moves of two bodies alone, which is quicker and proves
+                                      * less */
+    double *move;                    /* [2 * bodies] receives the solutions found; or NULL */
 } sunder_i_proving;
 
-/* What little effort tells of those that are not spared: it is proved that they cannot all be solved, or each has a
- * solution by itself, up to a hair. *gap: the one that is asked about, no more than the model's; where it is proved,
- * then roughly the least with which the same proof proves it. */
+/* Asks with little effort about the conflicts that are not spared: infeasible if it is proved that they cannot all be
+ * solved, feasible if each has a solution by itself, up to rounding. *gap: on entry the gap that is asked about, at
+ * most the model's; if there is a proof, about the least gap for which the same proof holds. */
 sunder_status sunder_i_solver_prove(const sunder_i_solver *solver, const sunder_i_proving *how,
                                     sunder_i_verdict *verdict, double *gap, sunder_error *err);
-/* Puts all movable bodies at their places in a layout, [2 * bodies] rounded, and relates them. *well: no limit is
- * exceeded, and nothing jumps. */
+/* Moves all movable bodies to the layout move[2 * bodies], rounded, and relates them. *well if no limit is exceeded and
+ * no feature jumps over another. */
 sunder_status sunder_i_solver_place_all(sunder_i_solver *solver, const double *move, bool *well, sunder_error *err);
-/* Relaxes those that are. Before the model is cut, so that nothing more is asked about them. */
+/* Before the model is cut into pieces: relaxes the spared pairs, so that nothing more is demanded of them. */
 sunder_status sunder_i_solver_spare(sunder_i_solver *solver, const sunder_i_spared *spared, sunder_error *err);
 
 /* ---- worsened_pairs.c, uphold.c ---------------------------------------------------------------------------------- */
 
-/* Is r a conflict that is listed whatever the options? Two members of one block count only if they overlap and do
- * not just touch. */
+/* Is r a conflict that is always listed, whatever the options? Members of one block count only if they overlap and do
+ * not merely touch. */
 bool sunder_i_solver_is_always_listed(const sunder_i_solver *solver, const sunder_i_relation *r);
-/* Is it one, and does it stand worse than it stood? */
+/* Is r such a conflict, and is it worse than at the start? */
 sunder_status sunder_i_solver_breaks_rule(sunder_i_solver *solver, const sunder_i_relation *r, bool *breaks,
                                           sunder_error *err);
-/* Does the pair, which is in conflict, stand worse than it stood? Exact. */
+/* Is the conflict r worse than at the start? The answer is exact. */
 sunder_status sunder_i_solver_is_worse(sunder_i_solver *solver, const sunder_i_relation *r, bool *worse,
                                        sunder_error *err);
-/* For sunder_i_solver_mend(): each cluster has its own, so that what is done for one takes nothing from another. The
- * caller's; NULL: memory is out. */
+/* The budgets for sunder_i_solver_mend(), owned by the caller. Each cluster has its own, so that the result for one
+ * does not depend on others. NULL if memory is out. */
 size_t *sunder_i_solver_patience(const sunder_i_solver *solver);
-/* Moves one of the two, or a row, slightly, so that the pair stands no worse, and nothing else does: *well, if there is
- * such a place. budget: [bodies] by roots of clusters, how many may still be moved without success. */
+/* Moves one of the pair's bodies, or a row of bodies, slightly, so that the pair is no worse than at the start and no
+ * other pair breaks a rule. *well if there is such a place. budget: [bodies] by roots of clusters: how many bodies may
+ * still be moved without success. */
 sunder_status sunder_i_solver_mend(sunder_i_solver *solver, const sunder_i_relation *r, size_t *budget, bool *well,
                                    sunder_error *err);
-/* Takes back what rounding made worse, pair by pair. */
+/* Repairs or undoes, pair by pair, what rounding made worse than at the start. */
 sunder_status sunder_i_solver_uphold(sunder_i_solver *solver, sunder_error *err);
-/* Does no pair in conflict stand worse than it stood? */
+/* *upheld if no conflict is worse than at the start, and no feature has jumped over another. */
 sunder_status sunder_i_solver_is_upheld(sunder_i_solver *solver, bool *upheld, sunder_error *err);
 
 #endif

@@ -112,7 +112,8 @@ bool sunder_i_solver_has_member(const sunder_i_solver *solver, uint32_t root, ui
     return solver->members && bsearch(&wanted, solver->member, solver->members, sizeof wanted, sunder_i_by_id_pair);
 }
 
-/* The first member of the cluster of that root, or of a later one. */
+/* The index in member[] of the first member of the cluster with this root, or, if there is none, of the next
+ * cluster. */
 static size_t first_member(const sunder_i_solver *s, uint32_t root)
 {
     const sunder_i_cluster_member first = {root, 0};
@@ -168,7 +169,7 @@ bool *sunder_i_solver_connected_with(const sunder_i_solver *solver, sunder_i_bod
 }
 
 #ifndef NDEBUG
-/* Clusters are disjoint but for fixed bodies, and their members ascend. */
+/* The checker: clusters share no body but fixed ones, and the members of each ascend. */
 static const char *check_clusters(const sunder_i_solver *s)
 {
     size_t members = 0;
@@ -194,7 +195,8 @@ void sunder_i_solver_forget_clusters(sunder_i_solver *solver)
     solver->move = NULL;
 }
 
-/* Allocates the results for this many edges. Old contents are lost if the memory is too small. */
+/* Makes room for the clusters of the present edges. Old contents are lost if there was too little. False if memory is
+ * out. */
 static bool reserve_clusters(sunder_i_solver *s)
 {
     if (s->edge_room >= s->edges && s->cluster) return true;
@@ -209,12 +211,12 @@ static bool reserve_clusters(sunder_i_solver *s)
     s->cluster = sunder_i_alloc(s->edge_room, sizeof *s->cluster);
     s->edges_listed = SUNDER_I_NONE_LISTED;
     const bool ok = s->member && s->body && s->move && s->cluster;
-    if (!ok) s->edge_room = 0; /* some of it is not there */
+    if (!ok) s->edge_room = 0; /* some arrays are missing */
     return ok;
 }
 
-/* The ends of all edges, each by the root of its cluster, and once; unless they are listed, and no edge has come since.
- * False if memory is out. */
+/* Lists the ends of all edges in member[], sorted by the root of their cluster, each once. Does nothing if no edge was
+ * added since the last time. False if memory is out. */
 static bool list_members(sunder_i_solver *s)
 {
     if (s->edges_listed == s->edges) return true;
@@ -238,8 +240,8 @@ static bool list_members(sunder_i_solver *s)
     return ok;
 }
 
-/* Many that may go anywhere, and are more than when they began: what a large crowd ran into changes little of where it
- * is best put, unless it is as many as itself. */
+/* Does the cluster start from prices of area? It does if it is large, has no limits, and has grown since it last
+ * started so. What a large crowd ran into hardly changes the best positions, so it has to have doubled. */
 static bool is_new_crowd(const sunder_i_solver *s, const sunder_i_cluster *c)
 {
     if (!(s->model.rules.effort > 0) || c->limited || c->brief || c->n < CROWD) return false;
@@ -249,7 +251,6 @@ static bool is_new_crowd(const sunder_i_solver *s, const sunder_i_cluster *c)
     return true;
 }
 
-/* Clusters from the edges, afresh. */
 sunder_status sunder_i_solver_gather(sunder_i_solver *solver, sunder_error *err)
 {
     free_clusters(solver);

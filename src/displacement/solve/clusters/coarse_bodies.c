@@ -25,7 +25,7 @@
 #include <limits.h>
 #include <math.h>
 
-/* As it stood at the start; box[0] > box[2]: nothing of it is there. */
+/* The box of the body at the start; box[0] > box[2] if none of its members is present. */
 static void home_box(const sunder_i_model *model, const sunder_i_body *b, double box[4])
 {
     sunder_i_box_clear(box);
@@ -35,7 +35,7 @@ static void home_box(const sunder_i_model *model, const sunder_i_body *b, double
     }
 }
 
-/* Exponent of the last place of the greatest of four coordinates. */
+/* The exponent of the last place of the largest of the four coordinates. */
 static int last_place(const double box[4])
 {
     double largest = 0;
@@ -47,25 +47,25 @@ static int last_place(const double box[4])
 
 /* ---- Holding ----------------------------------------------------------------------------------------------------- */
 
-/* What it may have to go: its size, and what is owed. */
+/* The length of moves that the body may need: its size plus the gap. */
 static double stretch_of(const sunder_i_solver *solver, const double box[4])
 {
     return sunder_i_max(box[2] - box[0], box[3] - box[1]) + solver->model.rules.gap;
 }
 
-/* Has it stood still so far, and is it in no cluster? Then it can be held. */
+/* A body can be held if it has not moved and is in no cluster. */
 static bool is_free_to_hold(const sunder_i_solver *solver, uint32_t b)
 {
     const double *t = solver->model.move + 2 * (size_t)b;
     size_t n;
-    if (!solver->parent) return true; /* there are no clusters so far */
+    if (!solver->parent) return true; /* there are no clusters yet */
     sunder_i_solver_members(solver, b, &n);
     return sunder_i_is_in(solver, SUNDER_I_HOLDING, b, SUNDER_I_NOT_HELD) && n == 0 && t[0] == 0 && t[1] == 0 &&
            sunder_i_union_find(solver->parent, b) == b;
 }
 
-/* Where no corner is near, those that are farther away than the nearest coarse coordinate are drawn in for the search,
- * so that products of lengths are doubles. */
+/* Fixes the body. Unless all its corners are far, corners beyond the nearest coarse coordinate are drawn in for the
+ * search, so that doubles can represent products of lengths. */
 static void fix_body(sunder_i_solver *solver, sunder_i_body *body, double stretch)
 {
     body->held = body->fixed = true;
@@ -105,7 +105,7 @@ static void hold_coarse_bodies(sunder_i_solver *solver, const sunder_i_relations
     }
 }
 
-/* Is the last place of some bodies so much finer than that of others that these could be held? */
+/* Do the last places of two bodies that are not fixed differ by COARSE_BITS or more? */
 static bool may_hold(const sunder_i_model *model)
 {
     int finest = INT_MAX, coarsest = INT_MIN;
@@ -149,7 +149,7 @@ static bool was_let_go(const sunder_i_solver *solver, uint32_t b)
     return sunder_i_is_in(solver, SUNDER_I_HOLDING, b, SUNDER_I_LET_GO);
 }
 
-/* Held bodies with a conflict left, and such as may be of use: *any. */
+/* Releases the held bodies that are in conflict, and those whose moves may be of use. *any if any body was released. */
 static void mark_let_go(sunder_i_solver *solver, bool *any)
 {
     const sunder_i_model *model = &solver->model;
@@ -167,7 +167,7 @@ static void mark_let_go(sunder_i_solver *solver, bool *any)
     for (uint32_t b = 0; b < model->bodies; b++) *any = *any || was_let_go(solver, b);
 }
 
-/* root: [bodies] the sets connected by an edge with a released body, and its own. */
+/* Sets root[] for the clusters of released bodies and for all clusters with an edge to one. */
 static void mark_roots(sunder_i_solver *solver, bool *root)
 {
     for (uint32_t b = 0; b < solver->model.bodies; b++)
@@ -179,7 +179,8 @@ static void mark_roots(sunder_i_solver *solver, bool *root)
     }
 }
 
-/* Pairs proved infeasible at the start stay so, except beside a released body. False if memory is out. */
+/* Keeps the pairs that were proved infeasible at the start, in solver->waiting, except those with a released body.
+ * False if memory is out. */
 static bool keep_infeasible(sunder_i_solver *solver)
 {
     const sunder_i_model *model = &solver->model;

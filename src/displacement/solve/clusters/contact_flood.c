@@ -19,15 +19,15 @@ enum { BODIES_OF_A_BATCH = 64, BATCHES_AT_ONCE = 64 };
 typedef enum standing { ELSEWHERE, WAITS, IN_TURN, LOOKED_AT } standing;
 
 typedef struct contacts {
-    sunder_i_id_pair *pair; /* a body that was looked at, and one in contact with it */
+    sunder_i_id_pair *pair; /* [n] a body whose contacts were looked for, and a body in contact with it */
     size_t n, capacity;
 } contacts;
 
 typedef struct flooding {
     sunder_i_solver *solver;
     sunder_i_flood *out;
-    unsigned char *standing; /* [bodies] */
-    size_t turn;             /* the first of the current batch */
+    unsigned char *standing; /* [bodies] standing */
+    size_t turn;             /* index in the queue of the first body of the current batches */
     contacts batch[BATCHES_AT_ONCE];
 } flooding;
 
@@ -40,7 +40,7 @@ static bool enqueue_body(flooding *f, uint32_t body)
     return sunder_i_list_push(&f->out->body, body);
 }
 
-/* The bodies that moved or are in conflict. */
+/* Puts into the queue the movable bodies that have moved or are in conflict. */
 static bool enqueue_starting_bodies(flooding *f)
 {
     const sunder_i_solver *s = f->solver;
@@ -55,13 +55,14 @@ static bool enqueue_starting_bodies(flooding *f)
     return ok;
 }
 
-/* Of two bodies in the flood the earlier looks for the contact; of two in one batch the lesser. */
+/* Does b look for its contact with `other`? Of two bodies in the queue the earlier does, and within the current batches
+ * the one with the smaller number. */
 static bool looks_for_contact(const flooding *f, uint32_t b, uint32_t other)
 {
     return other != b && f->standing[other] != LOOKED_AT && (f->standing[other] != IN_TURN || b < other);
 }
 
-/* Bodies that stand about one. */
+/* Stores the bodies near body b in `near`. */
 static bool find_near_bodies(const flooding *f, uint32_t b, sunder_i_list *near)
 {
     const sunder_i_model *model = &f->solver->model;
@@ -113,7 +114,7 @@ static sunder_status find_contacts_of_batches(void *context, size_t begin, size_
     return ok ? SUNDER_OK : sunder_i_no_memory(err);
 }
 
-/* Joins two that are in contact. Fixed ones join none. */
+/* Joins two bodies in contact. A fixed body connects nothing, and is listed with each body that touches it. */
 static bool join_contact(flooding *f, const sunder_i_id_pair *pair)
 {
     if (is_fixed(f, pair->b)) {
@@ -126,7 +127,7 @@ static bool join_contact(flooding *f, const sunder_i_id_pair *pair)
     return enqueue_body(f, pair->b);
 }
 
-/* Handles the queue's next bodies in order: as many as LOTS_AT_ONCE lots hold, or all that are left. */
+/* Handles the next bodies of the queue, at most BATCHES_AT_ONCE batches of them. */
 static sunder_status process_batches(flooding *f, sunder_error *err)
 {
     const size_t all = (size_t)BODIES_OF_A_BATCH * BATCHES_AT_ONCE, left = f->out->body.n - f->turn;

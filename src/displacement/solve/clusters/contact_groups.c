@@ -28,7 +28,7 @@ void sunder_i_groups_free(sunder_i_groups *groups)
 typedef struct gathering {
     const sunder_i_solver *solver;
     sunder_i_flood flood;
-    sunder_i_id_pair *member; /* a group's root, and a body of it */
+    sunder_i_id_pair *member; /* [members] the root of a group, and a body of the group */
     size_t members, capacity;
 } gathering;
 
@@ -54,7 +54,7 @@ static bool list_members(gathering *g)
     return ok;
 }
 
-/* Do those that were shaken pay for nearly all that it costs? */
+/* Do the bodies that were shaken have more than the share MOSTLY_SHAKEN of the group's cost? */
 static bool is_tired(const sunder_i_solver *s, const sunder_i_group *g)
 {
     double all = 0, tired = 0;
@@ -67,8 +67,8 @@ static bool is_tired(const sunder_i_solver *s, const sunder_i_group *g)
     return tired > MOSTLY_SHAKEN * all;
 }
 
-/* The group of these members, as they stand; it is known by the least of them that may move, so that its name does not
- * depend on others. */
+/* Makes the group of these n members at their present moves. Its number is that of its least movable body, so it does
+ * not depend on other groups. */
 static sunder_status make_group(const sunder_i_solver *s, const sunder_i_id_pair *member, size_t n, sunder_i_group *out,
                                 sunder_error *err)
 {
@@ -88,7 +88,7 @@ static sunder_status make_group(const sunder_i_solver *s, const sunder_i_id_pair
     return SUNDER_OK;
 }
 
-/* A group of the last round that is the same in all that counts, and so keeps its proof. */
+/* If the group is the same as `old`, with the same moves, it keeps the proof of `old`: the two are swapped. */
 static void keep_proof(sunder_i_group *old, sunder_i_group *now)
 {
     if (old->state == SUNDER_I_TO_BE_PROVED || old->joins.n || old->n != now->n ||
@@ -100,8 +100,8 @@ static void keep_proof(sunder_i_group *old, sunder_i_group *now)
     *now = kept;
 }
 
-/* The number of the group that all bodies of an old one are of, but for such as stand alone now, and no guest of
- * another's; SUNDER_I_NOBODY: there is none. */
+/* The number of the group that contains all bodies and guests of an old group, except those that are in no group now;
+ * SUNDER_I_NOBODY: there is none. */
 static uint32_t heir_of(const sunder_i_model *model, const sunder_i_group *old, const uint32_t *of)
 {
     const uint32_t heir = of[old->number];
@@ -112,8 +112,9 @@ static uint32_t heir_of(const sunder_i_model *model, const sunder_i_group *old, 
     return heir;
 }
 
-/* A bound proved for bodies holds wherever they stand. So a group inherits the bounds of all groups that merged into
- * it, until more is proved of it; a body that left is its guest. at: the indices of the groups by number. */
+/* A bound that was proved for bodies holds wherever they stand. So a group inherits the bounds of all groups that
+ * merged into it, until more is proved; a body that is in no group any more becomes a guest. at: [bodies] index of the
+ * group by number. False if memory is out. */
 static bool hand_on(const sunder_i_model *model, sunder_i_groups *old, sunder_i_groups *now, const uint32_t *at)
 {
     bool ok = true;
@@ -137,7 +138,7 @@ static bool hand_on(const sunder_i_model *model, sunder_i_groups *old, sunder_i_
     return ok;
 }
 
-/* The place of the group of each number; scratch of as many as there are bodies. */
+/* at: [bodies] receives the index of each group by its number. */
 static void index_groups(const sunder_i_groups *old, uint32_t *at, size_t bodies)
 {
     for (size_t b = 0; b < bodies; b++) at[b] = SUNDER_I_NOBODY;

@@ -19,7 +19,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The bodies that are moved to the lattice: the movable ones, and fixed ones near them. */
+/* The bodies that are aligned: movable bodies of the trial, and fixed ones near them. */
 typedef struct fitting {
     uint32_t *body; /* ascending */
     double *move;
@@ -28,7 +28,7 @@ typedef struct fitting {
 
 static double extent_of(const sunder_i_body *b) { return sunder_i_max(b->box[2] - b->box[0], b->box[3] - b->box[1]); }
 
-/* Is b near one of the bodies that the trial moves, at its new place? */
+/* Is b within `reach` of the new position of a body that the trial moves? */
 static bool is_about(const sunder_i_model *model, const sunder_i_trial *t, uint32_t b, double reach)
 {
     const double none[2] = {0, 0};
@@ -59,7 +59,7 @@ static bool gather_bodies(const sunder_i_model *model, const sunder_i_cluster *c
     return f->body && f->move;
 }
 
-/* The trial's goals on the lattice, if they have places there: *found. */
+/* Aligns the goals of the trial to multiples of the coordinates' common step; *found if there are such places. */
 static sunder_status align_to_steps(const sunder_i_model *model, const sunder_i_cluster *c, sunder_i_trial *t,
                                     bool *found, sunder_error *err)
 {
@@ -78,7 +78,7 @@ static sunder_status align_to_steps(const sunder_i_model *model, const sunder_i_
     return ok ? SUNDER_OK : sunder_i_no_memory(err);
 }
 
-/* The pair is solved: from now on it owes all again. */
+/* The pair is solved: ends its relaxations, except infeasible ones. */
 static sunder_status take_over(sunder_i_solver *s, sunder_i_cluster *c, const sunder_i_id_pair *pair, sunder_error *err)
 {
     const sunder_i_relaxations *all = &s->model.relaxations;
@@ -96,10 +96,11 @@ static sunder_status take_over(sunder_i_solver *s, sunder_i_cluster *c, const su
     return status;
 }
 
-/* How to look for the places that are put on the lattice, in this order. */
+/* How the places to be aligned are found, in this order. */
 typedef enum look { SHARE_LEAST, SEARCH_ABOUT, SEARCH_FROM_HOME, LOOKS } look;
 
-/* The least translation that parts two features, as a move of the second. A barrier is the second. */
+/* The least translation that separates two features, as a move d of g relative to f; *found if it is at most `upper`. A
+ * barrier has to be g. */
 static sunder_status find_least(const sunder_i_model *model, uint32_t f, uint32_t g, double upper, double d[2],
                                 bool *found, sunder_error *err)
 {
@@ -120,8 +121,7 @@ static sunder_status find_least(const sunder_i_model *model, uint32_t f, uint32_
     return SUNDER_OK;
 }
 
-/* Where two that stand alone go if all of both limits is just enough to part them: each as far as it may, along the
- * least translation. */
+/* If the least translation of two single features uses up both limits: moves each as far as its limit allows. */
 static sunder_status share_least(const sunder_i_model *model, const sunder_i_cluster *c, const sunder_i_id_pair *pair,
                                  double *move, bool *found, sunder_error *err)
 {
@@ -163,7 +163,7 @@ static sunder_status fit_pair(sunder_i_solver *s, sunder_i_cluster *c, const sun
     return status;
 }
 
-/* Is it a pair that was given up, of one cluster that is wanted, which may fit exactly? */
+/* *may: is the pair relaxed, within one wanted cluster, and may it fit exactly? */
 static sunder_status may_fit(const sunder_i_solver *s, const sunder_i_cluster *c, const sunder_i_id_pair *pair,
                              bool *may, sunder_error *err)
 {

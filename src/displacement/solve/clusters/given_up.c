@@ -3,8 +3,8 @@
 
 #include <stdlib.h>
 
-/* Pairs whose requirement is restored: they have no relaxation, and bodies without any relaxation between them are not
- * given up. */
+/* Drops the relaxations that clusters ended, and the given-up pairs between whose bodies no relaxation is left. False
+ * if memory is out. */
 static bool restore_pairs(sunder_i_model *model, const sunder_i_cluster *cluster, size_t clusters)
 {
     size_t n = 0, out = 0;
@@ -38,8 +38,8 @@ void sunder_i_sort_given_up(sunder_i_model *model)
     model->given_up_n = out;
 }
 
-/* Merges the clusters' relaxations into those of the model and replaces those of the same features. Pairs that were
- * not proved infeasible are noted as given up. */
+/* Merges the clusters' relaxations into those of the model, where they replace those of the same features. Pairs that
+ * were not proved infeasible are listed as given up. False if memory is out. */
 static bool merge_relaxations(sunder_i_solver *s)
 {
     sunder_i_model *model = &s->model;

@@ -22,21 +22,22 @@
 
 typedef struct growth {
     sunder_i_solver *solver;
-    bool *placed;        /* [bodies] those of crowds that have rough places ... */
-    double *box;         /* [4 * bodies] ... and what they occupy there */
+    bool *placed;        /* [bodies] does it have an approximate position? */
+    double *box;         /* [4 * bodies] its box there */
     sunder_i_rtree tree; /* of these boxes */
-    bool *unabsorbable;  /* [bodies] may not go anywhere, or is in a cluster with such a body */
+    bool *unabsorbable;  /* [bodies] it has a limit or is fixed, or is in a cluster with such a body */
     sunder_i_list near;  /* scratch */
 } growth;
 
-/* Smaller ones begin anew at any growth, which takes them next to no time. */
+/* Is it a crowd of more than LARGE_GROWN_CROWD bodies that is due? Smaller crowds start anew whenever they grow, which
+ * takes little time. */
 static bool is_large_crowd(const sunder_i_solver *s, const sunder_i_cluster *c)
 {
     return c->starts_from_areas && c->n > LARGE_GROWN_CROWD &&
            sunder_i_solver_any_of(s, c->body, c->n, sunder_i_is_due);
 }
 
-/* The rough places of one crowd after the other, as boxes. */
+/* Computes the approximate positions of the bodies of each large crowd, and their boxes there. */
 static sunder_status place_crowds(void *context, size_t begin, size_t end, sunder_error *err)
 {
     growth *g = context;
@@ -78,8 +79,8 @@ static bool may_join(const growth *g, uint32_t b, uint32_t other)
            sunder_i_union_find(g->solver->parent, b) != sunder_i_union_find(g->solver->parent, other);
 }
 
-/* The bodies that a crowd's body runs into at its place: those of crowds at theirs, and all others at their present
- * ones. */
+/* Joins body b with all bodies that it runs into at its approximate position: bodies of crowds at theirs, others at
+ * their present ones. False if memory is out. */
 static bool join_met_bodies(growth *g, uint32_t b)
 {
     sunder_i_solver *s = g->solver;
@@ -116,7 +117,7 @@ static bool join_all_met_bodies(growth *g)
     return ok;
 }
 
-/* One round: *any, if crowds are others now. */
+/* One round of growth; *any if a crowd absorbed a body. */
 static sunder_status grow_once(growth *g, bool *any, sunder_error *err)
 {
     sunder_i_solver *s = g->solver;

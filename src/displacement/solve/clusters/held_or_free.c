@@ -32,7 +32,7 @@ void sunder_i_held_layout_free(sunder_i_held_layout *layout)
 
 /* ---- Kept -------------------------------------------------------------------------------------------------------- */
 
-/* A copy of n items; NULL if memory is out. */
+/* Returns a copy of n items; NULL if memory is out. */
 static void *copy_items(const void *from, size_t n, size_t size)
 {
     void *to = sunder_i_alloc(n, size);
@@ -40,7 +40,7 @@ static void *copy_items(const void *from, size_t n, size_t size)
     return to;
 }
 
-/* Bodies with features in conflict, each pair once for every such pair of features. NULL if memory is out. */
+/* Lists the two bodies of each pair of features in conflict. NULL if memory is out. */
 static sunder_i_id_pair *list_conflicts(const sunder_i_solver *solver, size_t *n)
 {
     sunder_i_id_pair *list = sunder_i_alloc(solver->now.n, sizeof *list);
@@ -89,8 +89,8 @@ sunder_status sunder_i_solver_keep_held(const sunder_i_solver *solver, sunder_i_
 typedef struct tally {
     size_t held_conflicts, free_conflicts;
     double held_cost, free_cost;
-    bool was_held; /* one of its bodies was, and is no longer */
-    bool breaks;   /* one that was not is thrown now, or one that was is bent */
+    bool was_held; /* one of its bodies was held, and is free now */
+    bool breaks;   /* a body that was not held is thrown now, or a body that was held is bent */
 } tally;
 
 typedef struct comparing {
@@ -208,7 +208,7 @@ static void put_back_moves(sunder_i_solver *solver, const sunder_i_held_layout *
             model->inclusion[k].state = layout->state[k];
 }
 
-/* Edges, relaxations and what was given up. False if memory is out. */
+/* Puts back edges, relaxations and given-up pairs. False if memory is out. */
 static bool put_back_pairs(sunder_i_solver *solver, const sunder_i_held_layout *layout, const bool *back)
 {
     sunder_i_model *model = &solver->model;

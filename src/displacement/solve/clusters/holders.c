@@ -3,7 +3,7 @@
 #include "displacement/layer/resolution.h"
 #include "displacement/solve/clusters/cluster_stages.h"
 
-/* Was one that may move in a cluster for which better sides were looked for? It has a place that it keeps, and its
+/* Is a movable one of the two in a cluster for which better sides were looked for? Then it keeps its position and its
  * holder. */
 static bool is_settled(const sunder_i_solver *s, const uint32_t pair[2])
 {

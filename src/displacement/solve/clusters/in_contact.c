@@ -11,7 +11,8 @@
 
 #include <string.h>
 
-/* The places of the group's bodies in exact contact; *found. move: [2 * n] as they stand, then those places. */
+/* Computes places in exact contact for the group's bodies; *found if there are any. move: [2 * n] the present moves,
+ * then those places. */
 static sunder_status find_places(const sunder_i_solver *s, const sunder_i_group *g, double *move, bool *found,
                                  sunder_error *err)
 {
@@ -24,8 +25,7 @@ static sunder_status find_places(const sunder_i_solver *s, const sunder_i_group 
                                                                                            : sunder_i_no_memory(err);
 }
 
-/* What the moves cost more than those that the bodies have; a difference of two numbers that are nearly equal, so it is
- * added up body by body. */
+/* The increase of the group's cost, body by body, since it is the difference of two almost equal sums. */
 static double cost_increase(const sunder_i_model *model, const sunder_i_group *g, const double *move)
 {
     double more = 0;

@@ -11,20 +11,21 @@
 typedef struct judging {
     const sunder_i_solver *solver;
     const sunder_i_model *model;
-    const sunder_i_spared *spared; /* NULL: none */
+    const sunder_i_spared *spared; /* pairs that need no test; NULL: none */
     const sunder_i_relations *start;
-    sunder_i_relaxation *relaxation; /* [start->n] infeasible ones are filled */
+    sunder_i_relaxation *relaxation; /* [start->n] filled for infeasible pairs */
     sunder_i_resolution *resolution; /* [start->n] */
 } judging;
 
-/* Is there surely a move of no more than `reach` that takes b's box the gap off a's? It spares the exact question. */
+/* Can moves of at most `reach` in all separate the boxes by the gap? Then the exact question is not needed. */
 static bool boxes_can_part(const double *a, const double *b, double gap, double reach)
 {
     const double out = sunder_i_min(sunder_i_min(a[2] - b[0], b[2] - a[0]), sunder_i_min(a[3] - b[1], b[3] - a[1]));
     return out + gap < reach * (1 - 0x1p-40);
 }
 
-/* What is left as it is will be relaxed, whatever its limits; unless it may go inside, which is asked here. */
+/* A spared pair will be relaxed, whatever its limits, and needs no test; unless one of the two may go inside the
+ * other. */
 static bool is_left(const judging *g, const sunder_i_relation *r)
 {
     return g->spared && !sunder_i_may_be_inside(&g->model->rules) &&
@@ -53,7 +54,7 @@ static sunder_status judge_pairs(void *context, size_t begin, size_t end, sunder
     return status;
 }
 
-/* Of another part of the same barrier, just before. */
+/* Is the relaxation on the list already, for another part of the same barrier? */
 static bool is_known(const sunder_i_relaxations *list, const sunder_i_relaxation *t)
 {
     for (size_t k = list->n; k > 0 && list->item[k - 1].a == t->a; k--)
@@ -61,7 +62,7 @@ static bool is_known(const sunder_i_relaxations *list, const sunder_i_relaxation
     return false;
 }
 
-/* Takes over what was found of pair r. */
+/* Stores the result for pair r: a relaxation, or an entry to be moved inside. */
 static sunder_status take_judgement(sunder_i_solver *s, const sunder_i_relation *r,
                                     const sunder_i_relaxation *relaxation, const sunder_i_resolution *resolution,
                                     sunder_error *err)

@@ -22,7 +22,8 @@
 
 /* ---- Without limits ---------------------------------------------------------------------------------------------- */
 
-/* Marks what hangs together with a pair that limits cannot part; relaxations wait until the limits are back. */
+/* Sets aside all bodies that are connected, by conflicts at the start, with a pair that limits keep from being
+ * resolved. Relaxations are put into s->waiting until limits are in force again. False if memory is out. */
 static bool set_infeasible_aside(sunder_i_solver *s)
 {
     sunder_i_model *model = &s->model;
@@ -86,7 +87,7 @@ static void send_home(sunder_i_solver *s, const bool *back)
     }
 }
 
-/* Does the cluster's solution cost more than any within the limits? */
+/* Does the cluster cost more than if each of its bodies were at its limit? */
 static bool costs_more_than_limits(const sunder_i_solver *s, const sunder_i_cluster *c)
 {
     double cost = 0, most = 0;
@@ -101,14 +102,15 @@ static bool costs_more_than_limits(const sunder_i_solver *s, const sunder_i_clus
     return cost > most;
 }
 
-/* Of two bodies that met, of different clusters: these would be one from now on. */
+/* Joins, in the union-find `root`, the clusters of two bodies that met. */
 static void join_if_running(const sunder_i_solver *s, uint32_t i, uint32_t j, uint32_t *root)
 {
     if (sunder_i_is_aside(s, i) || sunder_i_is_aside(s, j) || s->model.body[i].fixed || s->model.body[j].fixed) return;
     sunder_i_union_join(root, sunder_i_union_find(s->parent, i), sunder_i_union_find(s->parent, j));
 }
 
-/* What clusters would become together, by their roots. */
+/* Finds which clusters would become one by the present conflicts and jumps: root[bodies], a union-find by their
+ * roots. */
 static void join_running_clusters(const sunder_i_solver *s, uint32_t *root)
 {
     const sunder_i_model *model = &s->model;
@@ -123,8 +125,8 @@ static void join_running_clusters(const sunder_i_solver *s, uint32_t *root)
         join_if_running(s, model->body_of[s->jumps.pair[k].a], model->body_of[s->jumps.pair[k].b], root);
 }
 
-/* Marks the clusters, by their roots, that are beyond use and would become part of a crowd. root, size: [bodies]
- * scratch. */
+/* Sets running[] for the roots of clusters that cost more than their limits allow, and would become part of a crowd of
+ * more than MOST_LIFTED bodies. root, size: [bodies] scratch. */
 static void find_running_clusters(const sunder_i_solver *s, uint32_t *root, size_t *size, bool *running)
 {
     join_running_clusters(s, root);
@@ -138,7 +140,8 @@ static void find_running_clusters(const sunder_i_solver *s, uint32_t *root, size
     }
 }
 
-/* Where they stand is remembered: the search may begin there once more. */
+/* Sets the bodies of these clusters aside, and sets back[] for them. Their present moves are kept, since the search may
+ * start from there later. Returns whether there are any. */
 static bool set_running_aside(sunder_i_solver *s, const bool *running, bool *back)
 {
     bool any = false;
@@ -175,15 +178,15 @@ sunder_status sunder_i_solver_set_far_aside(sunder_i_solver *solver, sunder_erro
 
 /* ---- Within them ------------------------------------------------------------------------------------------------- */
 
-/* Marks the sets of two bodies that met, if one of them was set aside. */
+/* If one of two bodies that met was set aside, marks the clusters of both by their roots. */
 static void mark_meeting(sunder_i_solver *s, uint32_t i, uint32_t j, bool *root)
 {
     if (!sunder_i_is_aside(s, i) && !sunder_i_is_aside(s, j)) return;
     root[sunder_i_union_find(s->parent, i)] = root[sunder_i_union_find(s->parent, j)] = true;
 }
 
-/* Marks the sets, by their roots, with a body that went too far, was set aside, or ran into one that was, or jumped
- * over it. */
+/* Marks the clusters, by their roots, with a body that exceeds its limit, was set aside, or met a body that was set
+ * aside, in a conflict or by a jump. */
 static void find_offenders(sunder_i_solver *s, bool *root)
 {
     const sunder_i_model *model = &s->model;
@@ -199,7 +202,8 @@ static void find_offenders(sunder_i_solver *s, bool *root)
         mark_meeting(s, model->body_of[s->jumps.pair[k].a], model->body_of[s->jumps.pair[k].b], root);
 }
 
-/* Forgets what these bodies were joined with, and what was given up of them. */
+/* Drops the edges, given-up pairs and relaxations of the bodies marked in back[], and adds the relaxations that were
+ * waiting. False if memory is out. */
 static bool forget_bodies(sunder_i_solver *s, const bool *back)
 {
     sunder_i_model *model = &s->model;
@@ -210,7 +214,7 @@ static bool forget_bodies(sunder_i_solver *s, const bool *back)
     s->edges = 0;
     s->edges_listed = SUNDER_I_NONE_LISTED;
     sunder_i_union_init(s->parent, model->bodies);
-    for (size_t e = 0; e < out; e++) sunder_i_solver_add_edge(s, s->edge[e].a, s->edge[e].b); /* there is room */
+    for (size_t e = 0; e < out; e++) sunder_i_solver_add_edge(s, s->edge[e].a, s->edge[e].b); /* no memory is needed */
     out = 0;
     for (size_t k = 0; k < model->given_up_n; k++)
         if (!back[model->given_up[k].a] && !back[model->given_up[k].b]) model->given_up[out++] = model->given_up[k];
@@ -228,8 +232,8 @@ static bool forget_bodies(sunder_i_solver *s, const bool *back)
 
 static bool is_limited(const sunder_i_solver *s, uint32_t body) { return s->model.body[body].limit < INFINITY; }
 
-/* Within limits more can be proved, and a pair with a solution without them may have none: every cluster with a limited
- * body is examined again. (Clusters without limits are left as they are.) */
+/* Marks the bodies whose given-up pairs may be asked about again: those in clusters with a limited body, since more can
+ * be proved within limits, and a pair that had a solution without limits may have none within them. */
 static bool doubt_limited_clusters(sunder_i_solver *s)
 {
     sunder_i_model *model = &s->model;
@@ -251,7 +255,7 @@ sunder_status sunder_i_solver_begin_again(sunder_i_solver *solver, const bool *b
     send_home(solver, back);
     const sunder_status status =
         forget_bodies(solver, back) ? sunder_i_solver_relate(solver, err) : sunder_i_no_memory(err);
-    /* Otherwise a body that once was in a cluster with a fixed body would count as already tested against it. */
+    /* Otherwise a body that shared a cluster with a fixed body would still count as tested against it. */
     return status ? status : sunder_i_solver_gather(solver, err);
 }
 
@@ -260,7 +264,7 @@ sunder_status sunder_i_solver_restore_limits(sunder_i_solver *solver, sunder_err
     sunder_i_model *model = &solver->model;
     bool *root = sunder_i_calloc(model->bodies, sizeof *root), *back = sunder_i_calloc(model->bodies, sizeof *back);
     sunder_status status = root && back ? SUNDER_OK : sunder_i_no_memory(err);
-    model->lifted = solver->went; /* of those that were set aside, and all others as they stand */
+    model->lifted = solver->went; /* of bodies that were set aside; all others keep their present moves */
     solver->went = NULL;
     for (uint32_t b = 0; b < model->bodies; b++)
         if (!sunder_i_is_aside(solver, b))

@@ -7,7 +7,7 @@
 #include <math.h>
 #include <string.h>
 
-/* The inner one goes as far as it may, and the holder comes to meet it. */
+/* Moves the inner body as far as its limit allows, and the holder towards it for the rest. */
 static void send_inside(sunder_i_solver *s, const sunder_i_entry *e)
 {
     const sunder_i_model *model = &s->model;

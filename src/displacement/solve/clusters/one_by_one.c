@@ -23,7 +23,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A relaxation that is asked about, by the cluster that it is of. */
+/* A question: a relaxation, and the root of its cluster. */
 typedef struct question {
     uint32_t root, relaxation;
 } question;
@@ -31,12 +31,13 @@ typedef struct question {
 typedef struct asking {
     const sunder_i_solver *solver;
     const question *question;
-    const size_t *first;                  /* [clusters + 1] questions, cluster after cluster */
-    const sunder_i_requirement *required; /* what conflicts are held to that there are now */
+    const size_t *first;                  /* [clusters + 1] index of the first question of each cluster */
+    const sunder_i_requirement *required; /* [required_n] the demands on the present conflicts */
     size_t required_n;
-    bool *asked;    /* [questions] */
-    uint64_t *work; /* [bodies] spent on questions without a solution; a cluster's is the sum over its bodies */
-    sunder_i_decision *decision; /* [clusters] */
+    bool *asked;    /* [questions] was it asked? */
+    uint64_t *work; /* [bodies] effort of questions without a solution; the effort of a cluster is the sum over its
+                     * bodies */
+    sunder_i_decision *decision; /* [clusters] the verdict on its last question that was asked */
 } asking;
 
 static bool is_conflict_now(const sunder_i_solver *s, const sunder_i_relaxation *t)
@@ -60,14 +61,14 @@ static size_t list_requirements(const sunder_i_solver *s, sunder_i_requirement *
     return n;
 }
 
-/* Was the pair asked about? */
+/* Was the question asked in an earlier call? */
 static bool was_asked(const sunder_i_solver *s, const sunder_i_relaxation *t)
 {
     const sunder_i_id_pair key = {t->a, sunder_i_whole_of(&s->model, t->b)};
     return s->asked_n && bsearch(&key, s->asked, s->asked_n, sizeof key, sunder_i_by_id_pair);
 }
 
-/* wanted: [bodies] of clusters that are */
+/* Lists the questions of wanted clusters, sorted by clusters. wanted: [bodies] is the body in a wanted cluster? */
 static void list_questions(const sunder_i_solver *s, const bool *wanted, question *list, size_t *first,
                            size_t *clusters)
 {
@@ -80,7 +81,7 @@ static void list_questions(const sunder_i_solver *s, const bool *wanted, questio
         if (t->infeasible || (model->body[i].fixed && model->body[j].fixed) || !is_conflict_now(s, t)) continue;
         if (last && last->a == t->a && sunder_i_whole_of(model, last->b) == sunder_i_whole_of(model, t->b)) continue;
         const uint32_t of = model->body[i].fixed ? j : i, root = sunder_i_union_find(s->parent, of);
-        /* A pair that was left before anything moved, and that met nothing, is in no cluster. */
+        /* A pair that was relaxed before anything moved, and met no other body, is in no cluster. */
         if (!wanted[of] || was_asked(s, t) || !sunder_i_solver_has_member(s, root, of)) continue;
         last = t;
         list[n++] = (question){root, (uint32_t)k};
@@ -92,7 +93,7 @@ static void list_questions(const sunder_i_solver *s, const bool *wanted, questio
     first[*clusters] = n;
 }
 
-/* How far those may go that have no limit, so that they are asked about, too: past all of their cluster. */
+/* A limit for bodies that have none: the summed size of the n bodies, which lets each move past all others. */
 static double far_for(const sunder_i_model *model, const uint32_t *body, size_t n)
 {
     double far = 0;
@@ -130,16 +131,16 @@ static sunder_status ask_question(sunder_i_subproblem *p, sunder_i_decision *dec
     return status;
 }
 
-/* May both go as far as they like? */
+/* Do both bodies have no limit? */
 static bool has_no_limit(const sunder_i_model *model, const sunder_i_relaxation *t)
 {
     return sunder_i_limit_of(&model->body[model->body_of[t->a]]) == INFINITY &&
            sunder_i_limit_of(&model->body[model->body_of[t->b]]) == INFINITY;
 }
 
-/* The effort of one question, after a number of questions in a row that ran out of effort: in a crowd connected by
- * chains of dozens hardly any other ends otherwise, and one that does ends early. So each then gets half the effort of
- * the one before. */
+/* The effort for a question, after `in_vain` questions in a row that used up theirs. In a crowd connected by chains of
+ * dozens of bodies almost all questions end like that, and the few others end early. So the effort is halved from one
+ * question to the next. */
 static uint64_t effort_for(const sunder_i_model *model, const sunder_i_relaxation *t, unsigned in_vain)
 {
     if (has_no_limit(model, t)) return EFFORT_BRIEFLY_ALONE;
@@ -149,7 +150,7 @@ static uint64_t effort_for(const sunder_i_model *model, const sunder_i_relaxatio
     return effort > EFFORT_BRIEFLY_ALONE ? effort : EFFORT_BRIEFLY_ALONE;
 }
 
-/* What may yet be asked in vain of a cluster with these members. */
+/* The effort that questions without a solution may still use up in the cluster of these n members. */
 static uint64_t left_to_ask(const asking *g, const uint32_t *member, size_t n)
 {
     const uint64_t pool = POOL_ALONE + POOL_ALONE_EACH * (uint64_t)n;
@@ -159,7 +160,7 @@ static uint64_t left_to_ask(const asking *g, const uint32_t *member, size_t n)
     return taken < pool ? pool - taken : 0;
 }
 
-/* The first of a cluster's questions that has a solution. */
+/* Asks the questions of each cluster, until one has a solution. */
 static sunder_status ask_clusters(void *context, size_t begin, size_t end, sunder_error *err)
 {
     const asking *g = context;
@@ -170,7 +171,7 @@ static sunder_status ask_clusters(void *context, size_t begin, size_t end, sunde
         size_t members;
         const uint32_t *member = sunder_i_solver_members(g->solver, g->question[g->first[k]].root, &members);
         uint64_t left = left_to_ask(g, member, members);
-        /* Ended for want of effort, one after the other; the first of a crowd would mostly do, too. */
+        /* Questions in a row that used up their effort. In a crowd most would, so it starts as if some had. */
         unsigned in_vain = g->first[k + 1] - g->first[k] > MANY_ALONE ? MANY_IN_VAIN : 0;
         sunder_i_patience patience = sunder_i_patience_of(ALONE_PATIENCE, ALONE_REGAINED);
         for (size_t q = g->first[k]; q < g->first[k + 1] && left && !status; q++) {
@@ -186,7 +187,7 @@ static sunder_status ask_clusters(void *context, size_t begin, size_t end, sunde
                                      .required_n = g->required_n,
                                      .margin = MARGINS *
                                                sunder_i_solver_cluster_at_root(g->solver, g->question[q].root)->margin,
-                                     .no_plane = true, /* a solution is looked for, which it has none of */
+                                     .no_plane = true, /* the plane finds proofs only, and a solution is looked for */
                                      .effort = effort_for(model, t, in_vain),
                                      .most = MOST_BODIES};
             p.reserve = member;
@@ -216,9 +217,9 @@ static sunder_status ask_clusters(void *context, size_t begin, size_t end, sunde
 
 /* ---- Going on from a solution ------------------------------------------------------------------------------------ */
 
-/* A solution that one cluster is to go on from, and the relaxations that it does without. */
+/* A solution from which the search of one cluster continues, and the relaxations that it ends. */
 typedef struct proposal {
-    uint32_t root, which; /* the relaxation that was asked about */
+    uint32_t root, which; /* root of the cluster; index of the relaxation that was asked about */
     const sunder_i_solution *solution;
     sunder_i_restored *restored;
     size_t n;
@@ -248,7 +249,8 @@ static bool make_proposal(const asking *g, uint32_t which, const sunder_i_soluti
     return out->restored != NULL;
 }
 
-/* Its bodies are one cluster, if none is of another proposal's. *fits: they are. */
+/* Makes one cluster of the solution's bodies, unless a cluster of theirs has a proposal already: *fits. taken: [bodies]
+ * by roots. False if memory is out. */
 static bool join_solution(sunder_i_solver *s, const sunder_i_solution *solution, bool *taken, bool *fits)
 {
     *fits = true;
@@ -260,14 +262,15 @@ static bool join_solution(sunder_i_solver *s, const sunder_i_solution *solution,
     return true;
 }
 
-/* The first proposal of each cluster. A pair that was asked about and is no longer in the way is asked about again. */
+/* Lists the first proposal of each cluster. A question whose solution does not fit beside another proposal is asked
+ * again later. */
 static bool list_proposals(sunder_i_solver *s, const asking *g, size_t clusters, proposal *list, size_t *n)
 {
     bool *taken = sunder_i_calloc(s->model.bodies, sizeof *taken), ok = taken != NULL, fits;
     for (size_t k = 0; k < clusters && ok; k++) {
         const sunder_i_decision *decision = &g->decision[k];
         if (decision->verdict != SUNDER_I_FEASIBLE) continue;
-        size_t last = g->first[k]; /* of the cluster's questions that was asked */
+        size_t last = g->first[k]; /* index of the last question of the cluster that was asked */
         while (last + 1 < g->first[k + 1] && g->asked[last + 1]) last++;
         ok = join_solution(s, &decision->solution, taken, &fits);
         g->asked[last] = fits;
@@ -285,7 +288,7 @@ typedef struct resuming {
     size_t n;
 } resuming;
 
-/* What the other conflicts are held to, as proofs know it. NULL if memory is out. */
+/* The demands on the other conflicts, in the form that proofs use. NULL if memory is out. */
 static sunder_i_waiver *waive_others(const resuming *g, uint32_t which, size_t *n)
 {
     const sunder_i_model *model = &g->solver->model;
@@ -300,7 +303,7 @@ static sunder_i_waiver *waive_others(const resuming *g, uint32_t which, size_t *
     return out;
 }
 
-/* Where the search finds no margin: lined up to the last bit. */
+/* If the search finds no solution with a margin: aligns the bodies exactly (prove/optimum/tight_place.c). */
 static sunder_status align_exactly(const resuming *g, const proposal *x, sunder_i_cluster *c, double *move, bool *done,
                                    sunder_error *err)
 {
@@ -365,7 +368,8 @@ static sunder_status resume_clusters(void *context, size_t begin, size_t end, su
     return status;
 }
 
-/* Each is asked about once: what was thought to have a solution, and does not for the search, will not do. */
+/* Notes which questions were asked, so that none is asked twice: if the search could not continue from a solution, it
+ * could not the next time. False if memory is out. */
 static bool note_asked(sunder_i_solver *s, const asking *g, size_t questions)
 {
     if (!sunder_i_reserve(&s->asked, &s->asked_capacity, s->asked_n + questions, sizeof *s->asked)) return false;
@@ -377,7 +381,7 @@ static bool note_asked(sunder_i_solver *s, const asking *g, size_t questions)
     return true;
 }
 
-/* The pairs that were asked about, in the order of clusters: the last one of each has the verdict that is kept. */
+/* Traces the questions, cluster by cluster. Only the last one of each has a verdict other than unknown. */
 static void trace_questions(const sunder_i_solver *s, const asking *g, size_t clusters)
 {
     for (size_t k = 0; k < clusters && sunder_i_is_traced(&s->model); k++)

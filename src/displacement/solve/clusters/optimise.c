@@ -25,7 +25,7 @@
 
 /* ---- Rounds ------------------------------------------------------------------------------------------------------ */
 
-/* Bodies of pairs of the one list that are not in the other, or held to something else there. */
+/* Sets unlike[] for the bodies of pairs of `one` that `other` does not list, or lists with another demand. */
 static void mark_unlike(const sunder_i_model *model, const sunder_i_waiver *one, size_t n, const sunder_i_waiver *other,
                         size_t m, bool *unlike)
 {
@@ -36,7 +36,8 @@ static void mark_unlike(const sunder_i_model *model, const sunder_i_waiver *one,
     }
 }
 
-/* A proof stands on what was asked of the group's pairs: where something else is asked now, it is made again. */
+/* A proof depends on the demands on the group's pairs. If these have changed, the proof is dropped and made again.
+ * before: [n] the former list. False if memory is out. */
 static bool forget_proofs(sunder_i_solver *s, const sunder_i_waiver *before, size_t n)
 {
     const sunder_i_model *model = &s->model;
@@ -58,7 +59,7 @@ static bool forget_proofs(sunder_i_solver *s, const sunder_i_waiver *before, siz
     return true;
 }
 
-/* before: the list so far, [n]. */
+/* Adds a pair to the list. Its demand is that of the former list, before[n], or is computed from the start. */
 static sunder_status list_pair(sunder_i_solver *s, const sunder_i_relation *r, const sunder_i_waiver *before, size_t n,
                                sunder_error *err)
 {
@@ -97,7 +98,7 @@ sunder_status sunder_i_solver_list_waivers(sunder_i_solver *solver, sunder_error
     return status;
 }
 
-/* Groups with a body that is pinned are left as they stand. */
+/* Groups with a pinned body keep their layout. */
 static void hold_pinned_groups(sunder_i_solver *s)
 {
     for (size_t k = 0; k < s->groups.n; k++)
@@ -105,8 +106,8 @@ static void hold_pinned_groups(sunder_i_solver *s)
             if (s->model.body[s->groups.group[k].body[m]].pinned) s->groups.group[k].held = true;
 }
 
-/* The steps that the group's bodies have left, STEPS_EACH for each body; a small group counts as one of a minimum size.
- * A body that has spent all gets a part again, so that something is proved of a group that forms late, too. */
+/* The steps for the proof of a group: what its bodies have not spent of STEPS_EACH; a small group counts as one of
+ * SMALL_GROUP bodies. A body gets at least the share 1 / LATE, so that something is proved of groups that form late. */
 static uint64_t steps_allowed(const sunder_i_solver *s, const sunder_i_group *g)
 {
     size_t movers = 0;
@@ -141,7 +142,7 @@ static sunder_status prove_groups(void *context, size_t begin, size_t end, sunde
     return SUNDER_OK;
 }
 
-/* Bodies pay for the proofs that were made in this round, all of a group alike. */
+/* Charges the steps of this round's proofs to the bodies of each group, in equal shares. */
 static void charge_bodies(sunder_i_solver *s)
 {
     for (size_t k = 0; k < s->groups.n; k++) {
@@ -155,10 +156,10 @@ static void charge_bodies(sunder_i_solver *s)
 
 typedef struct taking {
     sunder_i_solver *solver;
-    uint32_t *by;            /* [bodies] the place in the list of the group that moved it; SUNDER_I_NOBODY: none */
-    double *before;          /* [2 * bodies] */
-    size_t *budget;          /* [bodies] by roots of clusters: bodies that may yet be moved in vain */
-    sunder_i_id_pair mended; /* no pair before this one stands worse: what mends one leaves no other so */
+    uint32_t *by;            /* [bodies] index of the group that moved the body; SUNDER_I_NOBODY: none */
+    double *before;          /* [2 * bodies] moves before */
+    size_t *budget;          /* [bodies] by roots of clusters: for sunder_i_solver_mend() */
+    sunder_i_id_pair mended; /* no pair before this one is worse than at the start, and repairs keep it so */
 } taking;
 
 static void place_group(taking *t, size_t k, bool back)
@@ -167,13 +168,13 @@ static void place_group(taking *t, size_t k, bool back)
     for (size_t m = 0; m < g->n; m++) {
         const uint32_t b = g->body[m];
         if (!back) memcpy(t->before + 2 * (size_t)b, t->solver->model.move + 2 * (size_t)b, 2 * sizeof *t->before);
-        /* What stands does not go, and may be of several groups. */
+        /* A fixed body does not move, and may be in several groups. */
         if (!back && !t->solver->model.body[b].fixed) t->by[b] = (uint32_t)k;
         sunder_i_solver_place(t->solver, b, back ? t->before + 2 * (size_t)b : g->move + 2 * m);
     }
 }
 
-/* Is every coordinate of the group as it should be? */
+/* Do all features of the group have exact coordinates? */
 static bool is_exact(const sunder_i_model *model, const sunder_i_group *g)
 {
     for (size_t k = 0; k < g->n; k++) {
@@ -191,7 +192,7 @@ static bool takes_part(const sunder_i_group *g, uint32_t body)
     return false;
 }
 
-/* Undoes the group's layout. known: it only ran into its own bodies. */
+/* Undoes the group's new layout. known: the layout failed because of a body of the group. */
 static bool put_back(taking *t, uint32_t k, bool known)
 {
     sunder_i_solver *s = t->solver;
@@ -200,8 +201,8 @@ static bool put_back(taking *t, uint32_t k, bool known)
     const bool tight = g->state == SUNDER_I_IS_CHEAPER_TIGHT;
     g->state = SUNDER_I_TO_BE_PROVED;
     place_group(t, k, true);
-    /* A layout that rounding spoiled is sought again with a wider margin; a place without spare room is not, unless
-     * another body stood in it. */
+    /* A layout that failed because of rounding is looked for again, with a wider margin. One without room for rounding
+     * is not looked for again, unless another group was in its way. */
     for (size_t m = 0; m < g->n; m++) {
         const uint32_t b = g->body[m];
         memcpy(g->move + 2 * m, t->before + 2 * (size_t)b, 2 * sizeof *g->move);
@@ -215,9 +216,9 @@ static bool put_back(taking *t, uint32_t k, bool known)
     return true;
 }
 
-/* Puts back the groups that moved one or the other of two features: *any, if there was one. Of two groups that run into
- * each other the first stays, if possible: they are examined again, together. known: the two know nothing of each other
- * beyond their group. */
+/* Undoes the new layout of the groups that moved features a and b; *any if there was one. If two groups ran into each
+ * other, the one with the smaller index keeps its layout, and both are examined again, together. known: the pair failed
+ * for another reason than a body that the group did not know of. */
 static void put_back_either(taking *t, uint32_t a, uint32_t b, bool known, bool *any)
 {
     const uint32_t p = t->solver->model.body_of[a], q = t->solver->model.body_of[b], i = t->by[p], j = t->by[q];
@@ -229,7 +230,7 @@ static void put_back_either(taking *t, uint32_t a, uint32_t b, bool known, bool 
     if (!both || j > i) *any = put_back(t, j, known && j != SUNDER_I_NOBODY && takes_part(&group[j], p)) || *any;
 }
 
-/* Groups that proofs take together from now on. False if memory is out. */
+/* Notes two groups, by bodies of theirs, that one proof has to treat together. False if memory is out. */
 static bool note_joined(sunder_i_groups *groups, uint32_t one, uint32_t other)
 {
     if (!sunder_i_reserve(&groups->joined, &groups->capacity, groups->joins + 1, sizeof *groups->joined)) return false;
@@ -237,9 +238,10 @@ static bool note_joined(sunder_i_groups *groups, uint32_t one, uint32_t other)
     return true;
 }
 
-/* The same for a jump, which pieces may not show: an anchor that moves along a diagonal between two pieces meets
- * neither. From now on these two use the pieces that cover their diagonals (layer/diagonal_covers.c). And the feature
- * jumped over may now be far away: so the two groups are joined. False if memory is out. */
+/* The same for two features of which one jumped over the other. Their pieces may not show the jump: an anchor that
+ * moves along a diagonal between two pieces meets neither. So both bodies use the pieces that cover their diagonals
+ * from now on (layer/diagonal_covers.c). The feature that was jumped over may be far away now, so the two groups are
+ * joined. False if memory is out. */
 static bool put_back_jump(taking *t, uint32_t a, uint32_t b, bool *any)
 {
     sunder_i_groups *groups = &t->solver->groups;
@@ -260,13 +262,14 @@ static bool has_moved(const taking *t, uint32_t thing)
     return t->by[t->solver->model.body_of[thing]] != SUNDER_I_NOBODY;
 }
 
-/* Has one of the two gone back since pairs were related? Bodies that ran into it may stay. */
+/* Has one of the two returned since pairs were related? Then the pair may be in order again. */
 static bool is_outdated(const sunder_i_solver *s, uint32_t a, uint32_t b)
 {
     return s->changes.is[a] || s->changes.is[b];
 }
 
-/* A pair in conflict with a moved member; may_stay: it is listed, and not an overlap that had ended. */
+/* Is the pair in conflict, with a feature that moved? *may_stay: the conflict was listed before, and no overlap has
+ * come back. */
 static bool is_in_question(const taking *t, const sunder_i_relation *r, bool *may_stay)
 {
     sunder_i_solver *s = t->solver;
@@ -277,8 +280,8 @@ static bool is_in_question(const taking *t, const sunder_i_relation *r, bool *ma
     return true;
 }
 
-/* The first listed pair that stands worse than at the start: either the effect of rounding is repaired, which changes
- * relations; or the moved group goes back. */
+/* Finds the first listed pair that is worse than at the start, and repairs the effect of rounding, or undoes the layout
+ * of the group. *any if there was such a pair. */
 static sunder_status mend_first(taking *t, bool *any, sunder_error *err)
 {
     sunder_i_solver *s = t->solver;
@@ -297,8 +300,9 @@ static sunder_status mend_first(taking *t, bool *any, sunder_error *err)
     return status;
 }
 
-/* Is there a new conflict, or a worse one, or a jump? Then the moved group goes back: *any. Pairs that stand worse wait
- * until nothing else is put back, so that other parts of the layer do not influence the repair. */
+/* Undoes the layouts that led to a new conflict, a deeper one, or a jump; *any if there were any. Pairs that are
+ * slightly worse are repaired only when no layout is undone, so that other parts of the layer do not influence the
+ * repair. */
 static sunder_status put_back_offenders(taking *t, bool *any, sunder_error *err)
 {
     sunder_i_solver *s = t->solver;
@@ -319,7 +323,7 @@ static sunder_status put_back_offenders(taking *t, bool *any, sunder_error *err)
     return status || *any ? status : mend_first(t, any, err);
 }
 
-/* Takes over what was found to be cheaper, where exact relations bear it out: *any. */
+/* Uses the cheaper layouts that pass the exact check; *any if the groups should be proved once more. */
 static sunder_status take_over(sunder_i_solver *s, bool *any, sunder_error *err)
 {
     const size_t n = s->model.bodies;
@@ -356,7 +360,8 @@ static sunder_status take_over(sunder_i_solver *s, bool *any, sunder_error *err)
     return status;
 }
 
-/* Groups where one is in the other's way, or that have a common guest. */
+/* Joins groups where one is in the way of the other's cheaper layout, or that have a common guest; *any if there are
+ * such. False if memory is out. */
 static bool join_groups(sunder_i_solver *s, bool *any)
 {
     sunder_i_groups *groups = &s->groups;
@@ -377,7 +382,7 @@ static bool join_groups(sunder_i_solver *s, bool *any)
             ok = note_joined(groups, g->number, host[b]);
             *any = joined = true;
         }
-        /* Bodies in no group stay so: nothing new is to be proved of them. */
+        /* A body in no group does not make the proof incomplete. */
         if (!joined) g->joins.n = 0;
     }
     ok = ok && host;
@@ -407,7 +412,7 @@ static sunder_status trace_groups(sunder_i_solver *s, sunder_error *err)
     return status;
 }
 
-/* One round over the groups as they stand: *again, if there should be one more. */
+/* Proves the present groups once; *again if there should be another round. */
 static sunder_status prove_all(sunder_i_solver *s, bool *again, sunder_error *err)
 {
     bool moved = false;

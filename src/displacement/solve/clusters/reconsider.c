@@ -13,7 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Conflicting pairs of bodies that hang together, and the bodies, ascending. */
+/* A component of the conflicts at the start: its pairs of bodies, and its bodies, ascending. */
 typedef struct component {
     uint32_t root;
     const sunder_i_id_pair *pair;
@@ -22,9 +22,9 @@ typedef struct component {
     size_t bodies;
 } component;
 
-/* The layer's conflicts at the start, by components; a fixed body joins none. */
+/* All components of the conflicts at the start. A fixed body connects none. */
 typedef struct components {
-    const uint32_t *root_of; /* [bodies] lent */
+    const uint32_t *root_of; /* [bodies] the root of each body's component; lent */
     component *component;
     size_t n;
     sunder_i_id_pair *pair;
@@ -100,13 +100,13 @@ static sunder_status find_components(sunder_i_solver *s, components *out, sunder
 typedef struct asking {
     const sunder_i_solver *solver;
     const component *component;
-    const bool *asked; /* [components] */
+    const bool *asked; /* [components] is it asked about? */
     const sunder_i_requirement *required;
     size_t required_n;
     sunder_i_decision *decision;
 } asking;
 
-/* The component's bodies and those that the search found it to hang together with, ascending. */
+/* Lists the bodies of the component and of the cluster that its root is in now, ascending. */
 static sunder_status gather_bodies(const sunder_i_solver *s, const component *c, uint32_t **body, size_t *n,
                                    sunder_error *err)
 {
@@ -137,7 +137,8 @@ static sunder_status decide_some(void *context, size_t begin, size_t end, sunder
                                                 .b = SUNDER_I_NOBODY,
                                                 .required = g->required,
                                                 .required_n = g->required_n,
-                                                .no_plane = true, /* a solution is looked for, which it has none of */
+                                                /* the plane finds proofs only, and a solution is looked for */
+                                                .no_plane = true,
                                                 .effort = EFFORT * (uint64_t)n,
                                                 .most = MOST_BODIES};
         sunder_i_reading reading;
@@ -154,7 +155,8 @@ static void mark_component(const components *all, const sunder_i_model *model, u
     if (!model->body[body].fixed) by_root_of[all->root_of[body]] = true;
 }
 
-/* What was proved infeasible is held to the clearance of its relaxation; ascending, as relaxations are. */
+/* Lists the requirements of the pairs that were proved infeasible, in the order of relaxations. Returns their
+ * number. */
 static size_t list_requirements(const sunder_i_model *model, sunder_i_requirement *required)
 {
     size_t n = 0;
@@ -171,7 +173,8 @@ static bool was_asked(const sunder_i_solver *s, uint32_t root)
            sunder_i_is_in(s, SUNDER_I_QUESTION, root, SUNDER_I_CERTAIN_ASKED);
 }
 
-/* Marks the components in which a pair was given up, but for those that were asked about before in vain. */
+/* Sets asked[] for the components with a given-up pair and a doubtful body that have not been asked about without
+ * finding a solution. */
 static sunder_status mark_asked(const sunder_i_solver *s, const components *all, bool *asked, sunder_error *err)
 {
     const sunder_i_model *model = &s->model;
@@ -194,7 +197,8 @@ static sunder_status mark_asked(const sunder_i_solver *s, const components *all,
     return SUNDER_OK;
 }
 
-/* Lets no pair of these bodies be given up any longer. */
+/* Drops the given-up pairs and relaxations of the bodies of the solution, except infeasible ones. False if memory is
+ * out. */
 static bool take_back(sunder_i_model *model, const sunder_i_solution *solution)
 {
     size_t out = 0;
@@ -214,7 +218,7 @@ static bool take_back(sunder_i_model *model, const sunder_i_solution *solution)
     return sunder_i_relaxations_index(&model->relaxations, model);
 }
 
-/* Puts the bodies where the solution has them; what it moved becomes one cluster, with which the search goes on. */
+/* Moves the bodies to the solution. The bodies that it moved become one cluster, in which the search continues. */
 static bool take_solution(sunder_i_solver *s, const component *c, const sunder_i_solution *solution)
 {
     bool ok = take_back(&s->model, solution);
@@ -230,7 +234,7 @@ static bool take_solution(sunder_i_solver *s, const component *c, const sunder_i
     return ok;
 }
 
-/* The line names all bodies that were asked about: the component alone may well have a solution. */
+/* Traces the verdict. The line names all bodies that took part, since the component alone may well have a solution. */
 static sunder_status trace_verdict(const sunder_i_solver *s, const component *c, sunder_i_verdict verdict,
                                    sunder_error *err)
 {

@@ -9,7 +9,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* A relaxation of the model, by the cluster and the bodies it is of. */
+/* A relaxation of the model, with its cluster and its two bodies. */
 typedef struct claim {
     uint32_t root;
     sunder_i_id_pair body;
@@ -17,9 +17,9 @@ typedef struct claim {
 } claim;
 
 typedef struct retries {
-    sunder_i_retry *retry; /* cluster after cluster, in the order in which to ask */
+    sunder_i_retry *retry; /* [n] cluster after cluster, in the order in which they are tried */
     size_t n;
-    uint32_t *relaxation; /* what they are about, places in the model's */
+    uint32_t *relaxation; /* indices into the model's relaxations, to which the requests refer */
 } retries;
 
 static int by_claim(const void *a, const void *b)
@@ -30,7 +30,7 @@ static int by_claim(const void *a, const void *b)
     return order ? order : (p->relaxation > q->relaxation) - (p->relaxation < q->relaxation);
 }
 
-/* Overlaps before all others; what it would take to resolve it, the least first. */
+/* Orders requests of a cluster: overlaps first, then by the move that is needed. */
 static int by_ease(const void *a, const void *b)
 {
     const sunder_i_retry *p = a, *q = b;
@@ -57,7 +57,7 @@ static size_t list_claims(const sunder_i_solver *s, claim *list)
     return n;
 }
 
-/* The retry of these relaxations between two bodies. */
+/* Makes the request to end the n relaxations between two bodies. */
 static sunder_i_retry retry_of(const sunder_i_model *model, const claim *c, const uint32_t *relaxation, size_t n)
 {
     sunder_i_retry x = {.root = c->root, .body = c->body, .relaxation = relaxation, .relaxations = n};
@@ -80,8 +80,8 @@ static void add_retry(retries *out, const sunder_i_retry *x)
     if (x->resolve || x->disjoint) out->retry[out->n++] = *x;
 }
 
-/* For each two bodies one of all relaxations between them, and where these are several one of each, in case not all
- * have a solution. */
+/* Makes, for each two bodies, one request for all relaxations between them; and if there are several, one for each of
+ * these, since they may not all have a solution together. False if memory is out. */
 static bool list_retries(const sunder_i_solver *s, retries *out)
 {
     const size_t most = s->model.relaxations.n;
@@ -121,7 +121,7 @@ static int by_root(const void *a, const void *b)
     return (p->root > q->root) - (p->root < q->root);
 }
 
-/* The first retry of a cluster of that root, or of a later one. */
+/* The index of the first request of the cluster with this root, or of the next cluster. */
 static size_t first_of(const retries *all, uint32_t root)
 {
     const sunder_i_retry key = {.root = root};
@@ -137,7 +137,7 @@ static sunder_status note_retried(const sunder_i_solver *s, sunder_i_cluster *c,
     return sunder_i_trace_note(&c->log, &step) ? SUNDER_OK : sunder_i_no_memory(err);
 }
 
-/* Of a cluster in which nothing was given up since it was last asked the same would be said again. */
+/* A cluster in which nothing was given up since the last time is skipped: the result would be the same. */
 static sunder_status retry_clusters(void *context, size_t begin, size_t end, sunder_error *err)
 {
     const asking *g = context;
@@ -160,7 +160,7 @@ static sunder_status retry_clusters(void *context, size_t begin, size_t end, sun
     return status;
 }
 
-/* Pairs that cannot be resolved, but taken off each other, become members of clusters. */
+/* Adds edges for relaxed pairs whose overlap may be ended, though they cannot be resolved. False if memory is out. */
 static bool join_relaxed(sunder_i_solver *s, const bool *asked)
 {
     const sunder_i_model *model = &s->model;
@@ -174,8 +174,8 @@ static bool join_relaxed(sunder_i_solver *s, const bool *asked)
     return true;
 }
 
-/* Bodies that body b could run into, if it moved that far, become members of its cluster, unless they are in another:
- * clusters stay as they are. */
+/* Joins to the cluster of body b the movable bodies within `far` of it, except those that are in a cluster already, so
+ * that clusters do not merge. alone: [bodies] in no cluster. False if memory is out. */
 static bool join_about(sunder_i_solver *s, bool *alone, uint32_t b, double far, sunder_i_list *near)
 {
     const sunder_i_model *model = &s->model;
@@ -199,7 +199,7 @@ static bool join_about(sunder_i_solver *s, bool *alone, uint32_t b, double far, 
     return true;
 }
 
-/* A question may need others to make way: the bodies around a pair whose relaxation might end. */
+/* Joins the bodies around pairs whose relaxation might end, since they may have to make way. False if memory is out. */
 static bool join_neighbours(sunder_i_solver *s, const bool *asked)
 {
     const sunder_i_model *model = &s->model;

@@ -34,7 +34,7 @@ static sunder_status solve_clusters(void *context, size_t begin, size_t end, sun
     return SUNDER_OK;
 }
 
-/* What was solved again is to be improved again. What was measured is kept, for the report. */
+/* Notes that the bodies of solved clusters have to be improved again, and keeps measured pairs for the report. */
 static sunder_status note_solved(sunder_i_solver *s, sunder_error *err)
 {
     for (size_t k = 0; k < s->clusters; k++) {
@@ -54,8 +54,8 @@ static sunder_status note_solved(sunder_i_solver *s, sunder_error *err)
     return SUNDER_OK;
 }
 
-/* What has not moved yet and is cut by the edge of its holder, which has: it starts from where the holder would carry
- * it, so that the cluster begins from a position without conflicts. */
+/* An inner body that has not moved yet may be cut by the edge of its holder, which has. Then it starts from where the
+ * holder would carry it, so that the cluster starts without that conflict. */
 static void carry_inner_body(sunder_i_solver *s, uint32_t f, uint32_t g)
 {
     const sunder_i_model *model = &s->model;
@@ -74,7 +74,7 @@ static void mark_due(sunder_i_solver *s, uint32_t b)
     if (!s->model.body[b].fixed) sunder_i_body_event(&s->states, b, SUNDER_I_MEETS_CONFLICT);
 }
 
-/* Two bodies are solved together from now on. */
+/* Adds the edge (i, j); the cluster of the two is solved in the next round. */
 static bool solve_together(sunder_i_solver *s, uint32_t i, uint32_t j)
 {
     mark_due(s, i);
@@ -82,8 +82,8 @@ static bool solve_together(sunder_i_solver *s, uint32_t i, uint32_t j)
     return sunder_i_solver_add_edge(s, i, j);
 }
 
-/* Are the two in one cluster? A fixed body is in those that were last gathered with it: edges added since then are not
- * known, and may be added again. */
+/* Are the two in one cluster? For a fixed body the answer is that of the last gathering: edges added since then do not
+ * count, and may be added again. */
 static bool are_together(const sunder_i_solver *s, uint32_t i, uint32_t j)
 {
     const bool fixed = s->model.body[i].fixed || s->model.body[j].fixed;
@@ -92,7 +92,8 @@ static bool are_together(const sunder_i_solver *s, uint32_t i, uint32_t j)
     return sunder_i_solver_has_member(s, sunder_i_union_find(s->parent, other), still);
 }
 
-/* A relaxation between bodies of different clusters is not in the way of either, unless it was broken. */
+/* A pair that is relaxed between two clusters affects neither of them, unless it is worse than at the start: then they
+ * become one. */
 static sunder_status heed_relaxation(sunder_i_solver *s, const sunder_i_relation *r, bool *any, sunder_error *err)
 {
     const uint32_t i = s->model.body_of[r->a], j = s->model.body_of[r->b];
@@ -106,21 +107,21 @@ static sunder_status heed_relaxation(sunder_i_solver *s, const sunder_i_relation
     return solve_together(s, i, j) ? SUNDER_OK : sunder_i_no_memory(err);
 }
 
-/* What a cluster's solution should have given two of its bodies, and by rounding did not: it is solved again with a
- * wider margin, if that may still grow. */
+/* The two are in one cluster, whose solution should have separated them, and rounding spoiled it: the cluster is solved
+ * again with a wider margin, unless it has grown MOST_MARGINS times. */
 static void widen_margin(sunder_i_solver *s, uint32_t a, uint32_t c, bool *any)
 {
     const uint32_t i = s->model.body_of[a], j = s->model.body_of[c];
     const uint32_t b = s->model.body[i].fixed ? j : i;
     if (s->widened[b] >= MOST_MARGINS) return;
-    if (sunder_i_is_due(s, b) && s->widened[b]) return; /* once a round */
+    if (sunder_i_is_due(s, b) && s->widened[b]) return; /* at most once a round */
     s->widened[b]++;
     mark_due(s, b);
     *any = true;
     sunder_i_trace_pair(&s->model, "check", "in conflict within its cluster: solved with a wider margin", a, c);
 }
 
-/* A body that jumped over one of another cluster joins that cluster. */
+/* If a body jumped over a body of another cluster, the two clusters become one. */
 static sunder_status find_jumps(sunder_i_solver *s, bool *any, sunder_error *err)
 {
     const sunder_i_model *model = &s->model;
@@ -139,8 +140,8 @@ static sunder_status find_jumps(sunder_i_solver *s, bool *any, sunder_error *err
     return SUNDER_OK;
 }
 
-/* Conflicts as the features stand make bodies due: by a new edge between clusters, or a wider margin within one.
- * Returns whether there is anything to do. */
+/* Examines the present conflicts and marks bodies as due: two clusters with a conflict become one, and a conflict
+ * within a cluster widens its margin. *any if there is work for another round. */
 static sunder_status find_work(sunder_i_solver *s, bool *any, sunder_error *err)
 {
     sunder_i_model *model = &s->model;
@@ -165,7 +166,7 @@ static sunder_status find_work(sunder_i_solver *s, bool *any, sunder_error *err)
             continue;
         }
         const uint32_t b = model->body[i].fixed ? j : i;
-        /* What lay in another, and was not kept inside. */
+        /* One of the two lay in the other at the start, and was not kept inside. */
         sunder_i_inclusion *inclusion = sunder_i_inclusion_find(model, r->a, r->b);
         if (inclusion && inclusion->state != SUNDER_I_LAPSED) {
             inclusion->state++;

@@ -13,7 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The members of both, ascending; NULL if memory is out. */
+/* The members of both bodies, ascending; NULL if memory is out. */
 static uint32_t *members_of(const sunder_i_model *model, const sunder_i_id_pair *bodies, size_t *n)
 {
     const sunder_i_body *p = &model->body[bodies->a], *q = &model->body[bodies->b];
@@ -25,8 +25,8 @@ static uint32_t *members_of(const sunder_i_model *model, const sunder_i_id_pair 
     return set;
 }
 
-/* Lists what all conflicts between the two bodies are held to: the n conflicts of `relaxation`, and those of the
- * model, for which limits leave no solution. NULL if memory is out. */
+/* Lists the requirements of all conflicts between the two bodies: the n conflicts of `relaxation`, and those of the
+ * model, which are infeasible within limits. NULL if memory is out. */
 static sunder_i_requirement *list_required(const sunder_i_model *model, const sunder_i_id_pair *bodies,
                                            const sunder_i_relaxation *relaxation, size_t n, size_t *required)
 {
@@ -58,7 +58,7 @@ sunder_status sunder_i_find_unsolvable(const sunder_i_model *model, const sunder
                                .coarse = COARSE_IN_PLANE,
                                .planes = &planes,
                                .precedents = &precedents,
-                               .effort = 0, /* the plane, and nothing else */
+                               .effort = 0, /* only the plane is used */
                                .most = 2};
     uint32_t *members = members_of(model, bodies, &two.features);
     sunder_i_requirement *required = list_required(model, bodies, relaxation, n, &two.required_n);

@@ -31,7 +31,7 @@ static sunder_i_id_pair bodies_of(const sunder_i_model *model, const sunder_i_re
     return i < j ? (sunder_i_id_pair){i, j} : (sunder_i_id_pair){j, i};
 }
 
-/* Pairs of bodies in conflict, sorted. Returns how many. */
+/* Lists the pairs of bodies in conflict, sorted. Returns their number. */
 static size_t list_pairs(const sunder_i_solver *s, sunder_i_id_pair *pair)
 {
     const sunder_i_model *model = &s->model;
@@ -46,7 +46,7 @@ static size_t list_pairs(const sunder_i_solver *s, sunder_i_id_pair *pair)
     return out;
 }
 
-/* Might they be? */
+/* Sets shut[] for the pairs that may be shut in, by a quick test. */
 static sunder_status suspect_pairs(void *context, size_t begin, size_t end, sunder_error *err)
 {
     const judging *g = context;
@@ -55,7 +55,7 @@ static sunder_status suspect_pairs(void *context, size_t begin, size_t end, sund
     return SUNDER_OK;
 }
 
-/* Keeps, of n pairs, those for which that is known; returns how many. */
+/* Keeps those of n pairs for which shut[] is set; returns their number. */
 static size_t keep_shut(sunder_i_id_pair *pair, const bool *shut, size_t n)
 {
     size_t out = 0;
@@ -64,7 +64,7 @@ static size_t keep_shut(sunder_i_id_pair *pair, const bool *shut, size_t n)
     return out;
 }
 
-/* A conflict of two bodies that are shut in: is it by itself? */
+/* A conflict between two bodies that are shut in. shut: it has no solution by itself. */
 typedef struct shut_in_conflict {
     sunder_i_id_pair bodies, pair;
     bool shut;
@@ -83,7 +83,7 @@ static int by_pair(const void *a, const void *b)
     return sunder_i_by_id_pair(&((const shut_in_conflict *)a)->pair, &((const shut_in_conflict *)b)->pair);
 }
 
-/* Those of two bodies, n of them. */
+/* Decides, for the n conflicts between two bodies, which have no solution, and computes their relaxations. */
 static sunder_status judge_features(const sunder_i_model *model, shut_in_conflict *list, size_t n, sunder_error *err)
 {
     sunder_i_id_pair *pair = sunder_i_alloc(n, sizeof *pair);
@@ -108,7 +108,7 @@ static sunder_status judge_features(const sunder_i_model *model, shut_in_conflic
 typedef struct judging_features {
     const sunder_i_model *model;
     shut_in_conflict *shut_in_conflict;
-    const size_t *first; /* [pairs of bodies + 1] */
+    const size_t *first; /* [pairs of bodies + 1] index of the first conflict of each */
 } judging_features;
 
 static sunder_status judge_pairs_of_bodies(void *context, size_t begin, size_t end, sunder_error *err)
@@ -120,7 +120,8 @@ static sunder_status judge_pairs_of_bodies(void *context, size_t begin, size_t e
     return status;
 }
 
-/* The conflicts between these bodies, n pairs, sorted; how many. out NULL: they are counted only. */
+/* Stores the conflicts between the n sorted pairs of bodies in `out`, and returns their number. out NULL: they are only
+ * counted. */
 static size_t find_conflicts(const sunder_i_solver *s, const sunder_i_id_pair *list, size_t n, shut_in_conflict *out)
 {
     size_t found = 0;
@@ -135,7 +136,8 @@ static size_t find_conflicts(const sunder_i_solver *s, const sunder_i_id_pair *l
     return found;
 }
 
-/* The same by pairs of bodies, whose first ones are told. */
+/* The same, sorted by pairs of bodies; first[k] is the index of the first conflict of the k-th pair, *pairs their
+ * number. */
 static void list_conflicts(const sunder_i_solver *s, const sunder_i_id_pair *list, size_t n, shut_in_conflict *out,
                            size_t *first, size_t *pairs)
 {
@@ -161,7 +163,7 @@ static sunder_status leave_conflict(sunder_i_model *model, const shut_in_conflic
     return sunder_i_relaxations_add(more, &m->relaxation) ? SUNDER_OK : sunder_i_no_memory(err);
 }
 
-/* Leaves the conflicts between these bodies, n pairs, sorted. */
+/* Relaxes all conflicts between the n sorted pairs of bodies. */
 static sunder_status relax_conflicts(sunder_i_solver *s, const sunder_i_id_pair *list, size_t n, sunder_error *err)
 {
     sunder_i_model *model = &s->model;
@@ -190,8 +192,8 @@ static sunder_status relax_conflicts(sunder_i_solver *s, const sunder_i_id_pair 
     return status;
 }
 
-/* Seams and joints: whatever is between pieces of theirs. */
-static sunder_status find_seams(sunder_i_model *model, const sunder_i_id_pair *pair, size_t n, sunder_error *err)
+/* Makes the covers of the diagonals between pieces, and of the walls between members, of these bodies. */
+static sunder_status cover_pairs(sunder_i_model *model, const sunder_i_id_pair *pair, size_t n, sunder_error *err)
 {
     uint32_t *body = sunder_i_alloc(2 * n, sizeof *body);
     if (!body) return sunder_i_no_memory(err);
@@ -214,7 +216,7 @@ sunder_status sunder_i_solver_find_shut_in(sunder_i_solver *solver, sunder_error
     sunder_status status = g.shut ? SUNDER_OK : sunder_i_no_memory(err);
     if (!status) status = sunder_i_parallel(model->rules.threads, n, SUNDER_I_GRAIN_TESTS, suspect_pairs, &g, err);
     if (!status) n = keep_shut(pair, g.shut, n);
-    if (!status && n) status = find_seams(model, pair, n, err);
+    if (!status && n) status = cover_pairs(model, pair, n, err);
     if (!status) status = sunder_i_parallel(model->rules.threads, n, SUNDER_I_GRAIN_WHOLE, judge_pairs, &g, err);
     const size_t out = status ? 0 : keep_shut(pair, g.shut, n);
     if (!status && out) {

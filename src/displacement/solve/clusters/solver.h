@@ -131,22 +131,22 @@ static inline bool sunder_i_is_aside(const sunder_i_solver *s, uint32_t b)
     return sunder_i_is_in(s, SUNDER_I_LIMITS, b, SUNDER_I_ASIDE);
 }
 
-/* From solver->model, which has its bodies. Failure leaves what sunder_i_solver_free() takes. */
+/* solver->model has to have its bodies. On failure the caller calls sunder_i_solver_free(), too. */
 sunder_status sunder_i_solver_init(sunder_i_solver *solver, sunder_error *err);
 void sunder_i_solver_free(sunder_i_solver *solver);
 
 /* ---- clusters.c: edges and clusters ------------------------------------------------------------------------------ */
 
-/* [bodies] The components of the conflicts at the start, by their roots, lent; a fixed body joins none. NULL if memory
- * is out. Not for several threads at a time: they are found when somebody first asks. */
+/* [bodies] The root of each body's component of conflicts at the start; lent. A fixed body joins no components. NULL if
+ * memory is out. The first call computes it, so only one thread at a time may call. */
 const uint32_t *sunder_i_solver_conflict_roots(sunder_i_solver *solver);
 /* Adds the edge (i, j). False if memory is out. */
 bool sunder_i_solver_add_edge(sunder_i_solver *solver, uint32_t i, uint32_t j);
-/* Was the body a member of the cluster of that root when they were last gathered? */
+/* Was the body a member of the cluster with this root when clusters were last gathered? */
 bool sunder_i_solver_has_member(const sunder_i_solver *solver, uint32_t root, uint32_t body);
-/* The members of the cluster of that root, ascending; NULL and none if it is no cluster's. */
+/* The members of the cluster with this root, ascending; NULL and *n = 0 if there is no such cluster. */
 const uint32_t *sunder_i_solver_members(const sunder_i_solver *solver, uint32_t root, size_t *n);
-/* The cluster of that root, or that the body is of, as they were last gathered; NULL: none. */
+/* The cluster with this root, or the cluster of this body, when clusters were last gathered; NULL: there is none. */
 sunder_i_cluster *sunder_i_solver_cluster_at_root(const sunder_i_solver *solver, uint32_t root);
 sunder_i_cluster *sunder_i_solver_cluster_of(const sunder_i_solver *solver, uint32_t body);
 /* Does any of the n bodies that may move pass the test? */
@@ -154,36 +154,37 @@ bool sunder_i_solver_any_of(const sunder_i_solver *solver, const uint32_t *body,
 /* Returns an array [bodies]: is the body connected, by the present edges, with a movable body that passes the test?
  * It is false for fixed bodies. The caller frees the array. NULL if memory is out. */
 bool *sunder_i_solver_connected_with(const sunder_i_solver *solver, sunder_i_body_test test);
-/* What is asked of these bodies beyond the gap. */
+/* The margin of a cluster of these n bodies: the distance demanded beyond the gap. */
 double sunder_i_solver_margin(const sunder_i_solver *solver, const uint32_t *b, size_t n);
-/* The body for which the cluster's reads are recorded: one that is in no other cluster. */
+/* The root of the cluster: the areas that the search reads are recorded for this body, which is in no other cluster. */
 static inline uint32_t sunder_i_reader_for(const sunder_i_solver *solver, const sunder_i_cluster *cluster)
 {
     return solver->member[cluster->body - solver->body].root;
 }
-/* Frees the state of clusters except for their lists of members, until they are gathered again. */
+/* Frees the clusters, except for their lists of members, until they are gathered again. */
 void sunder_i_solver_forget_clusters(sunder_i_solver *solver);
-/* Work on all clusters as they were last gathered, by their numbers. */
+/* Calls `work` for all clusters, on all threads, the largest first. */
 sunder_status sunder_i_solver_for_clusters(const sunder_i_solver *solver, sunder_i_work work, void *context,
                                            sunder_error *err);
 /* Emits the log of each cluster, in the order of the clusters, if the layer is traced. */
 sunder_status sunder_i_solver_trace_clusters(sunder_i_solver *solver, sunder_error *err);
-/* Clusters from the edges, afresh. */
+/* Makes the clusters anew from the edges. */
 sunder_status sunder_i_solver_gather(sunder_i_solver *solver, sunder_error *err);
-/* Unites those blocks of clusters whose union the search may need. A fixed one may be a member of several clusters:
- * each body is handled once, so that no two threads do the same. */
+/* Unites the members of each block whose united shape the search may need. A fixed body may be in several clusters;
+ * each body is handled once, so that no two threads do the same work. */
 sunder_status sunder_i_solver_unite_blocks(sunder_i_solver *solver, sunder_error *err);
 
 /* ---- body_moves.c: between the layer and its clusters ------------------------------------------------------------ */
 
-/* Loads the moves that a cluster starts from, and lends them. */
+/* Loads the moves that the cluster starts from into its part of solver->move, and lends that. */
 double *sunder_i_solver_load_moves(const sunder_i_solver *solver, const sunder_i_cluster *cluster);
-/* Moves body b, unless it is fixed, by a move that was rounded; marks what changed. */
+/* Moves body b, unless it is fixed, to a rounded move, and notes the change. */
 void sunder_i_solver_place(sunder_i_solver *solver, uint32_t b, const double *move);
-/* Takes over the moves of clusters that were worked on: bodies, features that changed, and whether their coordinates
- * stayed exact. */
+/* Uses the new moves of the clusters that were worked on: moves their bodies, and notes which features changed and
+ * whether their coordinates are exact. */
 sunder_status sunder_i_solver_commit(sunder_i_solver *solver, sunder_error *err);
-/* Exact relations of what changed; of what is few, with all things that were near one of them, then or now. */
+/* Relates the features that have moved, exactly. things: NULL, or the only things that were near one of them before or
+ * are near one now. */
 sunder_status sunder_i_solver_relate(sunder_i_solver *solver, sunder_error *err);
 sunder_status sunder_i_solver_relate_near(sunder_i_solver *solver, const sunder_i_list *things, sunder_error *err);
 

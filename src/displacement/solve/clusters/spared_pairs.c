@@ -51,8 +51,8 @@ bool sunder_i_solver_is_beyond_limits(const sunder_i_solver *solver, const sunde
 
 /* ---- By proof ---------------------------------------------------------------------------------------------------- */
 
-/* What one of the spared is held to: what it is relaxed to, but where it lies in the other or in an area, and may go
- * deeper. */
+/* The demand on a spared pair: its relaxation. Without one, or if one lies in the other or in an area and may go
+ * deeper, the demand is computed from the start. */
 static sunder_status find_requirement(const sunder_i_solver *s, const sunder_i_relation *r, sunder_i_requirement *out,
                                       sunder_error *err)
 {
@@ -64,7 +64,8 @@ static sunder_status find_requirement(const sunder_i_solver *s, const sunder_i_r
     return SUNDER_OK;
 }
 
-/* What the spared are held to, sorted: of those that were in conflict. All others owe each other all. */
+/* Lists the demands on the spared pairs that are in conflict, sorted. All other pairs have to keep their full
+ * distance. */
 static sunder_status find_requirements(const sunder_i_solver *s, const sunder_i_spared *list,
                                        sunder_i_requirement *required, size_t *n, sunder_error *err)
 {
@@ -85,8 +86,9 @@ static bool are_heeded(const sunder_i_subproblem *q, const sunder_i_relation *r)
            sunder_i_set_has(q->feature, q->features, sunder_i_whole_of(q->model, r->b));
 }
 
-/* Is there a conflict to be solved that provably has no solution, or has each one by itself? Conflicts of the same two
- * bodies are one question, since all that are not spared have to hold. *gap: then, of that proof. */
+/* Asks about each conflict that is not spared by itself: *verdict is infeasible if one provably has no solution,
+ * feasible if each has one. Conflicts between the same two bodies are one question, since all of them have to be
+ * resolved. *gap: see sunder_i_solver_prove(). */
 static sunder_status prove_conflicts(const sunder_i_solver *s, const sunder_i_proving *how, sunder_i_subproblem *q,
                                      sunder_i_verdict *verdict, double *gap, sunder_error *err)
 {

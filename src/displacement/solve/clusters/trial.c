@@ -33,7 +33,8 @@ static bool is_to_be_parted(const sunder_i_trial *t, const sunder_i_relation *r)
     return sunder_i_is_conflict(r) && !(held && held->infeasible);
 }
 
-/* Is the pair in no conflict but one that it was in, in no overlap that had ended, and no worse than at the start? */
+/* Checks one pair after the move: every conflict has to be an old one, may not overlap unless it did before, and may be
+ * no worse than at the start. *on: the check continues. */
 static sunder_status check_pair(void *context, const sunder_i_relation *r, bool *on, sunder_error *err)
 {
     sunder_i_trial *t = context;
@@ -45,7 +46,7 @@ static sunder_status check_pair(void *context, const sunder_i_relation *r, bool 
     return status;
 }
 
-/* Can all of them go there, exactly and within their limits, and does one of them stand elsewhere? */
+/* Can each body take its goal exactly and within its limit, and does at least one of them move? */
 static bool can_go(const sunder_i_trial *t, const double to[2])
 {
     bool any = false;
@@ -61,7 +62,7 @@ static bool can_go(const sunder_i_trial *t, const double to[2])
     return any;
 }
 
-/* Puts the bodies of a trial there, or back where they stood (to: NULL). */
+/* Moves the bodies of a trial to the goal, or back to their former moves (to: NULL). */
 static sunder_status put_bodies(sunder_i_trial *t, const double *to, sunder_error *err)
 {
     sunder_i_solver *s = t->solver;
@@ -77,7 +78,7 @@ static sunder_status put_bodies(sunder_i_trial *t, const double *to, sunder_erro
     return status;
 }
 
-/* The neighbours of the trial's bodies in the present layout. */
+/* Stores the neighbours of the trial's bodies in the present layout in t->about. False if memory is out. */
 static bool note_neighbours(sunder_i_trial *t)
 {
     const sunder_i_solver *s = t->solver;
@@ -93,7 +94,6 @@ static bool note_neighbours(sunder_i_trial *t)
     return ok;
 }
 
-/* Tries one place for them all: they stay there if all is well, else go back. */
 sunder_status sunder_i_trial_place(sunder_i_trial *trial, const double to[2], sunder_error *err)
 {
     sunder_i_solver *s = trial->solver;

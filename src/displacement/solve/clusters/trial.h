@@ -1,31 +1,31 @@
-/* Bodies are tried at another place, exactly: they stay there if no pair of them comes into conflict that was in none,
- * or stands worse than at the start, and nothing jumps; otherwise all is as before. */
+/* Trials: some bodies are moved, and an exact check decides. They stay there if no pair comes into a new conflict or
+ * stands worse than at the start, and no feature jumps over another. Otherwise all return. */
 #ifndef SUNDER_I_TRIAL_H
 #define SUNDER_I_TRIAL_H
 
 #include "displacement/solve/clusters/solver.h"
 
-/* Bodies that are to have one move, or one coordinate of it, and where they stood. */
+/* The bodies of a trial, their moves before it, and how the goal is to be understood. */
 typedef struct sunder_i_trial {
     sunder_i_solver *solver;
     uint32_t *body;
-    double *stood; /* [2 n] */
+    double *stood; /* [2 n] moves before the trial */
     size_t n, body_capacity, stood_capacity;
-    unsigned along; /* which coordinates: bit 0 is x, bit 1 is y */
-    double *goal;   /* [2 n] to each its own, in place of one for all; or NULL */
-    bool *taken;    /* [bodies] if many are tried; else NULL */
-    size_t *budget; /* bodies that may yet be moved in vain, for pairs of this cluster */
-    const sunder_i_id_pair
-        *parted;               /* bodies that may have no pair in conflict, except infeasible ones; or NULL */
-    sunder_i_list near, about; /* scratch; their neighbours in the old layout */
-    bool well;                 /* so far */
+    unsigned along; /* coordinates that change: bit 0 is x, bit 1 is y */
+    double *goal;   /* [2 n] a goal for each body; NULL: one for all */
+    bool *taken;    /* [bodies] is the body in the trial? scratch for trials of many bodies; else NULL */
+    size_t *budget; /* number of bodies that may still be moved without success, for pairs of this cluster */
+    const sunder_i_id_pair *parted; /* two bodies of which no pair may be in conflict then, except infeasible ones; or
+                                * NULL */
+    sunder_i_list near, about;      /* scratch; neighbours of the bodies before the trial */
+    bool well;                      /* the trial has succeeded, as far as it was checked */
 } sunder_i_trial;
 
-/* One more body, which stands where it does. False if memory is out. */
+/* Adds a body at its present move. False if memory is out. */
 bool sunder_i_trial_take(sunder_i_trial *trial, uint32_t body);
-/* The bodies of a cluster that are to go elsewhere, each with its own goal. */
+/* Adds the movable bodies of a cluster whose new move differs from the present one, each with its goal. */
 bool sunder_i_trial_take_moved(sunder_i_trial *trial, const sunder_i_cluster *cluster, const double *move);
-/* Tries one place for them all: they stay there if all is well, else go back. */
+/* Moves all bodies to the goal (`to`, or trial->goal) and checks: trial->well if they stay there. */
 sunder_status sunder_i_trial_place(sunder_i_trial *trial, const double to[2], sunder_error *err);
 void sunder_i_trial_free(sunder_i_trial *trial);
 

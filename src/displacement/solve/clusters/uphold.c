@@ -31,20 +31,21 @@
 
 /* ---- A place nearby ---------------------------------------------------------------------------------------------- */
 
-/* The units of what the body may be moved by from where it stands. */
+/* The units by which the body's present move can change. */
 static void units_of(const sunder_i_solver *s, uint32_t b, double unit[2])
 {
     const double *stood = s->model.move + 2 * (size_t)b;
     double same[2];
     for (int c = 0; c < 2; c++) {
-        /* A move of nothing has no unit. */
+        /* A move of 0 has no unit, so the unit is that of a tiny move. */
         double along[2] = {0, 0};
         along[c] = stood[c] != 0 ? stood[c] : DBL_MIN;
         sunder_i_round_move(&s->model, b, along, same, &unit[c]);
     }
 }
 
-/* The eight places a unit beside its own, and those some units farther: the search lets go of as much. */
+/* Tries the eight positions one unit away, then four and ALIKE units away, since the error of the search is about as
+ * large. */
 static sunder_status try_nearby(sunder_i_trial *t, sunder_error *err)
 {
     const double stood[2] = {t->stood[0], t->stood[1]};
@@ -62,7 +63,7 @@ static sunder_status try_nearby(sunder_i_trial *t, sunder_error *err)
 
 /* ---- All that move as one ---------------------------------------------------------------------------------------- */
 
-/* Do the two move alike, as far as the trial asks, up to a few units? */
+/* Do the two bodies have the same move up to `hair`, in the coordinates that the trial changes? */
 static bool is_alike(const sunder_i_trial *t, uint32_t b, uint32_t other, double hair)
 {
     const double *p = t->solver->model.move + 2 * (size_t)b, *q = t->solver->model.move + 2 * (size_t)other;
@@ -71,7 +72,7 @@ static bool is_alike(const sunder_i_trial *t, uint32_t b, uint32_t other, double
     return true;
 }
 
-/* The bodies around body b with the same move. */
+/* Adds to the trial the bodies around body b that have the same move. */
 static sunder_status take_bodies_alike(sunder_i_trial *t, uint32_t b, double hair, sunder_error *err)
 {
     const sunder_i_model *model = &t->solver->model;
@@ -98,8 +99,8 @@ static sunder_status take_bodies_alike(sunder_i_trial *t, uint32_t b, double hai
     return SUNDER_OK;
 }
 
-/* In a pushed row no body may stand worse to the next, so the row has to move as one to the last bit: all take the move
- * of the body with the coarsest coordinates. */
+/* In a pushed row no body may come nearer to the next, so the row has to move as one to the last bit. All its bodies
+ * get the move of the body with the coarsest coordinates. */
 static sunder_status try_common_move(sunder_i_trial *t, sunder_error *err)
 {
     double coarsest = 0, to[2] = {0, 0};
@@ -124,7 +125,7 @@ static sunder_status try_common_move(sunder_i_trial *t, sunder_error *err)
     return status;
 }
 
-/* The ways to mend a pair, the smallest first; what is in common: both coordinates, or one. */
+/* The remedies for a pair, the smallest change first, with the coordinates that change: bit 0 is x, bit 1 is y. */
 typedef enum remedy { NEARBY, PARTNER, TOGETHER } remedy;
 static const struct {
     remedy remedy;
@@ -163,8 +164,8 @@ sunder_status sunder_i_solver_mend(sunder_i_solver *solver, const sunder_i_relat
 
 /* ---- With a margin ----------------------------------------------------------------------------------------------- */
 
-/* Asks the search for places that leave the pair better by the margin, near where all stand: *well, if there are such,
- * and they hold. */
+/* Asks the search for places near the present ones at which the pair keeps the margin, too. *well if there are such
+ * places and they pass the exact check. */
 static sunder_status demand_margin(sunder_i_solver *s, const sunder_i_relation *r, bool others, bool *well,
                                    sunder_error *err)
 {
@@ -195,7 +196,8 @@ static double cost_of(const sunder_i_solver *s, uint32_t b)
     return s->model.body[b].weight * (t[0] * t[0] + t[1] * t[1]);
 }
 
-/* Pins the one whose move is cheaper, of those that may move and did; either if none did, which cannot be. */
+/* Pins the body of the two that can move and has the cheaper move. (If neither has moved, which cannot happen, either
+ * is pinned.) */
 static sunder_status pin_either(sunder_i_solver *s, uint32_t i, uint32_t j, sunder_error *err)
 {
     const double home[2] = {0, 0};
@@ -210,8 +212,7 @@ static sunder_status pin_either(sunder_i_solver *s, uint32_t i, uint32_t j, sund
     return status;
 }
 
-/* A body that still jumps over another, since no margin repaired the effect of rounding, stays in its original
- * place. */
+/* Pins bodies that still jump over others, since no margin repaired the effect of rounding. */
 static sunder_status pin_jumps(sunder_i_solver *s, bool *pinned, sunder_error *err)
 {
     sunder_status status = SUNDER_OK;
@@ -222,11 +223,13 @@ static sunder_status pin_jumps(sunder_i_solver *s, bool *pinned, sunder_error *e
     return status;
 }
 
-/* Whose pairs wait until clusters have settled, and what was asked of clusters in vain. */
+/* The pairs that wait until clusters have settled, and the failed attempts of each cluster. */
 typedef struct waiting {
-    bool *body, *cluster; /* [bodies] the one; by roots, all of it */
-    size_t *vain;         /* [bodies] by roots: number of bodies for which a margin was demanded without success */
-    uint32_t *size;       /* [bodies] of clusters, by the roots that they had when the pass began */
+    bool *body, *cluster; /* [bodies] pairs with this body wait; [bodies] by roots: pairs with any body of the cluster
+                           * wait */
+    size_t *vain;         /* [bodies] by roots: summed sizes of clusters for which a margin was demanded without
+                           * success */
+    uint32_t *size;       /* [bodies] by roots at the beginning of the pass: size of the cluster */
 } waiting;
 
 static bool waiting_init(waiting *w, size_t bodies)
@@ -246,7 +249,7 @@ static void waiting_free(waiting *w)
     sunder_i_free(w->size);
 }
 
-/* No pair waits; clusters are as large as they are. */
+/* Begins a pass: no pair waits. */
 static void begin_pass(const sunder_i_solver *s, waiting *w)
 {
     const size_t n = s->model.bodies;
@@ -257,8 +260,8 @@ static void begin_pass(const sunder_i_solver *s, waiting *w)
         if (!s->model.body[b].fixed) w->size[sunder_i_union_find(s->parent, b)]++;
 }
 
-/* Holds a pinned body, and with it a cluster of at most MOST_HELD bodies. What stands about the body is in its way
- * until the cluster settles. */
+/* Lets the pairs of a pinned body wait, and those of its whole cluster if that has at most MOST_HELD bodies: the body's
+ * neighbours are in its way until the cluster settles. */
 static void hold_body(sunder_i_solver *s, waiting *w, uint32_t body)
 {
     const uint32_t root = sunder_i_union_find(s->parent, body);
@@ -272,7 +275,8 @@ static bool is_held(const sunder_i_solver *s, const waiting *w, uint32_t body)
     return !s->model.body[body].fixed && (w->body[body] || w->cluster[sunder_i_union_find(s->parent, body)]);
 }
 
-/* demand_margin(), with others and without, unless too much of that was in vain. */
+/* Demands the margin of other pairs, too, and then without that; nothing is tried if too much has failed in this
+ * cluster. */
 static sunder_status demand_margin_either_way(sunder_i_solver *s, const sunder_i_relation *r, waiting *w, bool *well,
                                               sunder_error *err)
 {
@@ -286,7 +290,7 @@ static sunder_status demand_margin_either_way(sunder_i_solver *s, const sunder_i
     return status;
 }
 
-/* Pairs come and go while they are gone through, those of others of the layer, too: the place of the next one. */
+/* The index of the first pair after `last`. Repairs change the list of pairs, so indices do not persist. */
 static size_t first_after(const sunder_i_solver *s, sunder_i_id_pair last)
 {
     const sunder_i_relation key = {.a = last.a, .b = last.b};
@@ -305,7 +309,7 @@ sunder_status sunder_i_solver_uphold(sunder_i_solver *solver, sunder_error *err)
         begin_pass(solver, &held);
         status = pin_jumps(solver, &pinned, err);
         any = pinned;
-        sunder_i_id_pair last = {0, 0}; /* no pair */
+        sunder_i_id_pair last = {0, 0}; /* before all pairs */
         for (size_t k; (k = first_after(solver, last)) < solver->now.n && !status;) {
             const sunder_i_relation r = solver->now.pair[k];
             last = (sunder_i_id_pair){r.a, r.b};

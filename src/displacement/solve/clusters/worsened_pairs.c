@@ -6,7 +6,7 @@
 
 #include "separation/separation.h"
 
-/* Do the two stand to each other as they did, exactly? */
+/* Is the relative position of the two exactly that of the start? */
 static bool stand_as_they_did(const sunder_i_solver *s, const sunder_i_relation *r)
 {
     const sunder_i_placement *p = &s->placement;
@@ -14,7 +14,8 @@ static bool stand_as_they_did(const sunder_i_solver *s, const sunder_i_relation 
     return !p->rounded[r->a] && !p->rounded[r->b] && a[0] == b[0] && a[1] == b[1];
 }
 
-/* The same of a barrier, which stands all of it as it did: any part of it may have been what was in conflict. */
+/* The same question for a feature and a barrier, which counts as a whole: any of its parts may have been in conflict at
+ * the start. */
 static sunder_status is_worse_to_barrier(const sunder_i_solver *s, const sunder_i_relation *r, bool *worse,
                                          sunder_error *err)
 {
@@ -28,7 +29,7 @@ static sunder_status is_worse_to_barrier(const sunder_i_solver *s, const sunder_
     return sunder_i_barrier_worsened(&s->model, &home, &now, r->b, worse, err);
 }
 
-/* What is known of how deep the pair stood at the start, until another is asked about; NULL if memory is out. */
+/* The depth of the pair at the start, as far as it was computed; valid until the next call. NULL if memory is out. */
 static sunder_i_depth *depth_of(sunder_i_solver *s, const sunder_i_relation *was)
 {
     if (!s->depth_at) s->depth_at = sunder_i_calloc(s->start.n, sizeof *s->depth_at);
@@ -58,7 +59,8 @@ sunder_status sunder_i_solver_is_worse(sunder_i_solver *solver, const sunder_i_r
     return depth ? sunder_i_pair_worsened_since(&before, depth, &now, worse, err) : sunder_i_no_memory(err);
 }
 
-/* Is it a conflict that is listed whatever the options? Members of a block may gape and touch. */
+/* Is it a conflict that is always listed, whatever the options? Members of a block may have gaps between them, and may
+ * touch. */
 bool sunder_i_solver_is_always_listed(const sunder_i_solver *solver, const sunder_i_relation *r)
 {
     return sunder_i_is_conflict(r) &&

@@ -1,4 +1,4 @@
-/* The moves of one cluster of bodies: what the rounds of solve/clusters/ ask of the search. */
+/* The moves of one cluster of bodies: the interface of the search for solve/clusters/. */
 #ifndef SUNDER_I_CLUSTER_H
 #define SUNDER_I_CLUSTER_H
 
@@ -8,104 +8,109 @@
 /* What the present stage did to a cluster. */
 typedef enum sunder_i_outcome {
     SUNDER_I_UNTOUCHED,
-    SUNDER_I_WORKED_ON,      /* its moves are to be taken over */
-    SUNDER_I_FOUND_CHEAPEST, /* likewise, and no solution is cheaper, whatever stands around the cluster */
-    SUNDER_I_FOUND_NONE      /* it is brief, and no solution was found */
+    SUNDER_I_WORKED_ON,      /* its new moves are to be used */
+    SUNDER_I_FOUND_CHEAPEST, /* likewise, and no other layout of the cluster is cheaper, wherever other bodies stand */
+    SUNDER_I_FOUND_NONE      /* no solution was found, and `brief` is set */
 } sunder_i_outcome;
 
 typedef struct sunder_i_cluster {
-    uint32_t *body; /* members, ascending; fixed ones too */
+    uint32_t *body; /* [n] members, ascending, including fixed ones */
     size_t n;
-    double about;           /* each body looks at least this far, times a factor (surroundings.c) */
-    double margin;          /* what is demanded beyond the gap, to cover rounding */
-    bool touching;          /* two alone may stand without the margin: no exact check has failed yet */
-    bool starts_from_areas; /* it begins from where prices of area put it */
-    bool limited;           /* by limits, fixed bodies, the rule against jumps: it may have no solution */
-    bool brief;             /* if no solution is found nothing is given up, and nothing moves */
+    double about;           /* a lower bound of how far each body looks around itself, times a factor
+                             * (surroundings.c) */
+    double margin;          /* the distance demanded beyond the gap, to cover rounding */
+    bool touching;          /* a lone pair may do without the margin, since no exact check has failed so far */
+    bool starts_from_areas; /* a crowd that starts from positions computed from prices of area */
+    bool limited;           /* limits, fixed bodies or the rule against jumps may leave no solution */
+    bool brief;             /* if no solution is found, no pair is given up, and no body moves */
     sunder_i_outcome outcome;
-    sunder_bound_pair measured;       /* two features that were asked how far they have to go apart; least 0: none */
-    sunder_i_relaxations relaxations; /* of pairs that its solution gave up, or in place of older ones; owned */
-    sunder_i_restored *restored;      /* [restored_n] relaxations of the model that have ended; owned */
+    sunder_bound_pair measured;       /* two features and their least separation, if it was computed; least 0: it was
+                                       * not */
+    sunder_i_relaxations relaxations; /* of pairs that were given up; they replace older ones; owned */
+    sunder_i_restored *restored;      /* [restored_n] relaxations of the model that no longer hold; owned */
     size_t restored_n;
-    sunder_i_trace_log log;  /* what its stages did, where the layer is traced; owned */
-    sunder_i_id_pair *guest; /* [guests] one of its bodies, and one that is in its way and might join it; owned */
+    sunder_i_trace_log log;  /* steps of its stages, if the layer is traced; owned */
+    sunder_i_id_pair *guest; /* [guests] one of its bodies, and a body outside that blocks it and might join; owned */
     size_t guests, guest_capacity;
 } sunder_i_cluster;
 
-/* Two bodies of a cluster with relaxations between their members, and the request to be made for these relaxations. */
+/* A request to end the relaxations between the members of two bodies of a cluster. */
 typedef struct sunder_i_retry {
-    uint32_t root; /* of the cluster */
+    uint32_t root; /* root of the cluster */
     sunder_i_id_pair body;
-    const uint32_t *relaxation; /* [relaxations] between members of theirs: places in the model's */
+    const uint32_t *relaxation; /* [relaxations] indices into the model's relaxations */
     size_t relaxations;
-    size_t single;  /* 0: all of theirs, which are asked together; else which of them, by itself, from 1 on */
-    bool overlap;   /* do members overlap? */
-    bool resolve;   /* ask for all that is owed, of those that are not infeasible */
-    bool disjoint;  /* ask, at least, that they do not overlap, those that can be parted so far */
-    double missing; /* what it would take */
+    size_t single;  /* 0: all relaxations between the two bodies, together; k > 0: the k-th of them alone */
+    bool overlap;   /* members of the two bodies overlap */
+    bool resolve;   /* the full distance may be demanded: not all relaxations are infeasible */
+    bool disjoint;  /* at least the end of the overlap may be demanded: limits allow it */
+    double missing; /* the move that is needed, roughly */
 } sunder_i_retry;
 
 /* ---- solve_cluster.c --------------------------------------------------------------------------------------------- */
 
-/* Computes the least moves of a cluster's bodies from their present places, rounded; it ignores all other bodies.
- * Where limits leave no solution, it gives pairs up and solves the rest. */
+/* Computes the least moves of a cluster's bodies from their present places, rounded, ignoring all other bodies. If no
+ * solution is found, pairs are given up and the rest is solved. */
 sunder_status sunder_i_cluster_solve(const sunder_i_model *model, sunder_i_cluster *cluster, double *move,
                                      sunder_error *err);
 
 /* ---- free_positions.c -------------------------------------------------------------------------------------------- */
 
-/* May a search need the shape of a body, whatever else is in its cluster? Only the members of such bodies are
+/* May a search need the united shape of the body, in whatever cluster it is? The members of other bodies need not be
  * united. */
 bool sunder_i_cluster_may_want_shape(const sunder_i_model *model, uint32_t body);
 
 /* ---- retry_cluster.c --------------------------------------------------------------------------------------------- */
 
-/* Pairs given up are asked once more for all that they owe, and held to it where there is a solution, the first ones
- * first. All others keep theirs, and neighbours outside the cluster stay where they are. */
+/* Demands the full distance of given-up pairs again, in the order of `retry`; a pair for which there is a solution
+ * keeps it from then on. All other relaxations hold, and bodies outside the cluster keep their places. */
 sunder_status sunder_i_cluster_retry(const sunder_i_model *model, sunder_i_cluster *cluster,
                                      const sunder_i_retry *retry, size_t retries, double *move, sunder_error *err);
-/* Do the two features overlap now, and could limits let them be parted, if not to the gap? */
+/* Do the two features of the relaxation overlap, and may their limits suffice to end the overlap, if not for the
+ * gap? */
 bool sunder_i_can_be_disjoint(const sunder_i_model *model, const sunder_i_relaxation *relaxation);
 
 /* ---- resume.c ---------------------------------------------------------------------------------------------------- */
 
-/* The same from moves that are thought to be a solution without those relaxations, n of them, sorted: *done if it is
- * one; else moves are as they were. */
+/* Descends from moves that are presumably a solution without the n sorted relaxations `restored`. *done if that ends
+ * without clashes; otherwise the moves do not change. */
 sunder_status sunder_i_cluster_resume(const sunder_i_model *model, sunder_i_cluster *cluster,
                                       const sunder_i_restored *restored, size_t n, double *move, bool *done,
                                       sunder_error *err);
 
 /* ---- improve.c --------------------------------------------------------------------------------------------------- */
 
-/* Better sides: the same from a free start, never dearer; neighbours outside the cluster stay where they are. */
+/* Searches for better sides, starting from a layout without clashes. The result is never more expensive. Bodies outside
+ * the cluster keep their places. */
 sunder_status sunder_i_cluster_improve(const sunder_i_model *model, const sunder_i_cluster *cluster, double *move,
                                        sunder_error *err);
 
-/* From moves that need not be free down to such as are, neighbours outside the cluster staying where they are: *found,
- * if they cost less than `cost`; rounded. */
+/* Descends from moves that may clash, while bodies outside the cluster keep their places. *found if that ends in a
+ * layout without clashes that costs less than `cost`; the moves are rounded then. */
 sunder_status sunder_i_cluster_descend(const sunder_i_model *model, const sunder_i_cluster *cluster, double cost,
                                        double *move, bool *found, sunder_error *err);
 
 /* ---- pair_margin.c ----------------------------------------------------------------------------------------------- */
 
-/* A pair of things that is left in conflict, and that rounding made slightly worse: *done, if it and the bodies around
- * it have places where it stands better by the margin; rounded. All others keep what they owe or are held to; others:
- * moved pairs that are left in conflict get the margin, too, otherwise only those that have it. */
+/* A pair of things a and b that is left in conflict stands slightly worse than at the start, due to rounding. Demands
+ * the margin for it, moving it and the bodies around it; other pairs keep their demands. others: the margin is also
+ * demanded of other pairs left in conflict that have moved, otherwise only of those that keep it now. *done if there is
+ * a solution; its moves are rounded. */
 sunder_status sunder_i_cluster_demand_margin(const sunder_i_model *model, const sunder_i_cluster *cluster, uint32_t a,
                                              uint32_t b, bool others, double *move, bool *done, sunder_error *err);
 
 /* ---- fit_given_up.c ---------------------------------------------------------------------------------------------- */
 
-/* Two bodies that were given up: are there places for them and those about them that miss no more than `room` of what
- * they owe? *found, and the moves, not rounded. Others keep what they owe, or are held to, as nearly. from_home: all of
- * a small cluster begin there. */
+/* Two bodies a and b were given up. *found if they and the bodies around them have places at which every distance is
+ * missed by at most `room`; the moves are not rounded. from_home: all bodies of a small cluster start from their
+ * original places. */
 sunder_status sunder_i_cluster_fit(const sunder_i_model *model, const sunder_i_cluster *cluster, uint32_t a, uint32_t b,
                                    double room, bool from_home, double *move, bool *found, sunder_error *err);
 
 /* ---- blocking_neighbours.c --------------------------------------------------------------------------------------- */
 
-/* Finds bodies of the cluster that would have a nearer place but for others that might move: pairs of the two go to
- * cluster->guest. False if memory is out. */
+/* Finds bodies of the cluster that have a nearer free place if movable bodies outside the cluster are ignored. The
+ * pairs of the two go to cluster->guest. False if memory is out. */
 bool sunder_i_cluster_find_blocking(const sunder_i_model *model, sunder_i_cluster *cluster, const double *move);
 
 #endif

@@ -1,4 +1,5 @@
-/* The search for the moves of one cluster: state shared by its stages. All in doubles; see ../../README.md. */
+/* The state of the search for the moves of one cluster, which its stages share. All numbers are doubles; see
+ * ../../README.md. */
 #ifndef SUNDER_I_CLUSTER_SEARCH_H
 #define SUNDER_I_CLUSTER_SEARCH_H
 
@@ -76,63 +77,66 @@ void sunder_i_search_free(sunder_i_search *search);
 /* The checker, for builds that assert: bodies ascend, moves are numbers, restored pairs are sorted. Returns NULL, or
  * what does not hold. */
 const char *sunder_i_search_check(const sunder_i_search *search);
-/* Work done so far, in constraints looked at. */
+/* The work done so far, in constraints examined. */
 static inline uint64_t sunder_i_search_work(const sunder_i_search *s) { return s->steps + s->program.work; }
-/* How far body i may be sent. */
+/* The limit of body i's move. */
 double sunder_i_search_limit(const sunder_i_search *search, uint32_t i);
-/* By how much it is farther at t, by more than a hair; else 0 (limits.c). */
+/* By how much body i exceeds its limit at t; 0 if it exceeds it by at most the slack that limits.c defines. */
 double sunder_i_search_excess(const sunder_i_search *search, uint32_t i, const double *t);
-/* How many of its bodies may move. */
+/* The number of movable bodies. */
 size_t sunder_i_search_movers(const sunder_i_search *search);
-/* The place of a body of the model in the search, or SUNDER_I_NOBODY. */
+/* The index in the search of a body of the model, or SUNDER_I_NOBODY. */
 uint32_t sunder_i_search_place_of(const sunder_i_search *search, uint32_t body);
-/* sum w |t|^2 */
+/* The cost of the moves t: the sum of weight times squared move. */
 double sunder_i_search_cost(const sunder_i_search *search, const double *t);
 
 /* ---- surroundings.c ---------------------------------------------------------------------------------------------- */
 
-/* The same for the bodies of a cluster, which stand at move, and those about it, which stay where they stand. If it
- * fails it is to be freed, too. */
+/* Begins a search for the bodies of a cluster at the given moves, and the bodies around it, which do not move. On
+ * failure the caller frees it, too. */
 bool sunder_i_search_init_about(sunder_i_search *search, const sunder_i_model *model, const sunder_i_cluster *cluster,
                                 const double *move);
 
 /* ---- near.c: neighbours ------------------------------------------------------------------------------------------ */
 
-/* Called for every pair of bodies, one of them movable, that stand within reach of each other at t. */
+/* Called for each pair of bodies with a movable one whose boxes at t are within `reach` of each other. */
 typedef void (*sunder_i_visit_pair)(sunder_i_search *search, uint32_t i, uint32_t j, void *context);
 
 void sunder_i_search_visit_near(sunder_i_search *search, const double *t, double reach, sunder_i_visit_pair visit,
                                 void *context);
-/* The same for every pair that might, were one of them, or both, where it came from. */
+/* The same for the present moves, if each body may also be in its original place. */
 void sunder_i_search_visit_near_or_home(sunder_i_search *search, double reach, sunder_i_visit_pair visit,
                                         void *context);
 
 /* ---- visited_boxes.c: where bodies have been --------------------------------------------------------------------- */
 
-/* The bodies that body i could meet or pass, anywhere within reach of its original place: a superset, as indices in
- * ascending order, in search->about. False if memory is out. */
+/* Stores in search->about, ascending, the indices of all bodies that body i could meet or pass anywhere within `reach`
+ * of its original place; and perhaps of others. False if memory is out. */
 bool sunder_i_search_find_about(sunder_i_search *search, uint32_t i, double reach);
 
 /* ---- piece_pairs.c: what two bodies owe each other, piece by piece ----------------------------------------------- */
 
-/* What two pieces without a relaxation are to keep: the gap, or what a feature owes the barrier; and the margin. */
+/* The distance that two pieces without a relaxation have to keep: the gap, or the one from a barrier, plus the
+ * margin. */
 double sunder_i_search_owed(const sunder_i_search *search, const sunder_i_body_piece *a, const sunder_i_body_piece *b);
-/* Is there a relaxation between bodies of these numbers? Then shifts are no longer than *reach, which is 0 where
- * not. */
+/* Is there a relaxation between bodies `body` and `other` of the model? *reach is an upper bound of its shifts; 0 if
+ * there is none. */
 bool sunder_i_search_is_relaxed(const sunder_i_search *search, uint32_t body, uint32_t other, double *reach);
 
-/* Two convex pieces, of bodies i and j, or a wall of one and a piece of the other that it keeps inside. */
+/* Two convex pieces, one each of bodies i and j; or a wall of one body and a piece of the other body, which the wall
+ * keeps inside. */
 typedef struct sunder_i_piece_pair {
     const sunder_i_body_piece *a, *b;   /* of i, of j */
-    double offset[2];                   /* of j's origin from i's */
-    uint64_t key;                       /* tells it from all others */
-    sunder_i_inclusion_state inclusion; /* of a wall; SUNDER_I_LAPSED: these are pieces that owe each other the gap */
-    bool relaxed;                       /* the bodies: some of the pieces owe each other less */
+    double offset[2];                   /* the origin of j minus that of i */
+    uint64_t key;                       /* identifies the pair */
+    sunder_i_inclusion_state inclusion; /* of a wall; SUNDER_I_LAPSED: the two are pieces, which keep their distance */
+    bool relaxed;                       /* relaxations between the two bodies count */
     bool shadow;                        /* one of the two is an anchor, which may not pass the other */
-    const sunder_i_relaxation *relaxation; /* ... these; or NULL */
+    const sunder_i_relaxation *relaxation; /* the relaxation of the two pieces; or NULL */
 } sunder_i_piece_pair;
 
-/* The support line of its obstacle, or shadow, of these edges, that is farthest below u. */
+/* The support line of the pair's obstacle, or shadow, with these n edges, that is farthest from u on the obstacle's
+ * side. */
 static inline sunder_i_support sunder_i_search_support(const sunder_i_piece_pair *pair,
                                                        const sunder_i_obstacle_edge *edge, size_t n, const double u[2])
 {
@@ -141,30 +145,30 @@ static inline sunder_i_support sunder_i_search_support(const sunder_i_piece_pair
 
 typedef void (*sunder_i_visit_piece_pair)(sunder_i_search *search, const sunder_i_piece_pair *pair, void *context);
 
-/* All pairs of pieces of the two whose boxes are within reach of each other at relative position u, and the shadows
- * that come as near; yields: they are held to their relaxations, where there are any. */
+/* Visits all pairs of pieces of bodies i and j whose boxes are within `reach` of each other at relative position u, and
+ * the shadows that may be as near. yields: relaxations count. */
 void sunder_i_search_piece_pairs(sunder_i_search *search, uint32_t i, uint32_t j, const double u[2], double reach,
                                  bool yields, sunder_i_visit_piece_pair visit, void *context);
-/* Of that: the walls of `holder` that are within reach of the pieces of `other`, which stands at v from it.
- * pair->offset is the caller's; swapped: the holder is j. */
+/* The same for the walls of `holder` and the pieces of `other`, which is at v relative to it. The caller sets
+ * pair->offset. swapped: the holder is body j. */
 void sunder_i_search_walls(sunder_i_search *search, const sunder_i_body *holder, const sunder_i_body *other,
                            const double v[2], double reach, sunder_i_piece_pair *pair, bool swapped,
                            sunder_i_visit_piece_pair visit, void *context);
-/* The relaxation that pieces a and b are held to; NULL: none, they owe each other the gap. */
+/* The relaxation of pieces a and b; NULL: there is none, and they keep the full distance. */
 const sunder_i_relaxation *sunder_i_search_relaxation(const sunder_i_search *search, const sunder_i_body_piece *a,
                                                       const sunder_i_body_piece *b);
-/* Shifts the n corners of an obstacle as the relaxation says; returns the gap that it leaves. */
+/* Shifts the n corners of an obstacle by the relaxation; returns the distance that the relaxation demands. */
 double sunder_i_search_shift(const sunder_i_relaxation *relaxation, uint32_t of_j, double *corner, size_t n);
-/* Its obstacle A + (-B), in search->scratch, shifted by its relaxation: how many corners (0: memory is out), and
- * the gap that it owes. */
+/* Computes the pair's obstacle A + (-B), shifted by its relaxation, in search->scratch. Returns the number of its
+ * corners (0: memory is out); *gap is the distance demanded. */
 size_t sunder_i_search_obstacle(sunder_i_search *search, const sunder_i_piece_pair *pair, double *gap);
-/* The same as edges, *n of them, which stay until the next call; of a shadow those of shadow.h. NULL: memory is out, or
- * it casts none. */
+/* The same as *n edges, which are valid until the next call; for a shadow as in obstacle_shadow.h. NULL if memory is
+ * out, or if there is no shadow. */
 const sunder_i_obstacle_edge *sunder_i_search_edges(sunder_i_search *search, const sunder_i_piece_pair *pair, size_t *n,
                                                     double *gap);
 
-/* Returns by how much pair (i, j) violates the gap at relative position u. If it does and is relaxed, *yields is set
- * and its relaxation counts instead. */
+/* The violation of pair (i, j) at relative position u. If the full distance is violated and the pair is relaxed,
+ * *yields is set and the result is the violation of the relaxation. */
 double sunder_i_search_pair(sunder_i_search *search, uint32_t i, uint32_t j, const double u[2], bool *yields);
 
 /* ---- shadows.c: which bodies may not pass which ------------------------------------------------------------------ */
@@ -181,19 +185,19 @@ static inline void sunder_i_search_body_shadows(sunder_i_search *search, const s
     if (p->clear > far && q->clear > far && p->has->sides + q->has->sides == 0) return;
     sunder_i_search_visit_shadows(search, p, q, u, reach, visit, context);
 }
-/* Every pair of bodies, one of them movable, that may have passed each other on their way from home to t, or are
- * within reach of it, and do not stand within reach of each other there. */
+/* Visits each pair with a movable body that is farther apart than `reach` at t, but may have passed each other on the
+ * way from home to t, or be within reach of a shadow. */
 void sunder_i_search_visit_passing(sunder_i_search *search, const double *t, double reach, sunder_i_visit_pair visit,
                                    void *context);
-/* Is it such a pair? */
+/* May the pair have passed each other, or be within reach of a shadow? */
 bool sunder_i_search_may_pass(const sunder_i_search *search, const double *t, uint32_t i, uint32_t j, double reach);
 
 /* ---- clashes.c: clashes, and by how much ------------------------------------------------------------------------- */
 
-/* Fills search->clash with the pairs that violate the gap at t, or their relaxation; returns the worst violation, of
- * a limit of moves too. */
+/* Stores in search->clash the pairs that violate their distance or relaxation at t. Returns the greatest violation,
+ * including violated limits. */
 double sunder_i_search_find_clashes(sunder_i_search *search, const double *t);
-/* After a look at t, body i went elsewhere: what it clashes with now, in place of what it did. */
+/* Body i has moved since the clashes at t were found: replaces its clashes by the present ones. */
 void sunder_i_search_update_clashes(sunder_i_search *search, const double *t, uint32_t i);
 /* Appends pair (i, j) to search->clash if it clashes at t. */
 void sunder_i_search_add_clash(sunder_i_search *search, const double *t, uint32_t i, uint32_t j);

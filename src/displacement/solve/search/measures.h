@@ -1,6 +1,6 @@
-/* A cache of the violations of pairs at relative positions, as if none were relaxed. A pair at an unchanged relative
- * position has an unchanged violation: a descent evaluates where its program ends, evaluates there once more, and
- * begins the next round there. While bodies are moved one at a time all others stay in place. */
+/* A cache of the violations of pairs of bodies, by relative position, as if no pair were relaxed. Many relative
+ * positions recur: the layout in which a program ends is evaluated again, and the next round begins there; and while
+ * one body is tried elsewhere, all other pairs keep their relative position. */
 #ifndef SUNDER_I_MEASURES_H
 #define SUNDER_I_MEASURES_H
 
@@ -8,21 +8,22 @@
 #include <stdint.h>
 
 typedef struct sunder_i_measure {
-    uint32_t i, j; /* i == j: unused */
-    double u[2];   /* of j from i */
+    uint32_t i, j; /* the bodies; i == j: the slot is unused */
+    double u[2];   /* position of j relative to i */
     double missed;
-    uint64_t steps; /* that it took to find: counted again, so that what is kept changes no result */
+    uint64_t steps; /* the work of computing it, which is counted again, so that the cache does not change the remaining
+                     * effort */
 } sunder_i_measure;
 
-/* A table that forgets what another is put in the place of. A zeroed struct is empty. */
+/* A hash table in which a new entry replaces an old one in its slot. A zeroed struct is empty. */
 typedef struct sunder_i_measures {
     sunder_i_measure *slot;
     size_t slots; /* 0, or a power of two */
 } sunder_i_measures;
 
 void sunder_i_measures_free(sunder_i_measures *measures);
-/* The slot of bodies i and j, of `bodies` bodies, at u: it holds their value, or the caller fills it. NULL if memory is
- * out. */
+/* The slot for bodies i and j at relative position u. It holds their value (sunder_i_measure_is_of()), or the caller
+ * fills it. `bodies` determines the size of the table. NULL if memory is out. */
 sunder_i_measure *sunder_i_measures_slot(sunder_i_measures *measures, size_t bodies, uint32_t i, uint32_t j,
                                          const double u[2]);
 

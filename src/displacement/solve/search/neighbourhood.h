@@ -1,4 +1,4 @@
-/* A few bodies of a cluster, searched by themselves; see neighbourhood.c. */
+/* A few bodies of a cluster that are searched by themselves; see neighbourhood.c. */
 #ifndef SUNDER_I_NEIGHBOURHOOD_H
 #define SUNDER_I_NEIGHBOURHOOD_H
 
@@ -6,36 +6,36 @@
 
 typedef struct sunder_i_neighbourhood {
     sunder_i_search *all;
-    sunder_i_rtree tree; /* the boxes of all as they stand, from the first body's origin */
-    uint32_t *place;     /* [n] its members, as indices in `all`; `moving` of them move */
+    sunder_i_rtree tree; /* boxes of all bodies at the present moves, relative to the first body's origin */
+    uint32_t *place;     /* [n] the bodies of the neighbourhood, as indices in `all`; `moving` of them may move */
     size_t n, moving;
-    bool *moves; /* [all->n] */
-    bool wider;  /* there would have been more that could move */
+    bool *moves; /* [all->n] does the body move? */
+    bool wider;  /* further bodies could have been added */
     uint32_t *body;
-    double *t; /* where they stood */
+    double *t; /* [2 n] their moves before */
     sunder_i_list near;
 } sunder_i_neighbourhood;
 
 /* For a search without clashes. False if memory is out; the caller frees it in any case. */
 bool sunder_i_neighbourhood_init(sunder_i_neighbourhood *neighbourhood, sunder_i_search *all);
 void sunder_i_neighbourhood_free(sunder_i_neighbourhood *neighbourhood);
-/* Looks for a layout without clashes of bodies i and j and those around them, at most `most` bodies, while all
- * others stay where they are. If there is one, the bodies are moved there. reach: of the bodies farther than this
- * from a moved one none takes part, either as moved or as an obstacle. */
+/* Looks for a layout without clashes in which only bodies i and j and those around them move, at most `most` bodies. If
+ * there is one, the bodies are moved there. Bodies farther than `reach` from a moving one are ignored, even as
+ * obstacles. */
 bool sunder_i_neighbourhood_settle(sunder_i_neighbourhood *neighbourhood, uint32_t i, uint32_t j, size_t most,
                                    double reach);
-/* The same from a layout whose constraints are violated by rounding only; the solution is looked for near it. */
+/* The same for a layout that violates its constraints by rounding only; the nearest solution is looked for. */
 bool sunder_i_neighbourhood_repair(sunder_i_neighbourhood *neighbourhood, uint32_t i, uint32_t j, size_t most,
                                    double reach);
-/* Starts from the solution `best`, with i and j at other places, and descends with i, j and the bodies around them,
- * while all others stay. A solution that is cheaper than `best` by more than `least` is kept, and the difference is
- * returned; otherwise all bodies are put back to `best`, and 0 is returned. */
+/* Bodies i and j were moved away from the solution `best`: descends with them and the bodies around them, while all
+ * others keep their places. A solution that is cheaper than `best` by more than `least` is kept, and the difference is
+ * returned. Otherwise all bodies return to `best`, and 0 is returned. */
 double sunder_i_neighbourhood_descend(sunder_i_neighbourhood *neighbourhood, uint32_t i, uint32_t j, size_t most,
                                       double reach, const double *best, double least);
-/* Puts the n bodies of `place` at their given places, if no body around them is in the way. After that they are in no
- * neighbourhood. */
+/* Moves the n bodies of `place` to the moves `to`, unless another body is in the way; returns whether they were moved.
+ * The neighbourhood is empty after that. */
 bool sunder_i_neighbourhood_put(sunder_i_neighbourhood *neighbourhood, const double *to);
-/* The bodies within reach of body i, in order of number: into `near`. False if memory is out. */
+/* Stores in `near`, ascending, the bodies within `reach` of body i. False if memory is out. */
 bool sunder_i_neighbourhood_look_about(sunder_i_neighbourhood *neighbourhood, uint32_t i, double reach);
 
 #endif

@@ -6,159 +6,168 @@
 
 /* ---- free_positions.c: where there is room ----------------------------------------------------------------------- */
 
-/* Free relative positions of j to i, nearest to target first. */
+/* Finds positions of body j relative to body i that are free, at most `most` of them, the nearest to `target` first,
+ * and each farther than `spread` from those before. Returns their number. */
 size_t sunder_i_search_free_pair(sunder_i_search *search, uint32_t i, uint32_t j, const double target[2], double spread,
                                  size_t most, double (*places)[2]);
-/* The free place of body i nearest to where it came from, all others as they stand, no longer than limit. */
+/* Finds the free position of body i that is nearest to its original one, at most `limit` from it, while all other
+ * bodies keep their positions. False if there is none. */
 bool sunder_i_search_free_body(sunder_i_search *search, uint32_t i, double limit, double place[2]);
-/* The same without a limit of distance, also where jumps are forbidden. */
+/* The same without a limit. It also searches far away where jumps are forbidden. */
 bool sunder_i_search_free_body_anywhere(sunder_i_search *s, uint32_t i, double place[2]);
 
 /* ---- confined.c: pairs that are shut in -------------------------------------------------------------------------- */
 
-/* Are the two known to be shut in? Then no relative move of j that is farther from u is free. */
+/* Is the pair known to be shut in (shut_in_pairs.c)? Then no relative position of j that is farther than *farthest from
+ * u is free. */
 bool sunder_i_search_is_confined(const sunder_i_search *search, uint32_t i, uint32_t j, const double u[2],
                                  double *farthest);
 
 /* ---- limits.c: how far bodies may go ----------------------------------------------------------------------------- */
 
-/* Is it a tangent of a limit? By its key. */
+/* Is the constraint a tangent of a limit? Its key tells. */
 static inline bool sunder_i_is_tangent(const sunder_i_constraint *c) { return c->key >> 63; }
 
-/* Does any body overstep its limit at t? */
+/* Does any body exceed its limit at t? */
 bool sunder_i_search_is_beyond(const sunder_i_search *search, const double *t);
-/* Adds tangents for the limits that search->next oversteps. Returns whether there were any. */
+/* Adds tangents for the limits that search->next exceeds. Returns whether there were any. */
 bool sunder_i_search_constrain_limits(sunder_i_search *search);
 
 /* ---- constrain.c: what a program demands ------------------------------------------------------------------------- */
 
-/* Constraints by their keys. */
+/* Compares two constraints by their keys, for sorting. */
 static inline int sunder_i_by_constraint(const void *a, const void *b)
 {
     const sunder_i_constraint *c = a, *d = b;
     return c->key < d->key ? -1 : c->key > d->key;
 }
-/* Adds a constraint to the program, unless one of those from `first` on implies it; a weaker one is replaced. */
+/* Adds a constraint to the program, unless one of the constraints from index `first` on implies it. A weaker one is
+ * replaced. */
 void sunder_i_search_add_constraint(sunder_i_search *search, size_t first, const sunder_i_constraint *constraint);
-/* The program of all constraints around t; clashing pairs are separated at their present place (they miss a hair), or
- * each by its least translation. Returns whether a pair clashes there, or a limit is exceeded. */
+/* Makes the program of all constraints within `reach` of the present moves. A clashing pair is separated by its least
+ * translation; if as_it_stands, where it is, since it misses the distance by a hair only. Returns whether a pair
+ * clashes at the present moves, or a limit is exceeded. */
 bool sunder_i_search_constrain(sunder_i_search *search, double reach, bool as_it_stands);
-/* Adds the limits and the pieces that search->next runs into. Returns whether there were any. */
+/* Adds constraints for the limits that search->next exceeds and for the pieces that clash there. Returns whether there
+ * were any. */
 bool sunder_i_search_constrain_further(sunder_i_search *search);
 
 /* ---- descend.c: down from a position ----------------------------------------------------------------------------- */
 
-/* From t, the sequence of quadratic programs. True if it ends with no clash; then t is a local optimum. Else t is a
- * compromise. */
+/* Solves a sequence of quadratic programs from search->t on. True if it ends without a clash; then search->t is a local
+ * optimum. Otherwise search->t is a compromise between contradicting sides. */
 bool sunder_i_search_descend(sunder_i_search *search);
 /* Descends from a position without clashes, or stays there. */
 void sunder_i_search_descend_or_stay(sunder_i_search *search);
 /* Descends from search->t; keeps the result if it is free and cheaper than *cost, else returns to best. */
 bool sunder_i_search_attempt(sunder_i_search *search, double *best, double *cost);
-/* From t, with violations of at most a hair: finds the nearest layout that violates nothing on the sides taken there,
- * ignoring cheaper ones. True if there is one; it is t then. */
+/* For a layout search->t with tiny violations: finds the nearest layout without violations that keeps the sides of all
+ * pairs; cheaper layouts are not looked for. True if there is one, which search->t is then. */
 bool sunder_i_search_repair(sunder_i_search *search);
-/* A compromise misses a little everywhere, where there is a contradiction and where there is none. Of the sets of
- * bodies that have nothing to do with each other those go where the program in full sends them, if that solves it for
- * them. */
+/* A compromise violates distances everywhere, where sides contradict each other and where they do not. This solves the
+ * hard program of each component of the constraints by itself. The bodies of components with a solution take it. */
 void sunder_i_search_settle_components(sunder_i_search *search);
 
 /* ---- jump.c: out of clashes -------------------------------------------------------------------------------------- */
 
-/* Shortens moves to their limits. */
+/* Shortens moves that exceed their limits. */
 void sunder_i_search_clip(sunder_i_search *search);
-/* Takes bodies that clash out and puts them where there is room, as far as the patience goes. True if no clash is
- * left. */
+/* Moves clashing bodies one by one to free positions, until the patience ends. True if no clash is left. */
 bool sunder_i_search_jump(sunder_i_search *search);
-/* The same, with a patience of its own, which does not last for all surroundings. */
+/* The same with a small patience of its own, which may end before all bodies were tried. */
 bool sunder_i_search_jump_soon(sunder_i_search *search);
 
 /* ---- spread.c: away from one another ----------------------------------------------------------------------------- */
 
-/* Without jumps and limits: all move away from one centre until none clashes, and descend from there. */
+/* If jumps are forbidden and there are no limits: all bodies move away from a common centre until none clashes, and
+ * descend from there. */
 bool sunder_i_search_spread(sunder_i_search *search);
 
 /* ---- give_up.c: pairs that no solution was found for ------------------------------------------------------------- */
 
-/* From where the search ended, with clashes, to where the pairs that clashed at the start are relaxed and nothing
- * clashes; then down from there. The new relaxations are in search->relaxations. */
+/* For a search that ended with clashes: relaxes pairs that clashed at the start until nothing clashes, and descends
+ * from there. The new relaxations are in search->relaxations. start: [2 n] the moves that the search began with. */
 void sunder_i_search_give_up(sunder_i_search *search, const double *start);
-/* The same of a crowd that begins at home and has next to no room, before any other search. False: it is no such crowd,
- * as far as is seen; then all is as it was. */
+/* The same for a crowd that begins in its original places and has almost no room, before any other search. False if it
+ * is no such crowd, as far as is known; then nothing changes. */
 bool sunder_i_search_give_up_at_home(sunder_i_search *search, const double *start);
-/* Relaxes pairs that, in the original places, miss no more than the margin demanded beyond the distance owed. Returns
- * whether there were any. */
+/* Relaxes the pairs whose shortfall in the original places is at most the margin. Returns whether there were any. */
 bool sunder_i_search_waive_margins(sunder_i_search *search);
-/* Pair (i, j) is given up, if it is not yet. Returns whether it was so now; relaxations are to be indexed then. */
+/* Relaxes pair (i, j), unless it is relaxed already. Returns whether it was relaxed now; if so, the caller has to index
+ * the relaxations. */
 bool sunder_i_search_relax(sunder_i_search *search, uint32_t i, uint32_t j);
-/* The pairs that would clash with all at home; *n of them, sorted, the caller's. NULL if memory is out. */
+/* The pairs that clash if all bodies are in their original places: *n of them, sorted, owned by the caller. NULL if
+ * memory is out. */
 sunder_i_clash *sunder_i_search_at_home(sunder_i_search *search, size_t *n);
 
 /* ---- yield.c ----------------------------------------------------------------------------------------------------- */
 
-/* What clashes by more than a hair is relaxed, if it is one of the n that clash at home, or goes home, until nothing
- * does. */
+/* Until nothing clashes by more than `hair`: a clashing pair is relaxed if it is one of the n pairs at_home; otherwise
+ * its two bodies return to their original places. */
 void sunder_i_search_yield(sunder_i_search *search, const sunder_i_clash *at_home, size_t n, double hair);
-/* Returns whether it was elsewhere, and may move. */
+/* Moves body i to its original place. Returns whether it stood elsewhere and may move. */
 bool sunder_i_search_send_home(sunder_i_search *search, uint32_t i);
 
 /* ---- take_back.c: and asked for again ---------------------------------------------------------------------------- */
 
-/* From a position without clashes: what this search has given up, one pair after the other, and where it can be had it
- * goes there. */
+/* From a layout without clashes: demands the full distance again of each pair that this search relaxed, one after the
+ * other. A pair for which there is a solution is no longer relaxed. */
 void sunder_i_search_take_back(sunder_i_search *search);
-/* The same by pushing alone, of a search that stands without clashes. */
+/* The same by pushing alone (pushed.c). */
 void sunder_i_search_push_back(sunder_i_search *search);
 
 /* ---- common_moves.c ---------------------------------------------------------------------------------------------- */
 
-/* Those that stand near each other and went the same way but for a hair go the same way. */
+/* Gives neighbours whose moves differ by less than the tolerance exactly the same move, if nothing is in the way
+ * then. */
 void sunder_i_search_equalise_moves(sunder_i_search *search);
 
 /* ---- mend_few.c -------------------------------------------------------------------------------------------------- */
 
-/* A large crowd in which a body was sent back, with few clashes: these are settled with the bodies around them, or
- * yield where the crowd is very large; then nothing clashes. False: it is no such crowd, or settling failed; then all
- * is as before. */
+/* For a large crowd with few clashes of which a body was sent home (`pinned`): settles each clash together with the
+ * bodies around it; a very large crowd yields where that fails. True if nothing clashes then. False if it is no such
+ * crowd or settling failed; then nothing changes. */
 bool sunder_i_search_mend_few(sunder_i_search *search);
 
 /* ---- push_from_home.c -------------------------------------------------------------------------------------------- */
 
-/* A crowd in its original places, n pairs clashing there: gives up all of these, and takes back by pushing what it can.
- * False: that leaves at most this share, so there may be more room than pushing shows, or it is no such crowd; then all
- * is as before. */
+/* For a crowd in its original places, where n pairs clash: relaxes all of them, and restores by pushing those for which
+ * there is room. False, with nothing changed, if at most `share` of them stay relaxed, since there may be more room
+ * than pushing shows; or if it is no such crowd. */
 bool sunder_i_search_push_from_home(sunder_i_search *search, const double *start, const sunder_i_clash *at_home,
                                     size_t n, double share);
 
 /* ---- lone_pair.c ------------------------------------------------------------------------------------------------- */
 
-/* If the cluster is two features that are independent of all others: separates them at the least cost, and sets *done;
- * else all is as before. The measurements made for it are in cluster->measured in any case. */
+/* If the cluster is two features that no other feature affects: separates them at the least cost, and sets *done.
+ * Otherwise nothing changes. In either case cluster->measured has the least separation that was computed. */
 sunder_status sunder_i_search_separate_lone_pair(sunder_i_search *search, sunder_i_cluster *cluster, bool *done,
                                                  sunder_error *err);
 
 /* ---- solve_cluster.c: how a search ends -------------------------------------------------------------------------- */
 
-/* Rounds the moves of its bodies. */
+/* Rounds the moves of the search's bodies into move[2 * n]. */
 void sunder_i_search_round(const sunder_i_search *search, double *move);
-/* What became of pairs in conflict goes to the cluster. */
+/* Hands the search's relaxations and restored pairs over to the cluster. */
 void sunder_i_search_hand_over(sunder_i_search *search, sunder_i_cluster *cluster);
 
 /* ---- cheapest.c: are there any better sides? --------------------------------------------------------------------- */
 
-/* Are solutions taken down to the last of it here? Not where proofs follow: these go down by themselves, and begin from
- * where the search ends without this. */
+/* No proofs follow, so solutions are computed to the last digits here. Proofs do that themselves, from the layout in
+ * which the search ends without it. */
 static inline bool sunder_i_search_runs_without_proofs(const sunder_i_search *s)
 {
     return !(s->model->rules.effort > 0);
 }
-/* Is none cheaper than s->t, a solution, with the program that it solves, whatever the sides, but for rounding? It is
- * taken down to the last of it then; else all is as it was. That it is not the cheapest is never said. */
+/* Is it known that no layout is cheaper than the solution s->t, whatever the sides of pairs, up to rounding? s->program
+ * has to be the program that s->t solves. If it is known, s->t is computed to the last digits; otherwise nothing
+ * changes. False does not mean that there is a cheaper layout. */
 bool sunder_i_search_is_cheapest(sunder_i_search *search);
 
 /* ---- improve.c, reinsert.c: better sides ------------------------------------------------------------------------- */
 
-/* Tries other orders of putting bodies back, from best, which is free and costs *cost; both become what was found. */
+/* Takes some bodies out and puts them back in other orders, starting from the free layout `best`, which costs *cost.
+ * Both are replaced by a cheaper layout, if one is found. */
 void sunder_i_search_reorder(sunder_i_search *search, double *best, double *cost);
 
 #endif

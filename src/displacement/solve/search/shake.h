@@ -1,4 +1,4 @@
-/* Better layouts of a contact group: what the search offers to the proofs. */
+/* Better layouts of a contact group: the functions that the search offers to proofs. */
 #ifndef SUNDER_I_SHAKE_H
 #define SUNDER_I_SHAKE_H
 
@@ -6,7 +6,7 @@
 
 extern const sunder_i_layout_search sunder_i_group_search;
 
-/* Looks for better moves at random, in `steps` steps at most. */
+/* Looks for cheaper moves of the group by random perturbation, in at most `steps` steps. */
 sunder_status sunder_i_group_shake(const sunder_i_model *model, const sunder_i_waived *waived, sunder_i_group *group,
                                    uint64_t steps, sunder_error *err);
 

@@ -99,7 +99,7 @@
 /* Parts of one body examined in one pass, and the most pieces of the other listed beforehand: both are kept on the
  * stack. */
 #define PARTS_AT_ONCE 32 /* fixed: the size of an array */
-#define MOST_FACING 256 /* fixed: the size of an array */
+#define MOST_FACING 256  /* fixed: the size of an array */
 /* Below this number listing beforehand gains nothing. */
 #define FEW_PARTS 12
 
