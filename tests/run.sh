@@ -32,6 +32,7 @@ setup_want "jq" jq jq --version
 setup_want "GDAL's Python module" python3-gdal /usr/bin/python3 -c "import osgeo.ogr"
 if [ "$all" ]; then
     setup_want "clang with sanitizers, for the fuzz tests" "clang libclang-rt-dev" setup_has_fuzzer
+    setup_want "a compiler for s390x and its emulator" "gcc-s390x-linux-gnu libc6-dev-s390x-cross qemu-user" qemu-s390x --version
     setup_want "pandoc" pandoc pandoc --version
     setup_want "Doxygen" doxygen doxygen --version
     setup_want "QGIS's Python module" "qgis python3-qgis" /usr/bin/python3 -c "import qgis.core"
