@@ -40,9 +40,13 @@ static sunder_feature *add_square(crowd *c, double x, double y)
     return &c->feature[c->n++];
 }
 
+/* y is drawn first. As arguments of one call both would be drawn in the order that the compiler chooses. */
 static void add_heap(crowd *c, rng *g, size_t n, double x, double y, double within)
 {
-    for (size_t k = 0; k < n; k++) add_square(c, x + within * rng_unit(g), y + within * rng_unit(g));
+    for (size_t k = 0; k < n; k++) {
+        const double up = y + within * rng_unit(g), right = x + within * rng_unit(g);
+        add_square(c, right, up);
+    }
 }
 
 static void begin(crowd *c)
