@@ -1,5 +1,5 @@
 /* Computes a lower bound on the joint cost of bodies from prices of area, over a sequence of ever finer grids. */
-#include "displacement/prove/areas/climb.h"
+#include "displacement/prove/areas/price_grids.h"
 
 #include "base/extremes.h"
 
@@ -22,7 +22,7 @@ static bool round_prices(const float *price, sunder_i_prices *out)
 
 /* Computes the bound that the prices of the present grid prove. If it exceeds *bound, these prices replace *best, and
  * *bound is set to it; otherwise both remain. Returns false if memory is out. */
-static bool prove(const sunder_i_climb *l, sunder_i_prices *best, double *bound)
+static bool prove_prices(const sunder_i_price_grids *l, sunder_i_prices *best, double *bound)
 {
     sunder_i_prices own = {.grid = l->grid};
     double proved = 0;
@@ -41,13 +41,13 @@ static bool prove(const sunder_i_climb *l, sunder_i_prices *best, double *bound)
 sunder_status sunder_i_areas_bound(const sunder_i_model *model, const uint32_t *body, size_t n, sunder_i_prices *prices,
                                    double *bound, sunder_error *err)
 {
-    sunder_i_climb l;
+    sunder_i_price_grids l;
     *prices = (sunder_i_prices){0};
     *bound = 0;
-    sunder_status status = sunder_i_climb_init(&l, model, body, n, 0, err);
+    sunder_status status = sunder_i_price_grids_init(&l, model, body, n, 0, err);
     while (!status && l.left > 0)
-        if (!sunder_i_climb_on(&l) || !prove(&l, prices, bound)) status = sunder_i_no_memory(err);
-    sunder_i_climb_free(&l);
+        if (!sunder_i_price_grids_refine(&l) || !prove_prices(&l, prices, bound)) status = sunder_i_no_memory(err);
+    sunder_i_price_grids_free(&l);
     if (status) {
         sunder_i_free(prices->price);
         *prices = (sunder_i_prices){0};

@@ -70,21 +70,21 @@ static float price_of_row(const int32_t *mass, const float *price, size_t n)
  * squares. */
 static double price_of(const ascent *a, const sunder_i_masses *m, const float *price, int64_t dx, int64_t dy)
 {
-    const sunder_i_part_on_grid w = sunder_i_part_on(a->grid, m, dx, dy);
+    const sunder_i_grid_window w = sunder_i_grid_window_of(a->grid, m, dx, dy);
     double sum = 0;
     for (size_t j = w.row; j < w.rows; j++)
-        sum += (double)price_of_row(m->at + j * m->columns + w.column, price + sunder_i_part_node(a->grid, &w, j),
-                                    w.columns - w.column);
+        sum += (double)price_of_row(m->at + j * m->columns + w.column,
+                                    price + sunder_i_grid_window_node(a->grid, &w, j), w.columns - w.column);
     return sum / (double)SUNDER_I_MASS_OF_SQUARE;
 }
 
 /* Adds `share` times the mass `m`, moved by (dx, dy) squares, to the demand slope[] at the nodes. */
-static void occupy(const ascent *a, const sunder_i_masses *m, double share, int64_t dx, int64_t dy, float *slope)
+static void occupy_place(const ascent *a, const sunder_i_masses *m, double share, int64_t dx, int64_t dy, float *slope)
 {
-    const sunder_i_part_on_grid w = sunder_i_part_on(a->grid, m, dx, dy);
+    const sunder_i_grid_window w = sunder_i_grid_window_of(a->grid, m, dx, dy);
     const float each = (float)(share / (double)SUNDER_I_MASS_OF_SQUARE);
     for (size_t j = w.row; j < w.rows; j++) {
-        float *restrict s = slope + sunder_i_part_node(a->grid, &w, j);
+        float *restrict s = slope + sunder_i_grid_window_node(a->grid, &w, j);
         const int32_t *restrict mass = m->at + j * m->columns + w.column;
         for (size_t i = 0; i < w.columns - w.column; i++) s[i] += each * (float)mass[i];
     }
@@ -95,7 +95,7 @@ static void occupy(const ascent *a, const sunder_i_masses *m, double share, int6
 static void occupy_all(const ascent *a, const sunder_i_masses *m, const answer *s, float *slope)
 {
     for (const part *p = s->part; p < s->part + s->parts; p++)
-        if (p->share > LITTLE) occupy(a, m, p->share, p->dx, p->dy, slope);
+        if (p->share > LITTLE) occupy_place(a, m, p->share, p->dx, p->dy, slope);
 }
 
 /* Returns how far from its original position the payer has to be evaluated, in squares. `stays` is the price of
@@ -120,7 +120,7 @@ static double paid_at(const asking *a, int64_t dx, int64_t dy, double most)
 /* Evaluates the moves by multiples of GLANCES squares, up to `half` multiples along either axis, and stores what is
  * paid in a->glance. Returns the least of these values and `stays`. Moves that by themselves cost more than that least
  * plus `doubt` are stored without their price. */
-static double glance(const asking *a, double stays, double doubt, int64_t half)
+static double sample_places(const asking *a, double stays, double doubt, int64_t half)
 {
     double least = stays, *seen = a->glance;
     for (int64_t y = -half; y <= half; y++)
@@ -185,7 +185,7 @@ static bool find_shares(asking *a, double stays)
     if (!sunder_i_reserve(&a->glance, &a->glance_capacity, across * across, sizeof *a->glance)) return false;
     const double limit = payer->limit / a->ascent->grid->side;
     a->farthest = limit * limit;
-    double least = glance(a, stays, doubt, half);
+    double least = sample_places(a, stays, doubt, half);
     for (int64_t y = -half; y < half; y++)
         for (int64_t x = -half; x < half; x++) {
             const double *seen = a->glance + (size_t)(y + half) * across + (size_t)(x + half);
@@ -254,7 +254,7 @@ static void blur_along(const sunder_i_grid *l, size_t stride, const float *restr
 /* Smooths `field` along both axes, BLURRED times. The operator equals its transpose, so it also turns the gradient by
  * smoothed prices into the gradient by the unsmoothed ones. The border without prices is wide enough for what the
  * smoothing spreads. */
-static void blur(const ascent *a, float *field)
+static void blur_field(const ascent *a, float *field)
 {
     for (int k = 0; k < BLURRED; k++) {
         blur_along(a->grid, 1, field, a->half);
@@ -268,7 +268,7 @@ static bool ask_all(ascent *a, const float *wish, float *slope, double *value)
 {
     const size_t nodes = sunder_i_grid_nodes(a->grid);
     memcpy(a->price, wish, nodes * sizeof *wish);
-    blur(a, a->price);
+    blur_field(a, a->price);
     *value = 0;
     for (size_t k = 0; k < nodes; k++) {
         *value -= a->price[k];
@@ -283,7 +283,7 @@ static bool ask_all(ascent *a, const float *wish, float *slope, double *value)
             occupy_all(a, &a->payer[first + k].masses, &a->answer[k], slope);
         }
     }
-    blur(a, slope);
+    blur_field(a, slope);
     return true;
 }
 
@@ -325,7 +325,7 @@ static inline void propose_node(const place *at, size_t k, double to, float *ste
 
 /* Computes the step from `at` along the gradient with step length `length`, cut off where a price would become
  * negative. *gain is the increase of the value that the gradient predicts. */
-static void propose(const sunder_i_grid *l, const place *at, double length, float *step, double *gain)
+static void propose_step(const sunder_i_grid *l, const place *at, double length, float *step, double *gain)
 {
     *gain = 0;
     for (size_t j = 0; j < l->rows; j++) {
@@ -344,19 +344,20 @@ static void propose(const sunder_i_grid *l, const place *at, double length, floa
  * did not turn against the step, the length is STEP_BLIND. */
 static double next_length(const sunder_i_grid *l, const place *from, const place *to)
 {
-    double ways = 0, turns = 0;
+    double squared_steps = 0, turned_steps = 0;
     for (size_t k = 0; k < sunder_i_grid_nodes(l); k++) {
         const double way = (double)to->price[k] - (double)from->price[k];
-        ways += way * way;
-        turns += way * ((double)from->slope[k] - (double)to->slope[k]);
+        squared_steps += way * way;
+        turned_steps += way * ((double)from->slope[k] - (double)to->slope[k]);
     }
-    return turns > 0 ? sunder_i_min(sunder_i_max(ways / turns, STEP_LEAST), STEP_MOST) : STEP_BLIND;
+    return turned_steps > 0 ? sunder_i_min(sunder_i_max(squared_steps / turned_steps, STEP_LEAST), STEP_MOST)
+                            : STEP_BLIND;
 }
 
 /* Moves by the step, or by a share of it, to `other`. The share is reduced by the factor SHORTER, at most SHORTENED
  * times in all, until the value exceeds `least` by the share ENOUGH of the increase that is predicted by `gain`.
  * Returns false if memory is out. */
-static bool go(ascent *a, const place *at, place *other, const float *step, double gain, double least)
+static bool take_step(ascent *a, const place *at, place *other, const float *step, double gain, double least)
 {
     double share = 1;
     for (int k = 0; k < SHORTENED; k++, share *= SHORTER) {
@@ -368,16 +369,16 @@ static bool go(ascent *a, const place *at, place *other, const float *step, doub
     return true;
 }
 
-static bool climb(ascent *a, place *at, place *other, float *step, unsigned rounds)
+static bool climb_prices(ascent *a, place *at, place *other, float *step, unsigned rounds)
 {
     double length = FIRST_STEP, gain, last[REMEMBERED];
     if (!ask_all(a, at->price, at->slope, &at->value)) return false;
     for (int k = 0; k < REMEMBERED; k++) last[k] = at->value;
     for (unsigned round = 0; round < rounds; round++) {
-        propose(a->grid, at, length, step, &gain);
+        propose_step(a->grid, at, length, step, &gain);
         double least = at->value;
         for (int k = 0; k < REMEMBERED; k++) least = sunder_i_min(least, last[k]);
-        if (!go(a, at, other, step, gain, least)) return false;
+        if (!take_step(a, at, other, step, gain, least)) return false;
         length = next_length(a->grid, at, other);
         const place swap = *at;
         *at = *other;
@@ -412,9 +413,9 @@ bool sunder_i_prices_ascend(const sunder_i_grid *grid, const sunder_i_payer *pay
         place at = {work, work + nodes, 0}, other = {work + 2 * nodes, work + 3 * nodes, 0};
         memcpy(at.price, price, nodes * sizeof *price);
         keep_inner(grid, at.price);
-        ok = climb(&a, &at, &other, work + 4 * nodes, rounds);
+        ok = climb_prices(&a, &at, &other, work + 4 * nodes, rounds);
         if (ok) memcpy(price, at.price, nodes * sizeof *price);
-        if (ok) blur(&a, price);
+        if (ok) blur_field(&a, price);
     }
     end_answers(&a);
     sunder_i_free(work);

@@ -22,7 +22,7 @@ typedef struct ring {
     size_t n, capacity;
 } ring;
 
-static bool push(ring *r, double x, double y)
+static bool push_corner(ring *r, double x, double y)
 {
     if (2 * r->n + 2 > r->capacity && !sunder_i_reserve(&r->xy, &r->capacity, 2 * r->n + 2, sizeof *r->xy))
         return false;
@@ -32,18 +32,18 @@ static bool push(ring *r, double x, double y)
 }
 
 /* Writes to *out the part of the ring in which sign * (coordinate c) <= sign * at. Returns false if memory is out. */
-static bool clip(const ring *in, int c, double at, double sign, ring *out)
+static bool clip_ring(const ring *in, int c, double at, double sign, ring *out)
 {
     out->n = 0;
     for (size_t k = 0; k < in->n; k++) {
         const double *a = in->xy + 2 * k, *b = in->xy + 2 * (k + 1 < in->n ? k + 1 : 0);
         const double da = sign * (a[c] - at), db = sign * (b[c] - at);
-        if (da <= 0 && !push(out, a[0], a[1])) return false;
+        if (da <= 0 && !push_corner(out, a[0], a[1])) return false;
         if ((da < 0 && db > 0) || (da > 0 && db < 0)) {
             double p[2];
             p[c] = at;
             p[!c] = a[!c] + (b[!c] - a[!c]) * (da / (da - db));
-            if (!push(out, p[0], p[1])) return false;
+            if (!push_corner(out, p[0], p[1])) return false;
         }
     }
     return true;
@@ -51,14 +51,14 @@ static bool clip(const ring *in, int c, double at, double sign, ring *out)
 
 /* Writes to *out the part of the ring in which from <= coordinate c <= from + 1; `half` is scratch space. Returns false
  * if memory is out. */
-static bool slice(const ring *in, int c, double from, ring *half, ring *out)
+static bool slice_ring(const ring *in, int c, double from, ring *half, ring *out)
 {
-    return clip(in, c, from, -1, half) && clip(half, c, from + 1, 1, out);
+    return clip_ring(in, c, from, -1, half) && clip_ring(half, c, from + 1, 1, out);
 }
 
 /* Computes the integrals of 1, u, v and u v over the area that the ring encloses, where (u, v) is the position relative
  * to (x, y). */
-static void integrate(const ring *r, double x, double y, double out[4])
+static void integrate_moments(const ring *r, double x, double y, double out[4])
 {
     for (int k = 0; k < 4; k++) out[k] = 0;
     for (size_t k = 0; k < r->n; k++) {
@@ -78,10 +78,10 @@ typedef struct spreading {
     size_t columns, rows;
 } spreading;
 
-static void give(spreading *s, size_t i, size_t j)
+static void give_square(spreading *s, size_t i, size_t j)
 {
     double m[4];
-    integrate(&s->square, (double)i, (double)j, m);
+    integrate_moments(&s->square, (double)i, (double)j, m);
     const double share[4] = {m[0] - m[1] - m[2] + m[3], m[1] - m[3], m[2] - m[3], m[3]};
     for (size_t k = 0; k < 4; k++) {
         const size_t at = (j + (k >> 1)) * s->columns + i + (k & 1);
@@ -102,17 +102,17 @@ static void span_of(const ring *r, int c, size_t most, size_t *from, size_t *to)
     *to = r->n ? (size_t)sunder_i_min(ceil(high), (double)most) : 0;
 }
 
-static bool spread(spreading *s)
+static bool spread_ring(spreading *s)
 {
     size_t from, to;
     span_of(&s->whole, 1, s->rows - 1, &from, &to);
     for (size_t j = from; j < to; j++) {
         size_t left, right;
-        if (!slice(&s->whole, 1, (double)j, &s->half, &s->row)) return false;
+        if (!slice_ring(&s->whole, 1, (double)j, &s->half, &s->row)) return false;
         span_of(&s->row, 0, s->columns - 1, &left, &right);
         for (size_t i = left; i < right; i++) {
-            if (!slice(&s->row, 0, (double)i, &s->half, &s->square)) return false;
-            give(s, i, j);
+            if (!slice_ring(&s->row, 0, (double)i, &s->half, &s->square)) return false;
+            give_square(s, i, j);
         }
     }
     return true;
@@ -120,7 +120,7 @@ static bool spread(spreading *s)
 
 /* Rounds the masses down to whole numbers, each reduced by more than its possible error. `doubt_each` is the possible
  * error per corner, in the unit of the whole numbers. */
-static void settle(const spreading *s, double doubt_each, sunder_i_masses *masses)
+static void round_masses(const spreading *s, double doubt_each, sunder_i_masses *masses)
 {
     double most = 0;
     masses->total = 0;
@@ -152,12 +152,12 @@ bool sunder_i_masses_make(const sunder_i_outline *outline, const sunder_i_grid *
     for (size_t r = 0, from = 0; ok && r < outline->rings; from = outline->ring_end[r++]) {
         s.whole.n = 0;
         for (size_t k = from; ok && k < outline->ring_end[r]; k++)
-            ok = push(&s.whole, outline->xy[2 * k] / side - x, outline->xy[2 * k + 1] / side - y);
-        ok = ok && spread(&s);
+            ok = push_corner(&s.whole, outline->xy[2 * k] / side - x, outline->xy[2 * k + 1] / side - y);
+        ok = ok && spread_ring(&s);
     }
     double far = 0;
     for (int k = 0; k < 4; k++) far = sunder_i_max(far, fabs(outline->box[k]) / side);
-    if (ok) settle(&s, CORNER_DOUBT + far * 0x1p-30, masses);
+    if (ok) round_masses(&s, CORNER_DOUBT + far * 0x1p-30, masses);
     sunder_i_free(s.whole.xy);
     sunder_i_free(s.row.xy);
     sunder_i_free(s.square.xy);

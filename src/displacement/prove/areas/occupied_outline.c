@@ -11,7 +11,7 @@
 #include <string.h>
 
 /* Computes the area and the bounding box of the rings as they are. */
-static void measure(sunder_i_outline *o)
+static void measure_outline(sunder_i_outline *o)
 {
     sunder_i_box_clear(o->box);
     size_t from = 0;
@@ -47,13 +47,13 @@ static sunder_status take_rings(const sunder_shape *shape, sunder_i_outline *o, 
             memcpy(o->xy + 2 * corners, xy, 2 * n * sizeof *xy);
             o->ring_end[o->rings++] = corners += n;
         }
-    measure(o);
+    measure_outline(o);
     return SUNDER_OK;
 }
 
 /* Sets *out to the union of the members of `shape`, since members may overlap and their common area must count once.
  * The caller frees *out. */
-static sunder_status unite(const sunder_shape *shape, sunder_shape **out, sunder_error *err)
+static sunder_status unite_members(const sunder_shape *shape, sunder_shape **out, sunder_error *err)
 {
     sunder_sum *sum = NULL;
     sunder_status status = sunder_shape_union(shape, NULL, &sum, err);
@@ -73,7 +73,7 @@ sunder_status sunder_i_outline_make(const sunder_i_model *model, uint32_t body, 
     if (model->rules.gap > 0)
         status = sunder_i_grow_by_tolerance(shape, model->rules.gap / 2 * HALF_GAP, &made, err);
     else if (sunder_shape_polygons(shape) > 1)
-        status = unite(shape, &made, err);
+        status = unite_members(shape, &made, err);
     if (!status) status = take_rings(made ? made : shape, out, err);
     sunder_shape_free(made);
     return status;

@@ -92,18 +92,18 @@ static int64_t sum_at(const asking *a, const uint32_t *what, int64_t more, int64
 {
     const sunder_i_masses *m = &a->payer->masses;
     const sunder_i_grid *grid = &a->field->prices->grid;
-    const sunder_i_part_on_grid w = sunder_i_part_on(grid, m, dx, dy);
+    const sunder_i_grid_window w = sunder_i_grid_window_of(grid, m, dx, dy);
     const uint32_t each = (uint32_t)more;
     uint64_t sum = 0;
     for (size_t j = w.row; j < w.rows; j++) {
-        const uint32_t *row = what + sunder_i_part_node(grid, &w, j);
+        const uint32_t *row = what + sunder_i_grid_window_node(grid, &w, j);
         const int32_t *mass = m->at + j * m->columns + w.column;
         for (size_t i = 0; i < w.columns - w.column; i++) sum += (uint64_t)((uint32_t)mass[i] + each) * row[i];
     }
     return (int64_t)sum;
 }
 
-static int64_t *slot(const asking *a, int64_t dx, int64_t dy)
+static int64_t *price_slot(const asking *a, int64_t dx, int64_t dy)
 {
     return &a->price[(dy + a->reach) * (2 * a->reach + 1) + dx + a->reach];
 }
@@ -113,15 +113,16 @@ static void price_ring(const asking *a, int64_t r)
 {
     for (int64_t dy = -r; dy <= r; dy++) {
         const int64_t stride = dy == -r || dy == r || r == 0 ? 1 : 2 * r;
-        for (int64_t dx = -r; dx <= r; dx += stride) *slot(a, dx, dy) = sum_at(a, a->field->prices->price, 0, dx, dy);
+        for (int64_t dx = -r; dx <= r; dx += stride)
+            *price_slot(a, dx, dy) = sum_at(a, a->field->prices->price, 0, dx, dy);
     }
 }
 
 /* Returns the least total over the corners of the parts of square (x, y), in units of 1 / PARTS_SQUARE. */
 static int64_t least_corner(const asking *a, int64_t x, int64_t y)
 {
-    const int64_t p00 = *slot(a, x, y), p10 = *slot(a, x + 1, y), p01 = *slot(a, x, y + 1),
-                  p11 = *slot(a, x + 1, y + 1);
+    const int64_t p00 = *price_slot(a, x, y), p10 = *price_slot(a, x + 1, y), p01 = *price_slot(a, x, y + 1),
+                  p11 = *price_slot(a, x + 1, y + 1);
     int64_t least = INT64_MAX;
     for (int64_t v = 0; v <= PARTS; v++)
         for (int64_t u = 0; u <= PARTS; u++) {
@@ -148,7 +149,8 @@ static void ask_square(asking *a, int64_t x, int64_t y)
     if ((double)square * (side * side) > limit * limit * (1 + 0x1p-48)) return;
     int64_t low = PARTS_SQUARE * a->weight * square; /* the cost of the move alone */
     if (low >= a->least) return;
-    const int64_t corner = least4(*slot(a, x, y), *slot(a, x + 1, y), *slot(a, x, y + 1), *slot(a, x + 1, y + 1));
+    const int64_t corner =
+        least4(*price_slot(a, x, y), *price_slot(a, x + 1, y), *price_slot(a, x, y + 1), *price_slot(a, x + 1, y + 1));
     /* true of most squares, for which the sum over the kinks is not needed */
     if (low + PARTS_SQUARE * corner - a->doubt >= a->least) return;
     const int64_t less = PARTS_SQUARE / 4 * sum_at(a, a->field->kink, a->payer->masses.slack, x, y);
@@ -237,7 +239,7 @@ static bool is_free_at_border(const sunder_i_prices *p)
 }
 
 /* Adds `value` to the total without rounding, in two halves of 32 bits. */
-static void add(sunder_total *total, int64_t value)
+static void add_exactly(sunder_total *total, int64_t value)
 {
     sunder_total_add(total, (double)(value >> 32) * 0x1p32);
     sunder_total_add(total, (double)(value & INT64_C(0xffffffff)));
@@ -262,7 +264,7 @@ static bool ask_all(const field *f, const sunder_i_payer *payer, size_t n, unsig
 {
     questions q = {f, payer, sunder_i_alloc(n, sizeof *q.paid)};
     const bool ok = q.paid && !sunder_i_parallel(threads, n, SUNDER_I_GRAIN_PAIRS, ask_some, &q, NULL);
-    for (size_t k = 0; k < n && ok; k++) add(total, q.paid[k]);
+    for (size_t k = 0; k < n && ok; k++) add_exactly(total, q.paid[k]);
     sunder_i_free(q.paid);
     return ok;
 }

@@ -5,27 +5,27 @@
 
 #include "displacement/prove/areas/areas.h"
 
-typedef struct sunder_i_part_on_grid {
+typedef struct sunder_i_grid_window {
     size_t column, columns, row, rows; /* the range of the payer's own nodes: `column` and `row` are the first,
                                         * `columns` and `rows` one past the last */
     int64_t x, y;                      /* the node of the grid under the payer's node (0, 0); it may lie outside the
                                         * grid */
-} sunder_i_part_on_grid;
+} sunder_i_grid_window;
 
-static inline sunder_i_part_on_grid sunder_i_part_on(const sunder_i_grid *grid, const sunder_i_masses *m, int64_t dx,
-                                                     int64_t dy)
+static inline sunder_i_grid_window sunder_i_grid_window_of(const sunder_i_grid *grid, const sunder_i_masses *m,
+                                                           int64_t dx, int64_t dy)
 {
     const int64_t x = m->x + dx, y = m->y + dy;
     const int64_t left = x < 0 ? -x : 0, low = y < 0 ? -y : 0;
     int64_t right = (int64_t)grid->columns - x, high = (int64_t)grid->rows - y;
     if (right > (int64_t)m->columns) right = (int64_t)m->columns;
     if (high > (int64_t)m->rows) high = (int64_t)m->rows;
-    if (left >= right || low >= high) return (sunder_i_part_on_grid){0, 0, 0, 0, x, y};
-    return (sunder_i_part_on_grid){(size_t)left, (size_t)right, (size_t)low, (size_t)high, x, y};
+    if (left >= right || low >= high) return (sunder_i_grid_window){0, 0, 0, 0, x, y};
+    return (sunder_i_grid_window){(size_t)left, (size_t)right, (size_t)low, (size_t)high, x, y};
 }
 
 /* Returns the index of the grid's node under the first node of row j of the window `w`. */
-static inline size_t sunder_i_part_node(const sunder_i_grid *grid, const sunder_i_part_on_grid *w, size_t j)
+static inline size_t sunder_i_grid_window_node(const sunder_i_grid *grid, const sunder_i_grid_window *w, size_t j)
 {
     return (size_t)(w->y + (int64_t)j) * grid->columns + (size_t)(w->x + (int64_t)w->column);
 }

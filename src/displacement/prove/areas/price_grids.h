@@ -1,11 +1,11 @@
 /* Computes prices of area on a sequence of grids, from a coarse one to finer ones. Both the lower bound (areas.c) and
  * the starting positions (places.c) use it. */
-#ifndef SUNDER_I_AREAS_CLIMB_H
-#define SUNDER_I_AREAS_CLIMB_H
+#ifndef SUNDER_I_AREAS_PRICE_GRIDS_H
+#define SUNDER_I_AREAS_PRICE_GRIDS_H
 
 #include "displacement/prove/areas/areas.h"
 
-typedef struct sunder_i_climb {
+typedef struct sunder_i_price_grids {
     const sunder_i_model *model;
     const uint32_t *body; /* [n] borrowed */
     size_t n;
@@ -21,16 +21,16 @@ typedef struct sunder_i_climb {
                              * finest, so that the first has squares 2^coarser times as large */
     sunder_i_grid grid;     /* the last grid, and the prices on it (owned) */
     float *price;
-} sunder_i_climb;
+} sunder_i_price_grids;
 
 /* Prepares the sequence of grids for the n bodies of body[], which is borrowed. `about` is the distance from the
  * bodies' original and present positions up to which there may be a price, in multiples of the size of a body. The
- * caller calls sunder_i_climb_free() even if this fails. */
-sunder_status sunder_i_climb_init(sunder_i_climb *climb, const sunder_i_model *model, const uint32_t *body, size_t n,
-                                  double about, sunder_error *err);
-void sunder_i_climb_free(sunder_i_climb *climb);
+ * caller calls sunder_i_price_grids_free() even if this fails. */
+sunder_status sunder_i_price_grids_init(sunder_i_price_grids *grids, const sunder_i_model *model, const uint32_t *body,
+                                        size_t n, double about, sunder_error *err);
+void sunder_i_price_grids_free(sunder_i_price_grids *grids);
 /* Computes prices on the next grid, starting from those on the last. It may be called only while climb->left > 0.
  * Returns false if memory is out. */
-bool sunder_i_climb_on(sunder_i_climb *climb);
+bool sunder_i_price_grids_refine(sunder_i_price_grids *grids);
 
 #endif

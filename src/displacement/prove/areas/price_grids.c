@@ -1,6 +1,6 @@
 /* Prepares the payers and the sequence of grids. On a coarse grid prices spread over long distances in few rounds;
  * finer grids then represent them more precisely. */
-#include "displacement/prove/areas/climb.h"
+#include "displacement/prove/areas/price_grids.h"
 #include "displacement/prove/areas/tuning.h"
 
 #include "spatial/box.h"
@@ -15,7 +15,7 @@ static bool has_area(const sunder_i_outline *outline) { return outline->rings &&
 /* Builds the outlines of the bodies and l->box, which contains all of them at their original and at their present
  * position and is enlarged by `about` times the size of a body. Sets l->size to the side of a square of mean area, or
  * to 0 if fewer than FEWEST bodies have an area. */
-static sunder_status find_outlines(sunder_i_climb *l, double about, sunder_error *err)
+static sunder_status find_outlines(sunder_i_price_grids *l, double about, sunder_error *err)
 {
     double area = 0;
     size_t n = 0;
@@ -41,7 +41,7 @@ static sunder_status find_outlines(sunder_i_climb *l, double about, sunder_error
 /* Sets *out to a grid of squares of side `side` that covers l->box and a border around it. Its first node and its
  * numbers of squares are multiples of `coarse`, so that the nodes of a grid with squares `coarse` times as large are
  * among its nodes. Returns false if it would have more than MOST_NODES nodes or too large indices. */
-static bool lay_grid(const sunder_i_climb *l, double side, unsigned coarse, sunder_i_grid *out)
+static bool lay_grid(const sunder_i_price_grids *l, double side, unsigned coarse, sunder_i_grid *out)
 {
     const double step = side * coarse, border = SUNDER_I_GRID_BORDER;
     const double x = floor(l->box[0] / step) - border, y = floor(l->box[1] / step) - border;
@@ -58,7 +58,7 @@ static bool lay_grid(const sunder_i_climb *l, double side, unsigned coarse, sund
 /* Chooses the side of the finest grid and the number of coarser grids, each with squares of twice the side. There are
  * LEVELS coarser grids, or fewer if the finest grid would have too many nodes and is therefore replaced by a coarser
  * one. */
-static void choose_sides(sunder_i_climb *l)
+static void choose_sides(sunder_i_price_grids *l)
 {
     sunder_i_grid fine;
     int exponent;
@@ -74,31 +74,31 @@ static void choose_sides(sunder_i_climb *l)
     l->side = finest * (1u << coarser);
 }
 
-static void free_masses(sunder_i_climb *l)
+static void free_masses(sunder_i_price_grids *l)
 {
     for (size_t k = 0; k < l->payers; k++) sunder_i_masses_free(&l->payer[k].masses);
     l->payers = 0;
 }
 
-sunder_status sunder_i_climb_init(sunder_i_climb *climb, const sunder_i_model *model, const uint32_t *body, size_t n,
-                                  double about, sunder_error *err)
+sunder_status sunder_i_price_grids_init(sunder_i_price_grids *grids, const sunder_i_model *model, const uint32_t *body,
+                                        size_t n, double about, sunder_error *err)
 {
-    *climb = (sunder_i_climb){.model = model, .body = body, .n = n};
-    climb->outline = sunder_i_calloc(n, sizeof *climb->outline);
-    climb->payer = sunder_i_calloc(n, sizeof *climb->payer);
-    sunder_status status = climb->outline && climb->payer ? SUNDER_OK : sunder_i_no_memory(err);
-    if (!status) status = find_outlines(climb, about, err);
-    if (!status && climb->size > 0) choose_sides(climb);
+    *grids = (sunder_i_price_grids){.model = model, .body = body, .n = n};
+    grids->outline = sunder_i_calloc(n, sizeof *grids->outline);
+    grids->payer = sunder_i_calloc(n, sizeof *grids->payer);
+    sunder_status status = grids->outline && grids->payer ? SUNDER_OK : sunder_i_no_memory(err);
+    if (!status) status = find_outlines(grids, about, err);
+    if (!status && grids->size > 0) choose_sides(grids);
     return status;
 }
 
-void sunder_i_climb_free(sunder_i_climb *climb)
+void sunder_i_price_grids_free(sunder_i_price_grids *grids)
 {
-    for (size_t k = 0; k < climb->n && climb->outline; k++) sunder_i_outline_free(&climb->outline[k]);
-    free_masses(climb);
-    sunder_i_free(climb->outline);
-    sunder_i_free(climb->payer);
-    sunder_i_free(climb->price);
+    for (size_t k = 0; k < grids->n && grids->outline; k++) sunder_i_outline_free(&grids->outline[k]);
+    free_masses(grids);
+    sunder_i_free(grids->outline);
+    sunder_i_free(grids->payer);
+    sunder_i_free(grids->price);
 }
 
 static bool spans_too_much(const sunder_i_outline *o, double side)
@@ -108,7 +108,7 @@ static bool spans_too_much(const sunder_i_outline *o, double side)
 
 /* Makes the payers for `grid`: the bodies that have an area and do not span too many squares. Returns false if memory
  * is out. */
-static bool make_payers(sunder_i_climb *l, const sunder_i_grid *grid)
+static bool make_payers(sunder_i_price_grids *l, const sunder_i_grid *grid)
 {
     free_masses(l);
     for (size_t k = 0; k < l->n; k++) {
@@ -132,7 +132,7 @@ static float price_at(const sunder_i_grid *grid, const float *price, int64_t x, 
 
 /* Returns the prices of the previous grid on a grid of half the side, interpolated bilinearly, or prices of 0 if there
  * is no previous grid. The caller owns the array. Returns NULL if memory is out. */
-static float *refine(const sunder_i_climb *l, const sunder_i_grid *fine)
+static float *refine_prices(const sunder_i_price_grids *l, const sunder_i_grid *fine)
 {
     float *out = sunder_i_calloc(sunder_i_grid_nodes(fine), sizeof *out);
     if (!out || !l->price) return out;
@@ -146,19 +146,19 @@ static float *refine(const sunder_i_climb *l, const sunder_i_grid *fine)
     return out;
 }
 
-bool sunder_i_climb_on(sunder_i_climb *climb)
+bool sunder_i_price_grids_refine(sunder_i_price_grids *grids)
 {
     static const unsigned rounds[LEVELS + 1] = ROUNDS;
     sunder_i_grid grid;
-    climb->left--;
-    if (!lay_grid(climb, climb->side, 1u << climb->left, &grid) || !make_payers(climb, &grid)) return false;
-    float *price = refine(climb, &grid);
-    sunder_i_free(climb->price);
-    climb->price = price;
-    climb->grid = grid;
-    const double across = climb->size / climb->side;
-    climb->patience = PATIENCE * across * across;
-    climb->side /= 2;
-    return price && sunder_i_prices_ascend(&grid, climb->payer, climb->payers, climb->patience,
-                                           rounds[LEVELS - climb->left], climb->model->rules.threads, price);
+    grids->left--;
+    if (!lay_grid(grids, grids->side, 1u << grids->left, &grid) || !make_payers(grids, &grid)) return false;
+    float *price = refine_prices(grids, &grid);
+    sunder_i_free(grids->price);
+    grids->price = price;
+    grids->grid = grid;
+    const double across = grids->size / grids->side;
+    grids->patience = PATIENCE * across * across;
+    grids->side /= 2;
+    return price && sunder_i_prices_ascend(&grid, grids->payer, grids->payers, grids->patience,
+                                           rounds[LEVELS - grids->left], grids->model->rules.threads, price);
 }
