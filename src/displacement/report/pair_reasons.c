@@ -35,11 +35,11 @@ typedef struct common {
 
 /* The rules about relative moves that a question takes into account: none, the sides of barriers, or these and the rule
  * against jumps. */
-typedef enum ways_heeded { NO_WAYS, SIDES, SIDES_AND_JUMPS } ways_heeded;
+typedef enum path_rules { NO_PATH_RULES, SIDES, SIDES_AND_JUMPS } path_rules;
 
 /* Sets *proof to a proof that the pair by itself has no solution under these rules, or to NULL if none is found. The
  * other members of the two blocks move with them. instead: the limit that is assumed for bodies that have none. */
-static sunder_status prove_alone(const sunder_i_model *model, const sunder_conflict *c, ways_heeded ways,
+static sunder_status prove_alone(const sunder_i_model *model, const sunder_conflict *c, path_rules rules,
                                  double instead, common *both, sunder_proof **proof, sunder_error *err)
 {
     const size_t bodies = c->b < model->features ? 2 : 1;
@@ -53,9 +53,9 @@ static sunder_status prove_alone(const sunder_i_model *model, const sunder_confl
                                        .feature = feature,
                                        .features = 2,
                                        .every_side = instead == 0 || bodies == 1,
-                                       .any_jump = ways != SIDES_AND_JUMPS,
-                                       .any_way = ways == NO_WAYS,
-                                       .every_way = true,
+                                       .any_jump = rules != SIDES_AND_JUMPS,
+                                       .ignore_paths = rules == NO_PATH_RULES,
+                                       .heed_paths = true,
                                        .instead = instead,
                                        .planes = &both->planes,
                                        .precedents = &both->precedents,
@@ -99,8 +99,8 @@ static sunder_status reason_without_limit(const sunder_i_model *model, sunder_co
 
 /* Finds the reason if the limits by themselves leave a solution: the rule against jumps, or sides of barriers. A proof
  * that needs the sides only is preferred. */
-static sunder_status reason_of_ways(const sunder_i_model *model, sunder_conflict *c, common *both, sunder_proof **proof,
-                                    sunder_error *err)
+static sunder_status reason_of_paths(const sunder_i_model *model, sunder_conflict *c, common *both,
+                                     sunder_proof **proof, sunder_error *err)
 {
     const bool jump = !model->rules.jumps && c->b < model->features;
     if (!jump && model->sides == 0) return SUNDER_OK;
@@ -119,14 +119,14 @@ static sunder_status reason_of_ways(const sunder_i_model *model, sunder_conflict
 
 /* Returns whether the two features that are shut in are all that would be reported, so that no proof has to be searched
  * for: only names are kept, and neither feature has a block. */
-static bool is_told_enough(const sunder_i_model *model, const sunder_conflict *c)
+static bool needs_no_proof(const sunder_i_model *model, const sunder_conflict *c)
 {
     return model->rules.drop_proofs && model->body[model->body_of[c->a]].members == 1 &&
            model->body[model->body_of[c->b]].members == 1;
 }
 
 /* Sets *proof to an empty proof, which names no feature besides the two. */
-static sunder_status tell_of_nobody(sunder_proof **proof, sunder_error *err)
+static sunder_status make_empty_proof(sunder_proof **proof, sunder_error *err)
 {
     *proof = sunder_i_calloc(1, sizeof **proof);
     return *proof ? SUNDER_OK : sunder_i_no_memory(err);
@@ -139,14 +139,14 @@ static sunder_status find_reason(const sunder_i_model *model, sunder_conflict *c
     const bool shut = c->b < model->features && sunder_i_are_shut_in(model, (uint32_t)c->a, (uint32_t)c->b);
     c->reason = reach == 0 ? SUNDER_REASON_FIXED : shut ? SUNDER_REASON_JUMP : SUNDER_REASON_UNRESOLVED;
     if (reach == 0) return SUNDER_OK;
-    if (reach == INFINITY && shut && is_told_enough(model, c)) return tell_of_nobody(proof, err);
+    if (reach == INFINITY && shut && needs_no_proof(model, c)) return make_empty_proof(proof, err);
     if (reach == INFINITY) return reason_without_limit(model, c, both, proof, err);
     sunder_i_resolution resolution;
     const sunder_status status = sunder_i_resolve_within(model, c->a, c->b, limit, &resolution, err);
     if (status) return status;
-    if (!resolution.beyond) return reason_of_ways(model, c, both, proof, err);
+    if (!resolution.beyond) return reason_of_paths(model, c, both, proof, err);
     c->reason = SUNDER_REASON_MAX_SHIFT;
-    return model->rules.keep_trees ? prove_alone(model, c, NO_WAYS, 0, both, proof, err) : SUNDER_OK;
+    return model->rules.keep_trees ? prove_alone(model, c, NO_PATH_RULES, 0, both, proof, err) : SUNDER_OK;
 }
 
 /* ---- All conflicts ----------------------------------------------------------------------------------------------- */

@@ -1,7 +1,7 @@
 /* The branches of a branch and bound: to which side does a pair separate, and which of its cases are infeasible?
  *
  * The search is depth first. A node whose program is infeasible is a leaf. Otherwise the candidate violates some
- * distances between pieces. One such pair is chosen, and each of its half-planes ("ways", half_planes.c) is a case: the
+ * distances between pieces. One such pair is chosen, and each of its half-planes (half_planes.c) is a case: the
  * pair is beyond this line, and behind the lines of the earlier cases. If the proof of a case does not use the case's
  * own claim, it proves the node as well, and the other cases are skipped. So choices that are unrelated to a
  * contradiction do not multiply it [conflict-directed backjumping, Pro93]. */
@@ -25,7 +25,7 @@ typedef struct area {
 } area;
 
 /* Clips the polygon to n.u >= d. A cut that would make too many corners is not made. */
-static void cut(area *p, const double n[2], double d)
+static void cut_area(area *p, const double n[2], double d)
 {
     area out = {.n = 0};
     for (size_t k = 0; k < p->n; k++) {
@@ -59,18 +59,19 @@ static area room_of(const sunder_i_branching *c, const sunder_i_violation *o)
     for (size_t k = 0; k < c->claims && takes_part; k++) {
         const sunder_i_claim *s = &c->claim[k];
         const double behind[2] = {-s->n[0], -s->n[1]};
-        if (s->i == i && s->j == j) cut(&room, s->n, s->d);
-        if (s->i == j && s->j == i) cut(&room, behind, s->d);
+        if (s->i == i && s->j == j) cut_area(&room, s->n, s->d);
+        if (s->i == j && s->j == i) cut_area(&room, behind, s->d);
     }
     return room;
 }
 
-/* Returns roughly how many of the `ways` half-planes in c->scratch are open to a pair; stops counting at `most`. */
-static size_t count_ways(const sunder_i_branching *c, const sunder_i_violation *o, size_t ways, size_t most)
+/* Returns roughly how many of the half-planes in c->scratch (`half_planes` of them) are open to a pair; stops counting
+ * at `most`. */
+static size_t count_open(const sunder_i_branching *c, const sunder_i_violation *o, size_t half_planes, size_t most)
 {
     const area room = room_of(c, o);
     size_t open = 0;
-    for (size_t k = 0; k < ways && open < most; k++) {
+    for (size_t k = 0; k < half_planes && open < most; k++) {
         double best = -INFINITY;
         for (size_t v = 0; v < room.n; v++)
             best = sunder_i_max(best, c->scratch[k].n[0] * room.xy[2 * v] + c->scratch[k].n[1] * room.xy[2 * v + 1]);
@@ -79,22 +80,22 @@ static size_t count_ways(const sunder_i_branching *c, const sunder_i_violation *
     return open;
 }
 
-/* Chooses the violation with the fewest open half-planes, and returns its index. Its half-planes, *ways of them, are
- * then in c->scratch. */
-static size_t choose(sunder_i_branching *c, const sunder_i_violation *deepest, size_t n, size_t *ways)
+/* Chooses the violation with the fewest open half-planes, and returns its index. Its half-planes are then in
+ * c->scratch, and their number in *half_planes. */
+static size_t choose_violation(sunder_i_branching *c, const sunder_i_violation *deepest, size_t n, size_t *half_planes)
 {
     size_t best = 0, fewest = SIZE_MAX;
     for (size_t k = 0;
          k < n && fewest && deepest[k].known == deepest[0].known && deepest[k].depth >= DEEP * deepest[0].depth; k++) {
-        *ways = sunder_i_branching_ways(c, &deepest[k]);
+        *half_planes = sunder_i_branching_half_planes(c, &deepest[k]);
         if (c->failed) return 0;
-        const size_t open = count_ways(c, &deepest[k], *ways, fewest);
-        c->looked += *ways * 4;
+        const size_t open = count_open(c, &deepest[k], *half_planes, fewest);
+        c->looked += *half_planes * 4;
         if (open >= fewest) continue;
         fewest = open;
         best = k;
     }
-    *ways = sunder_i_branching_ways(c, &deepest[best]);
+    *half_planes = sunder_i_branching_half_planes(c, &deepest[best]);
     return best;
 }
 
@@ -104,7 +105,7 @@ static sunder_i_node *add_node(sunder_i_branching *c)
 {
     if (!sunder_i_reserve(&c->node, &c->node_capacity, c->nodes + 1, sizeof *c->node)) return NULL;
     sunder_i_node *node = &c->node[c->nodes++];
-    *node = (sunder_i_node){.way = c->ways, .force = c->forces, .chord = SIZE_MAX};
+    *node = (sunder_i_node){.half_plane = c->half_planes, .force = c->forces, .chord = SIZE_MAX};
     return node;
 }
 
@@ -121,7 +122,7 @@ bool sunder_i_branching_add_leaf(sunder_i_branching *branching, sunder_i_levels 
         const sunder_i_claim *s = &branching->claim[k];
         if (!(s->force > 0)) continue;
         sunder_i_levels_add(levels, s->level);
-        branching->force[branching->forces++] = (sunder_proof_force){s->node, s->way, s->behind, s->force};
+        branching->force[branching->forces++] = (sunder_proof_force){s->node, s->half_plane, s->behind, s->force};
         node->forces++;
         const uint32_t between =
             branching->still ? sunder_i_branching_place(branching, branching->between) : SUNDER_I_GROUND;
@@ -131,18 +132,18 @@ bool sunder_i_branching_add_leaf(sunder_i_branching *branching, sunder_i_levels 
     for (unsigned k = 0; k < 2 && still; k++) {
         sunder_i_levels_add(levels, branching->claim[k].level);
         node->line_node[k] = branching->claim[k].node;
-        node->line_way[k] = branching->claim[k].way;
+        node->line_way[k] = branching->claim[k].half_plane;
     }
     return true;
 }
 
-bool sunder_i_branching_add_branch(sunder_i_branching *branching, const sunder_i_violation *violation, size_t ways,
-                                   size_t *root)
+bool sunder_i_branching_add_branch(sunder_i_branching *branching, const sunder_i_violation *violation,
+                                   size_t half_planes, size_t *root)
 {
     *root = branching->nodes;
     sunder_i_node *node = add_node(branching);
-    if (!node ||
-        !sunder_i_reserve(&branching->way, &branching->way_capacity, branching->ways + ways, sizeof *branching->way))
+    if (!node || !sunder_i_reserve(&branching->half_plane, &branching->half_plane_capacity,
+                                   branching->half_planes + half_planes, sizeof *branching->half_plane))
         return false;
     if (violation->chord) {
         if (!sunder_i_reserve(&branching->chord, &branching->chord_capacity, branching->chords + 1,
@@ -159,19 +160,20 @@ bool sunder_i_branching_add_branch(sunder_i_branching *branching, const sunder_i
     node->shadow = violation->shadow;
     node->slack = violation->slack != NULL;
     node->held = violation->held;
-    node->ways = ways;
-    memcpy(branching->way + branching->ways, branching->scratch, ways * sizeof *branching->way);
-    branching->ways += ways;
+    node->half_planes = half_planes;
+    memcpy(branching->half_plane + branching->half_planes, branching->scratch,
+           half_planes * sizeof *branching->half_plane);
+    branching->half_planes += half_planes;
     return true;
 }
 
-bool sunder_i_branching_push(sunder_i_branching *branching, uint32_t i, uint32_t j, size_t node, size_t way,
+bool sunder_i_branching_push(sunder_i_branching *branching, uint32_t i, uint32_t j, size_t node, size_t half_plane,
                              bool behind, unsigned level)
 {
     if (!sunder_i_reserve(&branching->claim, &branching->claim_capacity, branching->claims + 1,
                           sizeof *branching->claim))
         return false;
-    const sunder_i_half_plane *w = &branching->way[way];
+    const sunder_i_half_plane *w = &branching->half_plane[half_plane];
     const double sign = behind ? -1 : 1;
     SUNDER_I_ASSERT(level < SUNDER_I_LEVELS && i < branching->bodies &&
                     (j < branching->bodies || j == SUNDER_I_GROUND) && i != j);
@@ -180,7 +182,7 @@ bool sunder_i_branching_push(sunder_i_branching *branching, uint32_t i, uint32_t
                                                              .n = {sign * w->n[0], sign * w->n[1]},
                                                              .d = sign * w->d,
                                                              .node = node,
-                                                             .way = way,
+                                                             .half_plane = half_plane,
                                                              .behind = behind,
                                                              .level = level};
     return true;
@@ -191,7 +193,8 @@ static bool is_between(const sunder_i_branching *c, unsigned level)
 {
     bool between = c->walls == 2 && level == 1 && c->claims == 2;
     for (size_t k = 0; k < 2 && between; k++)
-        between = !c->claim[k].behind && c->claim[k].level == k && c->claim[k].way == c->node[c->claim[k].node].way;
+        between = !c->claim[k].behind && c->claim[k].level == k &&
+                  c->claim[k].half_plane == c->node[c->claim[k].node].half_plane;
     return between;
 }
 
@@ -209,7 +212,8 @@ static sunder_status search_cases(sunder_i_branching *c, const sunder_i_violatio
     const uint32_t i = sunder_i_branching_join(c, o->p),
                    j = o->slack ? sunder_i_branching_join_slack(c, o->slack) : sunder_i_branching_join(c, o->q);
     if (c->failed) return sunder_i_no_memory(err);
-    const size_t first = c->node[node].way, end = first + c->node[node].ways, claims = c->claims, bodies = c->bodies;
+    const size_t first = c->node[node].half_plane, end = first + c->node[node].half_planes, claims = c->claims,
+                 bodies = c->bodies;
     double *t = sunder_i_alloc(2 * bodies, sizeof *t);
     if (!t) return sunder_i_no_memory(err);
     memcpy(t, c->t, 2 * bodies * sizeof *t);
@@ -217,13 +221,13 @@ static sunder_status search_cases(sunder_i_branching *c, const sunder_i_violatio
     memset(levels, 0, sizeof *levels);
     *root = node;
     *verdict = SUNDER_I_INFEASIBLE;
-    for (size_t way = first; way < end && !status && *verdict == SUNDER_I_INFEASIBLE; way++) {
+    for (size_t half_plane = first; half_plane < end && !status && *verdict == SUNDER_I_INFEASIBLE; half_plane++) {
         sunder_i_levels used;
         size_t below = 0;
         sunder_i_branching_begin(c, bodies);
         memcpy(c->t, t, 2 * bodies * sizeof *t);
         const size_t before = c->claims;
-        bool ok = sunder_i_branching_push(c, i, j, node, way, false, level);
+        bool ok = sunder_i_branching_push(c, i, j, node, half_plane, false, level);
         const bool between = ok && is_between(c, level);
         if (between) set_still(c, true);
         const bool dead = ok && sunder_i_branching_is_dead_end(c);
@@ -234,7 +238,7 @@ static sunder_status search_cases(sunder_i_branching *c, const sunder_i_violatio
         if (between) set_still(c, false);
         if (!ok) status = sunder_i_no_memory(err);
         if (status || *verdict != SUNDER_I_INFEASIBLE) break;
-        c->way[way].next = below;
+        c->half_plane[half_plane].next = below;
         if (!sunder_i_levels_has(&used, level)) {
             *root = below;
             *levels = used;
@@ -243,7 +247,7 @@ static sunder_status search_cases(sunder_i_branching *c, const sunder_i_violatio
         for (size_t k = 0; k < sizeof used.bit / sizeof *used.bit; k++) levels->bit[k] |= used.bit[k];
         /* The next cases are searched behind this line. A line beyond all limits needs no such claim. */
         c->claims = before;
-        if (!dead && !sunder_i_branching_push(c, i, j, node, way, true, level)) status = sunder_i_no_memory(err);
+        if (!dead && !sunder_i_branching_push(c, i, j, node, half_plane, true, level)) status = sunder_i_no_memory(err);
     }
     sunder_i_levels_drop(levels, level);
     c->claims = claims;
@@ -253,7 +257,7 @@ static sunder_status search_cases(sunder_i_branching *c, const sunder_i_violatio
 
 /* Finds the violations of the candidate. If there seem to be none, and an exact answer is wanted, half-planes made for
  * the candidate are used. Returns their number. */
-static size_t look(sunder_i_branching *c, sunder_i_violation deepest[SUNDER_I_CHOICES])
+static size_t find_violations(sunder_i_branching *c, sunder_i_violation deepest[SUNDER_I_CHOICES])
 {
     size_t n = sunder_i_branching_violations(c, deepest);
     if (n || c->failed || c->subproblem->coarse > 0) return n;
@@ -275,10 +279,10 @@ static sunder_status search_wall(sunder_i_branching *c, unsigned level, sunder_i
                                   .clearance = w->clearance,
                                   .slack = w->slack,
                                   .held = true};
-    const size_t ways = sunder_i_branching_wall_ways(c, w);
+    const size_t half_planes = sunder_i_branching_wall_half_planes(c, w);
     size_t node;
-    if (!c->failed && ways == 0) return SUNDER_OK;
-    if (c->failed || !sunder_i_branching_add_branch(c, &o, ways, &node)) return sunder_i_no_memory(err);
+    if (!c->failed && half_planes == 0) return SUNDER_OK;
+    if (c->failed || !sunder_i_branching_add_branch(c, &o, half_planes, &node)) return sunder_i_no_memory(err);
     return search_cases(c, &o, node, level, verdict, levels, root, err);
 }
 
@@ -301,21 +305,21 @@ static bool find_left(sunder_i_branching *c, sunder_i_violation *deepest)
                                     .clearance = c->wall[k].clearance,
                                     .slack = c->wall[k].slack,
                                     .known = true};
-            if (o.a->feature != c->wall[k].a->feature || sunder_i_branching_ways(c, &o) == 0) continue;
+            if (o.a->feature != c->wall[k].a->feature || sunder_i_branching_half_planes(c, &o) == 0) continue;
             o.depth = -c->scratch[0].at;
             if (o.depth > deepest->depth) *deepest = o;
         }
     return deepest->a && !c->failed;
 }
 
-static sunder_status branch(sunder_i_branching *c, const sunder_i_violation *o, unsigned level,
-                            sunder_i_verdict *verdict, sunder_i_levels *levels, size_t *root, sunder_error *err)
+static sunder_status branch_on(sunder_i_branching *c, const sunder_i_violation *o, unsigned level,
+                               sunder_i_verdict *verdict, sunder_i_levels *levels, size_t *root, sunder_error *err)
 {
-    const size_t ways = sunder_i_branching_ways(c, o);
+    const size_t half_planes = sunder_i_branching_half_planes(c, o);
     size_t node;
     if (level == SUNDER_I_LEVELS || sunder_i_branching_is_over(c))
         return c->failed ? sunder_i_no_memory(err) : SUNDER_OK;
-    if (c->failed || !sunder_i_branching_add_branch(c, o, ways, &node)) return sunder_i_no_memory(err);
+    if (c->failed || !sunder_i_branching_add_branch(c, o, half_planes, &node)) return sunder_i_no_memory(err);
     return search_cases(c, o, node, level, verdict, levels, root, err);
 }
 
@@ -333,18 +337,18 @@ sunder_status sunder_i_branching_search(sunder_i_branching *branching, unsigned 
     }
     sunder_i_violation deepest[SUNDER_I_CHOICES];
     if (!branching->still && find_left(branching, &deepest[0]))
-        return branch(branching, &deepest[0], level, verdict, levels, root, err);
+        return branch_on(branching, &deepest[0], level, verdict, levels, root, err);
     if (branching->failed) return sunder_i_no_memory(err);
-    size_t n = look(branching, deepest);
+    size_t n = find_violations(branching, deepest);
     while (n == 0 && !branching->failed && !sunder_i_branching_is_over(branching) &&
            sunder_i_branching_widen(branching))
-        n = look(branching, deepest);
+        n = find_violations(branching, deepest);
     if (n == 0 && !branching->failed) *verdict = SUNDER_I_FEASIBLE;
     if (n == 0 || branching->failed || level == SUNDER_I_LEVELS || sunder_i_branching_is_over(branching))
         return branching->failed ? sunder_i_no_memory(err) : SUNDER_OK;
-    size_t ways, node;
-    const size_t best = choose(branching, deepest, n, &ways);
-    if (branching->failed || !sunder_i_branching_add_branch(branching, &deepest[best], ways, &node))
+    size_t half_planes, node;
+    const size_t best = choose_violation(branching, deepest, n, &half_planes);
+    if (branching->failed || !sunder_i_branching_add_branch(branching, &deepest[best], half_planes, &node))
         return sunder_i_no_memory(err);
     return search_cases(branching, &deepest[best], node, level, verdict, levels, root, err);
 }

@@ -53,7 +53,7 @@ typedef struct sunder_i_claim {
     uint32_t i, j;  /* places in sunder_i_branching.body, or SUNDER_I_GROUND for what does not move */
     double n[2], d; /* the claim is n.(t_j - t_i) >= d */
     double force;   /* its multiplier in the last program */
-    size_t node, way;
+    size_t node, half_plane;
     bool behind;
     unsigned level; /* the level of the branch that makes the claim */
 } sunder_i_claim;
@@ -72,7 +72,7 @@ typedef struct sunder_i_node {
     bool shadow; /* one part is an anchor, which may not pass the other */
     bool slack;  /* the half-planes are for the second part moved by the pair's slack */
     bool held;   /* the clearance is exactly the distance of the pair at the start */
-    size_t way, ways, force, forces;
+    size_t half_plane, half_planes, force, forces;
     bool still; /* a leaf in which a body between the lines of two half-planes stays where it is */
     size_t line_node[2], line_way[2];
     size_t chord; /* the chord that replaces the second part, which is its first side; SIZE_MAX: none */
@@ -110,8 +110,8 @@ typedef struct sunder_i_branching {
     /* The record of the tree. */
     sunder_i_node *node;
     size_t nodes, node_capacity;
-    sunder_i_half_plane *way;
-    size_t ways, way_capacity;
+    sunder_i_half_plane *half_plane;
+    size_t half_planes, half_plane_capacity;
     sunder_proof_force *force;
     size_t forces, force_capacity;
     sunder_i_chord *chord;
@@ -165,7 +165,7 @@ double sunder_i_branching_owed(const sunder_i_subproblem *subproblem, uint32_t f
 /* Do the features f and g of two bodies owe each other a distance? If so, sets *clearance to it. */
 bool sunder_i_branching_owe(const sunder_i_branching *branching, uint32_t f, uint32_t g, double *clearance);
 /* Do the rules on paths (jumps, sides) of feature f count in this subproblem? */
-bool sunder_i_branching_is_way_heeded(const sunder_i_branching *branching, uint32_t f);
+bool sunder_i_branching_is_path_heeded(const sunder_i_branching *branching, uint32_t f);
 /* Is it forbidden that feature f jumps over g, a feature of another body, or that f crosses the sides of g, a part of a
  * barrier? */
 bool sunder_i_branching_shades(const sunder_i_branching *branching, uint32_t f, uint32_t g);
@@ -210,21 +210,22 @@ typedef struct sunder_i_violation {
 size_t sunder_i_branching_violations(sunder_i_branching *branching, sunder_i_violation deepest[SUNDER_I_CHOICES]);
 /* Computes the half-planes in which two pieces of bodies p and q are separated, in branching->scratch. at: NULL, or a
  * relative move for which they are made (half_planes.h). Returns their number. */
-size_t sunder_i_branching_fill_ways(sunder_i_branching *branching, const sunder_i_body *p, const sunder_i_body_piece *a,
-                                    const sunder_i_body *q, const sunder_i_body_piece *b, double clearance, bool shadow,
-                                    const double *at);
+size_t sunder_i_branching_fill_half_planes(sunder_i_branching *branching, const sunder_i_body *p,
+                                           const sunder_i_body_piece *a, const sunder_i_body *q,
+                                           const sunder_i_body_piece *b, double clearance, bool shadow,
+                                           const double *at);
 /* The same without a relative move, from a cache: returns *n half-planes, valid until the next call. */
-const sunder_i_half_plane *sunder_i_branching_keep_ways(sunder_i_branching *branching, const sunder_i_body *p,
-                                                        const sunder_i_body_piece *a, const sunder_i_body *q,
-                                                        const sunder_i_body_piece *b, double clearance, bool shadow,
-                                                        size_t *n);
-void sunder_i_branching_forget_ways(sunder_i_branching *branching);
-/* Returns the depth of relative move u behind all of the first `ways` half-planes in branching->scratch; -INFINITY if
- * there are none. */
-double sunder_i_branching_depth(const sunder_i_branching *branching, size_t ways, const double u[2]);
+const sunder_i_half_plane *sunder_i_branching_kept_half_planes(sunder_i_branching *branching, const sunder_i_body *p,
+                                                               const sunder_i_body_piece *a, const sunder_i_body *q,
+                                                               const sunder_i_body_piece *b, double clearance,
+                                                               bool shadow, size_t *n);
+void sunder_i_branching_forget_half_planes(sunder_i_branching *branching);
+/* Returns the depth of relative move u behind all half-planes in branching->scratch, of which there are `half_planes`;
+ * -INFINITY if there are none. */
+double sunder_i_branching_depth(const sunder_i_branching *branching, size_t half_planes, const double u[2]);
 /* Computes the half-planes of a violation, nearest to the candidate first, in branching->scratch. Returns their
  * number. */
-size_t sunder_i_branching_ways(sunder_i_branching *branching, const sunder_i_violation *violation);
+size_t sunder_i_branching_half_planes(sunder_i_branching *branching, const sunder_i_violation *violation);
 
 /* ---- branches.c -------------------------------------------------------------------------------------------------- */
 
@@ -236,9 +237,9 @@ sunder_status sunder_i_branching_search(sunder_i_branching *branching, unsigned 
  * these claims. The second adds a node for a violation, with the half-planes in branching->scratch. The third appends
  * the claim of one of its cases. All return false if memory is out. */
 bool sunder_i_branching_add_leaf(sunder_i_branching *branching, sunder_i_levels *levels, size_t *root);
-bool sunder_i_branching_add_branch(sunder_i_branching *branching, const sunder_i_violation *violation, size_t ways,
-                                   size_t *root);
-bool sunder_i_branching_push(sunder_i_branching *branching, uint32_t i, uint32_t j, size_t node, size_t way,
+bool sunder_i_branching_add_branch(sunder_i_branching *branching, const sunder_i_violation *violation,
+                                   size_t half_planes, size_t *root);
+bool sunder_i_branching_push(sunder_i_branching *branching, uint32_t i, uint32_t j, size_t node, size_t half_plane,
                              bool behind, unsigned level);
 
 /* ---- corner_chord.c ---------------------------------------------------------------------------------------------- */
@@ -251,8 +252,9 @@ bool sunder_i_branching_make_chord(const double a[2], const double b[2], const d
                                    double chord[4]);
 /* Computes the half-planes past a chord whose first side belongs to body q, in branching->scratch. Returns their
  * number. */
-size_t sunder_i_branching_chord_ways(sunder_i_branching *branching, const sunder_i_body *p,
-                                     const sunder_i_body_piece *anchor, const sunder_i_body *q, const double chord[4]);
+size_t sunder_i_branching_chord_half_planes(sunder_i_branching *branching, const sunder_i_body *p,
+                                            const sunder_i_body_piece *anchor, const sunder_i_body *q,
+                                            const double chord[4]);
 
 /* ---- corridor.c -------------------------------------------------------------------------------------------------- */
 
@@ -260,7 +262,7 @@ size_t sunder_i_branching_chord_ways(sunder_i_branching *branching, const sunder
 sunder_status sunder_i_branching_find_corridor(sunder_i_branching *branching, uint32_t body, sunder_error *err);
 /* Computes the half-planes of a wall in branching->scratch, the one beyond its line first. Returns their number; 0 if
  * the line is not found among them. */
-size_t sunder_i_branching_wall_ways(sunder_i_branching *branching, const sunder_i_corridor_wall *wall);
+size_t sunder_i_branching_wall_half_planes(sunder_i_branching *branching, const sunder_i_corridor_wall *wall);
 
 /* ---- plane.c ----------------------------------------------------------------------------------------------------- */
 

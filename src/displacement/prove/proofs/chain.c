@@ -29,7 +29,7 @@
 #include <math.h>
 #include <string.h>
 
-static double at(const double n[2], const double *u) { return n[0] * u[0] + n[1] * u[1]; }
+static double dot_product(const double n[2], const double *u) { return n[0] * u[0] + n[1] * u[1]; }
 
 /* ---- The cheapest chain from a body ------------------------------------------------------------------------------ */
 
@@ -40,14 +40,14 @@ static bool comes_before(const void *a, const void *b)
 }
 
 /* Returns the cost at a body that is pushed along n and pushes along m; with m NULL, at the end of the chain. */
-static double turn(const sunder_i_chains *g, uint32_t body, const double n[2], const double m[2])
+static double turn_cost(const sunder_i_chains *g, uint32_t body, const double n[2], const double m[2])
 {
     const double limit = sunder_i_limit_of(&g->of.model->body[body]);
     const double net[2] = {n[0] - (m ? m[0] : 0), n[1] - (m ? m[1] : 0)};
     double t[2];
     if (limit == 0) return 0;
     sunder_i_chains_stand(g, body, t);
-    return sunder_i_max(0, limit * sqrt(at(net, net)) - at(net, t));
+    return sunder_i_max(0, limit * sqrt(dot_product(net, net)) - dot_product(net, t));
 }
 
 static bool is_pair(const sunder_i_chains *g, const sunder_i_chain_link *k, const sunder_i_subproblem *q)
@@ -70,7 +70,7 @@ static bool push_on(sunder_i_chains *g, const sunder_i_subproblem *q, uint32_t b
         const sunder_i_chain_link *l = &g->link[k];
         sunder_i_chain_step *step = &g->step[k];
         if (cost + l->spare >= most) continue;
-        const double all = cost + l->spare + turn(g, body, along, l->n);
+        const double all = cost + l->spare + turn_cost(g, body, along, l->n);
         if (all >= most || (step->search == g->search && step->cost <= all) || is_pair(g, l, q)) continue;
         *step = (sunder_i_chain_step){all, from, g->search};
         if (!sunder_i_reserve(&g->heap, &g->heap_capacity, g->heap_n + 1, sizeof *g->heap)) return false;
@@ -86,7 +86,7 @@ static bool find_end(sunder_i_chains *g, const sunder_i_subproblem *q, uint32_t 
                      double *most, bool *found)
 {
     const uint64_t until = g->work + CHAIN_EFFORT;
-    const double here = turn(g, body, n, NULL);
+    const double here = turn_cost(g, body, n, NULL);
     *last = SUNDER_I_NO_LINK;
     *found = here < *most;
     if (*found) *most = here;
@@ -99,7 +99,7 @@ static bool find_end(sunder_i_chains *g, const sunder_i_subproblem *q, uint32_t 
         if (e.cost >= *most) break;
         if (e.cost > g->step[e.link].cost) continue;
         const sunder_i_chain_link l = g->link[e.link];
-        const double all = e.cost + turn(g, l.j, l.n, NULL);
+        const double all = e.cost + turn_cost(g, l.j, l.n, NULL);
         if (all < *most) {
             *found = true;
             *last = e.link;
@@ -131,15 +131,15 @@ static bool take_half(const sunder_i_chains *g, uint32_t body, const double n[2]
     size_t left = out->n;
     for (uint32_t k = last; k != SUNDER_I_NO_LINK; k = g->step[k].from) {
         const sunder_i_chain_link *l = &g->link[k];
-        out->end[left] = g->step[k].cost + turn(g, l->j, l->n, NULL);
+        out->end[left] = g->step[k].cost + turn_cost(g, l->j, l->n, NULL);
         out->link[--left] = k;
     }
-    out->end[0] = turn(g, body, n, NULL);
+    out->end[0] = turn_cost(g, body, n, NULL);
     return true;
 }
 
 /* Finds the fewest links of both halves whose chain costs less than `most`. Returns false if there are none. */
-static bool shorten(const half of[2], double most, size_t keep[2])
+static bool shorten_chain(const half of[2], double most, size_t keep[2])
 {
     const size_t all = of[0].n + of[1].n;
     for (size_t n = 0; n <= all; n++)
@@ -152,7 +152,7 @@ static bool shorten(const half of[2], double most, size_t keep[2])
     return false;
 }
 
-static bool append(sunder_i_pushing *chain, const half of[2], const size_t keep[2])
+static bool append_links(sunder_i_pushing *chain, const half of[2], const size_t keep[2])
 {
     chain->link = sunder_i_alloc(keep[0] + keep[1] + 1, sizeof *chain->link);
     if (!chain->link) return false;
@@ -165,19 +165,20 @@ static bool append(sunder_i_pushing *chain, const half of[2], const size_t keep[
 
 /* Finds a chain for a half-plane of the pair's pieces; *found. Returns false if memory is out. */
 static bool find_chain(sunder_i_chains *g, const sunder_i_subproblem *q, const sunder_i_chain_link *pair,
-                       const sunder_i_half_plane *way, half of[2], sunder_i_pushing *chain, bool *found)
+                       const sunder_i_half_plane *half_plane, half of[2], sunder_i_pushing *chain, bool *found)
 {
     double s[2], t[2];
     sunder_i_chains_stand(g, pair->i, s);
     sunder_i_chains_stand(g, pair->j, t);
-    const double missed = way->d - (at(way->n, t) - at(way->n, s)), back[2] = {-way->n[0], -way->n[1]};
+    const double missed = half_plane->d - (dot_product(half_plane->n, t) - dot_product(half_plane->n, s)),
+                 back[2] = {-half_plane->n[0], -half_plane->n[1]};
     const double most = missed * (1 - CHAIN_MARGIN);
     double left = most;
     uint32_t last;
     *found = most > 0;
     for (size_t e = 0; e < 2 && *found; e++) {
         const uint32_t body = e ? pair->i : pair->j;
-        const double *n = e ? back : way->n;
+        const double *n = e ? back : half_plane->n;
         double cost = left;
         if (!find_end(g, q, body, n, &last, &cost, found)) return false;
         if (!*found) return true;
@@ -185,8 +186,8 @@ static bool find_chain(sunder_i_chains *g, const sunder_i_subproblem *q, const s
         if (!take_half(g, body, n, last, &of[e])) return false;
     }
     size_t keep[2];
-    *found = *found && shorten(of, most, keep) && keep[0] + keep[1] <= CHAIN_MOST;
-    return !*found || append(chain, of, keep);
+    *found = *found && shorten_chain(of, most, keep) && keep[0] + keep[1] <= CHAIN_MOST;
+    return !*found || append_links(chain, of, keep);
 }
 
 /* ---- The question ------------------------------------------------------------------------------------------------ */
@@ -197,26 +198,26 @@ typedef struct finding {
     sunder_i_decision *decision;
     size_t *links;
     half half[2];
-    sunder_i_half_plane *way;
+    sunder_i_half_plane *half_plane;
     sunder_i_pushing *chain;
-    size_t way_capacity, chain_capacity;
+    size_t half_plane_capacity, chain_capacity;
 } finding;
 
 /* Is half-plane k open, considering that it is a case behind the open ones before it? */
-static bool is_open(const sunder_i_half_plane *way, size_t k, const bool *open, double reach)
+static bool is_open(const sunder_i_half_plane *half_plane, size_t k, const bool *open, double reach)
 {
-    bool is = sunder_i_chain_is_open(&way[k], reach);
+    bool is = sunder_i_chain_is_open(&half_plane[k], reach);
     for (size_t l = 0; l < k && is; l++)
-        if (open[l]) is = sunder_i_chain_is_open_behind(&way[k], &way[l], reach);
+        if (open[l]) is = sunder_i_chain_is_open_behind(&half_plane[k], &half_plane[l], reach);
     return is;
 }
 
 /* Are all links of a chain nearly on the same line? */
-static bool is_straight(const sunder_i_chains *g, const sunder_i_half_plane *way, const sunder_i_pushing *chain)
+static bool is_straight(const sunder_i_chains *g, const sunder_i_half_plane *half_plane, const sunder_i_pushing *chain)
 {
     bool is = true;
     for (size_t k = 0; k < chain->n && is; k++) {
-        const double along = at(way->n, g->link[chain->link[k]].n);
+        const double along = dot_product(half_plane->n, g->link[chain->link[k]].n);
         is = (k < chain->right ? along : -along) > CHAIN_STRAIGHT;
     }
     return is;
@@ -230,29 +231,30 @@ static bool ask_pieces(finding *f, const sunder_i_chain_link *pair)
     const sunder_i_body *p = &model->body[pair->i], *r = &model->body[pair->j];
     const double reach = sunder_i_limit_of(p) + sunder_i_limit_of(r);
     sunder_i_branching *c = &g->branching;
-    const size_t n = sunder_i_branching_fill_ways(c, p, pair->a, r, pair->b, pair->clearance, false, NULL);
-    if (c->failed || !sunder_i_reserve(&f->way, &f->way_capacity, n, sizeof *f->way) ||
+    const size_t n = sunder_i_branching_fill_half_planes(c, p, pair->a, r, pair->b, pair->clearance, false, NULL);
+    if (c->failed || !sunder_i_reserve(&f->half_plane, &f->half_plane_capacity, n, sizeof *f->half_plane) ||
         !sunder_i_reserve(&f->chain, &f->chain_capacity, n + 1, sizeof *f->chain))
         return false;
-    if (n) memcpy(f->way, c->scratch, n * sizeof *f->way);
-    sunder_i_chain_only_way(f->way, n, reach);
+    if (n) memcpy(f->half_plane, c->scratch, n * sizeof *f->half_plane);
+    sunder_i_chain_only_half_plane(f->half_plane, n, reach);
     bool *open = sunder_i_calloc(n + 1, sizeof *open), ok = open != NULL, found = n > 0;
     size_t chains = 0;
     for (size_t k = 0; k < n && ok && found; k++) {
-        open[k] = is_open(f->way, k, open, reach);
+        open[k] = is_open(f->half_plane, k, open, reach);
         if (!open[k]) continue;
-        f->chain[chains] = (sunder_i_pushing){.way = k};
-        ok = g->all ? sunder_i_chain_fewest(g, pair, &f->way[k], &f->chain[chains], &found)
-                    : find_chain(g, f->q, pair, &f->way[k], f->half, &f->chain[chains], &found);
+        f->chain[chains] = (sunder_i_pushing){.half_plane = k};
+        ok = g->all ? sunder_i_chain_fewest(g, pair, &f->half_plane[k], &f->chain[chains], &found)
+                    : find_chain(g, f->q, pair, &f->half_plane[k], f->half, &f->chain[chains], &found);
         if (ok && found) chains++;
     }
     bool failed = false;
-    f->chain[chains] = (sunder_i_pushing){.way = SIZE_MAX};
-    if (ok && found) f->decision->proof = sunder_i_chain_prove(g, f->q, pair, f->way, n, f->chain, chains, &failed);
+    f->chain[chains] = (sunder_i_pushing){.half_plane = SIZE_MAX};
+    if (ok && found)
+        f->decision->proof = sunder_i_chain_prove(g, f->q, pair, f->half_plane, n, f->chain, chains, &failed);
     for (size_t k = 0; k < chains; k++) {
         if (f->decision->proof && f->chain[k].n > *f->links) *f->links = f->chain[k].n;
         if (f->decision->proof && chains == 1)
-            f->decision->straight = is_straight(g, &f->way[f->chain[0].way], &f->chain[0]);
+            f->decision->straight = is_straight(g, &f->half_plane[f->chain[0].half_plane], &f->chain[0]);
         sunder_i_free(f->chain[k].link);
     }
     sunder_i_free(open);
@@ -326,7 +328,7 @@ sunder_status sunder_i_chains_decide(sunder_i_chains *chains, const sunder_i_sub
         sunder_i_free(f.half[e].link);
         sunder_i_free(f.half[e].end);
     }
-    sunder_i_free(f.way);
+    sunder_i_free(f.half_plane);
     sunder_i_free(f.chain);
     return ok && sunder_i_look() ? SUNDER_OK : sunder_i_no_memory(err);
 }

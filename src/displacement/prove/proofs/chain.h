@@ -1,4 +1,4 @@
-/* Chains of pushes from one limit to another, where limits leave each pair only one way; see chain.c. */
+/* Chains of pushes from one limit to another, where limits leave each pair only one half-plane; see chain.c. */
 #ifndef SUNDER_I_CHAIN_H
 #define SUNDER_I_CHAIN_H
 
@@ -55,10 +55,10 @@ struct sunder_i_chains {
 
 /* The links for one half-plane of the pair in question, on both sides of the pair. */
 typedef struct sunder_i_pushing {
-    size_t way;      /* the number of the half-plane among those of the pair's pieces */
-    uint32_t *link;  /* first the links on the side of the pair's j, from the pair on, then those on the side of its
+    size_t half_plane; /* the number of the half-plane among those of the pair's pieces */
+    uint32_t *link;    /* first the links on the side of the pair's j, from the pair on, then those on the side of its
                       * i */
-    size_t right, n; /* right: the number of links on the side of j; n: the number of all */
+    size_t right, n;   /* right: the number of links on the side of j; n: the number of all */
 } sunder_i_pushing;
 
 /* ---- chain_links.c ----------------------------------------------------------------------------------------------- */
@@ -70,21 +70,22 @@ void sunder_i_chains_stand(const sunder_i_chains *chains, uint32_t body, double 
 const sunder_i_chain_links *sunder_i_chains_find(sunder_i_chains *chains, uint32_t body);
 /* Looks for a half-plane such that, behind its line, limits leave none of the others; puts it first and returns true.
  * Returns false if there is none. */
-bool sunder_i_chain_only_way(sunder_i_half_plane *way, size_t n, double reach);
+bool sunder_i_chain_only_half_plane(sunder_i_half_plane *half_plane, size_t n, double reach);
 /* The same for n half-planes in scratch. If there is none, a line that all open ones imply may be added as a further
  * half-plane, put first. Returns their number; 0 if neither works, or if memory is out (branching->failed). */
-size_t sunder_i_chain_ways(sunder_i_branching *branching, size_t n, double reach);
-/* Can two bodies whose relative move is at most `reach` be in half-plane `way`? The second function: and behind the
- * line of `behind`? */
-bool sunder_i_chain_is_open(const sunder_i_half_plane *way, double reach);
-bool sunder_i_chain_is_open_behind(const sunder_i_half_plane *way, const sunder_i_half_plane *behind, double reach);
+size_t sunder_i_chain_half_planes(sunder_i_branching *branching, size_t n, double reach);
+/* Can two bodies whose relative move is at most `reach` be in this half-plane? The second function: and behind
+ * the line of `behind`? */
+bool sunder_i_chain_is_open(const sunder_i_half_plane *half_plane, double reach);
+bool sunder_i_chain_is_open_behind(const sunder_i_half_plane *half_plane, const sunder_i_half_plane *behind,
+                                   double reach);
 
 /* ---- chain_fewest.c ---------------------------------------------------------------------------------------------- */
 
 /* If all pairs owe their full distance: finds the chain of fewest links that leaves a half-plane of the pair no room;
  * *found. Returns false if memory is out. */
-bool sunder_i_chain_fewest(sunder_i_chains *chains, const sunder_i_chain_link *pair, const sunder_i_half_plane *way,
-                           sunder_i_pushing *chain, bool *found);
+bool sunder_i_chain_fewest(sunder_i_chains *chains, const sunder_i_chain_link *pair,
+                           const sunder_i_half_plane *half_plane, sunder_i_pushing *chain, bool *found);
 
 /* ---- chain_proof.c ----------------------------------------------------------------------------------------------- */
 
@@ -92,7 +93,7 @@ bool sunder_i_chain_fewest(sunder_i_chains *chains, const sunder_i_chain_link *p
  * the n chains, in the order of half-planes; chain[n] belongs to none. Returns NULL if a chain fails because of
  * rounding, or memory is out (*failed). */
 sunder_proof *sunder_i_chain_prove(sunder_i_chains *chains, const sunder_i_subproblem *subproblem,
-                                   const sunder_i_chain_link *pair, const sunder_i_half_plane *way, size_t ways,
-                                   const sunder_i_pushing *chain, size_t n, bool *failed);
+                                   const sunder_i_chain_link *pair, const sunder_i_half_plane *half_plane,
+                                   size_t half_planes, const sunder_i_pushing *chain, size_t n, bool *failed);
 
 #endif

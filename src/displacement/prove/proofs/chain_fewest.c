@@ -39,7 +39,7 @@ typedef struct reach {
 static double limit_of(const sunder_i_chains *g, uint32_t body) { return sunder_i_limit_of(&g->of.model->body[body]); }
 
 /* Returns the loss at a body that is pushed along n and pushes along m. */
-static double turn(const sunder_i_chains *g, uint32_t body, const double n[2], const double m[2])
+static double turn_loss(const sunder_i_chains *g, uint32_t body, const double n[2], const double m[2])
 {
     return limit_of(g, body) * hypot(n[0] - m[0], n[1] - m[1]);
 }
@@ -55,7 +55,7 @@ static bool is_behind(const sunder_i_chains *g, const reach *r, size_t k, size_t
 }
 
 /* Adds a chain to round k if it is among the best few; these are unordered. */
-static void keep(reach *r, size_t k, const reached *found)
+static void keep_chain(reach *r, size_t k, const reached *found)
 {
     reached *item = r->item + r->first[k];
     size_t n = r->first[k + 1] - r->first[k], least = 0;
@@ -84,10 +84,10 @@ static bool push_on(sunder_i_chains *g, reach *r, size_t k, size_t at, uint32_t 
     for (size_t l = of->first; l < of->first + of->n; l++) {
         const sunder_i_chain_link *link = &g->link[l];
         const reached found = {(uint32_t)l, (uint32_t)(k ? at - r->first[k] : 0),
-                               won - turn(g, body, n, link->n) - link->spare};
+                               won - turn_loss(g, body, n, link->n) - link->spare};
         if (found.won + limit_of(g, link->j) <= r->least || link->j == other || is_behind(g, r, k, at, link->j))
             continue;
-        keep(r, k + 1, &found);
+        keep_chain(r, k + 1, &found);
     }
     return true;
 }
@@ -118,7 +118,7 @@ static bool go_on(sunder_i_chains *g, reach *r, uint32_t other)
 
 /* The part beyond a body gains at most its limit, or that part would be positive by itself; nor does the other end of
  * the pair gain more than the limit of the body there. `least` follows from this. */
-static void begin(const sunder_i_chains *g, reach *r, uint32_t body, double nx, double ny, double least)
+static void begin_reach(const sunder_i_chains *g, reach *r, uint32_t body, double nx, double ny, double least)
 {
     r->least = least;
     r->body = body;
@@ -139,7 +139,7 @@ typedef struct row {
 } row;
 
 /* Writes the k links of the best chain of one end, from the pair on, to `link`. */
-static void list(const reach *r, size_t k, uint32_t *link)
+static void list_links(const reach *r, size_t k, uint32_t *link)
 {
     for (size_t at = r->best[k]; k > 0; k--) {
         link[k - 1] = r->item[at].link;
@@ -147,7 +147,7 @@ static void list(const reach *r, size_t k, uint32_t *link)
     }
 }
 
-static void make_row(const sunder_i_chains *g, const sunder_i_chain_link *pair, const sunder_i_half_plane *way,
+static void make_row(const sunder_i_chains *g, const sunder_i_chain_link *pair, const sunder_i_half_plane *half_plane,
                      const sunder_i_pushing *chain, row *out)
 {
     const size_t left = chain->n - chain->right;
@@ -159,8 +159,8 @@ static void make_row(const sunder_i_chains *g, const sunder_i_chain_link *pair, 
         out->n[k][1] = -l->n[1];
         out->limit[k] = limit_of(g, l->j);
     }
-    out->d[left] = way->d;
-    memcpy(out->n[left], way->n, sizeof way->n);
+    out->d[left] = half_plane->d;
+    memcpy(out->n[left], half_plane->n, sizeof half_plane->n);
     out->limit[left] = limit_of(g, pair->i);
     out->limit[left + 1] = limit_of(g, pair->j);
     for (size_t k = 0; k < chain->right; k++) {
@@ -189,19 +189,19 @@ static bool has_less(const row *r)
 
 /* Combines the best chain of `right` links of one end with that of `left` links of the other. It is the result if the
  * sum is positive and no proper part is; *found. Returns false if memory is out. */
-static bool try_chain(const sunder_i_chains *g, const sunder_i_chain_link *pair, const sunder_i_half_plane *way,
+static bool try_chain(const sunder_i_chains *g, const sunder_i_chain_link *pair, const sunder_i_half_plane *half_plane,
                       const reach of[2], size_t right, size_t left, sunder_i_pushing *chain, bool *found)
 {
-    const double won = way->d + of[0].won[right] + of[1].won[left];
+    const double won = half_plane->d + of[0].won[right] + of[1].won[left];
     row r;
-    if (!(won > CHAIN_MARGIN * (fabs(way->d) + limit_of(g, pair->i) + limit_of(g, pair->j)))) return true;
+    if (!(won > CHAIN_MARGIN * (fabs(half_plane->d) + limit_of(g, pair->i) + limit_of(g, pair->j)))) return true;
     chain->link = sunder_i_alloc(right + left + 1, sizeof *chain->link);
     if (!chain->link) return false;
     chain->right = right;
     chain->n = right + left;
-    list(&of[0], right, chain->link);
-    list(&of[1], left, chain->link + right);
-    make_row(g, pair, way, chain, &r);
+    list_links(&of[0], right, chain->link);
+    list_links(&of[1], left, chain->link + right);
+    make_row(g, pair, half_plane, chain, &r);
     *found = !has_less(&r);
     if (*found) return true;
     sunder_i_free(chain->link);
@@ -209,17 +209,21 @@ static bool try_chain(const sunder_i_chains *g, const sunder_i_chain_link *pair,
     return true;
 }
 
-bool sunder_i_chain_fewest(sunder_i_chains *chains, const sunder_i_chain_link *pair, const sunder_i_half_plane *way,
-                           sunder_i_pushing *chain, bool *found)
+bool sunder_i_chain_fewest(sunder_i_chains *chains, const sunder_i_chain_link *pair,
+                           const sunder_i_half_plane *half_plane, sunder_i_pushing *chain, bool *found)
 {
     reach *of = sunder_i_alloc(2, sizeof *of);
     bool ok = of != NULL;
     *found = false;
-    if (ok) begin(chains, &of[0], pair->j, way->n[0], way->n[1], -way->d - limit_of(chains, pair->i));
-    if (ok) begin(chains, &of[1], pair->i, -way->n[0], -way->n[1], -way->d - limit_of(chains, pair->j));
+    if (ok)
+        begin_reach(chains, &of[0], pair->j, half_plane->n[0], half_plane->n[1],
+                    -half_plane->d - limit_of(chains, pair->i));
+    if (ok)
+        begin_reach(chains, &of[1], pair->i, -half_plane->n[0], -half_plane->n[1],
+                    -half_plane->d - limit_of(chains, pair->j));
     for (size_t n = 0; n <= FEWEST_MOST && ok && !*found; n++) {
         for (size_t right = 0; right <= n && ok && !*found; right++)
-            ok = try_chain(chains, pair, way, of, right, n - right, chain, found);
+            ok = try_chain(chains, pair, half_plane, of, right, n - right, chain, found);
         if (n < FEWEST_MOST && ok && !*found) ok = go_on(chains, &of[0], pair->i) && go_on(chains, &of[1], pair->j);
     }
     sunder_i_free(of);

@@ -11,37 +11,39 @@
 
 #define TURN 6.28318530717958647692
 
-static double at(const double n[2], const double *u) { return n[0] * u[0] + n[1] * u[1]; }
+static double dot_product(const double n[2], const double *u) { return n[0] * u[0] + n[1] * u[1]; }
 
 /* ---- Half-planes that are left ----------------------------------------------------------------------------------- */
 
-bool sunder_i_chain_is_open(const sunder_i_half_plane *way, double reach)
+bool sunder_i_chain_is_open(const sunder_i_half_plane *half_plane, double reach)
 {
-    return way->d <= reach + CHAIN_HAIR * (reach + fabs(way->d));
+    return half_plane->d <= reach + CHAIN_HAIR * (reach + fabs(half_plane->d));
 }
 
-/* Computes the greatest component along way->n of a relative move within reach that is behind the other line. */
-bool sunder_i_chain_is_open_behind(const sunder_i_half_plane *way, const sunder_i_half_plane *behind, double reach)
+/* Computes the greatest component along half_plane->n of a relative move within reach that is behind the other line. */
+bool sunder_i_chain_is_open_behind(const sunder_i_half_plane *half_plane, const sunder_i_half_plane *behind,
+                                   double reach)
 {
-    if (!sunder_i_chain_is_open(way, reach)) return false;
-    const double cosine = way->n[0] * behind->n[0] + way->n[1] * behind->n[1];
+    if (!sunder_i_chain_is_open(half_plane, reach)) return false;
+    const double cosine = half_plane->n[0] * behind->n[0] + half_plane->n[1] * behind->n[1];
     if (behind->d < -reach) return false;
     if (reach * cosine <= behind->d) return true;
     const double sine = sqrt(sunder_i_max(0, 1 - cosine * cosine)),
                  across = sqrt(sunder_i_max(0, reach * reach - behind->d * behind->d));
-    return way->d <= behind->d * cosine + across * sine + CHAIN_HAIR * (reach + fabs(way->d));
+    return half_plane->d <= behind->d * cosine + across * sine + CHAIN_HAIR * (reach + fabs(half_plane->d));
 }
 
-bool sunder_i_chain_only_way(sunder_i_half_plane *way, size_t n, double reach)
+bool sunder_i_chain_only_half_plane(sunder_i_half_plane *half_plane, size_t n, double reach)
 {
     for (size_t k = 0; k < n; k++) {
-        if (!sunder_i_chain_is_open(&way[k], reach)) continue;
+        if (!sunder_i_chain_is_open(&half_plane[k], reach)) continue;
         bool only = true;
-        for (size_t l = 0; l < n && only; l++) only = l == k || !sunder_i_chain_is_open_behind(&way[l], &way[k], reach);
+        for (size_t l = 0; l < n && only; l++)
+            only = l == k || !sunder_i_chain_is_open_behind(&half_plane[l], &half_plane[k], reach);
         if (!only) continue;
-        const sunder_i_half_plane first = way[k];
-        memmove(way + 1, way, k * sizeof *way);
-        way[0] = first;
+        const sunder_i_half_plane first = half_plane[k];
+        memmove(half_plane + 1, half_plane, k * sizeof *half_plane);
+        half_plane[0] = first;
         return true;
     }
     return false;
@@ -57,14 +59,15 @@ bool sunder_i_chain_only_way(sunder_i_half_plane *way, size_t n, double reach)
  *     \         w2/\| /    contradicts the limits.
  *      ',       /  ,|'
  *         ' - ~ - ' */
-static bool make_chord(const sunder_i_half_plane *way, size_t n, double reach, sunder_i_half_plane *out)
+static bool make_chord(const sunder_i_half_plane *half_plane, size_t n, double reach, sunder_i_half_plane *out)
 {
     double middle = 0, low = 0, high = 0;
     bool any = false;
     for (size_t k = 0; k < n; k++) {
-        if (!sunder_i_chain_is_open(&way[k], reach)) continue;
-        if (way[k].d <= -reach) return false;
-        const double direction = atan2(way[k].n[1], way[k].n[0]), half = acos(sunder_i_min(1, way[k].d / reach));
+        if (!sunder_i_chain_is_open(&half_plane[k], reach)) continue;
+        if (half_plane[k].d <= -reach) return false;
+        const double direction = atan2(half_plane[k].n[1], half_plane[k].n[0]),
+                     half = acos(sunder_i_min(1, half_plane[k].d / reach));
         if (!any) middle = direction;
         const double turn = any ? remainder(direction - middle, TURN) : 0;
         low = any ? sunder_i_min(low, turn - half) : -half;
@@ -78,10 +81,10 @@ static bool make_chord(const sunder_i_half_plane *way, size_t n, double reach, s
     return true;
 }
 
-size_t sunder_i_chain_ways(sunder_i_branching *branching, size_t n, double reach)
+size_t sunder_i_chain_half_planes(sunder_i_branching *branching, size_t n, double reach)
 {
     sunder_i_half_plane chord;
-    if (sunder_i_chain_only_way(branching->scratch, n, reach)) return n;
+    if (sunder_i_chain_only_half_plane(branching->scratch, n, reach)) return n;
     if (!make_chord(branching->scratch, n, reach, &chord)) return 0;
     if (!sunder_i_reserve(&branching->scratch, &branching->scratch_capacity, n + 1, sizeof *branching->scratch)) {
         branching->failed = true;
@@ -94,14 +97,14 @@ size_t sunder_i_chain_ways(sunder_i_branching *branching, size_t n, double reach
 
 /* ---- Links ------------------------------------------------------------------------------------------------------- */
 
-static uint32_t *find(const sunder_i_chains *g, uint32_t body)
+static uint32_t *find_links(const sunder_i_chains *g, uint32_t body)
 {
     return g->of.reserves ? bsearch(&body, g->of.reserve, g->of.reserves, sizeof body, sunder_i_by_number) : NULL;
 }
 
 void sunder_i_chains_stand(const sunder_i_chains *chains, uint32_t body, double t[2])
 {
-    const bool moves = !chains->all && find(chains, body) && !chains->of.model->body[body].fixed;
+    const bool moves = !chains->all && find_links(chains, body) && !chains->of.model->body[body].fixed;
     t[0] = moves ? chains->of.model->move[2 * (size_t)body] : 0;
     t[1] = moves ? chains->of.model->move[2 * (size_t)body + 1] : 0;
 }
@@ -122,7 +125,7 @@ static bool find_near(sunder_i_chains *g, uint32_t of)
     for (size_t k = 0; k < near->n; k++) {
         const uint32_t b = model->body_of[near->item[k]];
         const double limit = sunder_i_limit_of(&model->body[b]);
-        if (b != of && (limit == 0 || (isfinite(limit) && find(g, b)))) near->item[out++] = b;
+        if (b != of && (limit == 0 || (isfinite(limit) && find_links(g, b)))) near->item[out++] = b;
     }
     near->n = sunder_i_set_make(near->item, out);
     return true;
@@ -137,18 +140,18 @@ static bool link_pieces(sunder_i_chains *g, uint32_t i, const sunder_i_body_piec
     sunder_i_branching *c = &g->branching;
     double clearance, s[2], t[2];
     if (!sunder_i_branching_owe(c, a->feature, b->feature, &clearance)) return true;
-    const size_t n = sunder_i_branching_fill_ways(c, p, a, q, b, clearance, false, NULL);
-    const size_t ways = c->failed ? 0 : sunder_i_chain_ways(c, n, reach);
+    const size_t n = sunder_i_branching_fill_half_planes(c, p, a, q, b, clearance, false, NULL);
+    const size_t half_planes = c->failed ? 0 : sunder_i_chain_half_planes(c, n, reach);
     g->work += n;
     if (c->failed) return false;
-    if (ways == 0) return true;
+    if (half_planes == 0) return true;
     if (!sunder_i_reserve(&g->link, &g->link_capacity, g->links + 1, sizeof *g->link) ||
         !sunder_i_reserve(&g->step, &g->step_capacity, g->links + 1, sizeof *g->step))
         return false;
     const sunder_i_half_plane *w = c->scratch;
     sunder_i_chains_stand(g, i, s);
     sunder_i_chains_stand(g, j, t);
-    const double spare = at(w->n, t) - at(w->n, s) - w->d;
+    const double spare = dot_product(w->n, t) - dot_product(w->n, s) - w->d;
     g->step[g->links].search = 0;
     g->link[g->links++] = (sunder_i_chain_link){.i = i,
                                                 .j = j,
@@ -185,7 +188,7 @@ static bool link_bodies(sunder_i_chains *g, uint32_t i, uint32_t j)
 const sunder_i_chain_links *sunder_i_chains_find(sunder_i_chains *chains, uint32_t body)
 {
     static const sunder_i_chain_links none = {.known = true};
-    const uint32_t *place = find(chains, body);
+    const uint32_t *place = find_links(chains, body);
     if (!place) return &none;
     sunder_i_chain_links *of = &chains->body[place - chains->of.reserve];
     if (of->known) return of;

@@ -12,27 +12,27 @@ typedef struct builder {
     size_t open; /* the half-plane below which the next node hangs; SIZE_MAX: it is the root */
 } builder;
 
-static void hang(builder *b, size_t node)
+static void hang_node(builder *b, size_t node)
 {
     if (b->open == SIZE_MAX)
         b->root = node;
     else
-        b->c->way[b->open].next = node;
+        b->c->half_plane[b->open].next = node;
 }
 
 /* Records that memory is out if `ok` is false. Returns ok. */
-static bool must(const builder *b, bool ok)
+static bool note_failure(const builder *b, bool ok)
 {
     b->c->failed = b->c->failed || !ok;
     return ok;
 }
 
 /* Adds a node for two pieces, with the half-planes in scratch. Returns false if memory is out. */
-static bool add_node(builder *b, const sunder_i_chain_link *l, size_t ways, size_t *node)
+static bool add_node(builder *b, const sunder_i_chain_link *l, size_t half_planes, size_t *node)
 {
     const sunder_i_violation o = {.p = l->i, .q = l->j, .a = l->a, .b = l->b, .clearance = l->clearance};
-    if (!must(b, sunder_i_branching_add_branch(b->c, &o, ways, node))) return false;
-    hang(b, *node);
+    if (!note_failure(b, sunder_i_branching_add_branch(b->c, &o, half_planes, node))) return false;
+    hang_node(b, *node);
     return true;
 }
 
@@ -42,33 +42,35 @@ typedef struct between {
     size_t node;
 } between;
 
-/* Adds a leaf for half-plane `way` of a node: it contradicts the limits of its two bodies, alone or together with one
- * of the n half-planes before it that are excluded. Returns false if it does not, because of rounding, or if memory is
- * out. */
-static bool add_dead_end(builder *b, const between *at, size_t way, const size_t *behind, size_t n)
+/* Adds a leaf for the half-plane with index `half_plane` of a node: the half-plane contradicts the limits of its two
+ * bodies, alone or together with one of the n half-planes before it that are excluded. Returns false if it does not,
+ * because of rounding, or if memory is out. */
+static bool add_dead_end(builder *b, const between *at, size_t half_plane, const size_t *behind, size_t n)
 {
     sunder_i_branching *c = b->c;
     sunder_i_levels levels;
     size_t leaf = 0;
     c->claims = 0;
     for (size_t k = 0; k < n; k++)
-        if (!must(b, sunder_i_branching_push(c, at->i, at->j, at->node, behind[k], true, 0))) return false;
-    if (!must(b, sunder_i_branching_push(c, at->i, at->j, at->node, way, false, 0))) return false;
-    if (!sunder_i_branching_is_dead_end(c) || !must(b, sunder_i_branching_add_leaf(c, &levels, &leaf))) return false;
-    c->way[way].next = leaf;
+        if (!note_failure(b, sunder_i_branching_push(c, at->i, at->j, at->node, behind[k], true, 0))) return false;
+    if (!note_failure(b, sunder_i_branching_push(c, at->i, at->j, at->node, half_plane, false, 0))) return false;
+    if (!sunder_i_branching_is_dead_end(c) || !note_failure(b, sunder_i_branching_add_leaf(c, &levels, &leaf)))
+        return false;
+    c->half_plane[half_plane].next = leaf;
     return true;
 }
 
-/* Adds the claim of half-plane `way` to the chain; the next node hangs below it. Returns false if memory is out. */
-static bool go_on(builder *b, const between *at, size_t way)
+/* Adds the claim of the half-plane with index `half_plane` to the chain; the next node hangs below it. Returns false if
+ * memory is out. */
+static bool go_on(builder *b, const between *at, size_t half_plane)
 {
     sunder_i_branching *c = b->c;
     c->claims = 0;
-    if (!must(b, sunder_i_branching_push(c, at->i, at->j, at->node, way, false, 0)) ||
-        !must(b, sunder_i_reserve(&b->claim, &b->capacity, b->claims + 1, sizeof *b->claim)))
+    if (!note_failure(b, sunder_i_branching_push(c, at->i, at->j, at->node, half_plane, false, 0)) ||
+        !note_failure(b, sunder_i_reserve(&b->claim, &b->capacity, b->claims + 1, sizeof *b->claim)))
         return false;
     b->claim[b->claims++] = c->claim[0];
-    b->open = way;
+    b->open = half_plane;
     return true;
 }
 
@@ -79,12 +81,12 @@ static bool add_link(builder *b, const sunder_i_chain_link *l)
     sunder_i_branching *c = b->c;
     const sunder_i_body *p = &c->model->body[l->i], *q = &c->model->body[l->j];
     const double reach = sunder_i_branching_limit(c, p) + sunder_i_branching_limit(c, q);
-    size_t n = sunder_i_branching_fill_ways(c, p, l->a, q, l->b, l->clearance, false, NULL);
-    if (!c->failed) n = sunder_i_chain_ways(c, n, reach);
+    size_t n = sunder_i_branching_fill_half_planes(c, p, l->a, q, l->b, l->clearance, false, NULL);
+    if (!c->failed) n = sunder_i_chain_half_planes(c, n, reach);
     if (c->failed || n == 0) return false;
     between at = {sunder_i_branching_join(c, l->i), sunder_i_branching_join(c, l->j), 0};
     if (c->failed || !add_node(b, l, n, &at.node)) return false;
-    const size_t first = c->node[at.node].way;
+    const size_t first = c->node[at.node].half_plane;
     for (size_t k = 1; k < n; k++)
         if (!add_dead_end(b, &at, first + k, &first, 1)) return false;
     return go_on(b, &at, first);
@@ -96,30 +98,32 @@ static bool add_end(builder *b)
     sunder_i_branching *c = b->c;
     sunder_i_levels levels;
     size_t leaf = 0;
-    if (!must(b, sunder_i_reserve(&c->claim, &c->claim_capacity, b->claims, sizeof *c->claim))) return false;
+    if (!note_failure(b, sunder_i_reserve(&c->claim, &c->claim_capacity, b->claims, sizeof *c->claim))) return false;
     memcpy(c->claim, b->claim, b->claims * sizeof *c->claim);
     c->claims = b->claims;
     for (size_t k = 0; k < c->claims; k++) c->claim[k].force = 1;
-    if (!sunder_i_branching_is_contradiction(c) || !must(b, sunder_i_branching_add_leaf(c, &levels, &leaf)))
+    if (!sunder_i_branching_is_contradiction(c) || !note_failure(b, sunder_i_branching_add_leaf(c, &levels, &leaf)))
         return false;
-    hang(b, leaf);
+    hang_node(b, leaf);
     return true;
 }
 
 /* Builds the tree: the pair's node, and below each of its half-planes a chain or a dead end. */
-static bool build(builder *b, const sunder_i_chains *g, const sunder_i_chain_link *pair, const sunder_i_half_plane *way,
-                  size_t ways, const sunder_i_pushing *chain, size_t *behind)
+static bool build_tree(builder *b, const sunder_i_chains *g, const sunder_i_chain_link *pair,
+                       const sunder_i_half_plane *half_plane, size_t half_planes, const sunder_i_pushing *chain,
+                       size_t *behind)
 {
     sunder_i_branching *c = b->c;
     between at = {sunder_i_branching_join(c, pair->i), sunder_i_branching_join(c, pair->j), 0};
     size_t done = 0;
-    if (c->failed || !must(b, sunder_i_reserve(&c->scratch, &c->scratch_capacity, ways, sizeof *c->scratch)))
+    if (c->failed ||
+        !note_failure(b, sunder_i_reserve(&c->scratch, &c->scratch_capacity, half_planes, sizeof *c->scratch)))
         return false;
-    memcpy(c->scratch, way, ways * sizeof *way);
-    if (!add_node(b, pair, ways, &at.node)) return false;
-    for (size_t k = 0; k < ways; k++) {
-        const size_t number = c->node[at.node].way + k;
-        if (chain[done].way != k) {
+    memcpy(c->scratch, half_plane, half_planes * sizeof *half_plane);
+    if (!add_node(b, pair, half_planes, &at.node)) return false;
+    for (size_t k = 0; k < half_planes; k++) {
+        const size_t number = c->node[at.node].half_plane + k;
+        if (chain[done].half_plane != k) {
             if (!add_dead_end(b, &at, number, behind, done)) return false;
             continue;
         }
@@ -133,7 +137,7 @@ static bool build(builder *b, const sunder_i_chains *g, const sunder_i_chain_lin
     return true;
 }
 
-static void clear(sunder_i_branching *c)
+static void clear_branching(sunder_i_branching *c)
 {
     sunder_i_free(c->body);
     sunder_i_free(c->t);
@@ -143,14 +147,14 @@ static void clear(sunder_i_branching *c)
     sunder_i_free(c->weight);
     sunder_i_free(c->claim);
     sunder_i_free(c->node);
-    sunder_i_free(c->way);
+    sunder_i_free(c->half_plane);
     sunder_i_free(c->force);
     sunder_i_free(c->scratch);
 }
 
 sunder_proof *sunder_i_chain_prove(sunder_i_chains *chains, const sunder_i_subproblem *subproblem,
-                                   const sunder_i_chain_link *pair, const sunder_i_half_plane *way, size_t ways,
-                                   const sunder_i_pushing *chain, size_t n, bool *failed)
+                                   const sunder_i_chain_link *pair, const sunder_i_half_plane *half_plane,
+                                   size_t half_planes, const sunder_i_pushing *chain, size_t n, bool *failed)
 {
     sunder_i_subproblem of = *subproblem;
     sunder_i_branching c = {.subproblem = &of, .model = of.model};
@@ -158,14 +162,14 @@ sunder_proof *sunder_i_chain_prove(sunder_i_chains *chains, const sunder_i_subpr
     of.coarse = chains->of.coarse;
     sunder_proof *proof = NULL;
     size_t *behind = sunder_i_alloc(n + 1, sizeof *behind);
-    if (must(&b, behind != NULL) && build(&b, chains, pair, way, ways, chain, behind)) {
+    if (note_failure(&b, behind != NULL) && build_tree(&b, chains, pair, half_plane, half_planes, chain, behind)) {
         proof = sunder_i_proof_of(&c, b.root);
-        must(&b, proof != NULL);
+        note_failure(&b, proof != NULL);
     }
     sunder_i_free(behind);
     *failed = c.failed;
     chains->work += sunder_i_branching_work(&c);
     sunder_i_free(b.claim);
-    clear(&c);
+    clear_branching(&c);
     return proof;
 }

@@ -22,8 +22,8 @@
 
 #include <string.h>
 
-static double cross(const double u[2], const double v[2]) { return u[0] * v[1] - u[1] * v[0]; }
-static double dot(const double u[2], const double v[2]) { return u[0] * v[0] + u[1] * v[1]; }
+static double cross_product(const double u[2], const double v[2]) { return u[0] * v[1] - u[1] * v[0]; }
+static double dot_product(const double u[2], const double v[2]) { return u[0] * v[0] + u[1] * v[1]; }
 
 static int side_of(const double p[2], const double q[2], const double u[2])
 {
@@ -51,10 +51,10 @@ static bool is_shaded(const double a[2], const double b[2], const double p[2], c
 static bool is_behind(const double a[2], const double b[2], const double p[2], const double q[2], const double chord[4])
 {
     if (!is_shaded(a, b, p, chord) || !is_shaded(a, b, q, chord + 2)) return false;
-    const double way[2] = {b[0] - a[0], b[1] - a[1]};
+    const double path[2] = {b[0] - a[0], b[1] - a[1]};
     for (int k = 0; k < 4; k += 2) {
         const double at[2] = {chord[k] - a[0], chord[k + 1] - a[1]};
-        if (!(dot(at, way) > 0.5 * dot(way, way))) return false;
+        if (!(dot_product(at, path) > 0.5 * dot_product(path, path))) return false;
     }
     const int anchor = side_of(chord, chord + 2, a);
     return side_of(a, b, p) == -side_of(a, b, q) && anchor != 0 && side_of(chord, chord + 2, b) == anchor;
@@ -63,16 +63,17 @@ static bool is_behind(const double a[2], const double b[2], const double p[2], c
 bool sunder_i_branching_make_chord(const double a[2], const double b[2], const double p[2], const double q[2],
                                    double chord[4])
 {
-    const double way[2] = {b[0] - a[0], b[1] - a[1]}, size = dot(way, way);
+    const double path[2] = {b[0] - a[0], b[1] - a[1]}, size = dot_product(path, path);
     double u[2], v[2];
     for (int c = 0; c < 2; c++) {
-        u[c] = way[c] + CHORD * (p[c] - b[c]);
-        v[c] = way[c] + CHORD * (q[c] - b[c]);
+        u[c] = path[c] + CHORD * (p[c] - b[c]);
+        v[c] = path[c] + CHORD * (q[c] - b[c]);
     }
     /* Where the segment uv crosses the ray, as a multiple of the distance of b. */
-    const double left = cross(way, u), right = cross(way, v);
+    const double left = cross_product(path, u), right = cross_product(path, v);
     if (!(size > 0) || !(left * right < 0)) return false;
-    const double share = left / (left - right), passes = ((1 - share) * dot(u, way) + share * dot(v, way)) / size;
+    const double share = left / (left - right),
+                 passes = ((1 - share) * dot_product(u, path) + share * dot_product(v, path)) / size;
     if (!(passes > 0.5)) return false;
     const double times = (1 + BEYOND) * sunder_i_max(1, 1 / passes);
     for (int c = 0; c < 2; c++) {
@@ -82,8 +83,9 @@ bool sunder_i_branching_make_chord(const double a[2], const double b[2], const d
     return is_behind(a, b, p, q, chord);
 }
 
-size_t sunder_i_branching_chord_ways(sunder_i_branching *branching, const sunder_i_body *p,
-                                     const sunder_i_body_piece *anchor, const sunder_i_body *q, const double chord[4])
+size_t sunder_i_branching_chord_half_planes(sunder_i_branching *branching, const sunder_i_body *p,
+                                            const sunder_i_body_piece *anchor, const sunder_i_body *q,
+                                            const double chord[4])
 {
     double at[4];
     for (int k = 0; k < 4; k++) at[k] = chord[k] - q->origin[k & 1];
@@ -113,8 +115,8 @@ typedef struct spoke {
 /* Does the anchor's path pass nearly through `end`? Relative to the side the anchor moves by -u. */
 static bool is_beside(const double a[2], const double end[2], const double u[2])
 {
-    const double to[2] = {end[0] - a[0], end[1] - a[1]}, along = -dot(to, u);
-    return along > 0 && fabs(cross(to, u)) <= BESIDE * along;
+    const double to[2] = {end[0] - a[0], end[1] - a[1]}, along = -dot_product(to, u);
+    return along > 0 && fabs(cross_product(to, u)) <= BESIDE * along;
 }
 
 /* Finds the spoke of an obstacle that is a side. Returns false if it has none. */
@@ -135,10 +137,10 @@ static bool find_spoke(const sunder_i_plane *g, const sunder_i_plane_obstacle *o
     return false;
 }
 
-/* Does the chord across the corner that two spokes share exclude the move u? Sets *chord, and the number *ways of its
- * half-planes, which are in scratch. */
-static bool shuts(sunder_i_plane *g, const spoke *s, const spoke *r, const double u[2], sunder_i_chord *chord,
-                  size_t *ways)
+/* Does the chord across the corner that two spokes share exclude the move u? Sets *chord, and the number *half_planes
+ * of its half-planes, which are in scratch. */
+static bool shuts_move(sunder_i_plane *g, const spoke *s, const spoke *r, const double u[2], sunder_i_chord *chord,
+                       size_t *half_planes)
 {
     const sunder_i_model *model = g->c->model;
     const double *a = model->side_at + 2 * (size_t)s->of->a->feature;
@@ -147,12 +149,13 @@ static bool shuts(sunder_i_plane *g, const spoke *s, const spoke *r, const doubl
         return false;
     chord->side[0] = s->side;
     chord->side[1] = r->side;
-    *ways = sunder_i_branching_chord_ways(g->c, &model->body[g->p], s->of->a, &model->body[s->of->q], chord->at);
-    return !g->c->failed && sunder_i_branching_depth(g->c, *ways, u) > 0;
+    *half_planes =
+        sunder_i_branching_chord_half_planes(g->c, &model->body[g->p], s->of->a, &model->body[s->of->q], chord->at);
+    return !g->c->failed && sunder_i_branching_depth(g->c, *half_planes, u) > 0;
 }
 
 const sunder_i_plane_obstacle *sunder_i_plane_find_chord(sunder_i_plane *plane, const double u[2],
-                                                         sunder_i_chord *chord, size_t *ways)
+                                                         sunder_i_chord *chord, size_t *half_planes)
 {
     const struct sunder_i_plane_kept *kept = plane->kept;
     spoke spokes[SPOKES];
@@ -165,7 +168,7 @@ const sunder_i_plane_obstacle *sunder_i_plane_find_chord(sunder_i_plane *plane, 
             if (kept->box[4 * k] > kept->box[4 * k + 2] || !find_spoke(plane, &kept->obstacle[k], u, &spokes[n]))
                 continue;
             for (size_t i = 0; i < n && !plane->c->failed; i++)
-                if (shuts(plane, &spokes[i], &spokes[n], u, chord, ways)) return spokes[i].of;
+                if (shuts_move(plane, &spokes[i], &spokes[n], u, chord, half_planes)) return spokes[i].of;
             n++;
         }
     }

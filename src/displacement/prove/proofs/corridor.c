@@ -44,7 +44,7 @@
 
 /* Sets *out to q - p. Returns false if that is not a double. The rounding error of a difference is itself a double
  * [Knu97, 4.2.2]. */
-static bool subtract(double q, double p, double *out)
+static bool subtract_exactly(double q, double p, double *out)
 {
     const double s = q - p, back = s - q;
     *out = s;
@@ -60,10 +60,10 @@ static bool are_equal_products(double p, double q, double r, double s)
 
 static bool are_parallel(const double m[2], const double n[2]) { return are_equal_products(m[0], n[1], m[1], n[0]); }
 
-static double dot(const double p[2], const double q[2]) { return p[0] * q[0] + p[1] * q[1]; }
+static double dot_product(const double p[2], const double q[2]) { return p[0] * q[0] + p[1] * q[1]; }
 
 /* Scales the normal by a factor such that it still consists of doubles and is about 1 long. */
-static void scale(double n[2])
+static void scale_normal(double n[2])
 {
     const int e = ilogb(hypot(n[0], n[1]));
     for (int x = 0; x < 2; x++) n[x] = ldexp(n[x], -e);
@@ -147,29 +147,29 @@ static bool normal_of(const facing *f, size_t k, double n[2])
     const double *xy = of_a ? f->a : f->b, *p = xy + 2 * (of_a ? k : k - na),
                  *q = xy + 2 * (of_a ? (k + 1) % na : (k - na + 1) % nb);
     double x, y;
-    const bool exact_x = subtract(q[0], p[0], &x), exact_y = subtract(q[1], p[1], &y);
+    const bool exact_x = subtract_exactly(q[0], p[0], &x), exact_y = subtract_exactly(q[1], p[1], &y);
     n[0] = of_a ? y : -y;
     n[1] = of_a ? -x : x;
     return exact_x && exact_y;
 }
 
 /* Returns the corner that is farthest along sign * n. */
-static const double *farthest(const double *xy, size_t corners, const double n[2], double sign)
+static const double *farthest_corner(const double *xy, size_t corners, const double n[2], double sign)
 {
     const double *best = xy;
     for (size_t k = 1; k < corners; k++) {
         const double d[2] = {xy[2 * k] - best[0], xy[2 * k + 1] - best[1]};
-        if (sign * dot(n, d) > 0) best = xy + 2 * k;
+        if (sign * dot_product(n, d) > 0) best = xy + 2 * k;
     }
     return best;
 }
 
 /* Returns the distance of u = 0 beyond the line of an edge of A - B with normal n, negative inside. */
-static double beyond(const facing *f, const double n[2])
+static double beyond_line(const facing *f, const double n[2])
 {
-    const double *p = farthest(f->a, f->wall.a->corners, n, 1), *q = farthest(f->b, f->wall.b->corners, n, -1),
-                 d[2] = {p[0] - q[0], p[1] - q[1]};
-    return -dot(n, d) / hypot(n[0], n[1]);
+    const double *p = farthest_corner(f->a, f->wall.a->corners, n, 1),
+                 *q = farthest_corner(f->b, f->wall.b->corners, n, -1), d[2] = {p[0] - q[0], p[1] - q[1]};
+    return -dot_product(n, d) / hypot(n[0], n[1]);
 }
 
 /* Is the foot of the perpendicular from u = 0 to edge k on that edge, at least a hair from its ends? */
@@ -177,19 +177,19 @@ static bool has_foot(const facing *f, size_t k, const double n[2], double hair)
 {
     const size_t na = f->wall.a->corners, nb = f->wall.b->corners;
     const bool of_a = k < na;
-    const double *other = of_a ? farthest(f->b, nb, n, -1) : farthest(f->a, na, n, 1),
+    const double *other = of_a ? farthest_corner(f->b, nb, n, -1) : farthest_corner(f->a, na, n, 1),
                  *p = of_a ? f->a + 2 * k : f->b + 2 * (k - na),
                  *q = of_a ? f->a + 2 * ((k + 1) % na) : f->b + 2 * ((k - na + 1) % nb),
                  to_p[2] = {p[0] - other[0], p[1] - other[1]}, to_q[2] = {q[0] - other[0], q[1] - other[1]},
                  e[2] = {q[0] - p[0], q[1] - p[1]}, room = hair * hypot(e[0], e[1]);
-    return dot(to_p, e) < -room && dot(to_q, e) > room;
+    return dot_product(to_p, e) < -room && dot_product(to_q, e) > room;
 }
 
 /* Are the two normals nearly parallel, but not exactly? */
 static bool are_nearly_parallel(const double n[2], const double other[2])
 {
     const double size = hypot(other[0], other[1]) * hypot(n[0], n[1]);
-    return dot(n, other) > 0 && !are_parallel(n, other) &&
+    return dot_product(n, other) > 0 && !are_parallel(n, other) &&
            fabs(n[0] * other[1] - n[1] * other[0]) < NEARLY_PARALLEL * size;
 }
 
@@ -197,13 +197,13 @@ static bool are_nearly_parallel(const double n[2], const double other[2])
  * are deeper. */
 static bool stands_out(const facing *f, size_t k, const double n[2], double hair)
 {
-    const double depth = beyond(f, n);
+    const double depth = beyond_line(f, n);
     for (size_t m = 0; m < f->wall.a->corners + f->wall.b->corners; m++) {
         double other[2];
         if (m == k) continue;
         if (!normal_of(f, m, other) || are_nearly_parallel(n, other)) return false;
-        if (dot(n, other) > 0 && are_parallel(n, other)) continue;
-        if (depth < 0 && !(beyond(f, other) < depth - hair)) return false;
+        if (dot_product(n, other) > 0 && are_parallel(n, other)) continue;
+        if (depth < 0 && !(beyond_line(f, other) < depth - hair)) return false;
     }
     return true;
 }
@@ -215,10 +215,10 @@ static bool is_line(const sunder_i_branching *c, facing *f, size_t k, double cle
     /* The edge must be so long that any edge not parallel to it has a direction of its own (half_planes.c: less than a
      * hair). */
     if (!normal_of(f, k, n) || !(NEARLY_PARALLEL * hypot(n[0], n[1]) > 8 * c->hair)) return false;
-    if (!(fabs(beyond(f, n) - clearance) <= c->hair)) return false;
-    if (!(clearance >= 0 ? has_foot(f, k, n, c->hair) : beyond(f, n) < -c->hair)) return false;
+    if (!(fabs(beyond_line(f, n) - clearance) <= c->hair)) return false;
+    if (!(clearance >= 0 ? has_foot(f, k, n, c->hair) : beyond_line(f, n) < -c->hair)) return false;
     if (!stands_out(f, k, n, c->hair)) return false;
-    scale(n);
+    scale_normal(n);
     return true;
 }
 
@@ -229,9 +229,9 @@ static bool is_extreme(const double *xy, size_t corners, const double n[2], cons
 {
     for (size_t k = 0; k < corners; k++) {
         double d[2];
-        if (!subtract(xy[2 * k], at[0], &d[0]) || !subtract(xy[2 * k + 1], at[1], &d[1])) return false;
+        if (!subtract_exactly(xy[2 * k], at[0], &d[0]) || !subtract_exactly(xy[2 * k + 1], at[1], &d[1])) return false;
         const double size = fabs(n[0] * d[0]) + fabs(n[1] * d[1]);
-        if (dot(n, d) < -0x1p-50 * size || are_equal_products(n[0], d[0], -n[1], d[1])) continue;
+        if (dot_product(n, d) < -0x1p-50 * size || are_equal_products(n[0], d[0], -n[1], d[1])) continue;
         return false;
     }
     return true;
@@ -243,16 +243,19 @@ static bool is_far_line(const sunder_i_branching *c, facing *f, size_t k, const 
 {
     double *n = f->wall.n, d[2];
     if (!normal_of(f, k, n) || !(NEARLY_PARALLEL * hypot(n[0], n[1]) > 8 * c->hair)) return false;
-    if (!(fabs(beyond(f, n) - f->wall.clearance) <= c->hair)) return false;
+    if (!(fabs(beyond_line(f, n) - f->wall.clearance) <= c->hair)) return false;
     for (size_t m = 0; m < f->wall.a->corners + f->wall.b->corners; m++) {
         double other[2];
         if (m == k) continue;
         if (!normal_of(f, m, other) || are_nearly_parallel(n, other)) return false;
     }
-    const double *p = farthest(f->a, f->wall.a->corners, n, 1), *q = farthest(f->b, f->wall.b->corners, n, -1);
-    scale(n);
-    if (!is_extreme(hull, corners, n, p) || !subtract(p[0], q[0], &d[0]) || !subtract(p[1], q[1], &d[1])) return false;
-    f->wall.d = dot(n, d) - 0x1p-48 * (fabs(n[0] * d[0]) + fabs(n[1] * d[1]));
+    const double *p = farthest_corner(f->a, f->wall.a->corners, n, 1),
+                 *q = farthest_corner(f->b, f->wall.b->corners, n, -1);
+    scale_normal(n);
+    if (!is_extreme(hull, corners, n, p) || !subtract_exactly(p[0], q[0], &d[0]) ||
+        !subtract_exactly(p[1], q[1], &d[1]))
+        return false;
+    f->wall.d = dot_product(n, d) - 0x1p-48 * (fabs(n[0] * d[0]) + fabs(n[1] * d[1]));
     return true;
 }
 
@@ -410,14 +413,15 @@ static bool is_of(const sunder_i_model *model, uint32_t thing, uint32_t body) { 
 
 /* Chooses two opposite lines that leave the body only one place. slack: lines that a slack has to reach may be used,
  * too. */
-static bool choose(const looking *g, bool slack, sunder_i_corridor_wall out[2])
+static bool choose_walls(const looking *g, bool slack, sunder_i_corridor_wall out[2])
 {
     const sunder_i_model *model = g->branching->model;
     for (size_t k = 0; k < g->n; k++)
         for (size_t l = k + 1; l < g->n; l++) {
             const double *m = g->line[k].n, *n = g->line[l].n;
             if (!slack && (g->line[k].slack || g->line[l].slack)) continue;
-            if (!(dot(m, n) < 0) || !are_parallel(m, n) || !is_alone(model, &model->body[g->mover], n)) continue;
+            if (!(dot_product(m, n) < 0) || !are_parallel(m, n) || !is_alone(model, &model->body[g->mover], n))
+                continue;
             out[0] = g->line[k];
             out[1] = g->line[l];
             return true;
@@ -433,7 +437,7 @@ sunder_status sunder_i_branching_find_corridor(sunder_i_branching *branching, ui
     for (size_t k = 0; k < q->required_n && !g.status; k++)
         if (is_of(model, q->required[k].a, body) || is_of(model, q->required[k].b, body))
             look_at_requirement(&g, &q->required[k]);
-    if (!g.status && (choose(&g, false, branching->wall) || choose(&g, true, branching->wall))) {
+    if (!g.status && (choose_walls(&g, false, branching->wall) || choose_walls(&g, true, branching->wall))) {
         branching->walls = 2;
         branching->between = body;
     }
@@ -441,18 +445,19 @@ sunder_status sunder_i_branching_find_corridor(sunder_i_branching *branching, ui
     return g.status;
 }
 
-size_t sunder_i_branching_wall_ways(sunder_i_branching *branching, const sunder_i_corridor_wall *wall)
+size_t sunder_i_branching_wall_half_planes(sunder_i_branching *branching, const sunder_i_corridor_wall *wall)
 {
     const sunder_i_body *p = &branching->model->body[branching->between],
                         *q = &branching->model->body[branching->model->body_of[wall->b->feature]];
-    const size_t n =
-        sunder_i_branching_fill_ways(branching, p, wall->a, q, wall->b, wall->slack ? 0 : wall->clearance, false, NULL);
+    const size_t n = sunder_i_branching_fill_half_planes(branching, p, wall->a, q, wall->b,
+                                                         wall->slack ? 0 : wall->clearance, false, NULL);
     const double length = hypot(wall->n[0], wall->n[1]);
     size_t at = n;
     for (size_t k = 0; k < n; k++) {
         const sunder_i_half_plane *w = &branching->scratch[k];
         const double sine = (w->n[0] * wall->n[1] - w->n[1] * wall->n[0]) / length;
-        if (dot(w->n, wall->n) > 0 && fabs(sine) < 0x1p-40 && fabs(w->d - wall->d / length) <= 4 * branching->hair) {
+        if (dot_product(w->n, wall->n) > 0 && fabs(sine) < 0x1p-40 &&
+            fabs(w->d - wall->d / length) <= 4 * branching->hair) {
             if (at < n) return 0;
             at = k;
         }

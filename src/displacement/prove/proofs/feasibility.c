@@ -15,7 +15,7 @@
 #include <math.h>
 #include <string.h>
 
-static void clear(sunder_i_branching *c)
+static void clear_branching(sunder_i_branching *c)
 {
     sunder_i_free(c->slack);
     sunder_i_free(c->limit);
@@ -26,11 +26,11 @@ static void clear(sunder_i_branching *c)
     sunder_i_free(c->program.constraint);
     sunder_i_nearest_free(&c->nearest);
     sunder_i_free(c->node);
-    sunder_i_free(c->way);
+    sunder_i_free(c->half_plane);
     sunder_i_free(c->chord);
     sunder_i_free(c->force);
     sunder_i_free(c->scratch);
-    sunder_i_branching_forget_ways(c);
+    sunder_i_branching_forget_half_planes(c);
     sunder_i_free(c->near.item);
 }
 
@@ -71,15 +71,15 @@ static sunder_status take_plane_solution(const sunder_i_branching *c, const sund
 }
 
 /* The result of a question about one relative move. */
-typedef struct plane_told {
+typedef struct plane_answers {
     bool free;       /* there is a place where nothing is forbidden */
     double place[2]; /* if free: that place */
-} plane_told;
+} plane_answers;
 
 /* Decides the question in the plane of one relative move; the answer may remain unknown. places: NULL, or only these n
  * places are tested. */
 static sunder_status decide_in_plane(const sunder_i_subproblem *subproblem, const double (*places)[2], size_t n,
-                                     sunder_i_decision *decision, plane_told *told, sunder_error *err)
+                                     sunder_i_decision *decision, plane_answers *told, sunder_error *err)
 {
     sunder_i_branching c = {.subproblem = subproblem, .model = subproblem->model};
     sunder_i_plane_answer answer;
@@ -97,12 +97,12 @@ static sunder_status decide_in_plane(const sunder_i_subproblem *subproblem, cons
     decision->work += sunder_i_branching_work(&c);
     sunder_i_free(c.body);
     sunder_i_free(c.t);
-    clear(&c);
+    clear_branching(&c);
     return status;
 }
 
 /* Decides with coarse half-planes first, if requested, and with exact ones if these leave a free place. */
-static sunder_status ask_all(const sunder_i_subproblem *subproblem, sunder_i_decision *decision, plane_told *told,
+static sunder_status ask_all(const sunder_i_subproblem *subproblem, sunder_i_decision *decision, plane_answers *told,
                              sunder_error *err)
 {
     sunder_i_subproblem closely = *subproblem;
@@ -123,7 +123,7 @@ static sunder_status ask_all(const sunder_i_subproblem *subproblem, sunder_i_dec
 
 /* Tries to answer by an earlier answer: its free places, then the things of its proof. */
 static sunder_status ask_precedent(const sunder_i_subproblem *subproblem, const sunder_i_precedent *precedent,
-                                   sunder_i_decision *decision, plane_told *told, sunder_error *err)
+                                   sunder_i_decision *decision, plane_answers *told, sunder_error *err)
 {
     uint32_t set[SUNDER_I_PRECEDENT_THINGS + 2];
     sunder_i_subproblem some = *subproblem;
@@ -146,8 +146,8 @@ static sunder_status ask_precedent(const sunder_i_subproblem *subproblem, const 
     return status;
 }
 
-static sunder_status note(const sunder_i_subproblem *subproblem, const sunder_i_decision *decision,
-                          const plane_told *told, sunder_i_precedent *precedent, sunder_error *err)
+static sunder_status note_precedent(const sunder_i_subproblem *subproblem, const sunder_i_decision *decision,
+                                    const plane_answers *told, sunder_i_precedent *precedent, sunder_error *err)
 {
     if (told->free) sunder_i_precedent_note_place(precedent, told->place);
     if (!decision->proof ||
@@ -160,7 +160,7 @@ static sunder_status ask_plane(const sunder_i_branching *c, sunder_i_decision *d
 {
     const sunder_i_subproblem *subproblem = c->subproblem;
     sunder_i_precedent *precedent = NULL;
-    plane_told told = {.free = false};
+    plane_answers told = {.free = false};
     uint32_t p, q;
     sunder_status status = SUNDER_OK;
     if (subproblem->precedents && sunder_i_branching_plane_bodies(c, &p, &q))
@@ -168,7 +168,7 @@ static sunder_status ask_plane(const sunder_i_branching *c, sunder_i_decision *d
     if (precedent) status = ask_precedent(subproblem, precedent, decision, &told, err);
     if (!status && decision->verdict == SUNDER_I_UNKNOWN && !told.free)
         status = ask_all(subproblem, decision, &told, err);
-    if (!status && precedent) status = note(subproblem, decision, &told, precedent, err);
+    if (!status && precedent) status = note_precedent(subproblem, decision, &told, precedent, err);
     decision->no_plane = decision->verdict == SUNDER_I_UNKNOWN;
     return status;
 }
@@ -198,7 +198,7 @@ sunder_status sunder_i_decide(const sunder_i_subproblem *subproblem, sunder_i_de
     if (status || decision->verdict != SUNDER_I_UNKNOWN || subproblem->effort == 0) {
         sunder_i_free(c.body);
         sunder_i_free(c.t);
-        clear(&c);
+        clear_branching(&c);
         return status;
     }
     if (!status && limited && c.longest > 0)
@@ -214,7 +214,7 @@ sunder_status sunder_i_decide(const sunder_i_subproblem *subproblem, sunder_i_de
         sunder_i_free(c.body);
         sunder_i_free(c.t);
     }
-    clear(&c);
+    clear_branching(&c);
     return status;
 }
 

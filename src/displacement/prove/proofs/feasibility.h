@@ -64,8 +64,8 @@ typedef struct sunder_i_subproblem {
     bool still;              /* only if a body between two lines has no place there except its own: corridor.c */
     bool every_side;         /* sides of barriers count even if the barriers are not in `feature` */
     bool any_jump;           /* features may jump over each other */
-    bool any_way;            /* features may cross sides, too: no relative move is forbidden */
-    bool every_way;          /* the rules on paths of all members of `body` count, even if `feature` lacks them */
+    bool ignore_paths;       /* features may cross sides, too: no relative move is forbidden */
+    bool heed_paths;         /* the rules on paths of all members of `body` count, even if `feature` lacks them */
     double instead;          /* > 0: a limit for bodies that have none; else the question is not examined */
     bool no_plane;           /* the plane of one relative move was examined before, without an answer */
     bool fine_plane;         /* coarse half-planes give no answer there: they are skipped */

@@ -59,21 +59,21 @@ typedef struct side {
 
 typedef struct walk {
     const sunder_i_parting *parting;
-    sunder_i_half_plane *way;
+    sunder_i_half_plane *half_plane;
     size_t n;
     double slack, size;
     double inner[2]; /* a point in the interior of K */
     bool holds;      /* it is in T, as far as lines have been made */
 } walk;
 
-static double dot(const double p[2], const double q[2]) { return p[0] * q[0] + p[1] * q[1]; }
+static double dot_product(const double p[2], const double q[2]) { return p[0] * q[0] + p[1] * q[1]; }
 
 /* Adds the half-plane n.u >= base - slack + off. */
-static void add(walk *w, const double n[2], double base, double off)
+static void add_half_plane(walk *w, const double n[2], double base, double off)
 {
     const double d = base - w->slack;
-    if (!(dot(n, w->inner) < d - w->slack)) w->holds = false;
-    w->way[w->n++] = (sunder_i_half_plane){.n = {n[0], n[1]}, .d = d + off};
+    if (!(dot_product(n, w->inner) < d - w->slack)) w->holds = false;
+    w->half_plane[w->n++] = (sunder_i_half_plane){.n = {n[0], n[1]}, .d = d + off};
 }
 
 /* A run: consecutive edges of K that share one line, that of their chord. */
@@ -97,11 +97,11 @@ static bool can_join(const walk *w, const run *r, const run *next)
 {
     const double sine = r->first.n[0] * next->last.n[1] - r->first.n[1] * next->last.n[0];
     const double *p = r->corner, *q = next->corner + 2 * next->edges;
-    return r->edges + next->edges <= MOST_IN_RUN && dot(r->first.n, next->last.n) > SLIGHT &&
+    return r->edges + next->edges <= MOST_IN_RUN && dot_product(r->first.n, next->last.n) > SLIGHT &&
            fabs(sine) * hypot(q[0] - p[0], q[1] - p[1]) / 2 <= sunder_i_max(w->parting->coarse, w->slack);
 }
 
-static void join(run *r, const run *next)
+static void join_runs(run *r, const run *next)
 {
     memcpy(r->corner + 2 * (r->edges + 1), next->corner + 2, 2 * next->edges * sizeof *r->corner);
     r->edges += next->edges;
@@ -121,17 +121,17 @@ static void add_run(walk *w, const run *r)
         s.tilt = fabs(r->first.n[0] * r->last.n[1] - r->first.n[1] * r->last.n[0]) + r->first.tilt + r->last.tilt;
     }
     double base = INFINITY;
-    for (size_t k = 0; k <= r->edges; k++) base = sunder_i_min(base, dot(s.n, r->corner + 2 * k));
+    for (size_t k = 0; k <= r->edges; k++) base = sunder_i_min(base, dot_product(s.n, r->corner + 2 * k));
     const double off = g >= 0 ? g * sunder_i_max(0, 1 - 2 * UNIT - s.tilt * s.tilt) : g * (1 + 2 * UNIT);
-    add(w, s.n, base, off);
+    add_half_plane(w, s.n, base, off);
 }
 
-static void bisect(const double n1[2], const double n2[2], double out[2])
+static void bisect_normals(const double n1[2], const double n2[2], double out[2])
 {
-    const bool acute = dot(n1, n2) > 0;
+    const bool acute = dot_product(n1, n2) > 0;
     out[0] = acute ? n1[0] + n2[0] : n2[1] - n1[1];
     out[1] = acute ? n1[1] + n2[1] : n1[0] - n2[0];
-    const double length = sqrt(dot(out, out));
+    const double length = sqrt(dot_product(out, out));
     out[0] /= length;
     out[1] /= length;
 }
@@ -140,23 +140,23 @@ static void bisect(const double n1[2], const double n2[2], double out[2])
 static void add_arc(walk *w, const double q[2], const double n1[2], const double n2[2], double tilt, int halvings)
 {
     double n[2];
-    bisect(n1, n2, n);
+    bisect_normals(n1, n2, n);
     if (halvings) {
         add_arc(w, q, n1, n, tilt, halvings - 1);
         add_arc(w, q, n, n2, tilt, halvings - 1);
         return;
     }
-    const double c = sunder_i_min(dot(n, n1), dot(n, n2)) - 2 * UNIT - tilt;
-    add(w, n, dot(n, q), w->parting->clearance * sunder_i_max(0, c));
+    const double c = sunder_i_min(dot_product(n, n1), dot_product(n, n2)) - 2 * UNIT - tilt;
+    add_half_plane(w, n, dot_product(n, q), w->parting->clearance * sunder_i_max(0, c));
 }
 
-static double cross(const double p[2], const double q[2]) { return p[0] * q[1] - p[1] * q[0]; }
+static double cross_product(const double p[2], const double q[2]) { return p[0] * q[1] - p[1] * q[0]; }
 
 /* Adds the number of lines that the turn from n1 to n2 takes; none if there is no turn. */
 static void add_arcs(walk *w, const double q[2], const double n1[2], const double n2[2], double tilt)
 {
-    const double cosine = dot(n1, n2);
-    if (cross(n1, n2) > 0 && cosine < STRAIGHT)
+    const double cosine = dot_product(n1, n2);
+    if (cross_product(n1, n2) > 0 && cosine < STRAIGHT)
         add_arc(w, q, n1, n2, tilt, cosine > SLIGHT ? 0 : cosine > SQUARE ? 1 : 2);
 }
 
@@ -164,8 +164,8 @@ static void add_arcs(walk *w, const double q[2], const double n1[2], const doubl
 static void turn_to(const double n[2], double angle, const double end[2], double out[2])
 {
     const double c = cos(angle), s = sin(angle), v[2] = {c * n[0] - s * n[1], s * n[0] + c * n[1]};
-    const bool beyond = angle > 0 ? cross(v, end) <= 0 : cross(v, end) >= 0;
-    const double length = sqrt(dot(v, v));
+    const bool beyond = angle > 0 ? cross_product(v, end) <= 0 : cross_product(v, end) >= 0;
+    const double length = sqrt(dot_product(v, v));
     out[0] = beyond ? end[0] : v[0] / length;
     out[1] = beyond ? end[1] : v[1] / length;
 }
@@ -177,8 +177,8 @@ static bool turn_at(walk *w, const double q[2], const side *from, const side *to
 {
     const double *at = w->parting->at, g = w->parting->clearance, tilt = from->tilt + to->tilt;
     if (!at) return false;
-    const double v[2] = {at[0] - q[0], at[1] - q[1]}, r = sqrt(dot(v, v)), n[2] = {v[0] / r, v[1] / r};
-    if (!(r > 0) || !(r < g) || !(cross(from->n, n) > 0) || !(cross(n, to->n) > 0)) return false;
+    const double v[2] = {at[0] - q[0], at[1] - q[1]}, r = sqrt(dot_product(v, v)), n[2] = {v[0] / r, v[1] / r};
+    if (!(r > 0) || !(r < g) || !(cross_product(from->n, n) > 0) || !(cross_product(n, to->n) > 0)) return false;
     const double angle = sunder_i_min(WIDEST, sqrt((g - r) / g));
     double low[2], high[2];
     turn_to(n, -angle, from->n, low);
@@ -189,9 +189,10 @@ static bool turn_at(walk *w, const double q[2], const side *from, const side *to
     return true;
 }
 
-static void turn(walk *w, const double q[2], const side *from, const side *to)
+static void turn_corner(walk *w, const double q[2], const side *from, const side *to)
 {
-    if (!(w->parting->clearance > 0) || cross(from->n, to->n) <= 0 || dot(from->n, to->n) >= STRAIGHT) return;
+    if (!(w->parting->clearance > 0) || cross_product(from->n, to->n) <= 0 || dot_product(from->n, to->n) >= STRAIGHT)
+        return;
     if (!turn_at(w, q, from, to)) add_arcs(w, q, from->n, to->n, from->tilt + to->tilt);
 }
 
@@ -200,10 +201,10 @@ static void turn(walk *w, const double q[2], const side *from, const side *to)
 static void take_run(walk *w, run *first, run *last, const run *now)
 {
     if (last->edges && can_join(w, last, now)) {
-        join(last, now);
+        join_runs(last, now);
         return;
     }
-    if (last->edges) turn(w, last->corner + 2 * last->edges, &last->last, &now->first);
+    if (last->edges) turn_corner(w, last->corner + 2 * last->edges, &last->last, &now->first);
     if (last->edges && first->edges)
         add_run(w, last);
     else if (last->edges)
@@ -216,16 +217,16 @@ static void end_runs(walk *w, const run *first, run *last)
     if (first->edges == 0) {
         add_run(w, last);
     } else if (can_join(w, last, first)) {
-        join(last, first);
+        join_runs(last, first);
         add_run(w, last);
     } else {
-        turn(w, first->corner, &last->last, &first->first);
+        turn_corner(w, first->corner, &last->last, &first->first);
         add_run(w, first);
         add_run(w, last);
     }
 }
 
-static void measure(walk *w)
+static void measure_sizes(walk *w)
 {
     const sunder_i_parting *p = w->parting;
     w->size = p->vague;
@@ -239,15 +240,15 @@ static void measure(walk *w)
     w->slack = UNIT * w->size;
 }
 
-static void corner(const sunder_i_parting *p, size_t a, size_t b, double out[2])
+static void corner_of_sum(const sunder_i_parting *p, size_t a, size_t b, double out[2])
 {
     for (size_t c = 0; c < 2; c++) out[c] = p->a[2 * a + c] - p->b[2 * b + c] - p->offset[c];
 }
 
 size_t sunder_i_half_planes_between(const sunder_i_parting *parting, sunder_i_half_plane *out)
 {
-    walk w = {.parting = parting, .way = out, .holds = true};
-    measure(&w);
+    walk w = {.parting = parting, .half_plane = out, .holds = true};
+    measure_sizes(&w);
     /* From the lowest corner of A less the highest of B, the directions of both sequences of edges increase from 0 to 2
      * pi. */
     const size_t a0 = sunder_i_extreme_corner(parting->a, parting->na, 1),
@@ -255,15 +256,15 @@ size_t sunder_i_half_planes_between(const sunder_i_parting *parting, sunder_i_ha
     sunder_i_merge m = sunder_i_merge_of((uint32_t)parting->na, (uint32_t)parting->nb);
     run first = {.edges = 0}, last = first;
     double from[2], to[2];
-    corner(parting, a0, b0, from);
+    corner_of_sum(parting, a0, b0, from);
     for (;; from[0] = to[0], from[1] = to[1]) {
         const size_t a = (a0 + m.next_a) % parting->na, a1 = (a + 1) % parting->na, b = (b0 + m.next_b) % parting->nb,
                      b1 = (b + 1) % parting->nb;
         const double u[2] = {parting->a[2 * a1] - parting->a[2 * a], parting->a[2 * a1 + 1] - parting->a[2 * a + 1]};
         const double v[2] = {parting->b[2 * b] - parting->b[2 * b1], parting->b[2 * b + 1] - parting->b[2 * b1 + 1]};
         if (!SUNDER_I_MERGE_NEXT(&m, sunder_i_turns_first(u, v) ? -1 : 1)) break;
-        const double *e = m.of_a ? u : v, length = sqrt(dot(e, e));
-        corner(parting, (a0 + m.next_a) % parting->na, (b0 + m.next_b) % parting->nb, to);
+        const double *e = m.of_a ? u : v, length = sqrt(dot_product(e, e));
+        corner_of_sum(parting, (a0 + m.next_a) % parting->na, (b0 + m.next_b) % parting->nb, to);
         if (!(length > 0)) continue;
         run now;
         begin_run(&now, from, to, &(side){{e[1] / length, -e[0] / length}, w.slack / length});

@@ -17,7 +17,7 @@ typedef struct sunder_i_parting {
     double coarse;    /* the distance by which lines may demand less, so that one can replace several */
 } sunder_i_parting;
 
-/* A half-plane of relative moves u of B ("way": one of the ways in which the two may be separated). */
+/* A half-plane of relative moves u of B. Moves in any one of the half-planes of a pair separate the two. */
 typedef struct sunder_i_half_plane {
     double n[2], d; /* the half-plane is n.u >= d; n has length 1 within 2^-51 */
     double at;      /* n.u - d at the given relative move */

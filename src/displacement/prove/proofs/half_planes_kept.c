@@ -14,9 +14,10 @@ static bool is_vague(const sunder_i_model *model, uint32_t f)
     return sunder_i_thing_shape(model, f)->rational || model->body[model->body_of[f]].far;
 }
 
-size_t sunder_i_branching_fill_ways(sunder_i_branching *branching, const sunder_i_body *p, const sunder_i_body_piece *a,
-                                    const sunder_i_body *q, const sunder_i_body_piece *b, double clearance, bool shadow,
-                                    const double *at)
+size_t sunder_i_branching_fill_half_planes(sunder_i_branching *branching, const sunder_i_body *p,
+                                           const sunder_i_body_piece *a, const sunder_i_body *q,
+                                           const sunder_i_body_piece *b, double clearance, bool shadow,
+                                           const double *at)
 {
     const sunder_i_model *model = branching->model;
     const double reach = sunder_i_branching_limit(branching, p) + sunder_i_branching_limit(branching, q),
@@ -47,12 +48,12 @@ struct sunder_i_half_planes_kept {
     const sunder_i_body_piece *a, *b; /* NULL: the slot is empty */
     double clearance;
     bool shadow;
-    sunder_i_half_plane *way;
+    sunder_i_half_plane *half_plane;
     size_t n, capacity;
 };
 
 /* Hashes what the piece is, not its address, which differs in every run. */
-static uint64_t mix(const sunder_i_body_piece *piece)
+static uint64_t hash_piece(const sunder_i_body_piece *piece)
 {
     uint64_t bits[4], mixed = piece->feature;
     memcpy(bits, piece->box, sizeof bits);
@@ -62,25 +63,27 @@ static uint64_t mix(const sunder_i_body_piece *piece)
 
 static size_t place_of(const sunder_i_body_piece *a, const sunder_i_body_piece *b)
 {
-    const uint64_t mixed = (mix(a) ^ mix(a) >> 29) * UINT64_C(0x9e3779b97f4a7c15) + mix(b);
+    const uint64_t mixed = (hash_piece(a) ^ hash_piece(a) >> 29) * UINT64_C(0x9e3779b97f4a7c15) + hash_piece(b);
     return (size_t)((mixed * UINT64_C(0xd1342543de82ef95)) >> (64 - WAYS_KEPT_BITS));
 }
 
-void sunder_i_branching_forget_ways(sunder_i_branching *branching)
+void sunder_i_branching_forget_half_planes(sunder_i_branching *branching)
 {
-    for (size_t k = 0; k < (size_t)1 << WAYS_KEPT_BITS && branching->kept; k++) sunder_i_free(branching->kept[k].way);
+    for (size_t k = 0; k < (size_t)1 << WAYS_KEPT_BITS && branching->kept; k++)
+        sunder_i_free(branching->kept[k].half_plane);
     sunder_i_free(branching->kept);
     branching->kept = NULL;
 }
 
 /* Computes the half-planes and stores them in this slot. Returns false if memory is out. */
-static bool keep(sunder_i_branching *c, struct sunder_i_half_planes_kept *here, const sunder_i_body *p,
-                 const sunder_i_body *q, const struct sunder_i_half_planes_kept *asked)
+static bool keep_half_planes(sunder_i_branching *c, struct sunder_i_half_planes_kept *here, const sunder_i_body *p,
+                             const sunder_i_body *q, const struct sunder_i_half_planes_kept *asked)
 {
     here->a = NULL;
-    here->n = sunder_i_branching_fill_ways(c, p, asked->a, q, asked->b, asked->clearance, asked->shadow, NULL);
-    if (c->failed || !sunder_i_reserve(&here->way, &here->capacity, here->n, sizeof *here->way)) return false;
-    if (here->n) memcpy(here->way, c->scratch, here->n * sizeof *here->way);
+    here->n = sunder_i_branching_fill_half_planes(c, p, asked->a, q, asked->b, asked->clearance, asked->shadow, NULL);
+    if (c->failed || !sunder_i_reserve(&here->half_plane, &here->capacity, here->n, sizeof *here->half_plane))
+        return false;
+    if (here->n) memcpy(here->half_plane, c->scratch, here->n * sizeof *here->half_plane);
     here->a = asked->a;
     here->b = asked->b;
     here->clearance = asked->clearance;
@@ -88,10 +91,10 @@ static bool keep(sunder_i_branching *c, struct sunder_i_half_planes_kept *here, 
     return true;
 }
 
-const sunder_i_half_plane *sunder_i_branching_keep_ways(sunder_i_branching *branching, const sunder_i_body *p,
-                                                        const sunder_i_body_piece *a, const sunder_i_body *q,
-                                                        const sunder_i_body_piece *b, double clearance, bool shadow,
-                                                        size_t *n)
+const sunder_i_half_plane *sunder_i_branching_kept_half_planes(sunder_i_branching *branching, const sunder_i_body *p,
+                                                               const sunder_i_body_piece *a, const sunder_i_body *q,
+                                                               const sunder_i_body_piece *b, double clearance,
+                                                               bool shadow, size_t *n)
 {
     const struct sunder_i_half_planes_kept asked = {.a = a, .b = b, .clearance = clearance, .shadow = shadow};
     *n = 0;
@@ -100,10 +103,10 @@ const sunder_i_half_plane *sunder_i_branching_keep_ways(sunder_i_branching *bran
     if (here && here->a == a && here->b == b && here->clearance == clearance && here->shadow == shadow &&
         sunder_i_stage_is_on("memo", "half planes")) {
         branching->looked += a->corners + b->corners;
-    } else if (!here || !keep(branching, here, p, q, &asked)) {
+    } else if (!here || !keep_half_planes(branching, here, p, q, &asked)) {
         branching->failed = true;
         return NULL;
     }
     *n = here->n;
-    return here->way;
+    return here->half_plane;
 }

@@ -22,7 +22,7 @@ typedef struct shrinking {
     double *net; /* [2 * bodies] all zero between leaves */
 } shrinking;
 
-static double owed(const shrinking *g, const sunder_proof_node *node)
+static double owed_distance(const shrinking *g, const sunder_proof_node *node)
 {
     return sunder_i_branching_owed(g->subproblem, (uint32_t)node->a, (uint32_t)node->b);
 }
@@ -31,7 +31,7 @@ static double owed(const shrinking *g, const sunder_proof_node *node)
  * not change. */
 static bool owes_gap(const shrinking *g, const sunder_proof_node *node)
 {
-    return !node->shadow && node->clearance >= owed(g, node) &&
+    return !node->shadow && node->clearance >= owed_distance(g, node) &&
            sunder_i_owe_gap(g->model, (uint32_t)node->a, (uint32_t)node->b);
 }
 
@@ -79,7 +79,7 @@ static double shrink_leaf(shrinking *g, const sunder_proof_node *leaf)
  * a listed pair. */
 static double shrink_owed(const shrinking *g, const sunder_proof_node *node)
 {
-    const double all = owed(g, node);
+    const double all = owed_distance(g, node);
     return node->clearance < all ? all - sunder_i_max(0, node->clearance) : INFINITY;
 }
 

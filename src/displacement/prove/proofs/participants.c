@@ -28,7 +28,7 @@ uint32_t sunder_i_branching_place(const sunder_i_branching *branching, uint32_t 
 }
 
 /* Adds a participant, and returns its place. */
-static uint32_t add(sunder_i_branching *c, uint32_t body, double limit)
+static uint32_t add_participant(sunder_i_branching *c, uint32_t body, double limit)
 {
     const size_t n = c->bodies + 1;
     if (!sunder_i_reserve(&c->body, &c->body_capacity, n, sizeof *c->body) ||
@@ -53,7 +53,7 @@ uint32_t sunder_i_branching_join(sunder_i_branching *branching, uint32_t body)
     const double limit = sunder_i_branching_limit(branching, &branching->model->body[body]);
     if (known != SUNDER_I_GROUND) return known;
     set_scale(branching, &branching->model->body[body], limit);
-    return limit > 0 ? add(branching, body, limit) : SUNDER_I_GROUND;
+    return limit > 0 ? add_participant(branching, body, limit) : SUNDER_I_GROUND;
 }
 
 static bool is_overlap(const sunder_i_model *model, const sunder_i_requirement *r)
@@ -86,7 +86,7 @@ uint32_t sunder_i_branching_join_slack(sunder_i_branching *branching, const sund
     }
     branching->longest = sunder_i_max(branching->longest, -required->clearance);
     branching->hair = sunder_i_max(branching->hair, branching->longest * 0x1p-40);
-    const uint32_t place = add(branching, SUNDER_I_NOBODY, -required->clearance);
+    const uint32_t place = add_participant(branching, SUNDER_I_NOBODY, -required->clearance);
     if (branching->failed) return 0;
     branching->slack[branching->slacks++] = (sunder_i_slack){required, place};
     sunder_i_branching_begin(branching, place);
@@ -164,10 +164,10 @@ static bool can_move(const sunder_i_branching *c, uint32_t f, uint32_t g, double
     return p != r && *reach > 0 && isfinite(*reach);
 }
 
-bool sunder_i_branching_is_way_heeded(const sunder_i_branching *branching, uint32_t f)
+bool sunder_i_branching_is_path_heeded(const sunder_i_branching *branching, uint32_t f)
 {
     const sunder_i_subproblem *q = branching->subproblem;
-    for (size_t k = 0; k < q->bodies && q->every_way; k++)
+    for (size_t k = 0; k < q->bodies && q->heed_paths; k++)
         if (q->body[k] == branching->model->body_of[f]) return true;
     return is_heeded(branching, f);
 }
@@ -176,8 +176,8 @@ bool sunder_i_branching_shades(const sunder_i_branching *branching, uint32_t f, 
 {
     const bool side = sunder_i_is_barrier(branching->model, g);
     double reach;
-    return can_move(branching, f, g, &reach) && sunder_i_branching_is_way_heeded(branching, f) &&
-           ((side && branching->subproblem->every_side) || sunder_i_branching_is_way_heeded(branching, g)) &&
+    return can_move(branching, f, g, &reach) && sunder_i_branching_is_path_heeded(branching, f) &&
+           ((side && branching->subproblem->every_side) || sunder_i_branching_is_path_heeded(branching, g)) &&
            (side || !sunder_i_is_held(branching->model, f, g));
 }
 

@@ -21,7 +21,7 @@
 /* ---- Division ---------------------------------------------------------------------------------------------------- */
 
 /* Is it proved that the claim and the claims of two sides, or some of them, contradict the limits? */
-static bool contradict(sunder_i_plane *g, uint32_t claim, const uint32_t by[2])
+static bool contradicts_limits(sunder_i_plane *g, uint32_t claim, const uint32_t by[2])
 {
     sunder_i_branching *c = g->c;
     g->c->looked += 4;
@@ -40,7 +40,7 @@ static bool is_out_of_reach(sunder_i_plane *g, const uint32_t by[2])
 {
     for (size_t k = 0; k < 2; k++) {
         const uint32_t other[2] = {by[1 - k], SUNDER_I_NO_CLAIM};
-        if (by[k] != SUNDER_I_NO_CLAIM && contradict(g, by[k], other)) return true;
+        if (by[k] != SUNDER_I_NO_CLAIM && contradicts_limits(g, by[k], other)) return true;
     }
     return false;
 }
@@ -50,8 +50,8 @@ typedef struct place {
     uint32_t made, known;
 } place;
 
-static sunder_status divide(sunder_i_plane *g, const sunder_i_plane_region *r, place at, unsigned level,
-                            sunder_i_verdict *verdict, sunder_i_levels *levels, size_t *root, sunder_error *err);
+static sunder_status divide_region(sunder_i_plane *g, const sunder_i_plane_region *r, place at, unsigned level,
+                                   sunder_i_verdict *verdict, sunder_i_levels *levels, size_t *root, sunder_error *err);
 
 /* The state while the cases of a node are examined. */
 typedef struct cases {
@@ -62,14 +62,14 @@ typedef struct cases {
     place below;   /* the numbers of the first case's region */
 } cases;
 
-/* The same as contradict() if `by` are the sides next to what was cut off. If many lines meet in a corner they may be
- * the wrong two: then any other two that contradict are taken, or none. */
+/* The same as contradicts_limits() if `by` are the sides next to what was cut off. If many lines meet in a corner they
+ * may be the wrong two: then any other two that contradict are taken, or none. */
 static bool any_contradict(sunder_i_plane *g, uint32_t claim, uint32_t by[2])
 {
-    if (contradict(g, claim, by)) return true;
+    if (contradicts_limits(g, claim, by)) return true;
     for (by[1] = 0; by[1] < g->c->claims; by[1]++)
         for (by[0] = 0; by[0] < by[1]; by[0]++)
-            if (contradict(g, claim, by)) return true;
+            if (contradicts_limits(g, claim, by)) return true;
     by[0] = by[1] = SUNDER_I_NO_CLAIM;
     return false;
 }
@@ -80,8 +80,8 @@ static bool any_contradict(sunder_i_plane *g, uint32_t claim, uint32_t by[2])
  * If pieces touch, as the parts of a house do, two claims may leave a line or a point: no area, and no contradiction. A
  * piece that covers the common boundary of the two shows that it is forbidden, if the claims are taken to say slightly
  * less, here and in no proof. */
-static bool keep(sunder_i_plane *g, sunder_i_plane_region *r, const double n[2], double d, uint32_t claim,
-                 uint32_t by[2], unsigned *thin)
+static bool keep_side(sunder_i_plane *g, sunder_i_plane_region *r, const double n[2], double d, uint32_t claim,
+                      uint32_t by[2], unsigned *thin)
 {
     if (sunder_i_plane_clip(r, n, d, claim, by)) return true;
     if (any_contradict(g, claim, by) || g->thin + *thin >= MOST_SLIVERS) return false;
@@ -91,42 +91,44 @@ static bool keep(sunder_i_plane *g, sunder_i_plane_region *r, const double n[2],
 }
 
 /* Examines one case: beyond this line, and behind those before it. *dead is set if the case is infeasible by itself. */
-static sunder_status divide_case(sunder_i_plane *g, cases *s, size_t node, size_t way, unsigned level, bool *dead,
-                                 sunder_i_verdict *verdict, sunder_i_levels *levels, size_t *root, sunder_error *err)
+static sunder_status divide_case(sunder_i_plane *g, cases *s, size_t node, size_t half_plane, unsigned level,
+                                 bool *dead, sunder_i_verdict *verdict, sunder_i_levels *levels, size_t *root,
+                                 sunder_error *err)
 {
     sunder_i_branching *c = g->c;
-    const sunder_i_half_plane *w = &c->way[way];
-    if (!sunder_i_branching_push(c, g->i, g->j, node, way, false, level)) return sunder_i_no_memory(err);
+    const sunder_i_half_plane *w = &c->half_plane[half_plane];
+    if (!sunder_i_branching_push(c, g->i, g->j, node, half_plane, false, level)) return sunder_i_no_memory(err);
     const uint32_t last = (uint32_t)c->claims - 1;
     uint32_t by[2];
     unsigned thin = s->thin;
     sunder_i_plane_region part = s->rest;
-    *dead = s->none || !keep(g, &part, w->n, w->d, last, by, &thin);
+    *dead = s->none || !keep_side(g, &part, w->n, w->d, last, by, &thin);
     if (!*dead) {
-        const uint32_t k = (uint32_t)(way - c->node[node].way);
+        const uint32_t k = (uint32_t)(half_plane - c->node[node].half_plane);
         const place at = {s->below.made == SUNDER_I_NO_CHOICE ? s->below.made : s->below.made + k,
                           s->below.known == SUNDER_I_NO_CHOICE ? s->below.known : s->below.known + k};
         g->thin += thin;
-        const sunder_status status = divide(g, &part, at, level + 1, verdict, levels, root, err);
+        const sunder_status status = divide_region(g, &part, at, level + 1, verdict, levels, root, err);
         g->thin -= thin;
         return status;
     }
-    *verdict =
-        (s->none ? contradict(g, s->claim, s->by) : contradict(g, last, by)) ? SUNDER_I_INFEASIBLE : SUNDER_I_UNKNOWN;
+    *verdict = (s->none ? contradicts_limits(g, s->claim, s->by) : contradicts_limits(g, last, by))
+                   ? SUNDER_I_INFEASIBLE
+                   : SUNDER_I_UNKNOWN;
     if (*verdict == SUNDER_I_INFEASIBLE && !sunder_i_branching_add_leaf(c, levels, root))
         return sunder_i_no_memory(err);
     return SUNDER_OK;
 }
 
 /* Continues behind the line of this case. */
-static bool go_behind(sunder_i_plane *g, cases *s, size_t node, size_t way, unsigned level)
+static bool go_behind(sunder_i_plane *g, cases *s, size_t node, size_t half_plane, unsigned level)
 {
-    const sunder_i_half_plane *w = &g->c->way[way];
+    const sunder_i_half_plane *w = &g->c->half_plane[half_plane];
     const double back[2] = {-w->n[0], -w->n[1]};
-    if (!sunder_i_branching_push(g->c, g->i, g->j, node, way, true, level)) return false;
+    if (!sunder_i_branching_push(g->c, g->i, g->j, node, half_plane, true, level)) return false;
     if (s->none) return true;
     s->claim = (uint32_t)g->c->claims - 1;
-    s->none = !keep(g, &s->rest, back, -w->d, s->claim, s->by, &s->thin);
+    s->none = !keep_side(g, &s->rest, back, -w->d, s->claim, s->by, &s->thin);
     return true;
 }
 
@@ -135,20 +137,20 @@ static sunder_status divide_all(sunder_i_plane *g, const sunder_i_plane_region *
                                 sunder_error *err)
 {
     sunder_i_branching *c = g->c;
-    const size_t begin = c->node[node].way, end = begin + c->node[node].ways, claims = c->claims;
+    const size_t begin = c->node[node].half_plane, end = begin + c->node[node].half_planes, claims = c->claims;
     cases s = {.rest = *r, .below = first};
     sunder_status status = SUNDER_OK;
     memset(levels, 0, sizeof *levels);
     *root = node;
     *verdict = SUNDER_I_INFEASIBLE;
-    for (size_t way = begin; way < end; way++) {
+    for (size_t half_plane = begin; half_plane < end; half_plane++) {
         sunder_i_levels used;
         size_t below = 0;
         bool dead = false;
         const size_t before = c->claims;
-        status = divide_case(g, &s, node, way, level, &dead, verdict, &used, &below, err);
+        status = divide_case(g, &s, node, half_plane, level, &dead, verdict, &used, &below, err);
         if (status || *verdict != SUNDER_I_INFEASIBLE) break;
-        c->way[way].next = below;
+        c->half_plane[half_plane].next = below;
         if (!sunder_i_levels_has(&used, level)) { /* the proof does not use the claim of this case, so it proves the
                                                    * node */
             *root = below;
@@ -157,7 +159,7 @@ static sunder_status divide_all(sunder_i_plane *g, const sunder_i_plane_region *
         }
         sunder_i_levels_join(levels, &used);
         c->claims = before;
-        if (!dead && !go_behind(g, &s, node, way, level)) status = sunder_i_no_memory(err);
+        if (!dead && !go_behind(g, &s, node, half_plane, level)) status = sunder_i_no_memory(err);
         if (status) break;
     }
     sunder_i_levels_drop(levels, level);
@@ -168,7 +170,7 @@ static sunder_status divide_all(sunder_i_plane *g, const sunder_i_plane_region *
 /* The obstacle or chord that divides a region. */
 typedef struct divider {
     const sunder_i_plane_obstacle *obstacle; /* NULL: nothing forbids the middle */
-    size_t ways;
+    size_t half_planes;
     sunder_i_chord chord;
     bool across;
     place below;
@@ -182,20 +184,21 @@ static bool find_divider(sunder_i_plane *g, const sunder_i_plane_region *r, plac
     *by = (divider){.obstacle = sunder_i_plane_choose(g, r, middle, sunder_i_plane_choices_known(g, at.known), &share)};
     const sunder_i_plane_obstacle *o = by->obstacle;
     const uint32_t chosen = o ? (uint32_t)(o - g->kept->obstacle) : SUNDER_I_NO_CHOICE;
-    by->ways = o ? o->ways : 0;
-    if (c->failed || !sunder_i_plane_choices_add(g, at.made, chosen, by->ways, share, &by->below.made)) return false;
+    by->half_planes = o ? o->half_planes : 0;
+    if (c->failed || !sunder_i_plane_choices_add(g, at.made, chosen, by->half_planes, share, &by->below.made))
+        return false;
     by->below.known = o ? sunder_i_plane_choices_below(g, at.known, chosen) : SUNDER_I_NO_CHOICE;
     if (o) return true;
     by->below.made = SUNDER_I_NO_CHOICE;
-    by->obstacle = sunder_i_plane_find_chord(g, middle, &by->chord, &by->ways);
+    by->obstacle = sunder_i_plane_find_chord(g, middle, &by->chord, &by->half_planes);
     by->across = by->obstacle;
     if (!by->obstacle && !c->failed && !(c->subproblem->coarse > 0))
-        by->obstacle = sunder_i_plane_choose_closely(g, middle, &by->ways);
+        by->obstacle = sunder_i_plane_choose_closely(g, middle, &by->half_planes);
     return !c->failed;
 }
 
-static sunder_status divide(sunder_i_plane *g, const sunder_i_plane_region *r, place at, unsigned level,
-                            sunder_i_verdict *verdict, sunder_i_levels *levels, size_t *root, sunder_error *err)
+static sunder_status divide_region(sunder_i_plane *g, const sunder_i_plane_region *r, place at, unsigned level,
+                                   sunder_i_verdict *verdict, sunder_i_levels *levels, size_t *root, sunder_error *err)
 {
     sunder_i_branching *c = g->c;
     double nearest[2] = {0, 0}, middle[2];
@@ -219,7 +222,7 @@ static sunder_status divide(sunder_i_plane *g, const sunder_i_plane_region *r, p
     const sunder_i_plane_obstacle *o = d.obstacle;
     const sunder_i_violation v = {
         .a = o->a, .b = o->b, .clearance = o->clearance, .shadow = o->shadow, .chord = d.across ? &d.chord : NULL};
-    if (!sunder_i_branching_add_branch(c, &v, d.ways, &node)) return sunder_i_no_memory(err);
+    if (!sunder_i_branching_add_branch(c, &v, d.half_planes, &node)) return sunder_i_no_memory(err);
     return divide_all(g, r, node, d.below, level, verdict, levels, root, err);
 }
 
@@ -251,7 +254,7 @@ static bool is_all(const sunder_i_branching *c, const sunder_i_plane *g)
     const sunder_i_subproblem *asked = c->subproblem;
     const sunder_i_model *model = c->model;
     if (!asked->feature || asked->reserves) return false;
-    if (g->q != SUNDER_I_GROUND && model->sides && asked->every_side && !asked->any_way) return false;
+    if (g->q != SUNDER_I_GROUND && model->sides && asked->every_side && !asked->ignore_paths) return false;
     for (size_t k = 0; k < asked->features; k++) {
         const uint32_t body = model->body_of[asked->feature[k]];
         if (body != g->p && body != g->q && (g->q != SUNDER_I_GROUND || sunder_i_limit_of(&model->body[body]) > 0))
@@ -261,7 +264,7 @@ static bool is_all(const sunder_i_branching *c, const sunder_i_plane *g)
 }
 
 /* Lists the obstacles. Returns false if memory is out. */
-static bool begin(sunder_i_branching *c, sunder_i_plane *g, sunder_i_planes *own)
+static bool begin_plane(sunder_i_branching *c, sunder_i_plane *g, sunder_i_planes *own)
 {
     g->i = sunder_i_branching_join(c, g->p);
     g->j = g->q == SUNDER_I_GROUND ? SUNDER_I_GROUND : sunder_i_branching_join(c, g->q);
@@ -272,7 +275,7 @@ static bool begin(sunder_i_branching *c, sunder_i_plane *g, sunder_i_planes *own
            sunder_i_plane_index_begin(g);
 }
 
-static void end(sunder_i_branching *c, sunder_i_plane *g, sunder_i_planes *own, sunder_i_plane_answer *answer)
+static void end_plane(sunder_i_branching *c, sunder_i_plane *g, sunder_i_planes *own, sunder_i_plane_answer *answer)
 {
     answer->p = g->p;
     answer->q = g->q;
@@ -293,16 +296,16 @@ sunder_status sunder_i_branching_plane(sunder_i_branching *branching, sunder_i_p
     sunder_i_plane g = {.c = branching};
     sunder_i_planes own = {0};
     if (!find_bodies(branching, &g)) return SUNDER_OK;
-    const bool ok = begin(branching, &g, &own) && sunder_i_plane_choices_begin(&g);
+    const bool ok = begin_plane(branching, &g, &own) && sunder_i_plane_choices_begin(&g);
     sunder_status status = ok ? SUNDER_OK : sunder_i_no_memory(err);
     if (ok) {
         sunder_i_levels levels;
         const place all = {0, 0};
-        status = divide(&g, &g.disc, all, 0, &answer->verdict, &levels, &answer->root, err);
+        status = divide_region(&g, &g.disc, all, 0, &answer->verdict, &levels, &answer->root, err);
         if (!status && !sunder_i_plane_choices_end(&g, answer->verdict == SUNDER_I_INFEASIBLE))
             status = sunder_i_no_memory(err);
     }
-    end(branching, &g, &own, answer);
+    end_plane(branching, &g, &own, answer);
     return status;
 }
 
@@ -313,14 +316,14 @@ sunder_status sunder_i_branching_plane_try(sunder_i_branching *branching, const 
     sunder_i_plane g = {.c = branching};
     sunder_i_planes own = {0};
     if (!n || !find_bodies(branching, &g)) return SUNDER_OK;
-    const bool ok = begin(branching, &g, &own);
+    const bool ok = begin_plane(branching, &g, &own);
     for (size_t k = 0; k < n && ok && !branching->failed && answer->verdict == SUNDER_I_UNKNOWN; k++) {
         if (!sunder_i_plane_is_free(&g, at[k])) continue;
         answer->verdict = SUNDER_I_FEASIBLE;
         memcpy(g.free, at[k], sizeof g.free);
     }
     const sunder_status status = ok && !branching->failed ? SUNDER_OK : sunder_i_no_memory(err);
-    end(branching, &g, &own, answer);
+    end_plane(branching, &g, &own, answer);
     return status;
 }
 

@@ -17,14 +17,14 @@ typedef struct sunder_i_plane_region {
     uint32_t claim[PLANE_CORNERS];
 } sunder_i_plane_region;
 
-/* An obstacle: a convex set that is forbidden, the set behind all of its half-planes ("ways"). */
+/* An obstacle: a convex set that is forbidden, the set behind all of its half-planes. */
 typedef struct sunder_i_plane_obstacle {
     const sunder_i_body_piece *a, *b;
     uint32_t q;  /* the body of b */
     bool shadow; /* it is the shadow from an anchor or a side anchor */
     bool made;   /* its half-planes have been made; none if limits leave nothing of the obstacle */
     double clearance;
-    size_t way, ways;
+    size_t half_plane, half_planes;
     uint32_t run, rank; /* rank: its place among the obstacles found, the same for all clearances */
 } sunder_i_plane_obstacle;
 
@@ -84,8 +84,8 @@ struct sunder_i_plane_kept {
     sunder_i_box_tree tree;
     size_t most_asked;                /* the greatest number of obstacles forbidden in one question */
     sunder_i_plane_choices proofs[2]; /* the last proved questions: one with many obstacles and one with few */
-    sunder_i_half_plane *way;
-    size_t ways, way_capacity;
+    sunder_i_half_plane *half_plane;
+    size_t half_planes, half_plane_capacity;
     uint64_t looked[3]; /* the counted cost of finding pieces, anchors and sides, even if cached */
 };
 
@@ -129,7 +129,7 @@ static inline void sunder_i_plane_take_corners(sunder_i_plane_polygon *polygon, 
 }
 
 /* Clips the polygon to the part behind a half-plane, n.u <= d. Returns false if nothing is left. */
-bool sunder_i_plane_clip_behind(sunder_i_plane_polygon *polygon, const sunder_i_half_plane *way);
+bool sunder_i_plane_clip_behind(sunder_i_plane_polygon *polygon, const sunder_i_half_plane *half_plane);
 double sunder_i_plane_area_of(const sunder_i_plane_polygon *polygon);
 /* Sets *region to a polygon around the disc of this radius. */
 void sunder_i_plane_disc(sunder_i_plane_region *region, double radius);
@@ -151,7 +151,7 @@ bool sunder_i_plane_find(const sunder_i_plane *plane, struct sunder_i_plane_kept
 void sunder_i_plane_bound(const sunder_i_plane *plane, const sunder_i_plane_obstacle *obstacle, double clearance,
                           double box[4]);
 /* Makes the half-planes of a listed obstacle. Returns false if memory is out. */
-bool sunder_i_plane_make_ways(sunder_i_plane *plane, size_t at);
+bool sunder_i_plane_make_half_planes(sunder_i_plane *plane, size_t at);
 /* Marks the obstacles that are forbidden in the present question. Returns false if memory is out. */
 bool sunder_i_plane_list(sunder_i_plane *plane);
 
@@ -186,8 +186,8 @@ const sunder_i_plane_choice *sunder_i_plane_choices_known(const sunder_i_plane *
 uint32_t sunder_i_plane_choices_below(const sunder_i_plane *plane, uint32_t region, uint32_t obstacle);
 /* Records the choice for a region of the present question. *below is the first of the regions that its half-planes
  * leave. Returns false if memory is out. */
-bool sunder_i_plane_choices_add(sunder_i_plane *plane, uint32_t region, uint32_t obstacle, size_t ways, double share,
-                                uint32_t *below);
+bool sunder_i_plane_choices_add(sunder_i_plane *plane, uint32_t region, uint32_t obstacle, size_t half_planes,
+                                double share, uint32_t *below);
 /* Keeps the choices if the question was proved. Returns false if memory is out. */
 bool sunder_i_plane_choices_end(sunder_i_plane *plane, bool proved);
 void sunder_i_plane_choices_free(sunder_i_plane_choices *choices);
@@ -201,7 +201,8 @@ const sunder_i_plane_obstacle *sunder_i_plane_choose(sunder_i_plane *plane, cons
                                                      const double u[2], const sunder_i_plane_choice *known,
                                                      double *share);
 /* Returns the first obstacle that contains the place u by half-planes made for u; these are then in c->scratch. */
-const sunder_i_plane_obstacle *sunder_i_plane_choose_closely(sunder_i_plane *plane, const double u[2], size_t *ways);
+const sunder_i_plane_obstacle *sunder_i_plane_choose_closely(sunder_i_plane *plane, const double u[2],
+                                                             size_t *half_planes);
 /* Is the place u in no obstacle? */
 bool sunder_i_plane_is_free(sunder_i_plane *plane, const double u[2]);
 
@@ -210,7 +211,7 @@ bool sunder_i_plane_is_free(sunder_i_plane *plane, const double u[2]);
 /* Looks for a chord across a corner that excludes the move u, which no obstacle excludes; its half-planes are then in
  * c->scratch. Returns the obstacle of its first side; NULL if there is none. */
 const sunder_i_plane_obstacle *sunder_i_plane_find_chord(sunder_i_plane *plane, const double u[2],
-                                                         sunder_i_chord *chord, size_t *ways);
+                                                         sunder_i_chord *chord, size_t *half_planes);
 
 /* ---- plane_kept.c ------------------------------------------------------------------------------------------------ */
 

@@ -68,8 +68,8 @@ uint32_t sunder_i_plane_choices_below(const sunder_i_plane *plane, uint32_t regi
     return choice && choice->obstacle == obstacle ? choice->below : SUNDER_I_NO_CHOICE;
 }
 
-bool sunder_i_plane_choices_add(sunder_i_plane *plane, uint32_t region, uint32_t obstacle, size_t ways, double share,
-                                uint32_t *below)
+bool sunder_i_plane_choices_add(sunder_i_plane *plane, uint32_t region, uint32_t obstacle, size_t half_planes,
+                                double share, uint32_t *below)
 {
     sunder_i_plane_choices *made = &plane->made;
     if (region == SUNDER_I_NO_CHOICE) {
@@ -77,10 +77,10 @@ bool sunder_i_plane_choices_add(sunder_i_plane *plane, uint32_t region, uint32_t
         return true;
     }
     if (!sunder_i_reserve(&made->choice, &made->capacity, made->n + 1, sizeof *made->choice) ||
-        !sunder_i_reserve(&made->region, &made->region_capacity, made->regions + ways, sizeof *made->region))
+        !sunder_i_reserve(&made->region, &made->region_capacity, made->regions + half_planes, sizeof *made->region))
         return false;
     *below = (uint32_t)made->regions;
-    for (size_t k = 0; k < ways; k++) made->region[made->regions++] = SUNDER_I_NO_CHOICE;
+    for (size_t k = 0; k < half_planes; k++) made->region[made->regions++] = SUNDER_I_NO_CHOICE;
     made->region[region] = (uint32_t)made->n;
     made->choice[made->n++] = (sunder_i_plane_choice){share, obstacle, *below};
     return true;

@@ -8,15 +8,15 @@
 #include <string.h>
 
 /* Does the obstacle contain the place u, and everything within the distance `about` of it? u must be in its box. */
-static bool holds(sunder_i_plane *g, sunder_i_plane_item *item, const double u[2], double about)
+static bool holds_around(sunder_i_plane *g, sunder_i_plane_item *item, const double u[2], double about)
 {
     const sunder_i_plane_obstacle *o = &g->kept->obstacle[item->at];
     if (!o->made) {
-        if (!sunder_i_plane_make_ways(g, item->at)) return false;
+        if (!sunder_i_plane_make_half_planes(g, item->at)) return false;
         memcpy(item->box, g->kept->box + 4 * (size_t)item->at, sizeof item->box);
     }
-    if (!o->ways) return false;
-    for (const sunder_i_half_plane *w = g->kept->way + o->way, *end = w + o->ways; w < end; w++)
+    if (!o->half_planes) return false;
+    for (const sunder_i_half_plane *w = g->kept->half_plane + o->half_plane, *end = w + o->half_planes; w < end; w++)
         if (!(sunder_i_plane_at(w->n, u) < w->d - about)) return false;
     return true;
 }
@@ -29,13 +29,13 @@ static double most_shared(const double box[4], const double of[4])
     return x * y * (1 + 0x1p-30);
 }
 
-static double shared(const sunder_i_plane *g, const sunder_i_plane_obstacle *o, const sunder_i_plane_region *r)
+static double shared_area(const sunder_i_plane *g, const sunder_i_plane_obstacle *o, const sunder_i_plane_region *r)
 {
-    const sunder_i_half_plane *way = g->kept->way + o->way;
+    const sunder_i_half_plane *half_plane = g->kept->half_plane + o->half_plane;
     sunder_i_plane_polygon part;
     sunder_i_plane_take_corners(&part, r);
-    for (size_t k = 0; k < o->ways; k++)
-        if (!sunder_i_plane_clip_behind(&part, &way[k])) return 0;
+    for (size_t k = 0; k < o->half_planes; k++)
+        if (!sunder_i_plane_clip_behind(&part, &half_plane[k])) return 0;
     return sunder_i_plane_area_of(&part);
 }
 
@@ -47,14 +47,14 @@ typedef struct choice {
 
 /* Replaces the best obstacle by this one if it contains the place u and covers more of the region; of equal ones the
  * one found first is kept. */
-static void weigh(sunder_i_plane *g, const sunder_i_plane_region *r, const double u[2], sunder_i_plane_item *item,
-                  choice *to)
+static void weigh_obstacle(sunder_i_plane *g, const sunder_i_plane_region *r, const double u[2],
+                           sunder_i_plane_item *item, choice *to)
 {
     if (most_shared(to->box, item->box) < to->share) return;
     const sunder_i_plane_obstacle *o = &g->kept->obstacle[item->at];
     if (to->best && to->share >= to->whole && o->rank > to->best->rank) return;
-    if (!holds(g, item, u, to->about)) return;
-    const double share = sunder_i_min(shared(g, o, r), to->whole);
+    if (!holds_around(g, item, u, to->about)) return;
+    const double share = sunder_i_min(shared_area(g, o, r), to->whole);
     if (share < to->share || (to->best && share == to->share && o->rank > to->best->rank)) return;
     to->share = share;
     to->best = o;
@@ -77,25 +77,26 @@ const sunder_i_plane_obstacle *sunder_i_plane_choose(sunder_i_plane *plane, cons
         to.share = known->share;
         to.best = known->obstacle == SUNDER_I_NO_CHOICE ? NULL : &plane->kept->obstacle[known->obstacle];
         for (size_t k = 0; k < plane->freshes; k++)
-            if (sunder_i_plane_is_in(plane->fresh[k].box, u)) weigh(plane, region, u, &plane->fresh[k], &to);
+            if (sunder_i_plane_is_in(plane->fresh[k].box, u)) weigh_obstacle(plane, region, u, &plane->fresh[k], &to);
     } else if (sunder_i_plane_index_find(plane, u)) {
-        for (size_t k = 0; k < plane->about_place; k++) weigh(plane, region, u, plane->place[k], &to);
+        for (size_t k = 0; k < plane->about_place; k++) weigh_obstacle(plane, region, u, plane->place[k], &to);
     } else {
         c->failed = true;
     }
     c->looked += PLACE_LOOK + plane->obstacles / BOXES_A_STEP;
     *share = to.share;
     if (!to.best || c->failed) return NULL;
-    if (!sunder_i_reserve(&c->scratch, &c->scratch_capacity, to.best->ways, sizeof *c->scratch)) {
+    if (!sunder_i_reserve(&c->scratch, &c->scratch_capacity, to.best->half_planes, sizeof *c->scratch)) {
         c->failed = true;
         return NULL;
     }
-    memcpy(c->scratch, plane->kept->way + to.best->way, to.best->ways * sizeof *c->scratch);
+    memcpy(c->scratch, plane->kept->half_plane + to.best->half_plane, to.best->half_planes * sizeof *c->scratch);
     return to.best;
 }
 
-/* Does the obstacle contain the place u by half-planes made for u? These are then in c->scratch, *ways of them. */
-static bool holds_closely(sunder_i_plane *g, size_t at, const double u[2], size_t *ways)
+/* Does the obstacle contain the place u by half-planes made for u? These are then in c->scratch, *half_planes of
+ * them. */
+static bool holds_closely(sunder_i_plane *g, size_t at, const double u[2], size_t *half_planes)
 {
     sunder_i_branching *c = g->c;
     const sunder_i_plane_obstacle *o = &g->kept->obstacle[at];
@@ -103,19 +104,21 @@ static bool holds_closely(sunder_i_plane *g, size_t at, const double u[2], size_
     sunder_i_plane_bound(g, o, o->clearance, box);
     c->looked++;
     if (u[0] < box[0] || u[0] > box[2] || u[1] < box[1] || u[1] > box[3]) return false;
-    *ways = sunder_i_branching_fill_ways(c, &c->model->body[g->p], o->a, &c->model->body[o->q], o->b, o->clearance,
-                                         false, u);
-    return c->failed || sunder_i_branching_depth(c, *ways, u) > 2 * c->hair;
+    *half_planes = sunder_i_branching_fill_half_planes(c, &c->model->body[g->p], o->a, &c->model->body[o->q], o->b,
+                                                       o->clearance, false, u);
+    return c->failed || sunder_i_branching_depth(c, *half_planes, u) > 2 * c->hair;
 }
 
-const sunder_i_plane_obstacle *sunder_i_plane_choose_closely(sunder_i_plane *plane, const double u[2], size_t *ways)
+const sunder_i_plane_obstacle *sunder_i_plane_choose_closely(sunder_i_plane *plane, const double u[2],
+                                                             size_t *half_planes)
 {
     const struct sunder_i_plane_kept *kept = plane->kept;
     for (size_t r = 0; r < plane->runs; r++) {
         const sunder_i_plane_run *run = &kept->run[plane->run[r]];
         if (run->shadow || !(run->clearance > 0)) continue;
         for (size_t k = run->first; k < run->end; k++)
-            if (kept->box[4 * k] <= kept->box[4 * k + 2] && holds_closely(plane, k, u, ways)) return &kept->obstacle[k];
+            if (kept->box[4 * k] <= kept->box[4 * k + 2] && holds_closely(plane, k, u, half_planes))
+                return &kept->obstacle[k];
     }
     return NULL;
 }
@@ -123,12 +126,12 @@ const sunder_i_plane_obstacle *sunder_i_plane_choose_closely(sunder_i_plane *pla
 bool sunder_i_plane_is_free(sunder_i_plane *plane, const double u[2])
 {
     sunder_i_chord chord;
-    size_t ways;
+    size_t half_planes;
     if (hypot(u[0], u[1]) > plane->reach) return false;
     if (!sunder_i_plane_index_find(plane, u)) plane->c->failed = true;
     plane->c->looked += PLACE_LOOK + plane->obstacles / BOXES_A_STEP;
     for (size_t k = 0; k < plane->about_place && !plane->c->failed; k++)
-        if (holds(plane, plane->place[k], u, 0)) return false;
-    return !plane->c->failed && !sunder_i_plane_find_chord(plane, u, &chord, &ways) &&
-           !sunder_i_plane_choose_closely(plane, u, &ways);
+        if (holds_around(plane, plane->place[k], u, 0)) return false;
+    return !plane->c->failed && !sunder_i_plane_find_chord(plane, u, &chord, &half_planes) &&
+           !sunder_i_plane_choose_closely(plane, u, &half_planes);
 }

@@ -28,7 +28,7 @@ static void add_box(const void *of, size_t k, double box[4])
     sunder_i_box_join(box, kept->item[k].box);
 }
 
-static bool build(struct sunder_i_plane_kept *kept)
+static bool build_index(struct sunder_i_plane_kept *kept)
 {
     if (!sunder_i_curve_sort_records(kept->item, kept->items, sizeof *kept->item, offsetof(sunder_i_plane_item, box)))
         return false;
@@ -72,12 +72,12 @@ bool sunder_i_plane_index_begin(sunder_i_plane *plane)
     struct sunder_i_plane_kept *kept = plane->kept;
     plane->are_few = plane->obstacles <= PLANE_FEW || plane->obstacles < kept->items / PLANE_PART;
     if (plane->are_few) return list_all(plane);
-    if (kept->items - kept->tree.n > PLANE_FEW + kept->tree.n / PLANE_LATE && !build(kept)) return false;
+    if (kept->items - kept->tree.n > PLANE_FEW + kept->tree.n / PLANE_LATE && !build_index(kept)) return false;
     return true;
 }
 
 /* Adds those items of [item, end) to plane->place that are forbidden and whose boxes contain the place u. */
-static void take(sunder_i_plane *g, sunder_i_plane_item *item, const sunder_i_plane_item *end, const double u[2])
+static void take_items(sunder_i_plane *g, sunder_i_plane_item *item, const sunder_i_plane_item *end, const double u[2])
 {
     const sunder_i_plane_run *run = g->kept->run;
     for (; item < end; item++)
@@ -106,10 +106,10 @@ static void walk_tree(sunder_i_plane *g, const double u[2])
         if (node < tree->leaves)
             sunder_i_box_walk_open(&walk, 2 * node + 1, 2 * node);
         else
-            take(g, kept->item + sunder_i_box_tree_first(tree, node), kept->item + sunder_i_box_tree_end(tree, node),
-                 u);
+            take_items(g, kept->item + sunder_i_box_tree_first(tree, node),
+                       kept->item + sunder_i_box_tree_end(tree, node), u);
     }
-    take(g, kept->item + tree->n, kept->item + kept->items, u);
+    take_items(g, kept->item + tree->n, kept->item + kept->items, u);
 }
 
 bool sunder_i_plane_index_find(sunder_i_plane *plane, const double u[2])

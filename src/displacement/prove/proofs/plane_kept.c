@@ -17,7 +17,7 @@ static void free_kept(struct sunder_i_plane_kept *kept)
     sunder_i_free(kept->item);
     sunder_i_free(kept->tree.box);
     for (size_t k = 0; k < 2; k++) sunder_i_plane_choices_free(&kept->proofs[k]);
-    sunder_i_free(kept->way);
+    sunder_i_free(kept->half_plane);
     sunder_i_free(kept);
 }
 

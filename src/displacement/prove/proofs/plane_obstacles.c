@@ -29,7 +29,8 @@ typedef struct finding {
 /* ---- Finding obstacles ------------------------------------------------------------------------------------------- */
 
 /* Appends an obstacle between things f and g, to the last run or to a new one. Returns false if memory is out. */
-static bool append(const finding *w, const sunder_i_plane_obstacle *obstacle, uint32_t f, uint32_t g, bool side)
+static bool append_obstacle(const finding *w, const sunder_i_plane_obstacle *obstacle, uint32_t f, uint32_t g,
+                            bool side)
 {
     struct sunder_i_plane_kept *kept = w->kept;
     const sunder_i_plane_run *last = kept->runs ? &kept->run[kept->runs - 1] : NULL;
@@ -69,7 +70,8 @@ static bool find_pieces(const finding *w, uint32_t other)
         for (uint32_t l = 0; l < q->pieces; l++) {
             const sunder_i_body_piece *b = &of_q->piece[l];
             if (sunder_i_box_meet(box, b->box) &&
-                !append(w, &(sunder_i_plane_obstacle){.a = a, .b = b, .q = other}, a->feature, b->feature, false))
+                !append_obstacle(w, &(sunder_i_plane_obstacle){.a = a, .b = b, .q = other}, a->feature, b->feature,
+                                 false))
                 return false;
         }
     }
@@ -84,9 +86,10 @@ static bool find_shadow(const finding *w, uint32_t q, const sunder_i_body_piece 
     const sunder_i_body_piece *a = swapped ? piece : anchor, *b = swapped ? anchor : piece;
     const sunder_i_body *body = w->model->body;
     const double offset[2] = {body[q].origin[0] - body[w->p].origin[0], body[q].origin[1] - body[w->p].origin[1]},
-                 way[4] = {-w->reach, -w->reach, w->reach, w->reach};
+                 path_box[4] = {-w->reach, -w->reach, w->reach, w->reach};
     const sunder_i_plane_obstacle obstacle = {.a = a, .b = b, .q = q, .shadow = true};
-    return !sunder_i_shadow_may_reach(a->box, b->box, offset, way) || append(w, &obstacle, f, piece->feature, side);
+    return !sunder_i_shadow_may_reach(a->box, b->box, offset, path_box) ||
+           append_obstacle(w, &obstacle, f, piece->feature, side);
 }
 
 /* Adds the pieces of one body over which anchors of the other could jump. swapped: the anchors are those of q. */
@@ -239,43 +242,44 @@ void sunder_i_plane_bound(const sunder_i_plane *plane, const sunder_i_plane_obst
 
 /* Sets box to the box of what limits leave of the set behind the half-planes in c->scratch. Returns false if nothing is
  * left. */
-static bool is_within_reach(const sunder_i_plane *g, size_t ways, double box[4])
+static bool is_within_reach(const sunder_i_plane *g, size_t half_planes, double box[4])
 {
     const sunder_i_branching *c = g->c;
     const double beyond = g->disc.xy[0] * (1 + 0x1p-20); /* a line farther away has the whole disc on one side */
-    for (size_t k = 0; k < ways; k++)
+    for (size_t k = 0; k < half_planes; k++)
         if (c->scratch[k].d < -beyond) return false;
     sunder_i_plane_polygon r;
     sunder_i_plane_take_corners(&r, &g->disc);
-    for (size_t k = 0; k < ways; k++)
+    for (size_t k = 0; k < half_planes; k++)
         if (c->scratch[k].d <= beyond && !sunder_i_plane_clip_behind(&r, &c->scratch[k])) return false;
     sunder_i_box_clear(box);
     for (uint32_t k = 0; k < r.n; k++) sunder_i_box_include(box, r.xy + 2 * k);
-    return ways > 0;
+    return half_planes > 0;
 }
 
-bool sunder_i_plane_make_ways(sunder_i_plane *plane, size_t at)
+bool sunder_i_plane_make_half_planes(sunder_i_plane *plane, size_t at)
 {
     struct sunder_i_plane_kept *kept = plane->kept;
     const sunder_i_model *model = plane->c->model;
     sunder_i_plane_obstacle *o = &kept->obstacle[at];
     const uint64_t looked = plane->c->looked;
     double box[4];
-    const size_t ways = sunder_i_branching_fill_ways(plane->c, &model->body[plane->p], o->a, &model->body[o->q], o->b,
-                                                     o->clearance, o->shadow, NULL);
+    const size_t half_planes = sunder_i_branching_fill_half_planes(
+        plane->c, &model->body[plane->p], o->a, &model->body[o->q], o->b, o->clearance, o->shadow, NULL);
     plane->c->looked = looked; /* this work was counted when the obstacle was listed */
     o->made = true;
-    o->ways = 0;
-    if (plane->c->failed || !is_within_reach(plane, ways, box)) return !plane->c->failed;
-    if (!sunder_i_reserve(&kept->way, &kept->way_capacity, kept->ways + ways, sizeof *kept->way)) {
+    o->half_planes = 0;
+    if (plane->c->failed || !is_within_reach(plane, half_planes, box)) return !plane->c->failed;
+    if (!sunder_i_reserve(&kept->half_plane, &kept->half_plane_capacity, kept->half_planes + half_planes,
+                          sizeof *kept->half_plane)) {
         plane->c->failed = true;
         return false;
     }
     memcpy(kept->box + 4 * at, box, sizeof box);
-    o->way = kept->ways;
-    o->ways = ways;
-    kept->ways += ways;
-    memcpy(kept->way + o->way, plane->c->scratch, ways * sizeof *kept->way);
+    o->half_plane = kept->half_planes;
+    o->half_planes = half_planes;
+    kept->half_planes += half_planes;
+    memcpy(kept->half_plane + o->half_plane, plane->c->scratch, half_planes * sizeof *kept->half_plane);
     return true;
 }
 
@@ -346,14 +350,14 @@ bool sunder_i_plane_list(sunder_i_plane *plane)
     sunder_i_branching *c = plane->c;
     struct sunder_i_plane_kept *kept = plane->kept;
     const sunder_i_subproblem *asked = c->subproblem;
-    const bool sides = !asked->any_way, jumps = sides && !asked->any_jump;
+    const bool sides = !asked->ignore_paths, jumps = sides && !asked->any_jump;
     bool ok = true, heeded = false;
     c->looked += kept->looked[PIECES] + (jumps ? kept->looked[JUMPS] : 0) + (sides ? kept->looked[SIDES] : 0);
     for (size_t k = 0; k < kept->runs; k++) kept->run[k].asked = false;
     for (size_t k = 0; k < kept->found && ok; k++) {
         const sunder_i_plane_run *run = &kept->run[k];
         double clearance = 0;
-        if (k == 0 || run->f != run[-1].f) heeded = sunder_i_branching_is_way_heeded(c, run->f);
+        if (k == 0 || run->f != run[-1].f) heeded = sunder_i_branching_is_path_heeded(c, run->f);
         if (!heeded || (run->shadow && !(run->side ? sides : jumps))) continue;
         if (run->shadow ? sunder_i_branching_shades(c, run->f, run->g)
                         : sunder_i_branching_owe(c, run->f, run->g, &clearance))

@@ -57,13 +57,13 @@ bool sunder_i_plane_clip(sunder_i_plane_region *region, const double n[2], doubl
     return true;
 }
 
-bool sunder_i_plane_clip_behind(sunder_i_plane_polygon *polygon, const sunder_i_half_plane *way)
+bool sunder_i_plane_clip_behind(sunder_i_plane_polygon *polygon, const sunder_i_half_plane *half_plane)
 {
     double off[PLANE_CORNERS + 1], out[2 * PLANE_CORNERS]; /* off: the distances of the corners behind the line */
     uint32_t n = 0;
     bool cut = false;
     for (uint32_t k = 0; k < polygon->n; k++) {
-        off[k] = way->d - sunder_i_plane_at(way->n, polygon->xy + 2 * k);
+        off[k] = half_plane->d - sunder_i_plane_at(half_plane->n, polygon->xy + 2 * k);
         cut = cut || !(off[k] >= 0);
     }
     if (!cut) return true;

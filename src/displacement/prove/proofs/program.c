@@ -23,7 +23,7 @@
 /* ---- The sum of the forces --------------------------------------------------------------------------------------- */
 
 /* Resets the sums of the bodies of a claim. */
-static void begin(sunder_i_branching *c, const sunder_i_claim *s)
+static void begin_sums(sunder_i_branching *c, const sunder_i_claim *s)
 {
     c->net[2 * s->i] = c->net[2 * s->i + 1] = c->weight[s->i] = 0;
     if (s->j != SUNDER_I_GROUND) c->net[2 * s->j] = c->net[2 * s->j + 1] = c->weight[s->j] = 0;
@@ -34,7 +34,7 @@ static double take_lost(sunder_i_branching *c, uint32_t b, double share)
 {
     const double *net = c->net + 2 * (size_t)b;
     const double lost = c->limit[b] * (sqrt(net[0] * net[0] + net[1] * net[1]) + share * c->weight[b]);
-    begin(c, &(sunder_i_claim){.i = b, .j = SUNDER_I_GROUND});
+    begin_sums(c, &(sunder_i_claim){.i = b, .j = SUNDER_I_GROUND});
     return lost;
 }
 
@@ -46,7 +46,7 @@ bool sunder_i_branching_is_contradiction(sunder_i_branching *branching)
 {
     const double share = (double)(branching->claims + branching->bodies + 8) * 0x1p-50;
     double won = 0, all = 0, lost = 0;
-    for (size_t k = 0; k < branching->claims; k++) begin(branching, &branching->claim[k]);
+    for (size_t k = 0; k < branching->claims; k++) begin_sums(branching, &branching->claim[k]);
     for (size_t k = 0; k < branching->claims; k++) {
         const sunder_i_claim *s = &branching->claim[k];
         if (!(s->force > 0)) continue;
@@ -69,7 +69,7 @@ bool sunder_i_branching_is_contradiction(sunder_i_branching *branching)
 
 /* Sets the forces of two claims of one pair so that they balance at the shortest relative move that satisfies both.
  * Returns false if one claim alone determines that move. */
-static bool balance(sunder_i_claim *p, sunder_i_claim *q)
+static bool balance_claims(sunder_i_claim *p, sunder_i_claim *q)
 {
     const double sign = p->i == q->i ? 1 : -1, cosine = sign * (p->n[0] * q->n[0] + p->n[1] * q->n[1]);
     const double square = sunder_i_max(1 - cosine * cosine, 0x1p-100);
@@ -91,7 +91,7 @@ bool sunder_i_branching_is_dead_end(sunder_i_branching *branching)
     for (size_t k = 0; k + 1 < branching->claims; k++) {
         sunder_i_claim *other = &branching->claim[k];
         if (!(other->i == last->i && other->j == last->j) && !(other->i == last->j && other->j == last->i)) continue;
-        if (balance(last, other) && sunder_i_branching_is_contradiction(branching)) return true;
+        if (balance_claims(last, other) && sunder_i_branching_is_contradiction(branching)) return true;
         other->force = 0;
     }
     return false;
@@ -114,7 +114,7 @@ bool sunder_i_branching_contradict(sunder_i_branching *branching, const uint32_t
     bool is_set = n == 1;
     for (size_t k = 0; k < branching->claims; k++) branching->claim[k].force = 0;
     if (n == 1) branching->claim[claim[0]].force = 1;
-    if (n == 2) is_set = balance(&branching->claim[claim[0]], &branching->claim[claim[1]]);
+    if (n == 2) is_set = balance_claims(&branching->claim[claim[0]], &branching->claim[claim[1]]);
     if (n == 3)
         is_set = balance_three(&branching->claim[claim[0]], &branching->claim[claim[1]], &branching->claim[claim[2]]);
     return is_set && sunder_i_branching_is_contradiction(branching);
@@ -122,12 +122,13 @@ bool sunder_i_branching_contradict(sunder_i_branching *branching, const uint32_t
 
 /* ---- The program ------------------------------------------------------------------------------------------------- */
 
-static double at(const double n[2], const double *t) { return n[0] * t[0] + n[1] * t[1]; }
+static double dot_product(const double n[2], const double *t) { return n[0] * t[0] + n[1] * t[1]; }
 
 /* Returns by how much the candidate violates a claim. */
 static double missed_by(const sunder_i_branching *c, const sunder_i_claim *s)
 {
-    return s->d - (s->j == SUNDER_I_GROUND ? 0 : at(s->n, c->t + 2 * (size_t)s->j)) + at(s->n, c->t + 2 * (size_t)s->i);
+    return s->d - (s->j == SUNDER_I_GROUND ? 0 : dot_product(s->n, c->t + 2 * (size_t)s->j)) +
+           dot_product(s->n, c->t + 2 * (size_t)s->i);
 }
 
 /* Adds a constraint: body b may not go beyond its limit in the direction `to`. Returns false if there is nearly the
@@ -135,21 +136,21 @@ static double missed_by(const sunder_i_branching *c, const sunder_i_claim *s)
 static bool add_tangent(sunder_i_branching *c, uint32_t b, const double to[2])
 {
     sunder_i_quadratic *p = &c->program;
-    const double length = sqrt(at(to, to)), n[2] = {-to[0] / length, -to[1] / length};
+    const double length = sqrt(dot_product(to, to)), n[2] = {-to[0] / length, -to[1] / length};
     for (size_t k = c->claims; k < p->n; k++)
-        if (p->constraint[k].j == b && at(n, p->constraint[k].n) > SAME_TANGENT) return false;
+        if (p->constraint[k].j == b && dot_product(n, p->constraint[k].n) > SAME_TANGENT) return false;
     if (!sunder_i_reserve(&p->constraint, &p->capacity, p->n + 1, sizeof *p->constraint)) {
         c->failed = true;
         return false;
     }
     p->constraint[p->n++] = (sunder_i_constraint){
-        .i = SUNDER_I_GROUND, .j = b, .n = {n[0], n[1]}, .d = -c->limit[b] - at(n, c->t + 2 * (size_t)b)};
+        .i = SUNDER_I_GROUND, .j = b, .n = {n[0], n[1]}, .d = -c->limit[b] - dot_product(n, c->t + 2 * (size_t)b)};
     return true;
 }
 
 /* Sets up the program: the claims, each increased by `margin`, and tangents for bodies at their limits. Returns false
  * if memory is out. */
-static bool load(sunder_i_branching *c, double margin)
+static bool load_claims(sunder_i_branching *c, double margin)
 {
     sunder_i_quadratic *p = &c->program;
     if (!sunder_i_reserve(&p->constraint, &p->capacity, c->claims, sizeof *p->constraint)) return false;
@@ -163,7 +164,7 @@ static bool load(sunder_i_branching *c, double margin)
     }
     for (uint32_t b = 0; b < c->bodies; b++) {
         const double *t = c->t + 2 * (size_t)b;
-        if (sqrt(at(t, t)) > AT_LIMIT * c->limit[b]) add_tangent(c, b, t);
+        if (sqrt(dot_product(t, t)) > AT_LIMIT * c->limit[b]) add_tangent(c, b, t);
     }
     return !c->failed && sunder_i_nearest_begin(&c->nearest, p);
 }
@@ -174,7 +175,7 @@ static bool add_tangents(sunder_i_branching *c)
     bool added = false;
     for (uint32_t b = 0; b < c->bodies; b++) {
         const double t[2] = {c->t[2 * b] + c->shift[2 * b], c->t[2 * b + 1] + c->shift[2 * b + 1]};
-        if (sqrt(at(t, t)) > c->limit[b] + c->hair) added = add_tangent(c, b, t) || added;
+        if (sqrt(dot_product(t, t)) > c->limit[b] + c->hair) added = add_tangent(c, b, t) || added;
     }
     return added;
 }
@@ -186,11 +187,11 @@ static bool is_candidate(sunder_i_branching *c)
     for (size_t k = 0; k < 2 * c->bodies; k++) c->t[k] += c->shift[k];
     for (size_t k = 0; k < c->claims; k++) worst = sunder_i_max(worst, missed_by(c, &c->claim[k]));
     for (size_t b = 0; b < c->bodies; b++)
-        worst = sunder_i_max(worst, sqrt(at(c->t + 2 * b, c->t + 2 * b)) - c->limit[b]);
+        worst = sunder_i_max(worst, sqrt(dot_product(c->t + 2 * b, c->t + 2 * b)) - c->limit[b]);
     return worst <= c->hair;
 }
 
-static sunder_i_node_outcome solve(sunder_i_branching *c)
+static sunder_i_node_outcome solve_program(sunder_i_branching *c)
 {
     sunder_i_quadratic *p = &c->program;
     sunder_i_nearest_outcome outcome = SUNDER_I_NEAREST_FOUND;
@@ -208,8 +209,8 @@ sunder_status sunder_i_branching_solve(sunder_i_branching *branching, sunder_i_n
     *outcome = SUNDER_I_NODE_UNDECIDED;
     static const double hairs[] = {1, 0, -0.5};
     for (size_t k = 0; k < sizeof hairs / sizeof *hairs && *outcome == SUNDER_I_NODE_UNDECIDED; k++) {
-        if (!load(branching, hairs[k] * branching->hair)) return sunder_i_no_memory(err);
-        *outcome = solve(branching);
+        if (!load_claims(branching, hairs[k] * branching->hair)) return sunder_i_no_memory(err);
+        *outcome = solve_program(branching);
         if (branching->failed || !sunder_i_look()) return sunder_i_no_memory(err);
     }
     return SUNDER_OK;

@@ -11,18 +11,19 @@ enum { CHORD_CORNERS = 4 };
 
 /* Adds to `sum` the nodes, half-planes, forces and corners of the subtree at node `at`, for the memory it takes.
  * *deepest: the depth of its deepest node. */
-static void count(const sunder_i_branching *c, size_t at, size_t depth, sunder_proof *sum, size_t *deepest)
+static void count_subtree(const sunder_i_branching *c, size_t at, size_t depth, sunder_proof *sum, size_t *deepest)
 {
     const sunder_i_node *node = &c->node[at];
     sum->nodes++;
     if (depth > *deepest) *deepest = depth;
-    sum->ways += node->ways;
+    sum->ways += node->half_planes;
     sum->forces += node->forces;
-    if (node->ways)
+    if (node->half_planes)
         sum->corners +=
             sunder_i_corners_as_given(c->model, node->part_a) + sunder_i_corners_as_given(c->model, node->part_b);
     if (node->chord != SIZE_MAX) sum->corners += CHORD_CORNERS;
-    for (size_t k = 0; k < node->ways; k++) count(c, c->way[node->way + k].next, depth + 1, sum, deepest);
+    for (size_t k = 0; k < node->half_planes; k++)
+        count_subtree(c, c->half_plane[node->half_plane + k].next, depth + 1, sum, deepest);
 }
 
 typedef struct copying {
@@ -72,28 +73,29 @@ static size_t copy_of(const copying *g, size_t node)
     return g->path_copy[level];
 }
 
-static size_t copy(copying *g, size_t at, size_t depth)
+static size_t copy_subtree(copying *g, size_t at, size_t depth)
 {
     const sunder_i_branching *c = g->branching;
     const sunder_i_node *from = &c->node[at];
     sunder_proof *proof = g->proof;
     const size_t number = proof->nodes++;
     sunder_proof_node *to = &g->node[number];
-    *to = (sunder_proof_node){.way = proof->ways, .ways = from->ways, .force = proof->forces, .forces = from->forces};
-    proof->ways += from->ways;
+    *to = (sunder_proof_node){
+        .way = proof->ways, .ways = from->half_planes, .force = proof->forces, .forces = from->forces};
+    proof->ways += from->half_planes;
     proof->forces += from->forces;
     for (size_t k = 0; k < from->forces; k++) {
         const sunder_proof_force *f = &c->force[from->force + k];
         const size_t above = copy_of(g, f->node);
-        g->force[to->force + k] =
-            (sunder_proof_force){above, g->node[above].way + (f->way - c->node[f->node].way), f->behind, f->force};
+        g->force[to->force + k] = (sunder_proof_force){
+            above, g->node[above].way + (f->way - c->node[f->node].half_plane), f->behind, f->force};
     }
     to->still = from->still;
     for (size_t k = 0; k < 2 && from->still; k++) {
         to->line_node[k] = copy_of(g, from->line_node[k]);
-        to->line_way[k] = g->node[to->line_node[k]].way + (from->line_way[k] - c->node[from->line_node[k]].way);
+        to->line_way[k] = g->node[to->line_node[k]].way + (from->line_way[k] - c->node[from->line_node[k]].half_plane);
     }
-    if (from->ways == 0) return number;
+    if (from->half_planes == 0) return number;
     to->a = from->a;
     to->b = from->b;
     to->clearance = from->clearance;
@@ -111,9 +113,9 @@ static size_t copy(copying *g, size_t at, size_t depth)
     }
     g->path[depth] = at;
     g->path_copy[depth] = number;
-    for (size_t k = 0; k < from->ways; k++) {
-        const sunder_i_half_plane *w = &c->way[from->way + k];
-        g->way[to->way + k] = (sunder_proof_way){{w->n[0], w->n[1]}, w->d, copy(g, w->next, depth + 1)};
+    for (size_t k = 0; k < from->half_planes; k++) {
+        const sunder_i_half_plane *w = &c->half_plane[from->half_plane + k];
+        g->way[to->way + k] = (sunder_proof_way){{w->n[0], w->n[1]}, w->d, copy_subtree(g, w->next, depth + 1)};
     }
     return number;
 }
@@ -122,7 +124,7 @@ sunder_proof *sunder_i_proof_of(const sunder_i_branching *branching, size_t root
 {
     sunder_proof size = {0};
     size_t deepest = 0;
-    count(branching, root, 0, &size, &deepest);
+    count_subtree(branching, root, 0, &size, &deepest);
     sunder_proof *proof = sunder_i_calloc(1, sizeof *proof);
     if (!proof) return NULL;
     copying g = {branching,
@@ -140,7 +142,7 @@ sunder_proof *sunder_i_proof_of(const sunder_i_branching *branching, size_t root
     proof->within = branching->subproblem->instead;
     const bool ok = g.node && g.way && g.force && g.corner && g.path && g.path_copy;
     if (ok) {
-        copy(&g, root, 0);
+        copy_subtree(&g, root, 0);
         SUNDER_I_ASSERT(proof->nodes == size.nodes && proof->ways == size.ways && proof->forces == size.forces);
     }
     sunder_i_free(g.path);

@@ -27,11 +27,11 @@
 #define TILT 64
 #define FAR_ENOUGH 0x1p16
 
-static double dot(const double p[2], const double q[2]) { return p[0] * q[0] + p[1] * q[1]; }
+static double dot_product(const double p[2], const double q[2]) { return p[0] * q[0] + p[1] * q[1]; }
 
 /* Sets out to corner k of A + (-B), where one of the two is a single corner. If the other is B its order is
  * reversed. */
-static void corner(const sunder_i_parting *p, size_t k, double out[2])
+static void corner_of_sum(const sunder_i_parting *p, size_t k, double out[2])
 {
     const double *a = p->a + 2 * (p->na > 1 ? k : 0), *b = p->b + 2 * (p->nb > 1 ? k : 0);
     for (int c = 0; c < 2; c++) out[c] = a[c] - b[c] - p->offset[c];
@@ -50,13 +50,13 @@ static double size_of(const sunder_i_parting *p)
 }
 
 /* Returns the corner that, seen from the origin, has no other corner to its right (sign +1) or left (sign -1). */
-static size_t tangent(const sunder_i_parting *p, size_t n, double sign)
+static size_t tangent_corner(const sunder_i_parting *p, size_t n, double sign)
 {
     size_t best = 0;
     double at[2], u[2];
-    corner(p, 0, at);
+    corner_of_sum(p, 0, at);
     for (size_t k = 1; k < n; k++) {
-        corner(p, k, u);
+        corner_of_sum(p, k, u);
         if (!(sign * (at[0] * u[1] - at[1] * u[0]) < 0)) continue;
         best = k;
         at[0] = u[0];
@@ -66,11 +66,11 @@ static size_t tangent(const sunder_i_parting *p, size_t n, double sign)
 }
 
 /* Returns the half-plane beyond the ray through corner l: to its left with sign +1, else to its right. */
-static sunder_i_half_plane beside(const double l[2], double sign, double tilt)
+static sunder_i_half_plane beside_ray(const double l[2], double sign, double tilt)
 {
-    const double length = sqrt(dot(l, l)), d[2] = {l[0] / length, l[1] / length};
+    const double length = sqrt(dot_product(l, l)), d[2] = {l[0] / length, l[1] / length};
     double n[2] = {-sign * d[1] + tilt * d[0], sign * d[0] + tilt * d[1]};
-    const double norm = sqrt(dot(n, n));
+    const double norm = sqrt(dot_product(n, n));
     return (sunder_i_half_plane){.n = {n[0] / norm, n[1] / norm}, .d = 0};
 }
 
@@ -79,29 +79,29 @@ size_t sunder_i_half_planes_past(const sunder_i_parting *parting, sunder_i_half_
     const size_t n = parting->na > 1 ? parting->na : parting->nb;
     const double slack = UNIT * size_of(parting);
     double middle[2] = {0, 0}, least = INFINITY, u[2], v[2];
-    size_t ways = 0;
+    size_t half_planes = 0;
     for (size_t k = 0; k < n; k++) {
-        corner(parting, k, u);
-        least = sunder_i_min(least, sqrt(dot(u, u)));
+        corner_of_sum(parting, k, u);
+        least = sunder_i_min(least, sqrt(dot_product(u, u)));
         for (int c = 0; c < 2; c++) middle[c] += 2 * u[c] / (double)n; /* a point well inside the shadow */
     }
     if (!(least >= FAR_ENOUGH * slack)) return 0;
     const double tilt = TILT * slack / least;
-    corner(parting, tangent(parting, n, -1), u);
-    out[ways++] = beside(u, 1, tilt);
-    corner(parting, tangent(parting, n, 1), u);
-    out[ways++] = beside(u, -1, tilt);
+    corner_of_sum(parting, tangent_corner(parting, n, -1), u);
+    out[half_planes++] = beside_ray(u, 1, tilt);
+    corner_of_sum(parting, tangent_corner(parting, n, 1), u);
+    out[half_planes++] = beside_ray(u, -1, tilt);
     for (size_t k = 0; k < n; k++) {
-        corner(parting, k, u);
-        corner(parting, k + 1 < n ? k + 1 : 0, v);
-        const double e[2] = {v[0] - u[0], v[1] - u[1]}, length = sqrt(dot(e, e));
+        corner_of_sum(parting, k, u);
+        corner_of_sum(parting, k + 1 < n ? k + 1 : 0, v);
+        const double e[2] = {v[0] - u[0], v[1] - u[1]}, length = sqrt(dot_product(e, e));
         const double m[2] = {e[1] / length, -e[0] / length};
         if (!(length > 0)) continue;
-        const double d = sunder_i_min(dot(m, u), dot(m, v)) - slack;
+        const double d = sunder_i_min(dot_product(m, u), dot_product(m, v)) - slack;
         /* m is the outer normal: the origin sees the side if it lies beyond it, at d < 0, up to rounding. */
-        if (d < slack) out[ways++] = (sunder_i_half_plane){.n = {m[0], m[1]}, .d = d};
+        if (d < slack) out[half_planes++] = (sunder_i_half_plane){.n = {m[0], m[1]}, .d = d};
     }
-    for (size_t k = 0; k < ways; k++)
-        if (!(dot(out[k].n, middle) < out[k].d - 8 * slack)) return 0;
-    return ways;
+    for (size_t k = 0; k < half_planes; k++)
+        if (!(dot_product(out[k].n, middle) < out[k].d - 8 * slack)) return 0;
+    return half_planes;
 }

@@ -23,15 +23,15 @@ static const sunder_i_body_pieces *pieces_of(sunder_i_branching *c, const sunder
     return pieces;
 }
 
-double sunder_i_branching_depth(const sunder_i_branching *branching, size_t ways, const double u[2])
+double sunder_i_branching_depth(const sunder_i_branching *branching, size_t half_planes, const double u[2])
 {
     double at = -INFINITY;
-    for (size_t k = 0; k < ways; k++) {
+    for (size_t k = 0; k < half_planes; k++) {
         sunder_i_half_plane *w = &branching->scratch[k];
         w->at = w->n[0] * u[0] + w->n[1] * u[1] - w->d;
         at = sunder_i_max(at, w->at);
     }
-    return ways ? -at : -INFINITY;
+    return half_planes ? -at : -INFINITY;
 }
 
 /* Returns how deep the pieces of two bodies are in each other at the relative move u, or how deep an anchor is in a
@@ -41,9 +41,10 @@ static double find_depth(sunder_i_branching *c, const sunder_i_body *p, const su
                          const double u[2])
 {
     size_t n;
-    const sunder_i_half_plane *way = sunder_i_branching_keep_ways(c, p, a, q, b, clearance, shadow, &n);
+    const sunder_i_half_plane *half_plane = sunder_i_branching_kept_half_planes(c, p, a, q, b, clearance, shadow, &n);
     double at = -INFINITY;
-    for (size_t k = 0; k < n; k++) at = sunder_i_max(at, way[k].n[0] * u[0] + way[k].n[1] * u[1] - way[k].d);
+    for (size_t k = 0; k < n; k++)
+        at = sunder_i_max(at, half_plane[k].n[0] * u[0] + half_plane[k].n[1] * u[1] - half_plane[k].d);
     return n ? -at : -INFINITY;
 }
 
@@ -52,7 +53,7 @@ static double find_depth_closely(sunder_i_branching *c, const sunder_i_body *p, 
                                  const sunder_i_body *q, const sunder_i_body_piece *b, double clearance,
                                  const double u[2])
 {
-    return sunder_i_branching_depth(c, sunder_i_branching_fill_ways(c, p, a, q, b, clearance, false, u), u);
+    return sunder_i_branching_depth(c, sunder_i_branching_fill_half_planes(c, p, a, q, b, clearance, false, u), u);
 }
 
 /* A body and its position. */
@@ -62,7 +63,7 @@ typedef struct standing {
     double t[2];
 } standing;
 
-static standing stand(const sunder_i_branching *c, uint32_t body)
+static standing standing_of(const sunder_i_branching *c, uint32_t body)
 {
     standing s = {.number = body, .body = &c->model->body[body]};
     const uint32_t at = sunder_i_branching_place(c, body);
@@ -190,10 +191,10 @@ static void look_past(sunder_i_branching *c, const standing *s, const standing *
     const sunder_i_body *p = s->body, *q = r->body, *of = swapped ? q : p, *other = swapped ? p : q;
     const double u[2] = {r->t[0] - s->t[0], r->t[1] - s->t[1]},
                  offset[2] = {q->origin[0] - p->origin[0], q->origin[1] - p->origin[1]};
-    double way[4];
-    sunder_i_shadow_path_box(u, 0, way);
+    double half_plane[4];
+    sunder_i_shadow_path_box(u, 0, half_plane);
     c->looked++;
-    if (!sunder_i_anchors_may_reach(model, p, q, swapped, offset, way)) return;
+    if (!sunder_i_anchors_may_reach(model, p, q, swapped, offset, half_plane)) return;
     const sunder_i_body_pieces *from = pieces_of(c, of), *pieces = pieces_of(c, other);
     if (!from || !pieces) return;
     for (uint32_t m = 0; m < of->members; m++) {
@@ -205,7 +206,7 @@ static void look_past(sunder_i_branching *c, const standing *s, const standing *
                 l < other->pieces ? &pieces->piece[l]
                                   : &model->diagonal_cover[other->has->diagonal_cover + l - other->pieces];
             if (sunder_i_shadow_may_reach((swapped ? piece : anchor)->box, (swapped ? anchor : piece)->box, offset,
-                                          way) &&
+                                          half_plane) &&
                 sunder_i_branching_shades(c, f, piece->feature))
                 look_at_shadow(c, s, r, u, anchor, piece, swapped, worst);
         }
@@ -220,11 +221,11 @@ static void look_across(sunder_i_branching *c, const standing *s, const standing
     const sunder_i_body *p = s->body, *q = r->body, *of = swapped ? q : p, *part = swapped ? p : q;
     const double u[2] = {r->t[0] - s->t[0], r->t[1] - s->t[1]},
                  offset[2] = {q->origin[0] - p->origin[0], q->origin[1] - p->origin[1]};
-    double way[4];
-    sunder_i_shadow_path_box(u, 0, way);
+    double half_plane[4];
+    sunder_i_shadow_path_box(u, 0, half_plane);
     c->looked++;
     if (!sunder_i_shadow_may_reach(swapped ? p->box : sunder_i_side_anchors(model, p),
-                                   swapped ? sunder_i_side_anchors(model, q) : q->box, offset, way))
+                                   swapped ? sunder_i_side_anchors(model, q) : q->box, offset, half_plane))
         return;
     for (uint32_t m = 0; m < of->members; m++) {
         const uint32_t f = model->member[of->member + m];
@@ -233,7 +234,7 @@ static void look_across(sunder_i_branching *c, const standing *s, const standing
         for (uint32_t l = part->has->side; l < part->has->side + part->has->sides && anchor->corners; l++) {
             const sunder_i_side *side = &model->side[l];
             if (sunder_i_shadow_may_reach((swapped ? &side->piece : anchor)->box,
-                                          (swapped ? anchor : &side->piece)->box, offset, way) &&
+                                          (swapped ? anchor : &side->piece)->box, offset, half_plane) &&
                 sunder_i_branching_shades(c, f, side->piece.feature) && sunder_i_side_faces(model, side, f))
                 look_at_shadow(c, s, r, u, anchor, &side->piece, swapped, worst);
         }
@@ -243,7 +244,7 @@ static void look_across(sunder_i_branching *c, const standing *s, const standing
 static void look_at_all(sunder_i_branching *c, const standing *s, const standing *r, sunder_i_violation *worst)
 {
     look_at(c, s, r, worst);
-    if (c->subproblem->any_way) return;
+    if (c->subproblem->ignore_paths) return;
     if (s->body->has->sides || r->body->has->sides) look_across(c, s, r, s->body->has->sides > 0, worst);
     if (c->model->rules.jumps || c->subproblem->any_jump || sunder_i_is_barrier_body(c->model, s->body) ||
         sunder_i_is_barrier_body(c->model, r->body))
@@ -279,7 +280,7 @@ static bool comes_before(const sunder_i_violation *o, const sunder_i_violation *
     return o->known != than->known ? o->known : o->depth > than->depth;
 }
 
-static size_t insert(sunder_i_violation deepest[SUNDER_I_CHOICES], size_t n, const sunder_i_violation *o)
+static size_t insert_violation(sunder_i_violation deepest[SUNDER_I_CHOICES], size_t n, const sunder_i_violation *o)
 {
     if (!o->a || (n == SUNDER_I_CHOICES && !comes_before(o, &deepest[n - 1]))) return n;
     size_t k = n < SUNDER_I_CHOICES ? n++ : n - 1;
@@ -301,7 +302,7 @@ static size_t look_at_slacks(sunder_i_branching *c, const standing *s, sunder_i_
             sunder_i_violation o = {.depth = 2 * c->hair};
             if (q->required[k].clearance < 0 && q->required[k].clearance > -INFINITY)
                 look_at_slack(c, s, &q->required[k], &o);
-            n = insert(deepest, n, &o);
+            n = insert_violation(deepest, n, &o);
         }
     }
     return n;
@@ -312,25 +313,25 @@ size_t sunder_i_branching_violations(sunder_i_branching *branching, sunder_i_vio
     size_t n = 0;
     for (uint32_t i = 0; i < branching->bodies; i++) {
         if (branching->body[i] == SUNDER_I_NOBODY) continue;
-        const standing s = stand(branching, branching->body[i]);
+        const standing s = standing_of(branching, branching->body[i]);
         n = look_at_slacks(branching, &s, deepest, n);
         for (uint32_t j = i + 1; j < branching->bodies; j++) {
             if (branching->body[j] == SUNDER_I_NOBODY) continue;
             sunder_i_violation o = {.depth = 2 * branching->hair};
-            const standing r = stand(branching, branching->body[j]);
+            const standing r = standing_of(branching, branching->body[j]);
             look_at_all(branching, &s, &r, &o);
             o.known = true;
-            n = insert(deepest, n, &o);
+            n = insert_violation(deepest, n, &o);
         }
         /* All other bodies are at their original positions. */
         if (!find_near(branching, &s)) branching->failed = true;
         for (size_t k = 0; k < branching->near.n && !branching->failed; k++) {
             sunder_i_violation o = {.depth = 2 * branching->hair};
             if (sunder_i_branching_place(branching, branching->near.item[k]) != SUNDER_I_GROUND) continue;
-            const standing r = stand(branching, branching->near.item[k]);
+            const standing r = standing_of(branching, branching->near.item[k]);
             look_at_all(branching, &s, &r, &o);
             o.known = !(sunder_i_limit_of(r.body) > 0);
-            n = insert(deepest, n, &o);
+            n = insert_violation(deepest, n, &o);
         }
     }
     return n;
@@ -344,28 +345,28 @@ static int by_nearness(const void *a, const void *b)
 }
 
 /* Copies the cached half-planes into c->scratch, and returns their number. */
-static size_t take_ways(sunder_i_branching *c, const sunder_i_body *p, const sunder_i_body_piece *a,
-                        const sunder_i_body *q, const sunder_i_body_piece *b, double clearance, bool shadow)
+static size_t take_kept_half_planes(sunder_i_branching *c, const sunder_i_body *p, const sunder_i_body_piece *a,
+                                    const sunder_i_body *q, const sunder_i_body_piece *b, double clearance, bool shadow)
 {
     size_t n;
-    const sunder_i_half_plane *way = sunder_i_branching_keep_ways(c, p, a, q, b, clearance, shadow, &n);
+    const sunder_i_half_plane *half_plane = sunder_i_branching_kept_half_planes(c, p, a, q, b, clearance, shadow, &n);
     if (n && !sunder_i_reserve(&c->scratch, &c->scratch_capacity, n, sizeof *c->scratch)) c->failed = true;
-    if (n && !c->failed) memcpy(c->scratch, way, n * sizeof *way);
+    if (n && !c->failed) memcpy(c->scratch, half_plane, n * sizeof *half_plane);
     return c->failed ? 0 : n;
 }
 
-size_t sunder_i_branching_ways(sunder_i_branching *branching, const sunder_i_violation *violation)
+size_t sunder_i_branching_half_planes(sunder_i_branching *branching, const sunder_i_violation *violation)
 {
-    const standing s = stand(branching, violation->p), r = stand(branching, violation->q);
+    const standing s = standing_of(branching, violation->p), r = standing_of(branching, violation->q);
     double u[2] = {r.t[0] - s.t[0], r.t[1] - s.t[1]};
     if (violation->slack) move_of_slack(branching, violation->slack, s.t, u);
     const double clearance = violation->slack ? 0 : violation->clearance;
     size_t n;
     if (violation->closely)
-        n = sunder_i_branching_fill_ways(branching, s.body, violation->a, r.body, violation->b, clearance,
-                                         violation->shadow, u);
+        n = sunder_i_branching_fill_half_planes(branching, s.body, violation->a, r.body, violation->b, clearance,
+                                                violation->shadow, u);
     else
-        n = take_ways(branching, s.body, violation->a, r.body, violation->b, clearance, violation->shadow);
+        n = take_kept_half_planes(branching, s.body, violation->a, r.body, violation->b, clearance, violation->shadow);
     sunder_i_branching_depth(branching, n, u);
     if (n) qsort(branching->scratch, n, sizeof *branching->scratch, by_nearness);
     return n;

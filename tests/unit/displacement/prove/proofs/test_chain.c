@@ -170,7 +170,7 @@ static void test_chord(void **state)
                                         way_of(1.5, 4.5)};
     const size_t n = sizeof ways / sizeof *ways;
     memcpy(c.scratch, ways, sizeof ways);
-    assert_int_equal(sunder_i_chain_ways(&c, n, reach), n + 1);
+    assert_int_equal(sunder_i_chain_half_planes(&c, n, reach), n + 1);
     double least = INFINITY;
     for (int k = 0; k < TURNS; k++)
         for (int l = 1; l <= RINGS; l++) {
@@ -192,9 +192,9 @@ static void test_only_way(void **state)
     (void)state;
     sunder_i_half_plane wall[] = {way_of(0, 9), way_of(0.4, 3.6), way_of(-0.2, 1)},
                         apart[] = {way_of(0, 3), way_of(3, 3)};
-    assert_true(sunder_i_chain_only_way(wall, 3, 4));
+    assert_true(sunder_i_chain_only_half_plane(wall, 3, 4));
     assert_true(wall[0].d == 1);
-    assert_false(sunder_i_chain_only_way(apart, 2, 4));
+    assert_false(sunder_i_chain_only_half_plane(apart, 2, 4));
     assert_true(sunder_i_chain_is_open(&apart[0], 3) && !sunder_i_chain_is_open(&apart[0], 2.9));
 }
 

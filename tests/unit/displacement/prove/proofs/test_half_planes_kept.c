@@ -39,8 +39,8 @@ static bool check_pair(rng *r, sunder_i_branching *kept, sunder_i_branching *ane
     if (shadow) a = &of_p->anchor[0]; /* features here stand alone */
     const double clearance = shadow ? 0 : (double)rng_int(r, -1, 1);
     size_t n;
-    const sunder_i_half_plane *way = sunder_i_branching_keep_ways(kept, p, a, q, b, clearance, shadow, &n);
-    assert_int_equal(n, sunder_i_branching_fill_ways(anew, p, a, q, b, clearance, shadow, NULL));
+    const sunder_i_half_plane *way = sunder_i_branching_kept_half_planes(kept, p, a, q, b, clearance, shadow, &n);
+    assert_int_equal(n, sunder_i_branching_fill_half_planes(anew, p, a, q, b, clearance, shadow, NULL));
     assert_int_equal(kept->looked, anew->looked);
     assert_false(kept->failed);
     for (size_t k = 0; k < n; k++) {
@@ -64,7 +64,7 @@ static void test_ways(void **state)
         const sunder_i_subproblem q = {.model = &of.model, .coarse = layer % 2 ? 0x1p-5 : 0};
         sunder_i_branching kept = {.subproblem = &q, .model = &of.model}, anew = kept;
         for (int k = 0; k < QUESTIONS; k++) some += check_pair(&r, &kept, &anew);
-        sunder_i_branching_forget_ways(&kept);
+        sunder_i_branching_forget_half_planes(&kept);
         assert_null(kept.kept);
         sunder_i_free(kept.scratch);
         sunder_i_free(anew.scratch);

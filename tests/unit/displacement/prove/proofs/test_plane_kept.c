@@ -70,7 +70,7 @@ static void draw_question(rng *r, const layer *l, uint32_t body[2], uint32_t *fe
     q->effort = rng_once_in(r, 4) ? 2000 : 200000;
     q->coarse = rng_once_in(r, 2) ? 0x1p-5 : 0;
     q->any_jump = rng_once_in(r, 3);
-    q->every_way = rng_once_in(r, 3);
+    q->heed_paths = rng_once_in(r, 3);
     if (rng_once_in(r, 2)) {
         for (uint32_t f = 0; f < l->scene.n; f++)
             if (f == a || f == b || rng_once_in(r, 2)) feature[q->features++] = f;

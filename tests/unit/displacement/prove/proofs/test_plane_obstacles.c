@@ -80,8 +80,8 @@ static void test_boxes(void **state)
             it->clearance = it->shadow ? 0 : (double)rng_int(&r, -2, 4) / 4;
             sunder_i_plane_bound(&g, it, it->clearance, bound);
             memcpy(box, bound, sizeof bound);
-            assert_true(sunder_i_plane_make_ways(&g, o));
-            if (it->ways == 0) {
+            assert_true(sunder_i_plane_make_half_planes(&g, o));
+            if (it->half_planes == 0) {
                 beyond += bound[0] <= bound[2];
                 continue;
             }
