@@ -23,7 +23,7 @@
 #define BOUNDED 0.84
 #define PROVED 0.9
 /* Determines the relations of all near pairs; with `movers_only`, except pairs of two fixed features. */
-static sunder_status relate(sunder_i_solver *s, bool movers_only, sunder_error *err)
+static sunder_status relate_features(sunder_i_solver *s, bool movers_only, sunder_error *err)
 {
     if (!movers_only) return sunder_i_placement_relate(&s->model, &s->placement, NULL, &s->start, err);
     sunder_i_changes movers;
@@ -40,8 +40,8 @@ static sunder_status relate(sunder_i_solver *s, bool movers_only, sunder_error *
  * whether its movable features have a solution. */
 typedef enum purpose { TO_SEPARATE, TO_CHECK, TO_ANSWER } purpose;
 
-static sunder_status start(sunder_i_solver *s, const sunder_layer *layer, const sunder_layer_options *options,
-                           purpose what_for, sunder_report **report, sunder_error *err)
+static sunder_status read_layer(sunder_i_solver *s, const sunder_layer *layer, const sunder_layer_options *options,
+                                purpose what_for, sunder_report **report, sunder_error *err)
 {
     sunder_i_rules rules;
     sunder_status status = sunder_i_rules_of(options, &rules, err);
@@ -51,7 +51,7 @@ static sunder_status start(sunder_i_solver *s, const sunder_layer *layer, const 
     if (!status) status = sunder_i_model_init(&s->layer, &s->barriers, &rules, &s->model, err);
     if (!status) status = sunder_i_placement_init(&s->model, &s->placement, err);
     s->model.standing = &s->placement.tree;
-    if (!status) status = relate(s, what_for == TO_ANSWER, err);
+    if (!status) status = relate_features(s, what_for == TO_ANSWER, err);
     if (!status) status = sunder_i_model_join(&s->model, &s->start, err);
     if (!status) status = sunder_i_report_new(&s->model, report, err);
     if (status) return status;
@@ -72,7 +72,7 @@ static bool begin_as_at_start(sunder_i_solver *s)
 
 /* Prepares the data of the search: the bodies in doubles, the features that are shut in, and the relations of the
  * start. */
-static sunder_status prepare(sunder_i_solver *s, sunder_error *err)
+static sunder_status prepare_search(sunder_i_solver *s, sunder_error *err)
 {
     sunder_status status = sunder_i_model_cut(&s->model, err);
     if (!status) status = sunder_i_model_anchor(&s->model, err);
@@ -84,13 +84,13 @@ static sunder_status prepare(sunder_i_solver *s, sunder_error *err)
 }
 
 /* Does everything up to the point where the report begins. */
-static sunder_status work(sunder_i_solver *s, const sunder_layer *layer, const sunder_layer_options *options,
-                          sunder_report **report, sunder_error *err)
+static sunder_status find_moves(sunder_i_solver *s, const sunder_layer *layer, const sunder_layer_options *options,
+                                sunder_report **report, sunder_error *err)
 {
-    sunder_status status = start(s, layer, options, TO_SEPARATE, report, err);
+    sunder_status status = read_layer(s, layer, options, TO_SEPARATE, report, err);
     if (!status) status = sunder_i_solver_begin_holding(s, err);
     if (!status) status = sunder_i_solver_find_infeasible(s, NULL, err);
-    if (!status) status = prepare(s, err);
+    if (!status) status = prepare_search(s, err);
     if (!status) status = sunder_i_solver_begin_holding(s, err);
     if (!status && !sunder_i_progress(&s->model.rules, SUNDER_I_PREPARED)) status = sunder_i_no_memory(err);
     if (!status) status = sunder_i_layer_solve(s, err);
@@ -103,7 +103,7 @@ static sunder_status prepare_for_proofs(sunder_i_solver *s, const sunder_i_spare
 {
     sunder_status status = sunder_i_inclusions_note_nested(&s->model, &s->start, err);
     if (!status) status = sunder_i_solver_spare(s, list, err);
-    return status ? status : prepare(s, err);
+    return status ? status : prepare_search(s, err);
 }
 
 static sunder_status look_for_proof(sunder_i_solver *s, const sunder_i_spared *list, sunder_i_proof_found *found,
@@ -123,13 +123,13 @@ static sunder_status look_for_proof(sunder_i_solver *s, const sunder_i_spared *l
  * solution. Work ends with the first pair that has no solution, with a proof, or with a cluster without a result; no
  * pair is given up, and no layout is improved. (If a contained feature has to leave its holder, this is found out only
  * by a search that fails, so work does not end then.) */
-static sunder_status work_briefly(const sunder_layer *layer, const sunder_layer_options *options,
-                                  const sunder_i_id_pair *pair, size_t n, sunder_i_proof_found *proof,
-                                  sunder_i_solver *s, sunder_error *err)
+static sunder_status answer_question(const sunder_layer *layer, const sunder_layer_options *options,
+                                     const sunder_i_id_pair *pair, size_t n, sunder_i_proof_found *proof,
+                                     sunder_i_solver *s, sunder_error *err)
 {
     const sunder_i_spared list = {pair, n};
     sunder_report *report = NULL;
-    sunder_status status = start(s, layer, options, TO_ANSWER, &report, err);
+    sunder_status status = read_layer(s, layer, options, TO_ANSWER, &report, err);
     sunder_report_free(report);
     if (!status && *proof == SUNDER_I_PROOF_LATER) return prepare_for_proofs(s, &list, err);
     if (!status) status = sunder_i_solver_find_infeasible(s, &list, err);
@@ -139,7 +139,7 @@ static sunder_status work_briefly(const sunder_layer *layer, const sunder_layer_
     s->hopeless = s->brief && sunder_i_solver_is_beyond_limits(s, &list);
     if (s->hopeless) return SUNDER_OK;
     status = sunder_i_solver_spare(s, &list, err);
-    if (!status) status = prepare(s, err);
+    if (!status) status = prepare_search(s, err);
     /* Preparation may find that the two are shut in. */
     s->hopeless = s->brief && sunder_i_solver_is_beyond_limits(s, &list);
     if (!status && s->brief && !s->hopeless && *proof == SUNDER_I_PROOF_WANTED)
@@ -169,7 +169,7 @@ static sunder_status relate_last(sunder_i_solver *s, sunder_error *err)
 }
 
 /* Reports progress, unless `status` is an error already. */
-static sunder_status reach(const sunder_i_solver *s, double fraction, sunder_status status, sunder_error *err)
+static sunder_status report_progress(const sunder_i_solver *s, double fraction, sunder_status status, sunder_error *err)
 {
     if (status || sunder_i_progress(&s->model.rules, fraction)) return status;
     return sunder_i_no_memory(err);
@@ -186,8 +186,8 @@ static void trace_conflicts(sunder_i_solver *s, const sunder_report *report)
 }
 
 /* Determines what remains and why, what would free it, and the lower bound of the cost. */
-static sunder_status explain(sunder_i_solver *s, const sunder_layer_options *options, sunder_report *report,
-                             sunder_error *err)
+static sunder_status explain_result(sunder_i_solver *s, const sunder_layer_options *options, sunder_report *report,
+                                    sunder_error *err)
 {
     sunder_i_count_relations(&s->model, &s->now, &report->summary.after);
     sunder_status status = sunder_i_report_cover_diagonals(s, err);
@@ -195,15 +195,15 @@ static sunder_status explain(sunder_i_solver *s, const sunder_layer_options *opt
     if (!status) status = sunder_i_report_bound(report, s, err);
     if (!status) status = sunder_i_report_optimality(report, s, err);
     if (!status) status = sunder_i_report_pushes(report, s, err);
-    status = reach(s, BOUNDED, status, err);
+    status = report_progress(s, BOUNDED, status, err);
     if (!status) status = sunder_i_report_proofs(report, s, sunder_i_decide, err);
     if (!status) status = sunder_i_report_blockers(report, s, err);
-    status = reach(s, PROVED, status, err);
+    status = report_progress(s, PROVED, status, err);
     if (!status) trace_conflicts(s, report);
-    if (!status) status = sunder_i_report_crowd_needs(report, s, true, err);
-    if (!status) status = sunder_i_report_needs(report, s, options, work_briefly, err);
-    if (!status) status = sunder_i_report_crowd_needs(report, s, false, err);
-    return reach(s, SUNDER_PROGRESS_EXPLAINED, status, err);
+    if (!status) status = sunder_i_report_cluster_needs(report, s, true, err);
+    if (!status) status = sunder_i_report_needs(report, s, options, answer_question, err);
+    if (!status) status = sunder_i_report_cluster_needs(report, s, false, err);
+    return report_progress(s, SUNDER_PROGRESS_EXPLAINED, status, err);
 }
 
 /* Writes the result to the report, in the internal order of features. */
@@ -220,15 +220,15 @@ static sunder_status fill_report(sunder_i_solver *s, sunder_report *report, sund
 
 /* Determines the relations of moved features once more, explains the result, and then verifies that no remaining
  * conflict is worse than at the start. That no other pair is in conflict is known from the relations. */
-static sunder_status conclude(sunder_i_solver *s, const sunder_layer_options *options, sunder_report *report,
-                              double began, sunder_error *err)
+static sunder_status conclude_report(sunder_i_solver *s, const sunder_layer_options *options, sunder_report *report,
+                                     double began, sunder_error *err)
 {
     const double solved = sunder_i_now();
     sunder_i_solver_forget_clusters(s);
     sunder_i_solver_end_holding(s);
     sunder_status status = relate_last(s, err);
     const double related = sunder_i_now();
-    if (!status) status = explain(s, options, report, err);
+    if (!status) status = explain_result(s, options, report, err);
     const double explained = sunder_i_now();
     if (!status) status = sunder_i_solver_is_upheld(s, &report->summary.verified, err);
     const double verified = sunder_i_now();
@@ -242,7 +242,7 @@ static sunder_status conclude(sunder_i_solver *s, const sunder_layer_options *op
 
 /* Converts the report to the caller's numbers. That needs room for all moves once more, so the solver is freed
  * first. */
-static sunder_status renumber(sunder_i_solver *s, sunder_report *report, sunder_error *err)
+static sunder_status renumber_report(sunder_i_solver *s, sunder_report *report, sunder_error *err)
 {
     uint32_t *number = s->layer.number;
     s->layer.number = NULL;
@@ -252,23 +252,23 @@ static sunder_status renumber(sunder_i_solver *s, sunder_report *report, sunder_
     return status;
 }
 
-static sunder_status separate(sunder_i_solver *s, const sunder_layer *layer, const sunder_layer_options *options,
-                              sunder_report **report, sunder_error *err)
+static sunder_status separate_layer(sunder_i_solver *s, const sunder_layer *layer, const sunder_layer_options *options,
+                                    sunder_report **report, sunder_error *err)
 {
     const double began = sunder_i_now();
-    sunder_status status = work(s, layer, options, report, err);
-    if (!status) status = conclude(s, options, *report, began, err);
+    sunder_status status = find_moves(s, layer, options, report, err);
+    if (!status) status = conclude_report(s, options, *report, began, err);
     const sunder_i_rules rules = s->model.rules;
-    if (!status) status = renumber(s, *report, err);
+    if (!status) status = renumber_report(s, *report, err);
     if (!status) sunder_i_progress(&rules, 1);
     return status;
 }
 
-static sunder_status check(sunder_i_solver *s, const sunder_layer *layer, const sunder_layer_options *options,
-                           sunder_report **report, sunder_error *err)
+static sunder_status check_layer(sunder_i_solver *s, const sunder_layer *layer, const sunder_layer_options *options,
+                                 sunder_report **report, sunder_error *err)
 {
     const double began = sunder_i_now();
-    sunder_status status = start(s, layer, options, TO_CHECK, report, err);
+    sunder_status status = read_layer(s, layer, options, TO_CHECK, report, err);
     if (!status) status = sunder_i_report_conflicts(*report, &s->model, &s->placement, &s->start, false, err);
     if (!status) status = sunder_i_report_features(*report, &s->model, err);
     if (!status) status = sunder_i_report_renumber(*report, s->layer.number, err);
@@ -283,8 +283,8 @@ static sunder_status check(sunder_i_solver *s, const sunder_layer *layer, const 
 typedef sunder_status (*run_stages)(sunder_i_solver *s, const sunder_layer *layer, const sunder_layer_options *options,
                                     sunder_report **report, sunder_error *err);
 
-static sunder_status run(run_stages stages, const sunder_layer *layer, const sunder_layer_options *options,
-                         sunder_report **out, sunder_error *err)
+static sunder_status run_stages_of(run_stages stages, const sunder_layer *layer, const sunder_layer_options *options,
+                                   sunder_report **out, sunder_error *err)
 {
     sunder_i_solver s = {0};
     sunder_i_watch watch;
@@ -307,11 +307,11 @@ static sunder_status run(run_stages stages, const sunder_layer *layer, const sun
 sunder_status sunder_layer_separate(const sunder_layer *layer, const sunder_layer_options *options, sunder_report **out,
                                     sunder_error *err)
 {
-    return run(separate, layer, options, out, err);
+    return run_stages_of(separate_layer, layer, options, out, err);
 }
 
 sunder_status sunder_layer_check(const sunder_layer *layer, const sunder_layer_options *options, sunder_report **out,
                                  sunder_error *err)
 {
-    return run(check, layer, options, out, err);
+    return run_stages_of(check_layer, layer, options, out, err);
 }

@@ -1,7 +1,7 @@
 /* Computes lower bounds by prices of area for those parts of the layer in which pairs and contact groups prove much
  * less than the cost.
  *
- * Bodies that crowd around one place form many independent parts, since contact groups consist of bodies that push each
+ * Bodies that lie around one place form many independent parts, since contact groups consist of bodies that push each
  * other in the final layout. Parts whose bodies were solved together are therefore bounded together, and bodies that
  * belong to no part but were solved with them are added. Parts of which nearly the whole cost is proved are left out.
  * The bound may use only bodies that all have to keep the gap from each other. So of two bodies in a listed conflict
@@ -20,9 +20,9 @@
 
 typedef struct payers {
     sunder_i_solver *s;
-    sunder_i_parts *parts;
+    sunder_i_independent_parts *parts;
     double *cost;             /* [bodies] the cost of each part, at the part's root */
-    uint32_t *crowd;          /* [bodies] union-find that joins parts whose bodies were solved together; a set of it is
+    uint32_t *joint;          /* [bodies] union-find that joins parts whose bodies were solved together; a set of it is
                                * a joint part */
     sunder_i_id_pair *member; /* (root of the joint part, body), grouped by joint part */
     size_t members;
@@ -30,7 +30,7 @@ typedef struct payers {
     uint32_t *body; /* scratch: the bodies of one joint part that are used */
 } payers;
 
-static double extent(const sunder_i_model *model, uint32_t body)
+static double box_area(const sunder_i_model *model, uint32_t body)
 {
     const double *box = model->body[body].box;
     return (box[2] - box[0]) * (box[3] - box[1]);
@@ -46,7 +46,7 @@ static void leave_out_listed(payers *p)
         if (!sunder_i_is_conflict(r) || sunder_i_is_barrier(model, r->b)) continue;
         const uint32_t i = model->body_of[r->a], j = model->body_of[r->b];
         if (i == j || p->left_out[i] || p->left_out[j]) continue;
-        p->left_out[extent(model, i) < extent(model, j) ? i : j] = true;
+        p->left_out[box_area(model, i) < box_area(model, j) ? i : j] = true;
     }
 }
 
@@ -54,7 +54,7 @@ static void leave_out_listed(payers *p)
  * proved. */
 static bool is_settled(const payers *p, uint32_t root)
 {
-    return p->cost[root] > 0 && sunder_i_part_bound(p->parts, root) >= AREAS_ASKED * p->cost[root];
+    return p->cost[root] > 0 && sunder_i_independent_part_bound(p->parts, root) >= AREAS_ASKED * p->cost[root];
 }
 
 static void find_costs(payers *p)
@@ -71,26 +71,26 @@ static void find_costs(payers *p)
 static void list_members(payers *p)
 {
     const sunder_i_model *model = &p->s->model;
-    sunder_i_union_init(p->crowd, model->bodies);
+    sunder_i_union_init(p->joint, model->bodies);
     for (uint32_t b = 0; b < model->bodies; b++) {
         if (model->body[b].fixed) continue;
-        sunder_i_union_join(p->crowd, b, sunder_i_union_find(p->s->parent, b));
-        sunder_i_union_join(p->crowd, b, sunder_i_union_find(p->parts->root, b));
+        sunder_i_union_join(p->joint, b, sunder_i_union_find(p->s->parent, b));
+        sunder_i_union_join(p->joint, b, sunder_i_union_find(p->parts->root, b));
     }
     for (uint32_t b = 0; b < model->bodies; b++) {
         if (model->body[b].fixed || is_settled(p, sunder_i_union_find(p->parts->root, b))) continue;
-        p->member[p->members++] = (sunder_i_id_pair){sunder_i_union_find(p->crowd, b), b};
+        p->member[p->members++] = (sunder_i_id_pair){sunder_i_union_find(p->joint, b), b};
     }
     qsort(p->member, p->members, sizeof *p->member, sunder_i_by_id_pair);
 }
 
 /* Sets *cost to the cost of the n members of a joint part, and *proved to what is proved of their parts so far. */
-static void measure(const payers *p, const sunder_i_id_pair *member, size_t n, double *cost, double *proved)
+static void measure_joint(const payers *p, const sunder_i_id_pair *member, size_t n, double *cost, double *proved)
 {
     sunder_total costs = {0}, bounds = {0};
     for (size_t k = 0; k < n; k++) {
         sunder_total_add(&costs, p->cost[member[k].b]);
-        sunder_total_add(&bounds, sunder_i_part_bound(p->parts, member[k].b));
+        sunder_total_add(&bounds, sunder_i_independent_part_bound(p->parts, member[k].b));
     }
     *cost = sunder_total_nearest(&costs);
     *proved = sunder_total_nearest(&bounds);
@@ -98,8 +98,8 @@ static void measure(const payers *p, const sunder_i_id_pair *member, size_t n, d
 
 /* Makes the bound by areas the bound of the joint part. It is recorded at the root area->root; all other parts of the
  * joint part get none of their own (-1). */
-static sunder_status take(payers *p, sunder_i_area_bound *area, const sunder_i_id_pair *member, size_t members,
-                          sunder_error *err)
+static sunder_status take_bound(payers *p, sunder_i_area_bound *area, const sunder_i_id_pair *member, size_t members,
+                                sunder_error *err)
 {
     area->body = sunder_i_alloc(area->n, sizeof *area->body);
     if (!area->body) return sunder_i_no_memory(err);
@@ -109,14 +109,14 @@ static sunder_status take(payers *p, sunder_i_area_bound *area, const sunder_i_i
     return SUNDER_OK;
 }
 
-static sunder_status ask_crowd(payers *p, const sunder_i_id_pair *member, size_t members, sunder_error *err)
+static sunder_status bound_joint(payers *p, const sunder_i_id_pair *member, size_t members, sunder_error *err)
 {
     sunder_i_model *model = &p->s->model;
     double cost, proved;
     size_t n = 0;
     for (size_t k = 0; k < members; k++)
         if (!p->left_out[member[k].b]) p->body[n++] = member[k].b;
-    measure(p, member, members, &cost, &proved);
+    measure_joint(p, member, members, &cost, &proved);
     if (n < AREAS_FEWEST || !(proved < AREAS_ASKED * cost)) return SUNDER_OK;
     sunder_i_area_bound *out = &p->parts->area[p->parts->areas];
     *out = (sunder_i_area_bound){.root = sunder_i_union_find(p->parts->root, p->body[0]), .n = n};
@@ -124,14 +124,14 @@ static sunder_status ask_crowd(payers *p, const sunder_i_id_pair *member, size_t
     if (!status) status = sunder_i_areas_bound(model, p->body, n, &out->prices, &out->bound, err);
     const bool better = !status && out->bound > proved;
     if (better) {
-        p->parts->areas++; /* from here on sunder_i_parts_free() frees its arrays */
-        return take(p, out, member, members, err);
+        p->parts->areas++; /* from here on sunder_i_independent_parts_free() frees its arrays */
+        return take_bound(p, out, member, members, err);
     }
     sunder_i_free(out->prices.price);
     return status;
 }
 
-static sunder_status ask_crowds(payers *p, sunder_error *err)
+static sunder_status bound_all_joint(payers *p, sunder_error *err)
 {
     sunder_status status = SUNDER_OK;
     leave_out_listed(p);
@@ -139,12 +139,12 @@ static sunder_status ask_crowds(payers *p, sunder_error *err)
     list_members(p);
     for (size_t from = 0, end; from < p->members && !status; from = end) {
         for (end = from; end < p->members && p->member[end].a == p->member[from].a;) end++;
-        if (end - from >= AREAS_FEWEST) status = ask_crowd(p, p->member + from, end - from, err);
+        if (end - from >= AREAS_FEWEST) status = bound_joint(p, p->member + from, end - from, err);
     }
     return status;
 }
 
-sunder_status sunder_i_report_area_bounds(sunder_i_solver *solver, sunder_i_parts *parts, sunder_error *err)
+sunder_status sunder_i_report_area_bounds(sunder_i_solver *solver, sunder_i_independent_parts *parts, sunder_error *err)
 {
     if (!(solver->model.rules.effort > 0) || solver->model.rules.contained == SUNDER_CONTAINMENT_IGNORE)
         return SUNDER_OK;
@@ -152,15 +152,15 @@ sunder_status sunder_i_report_area_bounds(sunder_i_solver *solver, sunder_i_part
     payers p = {.s = solver,
                 .parts = parts,
                 .cost = sunder_i_calloc(n, sizeof *p.cost),
-                .crowd = sunder_i_alloc(n, sizeof *p.crowd),
+                .joint = sunder_i_alloc(n, sizeof *p.joint),
                 .member = sunder_i_alloc(n, sizeof *p.member),
                 .left_out = sunder_i_calloc(n, sizeof *p.left_out),
                 .body = sunder_i_alloc(n, sizeof *p.body)};
     parts->area = sunder_i_alloc(n / AREAS_FEWEST + 1, sizeof *parts->area);
-    const bool ok = p.cost && p.crowd && p.member && p.left_out && p.body && parts->area;
-    const sunder_status status = ok ? ask_crowds(&p, err) : sunder_i_no_memory(err);
+    const bool ok = p.cost && p.joint && p.member && p.left_out && p.body && parts->area;
+    const sunder_status status = ok ? bound_all_joint(&p, err) : sunder_i_no_memory(err);
     sunder_i_free(p.cost);
-    sunder_i_free(p.crowd);
+    sunder_i_free(p.joint);
     sunder_i_free(p.member);
     sunder_i_free(p.left_out);
     sunder_i_free(p.body);
@@ -169,7 +169,7 @@ sunder_status sunder_i_report_area_bounds(sunder_i_solver *solver, sunder_i_part
 
 /* ---- Bounds by area in the written proof ------------------------------------------------------------------------- */
 
-static bool record(const sunder_i_model *model, sunder_i_area_bound *area, sunder_bound_tree *out)
+static bool record_tree(const sunder_i_model *model, sunder_i_area_bound *area, sunder_bound_tree *out)
 {
     sunder_bound_body *body = sunder_i_alloc(area->n, sizeof *body);
     if (!body) return false;
@@ -192,13 +192,13 @@ static bool record(const sunder_i_model *model, sunder_i_area_bound *area, sunde
     return true;
 }
 
-sunder_status sunder_i_report_area_trees(sunder_report *report, const sunder_i_solver *solver, sunder_i_parts *parts,
-                                         sunder_error *err)
+sunder_status sunder_i_report_area_trees(sunder_report *report, const sunder_i_solver *solver,
+                                         sunder_i_independent_parts *parts, sunder_error *err)
 {
     for (size_t k = 0; k < parts->areas; k++) {
         sunder_i_area_bound *area = &parts->area[k];
         sunder_bound_tree *tree = &report->bound_tree[report->bound_trees];
-        if (!record(&solver->model, area, tree)) return sunder_i_no_memory(err);
+        if (!record_tree(&solver->model, area, tree)) return sunder_i_no_memory(err);
         tree->group = solver->groups.n + area->root;
         report->bound_trees++;
     }

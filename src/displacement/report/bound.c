@@ -19,8 +19,8 @@
 
 /* Return the next smaller and the next larger double. One such step covers the half unit in the last place by which a
  * single operation rounds. */
-static double down(double v) { return nextafter(v, -INFINITY); }
-static double up(double v) { return nextafter(v, INFINITY); }
+static double round_down(double v) { return nextafter(v, -INFINITY); }
+static double round_up(double v) { return nextafter(v, INFINITY); }
 
 /* Returns a lower bound of the weight of a body: the weights of its members, each addition rounded downwards. */
 static double weight_below(const sunder_i_model *model, const sunder_i_body *body)
@@ -28,15 +28,15 @@ static double weight_below(const sunder_i_model *model, const sunder_i_body *bod
     double w = 0;
     for (uint32_t k = 0; k < body->members; k++) {
         const double own = sunder_i_feature(model->layer, model->member[body->member + k]).weight;
-        w = k ? down(w + own) : own;
+        w = k ? round_down(w + own) : own;
     }
     return w;
 }
 
 /* Runs coordinate ascent on the n pairs whose indices are which[].b, a connected component of the pairs. The number of
  * sweeps depends on these pairs only. load[body] is the sum of the multipliers of the body's pairs. */
-static void ascend(const sunder_i_model *model, sunder_bound_pair *pairs, const sunder_i_id_pair *which, size_t n,
-                   double *load)
+static void ascend_component(const sunder_i_model *model, sunder_bound_pair *pairs, const sunder_i_id_pair *which,
+                             size_t n, double *load)
 {
     for (int sweep = 0; sweep < SWEEPS; sweep++) {
         double moved = 0, scale = 0;
@@ -76,7 +76,7 @@ static void ascend_all(const sunder_i_model *model, sunder_bound_pair *pairs, su
     qsort(which, n, sizeof *which, sunder_i_by_id_pair);
     for (size_t k = 0, end; k < n; k = end) {
         for (end = k + 1; end < n && which[end].a == which[k].a;) end++;
-        ascend(model, pairs, which + k, end - k, load);
+        ascend_component(model, pairs, which + k, end - k, load);
     }
     for (size_t k = 0; k < n; k++)
         if (!(pairs[k].multiplier > 0) || !isfinite(pairs[k].multiplier)) pairs[k].multiplier = 0;
@@ -91,18 +91,19 @@ static void add_up(const sunder_i_model *model, const sunder_bound_pair *pairs, 
         const uint32_t i = model->body_of[pairs[k].a], j = model->body_of[pairs[k].b];
         if (!(pairs[k].multiplier > 0)) continue;
         const uint32_t at = sunder_i_union_find(root, model->body[i].fixed ? j : i);
-        value[at] = down(value[at] + down(pairs[k].multiplier * pairs[k].least));
-        load[i] = up(load[i] + pairs[k].multiplier);
-        load[j] = up(load[j] + pairs[k].multiplier);
+        value[at] = round_down(value[at] + round_down(pairs[k].multiplier * pairs[k].least));
+        load[i] = round_up(load[i] + pairs[k].multiplier);
+        load[j] = round_up(load[j] + pairs[k].multiplier);
     }
     for (uint32_t b = 0; b < model->bodies; b++) {
         if (!(load[b] > 0) || model->body[b].fixed) continue;
         const uint32_t at = sunder_i_union_find(root, b);
-        value[at] = down(value[at] - up(up(load[b] * load[b]) / (4 * weight_below(model, &model->body[b]))));
+        value[at] =
+            round_down(value[at] - round_up(round_up(load[b] * load[b]) / (4 * weight_below(model, &model->body[b]))));
     }
 }
 
-static double positive(double value) { return value > 0 && isfinite(value) ? value : 0; }
+static double positive_or_0(double value) { return value > 0 && isfinite(value) ? value : 0; }
 
 /* Returns the total bound, rounded downwards. value[] contains what is proved of each component, at its root; negative
  * values are set to 0, and the pairs of such components get the multiplier 0. */
@@ -113,7 +114,7 @@ static double bound_of(const sunder_i_model *model, sunder_bound_pair *pairs, si
         const uint32_t i = model->body_of[pairs[k].a], j = model->body_of[pairs[k].b];
         if (!(value[sunder_i_union_find(root, model->body[i].fixed ? j : i)] > 0)) pairs[k].multiplier = 0;
     }
-    for (size_t b = 0; b < model->bodies; b++) sunder_total_add(&total, value[b] = positive(value[b]));
+    for (size_t b = 0; b < model->bodies; b++) sunder_total_add(&total, value[b] = positive_or_0(value[b]));
     return sunder_total_below(&total);
 }
 
@@ -153,7 +154,7 @@ bool sunder_i_bound_parts(const sunder_i_model *model, const sunder_bound_pair *
     double *load = sunder_i_calloc(model->bodies, sizeof *load);
     if (!load) return false;
     add_up(model, pairs, n, root, load, value);
-    for (size_t b = 0; b < model->bodies; b++) value[b] = positive(value[b]);
+    for (size_t b = 0; b < model->bodies; b++) value[b] = positive_or_0(value[b]);
     sunder_i_free(load);
     return true;
 }

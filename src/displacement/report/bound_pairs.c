@@ -43,7 +43,7 @@ static sunder_status measure_pairs(void *context, size_t begin, size_t end, sund
 }
 
 /* Measures the least relative move of n pairs; those that the solver has measured are looked up. */
-static sunder_status measure(const sunder_i_solver *s, sunder_bound_pair *pair, size_t n, sunder_error *err)
+static sunder_status measure_all(const sunder_i_solver *s, sunder_bound_pair *pair, size_t n, sunder_error *err)
 {
     sunder_bound_pair *known = sunder_i_alloc(s->measured_n, sizeof *known);
     if (!known) return sunder_i_no_memory(err);
@@ -103,7 +103,7 @@ sunder_status sunder_i_report_bound(sunder_report *report, const sunder_i_solver
             report->bound_pair[n].a = r->a;
             report->bound_pair[n++].b = b;
         }
-        status = measure(solver, report->bound_pair, n, err);
+        status = measure_all(solver, report->bound_pair, n, err);
     }
     if (!status) {
         for (size_t k = 0; k < n; k++)

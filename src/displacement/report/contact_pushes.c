@@ -23,8 +23,8 @@
 #include <string.h>
 
 /* The number of groups that one task computes, and the number of tasks after which cached pieces may be discarded. */
-#define GROUPS_OF_A_LOT 64
-#define LOTS_AT_ONCE 32
+#define GROUPS_OF_A_BATCH 64
+#define BATCHES_AT_ONCE 32
 
 /* The pushes found for some groups, in the order of the groups. */
 typedef struct found_pushes {
@@ -57,7 +57,7 @@ static double hair_of(const pressing *p, const sunder_i_body *a, const sunder_i_
     return sunder_i_contact_hair(&p->solver->model, a, b) + 2 * p->group->margin;
 }
 
-static bool add(pressing *p, const sunder_i_constraint *c, size_t a, size_t b)
+static bool add_constraint(pressing *p, const sunder_i_constraint *c, size_t a, size_t b)
 {
     sunder_i_quadratic *q = &p->program;
     if (!sunder_i_reserve(&q->constraint, &q->capacity, q->n + 1, sizeof *q->constraint) ||
@@ -81,7 +81,7 @@ static bool add_pair(pressing *p, size_t i, size_t j)
         const sunder_i_contact *touch = &p->touch.item[k];
         const sunder_i_constraint c = {
             .i = (uint32_t)i, .j = (uint32_t)j, .n = {touch->n[0], touch->n[1]}, .d = touch->d};
-        ok = add(p, &c, touch->a, touch->b);
+        ok = add_constraint(p, &c, touch->a, touch->b);
     }
     return ok;
 }
@@ -125,12 +125,12 @@ static bool add_limit(pressing *p, size_t i)
     if (model->body[b].fixed || !(length > 0) || length < model->body[b].limit * (1 - AT_LIMIT)) return true;
     const sunder_i_constraint c = {
         .i = (uint32_t)i, .j = SUNDER_I_GROUND, .n = {t[0] / length, t[1] / length}, .d = -length};
-    return add(p, &c, SIZE_MAX, SIZE_MAX);
+    return add_constraint(p, &c, SIZE_MAX, SIZE_MAX);
 }
 
 /* Appends a push for each constraint with a positive force. Several pushes of one pair are added up only in renumber.c,
  * when the final numbers of the features are known. */
-static bool report_forces(pressing *p)
+static bool list_forces(pressing *p)
 {
     const sunder_i_quadratic *q = &p->program;
     found_pushes *r = p->found;
@@ -143,7 +143,7 @@ static bool report_forces(pressing *p)
     return true;
 }
 
-static bool press(pressing *p, const sunder_i_group *g)
+static bool press_group(pressing *p, const sunder_i_group *g)
 {
     const sunder_i_model *model = &p->solver->model;
     double *mass = sunder_i_alloc(g->n, sizeof *mass), *t = sunder_i_calloc(2 * g->n, sizeof *t), size = 0;
@@ -162,29 +162,29 @@ static bool press(pressing *p, const sunder_i_group *g)
         ok = add_pairs_of(p, i) && add_limit(p, i);
     }
     if (ok && p->program.n && size > 0)
-        ok = sunder_i_quadratic_solve(&p->program, 0, PRESSED * size, size) >= 0 && report_forces(p);
+        ok = sunder_i_quadratic_solve(&p->program, 0, PRESSED * size, size) >= 0 && list_forces(p);
     sunder_i_free(mass);
     sunder_i_free(t);
     return ok;
 }
 
-typedef struct pressing_lots {
+typedef struct pressing_batches {
     const sunder_i_solver *solver;
     size_t first;        /* the index of the first group of the first task */
-    found_pushes *found; /* [LOTS_AT_ONCE] the pushes that each task finds */
-} pressing_lots;
+    found_pushes *found; /* [BATCHES_AT_ONCE] the pushes that each task finds */
+} pressing_batches;
 
-static sunder_status press_lots(void *context, size_t begin, size_t end, sunder_error *err)
+static sunder_status press_batches(void *context, size_t begin, size_t end, sunder_error *err)
 {
-    const pressing_lots *all = context;
+    const pressing_batches *all = context;
     const sunder_i_groups *groups = &all->solver->groups;
     pressing p = {.solver = all->solver, .waived = {.pair = groups->waived, .n = groups->waived_n}};
     bool ok = true;
-    for (size_t lot = begin; lot < end; lot++) {
-        const size_t first = all->first + lot * GROUPS_OF_A_LOT;
-        p.found = &all->found[lot];
-        for (size_t k = first; k < first + GROUPS_OF_A_LOT && k < groups->n && ok; k++)
-            ok = press(&p, &groups->group[k]);
+    for (size_t batch = begin; batch < end; batch++) {
+        const size_t first = all->first + batch * GROUPS_OF_A_BATCH;
+        p.found = &all->found[batch];
+        for (size_t k = first; k < first + GROUPS_OF_A_BATCH && k < groups->n && ok; k++)
+            ok = press_group(&p, &groups->group[k]);
     }
     sunder_i_free(p.program.constraint);
     sunder_i_free(p.push);
@@ -193,7 +193,7 @@ static sunder_status press_lots(void *context, size_t begin, size_t end, sunder_
     return ok ? SUNDER_OK : sunder_i_no_memory(err);
 }
 
-static bool append(sunder_report *report, size_t *capacity, const found_pushes *found)
+static bool append_pushes(sunder_report *report, size_t *capacity, const found_pushes *found)
 {
     if (found->n == 0) return true;
     if (!sunder_i_reserve(&report->push, capacity, report->pushes + found->n, sizeof *found->push)) return false;
@@ -208,16 +208,16 @@ sunder_status sunder_i_report_pushes(sunder_report *report, sunder_i_solver *sol
     /* If no proofs were made, the waived pairs have not been determined yet. */
     const sunder_status status = solver->groups.waived ? SUNDER_OK : sunder_i_solver_list_waivers(solver, err);
     if (status) return status;
-    found_pushes found[LOTS_AT_ONCE];
+    found_pushes found[BATCHES_AT_ONCE];
     size_t capacity = 0;
     sunder_status pressed = SUNDER_OK;
-    for (size_t first = 0; first < solver->groups.n && !pressed; first += LOTS_AT_ONCE * GROUPS_OF_A_LOT) {
-        pressing_lots all = {solver, first, found};
+    for (size_t first = 0; first < solver->groups.n && !pressed; first += BATCHES_AT_ONCE * GROUPS_OF_A_BATCH) {
+        pressing_batches all = {solver, first, found};
         memset(found, 0, sizeof found);
-        pressed =
-            sunder_i_parallel(solver->model.rules.threads, LOTS_AT_ONCE, SUNDER_I_GRAIN_WHOLE, press_lots, &all, err);
-        for (size_t k = 0; k < LOTS_AT_ONCE; k++) {
-            if (!pressed && !append(report, &capacity, &found[k])) pressed = sunder_i_no_memory(err);
+        pressed = sunder_i_parallel(solver->model.rules.threads, BATCHES_AT_ONCE, SUNDER_I_GRAIN_WHOLE, press_batches,
+                                    &all, err);
+        for (size_t k = 0; k < BATCHES_AT_ONCE; k++) {
+            if (!pressed && !append_pushes(report, &capacity, &found[k])) pressed = sunder_i_no_memory(err);
             sunder_i_free(found[k].push);
         }
         sunder_i_pieces_forget(&solver->model, SUNDER_I_PIECES_HELD);

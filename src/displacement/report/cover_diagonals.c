@@ -32,7 +32,7 @@ typedef struct looking {
     bool any, fixed; /* `any`: some entry of far[] is not negative; `fixed`: the layer has fixed features */
 } looking;
 
-static void ask(looking *l, uint32_t b, double far)
+static void enter_body(looking *l, uint32_t b, double far)
 {
     l->any = true;
     l->far[b] = sunder_i_max(l->far[b], far * (1 + 0x1p-10));
@@ -41,31 +41,31 @@ static void ask(looking *l, uint32_t b, double far)
 
 /* Enters body b of a conflict, with `without` as its distance if it has no limit, and the bodies of its cluster that
  * have a limit. A fixed body belongs to no cluster. */
-static void ask_cluster(looking *l, uint32_t b, double without)
+static void enter_cluster(looking *l, uint32_t b, double without)
 {
     size_t n = 0;
     const sunder_i_solver *s = l->solver;
     const sunder_i_model *model = &s->model;
     const double limit = sunder_i_limit_of(&model->body[b]);
-    ask(l, b, isfinite(limit) ? limit : without);
+    enter_body(l, b, isfinite(limit) ? limit : without);
     const uint32_t root = sunder_i_union_find(s->parent, b);
     if (model->body[b].fixed || l->gathered[root]) return;
     l->gathered[root] = true;
     const uint32_t *member = sunder_i_solver_members(s, root, &n);
     for (size_t k = 0; k < n; k++) {
         const double own = sunder_i_limit_of(&model->body[member[k]]);
-        if (isfinite(own)) ask(l, member[k], own);
+        if (isfinite(own)) enter_body(l, member[k], own);
     }
 }
 
-static void ask_pair(looking *l, uint32_t i, uint32_t j)
+static void enter_pair(looking *l, uint32_t i, uint32_t j)
 {
     const double without = 2 * sunder_i_farthest_near(&l->solver->model, i, j);
-    ask_cluster(l, i, without);
-    ask_cluster(l, j, without);
+    enter_cluster(l, i, without);
+    enter_cluster(l, j, without);
 }
 
-static void ask_all(looking *l)
+static void enter_remaining(looking *l)
 {
     const sunder_i_solver *s = l->solver;
     const sunder_i_model *model = &s->model;
@@ -77,13 +77,13 @@ static void ask_all(looking *l)
     for (size_t k = 0; k < s->now.n; k++) {
         const sunder_i_relation *r = &s->now.pair[k];
         const uint32_t i = model->body_of[r->a], j = model->body_of[r->b];
-        if (r->near && i != j) ask_pair(l, i, j);
+        if (r->near && i != j) enter_pair(l, i, j);
     }
 }
 
 /* During the search: enters all conflicts that are connected with one that was given up, since a question is about all
  * of these at once (solve/clusters/reconsider.c), and the clusters of their bodies. Returns false if memory is out. */
-static bool ask_given_up(looking *l)
+static bool enter_given_up(looking *l)
 {
     const sunder_i_model *model = &l->solver->model;
     const sunder_i_relations *start = &l->solver->start;
@@ -93,12 +93,12 @@ static bool ask_given_up(looking *l)
     for (size_t k = 0; k < model->given_up_n && root && asked; k++) {
         const uint32_t i = model->given_up[k].a, j = model->given_up[k].b;
         asked[root[i]] = asked[root[j]] = true;
-        ask_pair(l, i, j);
+        enter_pair(l, i, j);
     }
     for (size_t k = 0; k < start->n && root && asked; k++) {
         const sunder_i_relation *r = &start->pair[k];
         const uint32_t i = model->body_of[r->a], j = model->body_of[r->b];
-        if (sunder_i_is_conflict_of_bodies(model, r) && (asked[root[i]] || asked[root[j]])) ask_pair(l, i, j);
+        if (sunder_i_is_conflict_of_bodies(model, r) && (asked[root[i]] || asked[root[j]])) enter_pair(l, i, j);
     }
     const bool ok = root && asked;
     sunder_i_free(asked);
@@ -107,7 +107,7 @@ static bool ask_given_up(looking *l)
 
 /* Marks the bodies within `reach` of feature f: all of them, or only the fixed ones. *left is reduced by the number of
  * things found. Returns false if memory is out. */
-static bool meet(looking *l, uint32_t f, double reach, bool all, sunder_i_list *near, size_t *left)
+static bool meet_near(looking *l, uint32_t f, double reach, bool all, sunder_i_list *near, size_t *left)
 {
     const sunder_i_model *model = &l->solver->model;
     double box[4];
@@ -122,7 +122,7 @@ static bool meet(looking *l, uint32_t f, double reach, bool all, sunder_i_list *
     return true;
 }
 
-static bool meet_all(looking *l, uint32_t b, sunder_i_list *near, size_t *left)
+static bool meet_body(looking *l, uint32_t b, sunder_i_list *near, size_t *left)
 {
     const sunder_i_model *model = &l->solver->model;
     const sunder_i_body *body = &model->body[b];
@@ -130,8 +130,8 @@ static bool meet_all(looking *l, uint32_t b, sunder_i_list *near, size_t *left)
     for (uint32_t m = 0; m < body->members && ok; m++) {
         const uint32_t f = model->member[body->member + m];
         if (!model->present[f]) continue;
-        ok = meet(l, f, l->far[b] + model->rules.gap, true, near, left);
-        if (ok && l->fixed) ok = meet(l, f, l->far[b] + l->most + model->rules.gap, false, near, left);
+        ok = meet_near(l, f, l->far[b] + model->rules.gap, true, near, left);
+        if (ok && l->fixed) ok = meet_near(l, f, l->far[b] + l->most + model->rules.gap, false, near, left);
     }
     return ok;
 }
@@ -145,7 +145,7 @@ static sunder_status find_some(looking *l, sunder_i_model *model, sunder_error *
     sunder_i_list near = {0};
     bool ok = true;
     for (uint32_t b = 0; b < model->bodies && ok && left; b++)
-        if (l->far[b] >= 0) ok = meet_all(l, b, &near, &left);
+        if (l->far[b] >= 0) ok = meet_body(l, b, &near, &left);
     near.n = 0;
     for (uint32_t b = 0; b < model->bodies && ok && left; b++)
         if (l->far[b] >= 0 || l->met[b]) ok = sunder_i_list_push(&near, b);
@@ -163,8 +163,8 @@ sunder_status sunder_i_report_cover_diagonals(sunder_i_solver *solver, sunder_er
                  .met = sunder_i_calloc(solver->model.bodies, sizeof *l.met),
                  .gathered = sunder_i_calloc(solver->model.bodies, sizeof *l.gathered)};
     sunder_status status = l.far && l.met && l.gathered ? SUNDER_OK : sunder_i_no_memory(err);
-    if (!status) ask_all(&l);
-    if (!status && !ask_given_up(&l)) status = sunder_i_no_memory(err);
+    if (!status) enter_remaining(&l);
+    if (!status && !enter_given_up(&l)) status = sunder_i_no_memory(err);
     if (!status && l.any) status = find_some(&l, &solver->model, err);
     sunder_i_free(l.far);
     sunder_i_free(l.met);

@@ -90,8 +90,9 @@ static void note_in_vain(const sunder_i_surroundings *a, budget *left)
 }
 
 /* Asks a question. If the answer is no, the budget is reduced. */
-static sunder_status ask(const sunder_i_questions *g, const sunder_i_surroundings *a, const sunder_conflict *c,
-                         const sunder_i_supposition *what, budget *left, sunder_i_answer *answer, sunder_error *err)
+static sunder_status ask_question(const sunder_i_questions *g, const sunder_i_surroundings *a, const sunder_conflict *c,
+                                  const sunder_i_supposition *what, budget *left, sunder_i_answer *answer,
+                                  sunder_error *err)
 {
     const sunder_status status = sunder_i_ask(g, a, c, what, &left->proof, answer, err);
     if (!status && !answer->yes) note_in_vain(a, left);
@@ -99,8 +100,8 @@ static sunder_status ask(const sunder_i_questions *g, const sunder_i_surrounding
 }
 
 /* Finds a sufficient limit. The first question allows the longest moves of which all neighbours are known, or the limit
- * that solves the whole cluster if that is known (crowd_needs.c). If it has a solution, the interval below is halved up
- * to g->halvings times. */
+ * that solves the whole cluster if that is known (cluster_needs.c). If it has a solution, the interval below is halved
+ * up to g->halvings times. */
 static sunder_status need_shift(const sunder_i_questions *g, const sunder_i_surroundings *a, sunder_conflict *c,
                                 budget *left, sunder_error *err)
 {
@@ -111,7 +112,7 @@ static sunder_status need_shift(const sunder_i_questions *g, const sunder_i_surr
     for (size_t k = 0; k < a->moving; k++) low = sunder_i_min(low, a->as[k].max_shift);
     if (!(low < what.limit) || !sunder_i_patience_asks(&left->shift)) return SUNDER_OK;
     for (int k = 0; k <= g->halvings; k++) {
-        const sunder_status status = ask(g, a, c, &what, left, &answer, err);
+        const sunder_status status = ask_question(g, a, c, &what, left, &answer, err);
         if (status) return status;
         if (k == 0) sunder_i_patience_note(&left->shift, answer.yes);
         /* The length was rounded once, so the next larger double is an upper bound. */
@@ -144,23 +145,23 @@ static sunder_status least_for_gap(const sunder_i_model *model, const sunder_con
 {
     if (c->b < model->features) {
         sunder_i_rules rules = model->rules;
-        sunder_i_resolution way;
+        sunder_i_resolution move;
         rules.gap = gap;
         const sunder_status status = sunder_i_resolve(&rules, sunder_i_thing_shape(model, c->a),
-                                                      sunder_i_thing_shape(model, c->b), INFINITY, &way, err);
-        *least = way.least;
-        *length = hypot(way.away[0], way.away[1]);
+                                                      sunder_i_thing_shape(model, c->b), INFINITY, &move, err);
+        *least = move.least;
+        *length = hypot(move.away[0], move.away[1]);
         return status;
     }
     const uint32_t barrier = (uint32_t)c->b;
     const sunder_i_translate home = sunder_i_at_home(model, (uint32_t)c->a);
     const double owed = sunder_i_required_below(model->barriers, sunder_i_barrier_of(model, barrier));
-    sunder_separation way = {0};
+    sunder_separation move = {0};
     bool beyond;
     const sunder_status status = sunder_i_barrier_least(
-        model, &home, barrier, sunder_i_max(0, owed - model->rules.gap + gap), INFINITY, &way, &beyond, err);
-    *least = way.lower_bound;
-    *length = way.distance;
+        model, &home, barrier, sunder_i_max(0, owed - model->rules.gap + gap), INFINITY, &move, &beyond, err);
+    *least = move.lower_bound;
+    *length = move.distance;
     return status;
 }
 
@@ -218,7 +219,7 @@ static sunder_status try_gap(asked *g, double gap, bool *yes, sunder_error *err)
 {
     const sunder_i_supposition what = {.gap = gap, .gone = SUNDER_I_NOBODY, .all = g->all};
     sunder_i_answer answer;
-    const sunder_status status = ask(g->questions, g->about, g->conflict, &what, g->left, &answer, err);
+    const sunder_status status = ask_question(g->questions, g->about, g->conflict, &what, g->left, &answer, err);
     *yes = answer.yes;
     if (answer.yes)
         g->conflict->need_gap = gap;
@@ -248,7 +249,7 @@ static sunder_status look_ahead(asked *g, bool all, sunder_error *err)
 /* Narrows the interval in which the largest gap lies to the width `step`, by proofs. *low is raised to gaps for which
  * there is a solution (with `in_plane`: to gaps that are not refuted). The upper end is lowered to gaps that are
  * refuted, or of which nothing is known. g->high is lowered only by refuted gaps. */
-static sunder_status narrow(asked *g, bool in_plane, double step, double *low, double high, sunder_error *err)
+static sunder_status narrow_gap(asked *g, bool in_plane, double step, double *low, double high, sunder_error *err)
 {
     sunder_status status = SUNDER_OK;
     while (!status && high - *low > step) {
@@ -277,14 +278,14 @@ static sunder_status foresee_gap(asked *g, double step, double *gap, sunder_erro
     *gap = -1;
     if (!sunder_i_patience_asks(&g->left->proof)) return SUNDER_OK;
     sunder_status status = look_ahead(g, g->all, err);
-    if (!status) status = narrow(g, true, step, &low, high, err);
+    if (!status) status = narrow_gap(g, true, step, &low, high, err);
     if (!status && low == first) sunder_i_patience_note(&g->left->proof, g->high < high);
     if (status || low == first) return status;
     status = sunder_i_foresee(g->foresight, low, SUNDER_I_NOBODY, false, &verdict, &refuted, err);
     if (!status && verdict == SUNDER_I_INFEASIBLE) g->high = refuted;
     const double most = sunder_i_min(low, g->high);
     if (verdict != SUNDER_I_FEASIBLE) low = first;
-    if (!status && verdict != SUNDER_I_FEASIBLE) status = narrow(g, false, step, &low, most, err);
+    if (!status && verdict != SUNDER_I_FEASIBLE) status = narrow_gap(g, false, step, &low, most, err);
     if (low > first) *gap = low;
     sunder_i_patience_note(&g->left->proof, low > first || g->high < high);
     return status;
@@ -381,7 +382,7 @@ static sunder_status try_gone(asked *g, uint32_t gone, bool *yes, sunder_error *
     const sunder_i_supposition what = {.gap = gap, .gone = gone};
     if (!status && verdict == SUNDER_I_INFEASIBLE) note_in_vain(g->about, g->left);
     if (!status && verdict != SUNDER_I_INFEASIBLE)
-        status = ask(g->questions, g->about, g->conflict, &what, g->left, &answer, err);
+        status = ask_question(g->questions, g->about, g->conflict, &what, g->left, &answer, err);
     *yes = answer.yes;
     return status;
 }
@@ -475,7 +476,7 @@ static int by_matter(const void *a, const void *b)
 
 /* Lists the conflicts to examine in list[], grouped by cluster, and sets first[] to the index of the first conflict of
  * each cluster, followed by the end. Returns the number of clusters. */
-static size_t group(const sunder_i_solver *s, const sunder_report *report, matter *list, size_t *first)
+static size_t group_by_cluster(const sunder_i_solver *s, const sunder_report *report, matter *list, size_t *first)
 {
     const sunder_i_model *model = &s->model;
     size_t n = 0, groups = 0;
@@ -502,7 +503,7 @@ sunder_status sunder_i_report_needs(sunder_report *report, const sunder_i_solver
     size_t *first = sunder_i_alloc(report->conflicts + 1, sizeof *first);
     sunder_status status = list && first ? keep_what_there_is(&g, err) : sunder_i_no_memory(err);
     if (!status) {
-        const size_t groups = group(solver, report, list, first);
+        const size_t groups = group_by_cluster(solver, report, list, first);
         asking h = {&g, list, first, NEED_IN_VAIN * (uint64_t)effort};
         status = sunder_i_parallel(solver->model.rules.threads, groups, SUNDER_I_GRAIN_WHOLE, ask_clusters, &h, err);
     }

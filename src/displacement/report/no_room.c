@@ -61,8 +61,8 @@ static bool take_features(const sunder_i_model *model, const sunder_proof *proof
 /* Removes features that the proof does not need, in order of their numbers, as long as the effort lasts. Each step
  * tries to find a proof without the feature; if it succeeds, the features that the new proof no longer uses are removed
  * as well. *budget is the effort allowed, and is reduced by what was used. */
-static sunder_status reduce(const sunder_i_subproblem *subproblem, sunder_i_decide_subproblem decide, uint64_t *budget,
-                            sunder_proof **proof, sunder_error *err)
+static sunder_status reduce_proof(const sunder_i_subproblem *subproblem, sunder_i_decide_subproblem decide,
+                                  uint64_t *budget, sunder_proof **proof, sunder_error *err)
 {
     sunder_i_subproblem q = *subproblem;
     const size_t room = 3 * (*proof)->nodes;
@@ -167,7 +167,7 @@ static sunder_status keep_proof(const asking *g, const matter *m, const sunder_i
     decision->proof = NULL;
     sunder_i_decision_clear(decision);
     if (!*proof) return SUNDER_OK;
-    const sunder_status status = *budget ? reduce(&q, g->decide, budget, proof, err) : SUNDER_OK;
+    const sunder_status status = *budget ? reduce_proof(&q, g->decide, budget, proof, err) : SUNDER_OK;
     if (status) return status;
     if (g->solver->model.rules.drop_proofs) sunder_i_proof_strip(*proof);
     g->report->conflict[m->conflict].reason = reason;
@@ -190,7 +190,7 @@ static sunder_status keep_no_room(const asking *g, const matter *m, sunder_i_sub
 /* Asks whether one conflict has a solution, with more and more exact questions, and keeps a proof that it has none.
  * m->open becomes whether more effort might give an answer. *pool is the effort left for the cluster; effort without a
  * proof is subtracted. */
-static sunder_status ask(const asking *g, matter *m, sunder_i_subproblem *q, uint64_t *pool, sunder_error *err)
+static sunder_status ask_conflict(const asking *g, matter *m, sunder_i_subproblem *q, uint64_t *pool, sunder_error *err)
 {
     const sunder_conflict *c = &g->report->conflict[m->conflict];
     const uint32_t body[2] = {g->solver->model.body_of[c->a], g->solver->model.body_of[c->b]};
@@ -252,10 +252,10 @@ static sunder_status keep_crowded(const asking *g, const matter *m, const sunder
 }
 
 /* Looks for a chain of features through the pair, each of which pushes the next, up to their limits. A chain of more
- * than REDUCED_LINKS links is irreducible as it is found, as far as such chains can tell. crowd: NULL, or the budget
+ * than REDUCED_LINKS links is irreducible as it is found, as far as such chains can tell. reducing: NULL, or the budget
  * for making proofs irreducible if the chain is to prove that the conflict is crowded. */
 static sunder_status ask_chain(const asking *g, matter *m, sunder_i_subproblem *q, sunder_i_chains *chains,
-                               uint64_t *crowd, sunder_error *err)
+                               uint64_t *reducing, sunder_error *err)
 {
     const sunder_conflict *c = &g->report->conflict[m->conflict];
     const uint32_t body[2] = {q->model->body_of[c->a], q->model->body_of[c->b]};
@@ -271,28 +271,28 @@ static sunder_status ask_chain(const asking *g, matter *m, sunder_i_subproblem *
         sunder_i_decision_clear(&decision);
         return status;
     }
-    return crowd ? keep_crowded(g, m, q, &decision, crowd, err)
-                 : keep_no_room(g, m, q, &decision, links <= REDUCED_LINKS, err);
+    return reducing ? keep_crowded(g, m, q, &decision, reducing, err)
+                    : keep_no_room(g, m, q, &decision, links <= REDUCED_LINKS, err);
 }
 
-/* Looks for chains through all conflicts of a cluster that have no proof yet and whose bodies have limits. crowd: NULL,
- * or the budget for making proofs irreducible if the chains are to prove that conflicts are crowded. */
+/* Looks for chains through all conflicts of a cluster that have no proof yet and whose bodies have limits. reducing:
+ * NULL, or the budget for making proofs irreducible if the chains are to prove that conflicts are crowded. */
 static sunder_status ask_chains(const asking *g, matter *first, const matter *last, sunder_i_subproblem *q,
-                                uint64_t *crowd, sunder_error *err)
+                                uint64_t *reducing, sunder_error *err)
 {
-    sunder_i_chains *chains = sunder_i_chains_new(q, crowd != NULL);
+    sunder_i_chains *chains = sunder_i_chains_new(q, reducing != NULL);
     sunder_status status = chains ? SUNDER_OK : sunder_i_no_memory(err);
     for (matter *m = first; m < last && !status; m++)
         if (g->report->conflict[m->conflict].reason == SUNDER_REASON_UNRESOLVED && !has_no_limit(g, m))
-            status = ask_chain(g, m, q, chains, crowd, err);
+            status = ask_chain(g, m, q, chains, reducing, err);
     sunder_i_chains_free(chains);
     return status;
 }
 
 /* For conflicts without a proof: looks for chains that prove them crowded. All pairs then have to keep the full
  * distance, whether they are listed or not. */
-static sunder_status ask_crowd(const asking *g, matter *first, const matter *last, const sunder_i_subproblem *cluster,
-                               sunder_error *err)
+static sunder_status ask_crowded(const asking *g, matter *first, const matter *last, const sunder_i_subproblem *cluster,
+                                 sunder_error *err)
 {
     sunder_i_subproblem q = *cluster;
     uint64_t budget = CROWD_REDUCING + CROWD_REDUCING_EACH * (uint64_t)cluster->reserves;
@@ -333,7 +333,7 @@ static sunder_status ask_without_limit(const asking *g, matter *m, const sunder_
     two.feature = set;
     two.reserves = 0;
     two.instead = 2 * sunder_i_farthest_near(q->model, body[0], body[1]);
-    const sunder_status status = ask(g, m, &two, pool, err);
+    const sunder_status status = ask_conflict(g, m, &two, pool, err);
     sunder_i_free(set);
     return status;
 }
@@ -356,7 +356,7 @@ static sunder_status ask_cluster(const asking *g, matter *first, const matter *l
             if (!m->open) continue;
             asked++;
             q->effort = effort < pool ? effort : pool;
-            status = has_no_limit(g, m) ? ask_without_limit(g, m, q, &pool, err) : ask(g, m, q, &pool, err);
+            status = has_no_limit(g, m) ? ask_without_limit(g, m, q, &pool, err) : ask_conflict(g, m, q, &pool, err);
             open = m->open ? open + 1 : 0;
             in_vain = open >= patience;
         }
@@ -394,7 +394,7 @@ static sunder_status ask_clusters(void *context, size_t begin, size_t end, sunde
         if (!status) status = ask_cluster(g, first, last, &q, err);
         for (matter *m = first; m < last; m++) m->open = m->still;
         if (!status) status = ask_cluster(g, first, last, &q, err);
-        if (!status) status = ask_crowd(g, first, last, &q, err);
+        if (!status) status = ask_crowded(g, first, last, &q, err);
         sunder_i_reads_end(&reading);
         sunder_i_planes_clear(&planes);
         if (status) return status;
@@ -406,8 +406,8 @@ static sunder_status ask_clusters(void *context, size_t begin, size_t end, sunde
 
 /* Lists the conflicts to examine in list[], grouped by cluster, and sets first[] to the index of the first of each
  * cluster, followed by the end. Returns the number of clusters. */
-static size_t group(const sunder_i_solver *s, const sunder_report *report, const uint32_t *listed, size_t n,
-                    matter *list, size_t *first)
+static size_t group_by_cluster(const sunder_i_solver *s, const sunder_report *report, const uint32_t *listed, size_t n,
+                               matter *list, size_t *first)
 {
     const sunder_i_model *model = &s->model;
     size_t open = 0, groups = 0;
@@ -438,7 +438,7 @@ sunder_status sunder_i_report_proofs(sunder_report *report, const sunder_i_solve
     size_t n = 0;
     for (size_t k = 0; !status && k < most; k++)
         if (!report->conflict[k].inside_block) listed[n++] = (uint32_t)k;
-    const size_t groups = status ? 0 : group(solver, report, listed, n, list, first);
+    const size_t groups = status ? 0 : group_by_cluster(solver, report, listed, n, list, first);
     if (groups) {
         requiring h = {solver, report, listed, required};
         status = sunder_i_parallel(threads, n, SUNDER_I_GRAIN_PAIRS, find_some_requirements, &h, err);

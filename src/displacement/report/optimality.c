@@ -14,7 +14,7 @@
 
 /* Makes the group the owner of its movable bodies, guests included. Returns false if another group owned one of
  * them. */
-static bool claim(const sunder_i_model *model, const sunder_i_group *g, uint32_t *owner)
+static bool claim_bodies(const sunder_i_model *model, const sunder_i_group *g, uint32_t *owner)
 {
     bool own = true;
     for (size_t k = 0; k < g->n + g->guests.n; k++) {
@@ -66,7 +66,7 @@ static sunder_status count_groups(sunder_layer_summary *summary, sunder_i_solver
     const bool ok = owner && listed;
     for (size_t b = 0; b < s->model.bodies && ok; b++) owner[b] = SUNDER_I_NOBODY;
     for (size_t k = 0; k < s->groups.n && ok; k++)
-        if (!claim(&s->model, &s->groups.group[k], owner)) s->groups.group[k].bound = 0;
+        if (!claim_bodies(&s->model, &s->groups.group[k], owner)) s->groups.group[k].bound = 0;
     if (ok) void_bounds(s, owner, listed);
     sunder_i_free(owner);
     sunder_i_free(listed);
@@ -80,7 +80,7 @@ static sunder_status count_groups(sunder_layer_summary *summary, sunder_i_solver
 
 /* Moves the trees on which the bound is based, those of groups and those of pairs, to the report, which owns them from
  * then on. */
-static sunder_status take_trees(sunder_report *report, sunder_i_groups *groups, const sunder_i_parts *parts,
+static sunder_status take_trees(sunder_report *report, sunder_i_groups *groups, const sunder_i_independent_parts *parts,
                                 sunder_i_bound_trees *of_pairs, sunder_error *err)
 {
     size_t n = of_pairs->n + parts->areas; /* with room for the trees of bounds by area */
@@ -89,7 +89,7 @@ static sunder_status take_trees(sunder_report *report, sunder_i_groups *groups, 
     if (!report->bound_tree) return sunder_i_no_memory(err);
     for (size_t k = 0; k < groups->n; k++) {
         sunder_i_group *g = &groups->group[k];
-        if (!(g->bound > 0) || !sunder_i_part_is_by_groups(parts, g->number)) continue;
+        if (!(g->bound > 0) || !sunder_i_independent_part_is_by_groups(parts, g->number)) continue;
         for (size_t m = 0; m < g->trees.n; m++) {
             g->trees.tree[m].group = k;
             report->bound_tree[report->bound_trees++] = g->trees.tree[m];
@@ -98,7 +98,7 @@ static sunder_status take_trees(sunder_report *report, sunder_i_groups *groups, 
     }
     for (size_t k = 0; k < of_pairs->n; k++) {
         sunder_bound_tree *tree = &of_pairs->tree[k];
-        if (!sunder_i_part_is_by_pairs(parts, (uint32_t)tree->group)) continue;
+        if (!sunder_i_independent_part_is_by_pairs(parts, (uint32_t)tree->group)) continue;
         tree->group += groups->n;
         report->bound_tree[report->bound_trees++] = *tree;
         *tree = (sunder_bound_tree){0};
@@ -107,8 +107,8 @@ static sunder_status take_trees(sunder_report *report, sunder_i_groups *groups, 
 }
 
 /* Sets proved[] to what is proved of each part, at its root, and keeps the trees if they are wanted. */
-static sunder_status prove_parts(sunder_report *report, sunder_i_solver *s, sunder_i_parts *parts, double *proved,
-                                 sunder_error *err)
+static sunder_status prove_parts(sunder_report *report, sunder_i_solver *s, sunder_i_independent_parts *parts,
+                                 double *proved, sunder_error *err)
 {
     sunder_i_bound_trees of_pairs = {0};
     sunder_status status = sunder_i_report_pair_trees(report, s, parts, &of_pairs, err);
@@ -116,7 +116,7 @@ static sunder_status prove_parts(sunder_report *report, sunder_i_solver *s, sund
         status = take_trees(report, &s->groups, parts, &of_pairs, err);
         if (!status) status = sunder_i_report_area_trees(report, s, parts, err);
     }
-    for (uint32_t b = 0; b < s->model.bodies; b++) proved[b] = sunder_i_part_bound(parts, b);
+    for (uint32_t b = 0; b < s->model.bodies; b++) proved[b] = sunder_i_independent_part_bound(parts, b);
     sunder_i_bound_trees_free(&of_pairs);
     return status;
 }
@@ -134,7 +134,7 @@ static void add_up(sunder_layer_summary *summary, const double *proved, const do
 }
 
 /* Keeps what is proved of each part for sunder_i_report_worlds(). The report owns both arrays from then on. */
-static void keep_proved(sunder_report *report, double **proved, sunder_i_parts *parts)
+static void keep_proved(sunder_report *report, double **proved, sunder_i_independent_parts *parts)
 {
     sunder_i_free(report->proved);
     report->proved = *proved;
@@ -148,16 +148,16 @@ sunder_status sunder_i_report_optimality(sunder_report *report, sunder_i_solver 
     const bool any = solver->groups.n && solver->model.rules.effort > 0;
     summary->clusters = solver->groups.n;
     if (!any && !report->bound_pairs) return SUNDER_OK;
-    sunder_i_parts parts = {0};
+    sunder_i_independent_parts parts = {0};
     double *proved = sunder_i_alloc(solver->model.bodies, sizeof *proved);
     sunder_status status = proved ? SUNDER_OK : sunder_i_no_memory(err);
     if (!status && any) status = count_groups(summary, solver, err);
-    if (!status) status = sunder_i_parts_find(&parts, report, solver, err);
+    if (!status) status = sunder_i_independent_parts_find(&parts, report, solver, err);
     if (!status) status = sunder_i_report_area_bounds(solver, &parts, err);
     if (!status) status = prove_parts(report, solver, &parts, proved, err);
     if (!status) add_up(summary, proved, parts.by_pairs, solver->model.bodies);
     if (!status && solver->model.rules.keep_worlds) keep_proved(report, &proved, &parts);
     sunder_i_free(proved);
-    sunder_i_parts_free(&parts);
+    sunder_i_independent_parts_free(&parts);
     return status;
 }

@@ -49,8 +49,8 @@ static bool find_bodies(const sunder_i_model *model, const sunder_bound_pair *pa
 
 /* Sets *bound to what the tree of one pair proves with the pair's shares of the weights. If trees are kept, the tree is
  * added to `trees`. */
-static sunder_status prove(const sunder_i_solver *s, const sunder_bound_pair *pair, const double *load,
-                           sunder_i_list *body, double *bound, sunder_i_bound_trees *trees, sunder_error *err)
+static sunder_status prove_pair(const sunder_i_solver *s, const sunder_bound_pair *pair, const double *load,
+                                sunder_i_list *body, double *bound, sunder_i_bound_trees *trees, sunder_error *err)
 {
     const sunder_i_model *model = &s->model;
     const sunder_i_waived waived = {.pair = s->groups.waived, .n = s->groups.waived_n};
@@ -90,14 +90,14 @@ static uint32_t mover_of(const sunder_i_model *model, const sunder_bound_pair *p
 
 /* Lists the pairs whose parts may get their bound from trees of pairs, as (root of the part, index of the pair),
  * sorted. Returns their number. */
-static size_t list_pairs(const sunder_report *report, const sunder_i_model *model, sunder_i_parts *parts,
+static size_t list_pairs(const sunder_report *report, const sunder_i_model *model, sunder_i_independent_parts *parts,
                          sunder_i_id_pair *which)
 {
     size_t n = 0;
     for (size_t k = 0; k < report->bound_pairs; k++) {
         const sunder_bound_pair *p = &report->bound_pair[k];
         const uint32_t mover = mover_of(model, p);
-        if (!(p->multiplier > 0) || !sunder_i_part_wants_pair_trees(parts, mover)) continue;
+        if (!(p->multiplier > 0) || !sunder_i_independent_part_wants_pair_trees(parts, mover)) continue;
         which[n++] = (sunder_i_id_pair){sunder_i_union_find(parts->root, mover), (uint32_t)k};
     }
     qsort(which, n, sizeof *which, sunder_i_by_id_pair);
@@ -117,7 +117,7 @@ static sunder_status prove_all(const sunder_report *report, const sunder_i_solve
     for (size_t k = 0; k < n && !status; k++) {
         const size_t before = trees->n;
         double bound;
-        status = prove(s, &report->bound_pair[which[k].b], load, &body, &bound, trees, err);
+        status = prove_pair(s, &report->bound_pair[which[k].b], load, &body, &bound, trees, err);
         if (status || !(bound > 0)) continue;
         double *sum = &by_trees[which[k].a];
         *sum = *sum > 0 ? nextafter(*sum + bound, -INFINITY) : bound;
@@ -127,8 +127,9 @@ static sunder_status prove_all(const sunder_report *report, const sunder_i_solve
     return status;
 }
 
-sunder_status sunder_i_report_pair_trees(const sunder_report *report, sunder_i_solver *solver, sunder_i_parts *parts,
-                                         sunder_i_bound_trees *trees, sunder_error *err)
+sunder_status sunder_i_report_pair_trees(const sunder_report *report, sunder_i_solver *solver,
+                                         sunder_i_independent_parts *parts, sunder_i_bound_trees *trees,
+                                         sunder_error *err)
 {
     sunder_i_id_pair *which = sunder_i_alloc(report->bound_pairs, sizeof *which);
     double *load = sunder_i_calloc(solver->model.bodies, sizeof *load);

@@ -39,7 +39,7 @@ void sunder_i_surroundings_clear(sunder_i_surroundings *surroundings)
 }
 
 /* Returns the length by which the conflict violates what is required: by how far its features have to move apart. */
-static double missing(const sunder_conflict *c) { return c->depth + c->required - c->distance; }
+static double missing_of(const sunder_conflict *c) { return c->depth + c->required - c->distance; }
 
 static bool append_members(const sunder_i_model *model, uint32_t body, sunder_i_list *feature)
 {
@@ -124,7 +124,7 @@ static sunder_status take_part(const sunder_i_solver *s, sunder_i_surroundings *
 /* Returns the longer of the present moves of the conflict's two features, since a sufficient limit may be slightly
  * longer than it. Returns 0 if one of the two is a barrier: there the required distance already includes the drawn
  * width, and larger surroundings would only take longer. */
-static double gone_already(const sunder_i_model *model, const sunder_conflict *c)
+static double present_move(const sunder_i_model *model, const sunder_conflict *c)
 {
     if (c->b >= model->features) return 0;
     const double *s = model->move + 2 * (size_t)model->body_of[c->a],
@@ -136,7 +136,7 @@ sunder_status sunder_i_surround(const sunder_i_solver *solver, const sunder_conf
                                 sunder_i_surroundings *surroundings, sunder_error *err)
 {
     const sunder_i_model *model = &solver->model;
-    const double reach = conflict->required + missing(conflict);
+    const double reach = conflict->required + missing_of(conflict);
     sunder_i_list moving = {0}, near = {0};
     bool ok = choose_moving(solver, conflict, reach, &moving);
     sunder_i_box_clear(surroundings->known);
@@ -145,7 +145,7 @@ sunder_status sunder_i_surround(const sunder_i_solver *solver, const sunder_conf
     for (size_t k = 0; k < surroundings->moving; k++)
         sunder_i_box_join(surroundings->known, sunder_i_home_box(model, surroundings->feature.item[k]));
     surroundings->farthest =
-        NEED_GAPS * conflict->required + NEED_MISSING * missing(conflict) + gone_already(model, conflict);
+        NEED_GAPS * conflict->required + NEED_MISSING * missing_of(conflict) + present_move(model, conflict);
     sunder_i_box_grow(surroundings->known, surroundings->farthest + reach, surroundings->known);
     ok = ok && sunder_i_look_about(&solver->model, &solver->placement.tree, surroundings->known, &near);
     moving.n = sunder_i_set_make(moving.item, moving.n);
@@ -254,8 +254,8 @@ static bool stand_alike(const sunder_i_model *model, uint32_t f, const double t[
 }
 
 /* Sets *passes to whether feature f, moved by t, passes feature g, which has its move of the result, or g passes f. */
-static sunder_status pass(const sunder_i_model *model, uint32_t f, const double t[2], uint32_t g, bool *passes,
-                          sunder_error *err)
+static sunder_status passes_either(const sunder_i_model *model, uint32_t f, const double t[2], uint32_t g, bool *passes,
+                                   sunder_error *err)
 {
     const double *s = model->move + 2 * (size_t)model->body_of[g];
     const double *a = model->anchor_at + 2 * (size_t)f, *b = model->anchor_at + 2 * (size_t)g;
@@ -267,8 +267,8 @@ static sunder_status pass(const sunder_i_model *model, uint32_t f, const double 
 
 /* Sets *crosses to whether feature f, moved by t, crosses a side of a barrier. The small layer itself knows only the
  * sides of lines. */
-static sunder_status cross(const sunder_i_model *model, uint32_t f, const double t[2], const sunder_i_surroundings *a,
-                           uint32_t gone, bool *crosses, sunder_error *err)
+static sunder_status crosses_sides(const sunder_i_model *model, uint32_t f, const double t[2],
+                                   const sunder_i_surroundings *a, uint32_t gone, bool *crosses, sunder_error *err)
 {
     sunder_status status = SUNDER_OK;
     for (size_t k = 0; k < a->part.n && model->sides && !status && !*crosses; k++)
@@ -294,13 +294,13 @@ static sunder_status find_jump(const sunder_i_questions *g, const sunder_i_surro
         const size_t at = x->layer.number[k];
         if (at >= a->moving || !x->model.present[k]) continue;
         const double *t = x->model.move + 2 * (size_t)x->model.body_of[k];
-        if (!status) status = cross(&s->model, a->feature.item[at], t, a, gone, jumps, err);
+        if (!status) status = crosses_sides(&s->model, a->feature.item[at], t, a, gone, jumps, err);
         for (size_t m = 0; m < mover.n && !status && !*jumps; m++) {
             bool moves = false; /* it is itself a movable feature of the small layer */
             for (size_t i = 0; i < a->moving && !moves; i++) moves = a->feature.item[i] == mover.item[m];
             if (moves || stand_alike(&s->model, mover.item[m], none) || stand_alike(&s->model, mover.item[m], t))
                 continue;
-            status = pass(&s->model, a->feature.item[at], t, mover.item[m], jumps, err);
+            status = passes_either(&s->model, a->feature.item[at], t, mover.item[m], jumps, err);
         }
     }
     sunder_i_free(mover.item);

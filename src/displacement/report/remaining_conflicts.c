@@ -92,7 +92,7 @@ static sunder_status placed_shape(const sunder_i_translate *stand, sunder_shape 
 
 /* Clips the convex polygon p (n corners) to the left side of the line from a to b. The result, of at most n + 1
  * corners, is written to `out`. Returns its number of corners. */
-static size_t clip(const double *p, size_t n, const double *a, const double *b, double *out)
+static size_t clip_polygon(const double *p, size_t n, const double *a, const double *b, double *out)
 {
     size_t m = 0;
     const double ex = b[0] - a[0], ey = b[1] - a[1];
@@ -162,7 +162,7 @@ static sunder_status inside_overlap(const sunder_shape *a, const sunder_shape *b
         for (uint32_t i = 0; i < a->pieces && sunder_i_steps(4); i++) {
             size_t n = corners_of(a, i, origin, p);
             for (size_t k = 0; k < sides && n; k++) {
-                n = clip(p, n, c + 2 * k, c + 2 * (k + 1 < sides ? k + 1 : 0), q);
+                n = clip_polygon(p, n, c + 2 * k, c + 2 * (k + 1 < sides ? k + 1 : 0), q);
                 double *swap = p;
                 p = q;
                 q = swap;
@@ -185,8 +185,8 @@ static sunder_status inside_overlap(const sunder_shape *a, const sunder_shape *b
     return sunder_i_stopped() ? sunder_i_no_memory(err) : SUNDER_OK;
 }
 
-static sunder_status measure(const sunder_shape *a, const sunder_shape *b, bool overlap, sunder_conflict *c,
-                             sunder_error *err)
+static sunder_status measure_pair(const sunder_shape *a, const sunder_shape *b, bool overlap, sunder_conflict *c,
+                                  sunder_error *err)
 {
     if (!overlap) return sunder_pair_distance(a, b, &c->distance, c->from, c->to, err);
     sunder_separation least;
@@ -244,7 +244,7 @@ static sunder_status describe_barrier(const describing *d, sunder_conflict *c, s
     return status;
 }
 
-static sunder_status describe(void *context, size_t begin, size_t end, sunder_error *err)
+static sunder_status describe_conflicts(void *context, size_t begin, size_t end, sunder_error *err)
 {
     const describing *d = context;
     const sunder_i_model *model = d->model;
@@ -260,7 +260,7 @@ static sunder_status describe(void *context, size_t begin, size_t end, sunder_er
                                  other = sunder_i_standing(model, d->placement, (uint32_t)c->b);
         sunder_status status = placed_shape(&at, &a, err);
         if (!status) status = placed_shape(&other, &b, err);
-        if (!status) status = measure(a, b, d->overlap[k], c, err);
+        if (!status) status = measure_pair(a, b, d->overlap[k], c, err);
         sunder_shape_free(a);
         sunder_shape_free(b);
         if (status) return status;
@@ -316,7 +316,8 @@ sunder_status sunder_i_report_conflicts(sunder_report *report, const sunder_i_mo
     }
     report->conflicts = n;
     describing d = {model, placement, report->conflict, reasons, overlap};
-    sunder_status status = sunder_i_parallel(model->rules.threads, n, SUNDER_I_GRAIN_PAIRS, describe, &d, err);
+    sunder_status status =
+        sunder_i_parallel(model->rules.threads, n, SUNDER_I_GRAIN_PAIRS, describe_conflicts, &d, err);
     sunder_i_free(overlap);
     for (k = 0; k < n && !status; k++) report->conflict[k].missing = missing_of(&report->conflict[k]);
     return status || !reasons ? status : sunder_i_report_reasons(report, model, err);

@@ -29,7 +29,7 @@ static int by_number(const void *x, const void *y)
 
 /* Exchanges the two features of a conflict. The link of two features that do not overlap leads from the first to the
  * second. If they overlap, it is a translation of the second feature, and its opposite is one of the first. */
-static void turn(sunder_conflict *c)
+static void turn_conflict(sunder_conflict *c)
 {
     const size_t a = c->a;
     c->a = c->b;
@@ -63,7 +63,7 @@ static sunder_status number_conflicts(sunder_report *report, const uint32_t *num
         size_t *blocker = c->n_blocked_by ? report->blocker + (c->blocked_by - report->blocker) : NULL;
         c->a = number[c->a];
         c->b = number[c->b];
-        if (c->a > c->b) turn(c);
+        if (c->a > c->b) turn_conflict(c);
         for (size_t i = 0; i < c->n_blocked_by; i++) blocker[i] = number[blocker[i]];
         if (c->need_gone != SIZE_MAX) c->need_gone = number[c->need_gone];
         if (c->n_blocked_by) qsort(blocker, c->n_blocked_by, sizeof *blocker, by_number);

@@ -113,12 +113,12 @@ bool sunder_i_bound_parts(const sunder_i_model *model, const sunder_bound_pair *
 /* Fills the report's pairs for the lower bound, and the bound itself. */
 sunder_status sunder_i_report_bound(sunder_report *report, const sunder_i_solver *solver, sunder_error *err);
 
-/* ---- parts.c ----------------------------------------------------------------------------------------------------- */
+/* ---- independent_parts.c ----------------------------------------------------------------------------------------- */
 
 /* The independent parts of the layer. Bodies belong to the same part if they are connected by pairs that contribute to
  * the bound, or by a contact group of which something is proved; fixed bodies connect nothing. In each part it is
  * decided separately whether its pairs or its groups prove more. */
-typedef struct sunder_i_parts {
+typedef struct sunder_i_independent_parts {
     uint32_t *root;    /* [bodies] union-find; all bodies of a part have the same root */
     double *by_pairs;  /* [bodies] what the pairs prove of the part; at its root, like the following */
     double *by_trees;  /* [bodies] at first equal to by_pairs; then what the trees of these pairs prove, or 0 if no
@@ -128,7 +128,7 @@ typedef struct sunder_i_parts {
                         * bound of another part */
     struct sunder_i_area_bound *area; /* [areas] the bounds by area */
     size_t areas;
-} sunder_i_parts;
+} sunder_i_independent_parts;
 
 /* A lower bound on the cost of joint parts, proved because the n bodies listed here may not overlap. */
 typedef struct sunder_i_area_bound {
@@ -139,28 +139,29 @@ typedef struct sunder_i_area_bound {
     sunder_i_prices prices; /* owned */
 } sunder_i_area_bound;
 
-/* The caller calls sunder_i_parts_free() even if this fails. */
-sunder_status sunder_i_parts_find(sunder_i_parts *parts, const sunder_report *report, const sunder_i_solver *solver,
-                                  sunder_error *err);
-void sunder_i_parts_free(sunder_i_parts *parts);
+/* The caller calls sunder_i_independent_parts_free() even if this fails. */
+sunder_status sunder_i_independent_parts_find(sunder_i_independent_parts *parts, const sunder_report *report,
+                                              const sunder_i_solver *solver, sunder_error *err);
+void sunder_i_independent_parts_free(sunder_i_independent_parts *parts);
 /* Returns whether trees should be made for the pairs of the body's part: the pairs prove more than the groups, even
  * after subtracting what trees lose against pairs. */
-bool sunder_i_part_wants_pair_trees(const sunder_i_parts *parts, uint32_t body);
+bool sunder_i_independent_part_wants_pair_trees(const sunder_i_independent_parts *parts, uint32_t body);
 /* Return whether trees of pairs, or contact groups, prove the most of the body's part. Both are false if prices of area
  * do. */
-bool sunder_i_part_is_by_pairs(const sunder_i_parts *parts, uint32_t body);
-bool sunder_i_part_is_by_groups(const sunder_i_parts *parts, uint32_t body);
+bool sunder_i_independent_part_is_by_pairs(const sunder_i_independent_parts *parts, uint32_t body);
+bool sunder_i_independent_part_is_by_groups(const sunder_i_independent_parts *parts, uint32_t body);
 /* Returns the best bound of the part whose root is `body`, and 0 if `body` is no root. */
-double sunder_i_part_bound(const sunder_i_parts *parts, uint32_t body);
+double sunder_i_independent_part_bound(const sunder_i_independent_parts *parts, uint32_t body);
 
 /* ---- area_bounds.c ----------------------------------------------------------------------------------------------- */
 
 /* Computes bounds by area for the parts of which less than nearly the whole cost is proved. Members of blocks are
  * united for that. */
-sunder_status sunder_i_report_area_bounds(sunder_i_solver *solver, sunder_i_parts *parts, sunder_error *err);
+sunder_status sunder_i_report_area_bounds(sunder_i_solver *solver, sunder_i_independent_parts *parts,
+                                          sunder_error *err);
 /* Adds a tree to the report for each bound by area. */
-sunder_status sunder_i_report_area_trees(sunder_report *report, const sunder_i_solver *solver, sunder_i_parts *parts,
-                                         sunder_error *err);
+sunder_status sunder_i_report_area_trees(sunder_report *report, const sunder_i_solver *solver,
+                                         sunder_i_independent_parts *parts, sunder_error *err);
 
 /* ---- optimality.c ------------------------------------------------------------------------------------------------ */
 
@@ -174,8 +175,9 @@ sunder_status sunder_i_report_optimality(sunder_report *report, sunder_i_solver 
 /* Sets parts->by_trees to what trees prove of the pairs, for parts where that may exceed what the groups prove. If
  * trees are kept, they are added to `trees` with the root of their part as the group; the caller frees them with
  * sunder_i_bound_trees_free(). */
-sunder_status sunder_i_report_pair_trees(const sunder_report *report, sunder_i_solver *solver, sunder_i_parts *parts,
-                                         sunder_i_bound_trees *trees, sunder_error *err);
+sunder_status sunder_i_report_pair_trees(const sunder_report *report, sunder_i_solver *solver,
+                                         sunder_i_independent_parts *parts, sunder_i_bound_trees *trees,
+                                         sunder_error *err);
 
 /* ---- contact_pushes.c -------------------------------------------------------------------------------------------- */
 
@@ -193,13 +195,13 @@ typedef sunder_status (*sunder_i_decide_subproblem)(const struct sunder_i_subpro
 sunder_status sunder_i_report_proofs(sunder_report *report, const sunder_i_solver *solver,
                                      sunder_i_decide_subproblem decide, sunder_error *err);
 
-/* ---- crowd_needs.c ----------------------------------------------------------------------------------------------- */
+/* ---- cluster_needs.c --------------------------------------------------------------------------------------------- */
 
 /* Sets need_shift of the conflicts of each cluster whose need is still unknown, from a layout of the whole cluster, if
- * a known one solves them. crowds: examine only the clusters with many conflicts, or only the others. All bodies have
+ * a known one solves them. large: examine only the clusters with many conflicts, or only the others. All bodies have
  * their moves of the result before and after the call. */
-sunder_status sunder_i_report_crowd_needs(sunder_report *report, sunder_i_solver *solver, bool crowds,
-                                          sunder_error *err);
+sunder_status sunder_i_report_cluster_needs(sunder_report *report, sunder_i_solver *solver, bool large,
+                                            sunder_error *err);
 
 /* ---- needs.c ----------------------------------------------------------------------------------------------------- */
 

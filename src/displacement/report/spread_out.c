@@ -49,7 +49,7 @@ static void box_of(const sunder_i_solver *s, uint32_t body, double middle[2], do
 }
 
 /* Returns the factors that separate the boxes of bodies i and j by the gap. */
-static asked ask(const sunder_i_solver *s, uint32_t i, uint32_t j)
+static asked factors_for(const sunder_i_solver *s, uint32_t i, uint32_t j)
 {
     double at[2], from[2], half[2], other[2], need[2];
     box_of(s, i, at, half);
@@ -77,7 +77,7 @@ static asked *list_asked(const sunder_i_solver *s, const uint32_t *body, size_t 
                     sunder_i_free(list);
                     return NULL;
                 }
-                list[(*n)++] = ask(s, body[k], s->model.body_of[r->b]);
+                list[(*n)++] = factors_for(s, body[k], s->model.body_of[r->b]);
             }
         }
     }
@@ -86,14 +86,14 @@ static asked *list_asked(const sunder_i_solver *s, const uint32_t *body, size_t 
 
 /* Chooses the pair of factors for which a corner of the cluster's box, of half extents half[], moves least. Returns
  * false if there is none. */
-static bool choose(asked *list, size_t n, const double half[2], double factor[2])
+static bool choose_factors(asked *list, size_t n, const double half[2], double factor[2])
 {
     double y = 1, least = INFINITY;
     if (n) qsort(list, n, sizeof *list, by_x_from_the_greatest);
     for (size_t k = 0; k <= n; k++) {
-        const double x = k < n ? sunder_i_max(1, list[k].x) : 1, way = hypot((x - 1) * half[0], (y - 1) * half[1]);
-        if (way < least) {
-            least = way;
+        const double x = k < n ? sunder_i_max(1, list[k].x) : 1, length = hypot((x - 1) * half[0], (y - 1) * half[1]);
+        if (length < least) {
+            least = length;
             factor[0] = x;
             factor[1] = y;
         }
@@ -162,7 +162,7 @@ static sunder_status find_stretch(const sunder_i_solver *s, const sunder_i_list 
     asked *list = list_asked(s, body->item, body->n, &asks);
     if (!list) return sunder_i_no_memory(err);
     find_extent(s, body->item, body->n, g->middle, g->half);
-    *found = choose(list, asks, g->half, g->factor);
+    *found = choose_factors(list, asks, g->half, g->factor);
     sunder_i_free(list);
     return SUNDER_OK;
 }

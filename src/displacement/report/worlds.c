@@ -28,7 +28,7 @@ typedef struct gathering {
     double (*read)[4], (*seen)[4], (*wrote)[4];
 } gathering;
 
-static bool stands(const sunder_i_model *model, uint32_t body) { return model->body[body].fixed; }
+static bool is_fixed(const sunder_i_model *model, uint32_t body) { return model->body[body].fixed; }
 
 /* Computes the box of the places where the body stood, from its original to every later position. */
 static void box_of(const sunder_i_model *model, uint32_t body, double box[4])
@@ -45,16 +45,16 @@ static void box_of(const sunder_i_model *model, uint32_t body, double box[4])
 
 /* Records that bodies i and j influenced each other. A fixed body does not join two sets; but two fixed bodies in
  * conflict with each other belong to a world, too. */
-static void meet(gathering *g, uint32_t i, uint32_t j)
+static void meet_bodies(gathering *g, uint32_t i, uint32_t j)
 {
     const sunder_i_model *model = g->model;
-    if (stands(model, i) && !stands(model, j)) {
-        meet(g, j, i);
+    if (is_fixed(model, i) && !is_fixed(model, j)) {
+        meet_bodies(g, j, i);
         return;
     }
     g->active[i] = true;
     if (sunder_i_is_barrier_body(model, &model->body[j])) return;
-    if (stands(model, j) && !stands(model, i)) {
+    if (is_fixed(model, j) && !is_fixed(model, i)) {
         /* Whether the block is fixed may depend on a member at its other end, so all of it is marked as seen. */
         double box[4];
         box_of(model, j, box);
@@ -70,7 +70,7 @@ static void meet_conflicts(gathering *g, const sunder_i_relations *relations)
     for (size_t k = 0; k < relations->n; k++) {
         const sunder_i_relation *r = &relations->pair[k];
         const uint32_t i = g->model->body_of[r->a], j = g->model->body_of[r->b];
-        if (i != j && (sunder_i_is_conflict(r) || r->kept)) meet(g, i, j);
+        if (i != j && (sunder_i_is_conflict(r) || r->kept)) meet_bodies(g, i, j);
     }
 }
 
@@ -81,10 +81,10 @@ static void meet_groups(gathering *g)
         const sunder_i_group *group = &groups->group[k];
         for (size_t m = 0; m < group->n + group->guests.n; m++) {
             const uint32_t b = m < group->n ? group->body[m] : group->guests.item[m - group->n];
-            if (!stands(g->model, b)) meet(g, group->number, b);
+            if (!is_fixed(g->model, b)) meet_bodies(g, group->number, b);
         }
     }
-    for (size_t k = 0; k < groups->joins; k++) meet(g, groups->joined[k].a, groups->joined[k].b);
+    for (size_t k = 0; k < groups->joins; k++) meet_bodies(g, groups->joined[k].a, groups->joined[k].b);
 }
 
 /* ---- Where sets looked, and where they stood --------------------------------------------------------------------- */
@@ -102,7 +102,7 @@ static void find_boxes(gathering *g)
         double box[4], about[4];
         box_of(g->model, b, box);
         sunder_i_box_grow(box, g->reach, about);
-        if (!stands(g->model, b)) sunder_i_box_join(g->wrote[at], box);
+        if (!is_fixed(g->model, b)) sunder_i_box_join(g->wrote[at], box);
         sunder_i_box_join(g->read[at], about);
         sunder_i_box_join(g->read[at], g->model->read[b].place);
         sunder_i_box_join(g->seen[at], g->model->read[b].seen);
@@ -131,7 +131,8 @@ static sunder_status meet_readers(gathering *g, uint32_t *world, sunder_error *e
         hits.n = 0;
         if (!sunder_i_rtree_query(&tree, g->read[b], &hits)) status = sunder_i_no_memory(err);
         for (size_t k = 0; k < hits.n && !status; k++)
-            if (!stands(g->model, b) && !stands(g->model, hits.item[k])) sunder_i_union_join(world, b, hits.item[k]);
+            if (!is_fixed(g->model, b) && !is_fixed(g->model, hits.item[k]))
+                sunder_i_union_join(world, b, hits.item[k]);
     }
     sunder_i_rtree_free(&tree);
     sunder_i_free(hits.item);
@@ -288,7 +289,7 @@ static sunder_status keep_each(sunder_report *report, const gathering *g, sunder
     if (!report->inexact || !report->stands) return sunder_i_no_memory(err);
     for (size_t f = 0; f < model->features; f++) {
         report->inexact[g->solver->layer.number[f]] = model->inexact[f];
-        report->stands[g->solver->layer.number[f]] = stands(model, model->body_of[f]);
+        report->stands[g->solver->layer.number[f]] = is_fixed(model, model->body_of[f]);
     }
     return SUNDER_OK;
 }
@@ -311,7 +312,7 @@ sunder_status sunder_i_report_worlds(sunder_report *report, const sunder_i_solve
         g.root && g.active && g.read && g.seen && g.wrote && world ? SUNDER_OK : sunder_i_no_memory(err);
     if (!status) {
         sunder_i_union_init(g.root, n);
-        for (size_t e = 0; e < solver->edges; e++) meet(&g, solver->edge[e].a, solver->edge[e].b);
+        for (size_t e = 0; e < solver->edges; e++) meet_bodies(&g, solver->edge[e].a, solver->edge[e].b);
         meet_conflicts(&g, &solver->start);
         meet_conflicts(&g, &solver->now);
         meet_groups(&g);

@@ -8,7 +8,7 @@
 #include <math.h>
 #include <string.h>
 
-static bool moves(const sunder_i_model *model, uint32_t body) { return !model->body[body].fixed; }
+static bool may_move(const sunder_i_model *model, uint32_t body) { return !model->body[body].fixed; }
 
 /* Joins all movable bodies of the group, guests included, in root[]. */
 static void join_group(const sunder_i_model *model, const sunder_i_group *g, uint32_t *root)
@@ -16,7 +16,7 @@ static void join_group(const sunder_i_model *model, const sunder_i_group *g, uin
     uint32_t first = SUNDER_I_NOBODY;
     for (size_t m = 0; m < g->n + g->guests.n; m++) {
         const uint32_t b = m < g->n ? g->body[m] : g->guests.item[m - g->n];
-        if (!moves(model, b)) continue;
+        if (!may_move(model, b)) continue;
         if (first == SUNDER_I_NOBODY) first = b;
         sunder_i_union_join(root, first, b);
     }
@@ -27,19 +27,19 @@ static void join_pairs(const sunder_i_model *model, const sunder_report *report,
     for (size_t k = 0; k < report->bound_pairs; k++) {
         const sunder_bound_pair *p = &report->bound_pair[k];
         const uint32_t i = model->body_of[p->a], j = model->body_of[p->b];
-        if (p->multiplier > 0 && moves(model, i) && moves(model, j)) sunder_i_union_join(root, i, j);
+        if (p->multiplier > 0 && may_move(model, i) && may_move(model, j)) sunder_i_union_join(root, i, j);
     }
 }
 
-sunder_status sunder_i_parts_find(sunder_i_parts *parts, const sunder_report *report, const sunder_i_solver *solver,
-                                  sunder_error *err)
+sunder_status sunder_i_independent_parts_find(sunder_i_independent_parts *parts, const sunder_report *report,
+                                              const sunder_i_solver *solver, sunder_error *err)
 {
     const sunder_i_model *model = &solver->model;
-    *parts = (sunder_i_parts){.root = sunder_i_alloc(model->bodies, sizeof *parts->root),
-                              .by_pairs = sunder_i_calloc(model->bodies, sizeof *parts->by_pairs),
-                              .by_trees = sunder_i_alloc(model->bodies, sizeof *parts->by_trees),
-                              .by_groups = sunder_i_calloc(model->bodies, sizeof *parts->by_groups),
-                              .by_areas = sunder_i_calloc(model->bodies, sizeof *parts->by_areas)};
+    *parts = (sunder_i_independent_parts){.root = sunder_i_alloc(model->bodies, sizeof *parts->root),
+                                          .by_pairs = sunder_i_calloc(model->bodies, sizeof *parts->by_pairs),
+                                          .by_trees = sunder_i_alloc(model->bodies, sizeof *parts->by_trees),
+                                          .by_groups = sunder_i_calloc(model->bodies, sizeof *parts->by_groups),
+                                          .by_areas = sunder_i_calloc(model->bodies, sizeof *parts->by_areas)};
     if (!parts->root || !parts->by_pairs || !parts->by_trees || !parts->by_groups || !parts->by_areas)
         return sunder_i_no_memory(err);
     sunder_i_union_init(parts->root, model->bodies);
@@ -58,7 +58,7 @@ sunder_status sunder_i_parts_find(sunder_i_parts *parts, const sunder_report *re
     return SUNDER_OK;
 }
 
-void sunder_i_parts_free(sunder_i_parts *parts)
+void sunder_i_independent_parts_free(sunder_i_independent_parts *parts)
 {
     sunder_i_free(parts->root);
     sunder_i_free(parts->by_pairs);
@@ -73,25 +73,25 @@ void sunder_i_parts_free(sunder_i_parts *parts)
     memset(parts, 0, sizeof *parts);
 }
 
-bool sunder_i_part_wants_pair_trees(const sunder_i_parts *parts, uint32_t body)
+bool sunder_i_independent_part_wants_pair_trees(const sunder_i_independent_parts *parts, uint32_t body)
 {
     const uint32_t at = sunder_i_union_find(parts->root, body);
     return parts->by_areas[at] == 0 && parts->by_pairs[at] * (1 - TREES_SHORT) > parts->by_groups[at];
 }
 
-bool sunder_i_part_is_by_pairs(const sunder_i_parts *parts, uint32_t body)
+bool sunder_i_independent_part_is_by_pairs(const sunder_i_independent_parts *parts, uint32_t body)
 {
     const uint32_t at = sunder_i_union_find(parts->root, body);
     return parts->by_areas[at] == 0 && parts->by_trees[at] > parts->by_groups[at];
 }
 
-bool sunder_i_part_is_by_groups(const sunder_i_parts *parts, uint32_t body)
+bool sunder_i_independent_part_is_by_groups(const sunder_i_independent_parts *parts, uint32_t body)
 {
     const uint32_t at = sunder_i_union_find(parts->root, body);
     return parts->by_areas[at] == 0 && parts->by_groups[at] >= parts->by_trees[at];
 }
 
-double sunder_i_part_bound(const sunder_i_parts *parts, uint32_t body)
+double sunder_i_independent_part_bound(const sunder_i_independent_parts *parts, uint32_t body)
 {
     const double by_area = parts->by_areas[body];
     const double most =

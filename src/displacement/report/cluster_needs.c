@@ -24,7 +24,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-typedef struct crowd {
+typedef struct cluster_trial {
     sunder_report *report;
     sunder_i_trial trial; /* the bodies that were moved, and their moves in the result */
     sunder_i_list body;   /* the bodies that are moved first, those of the cluster */
@@ -32,12 +32,12 @@ typedef struct crowd {
     bool *taken;          /* [bodies] whether the body was moved */
     bool *stays;          /* [conflicts] whether the report's conflict remains in the layout */
     bool any;             /* another body was moved in the current round */
-} crowd;
+} cluster_trial;
 
-static const double *goal(const crowd *g, uint32_t body) { return g->goal + 2 * (size_t)body; }
+static const double *goal_of(const cluster_trial *g, uint32_t body) { return g->goal + 2 * (size_t)body; }
 
 /* Moves one body, and updates the placement and the paths for it. */
-static sunder_status put(crowd *g, uint32_t body, const double *move, sunder_error *err)
+static sunder_status put_body(cluster_trial *g, uint32_t body, const double *move, sunder_error *err)
 {
     sunder_i_solver *s = g->trial.solver;
     sunder_i_solver_place(s, body, move);
@@ -47,19 +47,19 @@ static sunder_status put(crowd *g, uint32_t body, const double *move, sunder_err
 
 /* Moves a body to its place in the layout. Sets *done to whether it did so: the body must be movable, must not have
  * been moved before, and must have had another place. */
-static sunder_status take(crowd *g, uint32_t body, bool *done, sunder_error *err)
+static sunder_status take_body(cluster_trial *g, uint32_t body, bool *done, sunder_error *err)
 {
     const sunder_i_model *model = &g->trial.solver->model;
     *done = sunder_i_may_move(&model->body[body]) && !g->taken[body] &&
-            memcmp(goal(g, body), model->move + 2 * (size_t)body, 2 * sizeof(double)) != 0;
+            memcmp(goal_of(g, body), model->move + 2 * (size_t)body, 2 * sizeof(double)) != 0;
     if (!*done) return SUNDER_OK;
     if (!sunder_i_trial_take(&g->trial, body)) return sunder_i_no_memory(err);
     g->taken[body] = g->any = true;
-    return put(g, body, goal(g, body), err);
+    return put_body(g, body, goal_of(g, body), err);
 }
 
 /* Returns the report's conflict with the pair of relation r, or NULL if there is none. */
-static const sunder_conflict *find_listed(const crowd *g, const sunder_i_relation *r)
+static const sunder_conflict *find_listed(const cluster_trial *g, const sunder_i_relation *r)
 {
     size_t low = 0, high = g->report->conflicts;
     while (low < high) {
@@ -76,15 +76,15 @@ static const sunder_conflict *find_listed(const crowd *g, const sunder_i_relatio
 
 /* Moves one of two bodies that are in conflict to its place in the layout. The layout fails (trial.well = false) if
  * neither can be moved and the pair is not among the report's conflicts. */
-static sunder_status make_way(void *context, const sunder_i_relation *r, bool *on, sunder_error *err)
+static sunder_status move_aside(void *context, const sunder_i_relation *r, bool *on, sunder_error *err)
 {
-    crowd *g = context;
+    cluster_trial *g = context;
     const sunder_i_model *model = &g->trial.solver->model;
     if (!sunder_i_is_conflict_of_bodies(model, r)) return SUNDER_OK;
     const uint32_t i = model->body_of[r->a], j = model->body_of[r->b];
     bool done = false;
-    sunder_status status = take(g, i, &done, err);
-    if (!status && !done) status = take(g, j, &done, err);
+    sunder_status status = take_body(g, i, &done, err);
+    if (!status && !done) status = take_body(g, j, &done, err);
     g->trial.well = *on = done || find_listed(g, r);
     return status;
 }
@@ -93,7 +93,7 @@ static sunder_status make_way(void *context, const sunder_i_relation *r, bool *o
  * the start. A conflict of the report is marked in stays[]. */
 static sunder_status look_at_pair(void *context, const sunder_i_relation *r, bool *on, sunder_error *err)
 {
-    crowd *g = context;
+    cluster_trial *g = context;
     if (!sunder_i_is_conflict_of_bodies(&g->trial.solver->model, r)) return SUNDER_OK;
     const sunder_conflict *c = find_listed(g, r);
     bool worse = !c;
@@ -103,7 +103,7 @@ static sunder_status look_at_pair(void *context, const sunder_i_relation *r, boo
     return status;
 }
 
-static sunder_status visit_all(crowd *g, sunder_i_visit_relation visit, sunder_error *err)
+static sunder_status visit_all(cluster_trial *g, sunder_i_visit_relation visit, sunder_error *err)
 {
     sunder_i_solver *s = g->trial.solver;
     sunder_status status = SUNDER_OK;
@@ -112,7 +112,7 @@ static sunder_status visit_all(crowd *g, sunder_i_visit_relation visit, sunder_e
     return status;
 }
 
-static sunder_status ask_for_jumps(crowd *g, sunder_error *err)
+static sunder_status ask_for_jumps(cluster_trial *g, sunder_error *err)
 {
     sunder_i_solver *s = g->trial.solver;
     sunder_status status = SUNDER_OK;
@@ -126,7 +126,7 @@ static sunder_status ask_for_jumps(crowd *g, sunder_error *err)
 
 /* Sets trial.well to whether the layout is a solution, and *longest to the longest move of a body that was moved. All
  * bodies have their moves of the result before and after the call. */
-static sunder_status try_layout(crowd *g, double *longest, sunder_error *err)
+static sunder_status try_layout(cluster_trial *g, double *longest, sunder_error *err)
 {
     sunder_status status = SUNDER_OK;
     g->trial.n = 0;
@@ -134,20 +134,20 @@ static sunder_status try_layout(crowd *g, double *longest, sunder_error *err)
     g->any = false;
     for (size_t k = 0; k < g->body.n && !status; k++) {
         bool done;
-        status = take(g, g->body.item[k], &done, err);
+        status = take_body(g, g->body.item[k], &done, err);
     }
     while (g->any && g->trial.well && !status) {
         g->any = false;
-        status = visit_all(g, make_way, err);
+        status = visit_all(g, move_aside, err);
     }
     if (!status) status = visit_all(g, look_at_pair, err);
     if (!status) status = ask_for_jumps(g, err);
     *longest = 0;
     for (size_t k = 0; k < g->trial.n; k++) {
         const uint32_t body = g->trial.body[k];
-        *longest = sunder_i_max(*longest, hypot(goal(g, body)[0], goal(g, body)[1]));
+        *longest = sunder_i_max(*longest, hypot(goal_of(g, body)[0], goal_of(g, body)[1]));
         g->taken[body] = false;
-        const sunder_status back = put(g, body, g->trial.stood + 2 * k, err);
+        const sunder_status back = put_body(g, body, g->trial.stood + 2 * k, err);
         if (!status) status = back;
     }
     return status;
@@ -167,7 +167,7 @@ static bool is_asked(const sunder_conflict *c)
 
 /* Tries a layout for one cluster, whose n conflicts have the indices item[].b in the report. If it is a solution, *well
  * is set, and need_shift of all conflicts that it solves becomes at most its longest move. */
-static sunder_status free_by(crowd *g, const double *layout, const sunder_i_id_pair *item, size_t n, bool *well,
+static sunder_status free_by(cluster_trial *g, const double *layout, const sunder_i_id_pair *item, size_t n, bool *well,
                              sunder_error *err)
 {
     double longest;
@@ -186,7 +186,8 @@ static sunder_status free_by(crowd *g, const double *layout, const sunder_i_id_p
 
 /* Tries the known layouts of one cluster. `spread` contains the moves of all bodies in the result, before and after the
  * call. */
-static sunder_status free_cluster(crowd *g, const sunder_i_id_pair *item, size_t n, double *spread, sunder_error *err)
+static sunder_status free_cluster(cluster_trial *g, const sunder_i_id_pair *item, size_t n, double *spread,
+                                  sunder_error *err)
 {
     const sunder_i_model *model = &g->trial.solver->model;
     size_t members;
@@ -209,7 +210,7 @@ static sunder_status free_cluster(crowd *g, const sunder_i_id_pair *item, size_t
 }
 
 /* Lists the conflicts as (root of the cluster, index in the report), sorted. Returns their number. */
-static size_t group(const sunder_i_solver *s, const sunder_report *report, sunder_i_id_pair *item)
+static size_t group_by_cluster(const sunder_i_solver *s, const sunder_report *report, sunder_i_id_pair *item)
 {
     size_t n = 0;
     for (size_t k = 0; k < report->conflicts; k++)
@@ -219,10 +220,10 @@ static size_t group(const sunder_i_solver *s, const sunder_report *report, sunde
     return n;
 }
 
-sunder_status sunder_i_report_crowd_needs(sunder_report *report, sunder_i_solver *solver, bool crowds,
-                                          sunder_error *err)
+sunder_status sunder_i_report_cluster_needs(sunder_report *report, sunder_i_solver *solver, bool large,
+                                            sunder_error *err)
 {
-    crowd g = {.report = report, .trial = {.solver = solver}};
+    cluster_trial g = {.report = report, .trial = {.solver = solver}};
     if (!solver->model.lifted || !(solver->model.rules.effort > 0) || report->conflicts == 0) return SUNDER_OK;
     sunder_i_id_pair *item = sunder_i_alloc(report->conflicts, sizeof *item);
     double *spread = sunder_i_alloc(2 * solver->model.bodies, sizeof *spread);
@@ -230,12 +231,12 @@ sunder_status sunder_i_report_crowd_needs(sunder_report *report, sunder_i_solver
     g.stays = sunder_i_calloc(report->conflicts, sizeof *g.stays);
     sunder_status status = item && spread && g.taken && g.stays ? SUNDER_OK : sunder_i_no_memory(err);
     if (!status) memcpy(spread, solver->model.move, 2 * solver->model.bodies * sizeof *spread);
-    const size_t n = status ? 0 : group(solver, report, item);
+    const size_t n = status ? 0 : group_by_cluster(solver, report, item);
     for (size_t k = 0, end; k < n && !status; k = end) {
         bool open = false;
         for (end = k; end < n && item[end].a == item[k].a; end++)
             open = open || isnan(report->conflict[item[end].b].need_shift);
-        if (open && (end - k > NEED_PATIENCE) == crowds) status = free_cluster(&g, item + k, end - k, spread, err);
+        if (open && (end - k > NEED_PATIENCE) == large) status = free_cluster(&g, item + k, end - k, spread, err);
     }
     sunder_i_changes_clear(&solver->changes);
     sunder_i_trial_free(&g.trial);
