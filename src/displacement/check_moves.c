@@ -30,7 +30,7 @@ typedef struct comparison {
     size_t n, capacity;
 } comparison;
 
-static void clear(comparison *c)
+static void clear_comparison(comparison *c)
 {
     sunder_i_jumps_free(&c->jumps);
     sunder_i_placement_free(&c->model, &c->placement);
@@ -44,7 +44,7 @@ static void clear(comparison *c)
     sunder_i_free(c->found);
 }
 
-static sunder_conflict *add(comparison *c, sunder_conflict_kind kind, size_t a, size_t b)
+static sunder_conflict *add_conflict(comparison *c, sunder_conflict_kind kind, size_t a, size_t b)
 {
     if (!sunder_i_reserve(&c->found, &c->capacity, c->n + 1, sizeof *c->found)) return NULL;
     c->found[c->n] = (sunder_conflict){
@@ -55,7 +55,7 @@ static sunder_conflict *add(comparison *c, sunder_conflict_kind kind, size_t a, 
 /* ---- Single features --------------------------------------------------------------------------------------------- */
 
 /* Sets the link of conflict `out` to the path of feature a's anchor, as seen from something that moved by s. */
-static void draw(const comparison *c, size_t a, const double s[2], sunder_conflict *out)
+static void draw_link(const comparison *c, size_t a, const double s[2], sunder_conflict *out)
 {
     sunder_shape_anchor(c->before->shape[a], out->from);
     for (int k = 0; k < 2; k++) out->to[k] = out->from[k] + (c->move[2 * a + (size_t)k] - s[k]);
@@ -70,15 +70,15 @@ static sunder_status check_feature(comparison *c, uint32_t f, sunder_error *err)
     /* If the geometry was repaired on input, the shape as given is not the one written; the move is then not known. */
     if (!c->translated[f] && there && still && sunder_shape_repaired(was)) return SUNDER_OK;
     if (!c->translated[f])
-        return add(c, SUNDER_CONFLICT_NOT_A_TRANSLATE, f, SIZE_MAX) ? SUNDER_OK : sunder_i_no_memory(err);
+        return add_conflict(c, SUNDER_CONFLICT_NOT_A_TRANSLATE, f, SIZE_MAX) ? SUNDER_OK : sunder_i_no_memory(err);
     const sunder_i_body *body = &c->model.body[c->model.body_of[f]];
     const double limit = sunder_i_limit_of(body);
     if (sunder_i_is_within_limit(t, limit)) return SUNDER_OK;
-    sunder_conflict *found = add(c, SUNDER_CONFLICT_LIMIT, f, SIZE_MAX);
+    sunder_conflict *found = add_conflict(c, SUNDER_CONFLICT_LIMIT, f, SIZE_MAX);
     if (!found) return sunder_i_no_memory(err);
     found->distance = hypot(t[0], t[1]);
     found->required = limit;
-    draw(c, f, none, found);
+    draw_link(c, f, none, found);
     return SUNDER_OK;
 }
 
@@ -92,7 +92,7 @@ static sunder_status tell_side(comparison *c, uint32_t f, uint32_t part, sunder_
     const sunder_conflict *last = c->n ? &c->found[c->n - 1] : NULL;
     if (!c->translated[f] || (last && last->kind == SUNDER_CONFLICT_SIDE && last->a == f && last->b == barrier))
         return SUNDER_OK;
-    sunder_conflict *found = add(c, SUNDER_CONFLICT_SIDE, f, barrier);
+    sunder_conflict *found = add_conflict(c, SUNDER_CONFLICT_SIDE, f, barrier);
     if (!found) return sunder_i_no_memory(err);
     for (size_t k = 0; k < 2; k++) {
         found->from[k] = c->model.side_at[2 * (size_t)f + k];
@@ -107,14 +107,14 @@ static sunder_status tell_jump(comparison *c, uint32_t f, uint32_t g, sunder_err
     if (!c->translated[f] || !c->translated[g]) return SUNDER_OK;
     const sunder_status status = sunder_i_jumps_over(&c->jumps, &c->model, f, g, &jumps, err);
     if (status || !jumps) return status;
-    sunder_conflict *found = add(c, SUNDER_CONFLICT_JUMP, f, g);
+    sunder_conflict *found = add_conflict(c, SUNDER_CONFLICT_JUMP, f, g);
     if (!found) return sunder_i_no_memory(err);
-    draw(c, f, c->move + 2 * (size_t)g, found);
+    draw_link(c, f, c->move + 2 * (size_t)g, found);
     return SUNDER_OK;
 }
 
 /* Checks for crossed sides, and for jumps of one feature over another. */
-static sunder_status check_ways(comparison *c, sunder_error *err)
+static sunder_status check_paths(comparison *c, sunder_error *err)
 {
     c->jumps.paths.own = c->move;
     sunder_status status = sunder_i_jumps_update(&c->jumps, &c->model, NULL, err);
@@ -190,29 +190,29 @@ static sunder_status check_pairs(comparison *c, sunder_report *report, sunder_er
     if (!status) status = find_worse(c, err);
     if (!status) status = sunder_i_report_conflicts(report, &c->model, &c->placement, &c->now, false, err);
     for (size_t k = 0; k < report->conflicts && !status; k++) {
-        const sunder_conflict *told = &report->conflict[k];
+        const sunder_conflict *described = &report->conflict[k];
         double on_a[2], on_b[2];
-        sunder_conflict *found = add(c, SUNDER_CONFLICT_WORSE, told->a, told->b);
+        sunder_conflict *found = add_conflict(c, SUNDER_CONFLICT_WORSE, described->a, described->b);
         if (!found) return sunder_i_no_memory(err);
-        *found = *told;
-        found->b = c->layer.number[told->b];
+        *found = *described;
+        found->b = c->layer.number[described->b];
         found->kind = SUNDER_CONFLICT_WORSE;
-        if (sunder_i_is_barrier(&c->model, (uint32_t)told->b)) {
-            const sunder_i_translate home = sunder_i_at_home(&c->model, (uint32_t)told->a);
+        if (sunder_i_is_barrier(&c->model, (uint32_t)described->b)) {
+            const sunder_i_translate home = sunder_i_at_home(&c->model, (uint32_t)described->a);
             sunder_i_barrier_stance stance;
-            status = sunder_i_barrier_stand(&c->model, &home, (uint32_t)told->b, &stance, err);
+            status = sunder_i_barrier_stand(&c->model, &home, (uint32_t)described->b, &stance, err);
             found->before = stance.distance;
             continue;
         }
-        status =
-            sunder_pair_distance(c->before->shape[told->a], c->before->shape[told->b], &found->before, on_a, on_b, err);
+        status = sunder_pair_distance(c->before->shape[described->a], c->before->shape[described->b], &found->before,
+                                      on_a, on_b, err);
     }
     return status;
 }
 
 /* ---- The whole comparison ---------------------------------------------------------------------------------------- */
 
-static sunder_status begin(comparison *c, const sunder_layer_options *options, sunder_error *err)
+static sunder_status begin_comparison(comparison *c, const sunder_layer_options *options, sunder_error *err)
 {
     sunder_i_rules rules;
     if (c->before->n != c->after->n)
@@ -232,11 +232,11 @@ static sunder_status begin(comparison *c, const sunder_layer_options *options, s
     return c->move && c->translated ? SUNDER_OK : sunder_i_no_memory(err);
 }
 
-static sunder_status compare(comparison *c, const sunder_layer_options *options, sunder_report **report,
-                             sunder_error *err)
+static sunder_status compare_layers(comparison *c, const sunder_layer_options *options, sunder_report **report,
+                                    sunder_error *err)
 {
     const double began = sunder_i_now();
-    sunder_status status = begin(c, options, err);
+    sunder_status status = begin_comparison(c, options, err);
     if (!status) status = sunder_i_report_new(&c->model, report, err);
     if (!status) status = sunder_i_report_features(*report, &c->model, err);
     for (uint32_t f = 0; f < c->before->n && !status; f++) {
@@ -246,7 +246,7 @@ static sunder_status compare(comparison *c, const sunder_layer_options *options,
             status = check_feature(c, f, err);
         if (!status && !sunder_i_look()) status = sunder_i_cancelled(err);
     }
-    if (!status) status = check_ways(c, err);
+    if (!status) status = check_paths(c, err);
     if (!status) status = check_pairs(c, *report, err);
     if (status) return status;
     sunder_i_free((*report)->conflict);
@@ -269,9 +269,9 @@ sunder_status sunder_layer_check_moves(const sunder_layer *before, const sunder_
     sunder_status status = sunder_i_options_read(&o, sizeof o, options, err);
     if (status) return status;
     sunder_i_watch_begin(&watch, &o.progress, &o.progress_user);
-    status = compare(&c, &o, &report, err);
+    status = compare_layers(&c, &o, &report, err);
     sunder_i_watch_end(&watch);
-    clear(&c);
+    clear_comparison(&c);
     if (status)
         sunder_report_free(report);
     else

@@ -112,7 +112,7 @@ static sunder_status choose_holders(sunder_i_solver *s, bool *changed, sunder_er
 }
 
 /* Only causes the clusters to be settled. */
-static sunder_status settle(sunder_i_solver *s, bool *changed, sunder_error *err)
+static sunder_status only_settle(sunder_i_solver *s, bool *changed, sunder_error *err)
 {
     (void)s;
     (void)err;
@@ -121,7 +121,7 @@ static sunder_status settle(sunder_i_solver *s, bool *changed, sunder_error *err
 }
 
 /* Examines the pairs that were given up once more, each time with the bodies that the search has met since. */
-static sunder_status reconsider(sunder_i_solver *s, bool *changed, sunder_error *err)
+static sunder_status reconsider_pairs(sunder_i_solver *s, bool *changed, sunder_error *err)
 {
     const sunder_status status = cover_diagonals_for_proofs(s, err);
     return status ? status : sunder_i_solver_reconsider(s, changed, err);
@@ -138,7 +138,7 @@ static sunder_status mark_for_retry(sunder_i_solver *s, bool *changed, sunder_er
 
 /* Tries the pairs that were given up once more. In each round bodies that get their way run into others, and more pairs
  * are given up. */
-static sunder_status retry(sunder_i_solver *s, bool *changed, sunder_error *err)
+static sunder_status retry_pairs(sunder_i_solver *s, bool *changed, sunder_error *err)
 {
     const sunder_status status = sunder_i_solver_retry(s, err);
     for (uint32_t b = 0; b < s->model.bodies; b++) sunder_i_body_event(&s->states, b, SUNDER_I_IS_RETRIED);
@@ -147,7 +147,7 @@ static sunder_status retry(sunder_i_solver *s, bool *changed, sunder_error *err)
 }
 
 /* Improves the clusters that were joined since better sides were last looked for. */
-static sunder_status improve(sunder_i_solver *s, bool *changed, sunder_error *err)
+static sunder_status improve_clusters(sunder_i_solver *s, bool *changed, sunder_error *err)
 {
     *changed = true;
     return sunder_i_solver_improve(s, err);
@@ -167,10 +167,14 @@ static sunder_status fit_exactly(sunder_i_solver *s, bool *changed, sunder_error
 }
 
 static const stage seeking[] = {
-    {"choose holders", NULL, choose_holders, 1, 0, 0},       {"settle", NULL, settle, 1, 0, 3. / 7},
-    {"reconsider", NULL, reconsider, 4, 3. / 7, 4. / 7},     {"mark for retry", NULL, mark_for_retry, 1, 0, 0},
-    {"retry", has_given_up, retry, 3, 4. / 7, 5. / 7},       {"improve", is_not_improved, improve, 3, 5. / 7, 1},
-    {"ask one by one", NULL, ask_one_by_one, 16, 6. / 7, 1}, {"fit exactly", NULL, fit_exactly, 1, 1, 1},
+    {"choose holders", NULL, choose_holders, 1, 0, 0},
+    {"settle", NULL, only_settle, 1, 0, 3. / 7},
+    {"reconsider", NULL, reconsider_pairs, 4, 3. / 7, 4. / 7},
+    {"mark for retry", NULL, mark_for_retry, 1, 0, 0},
+    {"retry", has_given_up, retry_pairs, 3, 4. / 7, 5. / 7},
+    {"improve", is_not_improved, improve_clusters, 3, 5. / 7, 1},
+    {"ask one by one", NULL, ask_one_by_one, 16, 6. / 7, 1},
+    {"fit exactly", NULL, fit_exactly, 1, 1, 1},
 };
 
 /* ---- Running the tables ------------------------------------------------------------------------------------------ */
@@ -196,7 +200,8 @@ static sunder_status run_stage(sunder_i_solver *s, const stage *x, double from, 
 }
 
 /* Runs the stages of a table, in order. */
-static sunder_status walk(sunder_i_solver *s, const stage *table, size_t n, double from, double to, sunder_error *err)
+static sunder_status run_table(sunder_i_solver *s, const stage *table, size_t n, double from, double to,
+                               sunder_error *err)
 {
     sunder_status status = SUNDER_OK;
     for (size_t k = 0; k < n && !status; k++) {
@@ -210,9 +215,9 @@ static sunder_status walk(sunder_i_solver *s, const stage *table, size_t n, doub
 
 #define LENGTH(table) (sizeof(table) / sizeof(table)[0])
 
-static sunder_status seek(sunder_i_solver *s, double from, double to, sunder_error *err)
+static sunder_status run_search(sunder_i_solver *s, double from, double to, sunder_error *err)
 {
-    return walk(s, seeking, LENGTH(seeking), from, to, err);
+    return run_table(s, seeking, LENGTH(seeking), from, to, err);
 }
 
 /* ---- Passes ------------------------------------------------------------------------------------------------------ */
@@ -232,12 +237,12 @@ static sunder_status move_inside(sunder_i_solver *s, bool *changed, sunder_error
 static sunder_status seek_first(sunder_i_solver *s, bool *changed, sunder_error *err)
 {
     (void)changed;
-    return seek(s, SUNDER_I_PREPARED, s->had_limits ? FOUND_WITHOUT_LIMITS : FOUND, err);
+    return run_search(s, SUNDER_I_PREPARED, s->had_limits ? FOUND_WITHOUT_LIMITS : FOUND, err);
 }
 
 /* Proves contact groups and accepts the cheaper layouts that are found. Then removes the margins where features can be
  * in exact contact in doubles. */
-static sunder_status optimise(sunder_i_solver *s, bool *changed, sunder_error *err)
+static sunder_status optimise_groups(sunder_i_solver *s, bool *changed, sunder_error *err)
 {
     (void)changed;
     sunder_status status = sunder_i_solver_optimise(s, err);
@@ -254,7 +259,7 @@ static sunder_status restore_limits(sunder_i_solver *s, bool *changed, sunder_er
 static sunder_status seek_within_limits(sunder_i_solver *s, bool *changed, sunder_error *err)
 {
     (void)changed;
-    return seek(s, FOUND_WITHOUT_LIMITS, FOUND, err);
+    return run_search(s, FOUND_WITHOUT_LIMITS, FOUND, err);
 }
 
 static sunder_status keep_held(sunder_i_solver *s, bool *changed, sunder_error *err)
@@ -274,7 +279,7 @@ static sunder_status let_go(sunder_i_solver *s, bool *changed, sunder_error *err
 static sunder_status seek_without_holding(sunder_i_solver *s, bool *changed, sunder_error *err)
 {
     (void)changed;
-    return seek(s, FOUND, FOUND, err);
+    return run_search(s, FOUND, FOUND, err);
 }
 
 static sunder_status take_better(sunder_i_solver *s, bool *changed, sunder_error *err)
@@ -283,7 +288,7 @@ static sunder_status take_better(sunder_i_solver *s, bool *changed, sunder_error
     return sunder_i_solver_take_better(s, s->held_layout, err);
 }
 
-static sunder_status uphold(sunder_i_solver *s, bool *changed, sunder_error *err)
+static sunder_status uphold_pairs(sunder_i_solver *s, bool *changed, sunder_error *err)
 {
     (void)changed;
     return sunder_i_solver_uphold(s, err);
@@ -303,7 +308,7 @@ static sunder_status gather_groups(sunder_i_solver *s, bool *changed, sunder_err
     return sunder_i_solver_gather_groups(s, err);
 }
 
-static sunder_status gather(sunder_i_solver *s, bool *changed, sunder_error *err)
+static sunder_status gather_clusters(sunder_i_solver *s, bool *changed, sunder_error *err)
 {
     (void)changed;
     return sunder_i_solver_gather(s, err);
@@ -314,28 +319,28 @@ static const stage passes[] = {
     {"lift limits", NULL, lift_limits, 1, 0, 0},
     {"move inside", has_no_limits, move_inside, 1, 0, 0},
     {"seek", NULL, seek_first, 1, 0, 0},
-    {"optimise", NULL, optimise, 1, 0, 0},
+    {"optimise", NULL, optimise_groups, 1, 0, 0},
     {"restore limits", has_limits, restore_limits, 1, 0, 0},
     {"move inside", has_limits, move_inside, 1, 0, 0},
     {"seek within limits", has_limits, seek_within_limits, 1, 0, 0},
-    {"optimise", is_wanted_within_limits, optimise, 1, 0, 0},
+    {"optimise", is_wanted_within_limits, optimise_groups, 1, 0, 0},
     {"keep held", has_held, keep_held, 1, 0, 0},
     {"let go", has_held, let_go, 1, 0, 0},
     {"seek without holding", has_let_go, seek_without_holding, 1, 0, 0},
-    {"optimise", has_let_go, optimise, 1, 0, 0},
-    {"uphold", has_let_go, uphold, 1, 0, 0},
+    {"optimise", has_let_go, optimise_groups, 1, 0, 0},
+    {"uphold", has_let_go, uphold_pairs, 1, 0, 0},
     {"take better", has_let_go, take_better, 1, 0, 0},
-    {"uphold", NULL, uphold, 1, 0, 0},
+    {"uphold", NULL, uphold_pairs, 1, 0, 0},
     {"prove all", NULL, prove_all, 1, 0, 0},
     {"gather groups", has_no_effort, gather_groups, 1, 0, 0},
-    {"gather", NULL, gather, 1, 0, 0},
+    {"gather", NULL, gather_clusters, 1, 0, 0},
 };
 
 sunder_status sunder_i_layer_solve(sunder_i_solver *solver, sunder_error *err)
 {
     sunder_i_held_layout held = {0};
     solver->held_layout = &held;
-    const sunder_status status = walk(solver, passes, LENGTH(passes), 0, 0, err);
+    const sunder_status status = run_table(solver, passes, LENGTH(passes), 0, 0, err);
     solver->held_layout = NULL;
     sunder_i_held_layout_free(&held);
     return status;
