@@ -1,5 +1,5 @@
-/* deliver.c: see deliver.h. What can fail comes first and what cannot be undone last, so that a failure at any step
- * finds everything as it was. */
+/* deliver.c: see deliver.h. Steps that can fail come first and steps that cannot be undone come last, so that after a
+ * failure at any step all files are as they were before the run. */
 #include "write/deliver.h"
 
 #include "base/interrupt.h"
@@ -17,7 +17,8 @@
 
 #define N_OF(array) (sizeof(array) / sizeof *(array))
 
-/* A file that an operand or an option is read from, or that holds it: the file of @FILE, the archive of a member. */
+/* Does `operand` (an operand, or the value of an option) name `file`, or a file within it? "@FILE" names FILE, and the
+ * path of an archive's member (/vsizip/...) counts as the archive. */
 static bool reads(const char *operand, const char *file)
 {
     return operand && gis_path_lies_in(operand + (operand[0] == '@'), file);
@@ -28,7 +29,8 @@ static bool reads_text(const char *operand, const char *file)
     return operand && operand[0] == '@' && reads(operand, file);
 }
 
-/* Texts in files are no datasets, which the sink looks after. */
+/* Refuses an output that is also a text file given as @FILE. Datasets that are inputs are compared with the output by
+ * the sink. */
 static bool check_texts(const gis_destinations *to, gis_error *error)
 {
     bool read = false;
@@ -37,7 +39,7 @@ static bool check_texts(const gis_destinations *to, gis_error *error)
     return !read || gis_fail(error, "%s is an input; give another output", to->output);
 }
 
-/* Can a file that `option` names be made, and is it neither an input nor the output? */
+/* Can the file `path` that `option` names be created or overwritten, and is it neither an input nor the output? */
 static bool check_file(const gis_destinations *to, const char *option, const char *path, gis_error *error)
 {
     struct stat info;
@@ -66,9 +68,10 @@ static bool check_file(const gis_destinations *to, const char *option, const cha
 
 static bool is_stdout(const char *path) { return path && strcmp(path, "-") == 0; }
 
-/* The files that go with the output, in the order in which they are written. */
+/* One file that is written beside the output. OF_REPORT ... OF_STATS are in the order in which the files are
+ * written. */
 typedef struct file_of {
-    const char *option, *path; /* NULL: none is wanted */
+    const char *option, *path; /* NULL: this file is not requested */
 } file_of;
 
 enum { OF_REPORT, OF_PROOF, OF_TRACE, OF_STATS, N_FILES };

@@ -1,9 +1,9 @@
-/* compare_features.c: compares a written layer, read back, with what was sent.
+/* compare_features.c: compares the features of a written layer, as they read back, with the features that were sent.
  *
- * A polygon may come back with its rings reversed or started elsewhere, and its holes and members in another order:
- * formats have their own rules, and the set is the same. So both sides are brought to one form (each ring from its
- * smallest vertex, towards the smaller neighbour; holes and members sorted) and compared double by double. A different
- * grouping of rings into members counts as different. */
+ * Formats may reverse the rings of a polygon, start them at another vertex, or reorder holes and members; the point set
+ * stays the same. So both sides are brought to a normal form (each ring begins at its smallest vertex and continues to
+ * the smaller of its neighbours; holes and members are sorted) and compared double by double. A different grouping of
+ * rings into members counts as a difference. */
 #include "write/sink/sink_internal.h"
 
 #include "base/interrupt.h"
@@ -17,7 +17,7 @@
 
 typedef struct ring_view {
     const double *xy;
-    size_t n; /* without the closing vertex */
+    size_t n; /* number of vertices without the closing one */
     size_t first;
     bool backward;
 } ring_view;
@@ -44,8 +44,9 @@ static int compare_rings(const ring_view *a, const ring_view *b)
     return 0;
 }
 
-/* A ring that visits its smallest vertex several times has several candidates; the smallest sequence wins. Rings touch
- * themselves seldom and in few places, so trying each is cheap. */
+/* The normal form of a ring: it begins at the smallest vertex. A ring that visits this vertex several times has several
+ * candidates, and the lexicographically smallest sequence of vertices is taken. Rings touch themselves rarely and in
+ * few places, so trying all candidates is cheap. */
 static ring_view normal_ring(const double *xy, size_t n)
 {
     if (n > 1 && compare_points(xy, xy + 2 * (n - 1)) == 0) n--;
@@ -68,7 +69,7 @@ static ring_view normal_ring(const double *xy, size_t n)
 static int order_rings(const void *a, const void *b) { return compare_rings(a, b); }
 
 typedef struct member {
-    ring_view *rings; /* the outer one first, then the holes sorted */
+    ring_view *rings; /* the outer ring first, then the holes in sorted order */
     size_t n;
 } member;
 
@@ -83,7 +84,7 @@ static int order_members(const void *a, const void *b)
     return 0;
 }
 
-/* Members in `members`, their rings in `views`; both are large enough. */
+/* Fills `members` and, with their rings, `views` with the normal form of `rings`; both arrays must be large enough. */
 static void normalise(const gis_polygons *rings, member *members, ring_view *views)
 {
     size_t r = 0;
@@ -128,7 +129,8 @@ static bool same_polygons(const gis_polygons *a, const gis_polygons *b, bool *sa
 
 /* ---- How far off ------------------------------------------------------------------------------------------------- */
 
-/* The largest distance of a vertex of a from the nearest vertex of b. Quadratic, and only run where they differ. */
+/* The largest distance from a vertex of `a` to its nearest vertex of `b`. Quadratic time; called only if the two
+ * differ. */
 static double vertex_distance(const gis_polygons *a, const gis_polygons *b)
 {
     double largest = 0;
@@ -152,7 +154,8 @@ static double polygon_deviation(const gis_polygons *a, const gis_polygons *b)
     return fmax(vertex_distance(a, b), vertex_distance(b, a));
 }
 
-/* The geometry of the source's feature where that is what was sent, unmoved; NULL: another was, or none. */
+/* The geometry of the source's feature, if that geometry was sent (before its move); NULL if another geometry was sent,
+ * or none. */
 static OGRGeometryH own_geometry(const gis_sink_layer *layer, const gis_sent *sent)
 {
     OGRGeometryH own = sent->feature && sent->moved ? OGR_F_GetGeometryRef(sent->feature) : NULL;
@@ -163,7 +166,7 @@ static OGRGeometryH own_geometry(const gis_sink_layer *layer, const gis_sent *se
 
 typedef struct workspace {
     gis_polygonal_part sent, kept;
-    bool keeps_vertices; /* the format does: that a vertex is elsewhere is damage */
+    bool keeps_vertices; /* the format keeps vertices, so a changed vertex means damage */
     bool damaged;
 } workspace;
 
@@ -173,7 +176,7 @@ static void differ(gis_sink_result *result, double deviation)
     result->deviation = fmax(result->deviation, deviation);
 }
 
-/* Points and lines keep their order everywhere. */
+/* Compares points or lines, whose vertices keep their order in all formats. */
 static bool compare_vertices(OGRGeometryH sent, OGRGeometryH kept, workspace *work, gis_sink_result *result,
                              gis_error *error)
 {
@@ -206,7 +209,7 @@ static bool compare_geometries(OGRGeometryH sent, OGRGeometryH kept, workspace *
         !gis_geometry_polygonal_part(kept, &work->kept, error) ||
         !same_polygons(&work->sent.set, &work->kept.set, &same, error))
         return false;
-    if (!same) /* rings that came into other members have their vertices still */
+    if (!same) /* rings that were only regrouped into other members have all their vertices */
         work->damaged = work->damaged || (work->keeps_vertices && any_elsewhere(&work->sent.set, &work->kept.set));
     if (!same) differ(result, polygon_deviation(&work->sent.set, &work->kept.set));
     return true;
@@ -225,7 +228,7 @@ static bool compare_sent(const gis_sink_layer *layer, const gis_sent *sent, OGRG
     return done || (!moved && gis_no_memory(error));
 }
 
-/* What a geometry has besides X and Y, or all of it, may have been dropped without a word. */
+/* Notes a loss if the driver dropped the Z values, the M values or the whole geometry of a feature without an error. */
 static void find_dropped(const gis_sink_layer *layer, const gis_sent *sent, OGRGeometryH kept)
 {
     OGRGeometryH geometry = sent->made ? sent->made : own_geometry(layer, sent);

@@ -1,5 +1,5 @@
-/* compare_values.c: compares values read back with those sent, for formats that may change them: the source's fields,
- * the program's own, and FIDs. Changes are counted, and reported by losses.c. */
+/* compare_values.c: compares values read back with those sent, in formats that may change them: the source's fields,
+ * the fields that the program adds, and FIDs. Changes are counted here and reported by losses.c. */
 #include "read/fields.h"
 #include "write/sink/sink_internal.h"
 
@@ -47,14 +47,15 @@ static void note(gis_field_change *change, bool same, GIntBig fid)
 
 static bool is_integer(OGRFieldType type) { return type == OFTInteger || type == OFTInteger64; }
 
-/* The integer, as far as the field holds numbers. */
+/* Does field k of `kept` hold the integer `sent`, in whatever type the format stores it? */
 static bool is_the_integer(GIntBig sent, OGRFeatureH kept, int k)
 {
     char text[32];
     switch (OGR_Fld_GetType(OGR_F_GetFieldDefnRef(kept, k))) {
     case OFTInteger:
     case OFTInteger64: return OGR_F_GetFieldAsInteger64(kept, k) == sent;
-    case OFTReal: { /* beyond 2^53 it may be another's; that of INT64_MAX is beyond any cast */
+    case OFTReal: { /* above 2^53 the nearest double may stand for another integer, and 2^63 does not fit into the
+                     * cast */
         const double x = OGR_F_GetFieldAsDouble(kept, k);
         return x == (double)sent && fabs(x) < 0x1p63 && (GIntBig)x == sent;
     }
@@ -64,7 +65,7 @@ static bool is_the_integer(GIntBig sent, OGRFeatureH kept, int k)
     }
 }
 
-/* A list that is kept as a JSON text. */
+/* Does field k of `kept` hold the list in field i of `sent` as JSON text? */
 static bool is_the_list(OGRFeatureH sent, int i, OGRFeatureH kept, int k)
 {
     gis_json list = {0};
@@ -87,7 +88,7 @@ static bool same_value(OGRFeatureH sent, int i, OGRFeatureH kept, int k)
                (isnan(OGR_F_GetFieldAsDouble(sent, i)) && isnan(OGR_F_GetFieldAsDouble(kept, k)));
     if (is_integer(type)) return is_the_integer(OGR_F_GetFieldAsInteger64(sent, i), kept, k);
     if (gis_field_type_is_list(type) && as == OFTString) return is_the_list(sent, i, kept, k);
-    char *text = CPLStrdup(OGR_F_GetFieldAsString(sent, i)); /* the text belongs to the feature until the next call */
+    char *text = CPLStrdup(OGR_F_GetFieldAsString(sent, i)); /* copied, since GDAL reuses the string at the next call */
     bool same = strcmp(text, OGR_F_GetFieldAsString(kept, k)) == 0;
     CPLFree(text);
     return same;
@@ -95,7 +96,8 @@ static bool same_value(OGRFeatureH sent, int i, OGRFeatureH kept, int k)
 
 /* ---- The program's own ------------------------------------------------------------------------------------------- */
 
-/* Figures are for people: those that agree in nine digits lost nothing that is seen. */
+/* Does field k hold `sent`? Real numbers of the program's own fields are meant for readers, so nine equal digits are
+ * enough. */
 static bool is_the_real(double sent, OGRFeatureH kept, int k)
 {
     const double as = OGR_F_GetFieldAsDouble(kept, k);
@@ -118,7 +120,7 @@ static void compare_own(const gis_value *sent, OGRFeatureH kept, gis_field_chang
         note(change, strcmp(OGR_F_GetFieldAsString(kept, k), sent->as.text) == 0, fid);
 }
 
-/* Where FIDs are kept they are the features' own; else they stand in a field. */
+/* If the format keeps FIDs they are compared as the FIDs of features; else as the values of the field sunder_fid. */
 static void compare_fid(gis_sink_layer *layer, GIntBig fid, OGRFeatureH kept)
 {
     gis_field_change *change = &layer->fid_change;

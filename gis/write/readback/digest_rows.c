@@ -1,8 +1,8 @@
-/* digest_rows.c: a GeoPackage's layer read back row by row, past GDAL.
+/* digest_rows.c: reads a written GeoPackage layer back row by row through SQLite, without GDAL.
  *
- * Every row has to be what was sent: its bytes are compared where SQLite holds them, without making a feature of each.
- * Rows that are not as plain as the usual ones (another type of geometry or of a value, a header with extensions,
- * truncated bytes, an error) are left to GDAL, which then reads the whole layer. */
+ * Each row must be what was sent; its bytes are hashed where SQLite holds them, without making a GDAL feature. If any
+ * row is unusual (another geometry type or value type, a header with extensions, truncated bytes, an error), this path
+ * is abandoned, and GDAL reads the whole layer. */
 #include "write/sink/digest.h"
 
 #include "base/array.h"
@@ -18,17 +18,17 @@
 
 enum { POINT_BYTES = 16 };
 
-/* A layer of at least this many rows is read by two threads. */
+/* A layer with at least this number of rows is read by two threads. */
 enum { MANY_ROWS = 5000 };
 
-/* The machine's order of bytes: doubles can be taken as they stand. */
+/* The byte order of this machine: doubles in this order can be copied without swapping. */
 #ifdef CPL_LSB
 static const unsigned char order = wkbNDR;
 #else
 static const unsigned char order = wkbXDR;
 #endif
 
-/* The unread part of a blob. */
+/* The unread part of a blob, and the hash of the part that was read. */
 typedef struct reading {
     const unsigned char *at, *end;
     uint64_t so_far;
@@ -42,7 +42,7 @@ static bool number(reading *r, uint32_t *n)
     return true;
 }
 
-/* n points, at least one. */
+/* Adds n points to the hash; false if n is 0 or the blob is too short. */
 static bool points(reading *r, size_t n)
 {
     if (n == 0 || (size_t)(r->end - r->at) / POINT_BYTES < n) return false;
@@ -61,7 +61,8 @@ static bool ring_or_line(reading *r)
     return number(r, &n) && points(r, n);
 }
 
-/* As mix_geometry() of digests.c does it; false if that is not known here, or something is empty. */
+/* Computes the hash that mix_geometry() in sent_digests.c computes. False for a type that is not handled here, and for
+ * an empty geometry. */
 static bool geometry(reading *r, bool part)
 {
     uint32_t type, n;
@@ -87,7 +88,7 @@ static bool blob(const unsigned char *bytes, size_t size, uint64_t *so_far)
     return true;
 }
 
-/* Is it of the type that GDAL would give it in such a field? */
+/* Does `value` have the type that GDAL would give it in this field? */
 static bool suits(const gis_value *value, const gis_plain_field *field)
 {
     switch (value->kind) {
@@ -100,7 +101,8 @@ static bool suits(const gis_value *value, const gis_plain_field *field)
     }
 }
 
-/* Columns: the FID, the geometry, the fields. */
+/* Hashes the current row of `statement`, whose columns are the FID, the geometry and the fields. False if the row is
+ * not plain. */
 static bool row(const gis_digests *all, void *statement, gis_digest *out)
 {
     gis_value value;
@@ -144,7 +146,7 @@ static void *begin_stretch(const gis_digests *all, void *database, OGRLayerH lay
 
 /* ---- The other half, on another thread --------------------------------------------------------------------------- */
 
-/* What another connection reads meanwhile, as it stands. */
+/* The second half of the rows, which another thread reads through another connection. */
 typedef struct half {
     const gis_digests *all;
     void *statement;
@@ -166,11 +168,11 @@ static void read_half(void *context)
     h->done = h->done && next == GIS_SQLITE_AT_END;
 }
 
-/* Row by row, as they are read. */
+/* Reads the rows of `statement`, and compares each with what was sent as it is read. */
 static bool read_stretch(gis_digests *all, void *statement, gis_digests_read *read)
 {
     gis_sqlite_next next = GIS_SQLITE_BROKEN;
-    gis_error unheard; /* GDAL comes to it, too */
+    gis_error unheard; /* ignored: GDAL reads the layer then, and reports the error */
     bool done = statement;
     while (done && (next = gis_sqlite_select_next(statement)) == GIS_SQLITE_HAS_ROW) {
         gis_digest one;
@@ -187,7 +189,8 @@ static bool add_half(gis_digests *all, const half *h, gis_digests_read *read)
     return done;
 }
 
-/* The first half here, the second there. other: the file once more. */
+/* Reads the first half of the rows on this thread and the second half on another. `other` is a second connection to the
+ * same file. */
 static bool read_halves(gis_sink_layer *layer, void *database, void *other, OGRLayerH as_written,
                         gis_digests_read *read)
 {
@@ -231,7 +234,8 @@ static bool may_be_plain(const gis_sink_layer *layer, GDALDatasetH dataset, OGRL
            OGR_L_GetFIDColumn(as_written)[0] && OGR_L_GetGeometryColumn(as_written)[0];
 }
 
-/* The file once more, for a layer that takes longer to read than that; NULL: there is no other thread for it. */
+/* A second connection to the file, if the layer has at least MANY_ROWS rows and more than one thread is allowed; else
+ * NULL. */
 static void *open_again(const gis_sink_layer *layer, void *database)
 {
     if (layer->written < MANY_ROWS || gis_threads(layer->sink->request.threads) == 1) return NULL;

@@ -1,10 +1,10 @@
-/* digests.c: written layers read back, for formats that keep every value exactly.
+/* digests.c: verifies written layers by reading them back, for formats that keep every value exactly.
  *
- * In such formats a feature that reads back equals the one that was sent, double for double, but their order may
- * differ. So a feature becomes two 64-bit hashes when it is sent (geometry and FID; values), and two when it is read,
- * and both lists are sorted and compared. No count in a header is trusted, and no copy of the geometries is kept. The
- * hashes are not cryptographic, since there is no adversary: a damaged feature has the hash of another with probability
- * 2^-64 for each pair. */
+ * In such formats a feature that reads back equals the feature that was sent, double for double, but the order of
+ * features may differ. Each feature is reduced to two 64-bit hashes when it is sent (one of geometry and FID, one of
+ * values), and again when it is read; both lists are sorted and compared. Counts in headers are not trusted, and no
+ * copy of the geometries is kept. The hashes need not be cryptographic, since there is no adversary: for each pair of
+ * features, the probability that a damaged feature has the hash of another is 2^-64. */
 #include "write/sink/digest.h"
 
 #include "base/interrupt.h"
@@ -17,8 +17,8 @@
 
 /* ---- Fields whose values must come back -------------------------------------------------------------------------- */
 
-/* Where the fields are in the layer as it reads; one that has another type there cannot be compared (and is told as a
- * loss). */
+/* Finds the fields in the layer that is read back. If a field is missing or has another type, values cannot be compared
+ * (values_comparable = false); losses.c reports the change. */
 static void find_fields(gis_digests *all, OGRLayerH as_written)
 {
     OGRFeatureDefnH definition = OGR_L_GetLayerDefn(as_written);
@@ -39,7 +39,8 @@ static int order(const void *a, const void *b)
     return (p->values > q->values) - (p->values < q->values);
 }
 
-/* How many of `sent` are not in `read`; both sorted, with repeats. */
+/* The number of elements of `sent` that are not in `read`. Both have n elements, are sorted, and may have repeats.
+ * values: compare `values` too, not only `place`. */
 static size_t missing(const gis_digest *sent, const gis_digest *read, size_t n, bool values)
 {
     size_t count = 0;
@@ -59,13 +60,13 @@ static bool compare(gis_sink_layer *layer, const gis_digests_read *as_read, gis_
 {
     gis_sink *sink = layer->sink;
     gis_digests *all = &layer->digests;
-    if (!all->wanted) /* a format that keeps nothing as it is: all features were there to be read */
+    if (!all->wanted) /* a format that keeps nothing exactly: only the number of features was checked */
         return true;
     if (!as_read->differ) return true;
     const size_t n = all->sent.n;
     gis_digest *read = as_read->at;
     if (!gis_digest_list_hold(&all->sent, n, error)) return false;
-    if (n) { /* else there are no lists */
+    if (n) { /* with n = 0 both arrays are NULL */
         qsort(all->sent.at, n, sizeof *read, order);
         qsort(read, n, sizeof *read, order);
     }
@@ -81,7 +82,7 @@ static bool compare(gis_sink_layer *layer, const gis_digests_read *as_read, gis_
                     sink->request.path, layer->name, lost ? lost : changed, n);
 }
 
-/* Every feature of the layer, decoded; what the driver reports meanwhile is a failure. */
+/* Reads and decodes every feature of the layer; errors that the driver reports meanwhile make it fail. */
 static bool read_back(gis_sink_layer *layer, OGRLayerH as_written, gis_digests_read *read, gis_error *error)
 {
     gis_digests *all = &layer->digests;
@@ -98,7 +99,7 @@ static bool read_back(gis_sink_layer *layer, OGRLayerH as_written, gis_digests_r
                (gis_digest_of(all, feature, OGR_F_GetFID(feature), true, &one) || gis_no_memory(error)) &&
                gis_digests_read_add(read, all, one, error);
     }
-    OGR_L_ResetReading(as_written); /* a database would keep the table open */
+    OGR_L_ResetReading(as_written); /* otherwise a database would keep the table open */
     gis_listen_end();
     if (done && listener.failures)
         done = gis_sink_fail_reading(layer, read->n, gis_listener_reason(&listener, "no reason given"), error);

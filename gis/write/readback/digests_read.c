@@ -1,4 +1,4 @@
-/* digests_read.c: see write/sink/digest.h. What is read, beside what was sent. */
+/* digests_read.c: see write/sink/digest.h. Compares the features that are read with those that were sent. */
 #include "write/sink/digest.h"
 
 #include "base/array.h"
@@ -15,7 +15,8 @@ static bool is_next(const gis_digests_read *read, gis_digests *all, gis_digest o
     return true;
 }
 
-/* What was read so far is what was sent first. */
+/* Called at the first difference: copies the hashes of the features read until now, which equal the first ones that
+ * were sent, into the list of those read. */
 static bool part_ways(gis_digests_read *read, gis_digests *all, gis_error *error)
 {
     if (!gis_digest_list_hold(&all->sent, read->n, error)) return false;
@@ -25,7 +26,8 @@ static bool part_ways(gis_digests_read *read, gis_digests *all, gis_error *error
     return true;
 }
 
-/* The features usually come back in the order in which they were sent; then nothing has to be kept or sorted. */
+/* Features usually come back in the order in which they were sent; as long as they do, nothing is stored and nothing
+ * has to be sorted. */
 bool gis_digests_read_add(gis_digests_read *read, gis_digests *all, gis_digest one, gis_error *error)
 {
     bool same = false;

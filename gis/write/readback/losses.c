@@ -1,5 +1,5 @@
-/* losses.c: what the format could not hold of fields, geometry type and CRS. Found by looking at what was written,
- * not by knowing the formats: so it is true of every driver and version. */
+/* losses.c: reports what the format could not hold of fields, geometry type and CRS. Losses are found by inspecting the
+ * written layer, not from knowledge about formats, so that they are true for every driver and version. */
 #include "write/sink/sink_internal.h"
 
 #include <cpl_conv.h>
@@ -9,7 +9,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Parts of one sentence, with commas between. */
+/* Phrases that are joined by commas to one sentence. */
 typedef struct parts {
     char text[600];
 } parts;
@@ -35,7 +35,8 @@ static const char *type_name(OGRFieldDefnH field)
 
 static bool same_text(const char *a, const char *b) { return (!a || !a[0]) ? !b || !b[0] : b && strcmp(a, b) == 0; }
 
-/* A layer that is still open for writing repeats what it was told: so a domain counts only if the dataset has it. */
+/* Does the field have a domain? A layer that is still open for writing returns the name it was given, so with a
+ * `dataset` a domain counts only if the dataset holds it. */
 static bool has_domain(GDALDatasetH dataset, OGRFieldDefnH field)
 {
     const char *name = OGR_Fld_GetDomainName(field);
@@ -72,7 +73,7 @@ static void compare_fields(gis_sink_layer *layer, OGRFeatureDefnH as_written)
     OGRFeatureDefnH source = OGR_L_GetLayerDefn(gis_source_layer(sink->source));
     for (int i = 0; i < OGR_FD_GetFieldCount(source); i++) {
         const char *name = CSLGetField(layer->created, i);
-        if (!name[0]) continue; /* replaced, or its loss was noted when it was made */
+        if (!name[0]) continue; /* the field was replaced, or its loss was reported when the layer was made */
         OGRFieldDefnH sent = OGR_FD_GetFieldDefn(source, i);
         int index = gis_sink_field_index(as_written, name);
         if (index < 0)
@@ -90,7 +91,7 @@ static void compare_type(gis_sink_layer *layer, OGRLayerH as_written)
 {
     OGRwkbGeometryType kept = OGR_L_GetGeomType(as_written), sent = layer->type;
     if (kept == sent || layer->sink->format.shapefile ||
-        (kept == wkbUnknown && layer->written == 0)) /* formats that tell the type by the features */
+        (kept == wkbUnknown && layer->written == 0)) /* such formats derive the layer's type from its features */
         return;
     gis_sentences_add(&layer->sink->losses, "the layer is declared as %s instead of %s", OGRGeometryTypeToName(kept),
                       OGRGeometryTypeToName(sent));
@@ -108,12 +109,13 @@ static void compare_crs(gis_sink_layer *layer, OGRLayerH as_written)
     static const char *const options[] = {"IGNORE_DATA_AXIS_TO_SRS_AXIS_MAPPING=YES", "CRITERION=EQUIVALENT", NULL};
     if (!sent && !kept) return;
     if (!sent || !kept || !OSRIsSameEx(sent, kept, options)) {
-        if (!sent && strstr(crs_name(kept), "ndefined")) return; /* the GeoPackage's way to say that there is none */
+        /* a GeoPackage has named entries for an undefined CRS */
+        if (!sent && strstr(crs_name(kept), "ndefined")) return;
         gis_sentences_add(&layer->sink->losses, "the CRS is %s instead of %s", crs_name(kept), crs_name(sent));
     }
 }
 
-/* What became of the values of the program's own fields, and of FIDs. */
+/* Reports which values of the program's own fields, and which FIDs, read back differently. */
 static void tell_values(gis_sink_layer *layer)
 {
     gis_sentences *losses = &layer->sink->losses;
@@ -140,7 +142,7 @@ void gis_sink_find_losses(gis_sink_layer *layer, OGRLayerH as_written)
 {
     tell_values(layer);
     if (!gis_sink_tells(layer) || !layer->sink->source) return;
-    gis_listener listener = {0}; /* comparing CRSs may make PROJ grumble */
+    gis_listener listener = {0}; /* PROJ may report errors when CRSs are compared; they are ignored */
     gis_listen_begin(&listener);
     compare_fields(layer, OGR_L_GetLayerDefn(as_written));
     compare_type(layer, as_written);

@@ -1,5 +1,5 @@
-/* sink_finish.c: the end of writing: close, read back, put in place. In this order, since a driver may keep errors
- * until it closes, and an output in place cannot be withdrawn. */
+/* sink_finish.c: the end of writing: close the datasets, read them back, put them in place. The order matters, since a
+ * driver may report errors only when it closes, and an output in place cannot be withdrawn. */
 #define _LARGEFILE64_SOURCE /* cpl_vsi.h needs struct stat64 */
 #include "base/interrupt.h"
 #include "base/path.h"
@@ -25,17 +25,19 @@
 static OGRLayerH find_layer(const gis_sink_layer *layer, GDALDatasetH dataset)
 {
     if (layer->file || GDALDatasetGetLayerCount(dataset) == 1)
-        return GDALDatasetGetLayer(dataset, 0); /* some formats name the layer after the file */
+        return GDALDatasetGetLayer(dataset, 0); /* some formats name their only layer after the file */
     OGRLayerH found = GDALDatasetGetLayerByName(dataset, layer->name);
     const gis_sink *sink = layer->sink;
     if (!found && !sink->updating && (size_t)GDALDatasetGetLayerCount(dataset) == sink->n_layers)
-        for (size_t i = 0; i < sink->n_layers; i++) /* others change its name when they write it */
+        for (size_t i = 0; i < sink->n_layers; i++) /* others change the layer's name when they write it; then its
+                                                     * number identifies it */
             if (sink->layers[i] == layer) found = GDALDatasetGetLayer(dataset, (int)i);
     return found;
 }
 
-/* A write-only format, which the user has accepted as unverified: success is judged by the results of its writes and of
- * its close. */
+/* The layer is not there, or the format cannot be read. Accepts a write-only format, which the user has allowed, as
+ * unverified (success then means that all writes and the close succeeded), and a layer without features that the format
+ * drops; fails otherwise. */
 static bool leave_unread(gis_sink_layer *layer, gis_sink_result *result, gis_error *error)
 {
     gis_sink *sink = layer->sink;
@@ -43,7 +45,7 @@ static bool leave_unread(gis_sink_layer *layer, gis_sink_result *result, gis_err
     const bool may_be_empty = drops_empty || (sink->request.allow_inexact && !sink->format.keeps_vertices &&
                                               !EQUAL(sink->format.name, "GeoJSON"));
     if (layer->written == 0 && may_be_empty && !sink->format.only_written) {
-        if (!layer->file) /* else it is an empty file */
+        if (!layer->file) /* in a file of its own: the file is just empty */
             gis_sentences_add(&sink->losses, "layer %s has no features, and is not there when %s is read", layer->name,
                               sink->format.name);
         return true;
@@ -58,8 +60,9 @@ static bool leave_unread(gis_sink_layer *layer, gis_sink_result *result, gis_err
     return true;
 }
 
-/* Reads the layer, unless it has to be written again. What is promised of the features is not promised of arrows and
- * links: they may be rounded, but must be there. */
+/* Reads the layer back and compares it. *again is set if it must be written again with more digits. Only differences in
+ * layers of features (layer->promised) go into *result; in layers of arrows and links geometries may be rounded, but
+ * must be there. */
 static bool inspect_layer(gis_sink_layer *layer, GDALDatasetH dataset, gis_sink_result *result, bool *again,
                           gis_error *error)
 {
@@ -90,7 +93,8 @@ static GDALDatasetH reopen(gis_sink *sink, const char *file)
     char *path = gis_sink_inside(sink, file);
     gis_sqlite_heed_signals();
     GDALDatasetH dataset = GDALOpenEx(path, GDAL_OF_VECTOR | GDAL_OF_READONLY, drivers, NULL, NULL);
-    if (!dataset && EQUAL(sink->format.name, "GeoJSONSeq")) { /* of one feature it is taken for GeoJSON, unless told */
+    /* a file with one feature is taken for GeoJSON unless the prefix says otherwise */
+    if (!dataset && EQUAL(sink->format.name, "GeoJSONSeq")) {
         char *told = gis_printed("GeoJSONSeq:%s", path);
         dataset = GDALOpenEx(told, GDAL_OF_VECTOR | GDAL_OF_READONLY, drivers, NULL, NULL);
         CPLFree(told);
@@ -99,7 +103,7 @@ static GDALDatasetH reopen(gis_sink *sink, const char *file)
     return dataset;
 }
 
-/* A layer with a file of its own. */
+/* Inspects a layer that has a file of its own, and rewrites it as long as that helps. */
 static bool inspect_file(gis_sink_layer *layer, gis_sink_result *result, gis_error *error)
 {
     bool again, done;
@@ -114,7 +118,7 @@ static bool inspect_file(gis_sink_layer *layer, gis_sink_result *result, gis_err
 static bool inspect(gis_sink *sink, gis_sink_result *result, gis_error *error)
 {
     bool done = true, again;
-    gis_listener listener = {0}; /* what a reader grumbles about is not our user's business */
+    gis_listener listener = {0}; /* warnings of the reader are not shown to the user */
     gis_listen_begin(&listener);
     GDALDatasetH common =
         sink->format.one_layer && sink->n_layers && sink->layers[0]->file ? NULL : reopen(sink, sink->main_file);
@@ -130,7 +134,8 @@ static bool inspect(gis_sink *sink, gis_sink_result *result, gis_error *error)
     return done;
 }
 
-/* In a database the layers are read before the transaction ends: afterwards it would be too late to refuse. */
+/* In a database the layers are read before the transaction is committed; afterwards it would be too late to refuse
+ * them. */
 static bool inspect_database(gis_sink *sink, gis_sink_result *result, gis_error *error)
 {
     for (size_t i = 0; i < sink->n_layers; i++) {
@@ -156,7 +161,7 @@ static bool apply_strict(const gis_sink *sink, gis_error *error)
 
 /* ---- From memory to where it goes -------------------------------------------------------------------------------- */
 
-/* Bytes that are copied at once; between two pieces a signal is heard. */
+/* The number of bytes copied in one step; interrupts are handled between two steps. */
 enum { COPIED_AT_ONCE = 1 << 16 };
 
 static bool copy_stream(VSILFILE *from, FILE *to_stdout, VSILFILE *to)
@@ -185,7 +190,7 @@ static bool copy_out(gis_sink *sink, const char *file, const char *target, gis_e
                             reason ? strerror(reason) : "");
 }
 
-/* From memory to the stage, with directories in it (tiles have them, a few levels deep). */
+/* Copies files from memory to the stage, with directories (formats for tiles have a few levels). */
 static bool stage_memory(const gis_sink *sink, const char *memory, const char *inside, gis_error *error)
 {
     char **files = VSIReadDir(memory);
@@ -250,7 +255,8 @@ static bool write_styles(gis_sink *sink, gis_error *error)
     return true;
 }
 
-/* A statement about one layer has GDAL note how many features each of them has: so all rows end before any index. */
+/* Ends the rows of all layers before it makes the first spatial index, since a statement about one layer makes GDAL
+ * write the feature counts of all layers. */
 static bool write_indexes(gis_sink *sink, gis_error *error)
 {
     bool done = true;
@@ -271,7 +277,7 @@ static bool close_all(gis_sink *sink, gis_error *error)
 
 static void write_out(void *stage) { gis_stage_write_out(stage); }
 
-/* All is closed, and is looked at; meanwhile the disk takes it, which another thread waits for. */
+/* Reads all files back. They are closed already; meanwhile another thread waits until the disk has written them. */
 static bool inspect_files(gis_sink *sink, gis_sink_result *result, gis_error *error)
 {
     const bool apart = sink->stage && !sink->memory && gis_threads(sink->request.threads) > 1;
@@ -282,7 +288,7 @@ static bool inspect_files(gis_sink *sink, gis_sink_result *result, gis_error *er
     return done;
 }
 
-/* A format that rounds or changes geometries loses something, too. */
+/* Notes a loss if the format rounds or changes geometries, or cannot be read back. */
 static void note_inexact(gis_sink *sink, const gis_sink_result *seen)
 {
     if (seen->unread)
@@ -294,7 +300,7 @@ static void note_inexact(gis_sink *sink, const gis_sink_result *seen)
         gis_sentences_add(&sink->losses, "the format changes geometries: they do not read back as written");
 }
 
-/* No loss that the format forces: --strict lets it pass. */
+/* Noted after --strict was applied, since this is not a loss caused by the format. */
 static void note_stream(gis_sink *sink)
 {
     if (sink->to_stdout)
@@ -320,8 +326,8 @@ bool gis_sink_finish(gis_sink *sink, gis_sink_result *result, gis_error *error)
     return true;
 }
 
-/* A SQLite file that is no valid database, or that we may not write to, is replaced by a rename while no other process
- * has it open: a log beside it would be applied to the new file. */
+/* Replaces the output by renaming. A SQLite file that is not a valid database, or is not writable, is replaced only
+ * while no other process has it open: its log (-wal) would otherwise be applied to the new file. */
 static bool rename_over(gis_sink *sink, gis_error *error)
 {
     const char *path = sink->request.path;
@@ -331,8 +337,9 @@ static bool rename_over(gis_sink *sink, gis_error *error)
     return done;
 }
 
-/* A SQLite database is replaced within it: others may have it open, idle, without a lock, and what they then wrote into
- * a file without a name would be lost. */
+/* Puts files in place. A SQLite database is replaced within its file (gis_sqlite_replace()), not by renaming: another
+ * process may have it open, idle and without a lock, and what that process wrote afterwards would go to the file that
+ * lost its name. */
 static bool publish_files(gis_sink *sink, gis_error *error)
 {
     const char *path = sink->request.path;

@@ -25,9 +25,9 @@ enum {
 static const gis_abilities known[] = {
     {"GPKG", FIDS | DOUBLES | VALUES | ORDER, NULL, NULL, NULL},
     {"SQLite", FIDS | DOUBLES | VALUES | ORDER, NULL, "ogc_fid", NULL},
-    {"OpenFileGDB", ORDER | NEEDS_TYPE, NULL, NULL, NULL}, /* puts coordinates on a grid */
-    {"FlatGeobuf", DOUBLES | VALUES | DIRECTORY | GIS_NEEDS_GEOMETRY, NULL, NULL, NULL}, /* sorts the features */
-    {"ESRI Shapefile", ORDER | DIRECTORY, NULL, NULL, NULL}, /* binary doubles, but rings are regrouped */
+    {"OpenFileGDB", ORDER | NEEDS_TYPE, NULL, NULL, NULL}, /* rounds coordinates to a grid */
+    {"FlatGeobuf", DOUBLES | VALUES | DIRECTORY | GIS_NEEDS_GEOMETRY, NULL, NULL, NULL}, /* sorts features in space */
+    {"ESRI Shapefile", ORDER | DIRECTORY, NULL, NULL, NULL}, /* stores binary doubles, but regroups rings */
     {"GeoJSON", FIDS | ORDER | CASE | ONE_LAYER | GIS_NEEDS_POSITIVE_FIDS, NULL, NULL, NULL},
     {"GeoJSONSeq", FIDS | ORDER | CASE | REPROJECTS | ONE_LAYER | DROPS_EMPTY | GIS_NEEDS_POSITIVE_FIDS, NULL, NULL,
      NULL},
@@ -42,26 +42,26 @@ static const gis_abilities known[] = {
     {"netCDF", ORDER | NEEDS_TYPE | DROPS_EMPTY | NO_NULL, NULL, NULL, NULL},
     {"PCIDSK", ORDER | GIS_HAS_NO_POLYGONS, NULL, NULL, NULL},
     {"Geoconcept", ORDER | NEEDS_TYPE | ONE_LAYER | DROPS_EMPTY, NULL, NULL, NULL},
-    {"VDV", ORDER, NULL, NULL, NULL}, /* attributes alone, as the next two */
+    {"VDV", ORDER, NULL, NULL, NULL}, /* holds only attributes, as do the next two */
     {"ODS", ORDER | DROPS_EMPTY, NULL, NULL, NULL},
     {"XLSX", ORDER | DROPS_EMPTY, NULL, NULL, "xlsx"},
     {"PDF", ORDER | DROPS_EMPTY, NULL, NULL, NULL},
-    /* Of degrees. */
+    /* These formats hold degrees (WGS 84). */
     {"KML", ORDER | REPROJECTS, NULL, NULL, NULL},
     {"LIBKML", ORDER | REPROJECTS, NULL, NULL, NULL},
     {"MapML", ORDER | REPROJECTS, NULL, NULL, NULL},
-    {"MVT", REPROJECTS | GIS_IS_NOT_READ, NULL, NULL, NULL}, /* tiles are opened one by one */
+    {"MVT", REPROJECTS | GIS_IS_NOT_READ, NULL, NULL, NULL}, /* each tile is opened separately */
     {"MBTiles", REPROJECTS | GIS_IS_NOT_READ, NULL, NULL, NULL},
     {"GeoRSS", ORDER | ONE_LAYER | GIS_NEEDS_WGS84, NULL, NULL, NULL},
-    /* Connections. */
-    {"PostgreSQL", FIDS | DOUBLES | CASE, IS_SERVER, NULL, NULL}, /* texts have widths */
+    /* Connections to servers. */
+    {"PostgreSQL", FIDS | DOUBLES | CASE, IS_SERVER, NULL, NULL}, /* texts have a maximal width */
     {"MySQL", 0, IS_SERVER, NULL, NULL},
     {"MSSQLSpatial", 0, IS_SERVER, NULL, NULL},
     {"Elasticsearch", 0, IS_SERVER, NULL, NULL},
     {"Carto", 0, IS_SERVER, NULL, NULL},
     {"AmigoCloud", 0, IS_SERVER, NULL, NULL},
     {"NGW", 0, IS_SERVER, NULL, NULL},
-    /* Nothing is written with these. */
+    /* The program does not write these. */
     {"FITS", 0, NO_LAYERS, NULL, NULL},
     {"VICAR", 0, NO_LAYERS, NULL, NULL},
     {"BAG", 0, NO_LAYERS, NULL, NULL},

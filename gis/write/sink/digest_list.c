@@ -20,7 +20,7 @@ bool gis_digest_list_add(gis_digest_list *list, gis_digest one, gis_error *error
     return true;
 }
 
-/* Numbers from to from + n - 1 into memory, in place of those that are there. */
+/* Loads the hashes with numbers from ... from + n - 1 into memory, in place of those loaded before. */
 static bool load(gis_digest_list *list, size_t from, size_t n, gis_error *error)
 {
     if (!gis_array_reserve(&list->at, &list->capacity, n, sizeof *list->at)) return gis_no_memory(error);

@@ -1,4 +1,4 @@
-/* digits.c: would GDAL's 17 significant figures lose a double? See sink_rewrite.c. */
+/* digits.c: would GDAL's 17 significant digits lose a double? sink_rewrite.c explains when. */
 #include "write/sink/sink_internal.h"
 
 #include <stdio.h>
@@ -11,8 +11,8 @@ static bool has_run(const char *text)
     return point && (strstr(point, "999999") || strstr(point, "000000"));
 }
 
-/* Would fewer than seventeen digits be taken, and be too few? This foretells what GDAL does; what it did is read
- * back. */
+/* Would GDAL print x with fewer than 17 digits that read back as another double? This predicts what GDAL does; the
+ * written file is verified in any case. */
 static bool loses(double x)
 {
     char text[64];

@@ -1,4 +1,4 @@
-/* format.c: finding the driver for an output, and what our promises mean in its format. */
+/* format.c: finds the driver for an output, and what the program's guarantees mean in its format. */
 #include "write/sink/format.h"
 
 #include "base/path.h"
@@ -39,7 +39,7 @@ static const char *extension_of(const char *path)
 
 static GDALDriverH driver_for(const char *path)
 {
-    /* Endings that several drivers claim, or that GDAL's own list lacks. */
+    /* Extensions that several drivers claim, or that GDAL's list lacks. */
     static const char *const first[][2] = {{"json", "GeoJSON"},           {"shz", "ESRI Shapefile"},
                                            {"shp.zip", "ESRI Shapefile"}, {"db", "SQLite"},
                                            {"sqlite", "SQLite"},          {"gdb", "OpenFileGDB"}};
@@ -54,7 +54,7 @@ static GDALDriverH driver_for(const char *path)
     return NULL;
 }
 
-/* Is anything written with the driver, and to such a name? */
+/* Can the program write with this driver, and does the driver accept the ending of `path`? */
 static bool check_able(const gis_abilities *able, const char *path, bool connection, gis_error *error)
 {
     if (able->refused && !connection)

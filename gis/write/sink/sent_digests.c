@@ -1,4 +1,4 @@
-/* sent_digests.c: features as two numbers each, as they are sent (readback/digests.c says what for). */
+/* sent_digests.c: reduces features to two hashes each as they are sent (readback/digests.c explains the purpose). */
 #include "write/sink/digest.h"
 
 #include "geometry/packed.h"
@@ -27,8 +27,9 @@ static bool mix_points(OGRGeometryH geometry, gis_digests *all, uint64_t *so_far
     return true;
 }
 
-/* X and Y, ring by ring. A polygon and a multipolygon of that one polygon are the same to a format that has but one of
- * both; null and empty are the same to one that has no empty ones. */
+/* Hashes X and Y, ring by ring. A polygon and a multipolygon with that one polygon get the same hash, since some
+ * formats have only one of the two types; null and empty get the same hash, since some formats have no empty
+ * geometries. */
 static bool mix_geometry(OGRGeometryH geometry, gis_digests *all, uint64_t *so_far)
 {
     if (!geometry || OGR_G_IsEmpty(geometry)) {
@@ -49,7 +50,7 @@ static uint64_t mix_value(uint64_t so_far, OGRFeatureH feature, int field, const
     if (as->type == OFTString) return gis_mix_text(so_far, OGR_F_GetFieldAsString(feature, field), as->width);
     if (as->type != OFTReal) return gis_mix(so_far, (uint64_t)OGR_F_GetFieldAsInteger64(feature, field));
     double x = OGR_F_GetFieldAsDouble(feature, field);
-    return isnan(x) ? gis_mix(so_far, GIS_MIX_NO_VALUE) : gis_mix_double(so_far, x); /* databases store a NaN as null */
+    return isnan(x) ? gis_mix(so_far, GIS_MIX_NO_VALUE) : gis_mix_double(so_far, x); /* databases store NaN as null */
 }
 
 bool gis_digest_of(gis_digests *all, OGRFeatureH feature, GIntBig fid, bool as_written, gis_digest *out)
@@ -59,7 +60,8 @@ bool gis_digest_of(gis_digests *all, OGRFeatureH feature, GIntBig fid, bool as_w
     for (size_t i = 0; i < all->n_fields; i++)
         out->values =
             mix_value(out->values, feature, as_written ? all->fields[i].read : all->fields[i].sent, &all->fields[i]);
-    /* What value stood where is told, too: the values of two features that changed places are not as they were. */
+    /* The hash of the values includes the hash of the place: if two features exchange their values, both hashes of
+     * values change. */
     bool done = mix_geometry(OGR_F_GetGeometryRef(feature), all, &out->place);
     out->values = gis_mix(out->values, out->place);
     return done;
@@ -67,8 +69,7 @@ bool gis_digest_of(gis_digests *all, OGRFeatureH feature, GIntBig fid, bool as_w
 
 /* ---- Fields whose values must come back -------------------------------------------------------------------------- */
 
-/* Of the other types, of a subtype, and of a field with a default of its own, a format may make something
- * equivalent. */
+/* Is the field of a plain type, without subtype and default? For other types a format may store an equivalent value. */
 static bool is_plain(OGRFieldDefnH field)
 {
     OGRFieldType type = OGR_Fld_GetType(field);
@@ -106,7 +107,7 @@ bool gis_digests_add(gis_digests *all, OGRFeatureH feature, GIntBig fid, gis_err
 
 typedef struct mixing {
     uint64_t so_far;
-    bool inside; /* a polygon, after its first ring */
+    bool inside; /* between two rings of one polygon */
 } mixing;
 
 static bool mix_ring(void *user, const unsigned char *points, size_t n, bool last)
@@ -123,7 +124,8 @@ static bool mix_ring(void *user, const unsigned char *points, size_t n, bool las
     return true;
 }
 
-/* As gis_digest_of(); of polygons, or a line. */
+/* Adds the hashes of a feature that is given as well-known binary (polygons, or one line) and values; they equal those
+ * of gis_digest_of(). */
 bool gis_digests_add_plain(gis_digests *all, GIntBig fid, const unsigned char *geometry, const gis_value *values,
                            gis_error *error)
 {

@@ -1,5 +1,5 @@
-/* sink.c: the life of a sink: what a request means for its destination, preparations before the work, and their undoing
- * after a failure. */
+/* sink.c: creates and frees a sink: interprets a request for its destination, prepares the destination before the work,
+ * and undoes the preparation after a failure. */
 #define _GNU_SOURCE
 #include "base/message.h"
 #include "base/path.h"
@@ -54,8 +54,8 @@ static bool prepare_place(gis_sink *sink, gis_error *error)
     if (sink->place == GIS_PLACE_FILE) {
         if (!gis_stage_new(sink->request.path, &sink->stage, error)) return false;
         sink->main_file = CPLStrdup(gis_stage_main(sink->stage));
-        /* The file will not be read back, and drivers do not notice every failed write: so it is made in memory, and
-         * our own code writes it to disk. */
+        /* A write-only file cannot be read back, and drivers do not notice every failed write; so it is made in memory,
+         * and this program writes it to disk. */
         if (sink->format.only_written && !sink->updating) make_memory(sink);
     } else if (sink->place == GIS_PLACE_MEMORY) {
         if (sink->updating)
@@ -69,7 +69,7 @@ static bool prepare_place(gis_sink *sink, gis_error *error)
     return true;
 }
 
-/* What is there is seen after what an earlier run left undone is settled. */
+/* Completes or undoes what an interrupted earlier run left beside the output, before the output is inspected. */
 static bool recover(gis_sink *sink, gis_error *error)
 {
     gis_sentences said = {0};
@@ -171,7 +171,7 @@ bool gis_sink_add(gis_sink *sink, const gis_sink_layer_request *request, gis_sin
     if (layers) sink->layers = layers;
     gis_sink_layer *layer = layers ? new_layer(sink, request) : NULL;
     if (!layer) return gis_no_memory(error);
-    sink->layers[sink->n_layers++] = layer; /* a layer that fails now is freed with the sink */
+    sink->layers[sink->n_layers++] = layer; /* owned by the sink from here on, also if a later step fails */
     if (!gis_sink_dataset_for(sink, layer, error) || !gis_sink_create_layer(layer, error)) return false;
     *out = layer;
     return true;

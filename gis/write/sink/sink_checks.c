@@ -1,5 +1,5 @@
-/* sink_checks.c: what can be refused before any work is done: a place that is taken, or is an input, or where others
- * are at work; a format that would change the coordinates. What can only be known afterwards is read back. */
+/* sink_checks.c: what can be refused before any work is done: an output that exists, is an input, or is in use by
+ * another program; a format that would change the coordinates. Everything else is found by reading back. */
 #define _GNU_SOURCE
 #include "base/message.h"
 #include "base/path.h"
@@ -39,7 +39,7 @@ static bool has_layer(GDALDatasetH dataset, const char *name)
     return found;
 }
 
-/* The layer that the output is to have exists, or is the very input. */
+/* Fails if the layer with this suffix is the input layer itself, or exists and may not be replaced. */
 static bool check_layer_name(const gis_sink *sink, GDALDatasetH dataset, const char *suffix, bool is_source,
                              gis_error *error)
 {
@@ -67,8 +67,8 @@ static bool check_layer_names(const gis_sink *sink, gis_error *error)
     return done;
 }
 
-/* What is renamed over is gone: a device or a pipe would be taken from the whole system. A link that leads nowhere
- * would show when all is done. */
+/* Refuses an output that a rename must not replace: a device or a pipe, which the whole system would lose, and a link
+ * that leads nowhere, which would be noticed only at the end. */
 static bool check_is_file(const char *path, gis_error *error)
 {
     struct stat status;
@@ -80,7 +80,7 @@ static bool check_is_file(const char *path, gis_error *error)
     return true;
 }
 
-/* A file that the output is to have, of a format of one layer a file. */
+/* Checks one file that the output will have, in a format with one layer a file. */
 static bool check_file(const gis_sink *sink, const char *suffix, gis_error *error)
 {
     char *name = gis_sink_file_for(sink, suffix);
@@ -109,8 +109,8 @@ static bool check_files(const gis_sink *sink, gis_error *error)
     return done;
 }
 
-/* A transaction of another program was interrupted: SQLite rolls it back when a program opens the database for writing.
- * The state before the work is the state before that transaction. */
+/* Warns that another program's transaction was interrupted, and has SQLite roll it back by opening the database for
+ * update. "The state before the work" is then the state before that transaction. */
 static void settle_journal(const gis_sink *sink)
 {
     const char *path = sink->request.path;
@@ -120,14 +120,15 @@ static void settle_journal(const gis_sink *sink)
     if (dataset) GDALClose(dataset);
 }
 
-/* What SQLite finds beside a database it takes for a part of it. */
+/* Refuses companion files (-wal, -journal) that somebody else put beside the database, since SQLite would read them as
+ * part of it. */
 static bool check_companions(const char *path, gis_error *error)
 {
     const char *planted = gis_sqlite_planted_companion(path);
     return !planted || gis_fail(error, GIS_SQLITE_PLANTED, path, planted, path);
 }
 
-/* A SQLite database has companions that belong to its content, and others may have it open. */
+/* Checks the companion files of a SQLite database, and whether another program uses it while it is to be replaced. */
 static bool check_database_file(const gis_sink *sink, gis_error *error)
 {
     const char *path = sink->request.path;
@@ -154,13 +155,13 @@ static bool check_whole(gis_sink *sink, gis_error *error)
         if (sink->format.sqlite && sink->place == GIS_PLACE_FILE) sink->place = GIS_PLACE_DATABASE;
         return check_layer_names(sink, error);
     }
-    /* A new member of the archive that is read counts, too: its directory is written anew. */
+    /* A new member of the archive that is read counts as the input too, since the archive's directory is rewritten. */
     if ((there || sink->place == GIS_PLACE_MEMORY) && gis_source_lies_in(sink->source, path))
         return gis_fail(error, "%s: input and output are the same; --update adds layers of other names to it", path);
     if (!there) return true;
     if (!sink->request.overwrite)
         return gis_fail(error, "%s exists already; --overwrite replaces it, --update adds layers to it", path);
-    if (gis_sink_is_directory(path)) { /* none is taken away but a dataset of the kind that will replace it */
+    if (gis_sink_is_directory(path)) { /* a directory is replaced only if it is a dataset of the same format */
         GDALDatasetH old = open_quietly(path, GDAL_OF_READONLY, &sink->format);
         if (!old)
             return gis_fail(error, "%s is a directory, and no %s dataset: it is not replaced", path, sink->format.name);

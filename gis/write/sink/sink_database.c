@@ -1,11 +1,11 @@
-/* sink_database.c: layers added to a database, in one transaction.
+/* sink_database.c: adds layers to a database in one transaction.
  *
- * A SQLite file (a GeoPackage) is written in place: renaming a copy over it would lose what other programs write
- * meanwhile, and a log that another program keeps beside it would be applied to the new file. The write lock is taken
- * first, by a statement that changes nothing (GDAL begins its transactions without a lock). Then the schema that GDAL
- * read when it opened the file is checked to be current, else the file is opened again. From there to the end no other
- * program writes. The journal mode stays, and so does SQLite's syncing: an interrupted transaction is rolled back by
- * the next program that opens the database. */
+ * A SQLite file (a GeoPackage) is updated in place: renaming a copy over it would lose what other programs write
+ * meanwhile, and a log that another program keeps beside it would be applied to the new file. First the write lock is
+ * taken, by a statement that changes nothing (GDAL begins its transactions without a lock). Then the schema that GDAL
+ * read when it opened the file is checked to be current; if it is not, the file is opened again. From then to the end
+ * no other program can write. The journal mode and SQLite's syncing stay as they are, so the next program that opens
+ * the database rolls an interrupted transaction back. */
 #define _LARGEFILE64_SOURCE /* cpl_vsi.h needs struct stat64 */
 #include "base/path.h"
 #include "gpkg/layer_styles.h"
@@ -57,8 +57,8 @@ static bool in_sqlite_file(const gis_sink *sink) { return sink->place == GIS_PLA
 
 /* ---- The lock of a SQLite file ----------------------------------------------------------------------------------- */
 
-/* What must be the same before GDAL opens the file and after the lock is taken: the file itself (another may have been
- * renamed to its place) and the schema's change count, which every layer made or removed changes. */
+/* What must be the same before GDAL opens the file and after the lock is taken: the file itself (another file may have
+ * been renamed to its place), and SQLite's schema version, which changes with every layer that is made or removed. */
 typedef struct version {
     dev_t device;
     ino_t inode;
@@ -92,7 +92,8 @@ static version version_before(const gis_sink *sink)
     return before;
 }
 
-/* Any statement that could write takes the lock, and waits for it if it is the first one of its transaction. */
+/* A statement that could write, but changes nothing. As the first statement of its transaction it takes the write lock,
+ * and waits for it. */
 static char *locking_statement(const gis_sink *sink)
 {
     char *table = gis_sql_ask(sink->dataset, "SELECT name FROM sqlite_master WHERE type = 'table' AND name NOT LIKE "
@@ -114,11 +115,12 @@ static bool fail_locked(const gis_sink *sink, const char *reason, gis_error *err
 
 /* ---- Nothing outside the transaction ----------------------------------------------------------------------------- */
 
-/* SQLite ends a transaction by itself when the disk fails, and GDAL may continue: each further statement would be a
- * transaction of its own, and be committed. Two measures prevent that. A second connection keeps reading, so that no
- * connection can commit, this program's included, until it stops (in WAL mode readers do not block commits; but there
- * nothing is written before the commit, as long as the cache keeps its pages, and what is not written cannot fail). And
- * a temporary table that disappears with the transaction tells whether it is still the one that was begun. */
+/* SQLite ends a transaction by itself when the disk fails, and GDAL may continue; each further statement would then be
+ * a transaction of its own and be committed. Two measures prevent that. First, a second connection keeps a read open,
+ * so that no connection, this program's included, can commit until it is closed. (In WAL mode readers do not block
+ * commits; but there nothing is written before the commit as long as the cache keeps its pages, and what is not written
+ * cannot fail.) Second, a temporary table that disappears with the transaction shows whether the transaction that was
+ * begun still exists. */
 #define MARK "sunder_transaction"
 
 static bool guard(gis_sink *sink, gis_error *error)
@@ -130,7 +132,8 @@ static bool guard(gis_sink *sink, gis_error *error)
     gis_listen_begin(&listener);
     sink->reader = GDALOpenEx(sink->request.path, GDAL_OF_VECTOR | GDAL_OF_READONLY, NULL, NULL, NULL);
     if (sink->reader) sink->reading = GDALDatasetExecuteSQL(sink->reader, "SELECT name FROM sqlite_master", NULL, NULL);
-    OGRFeatureH row = sink->reading ? OGR_L_GetNextFeature(sink->reading) : NULL; /* the first of several */
+    /* reading one row of several keeps the statement open */
+    OGRFeatureH row = sink->reading ? OGR_L_GetNextFeature(sink->reading) : NULL;
     if (row) OGR_F_Destroy(row);
     gis_listen_end();
     gis_listener_clear(&listener);
@@ -150,7 +153,8 @@ static void unguard(gis_sink *sink)
     sink->journal = NULL;
 }
 
-/* A transaction that fails is rolled back by writing what the file held, up to its end. */
+/* Fails if the process may not write files as large as the database (ulimit -f): rolling back rewrites the old content
+ * up to the end of the file. */
 static bool may_write_all_of(const char *path, gis_error *error)
 {
     struct rlimit limit;
@@ -196,8 +200,8 @@ static void abandon(gis_sink *sink)
     gis_listener_clear(&listener);
 }
 
-/* A program that loses the race for the lock opens the file again, in its new state; this many losses in a row are no
- * race. */
+/* If the schema changed between opening and locking, the file is opened again; after this number of attempts other
+ * programs are changing it all the time. */
 enum { ATTEMPTS = 50 };
 
 bool gis_sink_open_sqlite(gis_sink *sink, gis_error *error)
@@ -218,7 +222,7 @@ bool gis_sink_open_sqlite(gis_sink *sink, gis_error *error)
 
 /* ---- Layers that are there --------------------------------------------------------------------------------------- */
 
-/* With the lock held: what was found before the work may have changed. */
+/* Called with the lock held, since the layers that were found before the work may have changed. */
 bool gis_sink_make_room(gis_sink *sink, const char *name, gis_error *error)
 {
     for (int i = 0; i < GDALDatasetGetLayerCount(sink->dataset); i++) {
@@ -260,7 +264,7 @@ bool gis_sink_flush(gis_sink *sink, gis_error *error)
     return done && gis_sink_unbroken(sink, error);
 }
 
-/* What GDAL would still like to note when it closes the file would be outside the transaction. */
+/* Blocks further writes: what GDAL would write when it closes the file would be outside the transaction. */
 static void seal(gis_sink *sink)
 {
     if (in_sqlite_file(sink)) gis_sql_run(sink->dataset, "PRAGMA query_only = 1", "the database", NULL);
@@ -276,7 +280,7 @@ void gis_sink_roll_back(gis_sink *sink)
     unguard(sink);
 }
 
-/* The moment at which readers must let go, and are waited for. */
+/* Before the commit: closes this program's reader, and lets SQLite wait for other programs' readers. */
 static bool clear_the_way(gis_sink *sink, gis_error *error)
 {
     char wait[64];
@@ -290,13 +294,13 @@ static bool clear_the_way(gis_sink *sink, gis_error *error)
 bool gis_sink_end_transaction(gis_sink *sink, gis_error *error)
 {
     if (!sink->in_transaction) return true;
-    bool final = sink->place == GIS_PLACE_DATABASE; /* else it is in the stage */
+    bool final = sink->place == GIS_PLACE_DATABASE; /* a file in the stage is published later */
     if (!clear_the_way(sink, error) || (final && !gis_decide(error))) return false;
     gis_listener listener = {0};
     gis_listen_begin(&listener);
     bool done = GDALDatasetCommitTransaction(sink->dataset) == OGRERR_NONE && !listener.failures;
     gis_listen_end();
-    sink->in_transaction = !done; /* to be rolled back */
+    sink->in_transaction = !done; /* true if the commit failed: it must be rolled back */
     if (final) gis_set_outcome(done ? GIS_DECIDED : GIS_OPEN);
     if (!done && sink->format.sqlite && strstr(listener.first, "locked"))
         fail_locked(sink, listener.first, error);

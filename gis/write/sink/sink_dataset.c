@@ -1,5 +1,5 @@
-/* sink_dataset.c: the datasets of a sink: made in the stage, or copied there for an update, so that what stood there
- * before is untouched until all is written and read back. */
+/* sink_dataset.c: opens and closes the datasets of a sink. They are made in the stage, or copied there for an update,
+ * so that the existing output is untouched until everything is written and read back. */
 #define _LARGEFILE64_SOURCE /* cpl_vsi.h needs struct stat64 */
 #include "base/path.h"
 #include "gpkg/sqlite_calls.h"
@@ -10,12 +10,13 @@
 #include <cpl_vsi.h>
 #include <string.h>
 
-/* What SQLite leaves beside a file that is open or was not closed well: part of the data. */
+/* Files that SQLite keeps beside a database that is open or was not closed properly; they are part of the data. */
 static const char *const sqlite_companions[] = {"-wal", "-journal", "-shm"};
 
 /* ---- What is replaced -------------------------------------------------------------------------------------------- */
 
-/* All files of the dataset at `path`, which is about to be replaced, will step aside. */
+/* Marks all files of the dataset at `path`, which is about to be replaced, to be moved aside when the stage is
+ * published. */
 static void supersede(gis_sink *sink, const char *path)
 {
     gis_stage_supersede(sink->stage, path);
@@ -42,8 +43,8 @@ static void supersede(gis_sink *sink, const char *path)
     gis_listener_clear(&listener);
 }
 
-/* A file that appeared at this place since the run began must not be replaced unless requested: publishing fails
- * then. */
+/* Marks an existing file for replacement, if that was requested. A file that appeared there after the checks, without
+ * such a request, makes publishing fail. */
 static void supersede_existing(gis_sink *sink, const char *file, bool may_replace)
 {
     if (sink->place != GIS_PLACE_FILE || !may_replace) return;
@@ -54,8 +55,8 @@ static void supersede_existing(gis_sink *sink, const char *file, bool may_replac
 
 /* ---- Making and opening ------------------------------------------------------------------------------------------ */
 
-/* A staged file is thrown away if anything fails, and synced before it is published: SQLite need not sync each step. A
- * choice that the user made by --config stands. */
+/* Turns SQLite's syncing off for a staged file: the file is discarded if anything fails, and synced before it is
+ * published. A value that the user set by --config stays. Returns whether the setting was changed. */
 static bool relax_sqlite(void)
 {
     bool relaxed = !CPLGetConfigOption("OGR_SQLITE_SYNCHRONOUS", NULL);
@@ -86,7 +87,8 @@ static bool create(gis_sink *sink, const char *file, GDALDatasetH *out, gis_erro
     if (*out) copy_metadata(sink, *out);
     gis_listen_end();
     CPLFree(path);
-    bool done = *out && !(sink->format.sqlite && listener.failures); /* a database may go on with half of its tables */
+    /* after an error a database may continue with some of its tables missing */
+    bool done = *out && !(sink->format.sqlite && listener.failures);
     if (!done)
         gis_fail(error, "%s: cannot be created as %s: %s", sink->request.path, sink->format.name,
                  gis_listener_reason(&listener, "GDAL gives no reason"));
@@ -94,7 +96,7 @@ static bool create(gis_sink *sink, const char *file, GDALDatasetH *out, gis_erro
     return done;
 }
 
-/* For formats that are no databases. */
+/* Copies the existing dataset into the stage; for formats that are not databases. */
 static bool copy_in(gis_sink *sink, gis_error *error)
 {
     char *outside = gis_stage_outside(sink->stage, sink->main_file);
@@ -141,8 +143,8 @@ static void forget_handles(gis_sink *sink, GDALDatasetH dataset)
     if (sink->dataset == dataset) sink->dataset = NULL;
 }
 
-/* The last byte of a text is a line break, which GDAL does not hear of if it could not be written, and which no reader
- * misses: so it is looked for, and written where it is not. */
+/* Checks that a text file ends with a line break, and appends one if it does not. GDAL does not notice if this last
+ * byte could not be written, and no reader misses it. */
 static bool end_last_line(const gis_sink *sink, const char *file, gis_error *error)
 {
     char last, *path = gis_sink_inside(sink, file);
@@ -163,7 +165,8 @@ bool gis_sink_close(gis_sink *sink, gis_sink_layer *layer, gis_error *error)
     GDALDatasetH dataset = layer ? layer->dataset : sink->dataset;
     if (!dataset) return true;
     if (dataset == sink->dataset && !gis_sink_end_transaction(sink, error)) return false;
-    bool committed = dataset == sink->dataset && sink->place == GIS_PLACE_DATABASE; /* it cannot fail any more */
+    /* after the commit, errors of closing change nothing */
+    bool committed = dataset == sink->dataset && sink->place == GIS_PLACE_DATABASE;
     gis_listener listener = {0};
     gis_listen_begin(&listener);
     GDALFlushCache(dataset);
@@ -184,7 +187,8 @@ void gis_sink_drop(gis_sink *sink)
 {
     gis_listener listener = {0};
     gis_listen_begin(&listener);
-    for (size_t i = 0; i < sink->n_layers; i++) gis_sink_rows_clear(sink->layers[i]); /* SQLite waits for statements */
+    /* SQLite cannot roll back while statements are open */
+    for (size_t i = 0; i < sink->n_layers; i++) gis_sink_rows_clear(sink->layers[i]);
     gis_sink_roll_back(sink);
     for (size_t i = 0; i < sink->n_layers; i++)
         if (sink->layers[i]->file && sink->layers[i]->dataset) {

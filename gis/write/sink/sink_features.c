@@ -1,4 +1,4 @@
-/* sink_features.c: one feature given to GDAL. What is sent is remembered until it has been read back: by a digest where
+/* sink_features.c: writes one feature with GDAL. What is sent is remembered until it has been read back: as hashes if
  * the format keeps every value, else as it is. */
 #include "write/sink/sink_internal.h"
 
@@ -12,14 +12,14 @@
 
 /* ---- Attributes -------------------------------------------------------------------------------------------------- */
 
-/* The FID of a feature that is written like it was read. */
+/* Sets the FID of a feature that is written like it was read. */
 static void set_fid(const gis_sink_layer *layer, OGRFeatureH to, GIntBig fid)
 {
     if (layer->fid_field >= 0 && fid != OGRNullFID) OGR_F_SetFieldInteger64(to, layer->fid_field, fid);
     OGR_F_SetFID(to, layer->request.like_source && layer->sink->fids_kept ? fid : OGRNullFID);
 }
 
-/* The program's own. */
+/* Sets the fields that the program adds. */
 static void set_values(const gis_sink_layer *layer, OGRFeatureH to, const gis_value *values)
 {
     for (size_t i = 0; i < layer->request.n_fields; i++) {
@@ -34,7 +34,8 @@ static void set_values(const gis_sink_layer *layer, OGRFeatureH to, const gis_va
     }
 }
 
-/* GDAL writes a list into a text as people read it, and cuts what is long. */
+/* Writes lists as JSON text if the field of the layer is a string; GDAL's own conversion is meant for readers, and cuts
+ * long lists. */
 static bool set_lists(const gis_sink_layer *layer, OGRFeatureH to, OGRFeatureH feature, gis_error *error)
 {
     bool done = true;
@@ -70,7 +71,7 @@ static bool set_attributes(gis_sink_layer *layer, OGRFeatureH to, OGRFeatureH fe
 
 /* ---- Geometry ---------------------------------------------------------------------------------------------------- */
 
-/* GDAL drops M values and draws arcs as chords without a word where a format has neither. */
+/* Notes losses that GDAL does not report: M values that are dropped, and arcs that are written as chords. */
 static void note_losses(gis_sink_layer *layer, OGRFeatureH to)
 {
     OGRGeometryH geometry = OGR_F_GetGeometryRef(to);
@@ -86,12 +87,13 @@ static void note_losses(gis_sink_layer *layer, OGRFeatureH to)
 static void hear_warnings(gis_sink_layer *layer, const gis_listener *listener)
 {
     if (layer->keep_sent && layer->sink->format.keeps_order)
-        return; /* changed values are found when the layer is read back, and told once a field */
+        return; /* changed values are found when the layer is read back, and reported once for each field */
     for (size_t i = 0; i < listener->warnings.n; i++)
         gis_sentences_add(&layer->sink->warnings, "%s", listener->warnings.items[i]);
 }
 
-/* from: the FID that it was read with; NULL: it was not read. */
+/* Has GDAL write `to`. *from is the FID that the feature was read with, for messages; NULL: it was not read from the
+ * source. */
 static bool create_feature(gis_sink_layer *layer, OGRFeatureH to, const GIntBig *from, gis_error *error)
 {
     GIntBig fid = OGR_F_GetFID(to);
@@ -112,7 +114,7 @@ static bool create_feature(gis_sink_layer *layer, OGRFeatureH to, const GIntBig 
     return done && gis_rtree_add(&layer->tree, to, error) && gis_digests_add(&layer->digests, to, fid, error);
 }
 
-/* The feature has all it needs; it is fitted to the format, and written. */
+/* Adapts a complete feature to the format, and writes it. */
 static bool send(gis_sink_layer *layer, OGRFeatureH to, const GIntBig *from, gis_error *error)
 {
     if (layer->promote) gis_sink_promote(layer, to);
@@ -135,7 +137,8 @@ bool gis_sink_put(gis_sink_layer *layer, OGRFeatureH feature, OGRGeometryH geome
         OGR_G_DestroyGeometry(geometry);
         return gis_no_memory(error);
     }
-    bool done = set_attributes(layer, to, feature, values, error); /* brings the feature's geometry, replaced next */
+    /* copies the source's geometry too, which is replaced below */
+    bool done = set_attributes(layer, to, feature, values, error);
     if (done && layer->keep_sent)
         done = gis_sink_remember(layer, (gis_sent){feature, geometry ? OGR_G_Clone(geometry) : NULL, false, 0, 0},
                                  error) &&

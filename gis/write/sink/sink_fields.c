@@ -1,5 +1,5 @@
-/* sink_fields.c: the fields of a layer that is written: those of the source, as far as the driver has their types and
- * tells their names apart, and the program's own. What came of them is looked at afterwards (losses.c). */
+/* sink_fields.c: makes the fields of a layer: those of the source, as far as the driver has their types and can
+ * distinguish their names, and the fields that the program adds. losses.c checks the result afterwards. */
 #include "read/fields.h"
 #include "write/sink/abilities.h"
 #include "write/sink/sink_internal.h"
@@ -27,7 +27,7 @@ bool gis_sink_makes_field(const gis_sink_layer *layer, const char *name)
 
 /* ---- Types ------------------------------------------------------------------------------------------------------- */
 
-/* What the driver says of itself; one that says nothing is asked by trying. */
+/* Does the driver's metadata item `item` list `name`? */
 static bool driver_lists(const gis_sink_layer *layer, const char *item, const char *name)
 {
     const char *list = GDALGetMetadataItem(layer->sink->format.driver, item, NULL);
@@ -37,8 +37,9 @@ static bool driver_lists(const gis_sink_layer *layer, const char *item, const ch
     return found;
 }
 
-/* A driver may take a field of a type that it lacks, and then refuse the features, or drop the field. Of dates it makes
- * what it has. */
+/* May a field of this type be created? A driver may accept a field of a type that it lacks, and then refuse the
+ * features or drop the field; for such types its list of types is consulted. Dates are not checked, since drivers
+ * convert them. A driver without a list is tried. */
 static bool has_type(const gis_sink_layer *layer, OGRFieldType type)
 {
     const bool asks = gis_field_type_is_list(type) || type == OFTInteger64 || type == OFTTime || type == OFTBinary;
@@ -46,7 +47,7 @@ static bool has_type(const gis_sink_layer *layer, OGRFieldType type)
            driver_lists(layer, GDAL_DMD_CREATIONFIELDDATATYPES, OGR_GetFieldTypeName(type));
 }
 
-/* The type to take where the driver lacks this one; the same type: there is none. A list becomes JSON text. */
+/* The type to try if the driver lacks `type`; `type` itself if there is no other. A list becomes JSON text. */
 static OGRFieldType next_type(OGRFieldType type)
 {
     switch (type) {
@@ -66,15 +67,16 @@ static OGRFieldType next_type(OGRFieldType type)
 
 /* ---- Names ------------------------------------------------------------------------------------------------------- */
 
-static bool has_name(OGRFeatureDefnH definition, const char *name) /* in small letters or capitals */
+static bool has_name(OGRFeatureDefnH definition, const char *name) /* ignoring case */
 {
     for (int i = 0; i < OGR_FD_GetFieldCount(definition); i++)
         if (EQUAL(OGR_Fld_GetNameRef(OGR_FD_GetFieldDefn(definition, i)), name)) return true;
     return false;
 }
 
-/* The name that field i of the source gets: its own; or, where the driver ignores case and the layer has the name
- * already, one with a number appended, as ogr2ogr does, that no other field has or will have. CPLFree(). */
+/* The name for field i of the source: its own or, if the driver ignores case and the layer has that name already (or
+ * the driver uses it itself), the name with a number appended, as ogr2ogr does, that no other field has or will get.
+ * CPLFree(). */
 static char *name_for(const gis_sink_layer *layer, OGRFeatureDefnH source, int i)
 {
     enum { DIGITS = 12 };
@@ -98,7 +100,7 @@ static void copy_domain(gis_sink_layer *layer, OGRFieldDefnH field)
     const char *name = OGR_Fld_GetDomainName(field);
     if (!name || !name[0] || GDALDatasetGetFieldDomain(layer->dataset, name)) return;
     OGRFieldDomainH domain = GDALDatasetGetFieldDomain(gis_source_dataset(layer->sink->source), name);
-    if (domain) /* where it fails the field comes out without it, which is found when it is read back */
+    if (domain) /* if this fails the field is made without its domain, which is found when the layer is read back */
         GDALDatasetAddFieldDomain(layer->dataset, domain, NULL);
 }
 
@@ -110,8 +112,8 @@ static int create_field(gis_sink_layer *layer, OGRFieldDefnH field)
     return created && OGR_FD_GetFieldCount(definition) > before ? before : -1;
 }
 
-/* A field of another name or type, without constraints, which hold within the source and not for what is made of it;
- * NULL: memory is out. */
+/* A field definition like `like` with this name and type but without constraints, which hold within the source only.
+ * NULL: no memory. */
 static OGRFieldDefnH unconstrained_copy(const gis_sink_layer *layer, OGRFieldDefnH like, const char *name,
                                         OGRFieldType type)
 {
@@ -130,8 +132,8 @@ static OGRFieldDefnH unconstrained_copy(const gis_sink_layer *layer, OGRFieldDef
     return field;
 }
 
-/* A field as it is in the source, but for its name and type; features that are written more than once have no unique
- * values any more. */
+/* Creates a field like `like` but with this name and type. If features are written more than once (new_fids), values
+ * are no longer unique, and the constraint is dropped. Returns its index, or -1. */
 static int create_like(gis_sink_layer *layer, OGRFieldDefnH like, const char *name, OGRFieldType type)
 {
     const bool unique = OGR_Fld_IsUnique(like) && !layer->sink->request.new_fids, same = type == OGR_Fld_GetType(like);
@@ -147,7 +149,8 @@ static int create_like(gis_sink_layer *layer, OGRFieldDefnH like, const char *na
     return index;
 }
 
-/* Of the first type, from the field's own on, that the driver has and takes; -1: there is none. */
+/* Creates the field with the first type that the driver has and accepts, beginning with the field's own. Returns its
+ * index; -1: there is none. */
 static int create_fitting(gis_sink_layer *layer, OGRFieldDefnH like, const char *name)
 {
     for (OGRFieldType type = OGR_Fld_GetType(like);; type = next_type(type)) {
@@ -180,7 +183,7 @@ static void create_source_field(gis_sink_layer *layer, OGRFeatureDefnH source, i
     if (layer->field_map[i] < 0 && gis_sink_tells(layer)) note_not_written(layer, field);
 }
 
-/* Is the list in field i of the source written as a text? */
+/* Is the list in field i of the source written as text? */
 static bool is_list_as_text(const gis_sink_layer *layer, OGRFeatureDefnH source, int i)
 {
     const int to = layer->field_map[i];
@@ -214,8 +217,8 @@ static int create_field_of(gis_sink_layer *layer, const char *name, OGRFieldType
     return index;
 }
 
-/* A driver without 64-bit integers gets them as reals, one without numbers as texts; one without attributes loses the
- * field. */
+/* Creates a field that the program adds. A driver without 64-bit integers gets a real, one without numbers a text; if
+ * the driver accepts neither, the field is lost. Returns its index, or -1. */
 static int create_own_field(gis_sink_layer *layer, const char *name, OGRFieldType type, int width)
 {
     for (OGRFieldType as = type;; as = next_type(as)) {
@@ -228,7 +231,7 @@ static int create_own_field(gis_sink_layer *layer, const char *name, OGRFieldTyp
     return -1;
 }
 
-/* The field that is copied alone: its values are mapped as those of a whole feature are. */
+/* Creates the single field that is copied from the source; field_map maps it alone. */
 static void create_copy(gis_sink_layer *layer)
 {
     OGRFieldDefnH like = layer->request.copied;

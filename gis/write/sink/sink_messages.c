@@ -1,4 +1,4 @@
-/* sink_messages.c: what is said where features do not read back. */
+/* sink_messages.c: messages about features that do not read back. */
 #include "write/sink/abilities.h"
 #include "write/sink/sink_internal.h"
 

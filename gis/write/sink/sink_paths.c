@@ -1,4 +1,4 @@
-/* sink_paths.c: how the files and layers of a sink are called, and what is there by a name. */
+/* sink_paths.c: names of the files and layers of a sink, and tests whether a path exists. */
 #define _LARGEFILE64_SOURCE /* cpl_vsi.h needs struct stat64 */
 #include "base/path.h"
 #include "write/sink/sink_internal.h"

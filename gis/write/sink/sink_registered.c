@@ -1,7 +1,7 @@
 /* sink_registered.c: would a reader find a layer that was added to a database? A layer of a GeoPackage, or of a SQLite
- * database with geometries, is a table and its rows in the tables that list layers. GDAL goes by what it wrote there,
- * but triggers of the database may have swallowed or changed it. So these rows are read before the transaction ends,
- * when nothing is left to be written. */
+ * database with geometries, is a table and its rows in the tables that list layers. GDAL relies on what it wrote there,
+ * but triggers of the database may have suppressed or changed these rows. So they are read before the transaction ends,
+ * after everything is written. */
 #include "base/path.h"
 #include "gpkg/sql.h"
 #include "write/sink/sink_internal.h"
@@ -13,7 +13,7 @@
 
 enum { WORD_SIZE = 32 };
 
-/* A type of geometry as a GeoPackage names it: MULTIPOLYGON. */
+/* Prints a geometry type as a GeoPackage names it, such as MULTIPOLYGON. */
 static void print_type(OGRwkbGeometryType type, char word[WORD_SIZE])
 {
     const OGRwkbGeometryType flat = OGR_GT_Flatten(type);
@@ -23,7 +23,7 @@ static void print_type(OGRwkbGeometryType type, char word[WORD_SIZE])
     word[n] = '\0';
 }
 
-/* Is the answer of the database this one? A query that gives no row has none. */
+/* Does the query return `wanted` in its first row (ignoring case)? False if it returns no row. */
 static bool answers(const gis_sink_layer *layer, const char *sql, const char *wanted)
 {
     char *answer = gis_sql_ask(layer->dataset, sql);
@@ -32,7 +32,7 @@ static bool answers(const gis_sink_layer *layer, const char *sql, const char *wa
     return same;
 }
 
-/* name: in quotes of SQL's. */
+/* Does the GeoPackage list the layer with its geometry column and type? `name` is escaped for SQL. */
 static bool is_in_geopackage(const gis_sink_layer *layer, const char *name)
 {
     char type[WORD_SIZE];
@@ -48,7 +48,7 @@ static bool is_in_geopackage(const gis_sink_layer *layer, const char *name)
     return found;
 }
 
-/* Checks that the GeoPackage lists `name` with its CRS's authority and code; true if it has none. */
+/* Does the GeoPackage list the layer `name` with the authority and code of its CRS? True if the CRS has none. */
 static bool has_its_crs(const gis_sink_layer *layer, const char *name)
 {
     OGRSpatialReferenceH crs = OGR_L_GetSpatialRef(layer->layer);
@@ -66,7 +66,8 @@ static bool has_its_crs(const gis_sink_layer *layer, const char *name)
     return found;
 }
 
-/* Without that table the columns of a SQLite database are told from its tables alone. */
+/* Does geometry_columns list the layer? True if the database has no such table: then readers find geometry columns from
+ * the tables themselves. */
 static bool is_in_geometry_columns(const gis_sink_layer *layer, const char *name)
 {
     if (!answers(layer, "SELECT 1 FROM sqlite_master WHERE lower(name) = 'geometry_columns'", "1")) return true;

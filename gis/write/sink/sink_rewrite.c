@@ -1,10 +1,10 @@
-/* sink_rewrite.c: a layer of numbers in decimals, written once more with more digits.
+/* sink_rewrite.c: writes a layer with decimal numbers once more, with more digits.
  *
- * GDAL's SIGNIFICANT_FIGURES=17 would tell every double, were it not for a beauty: where the digits after the point
- * hold 999999 or 000000 it tries with up to three digits fewer, and takes what no longer holds them: 999999.4999999995
- * becomes 999999.5. With three more to give away every number keeps its seventeen; but then most numbers are printed
- * with digits that say nothing. So a layer is begun with seventeen. The first coordinate that would lose makes it begin
- * again; and if it reads back otherwise all the same, it is written again then. */
+ * SIGNIFICANT_FIGURES=17 would be enough for every double, but GDAL tries to print nicer numbers: if the digits after
+ * the point contain 999999 or 000000, it tries up to three digits fewer and takes the first result without them, so
+ * that 999999.4999999995 becomes 999999.5. With 20 digits every number keeps at least 17 of them, but most numbers get
+ * digits without meaning. So a layer is begun with 17. The first coordinate that would lose makes the program begin
+ * again with 20; and if the layer still reads back differently, it is written again then. */
 #define _LARGEFILE64_SOURCE /* cpl_vsi.h needs struct stat64 */
 #include "write/sink/sink_internal.h"
 
@@ -28,7 +28,7 @@ bool gis_sink_may_rewrite(const gis_sink_layer *layer, const gis_sink_result *se
     return layer->can_rewrite && !layer->more_digits && (!seen->exact || any_real_changed(layer));
 }
 
-/* As it was before it was made the first time. */
+/* Resets the layer to the state before it was made, and makes it with more digits. */
 static bool start_again(gis_sink_layer *layer, gis_error *error)
 {
     char *path = gis_sink_inside(layer->sink, layer->file);

@@ -1,10 +1,11 @@
-/* sink_rows.c: rows of a GeoPackage's main layer, and of its layers of lines, past GDAL, where everything is plain.
+/* sink_rows.c: writes rows of a GeoPackage's main layer, and of its layers of lines, through SQLite instead of GDAL,
+ * where everything is plain.
  *
- * GDAL makes a feature, its geometry, its blob and its binding for each row. Where the source's records
+ * GDAL makes a feature, its geometry, its blob and its bindings for each row. If the source's records
  * (geometry/packed.h) hold the geometry as the blob needs it and the values as the columns do, the row is built from
- * the record. GDAL's other data about a layer stay GDAL's: the extent and the count of features, which it would
- * underestimate, are corrected when it writes them. GDAL also writes the first feature: its blob shows how GDAL begins
- * one, and unless the rest of it equals, byte for byte, what would be built here, this path is not taken. */
+ * the record directly. GDAL still writes the other data about a layer; the extent and feature count, which it would
+ * underestimate, are corrected when it writes them. GDAL also writes the first feature: its blob shows the header that
+ * GDAL uses, and unless the rest equals, byte for byte, what would be built here, rows are left to GDAL. */
 #include "base/path.h"
 #include "write/sink/sink_internal.h"
 
@@ -20,10 +21,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A blob (GeoPackage, "GeoPackageBinary"): "GP", version, flags, SRS; the box; well-known binary. */
+/* A blob (GeoPackageBinary): "GP", version, flags, SRS; the box; well-known binary. */
 enum { HEAD = 8, BOX = 4 * sizeof(double), FLAGS = 3, LITTLE_ENDIAN_WITH_BOX = 3 };
 
-/* A line of two points as well-known binary: order of bytes, type, count, points. */
+/* A line of two points as well-known binary: byte order, type, count, points. */
 enum { LINE_POINTS = 1 + 2 * sizeof(uint32_t), LINE_BYTES = LINE_POINTS + 4 * sizeof(double) };
 
 /* ---- Is all plain? ----------------------------------------------------------------------------------------------- */
@@ -34,7 +35,7 @@ static bool fields_are_plain(const gis_sink_layer *layer)
     const gis_source *source = layer->request.like_source ? layer->sink->source : NULL;
     OGRFeatureDefnH from = source ? OGR_L_GetLayerDefn(gis_source_layer(source)) : NULL;
     const int n = OGR_FD_GetFieldCount(to);
-    if (layer->digests.n_fields != (size_t)n) return false; /* all of plain types, without defaults */
+    if (layer->digests.n_fields != (size_t)n) return false; /* false if a field has another type, or a default */
     for (int i = 0; i < n; i++)
         if (EQUAL(OGR_Fld_GetNameRef(OGR_FD_GetFieldDefn(to, i)), OGR_L_GetFIDColumn(layer->layer))) return false;
     for (int i = 0; from && i < OGR_FD_GetFieldCount(from); i++)
@@ -48,7 +49,7 @@ static bool fields_are_plain(const gis_sink_layer *layer)
     return true;
 }
 
-/* An option may be of what GDAL does to each row. */
+/* Is the output a new GeoPackage file without creation options? An option may change what GDAL does for each row. */
 static bool sink_is_plain(const gis_sink *sink)
 {
     return sink->format.geopackage && sink->place == GIS_PLACE_FILE && !sink->updating &&
@@ -63,7 +64,7 @@ static bool main_is_plain(const gis_sink_layer *layer)
            (type == wkbUnknown || type == wkbPolygon || type == wkbMultiPolygon);
 }
 
-/* Its FIDs are those that SQLite gives: 1, 2, 3. */
+/* Is this a plain layer of lines? Its FIDs are those that SQLite assigns: 1, 2, 3 ... */
 static bool lines_are_plain(const gis_sink_layer *layer)
 {
     return !layer->request.like_source && !layer->request.copied && OGR_L_GetGeomType(layer->layer) == wkbLineString;
@@ -80,7 +81,8 @@ typedef struct looking {
     bool plain;
 } looking;
 
-/* -0 and 0 are one number and two texts of bits: which of them a box has is GDAL's choice. */
+/* Widens seen->box by n points. A coordinate of 0 is not plain: -0 and 0 are equal but differ in their bits, and which
+ * of them a box gets is GDAL's choice. */
 static bool look(void *user, const unsigned char *points, size_t n, bool last)
 {
     looking *seen = user;
@@ -97,7 +99,7 @@ static bool look(void *user, const unsigned char *points, size_t n, bool last)
     return true;
 }
 
-/* Is it what its field holds, so that nothing is made of it on the way? */
+/* Does the field hold values of this type, so that nothing is converted? */
 static bool suits(const gis_value *value, const gis_plain_field *field)
 {
     switch (value->kind) {
@@ -108,7 +110,8 @@ static bool suits(const gis_value *value, const gis_plain_field *field)
     }
 }
 
-/* Checks that a text fits the field's width, which GDAL counts in characters: UTF-8 bytes that begin one. */
+/* Does a text fit the field's width, which GDAL counts in characters (bytes that begin a UTF-8 sequence), and is it
+ * valid UTF-8? */
 static bool value_is_plain(const gis_value *value, const gis_plain_field *field)
 {
     if (value->kind != GIS_TEXT || field->width <= 0) return true;
@@ -135,8 +138,8 @@ static char *insert_statement(const gis_sink_layer *layer)
     return gis_sql_append(sql, ") VALUES ");
 }
 
-/* The blob of a feature, unless a trigger waits for rows (GDAL takes those of the index and of the count away), or
- * there is no count. */
+/* A query for the blob of feature `fid`. It returns no row if the table has a trigger on INSERT (GDAL has removed its
+ * own triggers for index and count) or there is no table of feature counts. */
 static char *blob_statement(const gis_sink_layer *layer, GIntBig fid)
 {
     char *name = CPLEscapeString(OGR_L_GetName(layer->layer), -1, CPLES_SQL);
@@ -153,7 +156,7 @@ static char *blob_statement(const gis_sink_layer *layer, GIntBig fid)
     return sql;
 }
 
-/* The feature was written by GDAL: is its blob what would be put together here? */
+/* Begins inserting through SQLite if the blob of feature `fid`, which GDAL wrote, equals the blob composed here. */
 static bool begin(gis_sink_layer *layer, GIntBig fid)
 {
     gis_sink_rows *rows = &layer->rows;
@@ -200,7 +203,7 @@ static bool values_are_plain(const gis_sink_layer *layer)
     return true;
 }
 
-/* Puts the row together, unless it is not plain. */
+/* Composes the row of feature i of the source; GIS_ROW_GDAL if it is not plain. */
 static gis_row compose(gis_sink_layer *layer, size_t i, double dx, double dy, const gis_value *values, OGREnvelope *box,
                        gis_error *error)
 {
@@ -230,7 +233,8 @@ static gis_row compose_line(gis_sink_layer *layer, const double from[2], const d
     gis_sink_rows *rows = &layer->rows;
     const uint32_t type = wkbLineString, n = 2;
     looking seen = {{INFINITY, -INFINITY, INFINITY, -INFINITY}, true};
-    unsigned char wkb[LINE_BYTES] = {wkbNDR}; /* a blob of another order is not GDAL's, and nothing begins */
+    unsigned char wkb[LINE_BYTES] = {wkbNDR}; /* on a big-endian GDAL the comparison in begin() fails, and rows are left
+                                               * to GDAL */
     memcpy(wkb + 1, &type, sizeof type);
     memcpy(wkb + 1 + sizeof type, &n, sizeof n);
     memcpy(wkb + LINE_POINTS, from, 2 * sizeof *from);
@@ -266,7 +270,7 @@ static bool insert(gis_sink_layer *layer, GIntBig fid, const OGREnvelope *box, g
            gis_digests_add_plain(&layer->digests, fid, rows->blob + HEAD + BOX, rows->value, error);
 }
 
-/* False: there are no such rows. */
+/* May rows of this layer be composed? Decided at the first call. */
 static bool may_compose(gis_sink_layer *layer, bool lines)
 {
     gis_sink_rows *rows = &layer->rows;
@@ -278,7 +282,7 @@ static bool may_compose(gis_sink_layer *layer, bool lines)
     return true;
 }
 
-/* Before GDAL does anything with the layer. */
+/* Sends pending rows to SQLite; to be called before GDAL does anything with the layer. */
 static bool flush(gis_sink_layer *layer, gis_error *error)
 {
     int64_t key;
@@ -287,7 +291,7 @@ static bool flush(gis_sink_layer *layer, gis_error *error)
            fail(layer, key, reason, error);
 }
 
-/* Writes the row that was built, unless GDAL writes it. */
+/* Inserts the composed row, or returns GIS_ROW_GDAL if GDAL has to write it. */
 static gis_row settle(gis_sink_layer *layer, gis_row row, GIntBig fid, const OGREnvelope *box, gis_error *error)
 {
     gis_sink_rows *rows = &layer->rows;
@@ -321,7 +325,7 @@ void gis_sink_row_by_gdal(gis_sink_layer *layer, GIntBig fid)
     if (!rows->inserts.one && !begin(layer, fid)) gis_sink_rows_clear(layer);
 }
 
-/* One layer ends before the next is added. */
+/* Called before the next layer is added, and at the end. */
 bool gis_sink_rows_end(gis_sink_layer *layer, gis_error *error)
 {
     gis_sink_rows *rows = &layer->rows;

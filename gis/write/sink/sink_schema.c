@@ -1,5 +1,5 @@
-/* sink_schema.c: layers made with all that the source's layer has, as far as the format knows it. What the format knows
- * is asked of its driver; what came of it is looked at afterwards (losses.c). */
+/* sink_schema.c: makes a layer with all properties of the source's layer that the format knows. Which options a format
+ * knows is taken from its driver's metadata; losses.c checks the result afterwards. */
 #include "base/path.h"
 #include "write/sink/sink_internal.h"
 
@@ -23,14 +23,15 @@ static bool any_field_is(const gis_sink_layer *layer, const char *name)
     return gis_sink_makes_field(layer, name) || (source && OGR_FD_GetFieldIndex(source, name) >= 0);
 }
 
-/* The drivers' default names of these columns; lists end with NULL. */
+/* The default names that drivers use for FID and geometry columns; each list ends with NULL. */
 static const char *const usual_fid[] = {"fid", "ogc_fid", "OBJECTID", NULL};
 static const char *const usual_geometry[] = {"geom", "GEOMETRY", "wkb_geometry", "SHAPE", NULL};
 
 enum { NUMBERED_SIZE = 32 };
 
-/* The FID and geometry columns keep their names. A layer without such names leaves the choice to the driver (NULL),
- * unless an ordinary field has a name that the driver might choose: then the first name that is free. */
+/* The name for a FID or geometry column: `wanted` if it is given and free. NULL leaves the choice to the driver, unless
+ * an ordinary field has one of the `usual` names; then the first usual name that is free, or a numbered one (in
+ * `numbered`). */
 static const char *free_name(const gis_sink_layer *layer, const char *wanted, const char *const *usual,
                              char numbered[NUMBERED_SIZE])
 {
@@ -69,7 +70,8 @@ static char **offer_texts(const gis_sink_layer *layer, char **options)
     OGRLayerH source = gis_source_layer(layer->sink->source);
     const char *identifier = OGR_L_GetName(source);
     const char *own = GDALGetMetadataItem(source, "IDENTIFIER", NULL);
-    /* An identifier that only repeats the table's name belongs to that name, and is unique in a GeoPackage. */
+    /* An identifier that only repeats the table's name is not copied: identifiers are unique in a GeoPackage, and the
+     * new table has another name. */
     if (own && !EQUAL(own, identifier)) {
         if (layer->sink->format.geopackage && layer->sink->updating && identifier_taken(layer->sink, own))
             gis_sentences_add(&layer->sink->warnings,
@@ -80,7 +82,7 @@ static char **offer_texts(const gis_sink_layer *layer, char **options)
     return offer(layer, options, "DESCRIPTION", GDALGetMetadataItem(source, "DESCRIPTION", NULL));
 }
 
-/* Features of the source that have a coordinate which is no finite number. */
+/* The number of features of the source with a coordinate that is not finite. */
 static size_t broken_features(const gis_sink_layer *layer)
 {
     return gis_source_content_count(layer->sink->source, GIS_BROKEN);
@@ -96,14 +98,14 @@ static char **offer_source_names(const gis_sink_layer *layer, char **options)
         OGRGeomFieldDefnH geometry = OGR_FD_GetGeomFieldDefn(definition, 0);
         options = offer(layer, options, "GEOMETRY_NAME",
                         free_name(layer, OGR_GFld_GetNameRef(geometry), usual_geometry, numbered));
-        /* Of the source's own geometries alone: symbols made of them may be null where they are not. */
+        /* Only for the source's own geometries: a symbol may be null where the geometry is not. */
         if (layer->request.as_source && !OGR_GFld_IsNullable(geometry) && broken_features(layer) == 0)
             options = offer(layer, options, "GEOMETRY_NULLABLE", "NO");
     }
     return layer->request.as_source ? offer_texts(layer, options) : options;
 }
 
-/* A Shapefile from a Shapefile keeps the code page of its texts; any other is UTF-8. */
+/* The encoding of a Shapefile: that of the source if it is a Shapefile with a known one; else UTF-8. */
 static const char *shapefile_encoding(const gis_sink *sink)
 {
     if (!sink->source) return "UTF-8";
@@ -128,7 +130,8 @@ static char **layer_options(const gis_sink_layer *layer)
     options = offer(layer, options, "GEOMETRY", "AS_WKT");
     if (!sink->to_stdout) options = offer(layer, options, "CREATE_CSVT", "YES");
     if (sink->format.shapefile) options = offer(layer, options, "ENCODING", shapefile_encoding(sink));
-    if (!CSLFetchNameValue(options, "COORDINATE_PRECISION")) /* 17 digits tell every double: see rewrite.c */
+    /* 17 digits are enough for every double: see sink_rewrite.c */
+    if (!CSLFetchNameValue(options, "COORDINATE_PRECISION"))
         options = offer(layer, options, "SIGNIFICANT_FIGURES", layer->more_digits ? "20" : "17");
     return options;
 }
@@ -146,8 +149,8 @@ static void copy_metadata(const gis_sink_layer *layer)
     CSLDestroy(all);
 }
 
-/* Some formats allow few characters in the name of a layer. One that has a file for each layer may name the layer after
- * its file, which is no loss. */
+/* Takes over the name that the format gave the layer, and notes a loss if it differs: some formats limit the length. A
+ * format with a file for each layer may name the layer after its file, which is not a loss. */
 static void note_name(gis_sink_layer *layer)
 {
     const char *name = OGR_L_GetName(layer->layer);
@@ -177,9 +180,9 @@ bool gis_sink_create_layer(gis_sink_layer *layer, gis_error *error)
 {
     gis_sink *sink = layer->sink;
     gis_sink_choose_type(layer);
-    /* shapelib, asked to orient the rings, takes a hole for an outer ring if its Z differ from the outer ring's (it
-     * comes back filled), and an invalid member that lies across another for its hole. Here it is known which rings are
-     * holes: they are oriented before, and shapelib is told to keep them. */
+    /* shapelib's own orientation of rings is turned off. It takes a hole whose Z differs from the outer ring's for an
+     * outer ring (and the hole is filled when read), and an invalid member that crosses another for a hole of it. Here
+     * it is known which rings are holes, so the rings are oriented before shapelib gets them. */
     layer->wind = sink->format.shapefile;
     if (layer->wind && !CPLGetConfigOption("SHAPE_REWIND_ON_WRITE", NULL)) {
         CPLSetThreadLocalConfigOption("SHAPE_REWIND_ON_WRITE", "NO");
@@ -202,13 +205,13 @@ bool gis_sink_create_layer(gis_sink_layer *layer, gis_error *error)
         layer->can_curve = OGR_L_TestCapability(layer->layer, OLCCurveGeometries);
     }
     gis_listen_end();
-    /* In a database GDAL may go on with half of a layer where a statement fails. */
+    /* After a failed statement GDAL may continue with an incomplete layer in a database. */
     if (!layer->layer || (sink->format.sqlite && listener.failures))
         done = gis_fail(error, "%s: layer %s cannot be made: %s", sink->request.path, layer->name,
                         gis_listener_reason(&listener, "GDAL gives no reason"));
     gis_listener_clear(&listener);
     CSLDestroy(options);
-    /* What is promised is promised of the features; arrows and links may be rounded. */
+    /* The guarantee covers the features; geometries of arrows and links may be rounded. */
     layer->promised = layer->request.like_source || !layer->request.suffix[0];
     layer->keep_sent = gis_sink_remembers(sink);
     layer->can_rewrite = layer->keep_sent && layer->file && digits_are_ours(sink);

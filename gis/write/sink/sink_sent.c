@@ -1,4 +1,5 @@
-/* sink_sent.c: features as they were sent, kept to be compared, or sent again: for formats that change values. */
+/* sink_sent.c: keeps features as they were sent, to compare them or to send them again; for formats that change
+ * values. */
 #include "base/array.h"
 #include "write/sink/sink_internal.h"
 
@@ -18,7 +19,7 @@ static gis_value *values_of(const gis_sink_layer *layer, size_t i)
 
 const gis_value *gis_sink_sent_values(const gis_sink_layer *layer, size_t i) { return values_of(layer, i); }
 
-/* The values of the newest feature that is remembered. */
+/* Keeps a copy of the values of the feature that was remembered last. */
 bool gis_sink_remember_values(gis_sink_layer *layer, const gis_value *values, gis_error *error)
 {
     size_t n = layer->request.n_fields;

@@ -1,15 +1,15 @@
-/* sink_type.c: the type of geometry that a layer is declared to hold, and how features are converted to it: the
- * source's type, the multi type (-nlt PROMOTE_TO_MULTI), or the type of its features where a driver must be told. */
+/* sink_type.c: the geometry type that a layer is declared with, and the conversion of features to it: the source's
+ * type, the multi type (-nlt PROMOTE_TO_MULTI), or, if a driver requires a definite type, the type of its features. */
 #include "write/sink/abilities.h"
 #include "write/sink/sink_internal.h"
 
-/* Does the type leave open what the layer holds? */
+/* Is the type open: may features of different types be in the layer? */
 static bool is_open(OGRwkbGeometryType type)
 {
     return wkbFlatten(type) == wkbUnknown || wkbFlatten(type) == wkbGeometryCollection;
 }
 
-/* Are all features that have a geometry of this content? */
+/* Do all features with a geometry have this content? */
 static bool all_are(const gis_source *source, gis_content content)
 {
     for (gis_content other = GIS_NOTHING + 1; other < GIS_BROKEN; other++)
@@ -26,7 +26,7 @@ static bool any_is_3d(const gis_source *source)
     return false;
 }
 
-/* The type of several for what a source of an open type holds; the type itself if that is more than one kind. */
+/* The multi type for the features of a source whose `type` is open; `type` itself if they are of more than one kind. */
 static OGRwkbGeometryType type_of_content(const gis_source *source, OGRwkbGeometryType type)
 {
     OGRwkbGeometryType found = all_are(source, GIS_POLYGONS) ? wkbMultiPolygon
@@ -35,8 +35,8 @@ static OGRwkbGeometryType type_of_content(const gis_source *source, OGRwkbGeomet
     return found == type ? type : OGR_GT_SetModifier(found, OGR_GT_HasZ(type) || any_is_3d(source), OGR_GT_HasM(type));
 }
 
-/* Some formats (Shapefile) say Polygon and mean Polygon or MultiPolygon. Elsewhere the word binds: there the layer is
- * declared as the wider type, and every feature written as it. */
+/* Is the source a Shapefile declared as Polygon that holds multipolygons? Shapefiles use Polygon for both; other
+ * formats distinguish the two, so there the layer is declared as MultiPolygon, and every feature is written as one. */
 static bool means_both(const gis_sink_layer *layer, OGRwkbGeometryType type)
 {
     const gis_source *source = layer->sink->source;

@@ -1,5 +1,5 @@
-/* sink_whole.c: what a GeoPackage keeps of a layer besides its rows, where not all of these went through GDAL: it would
- * tell of too few of them. */
+/* sink_whole.c: the feature count and extent that a GeoPackage stores for a layer. If some rows did not go through
+ * GDAL, GDAL would store too small ones. */
 #include "base/path.h"
 #include "gpkg/sql.h"
 #include "gpkg/sqlite_insert.h"
@@ -18,8 +18,8 @@ void gis_sink_widen(OGREnvelope *around, const OGREnvelope *box)
     around->MaxY = fmax(around->MaxY, box->MaxY);
 }
 
-/* GDAL writes how many features it wrote, at a time of its own: as it does, the number becomes the right one. A
- * trigger of the connection's own is not in the file. name: in quotes of SQL's. */
+/* Makes the stored feature count right. GDAL stores the number of features that it wrote itself, at a time of its
+ * choice; a temporary trigger, which exists in this connection only, replaces it then. `name` is escaped for SQL. */
 static bool note_count(const gis_sink_layer *layer, void *database, const char *name)
 {
     char *sql = gis_printed(
@@ -32,7 +32,7 @@ static bool note_count(const gis_sink_layer *layer, void *database, const char *
     return done;
 }
 
-/* Around what GDAL wrote, too. */
+/* Widens rows.around by the extent of the rows that GDAL wrote. */
 static bool find_extent(gis_sink_layer *layer)
 {
     OGREnvelope box;
@@ -41,8 +41,8 @@ static bool find_extent(gis_sink_layer *layer)
     return true;
 }
 
-/* The same of the extent, which GDAL may have written by now, and may write again; its numbers as GDAL has SQLite print
- * them. */
+/* Makes the stored extent right, now and whenever GDAL stores it again (by a temporary trigger); the numbers are
+ * printed as GDAL has SQLite print them. `name` is escaped for SQL. */
 static bool note_extent(const gis_sink_layer *layer, void *database, const char *name)
 {
     static const char *const sides[] = {"min_x", "min_y", "max_x", "max_y"};
@@ -80,7 +80,8 @@ bool gis_sink_note_whole(gis_sink_layer *layer, void *database, gis_error *error
                             layer->sink->request.path, layer->name);
 }
 
-/* Does the extent reach as far as a side is, upwards, or downwards (-1)? GDAL reads it with fifteen digits. */
+/* Does the stored bound `told` reach `side`? way = 1: an upper bound; -1: a lower bound. The tolerance allows for
+ * GDAL's printing with fifteen digits. */
 static bool reaches(double told, double side, int way) { return way * (side - told) <= 1e-14 * fabs(side) + DBL_MIN; }
 
 bool gis_sink_check_whole(const gis_sink_layer *layer, OGRLayerH as_written, gis_error *error)

@@ -1,11 +1,11 @@
-/* sink_write.c: features on their way out: as rows past GDAL where all is plain, else by GDAL. A layer is begun again
- * at the first coordinate that would lose digits. */
+/* sink_write.c: writes features: as rows through SQLite if everything is plain, else with GDAL. A layer is begun again,
+ * with more digits, at the first coordinate that would lose digits. */
 #include "base/interrupt.h"
 #include "write/sink/sink_internal.h"
 
 #include <stdlib.h>
 
-/* more: are digits lacking? */
+/* Begins the layer again with more digits, if `more` says that they are needed. */
 static bool begin_again_if(bool more, gis_sink_layer *layer, gis_error *error)
 {
     return !more || (gis_sink_close(layer->sink, layer, error) && gis_sink_send_again(layer, error));
