@@ -19,14 +19,14 @@
 
 /* Does `operand` (an operand, or the value of an option) name `file`, or a file within it? "@FILE" names FILE, and the
  * path of an archive's member (/vsizip/...) counts as the archive. */
-static bool reads(const char *operand, const char *file)
+static bool operand_names(const char *operand, const char *file)
 {
     return operand && gis_path_lies_in(operand + (operand[0] == '@'), file);
 }
 
-static bool reads_text(const char *operand, const char *file)
+static bool text_operand_names(const char *operand, const char *file)
 {
-    return operand && operand[0] == '@' && reads(operand, file);
+    return operand && operand[0] == '@' && operand_names(operand, file);
 }
 
 /* Refuses an output that is also a text file given as @FILE. Datasets that are inputs are compared with the output by
@@ -34,8 +34,10 @@ static bool reads_text(const char *operand, const char *file)
 static bool check_texts(const gis_destinations *to, gis_error *error)
 {
     bool read = false;
-    for (size_t i = 0; to->output && i < N_OF(to->input); i++) read = read || reads_text(to->input[i], to->output);
-    for (size_t i = 0; to->output && i < N_OF(to->shape); i++) read = read || reads_text(to->shape[i], to->output);
+    for (size_t i = 0; to->output && i < N_OF(to->input); i++)
+        read = read || text_operand_names(to->input[i], to->output);
+    for (size_t i = 0; to->output && i < N_OF(to->shape); i++)
+        read = read || text_operand_names(to->shape[i], to->output);
     return !read || gis_fail(error, "%s is an input; give another output", to->output);
 }
 
@@ -44,12 +46,12 @@ static bool check_file(const gis_destinations *to, const char *option, const cha
 {
     struct stat info;
     for (size_t i = 0; i < N_OF(to->input); i++)
-        if (reads(to->input[i], path))
+        if (operand_names(to->input[i], path))
             return gis_fail_usage(error, "%s %s: that is an input; give another file", option, path);
     for (size_t i = 0; i < N_OF(to->shape); i++)
-        if (reads_text(to->shape[i], path))
+        if (text_operand_names(to->shape[i], path))
             return gis_fail_usage(error, "%s %s: that is an input; give another file", option, path);
-    if (reads(to->output, path))
+    if (operand_names(to->output, path))
         return gis_fail_usage(error, "%s %s: that is the output; give another file", option, path);
     if (!gis_link_may_be_followed(path, option, error)) return false;
     bool there = stat(path, &info) == 0;

@@ -22,7 +22,7 @@ typedef struct ring_view {
     bool backward;
 } ring_view;
 
-static const double *vertex(const ring_view *ring, size_t i)
+static const double *ring_vertex(const ring_view *ring, size_t i)
 {
     size_t k = ring->backward ? (ring->first + ring->n - i % ring->n) % ring->n : (ring->first + i) % ring->n;
     return ring->xy + 2 * k;
@@ -38,7 +38,7 @@ static int compare_rings(const ring_view *a, const ring_view *b)
 {
     if (a->n != b->n) return a->n < b->n ? -1 : 1;
     for (size_t i = 0; i < a->n; i++) {
-        int order = compare_points(vertex(a, i), vertex(b, i));
+        int order = compare_points(ring_vertex(a, i), ring_vertex(b, i));
         if (order) return order;
     }
     return 0;
@@ -85,7 +85,7 @@ static int order_members(const void *a, const void *b)
 }
 
 /* Fills `members` and, with their rings, `views` with the normal form of `rings`; both arrays must be large enough. */
-static void normalise(const gis_polygons *rings, member *members, ring_view *views)
+static void normalise_polygons(const gis_polygons *rings, member *members, ring_view *views)
 {
     size_t r = 0;
     for (size_t p = 0; p < rings->polygons; p++) {
@@ -100,7 +100,7 @@ static void normalise(const gis_polygons *rings, member *members, ring_view *vie
     qsort(members, rings->polygons, sizeof *members, order_members);
 }
 
-static bool identical(const gis_polygons *a, const gis_polygons *b)
+static bool polygons_identical(const gis_polygons *a, const gis_polygons *b)
 {
     return a->vertices == b->vertices && a->rings == b->rings && a->polygons == b->polygons &&
            (!a->polygons || (memcmp(a->poly_end, b->poly_end, a->polygons * sizeof *a->poly_end) == 0 &&
@@ -110,13 +110,13 @@ static bool identical(const gis_polygons *a, const gis_polygons *b)
 
 static bool same_polygons(const gis_polygons *a, const gis_polygons *b, bool *same, gis_error *error)
 {
-    *same = identical(a, b);
+    *same = polygons_identical(a, b);
     if (*same || a->polygons != b->polygons || a->rings != b->rings) return true;
     member *members = malloc((2 * a->polygons + 1) * sizeof *members);
     ring_view *views = malloc((2 * a->rings + 1) * sizeof *views);
     if (members && views) {
-        normalise(a, members, views);
-        normalise(b, members + a->polygons, views + a->rings);
+        normalise_polygons(a, members, views);
+        normalise_polygons(b, members + a->polygons, views + a->rings);
         *same = true;
         for (size_t p = 0; *same && p < a->polygons; p++)
             *same = order_members(&members[p], &members[a->polygons + p]) == 0;
@@ -170,7 +170,7 @@ typedef struct workspace {
     bool damaged;
 } workspace;
 
-static void differ(gis_sink_result *result, double deviation)
+static void note_difference(gis_sink_result *result, double deviation)
 {
     result->exact = false;
     result->deviation = fmax(result->deviation, deviation);
@@ -183,10 +183,10 @@ static bool compare_vertices(OGRGeometryH sent, OGRGeometryH kept, workspace *wo
     double *a = NULL, *b = NULL;
     size_t n_a = 0, n_b = 0;
     bool done = gis_geometry_points(sent, &a, &n_a, error) && gis_geometry_points(kept, &b, &n_b, error);
-    if (done && n_a != n_b) differ(result, INFINITY);
+    if (done && n_a != n_b) note_difference(result, INFINITY);
     for (size_t i = 0; done && n_a == n_b && i < n_a; i++)
         if (compare_points(a + 2 * i, b + 2 * i) != 0)
-            differ(result, hypot(a[2 * i] - b[2 * i], a[2 * i + 1] - b[2 * i + 1]));
+            note_difference(result, hypot(a[2 * i] - b[2 * i], a[2 * i + 1] - b[2 * i + 1]));
     work->damaged = work->damaged || (work->keeps_vertices && !result->exact);
     CPLFree(a);
     CPLFree(b);
@@ -199,7 +199,7 @@ static bool compare_geometries(OGRGeometryH sent, OGRGeometryH kept, workspace *
     gis_content content = gis_geometry_content(sent);
     if (content != gis_geometry_content(kept)) {
         work->damaged = work->damaged || work->keeps_vertices;
-        differ(result, INFINITY);
+        note_difference(result, INFINITY);
         return true;
     }
     if (content == GIS_NOTHING) return true;
@@ -211,7 +211,7 @@ static bool compare_geometries(OGRGeometryH sent, OGRGeometryH kept, workspace *
         return false;
     if (!same) /* rings that were only regrouped into other members have all their vertices */
         work->damaged = work->damaged || (work->keeps_vertices && any_elsewhere(&work->sent.set, &work->kept.set));
-    if (!same) differ(result, polygon_deviation(&work->sent.set, &work->kept.set));
+    if (!same) note_difference(result, polygon_deviation(&work->sent.set, &work->kept.set));
     return true;
 }
 

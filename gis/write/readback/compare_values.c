@@ -38,7 +38,7 @@ bool gis_sink_begin_values(gis_sink_layer *layer, OGRLayerH as_written, gis_erro
     return true;
 }
 
-static void note(gis_field_change *change, bool same, GIntBig fid)
+static void count_change(gis_field_change *change, bool same, GIntBig fid)
 {
     if (!same && change->count++ == 0) change->first = fid;
 }
@@ -111,13 +111,13 @@ static void compare_own(const gis_value *sent, OGRFeatureH kept, gis_field_chang
     if (sent->kind == GIS_NULL)
         change->nulls += !blank;
     else if (blank)
-        note(change, sent->kind == GIS_TEXT && !sent->as.text[0], fid);
+        count_change(change, sent->kind == GIS_TEXT && !sent->as.text[0], fid);
     else if (sent->kind == GIS_INTEGER)
-        note(change, is_the_integer(sent->as.integer, kept, k), fid);
+        count_change(change, is_the_integer(sent->as.integer, kept, k), fid);
     else if (sent->kind == GIS_REAL)
-        note(change, is_the_real(sent->as.real, kept, k), fid);
+        count_change(change, is_the_real(sent->as.real, kept, k), fid);
     else
-        note(change, strcmp(OGR_F_GetFieldAsString(kept, k), sent->as.text) == 0, fid);
+        count_change(change, strcmp(OGR_F_GetFieldAsString(kept, k), sent->as.text) == 0, fid);
 }
 
 /* If the format keeps FIDs they are compared as the FIDs of features; else as the values of the field sunder_fid. */
@@ -126,9 +126,9 @@ static void compare_fid(gis_sink_layer *layer, GIntBig fid, OGRFeatureH kept)
     gis_field_change *change = &layer->fid_change;
     if (!layer->request.like_source || fid == OGRNullFID) return;
     if (layer->sink->fids_kept)
-        note(change, OGR_F_GetFID(kept) == fid, fid);
+        count_change(change, OGR_F_GetFID(kept) == fid, fid);
     else if (change->index >= 0)
-        note(change, !gis_field_is_blank(kept, change->index) && is_the_integer(fid, kept, change->index), fid);
+        count_change(change, !gis_field_is_blank(kept, change->index) && is_the_integer(fid, kept, change->index), fid);
 }
 
 bool gis_sink_compare_values(gis_sink_layer *layer, size_t i, OGRFeatureH kept, gis_error *error)
@@ -140,7 +140,7 @@ bool gis_sink_compare_values(gis_sink_layer *layer, size_t i, OGRFeatureH kept, 
     const int fields = layer->changes && feature ? OGR_F_GetFieldCount(feature) : 0;
     for (int f = 0; f < fields; f++)
         if (layer->changes[f].index >= 0)
-            note(&layer->changes[f], same_value(feature, f, kept, layer->changes[f].index), fid);
+            count_change(&layer->changes[f], same_value(feature, f, kept, layer->changes[f].index), fid);
     for (size_t f = 0; values && f < layer->request.n_fields; f++)
         if (layer->own_changes[f].index >= 0) compare_own(&values[f], kept, &layer->own_changes[f], fid);
     if (feature) compare_fid(layer, fid, kept);

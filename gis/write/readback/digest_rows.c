@@ -34,7 +34,7 @@ typedef struct reading {
     uint64_t so_far;
 } reading;
 
-static bool number(reading *r, uint32_t *n)
+static bool take_number(reading *r, uint32_t *n)
 {
     if (r->end - r->at < (ptrdiff_t)sizeof *n) return false;
     memcpy(n, r->at, sizeof *n);
@@ -43,7 +43,7 @@ static bool number(reading *r, uint32_t *n)
 }
 
 /* Adds n points to the hash; false if n is 0 or the blob is too short. */
-static bool points(reading *r, size_t n)
+static bool mix_points(reading *r, size_t n)
 {
     if (n == 0 || (size_t)(r->end - r->at) / POINT_BYTES < n) return false;
     r->so_far = gis_mix(r->so_far, n);
@@ -58,38 +58,38 @@ static bool points(reading *r, size_t n)
 static bool ring_or_line(reading *r)
 {
     uint32_t n;
-    return number(r, &n) && points(r, n);
+    return take_number(r, &n) && mix_points(r, n);
 }
 
 /* Computes the hash that mix_geometry() in sent_digests.c computes. False for a type that is not handled here, and for
  * an empty geometry. */
-static bool geometry(reading *r, bool part)
+static bool mix_geometry_blob(reading *r, bool part)
 {
     uint32_t type, n;
-    if (r->at == r->end || *r->at++ != order || !number(r, &type)) return false;
+    if (r->at == r->end || *r->at++ != order || !take_number(r, &type)) return false;
     if (type == wkbLineString) return ring_or_line(r);
     if (type == wkbPolygon)
         r->so_far = gis_mix(r->so_far, GIS_MIX_POLYGON);
     else if (part || (type != wkbMultiPolygon && type != wkbMultiLineString))
         return false;
-    bool good = number(r, &n) && n > 0;
-    for (; good && n > 0; n--) good = type == wkbPolygon ? ring_or_line(r) : geometry(r, true);
+    bool good = take_number(r, &n) && n > 0;
+    for (; good && n > 0; n--) good = type == wkbPolygon ? ring_or_line(r) : mix_geometry_blob(r, true);
     return good;
 }
 
-static bool blob(const unsigned char *bytes, size_t size, uint64_t *so_far)
+static bool mix_blob(const unsigned char *bytes, size_t size, uint64_t *so_far)
 {
     size_t rest;
     const unsigned char *at = gis_blob_geometry(bytes, size, &rest);
     if (!at) return false;
     reading r = {at, at + rest, *so_far};
-    if (!geometry(&r, false) || r.at != r.end) return false;
+    if (!mix_geometry_blob(&r, false) || r.at != r.end) return false;
     *so_far = r.so_far;
     return true;
 }
 
 /* Does `value` have the type that GDAL would give it in this field? */
-static bool suits(const gis_value *value, const gis_plain_field *field)
+static bool value_suits_field(const gis_value *value, const gis_plain_field *field)
 {
     switch (value->kind) {
     case GIS_TEXT: return field->type == OFTString;
@@ -103,7 +103,7 @@ static bool suits(const gis_value *value, const gis_plain_field *field)
 
 /* Hashes the current row of `statement`, whose columns are the FID, the geometry and the fields. False if the row is
  * not plain. */
-static bool row(const gis_digests *all, void *statement, gis_digest *out)
+static bool digest_row(const gis_digests *all, void *statement, gis_digest *out)
 {
     gis_value value;
     size_t size;
@@ -112,13 +112,14 @@ static bool row(const gis_digests *all, void *statement, gis_digest *out)
     if (!gis_sqlite_select_value(statement, 0, &value) || value.kind != GIS_INTEGER) return false;
     if (all->with_fid) out->place = gis_mix(out->place, (uint64_t)value.as.integer);
     for (size_t i = 0; i < all->n_fields; i++) {
-        if (!gis_sqlite_select_value(statement, (int)i + 2, &value) || !suits(&value, &all->fields[i])) return false;
+        if (!gis_sqlite_select_value(statement, (int)i + 2, &value) || !value_suits_field(&value, &all->fields[i]))
+            return false;
         out->values = gis_mix_plain(out->values, &value, &all->fields[i]);
     }
     const unsigned char *bytes = gis_sqlite_select_bytes(statement, 1, &size, &null);
     if (null)
         out->place = gis_mix(out->place, GIS_MIX_NOTHING);
-    else if (!bytes || !blob(bytes, size, &out->place))
+    else if (!bytes || !mix_blob(bytes, size, &out->place))
         return false;
     out->values = gis_mix(out->values, out->place);
     return true;
@@ -162,7 +163,7 @@ static void read_half(void *context)
     h->done = true;
     while (h->done && (next = gis_sqlite_select_next(h->statement)) == GIS_SQLITE_HAS_ROW) {
         h->done = !gis_interrupted() && gis_array_reserve(&h->at, &h->capacity, h->n + 1, sizeof *h->at) &&
-                  row(h->all, h->statement, &h->at[h->n]);
+                  digest_row(h->all, h->statement, &h->at[h->n]);
         h->n += h->done;
     }
     h->done = h->done && next == GIS_SQLITE_AT_END;
@@ -176,7 +177,7 @@ static bool read_stretch(gis_digests *all, void *statement, gis_digests_read *re
     bool done = statement;
     while (done && (next = gis_sqlite_select_next(statement)) == GIS_SQLITE_HAS_ROW) {
         gis_digest one;
-        done = !gis_interrupted() && row(all, statement, &one) && gis_digests_read_add(read, all, one, &unheard);
+        done = !gis_interrupted() && digest_row(all, statement, &one) && gis_digests_read_add(read, all, one, &unheard);
     }
     return done && next == GIS_SQLITE_AT_END;
 }

@@ -32,7 +32,7 @@ static void find_fields(gis_digests *all, OGRLayerH as_written)
 
 /* ---- Both lists -------------------------------------------------------------------------------------------------- */
 
-static int order(const void *a, const void *b)
+static int order_digests(const void *a, const void *b)
 {
     const gis_digest *p = a, *q = b;
     if (p->place != q->place) return p->place < q->place ? -1 : 1;
@@ -41,13 +41,13 @@ static int order(const void *a, const void *b)
 
 /* The number of elements of `sent` that are not in `read`. Both have n elements, are sorted, and may have repeats.
  * values: compare `values` too, not only `place`. */
-static size_t missing(const gis_digest *sent, const gis_digest *read, size_t n, bool values)
+static size_t count_missing(const gis_digest *sent, const gis_digest *read, size_t n, bool values)
 {
     size_t count = 0;
     for (size_t i = 0, k = 0; i < n;) {
         int way = k == n                           ? -1
                   : sent[i].place != read[k].place ? (sent[i].place < read[k].place ? -1 : 1)
-                  : values                         ? order(&sent[i], &read[k])
+                  : values                         ? order_digests(&sent[i], &read[k])
                                                    : 0;
         count += way < 0;
         i += way <= 0;
@@ -56,7 +56,7 @@ static size_t missing(const gis_digest *sent, const gis_digest *read, size_t n, 
     return count;
 }
 
-static bool compare(gis_sink_layer *layer, const gis_digests_read *as_read, gis_error *error)
+static bool compare_digests(gis_sink_layer *layer, const gis_digests_read *as_read, gis_error *error)
 {
     gis_sink *sink = layer->sink;
     gis_digests *all = &layer->digests;
@@ -67,11 +67,11 @@ static bool compare(gis_sink_layer *layer, const gis_digests_read *as_read, gis_
     gis_digest *read = as_read->at;
     if (!gis_digest_list_hold(&all->sent, n, error)) return false;
     if (n) { /* with n = 0 both arrays are NULL */
-        qsort(all->sent.at, n, sizeof *read, order);
-        qsort(read, n, sizeof *read, order);
+        qsort(all->sent.at, n, sizeof *read, order_digests);
+        qsort(read, n, sizeof *read, order_digests);
     }
-    size_t lost = missing(all->sent.at, read, n, false);
-    size_t changed = lost || !all->values_comparable ? 0 : missing(all->sent.at, read, n, true);
+    size_t lost = count_missing(all->sent.at, read, n, false);
+    size_t changed = lost || !all->values_comparable ? 0 : count_missing(all->sent.at, read, n, true);
     if (!lost && changed && !sink->format.keeps_values) {
         gis_sentences_add(&sink->losses, "layer %s: the values of %zu features do not read back as they were written",
                           layer->name, changed);
@@ -117,7 +117,7 @@ bool gis_digests_agree(gis_sink_layer *layer, GDALDatasetH dataset, OGRLayerH as
     layer->digests.values_comparable = true;
     find_fields(&layer->digests, as_written);
     bool done = (gis_read_rows(layer, dataset, as_written, &read) || read_back(layer, as_written, &read, error)) &&
-                (layer->written == 0 || compare(layer, &read, error));
+                (layer->written == 0 || compare_digests(layer, &read, error));
     free(read.at);
     return done;
 }

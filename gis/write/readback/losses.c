@@ -14,9 +14,9 @@ typedef struct parts {
     char text[600];
 } parts;
 
-static void say(parts *all, const char *format, ...) __attribute__((format(printf, 2, 3)));
+static void add_phrase(parts *all, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-static void say(parts *all, const char *format, ...)
+static void add_phrase(parts *all, const char *format, ...)
 {
     size_t used = strlen(all->text);
     if (used) used += (size_t)snprintf(all->text + used, sizeof all->text - used, ", ");
@@ -48,22 +48,22 @@ static void compare_field(const gis_sink_layer *layer, OGRFieldDefnH sent, OGRFi
 {
     parts lost = {""};
     const char *name = OGR_Fld_GetNameRef(sent);
-    if (strcmp(name, OGR_Fld_GetNameRef(kept)) != 0) say(&lost, "called %s", OGR_Fld_GetNameRef(kept));
+    if (strcmp(name, OGR_Fld_GetNameRef(kept)) != 0) add_phrase(&lost, "called %s", OGR_Fld_GetNameRef(kept));
     if (OGR_Fld_GetType(sent) != OGR_Fld_GetType(kept) || OGR_Fld_GetSubType(sent) != OGR_Fld_GetSubType(kept))
-        say(&lost, "%s instead of %s", type_name(kept), type_name(sent));
+        add_phrase(&lost, "%s instead of %s", type_name(kept), type_name(sent));
     int width = OGR_Fld_GetWidth(sent), width_kept = OGR_Fld_GetWidth(kept);
-    if (width_kept != 0 && width > width_kept) say(&lost, "width %d instead of %d", width_kept, width);
-    if (!OGR_Fld_IsNullable(sent) && OGR_Fld_IsNullable(kept)) say(&lost, "may be null");
+    if (width_kept != 0 && width > width_kept) add_phrase(&lost, "width %d instead of %d", width_kept, width);
+    if (!OGR_Fld_IsNullable(sent) && OGR_Fld_IsNullable(kept)) add_phrase(&lost, "may be null");
     if (OGR_Fld_IsUnique(sent) && !OGR_Fld_IsUnique(kept) && !layer->sink->request.new_fids)
-        say(&lost, "need not be unique");
+        add_phrase(&lost, "need not be unique");
     if (!same_text(OGR_Fld_GetDefault(sent), OGR_Fld_GetDefault(kept)))
-        say(&lost, "no default %s", OGR_Fld_GetDefault(sent) ? OGR_Fld_GetDefault(sent) : "");
+        add_phrase(&lost, "no default %s", OGR_Fld_GetDefault(sent) ? OGR_Fld_GetDefault(sent) : "");
     if (has_domain(NULL, sent) &&
         !(same_text(OGR_Fld_GetDomainName(sent), OGR_Fld_GetDomainName(kept)) && has_domain(layer->dataset, kept)))
-        say(&lost, "no domain %s", OGR_Fld_GetDomainName(sent));
+        add_phrase(&lost, "no domain %s", OGR_Fld_GetDomainName(sent));
     if (change && change->count)
-        say(&lost, "%zu value%s cannot be held as %s (first: FID %" PRId64 ")", change->count,
-            change->count == 1 ? "" : "s", change->count == 1 ? "it is" : "they are", (int64_t)change->first);
+        add_phrase(&lost, "%zu value%s cannot be held as %s (first: FID %" PRId64 ")", change->count,
+                   change->count == 1 ? "" : "s", change->count == 1 ? "it is" : "they are", (int64_t)change->first);
     if (lost.text[0]) gis_sentences_add(&layer->sink->losses, "field %s: %s", name, lost.text);
 }
 
@@ -125,7 +125,7 @@ static void tell_values(gis_sink_layer *layer)
         const char *name = layer->request.fields[i].name;
         if (layer->written && change->index < 0 && CSLGetField(layer->own_created, (int)i)[0])
             gis_sentences_add(losses, "layer %s: field %s is not there when it is read", layer->name, name);
-        if (change->nulls) say(&nulls, "%s", name);
+        if (change->nulls) add_phrase(&nulls, "%s", name);
         if (change->count)
             gis_sentences_add(losses, "layer %s, field %s: %zu value%s back as written", layer->name, name,
                               change->count, change->count == 1 ? " does not read" : "s do not read");

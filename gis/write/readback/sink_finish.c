@@ -87,7 +87,7 @@ static bool inspect_layer(gis_sink_layer *layer, GDALDatasetH dataset, gis_sink_
     return true;
 }
 
-static GDALDatasetH reopen(gis_sink *sink, const char *file)
+static GDALDatasetH reopen_file(gis_sink *sink, const char *file)
 {
     const char *drivers[] = {sink->format.name, NULL};
     char *path = gis_sink_inside(sink, file);
@@ -108,20 +108,20 @@ static bool inspect_file(gis_sink_layer *layer, gis_sink_result *result, gis_err
 {
     bool again, done;
     do {
-        GDALDatasetH dataset = reopen(layer->sink, layer->file);
+        GDALDatasetH dataset = reopen_file(layer->sink, layer->file);
         done = inspect_layer(layer, dataset, result, &again, error);
         if (dataset) GDALClose(dataset);
     } while (done && again && (done = gis_sink_rewrite(layer, error)));
     return done;
 }
 
-static bool inspect(gis_sink *sink, gis_sink_result *result, gis_error *error)
+static bool inspect_layers(gis_sink *sink, gis_sink_result *result, gis_error *error)
 {
     bool done = true, again;
     gis_listener listener = {0}; /* warnings of the reader are not shown to the user */
     gis_listen_begin(&listener);
     GDALDatasetH common =
-        sink->format.one_layer && sink->n_layers && sink->layers[0]->file ? NULL : reopen(sink, sink->main_file);
+        sink->format.one_layer && sink->n_layers && sink->layers[0]->file ? NULL : reopen_file(sink, sink->main_file);
     for (size_t i = 0; done && i < sink->n_layers; i++) {
         gis_sink_layer *layer = sink->layers[i];
         done = layer->file ? inspect_file(layer, result, error) : inspect_layer(layer, common, result, &again, error);
@@ -283,7 +283,7 @@ static bool inspect_files(gis_sink *sink, gis_sink_result *result, gis_error *er
     const bool apart = sink->stage && !sink->memory && gis_threads(sink->request.threads) > 1;
     gis_side_thread *beside = apart ? gis_side_thread_new() : NULL;
     if (beside) gis_side_thread_do(beside, write_out, sink->stage);
-    const bool done = inspect(sink, result, error);
+    const bool done = inspect_layers(sink, result, error);
     gis_side_thread_free(beside);
     return done;
 }

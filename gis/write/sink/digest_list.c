@@ -21,7 +21,7 @@ bool gis_digest_list_add(gis_digest_list *list, gis_digest one, gis_error *error
 }
 
 /* Loads the hashes with numbers from ... from + n - 1 into memory, in place of those loaded before. */
-static bool load(gis_digest_list *list, size_t from, size_t n, gis_error *error)
+static bool load_digests(gis_digest_list *list, size_t from, size_t n, gis_error *error)
 {
     if (!gis_array_reserve(&list->at, &list->capacity, n, sizeof *list->at)) return gis_no_memory(error);
     list->from = from;
@@ -33,7 +33,8 @@ static bool load(gis_digest_list *list, size_t from, size_t n, gis_error *error)
 bool gis_digest_list_get(gis_digest_list *list, size_t k, gis_digest *out, gis_error *error)
 {
     enum { STRETCH = 4096 };
-    if ((k < list->from || k >= list->held) && !load(list, k, list->n - k < STRETCH ? list->n - k : STRETCH, error))
+    if ((k < list->from || k >= list->held) &&
+        !load_digests(list, k, list->n - k < STRETCH ? list->n - k : STRETCH, error))
         return false;
     *out = list->at[k - list->from];
     return true;
@@ -41,7 +42,7 @@ bool gis_digest_list_get(gis_digest_list *list, size_t k, gis_digest *out, gis_e
 
 bool gis_digest_list_hold(gis_digest_list *list, size_t n, gis_error *error)
 {
-    return n == 0 || (list->from == 0 && list->held >= n) || load(list, 0, n, error);
+    return n == 0 || (list->from == 0 && list->held >= n) || load_digests(list, 0, n, error);
 }
 
 void gis_digest_list_clear(gis_digest_list *list)

@@ -13,7 +13,7 @@ static bool has_run(const char *text)
 
 /* Would GDAL print x with fewer than 17 digits that read back as another double? This predicts what GDAL does; the
  * written file is verified in any case. */
-static bool loses(double x)
+static bool loses_digits(double x)
 {
     char text[64];
     snprintf(text, sizeof text, "%.17g", x);
@@ -32,6 +32,6 @@ bool gis_sink_loses_digits(OGRGeometryH geometry)
         if (gis_sink_loses_digits(OGR_G_GetGeometryRef(geometry, i))) return true;
     if (OGR_G_GetGeometryCount(geometry)) return false;
     for (int i = 0; i < OGR_G_GetPointCount(geometry); i++)
-        if (loses(OGR_G_GetX(geometry, i)) || loses(OGR_G_GetY(geometry, i))) return true;
+        if (loses_digits(OGR_G_GetX(geometry, i)) || loses_digits(OGR_G_GetY(geometry, i))) return true;
     return false;
 }

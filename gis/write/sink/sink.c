@@ -70,7 +70,7 @@ static bool prepare_place(gis_sink *sink, gis_error *error)
 }
 
 /* Completes or undoes what an interrupted earlier run left beside the output, before the output is inspected. */
-static bool recover(gis_sink *sink, gis_error *error)
+static bool recover_output(gis_sink *sink, gis_error *error)
 {
     gis_sentences said = {0};
     bool done = sink->place != GIS_PLACE_FILE || gis_stage_recover(sink->request.path, &said, error);
@@ -103,8 +103,8 @@ bool gis_sink_open(const gis_sink_request *request, const gis_source *source, gi
     choose_place(sink);
     fix_date(sink);
     if (!gis_sink_check_type(sink, error) || !gis_sink_check_geometries(sink, error) ||
-        !gis_sink_check_reprojection(sink, error) || !recover(sink, error) || !gis_sink_check_existing(sink, error) ||
-        !prepare_place(sink, error)) {
+        !gis_sink_check_reprojection(sink, error) || !recover_output(sink, error) ||
+        !gis_sink_check_existing(sink, error) || !prepare_place(sink, error)) {
         gis_sink_free(sink);
         return false;
     }

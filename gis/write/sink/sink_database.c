@@ -123,7 +123,7 @@ static bool fail_locked(const gis_sink *sink, const char *reason, gis_error *err
  * begun still exists. */
 #define MARK "sunder_transaction"
 
-static bool guard(gis_sink *sink, gis_error *error)
+static bool guard_transaction(gis_sink *sink, gis_error *error)
 {
     char *journal = gis_printed("%s-journal", sink->request.path);
     sink->journal = gis_leftover_until(GIS_DECIDING, journal);
@@ -143,7 +143,7 @@ static bool guard(gis_sink *sink, gis_error *error)
            gis_sql_run(sink->dataset, "CREATE TEMP TABLE " MARK " (x)", "the database", error);
 }
 
-static void unguard(gis_sink *sink)
+static void unguard_transaction(gis_sink *sink)
 {
     if (sink->reading) GDALDatasetReleaseResultSet(sink->reader, sink->reading);
     if (sink->reader) GDALClose(sink->reader);
@@ -176,7 +176,7 @@ static bool begin_locked(gis_sink *sink, gis_error *error)
              : gis_sink_begin_transaction(sink, error) && (gis_sql_run(sink->dataset, sql, "the database", &reason) ||
                                                            fail_locked(sink, reason.message, error));
     CPLFree(sql);
-    return done && guard(sink, error);
+    return done && guard_transaction(sink, error);
 }
 
 bool gis_sink_unbroken(gis_sink *sink, gis_error *error)
@@ -189,7 +189,7 @@ bool gis_sink_unbroken(gis_sink *sink, gis_error *error)
                              sink->request.path);
 }
 
-static void abandon(gis_sink *sink)
+static void abandon_dataset(gis_sink *sink)
 {
     gis_listener listener = {0};
     gis_listen_begin(&listener);
@@ -214,7 +214,7 @@ bool gis_sink_open_sqlite(gis_sink *sink, gis_error *error)
         CPLFree(before.schema);
         CPLFree(after.schema);
         if (done) return true;
-        abandon(sink);
+        abandon_dataset(sink);
         if (!locked) return false;
     }
     return gis_fail(error, "%s: other programs keep changing it; nothing was changed by this one", sink->request.path);
@@ -265,7 +265,7 @@ bool gis_sink_flush(gis_sink *sink, gis_error *error)
 }
 
 /* Blocks further writes: what GDAL would write when it closes the file would be outside the transaction. */
-static void seal(gis_sink *sink)
+static void seal_database(gis_sink *sink)
 {
     if (in_sqlite_file(sink)) gis_sql_run(sink->dataset, "PRAGMA query_only = 1", "the database", NULL);
 }
@@ -274,10 +274,10 @@ void gis_sink_roll_back(gis_sink *sink)
 {
     if (sink->in_transaction) {
         GDALDatasetRollbackTransaction(sink->dataset);
-        seal(sink);
+        seal_database(sink);
     }
     sink->in_transaction = false;
-    unguard(sink);
+    unguard_transaction(sink);
 }
 
 /* Before the commit: closes this program's reader, and lets SQLite wait for other programs' readers. */
@@ -287,7 +287,7 @@ static bool clear_the_way(gis_sink *sink, gis_error *error)
     snprintf(wait, sizeof wait, "PRAGMA busy_timeout = %d", gis_sqlite_patience());
     if (!in_sqlite_file(sink)) return true;
     if (!gis_sink_unbroken(sink, error) || !gis_sql_run(sink->dataset, wait, "the database", error)) return false;
-    unguard(sink);
+    unguard_transaction(sink);
     return true;
 }
 
@@ -308,7 +308,7 @@ bool gis_sink_end_transaction(gis_sink *sink, gis_error *error)
         gis_fail(error, "%s: writing failed: %s", sink->request.path,
                  gis_listener_reason(&listener, "the transaction cannot be committed"));
     else
-        seal(sink);
+        seal_database(sink);
     gis_listener_clear(&listener);
     return done;
 }

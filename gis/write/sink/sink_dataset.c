@@ -17,7 +17,7 @@ static const char *const sqlite_companions[] = {"-wal", "-journal", "-shm"};
 
 /* Marks all files of the dataset at `path`, which is about to be replaced, to be moved aside when the stage is
  * published. */
-static void supersede(gis_sink *sink, const char *path)
+static void supersede_dataset(gis_sink *sink, const char *path)
 {
     gis_stage_supersede(sink->stage, path);
     if (gis_sink_is_directory(path)) return;
@@ -49,7 +49,7 @@ static void supersede_existing(gis_sink *sink, const char *file, bool may_replac
 {
     if (sink->place != GIS_PLACE_FILE || !may_replace) return;
     char *outside = gis_stage_outside(sink->stage, file);
-    if (gis_sink_exists(outside)) supersede(sink, outside);
+    if (gis_sink_exists(outside)) supersede_dataset(sink, outside);
     CPLFree(outside);
 }
 
@@ -75,7 +75,7 @@ static void copy_metadata(const gis_sink *sink, GDALDatasetH to)
     if (sink->format.geopackage && CSLCount(all) > 0) GDALSetMetadata(to, all, NULL);
 }
 
-static bool create(gis_sink *sink, const char *file, GDALDatasetH *out, gis_error *error)
+static bool create_dataset(gis_sink *sink, const char *file, GDALDatasetH *out, gis_error *error)
 {
     char *path = gis_sink_inside(sink, file);
     gis_sqlite_heed_signals();
@@ -118,13 +118,13 @@ bool gis_sink_dataset_for(gis_sink *sink, gis_sink_layer *layer, gis_error *erro
     if (sink->stage && !gis_stage_make(sink->stage, error)) return false;
     if (layer->file) {
         supersede_existing(sink, layer->file, sink->request.overwrite || sink->request.overwrite_layer);
-        return create(sink, layer->file, &layer->dataset, error);
+        return create_dataset(sink, layer->file, &layer->dataset, error);
     }
     if (!sink->dataset) {
         if (!sink->updating) supersede_existing(sink, sink->main_file, sink->request.overwrite);
-        if (!(sink->updating
-                  ? open_for_update(sink, error)
-                  : create(sink, sink->main_file, &sink->dataset, error) && gis_sink_begin_transaction(sink, error)))
+        if (!(sink->updating ? open_for_update(sink, error)
+                             : create_dataset(sink, sink->main_file, &sink->dataset, error) &&
+                                   gis_sink_begin_transaction(sink, error)))
             return false;
     }
     layer->dataset = sink->dataset;

@@ -115,7 +115,7 @@ static bool create_feature(gis_sink_layer *layer, OGRFeatureH to, const GIntBig 
 }
 
 /* Adapts a complete feature to the format, and writes it. */
-static bool send(gis_sink_layer *layer, OGRFeatureH to, const GIntBig *from, gis_error *error)
+static bool send_feature(gis_sink_layer *layer, OGRFeatureH to, const GIntBig *from, gis_error *error)
 {
     if (layer->promote) gis_sink_promote(layer, to);
     if (layer->request.as_source && !gis_sink_holds(layer, OGR_F_GetGeometryRef(to))) OGR_F_SetGeometry(to, NULL);
@@ -145,7 +145,7 @@ bool gis_sink_put(gis_sink_layer *layer, OGRFeatureH feature, OGRGeometryH geome
                gis_sink_remember_values(layer, values, error);
     OGR_F_SetGeometryDirectly(to, geometry);
     const GIntBig from = feature ? OGR_F_GetFID(feature) : OGRNullFID;
-    done = done && send(layer, to, feature ? &from : NULL, error);
+    done = done && send_feature(layer, to, feature ? &from : NULL, error);
     if (done) look_at_digits(layer, to, more);
     OGR_F_Destroy(to);
     return done;
@@ -161,7 +161,8 @@ bool gis_sink_put_moved(gis_sink_layer *layer, OGRFeatureH feature, double dx, d
         done = gis_sink_remember(layer, (gis_sent){feature, NULL, true, dx, dy}, error) &&
                gis_sink_remember_values(layer, values, error);
     const GIntBig from = OGR_F_GetFID(feature);
-    done = done && gis_geometry_translate(OGR_F_GetGeometryRef(to), dx, dy, error) && send(layer, to, &from, error);
+    done = done && gis_geometry_translate(OGR_F_GetGeometryRef(to), dx, dy, error) &&
+           send_feature(layer, to, &from, error);
     if (done) look_at_digits(layer, to, more);
     OGR_F_Destroy(to);
     return done;
@@ -178,7 +179,7 @@ bool gis_sink_put_source(gis_sink_layer *layer, size_t i, double dx, double dy, 
     if (done) set_fid(layer, to, from);
     done = done && (!layer->lists || set_lists(layer, to, gis_source_feature(source, i), error));
     if (done) set_values(layer, to, values);
-    done = done && send(layer, to, &from, error);
+    done = done && send_feature(layer, to, &from, error);
     OGR_F_Destroy(to);
     return done;
 }

@@ -24,7 +24,7 @@ static void print_type(OGRwkbGeometryType type, char word[WORD_SIZE])
 }
 
 /* Does the query return `wanted` in its first row (ignoring case)? False if it returns no row. */
-static bool answers(const gis_sink_layer *layer, const char *sql, const char *wanted)
+static bool query_gives(const gis_sink_layer *layer, const char *sql, const char *wanted)
 {
     char *answer = gis_sql_ask(layer->dataset, sql);
     const bool same = answer && EQUAL(answer, wanted);
@@ -42,7 +42,7 @@ static bool is_in_geopackage(const gis_sink_layer *layer, const char *name)
                             "lower(g.table_name) = lower(c.table_name) WHERE lower(c.table_name) = lower('%s')",
                             name);
     char *wanted = gis_printed("features %s %s 1", OGR_L_GetGeometryColumn(layer->layer), type);
-    const bool found = answers(layer, sql, wanted);
+    const bool found = query_gives(layer, sql, wanted);
     CPLFree(sql);
     CPLFree(wanted);
     return found;
@@ -60,7 +60,7 @@ static bool has_its_crs(const gis_sink_layer *layer, const char *name)
                     "gpkg_geometry_columns g ON g.srs_id = s.srs_id WHERE lower(g.table_name) = lower('%s')",
                     name);
     char *wanted = gis_printed("%s:%s", authority, code);
-    const bool found = answers(layer, sql, wanted);
+    const bool found = query_gives(layer, sql, wanted);
     CPLFree(sql);
     CPLFree(wanted);
     return found;
@@ -70,10 +70,10 @@ static bool has_its_crs(const gis_sink_layer *layer, const char *name)
  * the tables themselves. */
 static bool is_in_geometry_columns(const gis_sink_layer *layer, const char *name)
 {
-    if (!answers(layer, "SELECT 1 FROM sqlite_master WHERE lower(name) = 'geometry_columns'", "1")) return true;
+    if (!query_gives(layer, "SELECT 1 FROM sqlite_master WHERE lower(name) = 'geometry_columns'", "1")) return true;
     char *sql =
         gis_printed("SELECT f_geometry_column FROM geometry_columns WHERE lower(f_table_name) = lower('%s')", name);
-    const bool found = answers(layer, sql, OGR_L_GetGeometryColumn(layer->layer));
+    const bool found = query_gives(layer, sql, OGR_L_GetGeometryColumn(layer->layer));
     CPLFree(sql);
     return found;
 }

@@ -83,7 +83,7 @@ typedef struct looking {
 
 /* Widens seen->box by n points. A coordinate of 0 is not plain: -0 and 0 are equal but differ in their bits, and which
  * of them a box gets is GDAL's choice. */
-static bool look(void *user, const unsigned char *points, size_t n, bool last)
+static bool look_at_points(void *user, const unsigned char *points, size_t n, bool last)
 {
     looking *seen = user;
     (void)last;
@@ -100,7 +100,7 @@ static bool look(void *user, const unsigned char *points, size_t n, bool last)
 }
 
 /* Does the field hold values of this type, so that nothing is converted? */
-static bool suits(const gis_value *value, const gis_plain_field *field)
+static bool value_suits_field(const gis_value *value, const gis_plain_field *field)
 {
     switch (value->kind) {
     case GIS_TEXT: return field->type == OFTString;
@@ -157,7 +157,7 @@ static char *blob_statement(const gis_sink_layer *layer, GIntBig fid)
 }
 
 /* Begins inserting through SQLite if the blob of feature `fid`, which GDAL wrote, equals the blob composed here. */
-static bool begin(gis_sink_layer *layer, GIntBig fid)
+static bool begin_inserts(gis_sink_layer *layer, GIntBig fid)
 {
     gis_sink_rows *rows = &layer->rows;
     rows->database = GDALGetInternalHandle(layer->dataset, "SQLITE_HANDLE");
@@ -204,8 +204,8 @@ static bool values_are_plain(const gis_sink_layer *layer)
 }
 
 /* Composes the row of feature i of the source; GIS_ROW_GDAL if it is not plain. */
-static gis_row compose(gis_sink_layer *layer, size_t i, double dx, double dy, const gis_value *values, OGREnvelope *box,
-                       gis_error *error)
+static gis_row compose_row(gis_sink_layer *layer, size_t i, double dx, double dy, const gis_value *values,
+                           OGREnvelope *box, gis_error *error)
 {
     gis_sink_rows *rows = &layer->rows;
     size_t bytes;
@@ -214,7 +214,7 @@ static gis_row compose(gis_sink_layer *layer, size_t i, double dx, double dy, co
     if (!gis_source_plain(layer->sink->source, i, dx, dy, layer->field_map, rows->value, &wkb, &bytes))
         return GIS_ROW_GDAL;
     if (!wkb) return gis_no_memory(error), GIS_ROW_FAILED;
-    gis_packed_visit(wkb, look, &seen);
+    gis_packed_visit(wkb, look_at_points, &seen);
     uint32_t type;
     memcpy(&type, wkb + 1, sizeof type);
     const OGRwkbGeometryType declared = OGR_L_GetGeomType(layer->layer);
@@ -233,16 +233,17 @@ static gis_row compose_line(gis_sink_layer *layer, const double from[2], const d
     gis_sink_rows *rows = &layer->rows;
     const uint32_t type = wkbLineString, n = 2;
     looking seen = {{INFINITY, -INFINITY, INFINITY, -INFINITY}, true};
-    unsigned char wkb[LINE_BYTES] = {wkbNDR}; /* on a big-endian GDAL the comparison in begin() fails, and rows are left
+    unsigned char wkb[LINE_BYTES] = {
+        wkbNDR}; /* on a big-endian GDAL the comparison in begin_inserts() fails, and rows are left
                                                * to GDAL */
     memcpy(wkb + 1, &type, sizeof type);
     memcpy(wkb + 1 + sizeof type, &n, sizeof n);
     memcpy(wkb + LINE_POINTS, from, 2 * sizeof *from);
     memcpy(wkb + LINE_POINTS + 2 * sizeof *from, to, 2 * sizeof *to);
-    look(&seen, wkb + LINE_POINTS, n, true);
+    look_at_points(&seen, wkb + LINE_POINTS, n, true);
     for (size_t k = 0; k < layer->digests.n_fields; k++) rows->value[k] = (gis_value){.kind = GIS_NULL};
     for (size_t k = 0; k < layer->request.n_fields; k++) {
-        if (!suits(&values[k], &layer->digests.fields[layer->own[k]])) return GIS_ROW_GDAL;
+        if (!value_suits_field(&values[k], &layer->digests.fields[layer->own[k]])) return GIS_ROW_GDAL;
         rows->value[layer->own[k]] = values[k];
     }
     if (!seen.plain || !values_are_plain(layer)) return GIS_ROW_GDAL;
@@ -250,19 +251,19 @@ static gis_row compose_line(gis_sink_layer *layer, const double from[2], const d
     return put_blob(rows, box, wkb, sizeof wkb) ? GIS_ROW_DONE : (gis_no_memory(error), GIS_ROW_FAILED);
 }
 
-static bool fail(const gis_sink_layer *layer, int64_t fid, const char *reason, gis_error *error)
+static bool fail_row(const gis_sink_layer *layer, int64_t fid, const char *reason, gis_error *error)
 {
     return gis_fail(error, "%s, layer %s: FID %" PRId64 " cannot be written: %s", layer->sink->request.path,
                     layer->name, fid, reason);
 }
 
-static bool insert(gis_sink_layer *layer, GIntBig fid, const OGREnvelope *box, gis_error *error)
+static bool insert_row(gis_sink_layer *layer, GIntBig fid, const OGREnvelope *box, gis_error *error)
 {
     gis_sink_rows *rows = &layer->rows;
     const char *reason;
     int64_t key = fid;
     if (!gis_sqlite_inserts_add(&rows->inserts, &key, rows->blob, rows->size, rows->value, &reason))
-        return fail(layer, key, reason, error);
+        return fail_row(layer, key, reason, error);
     layer->written++;
     rows->n++;
     gis_sink_widen(&rows->around, box);
@@ -283,30 +284,30 @@ static bool may_compose(gis_sink_layer *layer, bool lines)
 }
 
 /* Sends pending rows to SQLite; to be called before GDAL does anything with the layer. */
-static bool flush(gis_sink_layer *layer, gis_error *error)
+static bool flush_rows(gis_sink_layer *layer, gis_error *error)
 {
     int64_t key;
     const char *reason;
     return !layer->rows.inserts.one || gis_sqlite_inserts_flush(&layer->rows.inserts, &key, &reason) ||
-           fail(layer, key, reason, error);
+           fail_row(layer, key, reason, error);
 }
 
 /* Inserts the composed row, or returns GIS_ROW_GDAL if GDAL has to write it. */
-static gis_row settle(gis_sink_layer *layer, gis_row row, GIntBig fid, const OGREnvelope *box, gis_error *error)
+static gis_row settle_row(gis_sink_layer *layer, gis_row row, GIntBig fid, const OGREnvelope *box, gis_error *error)
 {
     gis_sink_rows *rows = &layer->rows;
     rows->offered = row == GIS_ROW_DONE;
     if (row == GIS_ROW_FAILED) return row;
-    if (row != GIS_ROW_DONE || !rows->inserts.one) return flush(layer, error) ? GIS_ROW_GDAL : GIS_ROW_FAILED;
-    return insert(layer, fid, box, error) ? GIS_ROW_DONE : GIS_ROW_FAILED;
+    if (row != GIS_ROW_DONE || !rows->inserts.one) return flush_rows(layer, error) ? GIS_ROW_GDAL : GIS_ROW_FAILED;
+    return insert_row(layer, fid, box, error) ? GIS_ROW_DONE : GIS_ROW_FAILED;
 }
 
 gis_row gis_sink_row(gis_sink_layer *layer, size_t i, double dx, double dy, const gis_value *values, gis_error *error)
 {
     OGREnvelope box = {0};
     if (!may_compose(layer, false)) return GIS_ROW_GDAL;
-    const gis_row row = compose(layer, i, dx, dy, values, &box, error);
-    return settle(layer, row, gis_source_fid(layer->sink->source, i), &box, error);
+    const gis_row row = compose_row(layer, i, dx, dy, values, &box, error);
+    return settle_row(layer, row, gis_source_fid(layer->sink->source, i), &box, error);
 }
 
 gis_row gis_sink_line(gis_sink_layer *layer, const double from[2], const double to[2], const gis_value *values,
@@ -315,14 +316,14 @@ gis_row gis_sink_line(gis_sink_layer *layer, const double from[2], const double 
     OGREnvelope box = {0};
     if (!may_compose(layer, true)) return GIS_ROW_GDAL;
     const gis_row row = compose_line(layer, from, to, values, &box, error);
-    return settle(layer, row, (GIntBig)layer->written + 1, &box, error);
+    return settle_row(layer, row, (GIntBig)layer->written + 1, &box, error);
 }
 
 void gis_sink_row_by_gdal(gis_sink_layer *layer, GIntBig fid)
 {
     gis_sink_rows *rows = &layer->rows;
     if (rows->closed || !rows->offered) return;
-    if (!rows->inserts.one && !begin(layer, fid)) gis_sink_rows_clear(layer);
+    if (!rows->inserts.one && !begin_inserts(layer, fid)) gis_sink_rows_clear(layer);
 }
 
 /* Called before the next layer is added, and at the end. */
@@ -330,7 +331,7 @@ bool gis_sink_rows_end(gis_sink_layer *layer, gis_error *error)
 {
     gis_sink_rows *rows = &layer->rows;
     const bool done =
-        flush(layer, error) && (rows->closed || rows->n == 0 || gis_sink_note_whole(layer, rows->database, error));
+        flush_rows(layer, error) && (rows->closed || rows->n == 0 || gis_sink_note_whole(layer, rows->database, error));
     gis_sink_rows_clear(layer);
     return done;
 }

@@ -10,7 +10,7 @@
 
 /* ---- Creation options -------------------------------------------------------------------------------------------- */
 
-static char **offer(const gis_sink_layer *layer, char **options, const char *name, const char *value)
+static char **offer_option(const gis_sink_layer *layer, char **options, const char *name, const char *value)
 {
     if (value && value[0] && !CSLFetchNameValue(options, name) && gis_format_has_option(&layer->sink->format, name))
         options = CSLSetNameValue(options, name, value);
@@ -77,9 +77,9 @@ static char **offer_texts(const gis_sink_layer *layer, char **options)
             gis_sentences_add(&layer->sink->warnings,
                               "the identifier \"%s\" is taken; layer %s gets its name as identifier", own, layer->name);
         else
-            options = offer(layer, options, "IDENTIFIER", own);
+            options = offer_option(layer, options, "IDENTIFIER", own);
     }
-    return offer(layer, options, "DESCRIPTION", GDALGetMetadataItem(source, "DESCRIPTION", NULL));
+    return offer_option(layer, options, "DESCRIPTION", GDALGetMetadataItem(source, "DESCRIPTION", NULL));
 }
 
 /* The number of features of the source with a coordinate that is not finite. */
@@ -93,14 +93,14 @@ static char **offer_source_names(const gis_sink_layer *layer, char **options)
     OGRLayerH source = gis_source_layer(layer->sink->source);
     OGRFeatureDefnH definition = OGR_L_GetLayerDefn(source);
     char numbered[NUMBERED_SIZE];
-    options = offer(layer, options, "FID", free_name(layer, OGR_L_GetFIDColumn(source), usual_fid, numbered));
+    options = offer_option(layer, options, "FID", free_name(layer, OGR_L_GetFIDColumn(source), usual_fid, numbered));
     if (OGR_FD_GetGeomFieldCount(definition) > 0) {
         OGRGeomFieldDefnH geometry = OGR_FD_GetGeomFieldDefn(definition, 0);
-        options = offer(layer, options, "GEOMETRY_NAME",
-                        free_name(layer, OGR_GFld_GetNameRef(geometry), usual_geometry, numbered));
+        options = offer_option(layer, options, "GEOMETRY_NAME",
+                               free_name(layer, OGR_GFld_GetNameRef(geometry), usual_geometry, numbered));
         /* Only for the source's own geometries: a symbol may be null where the geometry is not. */
         if (layer->request.as_source && !OGR_GFld_IsNullable(geometry) && broken_features(layer) == 0)
-            options = offer(layer, options, "GEOMETRY_NULLABLE", "NO");
+            options = offer_option(layer, options, "GEOMETRY_NULLABLE", "NO");
     }
     return layer->request.as_source ? offer_texts(layer, options) : options;
 }
@@ -123,16 +123,16 @@ static char **layer_options(const gis_sink_layer *layer)
     if (layer->request.like_source && sink->source)
         options = offer_source_names(layer, options);
     else {
-        options = offer(layer, options, "FID", free_name(layer, NULL, usual_fid, numbered));
-        options = offer(layer, options, "GEOMETRY_NAME", free_name(layer, NULL, usual_geometry, numbered));
+        options = offer_option(layer, options, "FID", free_name(layer, NULL, usual_fid, numbered));
+        options = offer_option(layer, options, "GEOMETRY_NAME", free_name(layer, NULL, usual_geometry, numbered));
     }
-    options = offer(layer, options, "LAUNDER", "NO");
-    options = offer(layer, options, "GEOMETRY", "AS_WKT");
-    if (!sink->to_stdout) options = offer(layer, options, "CREATE_CSVT", "YES");
-    if (sink->format.shapefile) options = offer(layer, options, "ENCODING", shapefile_encoding(sink));
+    options = offer_option(layer, options, "LAUNDER", "NO");
+    options = offer_option(layer, options, "GEOMETRY", "AS_WKT");
+    if (!sink->to_stdout) options = offer_option(layer, options, "CREATE_CSVT", "YES");
+    if (sink->format.shapefile) options = offer_option(layer, options, "ENCODING", shapefile_encoding(sink));
     /* 17 digits are enough for every double: see sink_rewrite.c */
     if (!CSLFetchNameValue(options, "COORDINATE_PRECISION"))
-        options = offer(layer, options, "SIGNIFICANT_FIGURES", layer->more_digits ? "20" : "17");
+        options = offer_option(layer, options, "SIGNIFICANT_FIGURES", layer->more_digits ? "20" : "17");
     return options;
 }
 

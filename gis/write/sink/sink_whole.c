@@ -80,9 +80,12 @@ bool gis_sink_note_whole(gis_sink_layer *layer, void *database, gis_error *error
                             layer->sink->request.path, layer->name);
 }
 
-/* Does the stored bound `told` reach `side`? way = 1: an upper bound; -1: a lower bound. The tolerance allows for
+/* Does the stored bound `told` reach `side`? direction = 1: an upper bound; -1: a lower bound. The tolerance allows for
  * GDAL's printing with fifteen digits. */
-static bool reaches(double told, double side, int way) { return way * (side - told) <= 1e-14 * fabs(side) + DBL_MIN; }
+static bool extent_reaches(double told, double side, int way)
+{
+    return way * (side - told) <= 1e-14 * fabs(side) + DBL_MIN;
+}
 
 bool gis_sink_check_whole(const gis_sink_layer *layer, OGRLayerH as_written, gis_error *error)
 {
@@ -91,8 +94,9 @@ bool gis_sink_check_whole(const gis_sink_layer *layer, OGRLayerH as_written, gis
     if (!layer->rows.n) return true;
     const size_t told = (size_t)OGR_L_GetFeatureCount(as_written, TRUE);
     if (told != layer->written) return gis_sink_fail_count(layer, told, error);
-    if (OGR_L_GetExtent(as_written, &box, FALSE) == OGRERR_NONE && reaches(box.MinX, all->MinX, -1) &&
-        reaches(box.MinY, all->MinY, -1) && reaches(box.MaxX, all->MaxX, 1) && reaches(box.MaxY, all->MaxY, 1))
+    if (OGR_L_GetExtent(as_written, &box, FALSE) == OGRERR_NONE && extent_reaches(box.MinX, all->MinX, -1) &&
+        extent_reaches(box.MinY, all->MinY, -1) && extent_reaches(box.MaxX, all->MaxX, 1) &&
+        extent_reaches(box.MaxY, all->MaxY, 1))
         return true;
     return gis_fail(error, "%s, layer %s: its registered extent leaves features out", layer->sink->request.path,
                     layer->name);
