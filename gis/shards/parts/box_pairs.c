@@ -1,5 +1,5 @@
-/* box_pairs.c: see box_pairs.h. The boxes that the sweep line has reached and not yet left are kept at the front of
- * the same list. */
+/* box_pairs.c: see box_pairs.h. A sweep from left to right; the boxes that the sweep line intersects are kept at the
+ * front of the same array. */
 #include "shards/parts/box_pairs.h"
 
 #include "base/array.h"
@@ -47,7 +47,9 @@ void gis_box_pairs_visit(gis_box_pairs *pairs, gis_box_pairs_visitor *meets, voi
             if (on == GIS_BOX_PAIRS_B_ONLY) on = GIS_BOX_PAIRS_BOTH;
         }
         open = kept;
-        if (on != GIS_BOX_PAIRS_A_ONLY) box[open++] = next; /* open <= k: what stood there was taken */
+        if (on != GIS_BOX_PAIRS_A_ONLY)
+            box[open++] = next; /* open <= k, so this overwrites a box that was processed
+                                                             * already */
     }
     pairs->n = 0;
 }

@@ -1,6 +1,6 @@
 /* contact_group.c: see contact_group.h. Features are joined to groups cell by cell along the curve. Features near a
- * cell that is still to be visited are remembered until the last of these cells was visited. So the memory needed at a
- * time lies along the border between visited and unvisited cells. */
+ * cell that is not yet visited are kept until the last such cell was visited, so memory is needed only for the features
+ * along the border between visited and unvisited cells. */
 #include "shards/parts/contact_group.h"
 
 #include "base/array.h"
@@ -14,16 +14,17 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { LOTS = 1 << 12 }; /* groups are forgotten once there are this many */
-/* Pairs for each feature: with more, features are stacked, and are connected by boxes alone. */
+enum { LOTS = 1 << 12 }; /* groups that can no longer grow are dropped when there are more than this number */
+/* Pairs of shapes that are compared, per feature on average. Layers with more pairs have stacked features; then boxes
+ * alone are compared. */
 static const size_t patience = 500;
 
 typedef struct member {
-    double box[4]; /* with half the reach about it */
+    double box[4]; /* enlarged by half the reach on all sides */
     uint64_t place;
     size_t lot;
-    sunder_shape *shape; /* owned; NULL: only boxes are compared, or it is read when needed */
-    bool inside;         /* its box lies in another one's, and only boxes are compared */
+    sunder_shape *shape; /* owned; NULL: only boxes are compared, or the shape is read when it is needed */
+    bool inside;         /* its box lies in another member's, so it can be skipped where only boxes are compared */
 } member;
 
 typedef struct members {
@@ -35,26 +36,26 @@ typedef struct looking {
     const gis_layout *layout;
     double reach;
     bool by_shapes;
-    size_t patience;        /* remaining budget of shape comparisons, for pairs with boxes that meet */
-    gis_contact_group *lot; /* [lots], sums at the roots */
-    size_t *parent;         /* [lots] */
+    size_t patience;        /* shape comparisons left, for pairs whose boxes meet */
+    gis_contact_group *lot; /* [groups] sums are kept at the roots */
+    size_t *parent;         /* [groups] of the disjoint sets */
     size_t lots, lot_room, parent_room, enough_lots;
-    gis_contact_group largest; /* of complete groups, which are forgotten */
-    size_t *of_block;          /* [layout->blocks] a lot of it, or SIZE_MAX */
-    size_t *beside;            /* [besides] the cells that come near the one that is looked at, by number */
+    gis_contact_group largest; /* the largest of the groups that were dropped as complete */
+    size_t *of_block;          /* [layout->blocks] a group of the block, or SIZE_MAX */
+    size_t *beside;            /* [besides] numbers of the cells within reach of the current cell, ascending */
     size_t besides, beside_room;
-    size_t *last;  /* [cells] of those beside one, which may be it itself */
-    members *cell; /* [cells] what is remembered of it */
-    members here;  /* of the cell that is looked at */
+    size_t *last;  /* [cells] the last of the cells beside a cell, or that cell itself */
+    members *cell; /* [cells] the members kept of each cell */
+    members here;  /* members of the current cell */
     member **swept;
     size_t swept_n, swept_room;
     gis_box_pairs pairs;
-    sunder_shape *read; /* by gis_spool_read_one() */
+    sunder_shape *read; /* set by gis_spool_read_one() */
     gis_error *error;
     bool failed;
 } looking;
 
-/* ---- Lots -------------------------------------------------------------------------------------------------------- */
+/* ---- Groups ------------------------------------------------------------------------------------------------------ */
 
 static double bytes_of(const gis_layout *layout, const gis_contact_group *t)
 {
@@ -86,7 +87,7 @@ static void join(looking *l, size_t a, size_t b)
     gis_set_join(l->parent, x, y);
 }
 
-/* Joins the members of a numbered block. */
+/* Joins the group `one` with the other members of the block with this number. */
 static void join_block(looking *l, int64_t number, size_t one)
 {
     const gis_part_block *block = gis_layout_block(l->layout, number);
@@ -101,14 +102,15 @@ static void consider(looking *l, const gis_contact_group *lot)
     if (bytes_of(l->layout, lot) > bytes_of(l->layout, &l->largest)) l->largest = *lot;
 }
 
-/* A lot that is remembered: by the number of its root, which is marked as one that stays. */
+/* Replaces *group, which a kept member or block refers to, by the number of its root, and marks the root in `to` as one
+ * that stays. */
 static void keep_lot(const looking *l, size_t *to, size_t *lot)
 {
     *lot = gis_set_root(l->parent, *lot);
     to[*lot] = 0;
 }
 
-/* Of groups that are not remembered any more only the largest counts. */
+/* Drops groups without kept members; only the largest of these is remembered. */
 static bool forget_lots(looking *l, gis_error *error)
 {
     const size_t cells = gis_spool_cells(l->layout->spool);
@@ -166,7 +168,8 @@ static bool are_within_reach(looking *l, member *a, member *b)
     return !apart;
 }
 
-/* Boxes join whatever meets: one in another has nothing to add. */
+/* Joins two members whose boxes meet. A box that lies in another needs no further comparisons: whatever meets it meets
+ * the other. */
 static gis_box_pairs_next join_boxes(looking *l, member *p, member *q, const gis_paired_box *a, const gis_paired_box *b)
 {
     join(l, p->lot, q->lot);
@@ -178,13 +181,15 @@ static gis_box_pairs_next join_boxes(looking *l, member *p, member *q, const gis
     return within ? GIS_BOX_PAIRS_B_ONLY : GIS_BOX_PAIRS_BOTH;
 }
 
-/* kind: is it one of those remembered? These have been compared with each other. */
+/* Joins two members that are within reach. kind is 1 for members kept from earlier cells, which were compared with each
+ * other before. */
 static gis_box_pairs_next join_if_near(void *user, const gis_paired_box *a, const gis_paired_box *b)
 {
     looking *l = user;
     member *p = l->swept[a->of], *q = l->swept[b->of];
     if (!l->by_shapes) return join_boxes(l, p, q, a, b);
-    if (l->failed || l->patience == 0) return GIS_BOX_PAIRS_A_ONLY; /* it is in vain */
+    /* after an error, or when no comparisons are left, the sweep should end quickly */
+    if (l->failed || l->patience == 0) return GIS_BOX_PAIRS_A_ONLY;
     if (a->kind && b->kind) return GIS_BOX_PAIRS_BOTH;
     l->patience--;
     if (gis_set_root(l->parent, p->lot) != gis_set_root(l->parent, q->lot) && are_within_reach(l, p, q))
@@ -207,14 +212,14 @@ static void drop_shapes(members *all)
     }
 }
 
-/* Box of a cell, as members have theirs. */
+/* The box of a cell, enlarged as those of its members are. */
 static void box_of(const looking *l, size_t cell, double box[4])
 {
     memcpy(box, gis_spool_cell_at(l->layout->spool, cell)->box, 4 * sizeof *box);
     for (int c = 0; c < 4; c++) box[c] += (c < 2 ? -1 : 1) * l->reach / 2;
 }
 
-/* The features of the cell among themselves, and with those of the cells beside it that came before. */
+/* Joins the members of the cell with each other, and with the kept members of earlier cells beside it. */
 static bool join_cell(looking *l, size_t cell, gis_error *error)
 {
     double box[4];
@@ -277,7 +282,7 @@ static bool visit(void *user, const gis_spool_feature *feature, gis_error *error
     return take(user, feature, box, sunder_shape_vertices(feature->demands.shape), error);
 }
 
-/* Those of the cell that come near one that is still to be looked at. */
+/* Keeps the members of the cell that are within reach of a later cell. */
 static bool remember(looking *l, size_t cell, gis_error *error)
 {
     bool done = true;
@@ -296,7 +301,8 @@ static bool remember(looking *l, size_t cell, gis_error *error)
     return done;
 }
 
-/* By boxes alone: where large features lie everywhere, a list of all neighbouring pairs would be long. */
+/* Finds the cells beside `cell`. They are found anew for each cell by comparing boxes, since a list of all pairs would
+ * be long if large features lie everywhere. */
 static bool find_beside(looking *l, size_t cell, gis_error *error)
 {
     double box[4], other[4];
@@ -355,7 +361,7 @@ static void clear(looking *l)
     gis_box_pairs_clear(&l->pairs);
 }
 
-/* *whole: there was patience enough. */
+/* Finds the largest group. *whole is set to false if the limit of shape comparisons was reached. */
 static bool find(const gis_layout *layout, double reach, bool by_shapes, gis_contact_group *out, bool *whole,
                  gis_error *error)
 {

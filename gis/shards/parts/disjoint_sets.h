@@ -1,4 +1,4 @@
-/* disjoint_sets.h: disjoint sets of numbers; the root of a set is its least member. */
+/* disjoint_sets.h: disjoint sets of numbers, as an array of parents. The root of a set is its least member. */
 #ifndef GIS_DISJOINT_SETS_H
 #define GIS_DISJOINT_SETS_H
 

@@ -9,9 +9,9 @@
 
 #include <stdlib.h>
 
-/* ---- Which worlds stand ------------------------------------------------------------------------------------------ */
+/* ---- Which worlds stay ------------------------------------------------------------------------------------------- */
 
-/* A feature, and a world that has it. */
+/* A feature, and a world that contains it. */
 typedef struct holding {
     size_t index, world;
 } holding;
@@ -26,8 +26,8 @@ static int by_holding(const void *a, const void *b)
 typedef struct joining {
     const gis_layout *layout;
     gis_part_result *r; /* the results in memory */
-    size_t *parent;     /* [worlds] worlds that are separated again, in groups */
-    bool *again;        /* [worlds] */
+    size_t *parent;     /* [worlds] disjoint sets of worlds that are separated again together */
+    bool *again;        /* [worlds] the world is separated again */
     unsigned run;
 } joining;
 
@@ -39,7 +39,7 @@ static void lump(joining *j, size_t a, size_t b)
 
 static bool stands(const gis_part_world *w) { return !w->gone && !w->loose; }
 
-/* All features of worlds that stand, sorted. */
+/* All features of worlds that are neither gone nor loose, sorted by feature and world. */
 static holding *list_holdings(const gis_part_result *r, size_t *n)
 {
     holding *list = malloc((r->rows + 1) * sizeof *list);
@@ -59,8 +59,8 @@ static bool are_alike(const gis_part_result *r, const gis_part_world *a, const g
     return true;
 }
 
-/* Two worlds that share a feature are one if both are complete and alike: the second is dropped. Else they are
- * separated together. */
+/* Compares worlds that share a feature. If both are complete and have the same features, the second is a copy and is
+ * dropped; otherwise the two are separated again together. */
 static bool compare_holdings(joining *j, gis_error *error)
 {
     size_t n;
@@ -90,7 +90,7 @@ static gis_box_pairs_next lump_if_met(void *user, const gis_paired_box *a, const
     return GIS_BOX_PAIRS_BOTH;
 }
 
-/* Worlds of different runs where one wrote where the other read. */
+/* Marks worlds of different runs to be separated again together if one wrote where the other read. */
 static bool compare_footprints(joining *j, gis_error *error)
 {
     gis_box_pairs pairs = {0};
@@ -106,10 +106,10 @@ static bool compare_footprints(joining *j, gis_error *error)
     return done;
 }
 
-/* ---- Once more --------------------------------------------------------------------------------------------------- */
+/* ---- Separating again -------------------------------------------------------------------------------------------- */
 
 typedef struct of_lump {
-    size_t *index, n; /* sorted */
+    size_t *index, n; /* sorted by index */
 } of_lump;
 
 static int by_size(const void *a, const void *b)
@@ -125,7 +125,8 @@ static bool is_of_lump(const void *user, size_t cell, size_t index)
     return l->n && bsearch(&index, l->index, l->n, sizeof index, by_size);
 }
 
-/* The worlds of a lump, as one part: they are gone, and what is found of their features takes their place. */
+/* Separates all worlds of one set again as one part. The old worlds are marked as gone, and the worlds that are found
+ * for their features are added. */
 static bool separate_lump(joining *j, size_t root, size_t worlds, gis_error *error)
 {
     gis_part_result *r = j->r;
@@ -150,11 +151,12 @@ static bool separate_lump(joining *j, size_t root, size_t worlds, gis_error *err
     return done;
 }
 
-/* The first rounds separate each group by itself. After them everything that was ever separated again is separated
- * again together: then no two worlds of it are of different runs, and each round takes in others, or is the last. */
+/* In the first rounds each set is separated by itself. From round APART on, all worlds that were ever separated again
+ * are separated together; then no two of them belong to different runs, and each further round either includes more
+ * worlds or is the last. */
 enum { APART = 12 };
 
-/* All that were separated again become one lump, if there is anything to be done. */
+/* Joins all worlds that are or were separated again to one set, if there are any to be separated now. */
 static void lump_all(joining *j)
 {
     size_t first = SIZE_MAX;
@@ -165,7 +167,7 @@ static void lump_all(joining *j)
             lump(j, first, w);
 }
 
-/* *any: there was something to be separated again. */
+/* One round: finds the worlds to be separated again, and separates them. *any is set if there were some. */
 static bool settle(joining *j, unsigned round, bool *any, gis_error *error)
 {
     const size_t n = j->r->worlds;

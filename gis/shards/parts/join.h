@@ -1,12 +1,11 @@
-/* join.h: the results of parts, joined to those of the whole layer.
+/* join.h: joins the results of parts to the result of the whole layer.
  *
- * Worlds that are incomplete, or where one wrote where another read that was found in another run, are separated again,
- * together and with all that they saw, until there are none: the remaining worlds are those of the whole layer.
- * Features that are linked in any part are one block.
+ * A world must be separated again if it is incomplete, or if it wrote where a world found in another run read (or the
+ * reverse). Such worlds are separated together, with everything that they saw, until there are none; then the worlds
+ * are those of the whole layer. Features that are linked in any part form one block.
  *
- * Results of parts lie in files. In memory are the chunks that meet others (border_chunks.h), results that were
- * separated again, and a few numbers for each feature of a block; the results for features and pairs are sorted on
- * disk. */
+ * The results of parts are in files. In memory are the chunks that meet others (border_chunks.h), results that were
+ * separated again, and a few numbers for each feature of a block; results of features and pairs are sorted on disk. */
 #ifndef GIS_SHARDS_JOIN_H
 #define GIS_SHARDS_JOIN_H
 
@@ -14,32 +13,35 @@
 #include "shards/parts/part.h"
 #include "shards/parts/sorted_results.h"
 
-/* Zeroed: nothing. */
+/* The joined result. A zeroed struct is empty. */
 typedef struct gis_joined {
-    gis_sorted_results rows;      /* by features: of each one row, or one still; other features are as they are alone */
+    gis_sorted_results rows;      /* by feature: one row or one still each; a feature without an entry is as it would be
+                                   * alone */
     gis_sorted_results conflicts; /* by (a, b): one conflict each */
-    gis_sorted_results pushes;    /* likewise */
-    gis_sorted_results trees;     /* by groups, each by its first feature that moves */
-    gis_part_link *block;         /* a: a feature of a block, b: the block's first; by features */
-    bool *fixed;                  /* [blocks] at the block's first: someone of it is fixed, and so all are */
+    gis_sorted_results pushes;    /* by (a, b): one push each */
+    gis_sorted_results trees;     /* by group (its first feature that moves) and place in the group */
+    gis_part_link *block;         /* by feature; a: a feature in a block, b: the block's first feature */
+    bool *fixed;                  /* [blocks] at the entry of a block's first feature: one of its features is fixed, and
+                                   * so the whole block is */
     size_t blocks;
-    sunder_layer_summary summary; /* except features, vertices and skipped, which are the layer's */
-    int64_t longest_fid;          /* of summary.max_feature */
+    sunder_layer_summary summary; /* except features, vertices and skipped, which are known of the layer */
+    int64_t longest_fid;          /* FID of summary.max_feature */
     unsigned runs;
 } gis_joined;
 
-/* file: of all parts, open. directory: for sorting, until *out is cleared. */
+/* Joins the results of `files` open files, one of each shard. `directory` is used for sorting, and must exist until
+ * *out is cleared. */
 bool gis_parts_join(const gis_layout *layout, gis_part_file *file, size_t files, const char *directory, gis_joined *out,
                     gis_error *error);
 void gis_joined_clear(gis_joined *joined);
 
-/* joined_lists.c: the lists and sums of the worlds that stand: of what is held, which is cleared, and of the chunks
- * that are not. */
+/* Makes the lists and sums (joined_lists.c) of all worlds that are not gone: those in `held`, which is cleared, and
+ * those in chunks that are not in memory. */
 bool gis_joined_lists_make(gis_joined *out, gis_border_chunks *chunks, gis_part_result *held, const char *directory,
                            gis_error *error);
-/* A feature's entry in block[]; NULL: it is of no block. */
+/* The entry of a feature in joined->block; NULL: it is in no block. */
 const gis_part_link *gis_joined_block(const gis_joined *joined, size_t feature);
-/* The status of a feature that is of no world. */
+/* The status of a feature that is in no world. */
 sunder_feature_status gis_joined_status(const gis_joined *joined, const gis_part_still *still);
 
 #endif

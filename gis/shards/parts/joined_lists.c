@@ -1,5 +1,5 @@
-/* joined_lists.c: gathers the results of worlds into lists ordered by feature, and into sums. Sums are exact until
- * they are rounded once. */
+/* joined_lists.c: collects the results of worlds in lists sorted by feature, and in sums. Sums are exact, and are
+ * rounded once. */
 #include "shards/parts/border_chunks.h"
 #include "shards/parts/disjoint_sets.h"
 #include "shards/parts/join.h"
@@ -14,19 +14,19 @@
 
 typedef struct gathering {
     gis_joined *out;
-    gis_part_result one;   /* a thing by itself */
-    gis_part_result links; /* of all */
-    gis_part_file *file;   /* of all shards */
+    gis_part_result one;   /* a result with a single item */
+    gis_part_result links; /* the links of all worlds */
+    gis_part_file *file;   /* the files of all shards */
     size_t files;
     sunder_total proved, by_pairs, total, cost;
-    size_t block;     /* how far features of blocks are, while rows go by */
-    uint64_t last[2]; /* keys of the last item kept */
-    bool any, more;   /* something was; there is a row at which rows are, while conflicts go by */
+    size_t block;     /* the place in out->block that was reached, while rows are visited in order */
+    uint64_t last[2]; /* keys of the last item that was kept */
+    bool any, more;   /* any: an item was kept; more: `rows` has a current row, while conflicts are visited */
 } gathering;
 
-/* ---- Things of a result, one by one ------------------------------------------------------------------------------ */
+/* ---- Items of a result, one by one ------------------------------------------------------------------------------- */
 
-/* If a feature has both, the row comes first. */
+/* Second keys: if a feature has both a row and a still, the row comes first and is kept. */
 enum { ROW, STILL };
 
 static bool put_row(gathering *g, const gis_part_result *r, size_t k, gis_error *error)
@@ -122,7 +122,7 @@ static bool put_everything(gathering *g, const gis_border_chunks *h, gis_part_re
                 gis_part_file_read(h->chunk[k].file, h->chunk[k].chunk, &chunk, error) && put_result(g, &chunk, error);
     gis_part_result_clear(&chunk);
     done = done && put_result(g, held, error);
-    gis_part_result_clear(held); /* sorting needs the room */
+    gis_part_result_clear(held); /* sorting needs the memory */
     gis_memory_back();
     return done;
 }
@@ -152,7 +152,7 @@ const gis_part_link *gis_joined_block(const gis_joined *joined, size_t feature)
     return joined->blocks ? bsearch(&key, joined->block, joined->blocks, sizeof key, by_feature) : NULL;
 }
 
-/* Linked features are one block, named by its first. */
+/* Joins linked features to blocks; each block is identified by its first feature. */
 static bool gather_blocks(gis_joined *j, const gis_part_result *r, gis_error *error)
 {
     size_t n = 0, *index = malloc((2 * r->links + 1) * sizeof *index), *parent;
@@ -183,9 +183,9 @@ static bool gather_blocks(gis_joined *j, const gis_part_result *r, gis_error *er
     return done || gis_no_memory(error);
 }
 
-/* ---- In order ---------------------------------------------------------------------------------------------------- */
+/* ---- In sorted order --------------------------------------------------------------------------------------------- */
 
-/* Was one with the same keys kept? */
+/* Was the last kept item one with the same keys? Stores the keys. */
 static bool is_again(gathering *g, uint64_t first, uint64_t second)
 {
     const bool again = g->any && g->last[0] == first && g->last[1] == second;
@@ -212,7 +212,8 @@ static void sum_row(gathering *g, const gis_part_row *row)
     g->out->longest_fid = row->fid;
 }
 
-/* A fixed feature fixes its block; a part may know only some of the block. */
+/* Counts conflicts inside the block, and marks the block as fixed if the feature is. A part may have known only some
+ * features of the block. */
 static void sum_still(gathering *g, const gis_part_still *still)
 {
     gis_joined *j = g->out;
@@ -234,7 +235,7 @@ static bool keep_feature(void *user, const gis_sort_head *head, const gis_part_r
     return true;
 }
 
-/* Of pushes, and of trees. */
+/* Keeps each push, and each tree, once. */
 static bool keep_once(void *user, const gis_sort_head *head, const gis_part_result *one, bool *keep, gis_error *error)
 {
     (void)one;
@@ -248,7 +249,8 @@ static bool is_inside_overlap(const sunder_conflict *conflict)
     return conflict->inside_block && conflict->kind == SUNDER_CONFLICT_OVERLAP;
 }
 
-/* What was found inside a block to which something happened in another part, that part tells. */
+/* Keeps each conflict once. A loose conflict (inside a block that did not move in its part) is dropped if the feature
+ * has a row, since then another part moved the block and reports the conflict. */
 static bool keep_conflict(void *user, const gis_sort_head *head, const gis_part_result *one, bool *keep,
                           gis_error *error)
 {
@@ -279,7 +281,7 @@ static bool sort_everything(gathering *g, gis_error *error)
     return gis_sorted_results_sort(&j->trees, keep_once, g, error);
 }
 
-/* ---- All of it --------------------------------------------------------------------------------------------------- */
+/* ---- All lists --------------------------------------------------------------------------------------------------- */
 
 static bool begin(gis_joined *j, const char *directory, gis_error *error)
 {

@@ -1,4 +1,5 @@
-/* layout.c: what all parts of a layer have in common: how far to look, and where blocks by number are. */
+/* layout.c: what all parts of a layer have in common: the distance around a part that is read with it, and where
+ * numbered blocks are. */
 #include "shards/parts/part.h"
 
 #include "base/array.h"
@@ -7,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* In gaps, plus the mean size of features. */
+/* The halo: this number of gaps, plus this multiple of the mean size of features. */
 static const double gaps_about = 6, features_about = 2;
 
 static double halo_of(const gis_spool *spool, double gap)
@@ -46,7 +47,7 @@ static int by_block(const void *a, const void *b)
     return (p->block > q->block) - (p->block < q->block);
 }
 
-/* Each block once, with the box of all its features; sorted. */
+/* Merges the entries of each block to one with the box of all its features; sorts by block. Returns their number. */
 static size_t unite(gis_part_block *block, size_t n)
 {
     size_t out = 0;

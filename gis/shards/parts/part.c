@@ -34,7 +34,7 @@ static bool is_near(const gis_part *p, const double box[4])
     return false;
 }
 
-/* Among the layout's blocks; SIZE_MAX: it is none. */
+/* The place in layout->block of the block with this number; SIZE_MAX: there is none. */
 static size_t place_of(const gis_part *p, int64_t number)
 {
     const gis_part_block *block = gis_layout_block(p->layout, number);
@@ -65,7 +65,7 @@ static int by_index(const void *a, const void *b)
     return (p->feature.index > q->feature.index) - (p->feature.index < q->feature.index);
 }
 
-/* Can there be one in the cell that is of a block with one that is there? */
+/* May a feature in this box belong to a block that has a feature in the part? */
 static bool has_others(const gis_part *p, const double box[4])
 {
     for (size_t b = 0; b < p->layout->blocks; b++)
@@ -89,7 +89,8 @@ static bool load(gis_part *p, gis_error *error)
     return gis_barriers_load(&p->layout->barriers, (const double(*)[4])p->boxes->box, p->boxes->n, &p->barriers, error);
 }
 
-/* What hangs together is one part, whatever its size: it is told of before hours are spent on it. */
+/* Warns if the features of a part need more memory than allowed. They may depend on each other, so they are separated
+ * as one piece, whatever its size; the warning comes before hours are spent on it. */
 static void warn_if_large(const gis_part *p)
 {
     const sunder_layer_options *how = &p->layout->how;
@@ -106,7 +107,7 @@ static void warn_if_large(const gis_part *p)
                         p->n, ceil(bytes / 1e6));
 }
 
-/* ---- Names in lines of proofs ------------------------------------------------------------------------------------ */
+/* ---- Names in the lines of the proof ----------------------------------------------------------------------------- */
 
 static int64_t call_feature(const void *of, size_t feature)
 {
@@ -134,10 +135,9 @@ static bool begin_lines(gis_part *p, gis_error *error)
     return gis_proof_lines_begin(&p->lines, &things, p->report, error);
 }
 
-/* The line that was made becomes the result's. */
 /* ---- Separating -------------------------------------------------------------------------------------------------- */
 
-/* Of points the points. */
+/* Sets the side anchors of point features, which are the points themselves; other features have NAN. */
 static bool set_sides(gis_part *p, gis_error *error)
 {
     sunder_error why;

@@ -1,9 +1,9 @@
-/* part.h: a part of a layer, separated by itself.
+/* part.h: separates one part of a layer.
  *
- * The part is all features that meet some boxes. The result has those of its worlds (sunder_parts.h) that have a
- * requested feature; and whether they are complete, that is, whether everything that meets what they saw was in the
- * part. The result for a complete world is that of a run over the whole layer, unless another world wrote where it
- * read, which parts do not know of each other (join.h). Features are identified by their places in the input. */
+ * The part is all features that meet some boxes. The result contains the worlds (sunder_parts.h) that have a requested
+ * feature, and whether each is complete, that is, whether everything that meets what it saw was in the part. The result
+ * of a complete world is that of a run over the whole layer, unless another world wrote where it read; parts do not
+ * know of each other, so that is checked later (join.h). Features are identified by their places in the input. */
 #ifndef GIS_SHARDS_PART_H
 #define GIS_SHARDS_PART_H
 
@@ -16,42 +16,44 @@ typedef struct gis_boxes_list {
     size_t n, capacity;
 } gis_boxes_list;
 
-/* Where the features are that have the same block in their demands; by blocks. */
+/* A block number that features have in their demands, and the box of these features. Lists are sorted by block. */
 typedef struct gis_part_block {
     int64_t block;
     double box[4];
 } gis_part_block;
 
-/* What all parts of a layer have in common. Zeroed: none. */
+/* What all parts of a layer have in common. A zeroed struct is empty. */
 typedef struct gis_layout {
     gis_spool *spool;              /* borrowed */
-    gis_spooled_barriers barriers; /* borrowed, too; set by callers that have some */
-    size_t features;               /* of the input: from here on things are barriers; likewise */
+    gis_spooled_barriers barriers; /* borrowed; set by the caller if there are barriers */
+    size_t features;               /* number of features in the input: things with numbers from here on are barriers;
+                                    * set by the caller */
     sunder_layer_options how;
-    double halo; /* so far about a shard it is looked at first: a guess */
+    double halo; /* distance around a shard within which features are read with it; a guess */
     gis_part_block *block;
     size_t blocks;
-    double memory;  /* bytes that a process may take, about; what takes far more is told of. 0: it does not matter */
-    bool by_places; /* proofs identify features by their places in the input, since FIDs are not unique */
-    double *explain, *verify; /* borrowed: the seconds of these stages are added to them; NULL: not measured */
+    double memory;  /* approximate bytes that a process may take; a part that takes much more gets a warning. 0: no
+                     * limit */
+    bool by_places; /* the proof identifies features by their places in the input, since FIDs are not unique */
+    double *explain, *verify; /* borrowed: the seconds of these stages are added here; NULL: not measured */
 } gis_layout;
 
-/* numbered: some features have a block in their demands, and all are looked through. `how` is left to be filled in,
- * without keep_worlds; with keep_trees, results have lines of proofs. */
+/* Makes a layout. numbered: some features have a block in their demands, so all features are read to find the blocks'
+ * boxes. The caller fills in `how`, without keep_worlds; if it has keep_trees, results contain lines of the proof. */
 bool gis_layout_make(gis_spool *spool, double gap, bool numbered, gis_layout *out, gis_error *error);
-/* The block with that number; NULL: it has none. */
+/* The block with this number; NULL: no feature has it. */
 const gis_part_block *gis_layout_block(const gis_layout *layout, int64_t number);
 void gis_layout_clear(gis_layout *layout);
 
-/* Is the feature, of that cell, requested? */
+/* Is the feature `index`, which is in cell `cell` of the spool, requested? */
 typedef bool gis_part_wants(const void *user, size_t cell, size_t index);
 
-/* Separates the features that meet the boxes, and all features of numbered blocks among these, and adds the results.
- * run: a number for it. Fails as gis_layer_run(). */
+/* Separates the features that meet the boxes, with all features of numbered blocks that these belong to, and adds the
+ * results to *result. `run` is a number for this separation. Fails as gis_layer_run() does. */
 bool gis_part_separate(const gis_layout *layout, const gis_boxes_list *boxes, gis_part_wants *wants, const void *user,
                        unsigned run, gis_part_result *result, gis_error *error);
 
-/* Parts first to end - 1 that the spool is dealt to, as one, with what is about their cells (parts_separate.c). */
+/* Separates the spool's parts first to end - 1 as one, with the features around their cells (parts_separate.c). */
 bool gis_parts_separate(const gis_layout *layout, unsigned first, unsigned end, gis_part_result *result,
                         gis_error *error);
 

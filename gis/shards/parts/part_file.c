@@ -1,5 +1,6 @@
-/* part_file.c: see part_file.h. The file: a mark; the stamp, with the form of what is in chunks; the chunks; the
- * list of them; how many they are, where the list begins, and a checksum of stamp and list. */
+/* part_file.c: see part_file.h. The file holds a mark; the stamp, with a number for the layout of chunks
+ * (gis_part_result_form()); the chunks; the list of chunks; and the number of chunks, the offset of the list, and a
+ * checksum of stamp and list. */
 #include "shards/parts/part_file.h"
 
 #include "base/array.h"
@@ -35,8 +36,8 @@ void gis_part_file_name(uint32_t shard, char name[GIS_PART_FILE_NAME])
 
 /* ---- Writing ----------------------------------------------------------------------------------------------------- */
 
-/* A scheduler may run a shard twice at once, on two machines that share the directory: each writes a file of its
- * own. */
+/* Creates a file under a temporary name of its own, since a scheduler may run a shard twice at once, on two machines
+ * that share the directory. */
 bool gis_part_file_create(gis_part_file *file, const char *directory, const gis_part_stamp *stamp, gis_error *error)
 {
     const gis_spool_mark mark = gis_spool_mark_of(WHAT);
@@ -45,7 +46,7 @@ bool gis_part_file_create(gis_part_file *file, const char *directory, const gis_
     *file = (gis_part_file){.stamp = *stamp};
     gis_part_file_name(stamp->shard, name);
     gis_remove_abandoned(directory, name);
-    strcat(name, GIS_OWN_LETTERS); /* several may be at the same one */
+    strcat(name, GIS_OWN_LETTERS); /* several processes may write the same shard */
     return gis_disk_file_create(&file->file, directory, name, error) &&
            gis_disk_file_write(&file->file, &mark, sizeof mark, error) &&
            gis_disk_file_write(&file->file, &head, sizeof head, error);
@@ -61,7 +62,7 @@ static void lies_in(gis_part_line *line, const gis_part_file *file, uint64_t fro
     if (line->bytes) *line = (gis_part_line){from + line->from, line->bytes, file->stamp.shard};
 }
 
-/* Lines go ahead of the chunk, which tells where they are from then on. */
+/* Writes the lines of the proof before their chunk, and makes the chunk's items refer to their place in the file. */
 static bool write_lines(gis_part_file *file, gis_part_result *r, gis_part_chunk *chunk, gis_error *error)
 {
     const uint64_t from = file->file.size;
@@ -97,7 +98,7 @@ static bool write_chunk(gis_part_file *file, gis_part_result *r, gis_error *erro
     return gis_disk_file_write(&file->file, file->bytes, (size_t)chunk.bytes, error);
 }
 
-/* A world, and where it is on a curve through all of them. */
+/* A world, and the position of its first footprint on a curve through all worlds. */
 typedef struct lying {
     uint64_t along;
     size_t world;
@@ -172,7 +173,7 @@ bool gis_part_file_place(gis_part_file *file, const char *directory, gis_error *
 
 /* ---- Reading ----------------------------------------------------------------------------------------------------- */
 
-/* Is it of this plan? */
+/* Fails if the file was made by another version, or for another plan, other options or another shard. */
 static bool is_ours(const gis_part_file *file, const stored_stamp *head, gis_error *error)
 {
     const gis_part_stamp *own = &file->stamp, *is = &head->is;

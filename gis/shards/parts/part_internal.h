@@ -1,13 +1,13 @@
-/* part_internal.h: what part.c, part_result_fill.c and part_worlds.c share: a part while it is worked on. */
+/* part_internal.h: what part.c, part_result_fill.c and part_worlds.c share: a part while it is being separated. */
 #ifndef GIS_PART_INTERNAL_H
 #define GIS_PART_INTERNAL_H
 
 #include "layer/proof_lines.h"
 #include "shards/parts/part.h"
 
-/* A feature as it was read, at its place in the order of the input. */
+/* A feature that was read; item[] is sorted by place in the input. */
 typedef struct gis_part_loaded {
-    gis_spool_feature feature; /* its id owned */
+    gis_spool_feature feature; /* its id is owned */
     bool wanted;
 } gis_part_loaded;
 
@@ -17,31 +17,33 @@ typedef struct gis_part {
     const gis_boxes_list *boxes;
     gis_part_wants *wants;
     const void *user;
-    size_t cell; /* that is being read */
-    bool others; /* ... for those of blocks alone */
-    bool *block; /* [layout->blocks] one of it is there */
+    size_t cell; /* the cell being read */
+    bool others; /* only features that belong to a block of the part are being added */
+    bool *block; /* [layout->blocks] a feature of the block is in the part */
     gis_part_loaded *item;
     size_t n, capacity;
     gis_barriers_list barriers;
     sunder_layer *layer;
     sunder_report *report;
-    gis_proof_lines lines; /* where trees are kept */
+    gis_proof_lines lines; /* used if trees are kept */
     unsigned run;
     gis_part_result *out;
 } gis_part;
 
-/* ---- part_result_fill.c: one thing each, from the part's report to its result ------------------------------------ */
+/* ---- part_result_fill.c: adds one item each from the part's report to its result
+ * ---------------------------------- */
 
-/* The place in the input of a feature, or of a barrier behind all features. */
+/* The place in the input of a feature of the part; for a barrier, a number behind those of all features. */
 size_t gis_part_index_of(const gis_part *p, size_t thing);
-/* Feature k. */
+/* Adds the row of feature k of the part. */
 bool gis_part_fill_row(gis_part *p, size_t k, gis_error *error);
-/* number: among those of the report. */
+/* Adds the conflict with this number in the report. */
 bool gis_part_fill_conflict(gis_part *p, size_t number, bool loose, gis_error *error);
 bool gis_part_fill_push(gis_part *p, const sunder_push *push, gis_error *error);
 bool gis_part_fill_tree(gis_part *p, const gis_proof_place *place, gis_error *error);
 
-/* ---- part_worlds.c: all that is told of worlds that have a feature which was asked for, and of those of none ----- */
+/* ---- part_worlds.c: adds the worlds that have a requested feature, and features in no world
+ * ----------------------- */
 
 bool gis_part_fill_worlds(gis_part *p, gis_error *error);
 bool gis_part_fill_others(gis_part *p, gis_error *error);

@@ -1,5 +1,5 @@
-/* part_result.c: see part_result.h. Everything that is done alike for all lists is done by a table of them. As bytes:
- * how many there are of each, and whether it is unverified; then the lists, each padded to a multiple of 8. */
+/* part_result.c: see part_result.h. What is done alike for all lists uses a table of them. As bytes, a result is: the
+ * number of items in each list, and whether it is unverified; then the lists, each padded to a multiple of 8 bytes. */
 #include "shards/parts/part_result.h"
 
 #include "base/array.h"
@@ -91,7 +91,7 @@ const char *gis_part_line_of(const gis_part_result *result, const gis_part_line 
     return result->line + line->from;
 }
 
-/* One that lies in a file stays there. */
+/* Copies a line into *to; a line that is in a file stays there. */
 static bool copy_line(gis_part_result *to, const gis_part_result *from, gis_part_line *line, gis_error *error)
 {
     if (line->file || line->bytes == 0) return true;
@@ -257,7 +257,7 @@ bool gis_part_result_load(gis_part_result *to, const unsigned char *from, size_t
 
 uint64_t gis_part_result_form(void)
 {
-    uint64_t form = 4; /* version: to be raised when the meaning of members changes */
+    uint64_t form = 4; /* version: raise it when the meaning of a member changes */
     for (int k = 0; k < LISTS; k++) form = gis_checksum_of(form, &lists[k].size, sizeof lists[k].size);
     return form;
 }

@@ -1,12 +1,12 @@
-/* part_result_check.c: see part_result_check.h. Checksums detect accidental changes; a forger can write checksums that
- * agree. So every number that is used as an index is checked against the number of items. */
+/* part_result_check.c: see part_result_check.h. Checksums detect accidental changes, but a forger can write matching
+ * checksums. So every number that is used as an index is checked against the number of items. */
 #include "shards/parts/part_result_check.h"
 
 #include <string.h>
 
 static bool holds(size_t from, size_t n, size_t all) { return from <= all && n <= all - from; }
 
-/* A flag as the compiler reads it: other bytes are no bool. */
+/* Is the byte of a stored bool 0 or 1? Reading any other value as a bool is undefined behaviour. */
 static bool is_flag(const bool *flag)
 {
     unsigned char byte;
@@ -58,7 +58,7 @@ static bool names(const gis_part_result *r, const gis_part_conflict *c, size_t i
     return false;
 }
 
-/* All that a conflict mentions stands among its names. */
+/* Is the conflict sound, and does its list of names contain all features and barriers that it mentions? */
 static bool is_conflict(const gis_part_result *r, const gis_part_conflict *c, uint64_t places)
 {
     const sunder_conflict *is = &c->is;

@@ -1,5 +1,5 @@
-/* part_result_fill.c: see part_internal.h. Features and barriers are called by their places in the input; a line of
- * proof, where there is one, goes with what it is of. */
+/* part_result_fill.c: see part_internal.h. Features and barriers are identified by their places in the input; lines of
+ * the proof are stored with the conflict or tree that they belong to. */
 #include "shards/parts/part_internal.h"
 
 #include "base/array.h"
@@ -86,7 +86,7 @@ bool gis_part_fill_conflict(gis_part *p, size_t number, bool loose, gis_error *e
     return done;
 }
 
-/* Where a feature stands at the end, and its FID. */
+/* Sets `at` to the anchor of a feature after its move, and returns its FID. */
 static int64_t stand(const gis_part *p, size_t thing, double at[2])
 {
     double move[2];

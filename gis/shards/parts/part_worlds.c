@@ -9,7 +9,7 @@
 
 /* ---- Completeness ---------------------------------------------------------------------------------------------- */
 
-/* Quarters of quarters: finer than that a box is not cut. */
+/* A box whose content is unknown is divided into quarters at most this number of times. */
 enum { DEPTH = 7 };
 
 static bool is_within(const double box[4], const double of[4])
@@ -54,7 +54,7 @@ static bool add_footprints(gis_part *p, const sunder_world *w, gis_part_world *t
     return true;
 }
 
-/* What belongs to a world: features, conflicts or pushes by their numbers. */
+/* An item of a world: a feature, conflict, push or tree, by its number. */
 typedef struct belonging {
     size_t world, at;
 } belonging;
@@ -66,10 +66,10 @@ static int by_world(const void *a, const void *b)
     return (p->at > q->at) - (p->at < q->at);
 }
 
-/* Of all worlds, one behind the other, and how far each list is used up. */
+/* The items of all worlds, sorted by world, and the place reached in each list. */
 typedef struct belongings {
     belonging *feature, *conflict, *push, *tree;
-    gis_proof_place *place; /* [trees]; NULL: there are none */
+    gis_proof_place *place; /* [trees]; NULL: no trees are kept */
     size_t features, conflicts, pushes, trees, f, c, p, t;
 } belongings;
 
@@ -161,7 +161,7 @@ static bool add_world(gis_part *p, size_t number, belongings *all, gis_error *er
     return true;
 }
 
-/* Conflicts inside blocks that nothing happened to. */
+/* Adds conflicts inside blocks that are in no world. */
 static bool add_loose(gis_part *p, const belongings *all, gis_error *error)
 {
     size_t n;
@@ -214,8 +214,8 @@ static sunder_feature_status status_alone(const gis_part *p, size_t k)
     return demands->fixed || demands->max_shift == 0 ? SUNDER_FEATURE_FIXED : SUNDER_FEATURE_UNMOVED;
 }
 
-/* Requested features outside of worlds, unless nothing has to be said of them; and their blocks, as pairs with the
- * block's first feature. */
+/* Adds requested features that are in no world, if they differ from features alone, and the blocks of all features, as
+ * links to the block's first feature. */
 bool gis_part_fill_others(gis_part *p, gis_error *error)
 {
     gis_part_result *out = p->out;

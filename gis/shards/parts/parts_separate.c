@@ -1,5 +1,5 @@
-/* parts_separate.c: see part.h. Separates the features in cells of these parts; features around them, within
- * layout->halo, are read along. */
+/* parts_separate.c: see part.h. Separates the features in the cells of these parts; the features around them, within
+ * layout->halo, are read as well. */
 #include "shards/parts/part.h"
 
 #include <stdlib.h>

@@ -6,10 +6,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Bytes read at a time. */
+/* Size of the read buffer. */
 enum { BUFFER = 1 << 18 };
 
-/* Several of these are open at a time. */
+/* Memory of a sorter; several are open at once. */
 static const size_t RUN = GIS_SORT_BYTES / 4;
 
 enum { NAME = 64 };
@@ -87,7 +87,7 @@ void gis_sorted_results_rewind(gis_sorted_results *sorted)
     sorted->from = 0;
 }
 
-/* Makes sure of at least this many bytes in the buffer. */
+/* Makes sure that at least `needed` bytes are in the buffer. */
 static bool fill(gis_sorted_results *s, size_t needed, gis_error *error)
 {
     const size_t have = s->filled - s->used;

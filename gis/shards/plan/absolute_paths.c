@@ -1,6 +1,6 @@
-/* absolute_paths.c: see plan.h. A plan may be made in one directory and merged in another; the files that its command
- * line names must still be found. Names that GDAL's drivers interpret are handled in those forms where a file name can
- * be recognised. */
+/* absolute_paths.c: see plan.h. A plan may be made in one directory and merged in another, and the files that its
+ * command line names must still be found. Names that GDAL's drivers interpret are handled in the forms in which a file
+ * name can be recognised. */
 #include "shards/plan/plan.h"
 
 #include "base/path.h"
@@ -10,7 +10,7 @@
 #include <string.h>
 #include <unistd.h>
 
-/* Is there a file whose path are the first n bytes? */
+/* Do the first n bytes of `path` name an existing file? */
 static bool is_there(const char *path, size_t n)
 {
     char *name = gis_printed("%.*s", (int)n, path);
@@ -19,7 +19,7 @@ static bool is_there(const char *path, size_t n)
     return there;
 }
 
-/* The text with the current directory before what stands at `at`. */
+/* A copy of the text with the current directory inserted at offset `at`. */
 static char *prefixed(const char *text, size_t at)
 {
     char *here = gis_path_here();
@@ -31,7 +31,8 @@ static char *prefixed(const char *text, size_t at)
     return out;
 }
 
-/* /vsizip/a.zip/b.gpkg, /vsigzip//vsizip/...: where the name of a file begins, if it is one in this directory. */
+/* Finds the file name in paths like /vsizip/a.zip/b.gpkg or /vsigzip//vsizip/..., if it is a relative path to an
+ * existing file; sets *at to its offset. */
 static bool find_in_archive(const char *source, size_t *at)
 {
     size_t from = 0;
@@ -53,7 +54,7 @@ static bool find_in_archive(const char *source, size_t *at)
     return false;
 }
 
-/* GPKG:town.gpkg:buildings */
+/* Finds the file name in forms like GPKG:town.gpkg:buildings; sets *at to its offset. False if no such file exists. */
 static bool find_behind_driver(const char *source, size_t *at)
 {
     const char *colon = strchr(source, ':');
@@ -83,7 +84,8 @@ char *gis_plan_absolute_shape(const char *shape)
     return CPLStrdup(shape);
 }
 
-/* A comma within the name is written \, and the keys begin at the first other one. */
+/* Makes the dataset of a --barrier absolute. A comma within the name is written as "\,"; the keys begin at the first
+ * other comma. */
 char *gis_plan_absolute_barrier(const char *barrier)
 {
     size_t n = 0;

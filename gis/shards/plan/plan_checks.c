@@ -1,5 +1,5 @@
-/* plan_checks.c: see plan.h. The spool looks after its own files, cell by cell; but each might be one of another plan.
- */
+/* plan_checks.c: see plan.h. The spool verifies its own files, cell by cell; here it is checked that each file belongs
+ * to this plan. */
 #include "shards/plan/plan.h"
 
 #include "disk/checksum.h"
@@ -24,7 +24,8 @@ bool gis_plan_status_checksum(const char *directory, uint64_t *checksum, gis_err
     return done;
 }
 
-/* Counts for the whole layer must not exceed what its files hold: a byte of `status` for each feature. */
+/* Fails if the layer's feature count differs from that of its files: `status` has one byte for each feature, and the
+ * spool must not have more features. */
 static bool holds_all(const gis_shard_run *parts, gis_error *error)
 {
     gis_disk_file file = {0};

@@ -1,4 +1,4 @@
-/* plan_description.c: see plan.h. plan.json is for people and scripts; nothing here reads it again. */
+/* plan_description.c: see plan.h. plan.json is for people and scripts; the program never reads it. */
 #include "shards/plan/plan.h"
 
 #include "disk/file.h"
@@ -27,7 +27,7 @@ static void put_shards(gis_json *out, const gis_plan *plan, const gis_plan_load 
     gis_json_close(out, ']');
 }
 
-/* The largest need of any shard, for running all of them at once. */
+/* The largest needs of any shard, for a scheduler that gives all shards the same resources. */
 static void put_most(gis_json *out, const gis_plan *plan, const gis_plan_load *load, const gis_layer_rules *rules)
 {
     gis_plan_estimate most = {0, 0};
@@ -43,7 +43,7 @@ static void put_most(gis_json *out, const gis_plan *plan, const gis_plan_load *l
     gis_json_line(out);
 }
 
-/* What will be one piece of work: the shard's that has all of it, else the merge's. */
+/* The largest contact group, which is one piece of work: that of the shard that contains it, or else the merge's. */
 static void put_group(gis_json *out, const gis_shard_run *parts)
 {
     gis_json_key(out, "largest_group");

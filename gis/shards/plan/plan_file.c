@@ -1,6 +1,6 @@
-/* plan_file.c: see plan.h. The file holds, in the machine's own order of bytes: what it is and which version wrote it,
- * so that another version can say so; numbers; facts; texts, each with its length before it; and the checksum of all.
- */
+/* plan_file.c: see plan.h. The file holds, in the machine's byte order: a head with the file type and the version that
+ * wrote it, so that another version can say so; numbers; facts about the layer; texts, each with its length before it;
+ * and a checksum of everything. */
 #include "shards/plan/plan.h"
 
 #include "base/padding.h"
@@ -16,7 +16,7 @@
 #include <unistd.h>
 
 #define NAME "plan"
-/* More arguments than any shell passes on. */
+/* The largest size of the file: longer than any command line that a shell passes on. */
 enum { MOST_BYTES = 1 << 26 };
 
 typedef struct plan_head {
@@ -132,7 +132,7 @@ static bool take(plan_bytes *from, void *to, size_t n)
     return true;
 }
 
-/* NULL: there is none, or memory is out. */
+/* Takes a length and a text from the bytes. NULL: they end too early, or memory is out. */
 static char *take_text(plan_bytes *from)
 {
     uint64_t n;
@@ -190,8 +190,8 @@ static bool read_bytes(const char *directory, char *bytes, size_t n, gis_plan *p
     return true;
 }
 
-/* A plan is a call of separate: it names files to be read, and to be written. So it is not taken from a directory into
- * which anybody could have put it. */
+/* Fails if another user could have written the plan. A plan is a call of `separate` and names files that are read and
+ * written, so it is not taken from a directory that other users may write to or own. */
 static bool may_be_believed(const char *directory, gis_error *error)
 {
     struct stat status;

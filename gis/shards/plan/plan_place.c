@@ -1,5 +1,5 @@
 /* plan_place.c: see plan.h. */
-#define _GNU_SOURCE /* unlinkat() */
+#define _GNU_SOURCE /* for unlinkat() */
 #include "shards/plan/plan.h"
 
 #include "base/path.h"
@@ -16,8 +16,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* The mode of any other new directory, but that not all users may write into a plan (gis_plan_read()). Until then it is
- * for its owner alone. */
+/* Gives the directory the mode of any new directory, except that not all users may write into it (gis_plan_read()).
+ * Until then only its owner has access. */
 static void open_to_others(int directory)
 {
     const mode_t mask = umask(0);
@@ -25,7 +25,7 @@ static void open_to_others(int directory)
     (void)fchmod(directory, 0777 & ~mask & ~(mode_t)S_IWOTH);
 }
 
-/* "DIR/.NAME" of DIR/NAME, and letters of its own. */
+/* For DIR/NAME: "DIR/.NAME" with unique letters appended. *beside is the length of "DIR/". */
 static char *hidden_beside(const char *directory, size_t *beside)
 {
     size_t n = strlen(directory);
@@ -64,7 +64,7 @@ bool gis_plan_place_begin(const char *directory, gis_plan_place *place, gis_erro
     return false;
 }
 
-/* That a directory has a name is on the disk only once the one that it is in is. */
+/* Syncs the parent directory: only then is the new name of a directory on the disk. */
 static void sync_parent(const char *directory)
 {
     char *parent = gis_path_join(directory, "..");

@@ -1,12 +1,12 @@
-/* shard_estimates.c: see plan.h. Guesses for a scheduler, from towns of a hundred thousand buildings and real layers:
- * they lie above what most shards take. What they do not know: moves may make one piece of work of more than hangs
- * together at first. */
+/* shard_estimates.c: see plan.h. Estimates for a scheduler, from towns with a hundred thousand buildings and from real
+ * layers; most shards take less. Moves may join several contact groups to one piece of work, which cannot be
+ * estimated. */
 #include "shards/plan/plan.h"
 
 #include <math.h>
 
-/* Seconds on one core, estimated generously for schedulers: fixed; for each feature, without any search; and for each
- * feature with --effort 1, where one in four is in conflict. */
+/* Seconds on one core, estimated generously for schedulers: per process; per feature, without a search; per feature
+ * with --effort 1, if one in four is in conflict; and per feature in the merge. */
 static const double seconds_anyway = 2, seconds_a_feature = 2e-4, seconds_of_effort = 1e-3, seconds_merged = 1e-4;
 
 static double seconds_of(const gis_layer_rules *rules, double features)

@@ -1,12 +1,12 @@
-/* barrier_spooling.c: barriers onto the disk, for a layer in parts: a batch of the source at a time, each as it is
- * read. */
+/* barrier_spooling.c: writes barriers to disk, for a layer that is separated in parts. The source is read a batch at a
+ * time, and each barrier is written as it is read. */
 #include "shards/run/barrier_spooling.h"
 
 #include "shards/spool/barrier_spool.h"
 
 #include <cpl_conv.h>
 
-/* Features of a batch. */
+/* Number of features in a batch. */
 enum { BATCH = 8192 };
 
 typedef struct spooling {

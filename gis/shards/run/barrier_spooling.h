@@ -1,14 +1,16 @@
-/* barrier_spooling.h: barriers onto the disk, for a layer in parts: those within reach of the features of a spool. */
+/* barrier_spooling.h: writes the barriers within reach of the features of a spool to disk, for a layer that is
+ * separated in parts. */
 #ifndef GIS_BARRIER_SPOOLING_H
 #define GIS_BARRIER_SPOOLING_H
 
 #include "layer/barriers/barrier.h"
 #include "shards/spool/spool.h"
 
-/* As gis_barriers_read(), but onto the disk (shards/spool/barrier_spool.h) and in bounded memory. */
+/* Like gis_barriers_read(), but writes the barriers to disk (shards/spool/barrier_spool.h) in bounded memory. */
 bool gis_barriers_spool(const gis_barrier_request *requests, size_t n, const gis_barrier_surroundings *around,
                         const char *directory, gis_error *error);
-/* The boxes of all features of a spool, which is borrowed: looked up there, a cell at a time. reach: of moves. */
+/* Makes targets of the boxes of all features of a spool, which is borrowed and read a cell at a time. `reach` is the
+ * distance within which barriers count. */
 gis_barrier_targets *gis_barrier_targets_of_spool(gis_spool *spool, double reach);
 
 #endif

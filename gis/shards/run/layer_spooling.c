@@ -1,6 +1,6 @@
-/* layer_spooling.c: see layer_spooling.h. Each batch goes through the stages of a layer that is read as a whole
- * (layer/layer_input.h). Values that depend on all features are left open, and set when the spool is sorted: weights
- * by the median of areas, and the numbers of blocks. */
+/* layer_spooling.c: see layer_spooling.h. Each batch passes through the stages of a layer that is read as a whole
+ * (layer/layer_input.h). Values that depend on all features (weights relative to the median of areas, and the numbers
+ * of blocks) are set at the end, when the spool is sorted. */
 #include "shards/run/layer_spooling.h"
 
 #include "base/array.h"
@@ -20,7 +20,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-/* Features of a batch: enough that beginning one costs nothing. */
+/* Number of features in a batch: large enough that the cost of starting one does not matter. */
 enum { BATCH = 8192 };
 
 typedef struct spooling {
@@ -28,10 +28,10 @@ typedef struct spooling {
     gis_layer_facts *facts;
     const char *directory;
     gis_spool_writer *writer;
-    gis_spool_writer *aside; /* NULL: nothing lies there yet */
+    gis_spool_writer *aside; /* the spool of features that conflict with nothing; NULL: not begun */
     gis_disk_file status;
     gis_block_keys keys;
-    double *areas, median; /* of those that count, where weights ask for it */
+    double *areas, median; /* areas of the features that count, if weights depend on area */
     size_t n_areas, room;
     double shapes[4]; /* box of all shapes */
     gis_layer_checksums sums;
@@ -51,7 +51,7 @@ static bool weigh(spooling *s, gis_error *error)
     return gis_layer_weigh_by_field(input, error);
 }
 
-/* The stages up to what is known of a batch. */
+/* The stages of a batch up to the demands that do not depend on other batches. */
 static bool take_demands(spooling *s, gis_error *error)
 {
     gis_layer_input *input = &s->input;
@@ -83,7 +83,7 @@ static bool id_text(const gis_layer_input *input, size_t i, char **copy, char nu
     return true;
 }
 
-/* Begun with the first feature that lies there. */
+/* The writer for features that conflict with nothing; created for the first of them. */
 static gis_spool_writer *open_aside(spooling *s, gis_error *error)
 {
     if (s->aside) return s->aside;
@@ -115,7 +115,8 @@ static bool add_feature(spooling *s, size_t i, char **copy, gis_error *error)
            id_text(input, i, copy, number, &feature.id, error) && gis_spool_add(to, &feature, error);
 }
 
-/* What conflicts with nothing lies aside, if it is seen, and nowhere otherwise. */
+/* Is the feature written to a spool? A feature that conflicts with nothing is written only if it will be drawn, and
+ * then to the spool aside. */
 static bool is_spooled(const spooling *s, size_t i)
 {
     const gis_layer_input *input = &s->input;
@@ -150,7 +151,7 @@ static bool add_batch(spooling *s, gis_error *error)
     return done;
 }
 
-/* ---- What is settled at the end ---------------------------------------------------------------------------------- */
+/* ---- Values that depend on all features -------------------------------------------------------------------------- */
 
 static bool settle(void *user, gis_spool_feature *feature, gis_error *error)
 {
@@ -195,7 +196,8 @@ static void say_what_is_known(const spooling *s)
 
 /* ---- The layer --------------------------------------------------------------------------------------------------- */
 
-/* All batches. *again: conditions were asked by FIDs, which turned out not to be unique. */
+/* Reads all batches. *again is set if FIDs turned out not to be unique while conditions were evaluated by FIDs; then
+ * the layer must be read again. */
 static bool read_batches(spooling *s, const gis_layer_input_request *request, const char *directory, bool *again,
                          gis_error *error)
 {
@@ -219,7 +221,7 @@ bool gis_layer_spool_barriers(const gis_layer_input *input, double reach, gis_sp
                               gis_error *error)
 {
     const gis_layer_input_request *request = input->request;
-    /* A point has the side that it stands on: barriers farther away than its moves do not matter to it. */
+    /* The side of a point is where it stands, so barriers beyond the reach of its moves do not matter. */
     gis_barrier_targets *targets = gis_barrier_targets_of_spool(features, input->points ? INFINITY : reach);
     const gis_barrier_surroundings around = {
         .crs = gis_source_crs(input->source),
@@ -237,7 +239,7 @@ bool gis_layer_spool_barriers(const gis_layer_input *input, double reach, gis_sp
     return done;
 }
 
-/* Those within reach of what is in the spool now. */
+/* Spools the barriers within reach of the spooled features. */
 static bool spool_barriers(spooling *s, const char *directory, gis_error *error)
 {
     const gis_layer_input_request *request = s->input.request;

@@ -1,10 +1,11 @@
-/* run_proof.c: the file of --proof, of a layer that was separated in parts: lines that lie in order on disk. */
+/* run_proof.c: writes the file of --proof for a layer that was separated in parts; its lines are in sorted order on
+ * disk. */
 #include "layer/proof.h"
 #include "shards/run/shard_run.h"
 
 #include <stdlib.h>
 
-/* Members of blocks as lists: the next of the same block, by places in joined.block. */
+/* Writes the lines of blocks. next[k] is the next member of the same block, by places in joined.block. */
 static bool put_blocks(const gis_shard_run *p, gis_json *json, FILE *to, gis_error *error)
 {
     const gis_joined *j = &p->joined;

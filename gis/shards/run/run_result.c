@@ -1,5 +1,5 @@
-/* run_result.c: see layer/result.h. The results of a layer that was separated in parts lie in order on disk; features
- * are read once more beside them. */
+/* run_result.c: see layer/result.h. The results of a layer that was separated in parts are in sorted order on disk; the
+ * features are read from the source a second time beside them. */
 #include "shards/run/shard_run.h"
 
 #include "base/array.h"
@@ -16,7 +16,7 @@
 
 /* ---- The main layer ---------------------------------------------------------------------------------------------- */
 
-/* Where each list is, while features go by in their order. */
+/* The position in each list while the features are visited in input order. */
 typedef struct passing {
     gis_shard_run *parts;
     const gis_layer_input *input;
@@ -24,15 +24,15 @@ typedef struct passing {
     gis_feature_visit *visit; /* NULL: none */
     void *user;
     gis_disk_file status;
-    unsigned char *alone; /* of the batch that goes by: how each feature of it is by itself */
+    unsigned char *alone; /* of the current batch: the status that each feature has alone */
     size_t room;
-    bool any; /* joined.rows is at one */
+    bool any; /* joined.rows has a current item */
     size_t block;
     gis_far_moves far_moves;
 } passing;
 
-/* Of a feature that went by, or goes: so the first of its block did, if it is of one. own: where it is in the block;
- * NULL: it stands alone. */
+/* The value of a feature's block in the output. own: its entry in joined.block; NULL: it is in no block. The block's
+ * first feature must have been visited, so that its FID is known. */
 static gis_value block_value(const gis_shard_run *p, bool has_null, const gis_part_link *own, size_t feature,
                              GIntBig fid)
 {
@@ -68,7 +68,7 @@ static bool pass(passing *at, const gis_source *source, size_t i, gis_error *err
     return at->visit(at->user, i, &row, error);
 }
 
-/* The features are read a second time; others than the first time have no place in what was made of those. */
+/* Fails because the source differs from what was read the first time: the results do not fit its features any more. */
 static bool input_changed(const gis_source *source, gis_error *error)
 {
     return gis_fail(error,
@@ -97,7 +97,8 @@ static bool add_box(void *user, const gis_spool_feature *feature, const double b
     return true;
 }
 
-/* Features are looked at only if a cell has one with corrupt coordinates. */
+/* Collects the boxes of all features for warnings about far moves; only needed if a cell has a feature with corrupt
+ * coordinates. */
 static bool find_sound_part(gis_spool *spool, gis_far_moves *of, gis_error *error)
 {
     const size_t cells = gis_spool_cells(spool);
@@ -107,7 +108,7 @@ static bool find_sound_part(gis_spool *spool, gis_far_moves *of, gis_error *erro
     return done;
 }
 
-/* All features go by, as blocks are called by FIDs that are known then. */
+/* Visits all features in order, even without a visitor, since blocks are identified by FIDs that become known then. */
 static bool visit_features(const gis_result *r, bool has_null, gis_feature_visit *visit, void *user, gis_error *error)
 {
     gis_shard_run *p = r->of;
@@ -164,7 +165,7 @@ static bool visit_arrows(const gis_result *r, bool has_null, gis_arrow_visit *vi
     return !any;
 }
 
-/* Names of the conflict that is at hand. */
+/* The name of a feature or barrier in the current conflict. */
 static const gis_part_name *name_of(const gis_shard_run *p, size_t feature)
 {
     const gis_part_result *one = &p->joined.conflicts.one;
@@ -212,7 +213,7 @@ static bool visit_conflicts(const gis_result *r, gis_conflict_visit *visit, void
     return !any;
 }
 
-/* The two things of the push that is at hand. */
+/* The FIDs of the two things of the current push. */
 static GIntBig push_fid(const void *of, size_t feature)
 {
     const gis_part_push *push = ((const gis_part_result *)of)->push;
@@ -240,7 +241,7 @@ static bool visit_pushes(const gis_result *r, gis_push_visit *visit, void *user,
     return !any;
 }
 
-/* Features are asked about in their order, and rows lie in it. */
+/* The moves of features that are asked for in ascending order, as the rows are sorted. */
 typedef struct moving {
     gis_sorted_results *rows;
     bool any;

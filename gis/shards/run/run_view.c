@@ -1,5 +1,5 @@
 /* run_view.c: see layer/result_view.h. Shapes and names of a layer that was separated in parts are read from the spool
- * one by one; what became of features is read from lists that lie in order on disk. */
+ * one by one; results of features are read from the sorted lists on disk. */
 #include "base/array.h"
 #include "base/text.h"
 #include "disk/file.h"
@@ -12,22 +12,22 @@ enum { STATUS_BUFFER = 1 << 16 };
 
 typedef struct spool_view {
     gis_shard_run *parts;
-    gis_spool *aside; /* NULL: nothing lies there */
+    gis_spool *aside; /* the spool of features that conflict with nothing; NULL: there is none */
     sunder_conflict *conflict;
     size_t conflicts, conflict_room;
-    size_t *blocker; /* of all conflicts, concatenated */
+    size_t *blocker; /* the blockers of all conflicts, concatenated */
     size_t blockers, blocker_room;
     uint64_t *barrier_place; /* [barriers] */
     sunder_shape *lent, *lent_barrier;
-    sunder_obstacle lines; /* of the barrier that is lent */
-    gis_text text;         /* of the name that is asked for */
+    sunder_obstacle lines; /* of the barrier that was lent last */
+    gis_text text;         /* the name that was requested last */
     int64_t fid;
     bool named;
 } spool_view;
 
 /* ---- Places ------------------------------------------------------------------------------------------------------ */
 
-/* Of a feature: its place in one of two spools, and in the lowest bit, which. */
+/* Combines a feature's place in its spool with a lowest bit that tells which of the two spools it is in. */
 static uint64_t place_of(uint64_t place, bool aside) { return place << 1 | aside; }
 
 static gis_spool *spool_of(const spool_view *s, uint64_t place) { return place & 1 ? s->aside : s->parts->spool; }
@@ -69,7 +69,7 @@ static bool visit_all(gis_spool *spool, gis_spool_visit *visit, filling *f, gis_
     return done;
 }
 
-/* Each as it would be by itself. */
+/* Reads the status that each feature would have alone. */
 static bool take_statuses(const spool_view *s, gis_view_feature *feature, size_t n, gis_error *error)
 {
     unsigned char buffer[STATUS_BUFFER];
@@ -84,7 +84,7 @@ static bool take_statuses(const spool_view *s, gis_view_feature *feature, size_t
     return done;
 }
 
-/* What became of those that are not as they would be alone. */
+/* Sets moves and status of the features that differ from features alone. */
 static bool take_rows(const spool_view *s, gis_view_feature *feature, gis_error *error)
 {
     gis_joined *joined = &s->parts->joined;
@@ -116,7 +116,7 @@ static bool fill(void *of, gis_view_feature *feature, gis_error *error)
 
 /* ---- All barriers ------------------------------------------------------------------------------------------------ */
 
-/* A feature without polygons has no shape. */
+/* A barrier's geometry; its shape is NULL if it has no polygons. */
 static sunder_obstacle geometry_of(const gis_spool_feature *barrier)
 {
     sunder_obstacle out = barrier->lines;

@@ -17,19 +17,18 @@
 #include <string.h>
 #include <unistd.h>
 
-/* The spool is dealt to LEAST_PARTS parts, or a few more: as many neighbouring ones as memory allows are separated as
- * one. */
+/* The spool is divided into at least LEAST_PARTS parts; a process separates as many neighbouring parts at once as
+ * memory allows. */
 enum { LEAST_PARTS = 4096 };
 enum { BATCH = 16384 };
 
 static const double bytes_anyway = GIS_PART_BYTES_ANYWAY;
-/* While a layer is written: of each feature, and what is sorted and written at a time, which fills up with the first
- * million. */
+/* Bytes while the layer is written: for each feature, and for what is sorted and written at once, which grows with the
+ * first million features up to bytes_full. */
 static const double bytes_written = 32, bytes_filled = 30, bytes_full = 30e6;
-/* Bytes for each feature while the layer is written, and while it is drawn: its place and its block; and the page's
- * data. */
+/* Bytes while the layer is drawn: for each feature its place and block; and the data of the page. */
 static const double bytes_drawn = 90, bytes_of_page = 60e6;
-/* Of barriers: their pieces, and the shapes of their parts. */
+/* Bytes for barriers: their pieces, and the shapes of their parts. */
 static const double bytes_a_barrier = 1000, bytes_a_barrier_vertex = 300;
 
 /* ---- Onto the disk ----------------------------------------------------------------------------------------------- */
@@ -69,7 +68,7 @@ double gis_shard_run_bytes_written(double features, bool drawn)
     return bytes_anyway + fmax(written, page);
 }
 
-/* How many parts fit into what is left of the memory. */
+/* Chooses how many parts are separated at once in the memory that is left; fails if even one does not fit. */
 static bool choose_parts(gis_shard_run *p, double memory, gis_error *error)
 {
     const unsigned parts = gis_spool_parts(p->spool);
@@ -86,7 +85,7 @@ static bool choose_parts(gis_shard_run *p, double memory, gis_error *error)
     return true;
 }
 
-/* What the core is asked for; as gis_layer_core_options() of a layer that is read. */
+/* Sets the options for the core, as gis_layer_core_options() does for a layer that is held in memory. */
 static void choose_options(gis_shard_run *p)
 {
     const gis_layer_input input = {.request = p->request,
@@ -114,7 +113,8 @@ static bool open_spool(gis_shard_run *p, double memory, gis_error *error)
     return done;
 }
 
-/* Contact groups are within the gap and this much of a metre, or of a unit where there is none. */
+/* Features are in the same contact group within the gap plus this fraction of a metre (or of a unit, if its length is
+ * unknown). */
 static const double next_to_nothing = 1e-6;
 
 static bool find_group(gis_shard_run *p, gis_error *error)
@@ -127,7 +127,8 @@ static bool find_group(gis_shard_run *p, gis_error *error)
     return true;
 }
 
-/* What hangs together is one part, whatever its size: it is told of before hours are spent on all the rest. */
+/* Warns if the largest contact group takes more memory than allowed. It is separated as one piece, whatever its size;
+ * the warning comes before hours are spent on the rest. */
 void gis_shard_run_warn_of_group(const gis_shard_run *parts)
 {
     const gis_contact_group *t = &parts->facts.group;
@@ -295,7 +296,7 @@ const char *gis_shard_run_scratch(gis_shard_run *parts, gis_error *error)
     return make_directory(parts, parts->directory, error) ? parts->scratch : NULL;
 }
 
-/* Their spool has the same checksum if they are the same. */
+/* Spools the barriers again; the two spools have the same checksum if the barriers are the same. */
 bool gis_shard_run_compare_barriers(gis_shard_run *parts, const gis_layer_input *input, gis_error *error)
 {
     if (parts->request->barriers == 0) return true;
@@ -322,7 +323,7 @@ bool gis_shard_run_join(gis_shard_run *parts, uint64_t options, sunder_layer_sum
     begin_listening(parts, &silent);
     const bool done = gis_shard_run_scratch(parts, error) && join_files(parts, options, error);
     end_listening(parts);
-    gis_layout_clear(&parts->layout); /* what is written needs memory, too */
+    gis_layout_clear(&parts->layout); /* writing needs the memory */
     gis_memory_back();
     *summary = parts->joined.summary;
     summary->features = parts->facts.source.features;

@@ -1,5 +1,5 @@
-/* barrier_spool.c: see barrier_spool.h. In the spool a barrier is a feature of other words: its index is the number,
- * its weight the width, its limit the gap, its being fixed that it has sides, and its id the name of its layer. */
+/* barrier_spool.c: see barrier_spool.h. A barrier is stored as a feature whose members have another meaning: index is
+ * its number, weight its width, max_shift its gap, fixed says that it has sides, and id is the name of its layer. */
 #include "shards/spool/barrier_spool.h"
 
 #include "base/array.h"
@@ -33,7 +33,7 @@ static void *copy_of(const void *from, size_t bytes)
 
 static size_t points_of(const sunder_obstacle *o) { return o->lines ? o->line_end[o->lines - 1] : 0; }
 
-/* Of lines, and of the name; the shape of `to` is its own. */
+/* Replaces the lines and the name in *to by copies; its shape is not touched. */
 static bool own_rest(gis_spooled_barrier *to, gis_error *error)
 {
     sunder_obstacle *o = &to->demands.geometry;
@@ -43,9 +43,10 @@ static bool own_rest(gis_spooled_barrier *to, gis_error *error)
     return (to->layer && (!o->lines || (o->xy && o->line_end))) || gis_no_memory(error);
 }
 
-/* ---- Those that are everywhere ----------------------------------------------------------------------------------- */
+/* ---- Barriers that every part gets ------------------------------------------------------------------------------- */
 
-/* What a barrier can stand for; of several that do the smallest is taken. */
+/* Properties that some barrier has: any geometry, lines, no distance owed, the largest distance owed. For each property
+ * the smallest barrier that has it is given to every part. */
 enum { ANY, LINES, BARE, MOST, FACTS };
 
 struct gis_barriers_writer {
@@ -60,7 +61,7 @@ struct gis_barriers_writer {
     } fact[FACTS];
 };
 
-/* What it owes, rounded up as the core does it: half the width, and the gap. */
+/* The distance that features must keep from the barrier: half its width plus the gap, rounded up as in the core. */
 static double owed(const gis_barriers_writer *w, const sunder_barrier *b)
 {
     const double half = b->width / 2, gap = b->gap < 0 ? w->gap : b->gap, sum = half + gap, back = sum - half;
@@ -129,7 +130,7 @@ static bool add(gis_spool_writer *to, const gis_spooled_barrier *b, double reach
     return gis_spool_add(to, &feature, error);
 }
 
-/* A directory that is there is taken as it is. */
+/* Makes a directory; an existing one is used as it is. */
 static bool make_directory(const char *path, gis_error *error)
 {
     return mkdir(path, 0777) == 0 || errno == EEXIST ||
@@ -216,7 +217,7 @@ typedef struct loading {
     gis_barriers_list *out;
     const double (*box)[4];
     size_t n;
-    bool all; /* whatever they meet */
+    bool all; /* take every barrier, whatever it meets */
 } loading;
 
 static bool meets_any(const loading *l, const double box[4])
@@ -226,7 +227,7 @@ static bool meets_any(const loading *l, const double box[4])
     return l->all;
 }
 
-/* As it was when its box was written. */
+/* The box of a barrier, computed as when it was written. */
 static void box_of(const gis_spool_feature *f, double box[4])
 {
     const size_t points = points_of(&f->lines);
@@ -273,7 +274,7 @@ static int by_number(const void *a, const void *b)
     return (p->number > q->number) - (p->number < q->number);
 }
 
-/* Each once: of those that are everywhere some were read twice. */
+/* Sorts by number and removes duplicates: a barrier that every part gets may have been read twice. */
 static void sort(gis_barriers_list *list)
 {
     size_t kept = 0;

@@ -1,23 +1,23 @@
-/* barrier_spool.h: barriers on disk, and those of a part of the layer.
+/* barrier_spool.h: barriers on disk, and loading those of one part of the layer.
  *
- * They lie in a spool of their own, each with the box of all within which it owes features anything: so what meets a
- * box is met by it. Whatever the part, a few of them are there that stand for what the core asks of all barriers at
- * once: how much any owes at most, whether there is one, one of lines, one that owes nothing.
- */
+ * Barriers have a spool of their own. Each is stored with the box within which features owe it a distance, so that only
+ * barriers whose box meets a part's boxes matter to the part. In addition every part gets a few barriers that represent
+ * properties of all barriers together, on which the core's decisions depend: the largest distance owed, and whether
+ * there is any barrier, one with lines, one to which no distance is owed. */
 #ifndef GIS_BARRIER_SPOOL_H
 #define GIS_BARRIER_SPOOL_H
 
 #include "shards/spool/spool.h"
 
-/* Where in the plan's directory. */
+/* Subdirectory of the plan's directory. */
 #define GIS_BARRIERS "barriers"
-/* ... within that, those that are of each part. */
+/* Subdirectory of that, with the barriers that every part gets. */
 #define GIS_BARRIERS_EVERYWHERE "everywhere"
 
 typedef struct gis_spooled_barrier {
-    size_t number; /* ascending in the order in which they were read; some may be left out */
+    size_t number; /* ascending in reading order; numbers may be missing */
     int64_t fid;
-    const char *layer; /* its name */
+    const char *layer; /* name of the layer */
     sunder_barrier demands;
 } gis_spooled_barrier;
 
@@ -25,7 +25,8 @@ typedef struct gis_spooled_barrier {
 
 typedef struct gis_barriers_writer gis_barriers_writer;
 
-/* Makes `barriers` in the directory, in place of what is there. gap: of those that have none of their own. */
+/* Creates `barriers` in the directory, in place of an existing one. `gap` is that of barriers without a gap of their
+ * own. */
 bool gis_barriers_create(const char *directory, double gap, gis_barriers_writer **out, gis_error *error);
 bool gis_barriers_add(gis_barriers_writer *writer, const gis_spooled_barrier *barrier, gis_error *error);
 bool gis_barriers_finish(gis_barriers_writer *writer, gis_error *error);
@@ -33,23 +34,23 @@ void gis_barriers_writer_free(gis_barriers_writer *writer);
 
 /* ---- Reading ----------------------------------------------------------------------------------------------------- */
 
-/* Of a layer: zeroed: none. */
+/* The barriers of a layer. A zeroed struct is empty. */
 typedef struct gis_spooled_barriers {
     gis_spool *all, *everywhere;
 } gis_spooled_barriers;
 
 bool gis_barriers_open(const char *directory, gis_spooled_barriers *out, gis_error *error);
 void gis_barriers_close(gis_spooled_barriers *spool);
-/* May some barrier matter within the box? */
+/* May a barrier matter to features within the box? May be true although none does. */
 bool gis_barriers_may_meet(const gis_spooled_barriers *spool, const double box[4]);
 
-/* Those of a part, by their numbers. Zeroed: none. */
+/* The barriers of a part, sorted by number. A zeroed list is empty. */
 typedef struct gis_barriers_list {
-    gis_spooled_barrier *item; /* all of each is owned */
+    gis_spooled_barrier *item; /* everything in it is owned */
     size_t n, capacity;
 } gis_barriers_list;
 
-/* All that meet some of n boxes, and those that are everywhere. */
+/* Loads all barriers that meet one of n boxes, and those that every part gets. */
 bool gis_barriers_load(const gis_spooled_barriers *spool, const double (*box)[4], size_t n, gis_barriers_list *out,
                        gis_error *error);
 bool gis_barriers_set(const gis_barriers_list *list, sunder_layer *layer, gis_error *error);

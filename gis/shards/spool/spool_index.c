@@ -1,5 +1,4 @@
-/* spool_index.c: see spool_index.h. The file: a mark, a head, the entries, and a checksum of the head and the entries.
- */
+/* spool_index.c: see spool_index.h. The file holds a mark, a head, the entries, and a checksum of head and entries. */
 #include "shards/spool/spool_index.h"
 
 #include "disk/checksum.h"
@@ -29,7 +28,8 @@ bool gis_spool_mark_check(const gis_spool_mark *mark, const char what[8], const 
     return true;
 }
 
-/* Part k has the cells whose middle is in the k-th of `parts` equal intervals of the count of vertices and features. */
+/* Assigns cells to parts: the total of vertices and features is divided into `parts` equal intervals along the curve,
+ * and a cell belongs to the interval in which its middle lies. */
 void gis_spool_index_deal(gis_spool_index *index, unsigned parts)
 {
     double all = 0, before = 0;

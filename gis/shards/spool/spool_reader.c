@@ -1,4 +1,4 @@
-/* spool_reader.c: a spool read, cell by cell. */
+/* spool_reader.c: reads a spool, cell by cell. */
 #include "base/array.h"
 #include "base/core_error.h"
 #include "disk/checksum.h"
@@ -17,7 +17,8 @@ struct gis_spool {
     size_t *line_end, line_room;
 };
 
-/* A cell follows the one before it, and has no more features and vertices than its bytes can hold. */
+/* Is the entry possible: does the cell begin at `from`, behind the one before it, and can its bytes hold its number of
+ * features and vertices? */
 static bool is_possible(const gis_spool *spool, const gis_spool_entry *entry, uint64_t from)
 {
     const uint64_t size = spool->file.size;
@@ -90,7 +91,7 @@ static bool load(gis_spool *spool, size_t cell, gis_error *error)
                     cell);
 }
 
-/* The record that is `at` bytes into what was loaded from a place on. */
+/* Visits the record at offset `at` of the loaded bytes, which begin at `from` in the file. */
 static bool visit_record(gis_spool *spool, uint64_t from, size_t at, gis_spool_visit *visit, void *user,
                          gis_error *error)
 {

@@ -1,5 +1,5 @@
-/* spool_record.c: see spool_record.h. Rings stand as they were given, so that the shape that is made of them is the
- * very shape that was put in; of one that had to be repaired that is told, and it is repaired again. */
+/* spool_record.c: see spool_record.h. Rings are stored as they were given, so that the shape made from them is
+ * identical to the original; a flag says if it had to be repaired, and then it is repaired again. */
 #include "shards/spool/spool_record.h"
 
 #include "base/array.h"
@@ -13,8 +13,8 @@ _Static_assert(sizeof(gis_spool_head) % 8 == 0, "what follows a head is aligned"
 
 static size_t padded(size_t bytes) { return (bytes + 7) & ~(size_t)7; }
 
-/* Optional members of a record, a bit each from the lowest up; their data follow the head in this order, with these
- * sizes. */
+/* Optional members of a record, one bit each; their data follow the head in the order of the bits, with the sizes in
+ * size_of[]. */
 enum {
     FIXED = 1 << 0,
     REPAIRED = 1 << 1,
@@ -22,13 +22,13 @@ enum {
     AREA = 1 << 3,
     START = 1 << 4,
     REACH = 1 << 5,
-    BOX = 1 << 6, /* another than that of the coordinates */
+    BOX = 1 << 6, /* the box differs from that of the coordinates */
     LINES = 1 << 7,
     ID = 1 << 8,
     ALL = (1 << 9) - 1
 };
 
-/* Of those that have some. */
+/* Number of lines and of their points, for a record with LINES. */
 typedef struct counts {
     uint32_t lines, points;
 } counts;
@@ -43,7 +43,7 @@ static const size_t size_of[] = {0,
                                  sizeof(counts),
                                  sizeof(uint64_t)};
 
-/* Where that is which is told by the flag; of ALL + 1, where all of it ends. */
+/* The offset of the data of the member `flag`; for ALL + 1, the end of all optional members. */
 static size_t place_of(const gis_spool_head *head, uint32_t flag)
 {
     size_t at = sizeof *head;
@@ -52,7 +52,7 @@ static size_t place_of(const gis_spool_head *head, uint32_t flag)
     return at;
 }
 
-/* Takes it over, if it is there. */
+/* Copies the data of the member `flag` to `to`, if the record has it. */
 static void get(const unsigned char *record, const gis_spool_head *head, uint32_t flag, void *to, size_t bytes)
 {
     if (head->has & flag) memcpy(to, record + place_of(head, flag), bytes);
@@ -63,10 +63,10 @@ static void put(unsigned char *record, const gis_spool_head *head, uint32_t flag
     if (head->has & flag) memcpy(record + place_of(head, flag), from, bytes);
 }
 
-/* What follows the head and what only some have. */
+/* Offsets of what follows the optional members. */
 typedef struct content {
     counts of_lines;
-    uint64_t id_bytes; /* with the NUL */
+    uint64_t id_bytes; /* including the NUL */
     size_t xy, line_xy, ring_ends, line_ends, id, bytes;
 } content;
 
@@ -82,7 +82,7 @@ static void lay_out(const gis_spool_head *head, content *c)
     c->bytes = padded(c->id + c->id_bytes);
 }
 
-/* Parses a record of this many bytes. False: it is invalid. */
+/* Parses a record for which `left` bytes are available. False: it is invalid. */
 static bool find_content(const unsigned char *record, size_t left, gis_spool_head *head, content *c)
 {
     *c = (content){0};
@@ -99,14 +99,14 @@ static bool find_content(const unsigned char *record, size_t left, gis_spool_hea
 static unsigned char *put_ends(unsigned char *to, const size_t *end, size_t n)
 {
     for (size_t k = 0; k < n; k++, to += sizeof(uint32_t)) {
-        const uint32_t one = (uint32_t)end[k]; /* a shape has no more than 2^27 vertices */
+        const uint32_t one = (uint32_t)end[k]; /* a shape has at most 2^27 vertices */
         memcpy(to, &one, sizeof one);
     }
     return to;
 }
 
-/* Of the shape, with the point that it is drawn at, and the lines; of nothing box[0] > box[2]. Grown outward, by no
- * less than the reach. */
+/* The box of the shape (with the start of its arrow) and the lines, enlarged by the reach and rounded outward; box[0] >
+ * box[2] if there is neither. */
 static void find_box(const gis_spool_feature *feature, size_t points, double box[4])
 {
     const double *xy = feature->lines.xy, nothing[4] = {1, 0, 0, 0},
@@ -127,7 +127,7 @@ static void find_box(const gis_spool_feature *feature, size_t points, double box
         box[c] = c < 2 ? nextafter(box[c] - feature->reach, -INFINITY) : nextafter(box[c] + feature->reach, INFINITY);
 }
 
-/* Of the vertices; none has one of nothing. */
+/* The box of n vertices; box[0] > box[2] if n is 0. */
 static void box_of_vertices(const double *xy, size_t n, double box[4])
 {
     const double nothing[4] = {1, 0, 0, 0};
@@ -181,7 +181,7 @@ bool gis_spool_record_make(gis_spool_room *room, const gis_spool_feature *featur
     head.bytes = c.bytes;
     if (!gis_array_reserve(&room->at, &room->capacity, c.bytes, 1)) return gis_no_memory(error);
     room->used = c.bytes;
-    memset(room->at + c.bytes - 8, 0, 8); /* the padding */
+    memset(room->at + c.bytes - 8, 0, 8); /* clears the padding */
     memcpy(room->at, &head, sizeof head);
     put(room->at, &head, BLOCK, &demands->block, sizeof demands->block);
     put(room->at, &head, AREA, &feature->area, sizeof feature->area);

@@ -1,4 +1,4 @@
-/* spool_writer.c: a spool written: features put in order along the curve, then cut into cells. */
+/* spool_writer.c: writes a spool: sorts the features along the curve, and divides them into cells. */
 #include "base/array.h"
 #include "disk/checksum.h"
 #include "disk/external_sort.h"
@@ -12,30 +12,31 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A cell is read as a whole: it has at most this many features, and vertices, unless a single feature has more. */
+/* A cell is read as a whole: it has at most this number of features, and of vertices unless a single feature has
+ * more. */
 enum { CELL_FEATURES = 1000, CELL_VERTICES = 20000 };
 
-/* A grid over a continent has cells of a tenth of a metre. */
+/* With this number of bits, a grid over a continent has cells of a tenth of a metre. */
 enum { CURVE_BITS = 26 };
 
-/* A frame is useless if more than one feature in this many lies beyond it, or if all lie within this small a part of
- * its sides. */
+/* A frame is useless if more than one in MOST_STRAYS features lies outside of it, or if all features lie within 1 /
+ * CORNER of its size. */
 enum { MOST_STRAYS = 8, CORNER = 1024 };
 
 struct gis_spool_writer {
     char *directory;
     gis_sorter *sorter;
-    double frame[4];       /* of the curve: where features are said to lie; cleared: nothing is said */
-    double box[4];         /* where they do */
-    size_t placed, strays; /* that have a box, and of these those that lie beyond the frame */
+    double frame[4];       /* of the curve: where features are expected; empty if nothing is known */
+    double box[4];         /* box of all features added */
+    size_t placed, strays; /* number of features with a box, and of those outside of the frame */
     gis_disk_file out;
     gis_spool_room record;
     gis_spool_index index;
-    gis_spool_entry cell; /* the one that is being filled, and the records in it */
+    gis_spool_entry cell; /* the cell being filled, and its records */
     gis_spool_room records;
     gis_spool_settle *settle;
     void *settle_user;
-    uint64_t refused; /* UINT64_MAX, or the first in the order of the input that settle refused, and */
+    uint64_t refused; /* the first feature in input order that `settle` rejected, with its message; UINT64_MAX: none */
     gis_error why;
 };
 
@@ -98,7 +99,7 @@ static bool end_cell(gis_spool_writer *writer, gis_error *error)
     return true;
 }
 
-/* What is known now that all are there. */
+/* Sets the values that depend on all features. */
 static bool settle_record(gis_spool_writer *writer, unsigned char *record, gis_error *error)
 {
     gis_spool_feature feature;
@@ -150,8 +151,8 @@ _Static_assert(offsetof(gis_spool_head, along) == offsetof(gis_sort_head, first)
                    offsetof(gis_spool_head, index) == offsetof(gis_sort_head, second),
                "records are sorted by their place on the curve and, where that is one, by their place in the input");
 
-/* Does the frame tell them apart? Not if many lie beyond it, or all in a corner: what a format says of its layer's
- * extent may be of another day. */
+/* Is the frame good enough for sorting? Not if many features lie outside of it, or all lie in a corner: the extent that
+ * a format stores may be out of date. */
 static bool is_framed(const gis_spool_writer *writer)
 {
     const double *frame = writer->frame, *box = writer->box;
@@ -177,7 +178,7 @@ static bool put_elsewhere(void *user, const unsigned char *record, gis_error *er
     return gis_sorter_add(r->to, own->at, error);
 }
 
-/* By the curve of the box that they are known to have. */
+/* Sorts the records again, along the curve through their actual box. */
 static bool order_again(gis_spool_writer *writer, gis_error *error)
 {
     reordering r = {.writer = writer};
