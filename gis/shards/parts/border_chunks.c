@@ -19,7 +19,7 @@ static bool list_chunks(gis_border_chunks *h, gis_error *error)
     return true;
 }
 
-static bool load(gis_border_chunks *h, gis_part_result *held, gis_error *error)
+static bool load_wanted_chunks(gis_border_chunks *h, gis_part_result *held, gis_error *error)
 {
     gis_part_result one = {0};
     bool done = true;
@@ -52,7 +52,7 @@ bool gis_border_chunks_load(gis_border_chunks *chunks, gis_part_result *held, gi
     }
     if (done) gis_box_pairs_visit(&pairs, want_both, chunks);
     gis_box_pairs_clear(&pairs);
-    return done && load(chunks, held, error);
+    return done && load_wanted_chunks(chunks, held, error);
 }
 
 enum { CHUNK, WORLD };
@@ -80,7 +80,7 @@ bool gis_border_chunks_load_new(gis_border_chunks *chunks, gis_part_result *held
     }
     if (done) gis_box_pairs_visit(&pairs, want_chunk, chunks);
     gis_box_pairs_clear(&pairs);
-    return done && load(chunks, held, error);
+    return done && load_wanted_chunks(chunks, held, error);
 }
 
 void gis_border_chunks_clear(gis_border_chunks *chunks)

@@ -23,7 +23,7 @@ static int by_left(const void *a, const void *b)
     return (p->box[0] > q->box[0]) - (p->box[0] < q->box[0]);
 }
 
-static bool meet(const gis_paired_box *a, const gis_paired_box *b)
+static bool heights_meet(const gis_paired_box *a, const gis_paired_box *b)
 {
     return a->box[1] <= b->box[3] && b->box[1] <= a->box[3];
 }
@@ -39,7 +39,7 @@ void gis_box_pairs_visit(gis_box_pairs *pairs, gis_box_pairs_visitor *meets, voi
         size_t kept = 0;
         for (size_t i = 0; i < open; i++) {
             if (box[i].box[2] < next.box[0]) continue;
-            if (on != GIS_BOX_PAIRS_A_ONLY && meet(&box[i], &next)) on = meets(user, &box[i], &next);
+            if (on != GIS_BOX_PAIRS_A_ONLY && heights_meet(&box[i], &next)) on = meets(user, &box[i], &next);
             if (on != GIS_BOX_PAIRS_B_ONLY) {
                 if (kept != i) box[kept] = box[i];
                 kept++;

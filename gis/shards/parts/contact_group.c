@@ -14,7 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { LOTS = 1 << 12 }; /* groups that can no longer grow are dropped when there are more than this number */
+enum { MOST_GROUPS = 1 << 12 }; /* groups that can no longer grow are dropped when there are more than this number */
 /* Pairs of shapes that are compared, per feature on average. Layers with more pairs have stacked features; then boxes
  * alone are compared. */
 static const size_t patience = 500;
@@ -22,7 +22,7 @@ static const size_t patience = 500;
 typedef struct member {
     double box[4]; /* enlarged by half the reach on all sides */
     uint64_t place;
-    size_t lot;
+    size_t group;
     sunder_shape *shape; /* owned; NULL: only boxes are compared, or the shape is read when it is needed */
     bool inside;         /* its box lies in another member's, so it can be skipped where only boxes are compared */
 } member;
@@ -32,14 +32,14 @@ typedef struct members {
     size_t n, room;
 } members;
 
-typedef struct looking {
+typedef struct search {
     const gis_layout *layout;
     double reach;
     bool by_shapes;
     size_t patience;        /* shape comparisons left, for pairs whose boxes meet */
-    gis_contact_group *lot; /* [groups] sums are kept at the roots */
+    gis_contact_group *group; /* [groups] sums are kept at the roots */
     size_t *parent;         /* [groups] of the disjoint sets */
-    size_t lots, lot_room, parent_room, enough_lots;
+    size_t groups, group_room, parent_room, enough_groups;
     gis_contact_group largest; /* the largest of the groups that were dropped as complete */
     size_t *of_block;          /* [layout->blocks] a group of the block, or SIZE_MAX */
     size_t *beside;            /* [besides] numbers of the cells within reach of the current cell, ascending */
@@ -53,7 +53,7 @@ typedef struct looking {
     sunder_shape *read; /* set by gis_spool_read_one() */
     gis_error *error;
     bool failed;
-} looking;
+} search;
 
 /* ---- Groups ------------------------------------------------------------------------------------------------------ */
 
@@ -62,25 +62,25 @@ static double bytes_of(const gis_layout *layout, const gis_contact_group *t)
     return gis_part_bytes(layout->how.keep_trees, layout->how.effort, (double)t->features, (double)t->vertices);
 }
 
-static bool add_lot(looking *l, const double box[4], size_t vertices)
+static bool add_group(search *l, const double box[4], size_t vertices)
 {
-    if (!gis_array_reserve(&l->lot, &l->lot_room, l->lots + 1, sizeof *l->lot) ||
-        !gis_array_reserve(&l->parent, &l->parent_room, l->lots + 1, sizeof *l->parent))
+    if (!gis_array_reserve(&l->group, &l->group_room, l->groups + 1, sizeof *l->group) ||
+        !gis_array_reserve(&l->parent, &l->parent_room, l->groups + 1, sizeof *l->parent))
         return false;
-    gis_contact_group *to = &l->lot[l->lots];
+    gis_contact_group *to = &l->group[l->groups];
     *to = (gis_contact_group){.features = 1, .vertices = vertices};
     memcpy(to->box, box, sizeof to->box);
-    l->parent[l->lots] = l->lots;
-    l->lots++;
+    l->parent[l->groups] = l->groups;
+    l->groups++;
     return true;
 }
 
-static void join(looking *l, size_t a, size_t b)
+static void join_groups(search *l, size_t a, size_t b)
 {
     const size_t x = gis_set_root(l->parent, a), y = gis_set_root(l->parent, b);
     if (x == y) return;
-    gis_contact_group *to = &l->lot[x < y ? x : y];
-    const gis_contact_group *from = &l->lot[x < y ? y : x];
+    gis_contact_group *to = &l->group[x < y ? x : y];
+    const gis_contact_group *from = &l->group[x < y ? y : x];
     to->features += from->features;
     to->vertices += from->vertices;
     gis_box_join(to->box, from->box);
@@ -88,53 +88,53 @@ static void join(looking *l, size_t a, size_t b)
 }
 
 /* Joins the group `one` with the other members of the block with this number. */
-static void join_block(looking *l, int64_t number, size_t one)
+static void join_block(search *l, int64_t number, size_t one)
 {
     const gis_part_block *block = gis_layout_block(l->layout, number);
     if (!block) return;
     size_t *first = &l->of_block[block - l->layout->block];
     if (*first == SIZE_MAX) *first = one;
-    join(l, *first, one);
+    join_groups(l, *first, one);
 }
 
-static void consider(looking *l, const gis_contact_group *lot)
+static void consider_group(search *l, const gis_contact_group *group)
 {
-    if (bytes_of(l->layout, lot) > bytes_of(l->layout, &l->largest)) l->largest = *lot;
+    if (bytes_of(l->layout, group) > bytes_of(l->layout, &l->largest)) l->largest = *group;
 }
 
 /* Replaces *group, which a kept member or block refers to, by the number of its root, and marks the root in `to` as one
  * that stays. */
-static void keep_lot(const looking *l, size_t *to, size_t *lot)
+static void keep_group(const search *l, size_t *to, size_t *group)
 {
-    *lot = gis_set_root(l->parent, *lot);
-    to[*lot] = 0;
+    *group = gis_set_root(l->parent, *group);
+    to[*group] = 0;
 }
 
 /* Drops groups without kept members; only the largest of these is remembered. */
-static bool forget_lots(looking *l, gis_error *error)
+static bool drop_complete_groups(search *l, gis_error *error)
 {
     const size_t cells = gis_spool_cells(l->layout->spool);
-    size_t *to = malloc((l->lots + 1) * sizeof *to), n = 0;
+    size_t *to = malloc((l->groups + 1) * sizeof *to), n = 0;
     if (!to) return gis_no_memory(error);
-    for (size_t k = 0; k < l->lots; k++) to[k] = SIZE_MAX;
+    for (size_t k = 0; k < l->groups; k++) to[k] = SIZE_MAX;
     for (size_t c = 0; c < cells; c++)
-        for (size_t k = 0; k < l->cell[c].n; k++) keep_lot(l, to, &l->cell[c].at[k].lot);
+        for (size_t k = 0; k < l->cell[c].n; k++) keep_group(l, to, &l->cell[c].at[k].group);
     for (size_t b = 0; b < l->layout->blocks; b++)
-        if (l->of_block[b] != SIZE_MAX) keep_lot(l, to, &l->of_block[b]);
-    for (size_t k = 0; k < l->lots; k++) {
+        if (l->of_block[b] != SIZE_MAX) keep_group(l, to, &l->of_block[b]);
+    for (size_t k = 0; k < l->groups; k++) {
         if (to[k] != SIZE_MAX) {
             to[k] = n;
-            l->lot[n++] = l->lot[k];
+            l->group[n++] = l->group[k];
         } else if (l->parent[k] == k) {
-            consider(l, &l->lot[k]);
+            consider_group(l, &l->group[k]);
         }
     }
     for (size_t c = 0; c < cells; c++)
-        for (size_t k = 0; k < l->cell[c].n; k++) l->cell[c].at[k].lot = to[l->cell[c].at[k].lot];
+        for (size_t k = 0; k < l->cell[c].n; k++) l->cell[c].at[k].group = to[l->cell[c].at[k].group];
     for (size_t b = 0; b < l->layout->blocks; b++)
         if (l->of_block[b] != SIZE_MAX) l->of_block[b] = to[l->of_block[b]];
     for (size_t k = 0; k < n; k++) l->parent[k] = k;
-    l->lots = n;
+    l->groups = n;
     free(to);
     return true;
 }
@@ -143,20 +143,20 @@ static bool forget_lots(looking *l, gis_error *error)
 
 static bool keep_shape(void *user, const gis_spool_feature *feature, gis_error *error)
 {
-    looking *l = user;
+    search *l = user;
     (void)error;
     l->read = (sunder_shape *)feature->demands.shape;
     return true;
 }
 
-static sunder_shape *shape_of(looking *l, member *m)
+static sunder_shape *shape_of(search *l, member *m)
 {
     l->read = NULL;
     if (!m->shape && gis_spool_read_one(l->layout->spool, m->place, keep_shape, l, l->error)) m->shape = l->read;
     return m->shape;
 }
 
-static bool are_within_reach(looking *l, member *a, member *b)
+static bool are_within_reach(search *l, member *a, member *b)
 {
     bool apart = true;
     sunder_error why;
@@ -170,9 +170,9 @@ static bool are_within_reach(looking *l, member *a, member *b)
 
 /* Joins two members whose boxes meet. A box that lies in another needs no further comparisons: whatever meets it meets
  * the other. */
-static gis_box_pairs_next join_boxes(looking *l, member *p, member *q, const gis_paired_box *a, const gis_paired_box *b)
+static gis_box_pairs_next join_boxes(search *l, member *p, member *q, const gis_paired_box *a, const gis_paired_box *b)
 {
-    join(l, p->lot, q->lot);
+    join_groups(l, p->group, q->group);
     if (a->box[2] >= b->box[2] && a->box[1] <= b->box[1] && a->box[3] >= b->box[3]) {
         q->inside = true;
         return GIS_BOX_PAIRS_A_ONLY;
@@ -185,19 +185,19 @@ static gis_box_pairs_next join_boxes(looking *l, member *p, member *q, const gis
  * other before. */
 static gis_box_pairs_next join_if_near(void *user, const gis_paired_box *a, const gis_paired_box *b)
 {
-    looking *l = user;
+    search *l = user;
     member *p = l->swept[a->of], *q = l->swept[b->of];
     if (!l->by_shapes) return join_boxes(l, p, q, a, b);
     /* after an error, or when no comparisons are left, the sweep should end quickly */
     if (l->failed || l->patience == 0) return GIS_BOX_PAIRS_A_ONLY;
     if (a->kind && b->kind) return GIS_BOX_PAIRS_BOTH;
     l->patience--;
-    if (gis_set_root(l->parent, p->lot) != gis_set_root(l->parent, q->lot) && are_within_reach(l, p, q))
-        join(l, p->lot, q->lot);
+    if (gis_set_root(l->parent, p->group) != gis_set_root(l->parent, q->group) && are_within_reach(l, p, q))
+        join_groups(l, p->group, q->group);
     return GIS_BOX_PAIRS_BOTH;
 }
 
-static bool sweep_too(looking *l, member *m, int kind, gis_error *error)
+static bool sweep_too(search *l, member *m, int kind, gis_error *error)
 {
     if (!gis_array_reserve(&l->swept, &l->swept_room, l->swept_n + 1, sizeof(member *))) return gis_no_memory(error);
     l->swept[l->swept_n++] = m;
@@ -213,14 +213,14 @@ static void drop_shapes(members *all)
 }
 
 /* The box of a cell, enlarged as those of its members are. */
-static void box_of(const looking *l, size_t cell, double box[4])
+static void box_of(const search *l, size_t cell, double box[4])
 {
     memcpy(box, gis_spool_cell_at(l->layout->spool, cell)->box, 4 * sizeof *box);
     for (int c = 0; c < 4; c++) box[c] += (c < 2 ? -1 : 1) * l->reach / 2;
 }
 
 /* Joins the members of the cell with each other, and with the kept members of earlier cells beside it. */
-static bool join_cell(looking *l, size_t cell, gis_error *error)
+static bool join_cell(search *l, size_t cell, gis_error *error)
 {
     double box[4];
     bool done = true;
@@ -246,16 +246,17 @@ static bool add_member(members *to, const member *m, gis_error *error)
     return true;
 }
 
-static void forget(members *all)
+static void clear_members(members *all)
 {
     drop_shapes(all);
     free(all->at);
     *all = (members){0};
 }
 
-static bool take(looking *l, const gis_spool_feature *feature, const double box[4], size_t vertices, gis_error *error)
+static bool take_member(search *l, const gis_spool_feature *feature, const double box[4], size_t vertices,
+                        gis_error *error)
 {
-    member own = {.place = feature->place, .lot = l->lots, .shape = (sunder_shape *)feature->demands.shape};
+    member own = {.place = feature->place, .group = l->groups, .shape = (sunder_shape *)feature->demands.shape};
     for (int c = 0; c < 4; c++) own.box[c] = box[c] + (c < 2 ? -1 : 1) * l->reach / 2;
     if (gis_box_is_empty(box) || feature->demands.fixed) {
         sunder_shape_free(own.shape);
@@ -265,25 +266,26 @@ static bool take(looking *l, const gis_spool_feature *feature, const double box[
         sunder_shape_free(own.shape);
         return false;
     }
-    if (!add_lot(l, box, vertices)) return gis_no_memory(error);
-    join_block(l, feature->demands.block, own.lot);
+    if (!add_group(l, box, vertices)) return gis_no_memory(error);
+    join_block(l, feature->demands.block, own.group);
     return true;
 }
 
-static bool glance(void *user, const gis_spool_feature *feature, const double box[4], size_t vertices, gis_error *error)
+static bool glance_at_feature(void *user, const gis_spool_feature *feature, const double box[4], size_t vertices,
+                              gis_error *error)
 {
-    return take(user, feature, box, vertices, error);
+    return take_member(user, feature, box, vertices, error);
 }
 
-static bool visit(void *user, const gis_spool_feature *feature, gis_error *error)
+static bool visit_feature(void *user, const gis_spool_feature *feature, gis_error *error)
 {
     double box[4];
     sunder_shape_box(feature->demands.shape, box);
-    return take(user, feature, box, sunder_shape_vertices(feature->demands.shape), error);
+    return take_member(user, feature, box, sunder_shape_vertices(feature->demands.shape), error);
 }
 
 /* Keeps the members of the cell that are within reach of a later cell. */
-static bool remember(looking *l, size_t cell, gis_error *error)
+static bool keep_border_members(search *l, size_t cell, gis_error *error)
 {
     bool done = true;
     drop_shapes(&l->here);
@@ -303,7 +305,7 @@ static bool remember(looking *l, size_t cell, gis_error *error)
 
 /* Finds the cells beside `cell`. They are found anew for each cell by comparing boxes, since a list of all pairs would
  * be long if large features lie everywhere. */
-static bool find_beside(looking *l, size_t cell, gis_error *error)
+static bool find_beside(search *l, size_t cell, gis_error *error)
 {
     double box[4], other[4];
     box_of(l, cell, box);
@@ -319,63 +321,63 @@ static bool find_beside(looking *l, size_t cell, gis_error *error)
     return true;
 }
 
-static bool look_at(looking *l, size_t cell, gis_error *error)
+static bool visit_cell(search *l, size_t cell, gis_error *error)
 {
     gis_spool *spool = l->layout->spool;
-    const bool done =
-        find_beside(l, cell, error) &&
-        (l->by_shapes ? gis_spool_read(spool, cell, visit, l, error) : gis_spool_skim(spool, cell, glance, l, error)) &&
-        join_cell(l, cell, error) && remember(l, cell, error);
+    const bool done = find_beside(l, cell, error) &&
+                      (l->by_shapes ? gis_spool_read(spool, cell, visit_feature, l, error)
+                                    : gis_spool_skim(spool, cell, glance_at_feature, l, error)) &&
+                      join_cell(l, cell, error) && keep_border_members(l, cell, error);
     for (size_t b = 0; b < l->besides && l->beside[b] < cell; b++)
-        if (l->last[l->beside[b]] == cell) forget(&l->cell[l->beside[b]]);
+        if (l->last[l->beside[b]] == cell) clear_members(&l->cell[l->beside[b]]);
     return done;
 }
 
-static bool look(looking *l, gis_error *error)
+static bool visit_cells(search *l, gis_error *error)
 {
     bool done = true;
-    l->enough_lots = LOTS;
+    l->enough_groups = MOST_GROUPS;
     for (size_t k = 0; k < gis_spool_cells(l->layout->spool) && done && l->patience > 0; k++) {
-        done = look_at(l, k, error);
-        if (done && l->lots > l->enough_lots) {
-            done = forget_lots(l, error);
-            l->enough_lots = LOTS + 2 * l->lots;
+        done = visit_cell(l, k, error);
+        if (done && l->groups > l->enough_groups) {
+            done = drop_complete_groups(l, error);
+            l->enough_groups = MOST_GROUPS + 2 * l->groups;
         }
     }
-    for (size_t k = 0; k < l->lots && done; k++)
-        if (l->parent[k] == k) consider(l, &l->lot[k]);
+    for (size_t k = 0; k < l->groups && done; k++)
+        if (l->parent[k] == k) consider_group(l, &l->group[k]);
     return done;
 }
 
-static void clear(looking *l)
+static void clear_search(search *l)
 {
-    for (size_t k = 0; l->cell && k < gis_spool_cells(l->layout->spool); k++) forget(&l->cell[k]);
-    forget(&l->here);
+    for (size_t k = 0; l->cell && k < gis_spool_cells(l->layout->spool); k++) clear_members(&l->cell[k]);
+    clear_members(&l->here);
     free(l->cell);
     free(l->swept);
     free(l->beside);
     free(l->last);
-    free(l->lot);
+    free(l->group);
     free(l->parent);
     free(l->of_block);
     gis_box_pairs_clear(&l->pairs);
 }
 
 /* Finds the largest group. *whole is set to false if the limit of shape comparisons was reached. */
-static bool find(const gis_layout *layout, double reach, bool by_shapes, gis_contact_group *out, bool *whole,
-                 gis_error *error)
+static bool find_largest_group(const gis_layout *layout, double reach, bool by_shapes, gis_contact_group *out,
+                               bool *whole, gis_error *error)
 {
-    looking l = {.layout = layout, .reach = reach, .by_shapes = by_shapes, .error = error};
+    search l = {.layout = layout, .reach = reach, .by_shapes = by_shapes, .error = error};
     l.patience = patience * gis_spool_features(layout->spool) + 1;
     gis_box_clear(l.largest.box);
     l.of_block = malloc((layout->blocks + 1) * sizeof *l.of_block);
     l.cell = calloc(gis_spool_cells(layout->spool) + 1, sizeof *l.cell);
     l.last = calloc(gis_spool_cells(layout->spool) + 1, sizeof *l.last);
     for (size_t b = 0; l.of_block && b < layout->blocks; b++) l.of_block[b] = SIZE_MAX;
-    const bool done = ((l.of_block && l.cell && l.last) || gis_no_memory(error)) && look(&l, error);
+    const bool done = ((l.of_block && l.cell && l.last) || gis_no_memory(error)) && visit_cells(&l, error);
     *out = l.largest;
     *whole = l.patience > 0;
-    clear(&l);
+    clear_search(&l);
     return done;
 }
 
@@ -384,9 +386,9 @@ bool gis_contact_group_find(const gis_layout *layout, double reach, double enoug
 {
     gis_contact_group by_shapes;
     bool whole;
-    if (!find(layout, reach, false, out, &whole, error)) return false;
+    if (!find_largest_group(layout, reach, false, out, &whole, error)) return false;
     if (bytes_of(layout, out) <= enough) return true;
-    if (!find(layout, reach, true, &by_shapes, &whole, error)) return false;
+    if (!find_largest_group(layout, reach, true, &by_shapes, &whole, error)) return false;
     if (whole) *out = by_shapes;
     return true;
 }

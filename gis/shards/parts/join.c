@@ -31,13 +31,13 @@ typedef struct joining {
     unsigned run;
 } joining;
 
-static void lump(joining *j, size_t a, size_t b)
+static void mark_together(joining *j, size_t a, size_t b)
 {
     j->again[a] = j->again[b] = true;
     gis_set_join(j->parent, a, b);
 }
 
-static bool stands(const gis_part_world *w) { return !w->gone && !w->loose; }
+static bool world_stays(const gis_part_world *w) { return !w->gone && !w->loose; }
 
 /* All features of worlds that are neither gone nor loose, sorted by feature and world. */
 static holding *list_holdings(const gis_part_result *r, size_t *n)
@@ -45,7 +45,7 @@ static holding *list_holdings(const gis_part_result *r, size_t *n)
     holding *list = malloc((r->rows + 1) * sizeof *list);
     *n = 0;
     for (size_t w = 0; list && w < r->worlds; w++)
-        for (size_t k = 0; k < r->world[w].rows && stands(&r->world[w]); k++)
+        for (size_t k = 0; k < r->world[w].rows && world_stays(&r->world[w]); k++)
             list[(*n)++] = (holding){r->row[r->world[w].row + k].index, w};
     if (list && *n) qsort(list, *n, sizeof *list, by_holding);
     return list;
@@ -75,18 +75,18 @@ static bool compare_holdings(joining *j, gis_error *error)
             b->gone = true;
             list[k].world = list[k - 1].world;
         } else {
-            lump(j, list[k - 1].world, list[k].world);
+            mark_together(j, list[k - 1].world, list[k].world);
         }
     }
     free(list);
     return true;
 }
 
-static gis_box_pairs_next lump_if_met(void *user, const gis_paired_box *a, const gis_paired_box *b)
+static gis_box_pairs_next mark_if_met(void *user, const gis_paired_box *a, const gis_paired_box *b)
 {
     joining *j = user;
     const gis_part_world *world = j->r->world;
-    if (a->kind != b->kind && world[a->of].run != world[b->of].run) lump(j, a->of, b->of);
+    if (a->kind != b->kind && world[a->of].run != world[b->of].run) mark_together(j, a->of, b->of);
     return GIS_BOX_PAIRS_BOTH;
 }
 
@@ -97,20 +97,20 @@ static bool compare_footprints(joining *j, gis_error *error)
     const gis_part_result *r = j->r;
     bool done = true;
     for (size_t w = 0; w < r->worlds && done; w++)
-        for (size_t k = 0; k < r->world[w].footprints && stands(&r->world[w]) && done; k++) {
+        for (size_t k = 0; k < r->world[w].footprints && world_stays(&r->world[w]) && done; k++) {
             const sunder_footprint *f = &r->footprint[r->world[w].footprint + k];
             done = gis_box_pairs_add(&pairs, f->read, w, 0, error) && gis_box_pairs_add(&pairs, f->wrote, w, 1, error);
         }
-    if (done) gis_box_pairs_visit(&pairs, lump_if_met, j);
+    if (done) gis_box_pairs_visit(&pairs, mark_if_met, j);
     gis_box_pairs_clear(&pairs);
     return done;
 }
 
 /* ---- Separating again -------------------------------------------------------------------------------------------- */
 
-typedef struct of_lump {
+typedef struct world_set {
     size_t *index, n; /* sorted by index */
-} of_lump;
+} world_set;
 
 static int by_size(const void *a, const void *b)
 {
@@ -118,19 +118,19 @@ static int by_size(const void *a, const void *b)
     return (*p > *q) - (*p < *q);
 }
 
-static bool is_of_lump(const void *user, size_t cell, size_t index)
+static bool is_of_set(const void *user, size_t cell, size_t index)
 {
-    const of_lump *l = user;
+    const world_set *l = user;
     (void)cell;
     return l->n && bsearch(&index, l->index, l->n, sizeof index, by_size);
 }
 
 /* Separates all worlds of one set again as one part. The old worlds are marked as gone, and the worlds that are found
  * for their features are added. */
-static bool separate_lump(joining *j, size_t root, size_t worlds, gis_error *error)
+static bool separate_set(joining *j, size_t root, size_t worlds, gis_error *error)
 {
     gis_part_result *r = j->r;
-    of_lump which = {0};
+    world_set which = {0};
     gis_boxes_list boxes = {0};
     size_t room = 0;
     bool done = true;
@@ -145,7 +145,7 @@ static bool separate_lump(joining *j, size_t root, size_t worlds, gis_error *err
         world->gone = true;
     }
     if (done && which.n) qsort(which.index, which.n, sizeof *which.index, by_size);
-    done = done && gis_part_separate(j->layout, &boxes, is_of_lump, &which, j->run++, r, error);
+    done = done && gis_part_separate(j->layout, &boxes, is_of_set, &which, j->run++, r, error);
     free(which.index);
     free(boxes.box);
     return done;
@@ -157,18 +157,18 @@ static bool separate_lump(joining *j, size_t root, size_t worlds, gis_error *err
 enum { APART = 12 };
 
 /* Joins all worlds that are or were separated again to one set, if there are any to be separated now. */
-static void lump_all(joining *j)
+static void mark_all_together(joining *j)
 {
     size_t first = SIZE_MAX;
     for (size_t w = 0; w < j->r->worlds && first == SIZE_MAX; w++)
         if (j->again[w]) first = w;
     for (size_t w = 0; w < j->r->worlds && first != SIZE_MAX; w++)
-        if (stands(&j->r->world[w]) && (j->again[w] || j->r->world[w].run >= gis_spool_parts(j->layout->spool)))
-            lump(j, first, w);
+        if (world_stays(&j->r->world[w]) && (j->again[w] || j->r->world[w].run >= gis_spool_parts(j->layout->spool)))
+            mark_together(j, first, w);
 }
 
 /* One round: finds the worlds to be separated again, and separates them. *any is set if there were some. */
-static bool settle(joining *j, unsigned round, bool *any, gis_error *error)
+static bool settle_round(joining *j, unsigned round, bool *any, gis_error *error)
 {
     const size_t n = j->r->worlds;
     bool done = true;
@@ -179,12 +179,12 @@ static bool settle(joining *j, unsigned round, bool *any, gis_error *error)
     for (size_t w = 0; w < n && done; w++) j->parent[w] = w;
     done = done && compare_holdings(j, error) && compare_footprints(j, error);
     for (size_t w = 0; w < n && done; w++)
-        if (stands(&j->r->world[w]) && !j->r->world[w].complete) j->again[w] = true;
-    if (done && round >= APART) lump_all(j);
+        if (world_stays(&j->r->world[w]) && !j->r->world[w].complete) j->again[w] = true;
+    if (done && round >= APART) mark_all_together(j);
     for (size_t w = 0; w < n && done; w++) {
         if (!j->again[w] || j->r->world[w].gone || gis_set_root(j->parent, w) != w) continue;
         *any = true;
-        done = separate_lump(j, w, n, error);
+        done = separate_set(j, w, n, error);
     }
     free(j->parent);
     free(j->again);
@@ -201,7 +201,8 @@ bool gis_parts_join(const gis_layout *layout, gis_part_file *file, size_t files,
     *out = (gis_joined){0};
     bool done = gis_border_chunks_load(&chunks, &held, error);
     for (unsigned round = 0; any && done; round++)
-        done = gis_go_on(error) && settle(&j, round, &any, error) && gis_border_chunks_load_new(&chunks, &held, error);
+        done = gis_go_on(error) && settle_round(&j, round, &any, error) &&
+               gis_border_chunks_load_new(&chunks, &held, error);
     out->runs = j.run;
     done = done && gis_joined_lists_make(out, &chunks, &held, directory, error);
     gis_border_chunks_clear(&chunks);

@@ -283,7 +283,7 @@ static bool sort_everything(gathering *g, gis_error *error)
 
 /* ---- All lists --------------------------------------------------------------------------------------------------- */
 
-static bool begin(gis_joined *j, const char *directory, gis_error *error)
+static bool begin_lists(gis_joined *j, const char *directory, gis_error *error)
 {
     j->longest_fid = -1;
     j->summary.max_feature = SIZE_MAX;
@@ -298,7 +298,7 @@ bool gis_joined_lists_make(gis_joined *out, gis_border_chunks *chunks, gis_part_
                            gis_error *error)
 {
     gathering g = {.out = out, .file = chunks->file, .files = chunks->files};
-    const bool done = begin(out, directory, error) && put_everything(&g, chunks, held, error) &&
+    const bool done = begin_lists(out, directory, error) && put_everything(&g, chunks, held, error) &&
                       gather_blocks(out, &g.links, error) && sort_everything(&g, error);
     gis_part_result_clear(&g.one);
     gis_part_result_clear(&g.links);

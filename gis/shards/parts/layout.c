@@ -29,7 +29,7 @@ typedef struct looking {
     size_t n, capacity;
 } looking;
 
-static bool look(void *user, const gis_spool_feature *feature, gis_error *error)
+static bool take_block(void *user, const gis_spool_feature *feature, gis_error *error)
 {
     looking *l = user;
     gis_part_block own = {.block = feature->demands.block};
@@ -48,7 +48,7 @@ static int by_block(const void *a, const void *b)
 }
 
 /* Merges the entries of each block to one with the box of all its features; sorts by block. Returns their number. */
-static size_t unite(gis_part_block *block, size_t n)
+static size_t unite_blocks(gis_part_block *block, size_t n)
 {
     size_t out = 0;
     if (n) qsort(block, n, sizeof *block, by_block);
@@ -69,8 +69,8 @@ bool gis_layout_make(gis_spool *spool, double gap, bool numbered, gis_layout *ou
     bool done = true;
     *out = (gis_layout){.spool = spool, .halo = halo_of(spool, gap)};
     for (size_t k = 0; numbered && k < gis_spool_cells(spool) && done; k++) {
-        done = gis_spool_read(spool, k, look, &l, error);
-        l.n = unite(l.block, l.n);
+        done = gis_spool_read(spool, k, take_block, &l, error);
+        l.n = unite_blocks(l.block, l.n);
     }
     out->block = l.block;
     out->blocks = l.n;

@@ -41,7 +41,7 @@ static size_t place_of(const gis_part *p, int64_t number)
     return block ? (size_t)(block - p->layout->block) : SIZE_MAX;
 }
 
-static bool take(void *user, const gis_spool_feature *feature, gis_error *error)
+static bool take_feature(void *user, const gis_spool_feature *feature, gis_error *error)
 {
     gis_part *p = user;
     double box[4];
@@ -73,7 +73,7 @@ static bool has_others(const gis_part *p, const double box[4])
     return false;
 }
 
-static bool load(gis_part *p, gis_error *error)
+static bool load_part(gis_part *p, gis_error *error)
 {
     p->block = calloc(p->layout->blocks + 1, sizeof *p->block);
     if (!p->block) return gis_no_memory(error);
@@ -81,7 +81,8 @@ static bool load(gis_part *p, gis_error *error)
         p->others = others;
         for (p->cell = 0; p->cell < gis_spool_cells(p->spool); p->cell++) {
             const double *box = gis_spool_cell_at(p->spool, p->cell)->box;
-            if ((others ? has_others(p, box) : is_near(p, box)) && !gis_spool_read(p->spool, p->cell, take, p, error))
+            if ((others ? has_others(p, box) : is_near(p, box)) &&
+                !gis_spool_read(p->spool, p->cell, take_feature, p, error))
                 return false;
         }
     }
@@ -149,7 +150,7 @@ static bool set_sides(gis_part *p, gis_error *error)
     return done || gis_core_failed(error, "a part of the layer", &why);
 }
 
-static bool separate(gis_part *p, gis_error *error)
+static bool separate_part(gis_part *p, gis_error *error)
 {
     sunder_layer_options options = p->layout->how;
     sunder_error why;
@@ -170,7 +171,7 @@ static bool separate(gis_part *p, gis_error *error)
     return !options.keep_trees || begin_lines(p, error);
 }
 
-static void clear(gis_part *p)
+static void clear_part(gis_part *p)
 {
     for (size_t k = 0; k < p->n; k++) {
         sunder_shape_free((sunder_shape *)p->item[k].feature.demands.shape);
@@ -194,9 +195,9 @@ bool gis_part_separate(const gis_layout *layout, const gis_boxes_list *boxes, gi
                   .user = user,
                   .run = run,
                   .out = result};
-    bool done = load(&p, error);
+    bool done = load_part(&p, error);
     if (done) warn_if_large(&p);
-    done = done && separate(&p, error) && gis_part_fill_worlds(&p, error) && gis_part_fill_others(&p, error);
-    clear(&p);
+    done = done && separate_part(&p, error) && gis_part_fill_worlds(&p, error) && gis_part_fill_others(&p, error);
+    clear_part(&p);
     return done;
 }

@@ -188,7 +188,7 @@ static bool is_ours(const gis_part_file *file, const stored_stamp *head, gis_err
                     is->shard, is->shards, own->shard, own->shards);
 }
 
-static bool cut_off(const gis_part_file *file, gis_error *error)
+static bool fail_cut_off(const gis_part_file *file, gis_error *error)
 {
     return gis_fail(error, "%s: it ends too early: it was cut off", file->file.path);
 }
@@ -198,11 +198,11 @@ static bool read_list(gis_part_file *file, const stored_stamp *head, gis_error *
     stored_end end;
     gis_disk_file *f = &file->file;
     const uint64_t least = sizeof(gis_spool_mark) + sizeof *head;
-    if (f->size < least + sizeof end) return cut_off(file, error);
+    if (f->size < least + sizeof end) return fail_cut_off(file, error);
     if (!gis_disk_file_read(f, f->size - sizeof end, &end, sizeof end, error)) return false;
     if (end.from < least || end.from > f->size - sizeof end ||
         end.chunks != (f->size - sizeof end - end.from) / sizeof *file->chunk)
-        return cut_off(file, error);
+        return fail_cut_off(file, error);
     if (!gis_array_reserve(&file->chunk, &file->room, (size_t)end.chunks + 1, sizeof *file->chunk))
         return gis_no_memory(error);
     file->chunks = (size_t)end.chunks;
@@ -225,7 +225,7 @@ bool gis_part_file_open(gis_part_file *file, const char *directory, const gis_pa
            read_list(file, &head, error);
 }
 
-static bool altered(const gis_part_file *file, gis_error *error)
+static bool fail_altered(const gis_part_file *file, gis_error *error)
 {
     return gis_fail(error, "%s: checksum mismatch; the file was damaged or changed", file->file.path);
 }
@@ -235,23 +235,23 @@ bool gis_part_file_read(gis_part_file *file, size_t k, gis_part_result *to, gis_
     const gis_part_chunk *chunk = &file->chunk[k];
     bool sound = false;
     const uint64_t size = file->file.size;
-    if (chunk->bytes > size || chunk->from > size - chunk->bytes) return cut_off(file, error);
+    if (chunk->bytes > size || chunk->from > size - chunk->bytes) return fail_cut_off(file, error);
     if (!room_for(file, (size_t)chunk->bytes, error) ||
         !gis_disk_file_read(&file->file, chunk->from, file->bytes, (size_t)chunk->bytes, error))
         return false;
     if (gis_checksum_of(0, file->bytes, (size_t)chunk->bytes) == chunk->checksum &&
         !gis_part_result_load(to, file->bytes, (size_t)chunk->bytes, &sound, error))
         return false;
-    return (sound && gis_part_result_is_sound(to, file->places)) || altered(file, error);
+    return (sound && gis_part_result_is_sound(to, file->places)) || fail_altered(file, error);
 }
 
 static bool check_lines(gis_part_file *file, const gis_part_chunk *chunk, gis_error *error)
 {
-    if (chunk->lines > chunk->from) return altered(file, error);
+    if (chunk->lines > chunk->from) return fail_altered(file, error);
     if (!room_for(file, (size_t)chunk->lines, error)) return false;
     if (!gis_disk_file_read(&file->file, chunk->from - chunk->lines, file->bytes, (size_t)chunk->lines, error))
         return false;
-    return gis_checksum_of(0, file->bytes, (size_t)chunk->lines) == chunk->lines_checksum || altered(file, error);
+    return gis_checksum_of(0, file->bytes, (size_t)chunk->lines) == chunk->lines_checksum || fail_altered(file, error);
 }
 
 bool gis_part_file_check(gis_part_file *file, size_t chunk, gis_part_result *scratch, gis_error *error)
@@ -266,7 +266,7 @@ bool gis_part_file_fetch(gis_part_file *file, size_t n, gis_part_result *to, gis
     if (line->file > n)
         return gis_fail(error, "a line of the proof is of shard %" PRIu64 ", which is none", line->file);
     const uint64_t size = file[line->file - 1].file.size;
-    if (line->bytes > size || line->from > size - line->bytes) return altered(&file[line->file - 1], error);
+    if (line->bytes > size || line->from > size - line->bytes) return fail_altered(&file[line->file - 1], error);
     const size_t bytes = (size_t)line->bytes;
     if (!GIS_PART_MORE(to, line, lines, bytes, error) ||
         !gis_disk_file_read(&file[line->file - 1].file, line->from, (unsigned char *)to->line + to->lines, bytes,

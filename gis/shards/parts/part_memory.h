@@ -10,8 +10,6 @@
 /* Bytes of a process without any part: libraries and buffers for reading and writing. */
 #define GIS_PART_BYTES_ANYWAY 96e6
 
-#define GIS_PART_LARGE 1.5
-
 /* Estimated bytes of a process that separates a part with these numbers of features and vertices. proofs: the trees of
  * the proof are kept; effort: the value of --effort. */
 double gis_part_bytes(bool proofs, double effort, double features, double vertices);

@@ -204,7 +204,7 @@ typedef struct stored_head {
 
 _Static_assert(sizeof(stored_head) % 8 == 0, "lists are aligned");
 
-static size_t padded(size_t bytes) { return (bytes + 7) & ~(size_t)7; }
+static size_t padded_size(size_t bytes) { return (bytes + 7) & ~(size_t)7; }
 
 static const void *read_array(const gis_part_result *r, int k) { return *array_of((gis_part_result *)r, k); }
 static size_t read_count(const gis_part_result *r, int k) { return *count_of((gis_part_result *)r, k); }
@@ -212,7 +212,7 @@ static size_t read_count(const gis_part_result *r, int k) { return *count_of((gi
 size_t gis_part_result_size(const gis_part_result *result)
 {
     size_t bytes = sizeof(stored_head);
-    for (int k = 0; k < LISTS; k++) bytes += padded(read_count(result, k) * lists[k].size);
+    for (int k = 0; k < LISTS; k++) bytes += padded_size(read_count(result, k) * lists[k].size);
     return bytes;
 }
 
@@ -223,7 +223,7 @@ void gis_part_result_store(const gis_part_result *result, unsigned char *to)
     memcpy(to, &head, sizeof head);
     to += sizeof head;
     for (int k = 0; k < LISTS; k++) {
-        const size_t bytes = read_count(result, k) * lists[k].size, room = padded(bytes);
+        const size_t bytes = read_count(result, k) * lists[k].size, room = padded_size(bytes);
         if (room) memset(to + room - 8, 0, 8);
         if (bytes) memcpy(to, read_array(result, k), bytes);
         gis_clear_padding(to, read_count(result, k), lists[k].size, lists[k].hole, lists[k].holes);
@@ -243,7 +243,7 @@ bool gis_part_result_load(gis_part_result *to, const unsigned char *from, size_t
     to->unverified = head.unverified != 0;
     for (int k = 0; k < LISTS; k++) {
         if (head.count[k] > left / lists[k].size) return true;
-        const size_t n = head.count[k], bytes = n * lists[k].size, room = padded(bytes);
+        const size_t n = head.count[k], bytes = n * lists[k].size, room = padded_size(bytes);
         if (room > left) return true;
         if (!gis_array_reserve(array_of(to, k), room_of(to, k), n + 1, lists[k].size)) return gis_no_memory(error);
         if (bytes) memcpy(*array_of(to, k), from, bytes);

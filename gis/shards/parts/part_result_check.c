@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-static bool holds(size_t from, size_t n, size_t all) { return from <= all && n <= all - from; }
+static bool range_is_within(size_t from, size_t n, size_t all) { return from <= all && n <= all - from; }
 
 /* Is the byte of a stored bool 0 or 1? Reading any other value as a bool is undefined behaviour. */
 static bool is_flag(const bool *flag)
@@ -18,7 +18,7 @@ static bool is_text(const gis_part_result *r, size_t at) { return at == GIS_NO_T
 
 static bool is_line(const gis_part_result *r, const gis_part_line *line)
 {
-    return line->file != 0 || line->bytes == 0 || holds((size_t)line->from, (size_t)line->bytes, r->lines);
+    return line->file != 0 || line->bytes == 0 || range_is_within((size_t)line->from, (size_t)line->bytes, r->lines);
 }
 
 static bool is_place(size_t index, uint64_t places) { return places == 0 || index < places; }
@@ -30,9 +30,11 @@ static bool are_worlds(const gis_part_result *r, uint64_t places)
     for (size_t k = 0; k < r->worlds; k++) {
         const gis_part_world *w = &r->world[k];
         if (!is_place(w->first, places) || !is_flag(&w->complete) || !is_flag(&w->gone) || !is_flag(&w->loose) ||
-            !holds(w->row, w->rows, r->rows) || !holds(w->footprint, w->footprints, r->footprints) ||
-            !holds(w->bound, w->bounds, r->bounds) || !holds(w->conflict, w->conflicts, r->conflicts) ||
-            !holds(w->push, w->pushes, r->pushes) || !holds(w->tree, w->trees, r->trees))
+            !range_is_within(w->row, w->rows, r->rows) ||
+            !range_is_within(w->footprint, w->footprints, r->footprints) ||
+            !range_is_within(w->bound, w->bounds, r->bounds) ||
+            !range_is_within(w->conflict, w->conflicts, r->conflicts) ||
+            !range_is_within(w->push, w->pushes, r->pushes) || !range_is_within(w->tree, w->trees, r->trees))
             return false;
     }
     return true;
@@ -51,7 +53,7 @@ static bool are_rows(const gis_part_result *r, uint64_t places)
     return true;
 }
 
-static bool names(const gis_part_result *r, const gis_part_conflict *c, size_t index)
+static bool conflict_names(const gis_part_result *r, const gis_part_conflict *c, size_t index)
 {
     for (size_t k = 0; k < c->names; k++)
         if (r->name[c->name + k].index == index) return true;
@@ -65,10 +67,11 @@ static bool is_conflict(const gis_part_result *r, const gis_part_conflict *c, ui
     bool sound = is_place(is->a, places) && is_place(is->b, places) && is_flag(&is->inside_block) &&
                  is_flag(&is->crowded) && is_flag(&c->loose) && is_line(r, &c->line) &&
                  (unsigned)is->kind <= SUNDER_CONFLICT_NOT_A_TRANSLATE &&
-                 (unsigned)is->reason <= SUNDER_REASON_UNRESOLVED && holds(c->blocker, is->n_blocked_by, r->blockers) &&
-                 holds(c->name, c->names, r->names) && names(r, c, is->a) && names(r, c, is->b) &&
-                 (is->need_gone == SIZE_MAX || names(r, c, is->need_gone));
-    for (size_t k = 0; sound && k < is->n_blocked_by; k++) sound = names(r, c, r->blocker[c->blocker + k]);
+                 (unsigned)is->reason <= SUNDER_REASON_UNRESOLVED &&
+                 range_is_within(c->blocker, is->n_blocked_by, r->blockers) &&
+                 range_is_within(c->name, c->names, r->names) && conflict_names(r, c, is->a) &&
+                 conflict_names(r, c, is->b) && (is->need_gone == SIZE_MAX || conflict_names(r, c, is->need_gone));
+    for (size_t k = 0; sound && k < is->n_blocked_by; k++) sound = conflict_names(r, c, r->blocker[c->blocker + k]);
     return sound;
 }
 

@@ -87,7 +87,7 @@ bool gis_part_fill_conflict(gis_part *p, size_t number, bool loose, gis_error *e
 }
 
 /* Sets `at` to the anchor of a feature after its move, and returns its FID. */
-static int64_t stand(const gis_part *p, size_t thing, double at[2])
+static int64_t moved_anchor(const gis_part *p, size_t thing, double at[2])
 {
     double move[2];
     sunder_report_move(p->report, thing, &move[0], &move[1]);
@@ -100,11 +100,11 @@ bool gis_part_fill_push(gis_part *p, const sunder_push *push, gis_error *error)
 {
     const gis_spooled_barrier *barrier = barrier_of(p, push->b);
     gis_part_push to = {.is = *push};
-    to.fid[0] = stand(p, push->a, to.from);
+    to.fid[0] = moved_anchor(p, push->a, to.from);
     if (barrier)
         gis_barrier_corner(&barrier->demands.geometry, to.from, to.to);
     else
-        to.fid[1] = stand(p, push->b, to.to);
+        to.fid[1] = moved_anchor(p, push->b, to.to);
     if (barrier) to.fid[1] = barrier->fid;
     to.is.a = gis_part_index_of(p, push->a);
     to.is.b = gis_part_index_of(p, push->b);

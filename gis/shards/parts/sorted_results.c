@@ -46,7 +46,7 @@ typedef struct sorting {
     void *user;
 } sorting;
 
-static bool load(gis_sorted_results *s, const unsigned char *record, gis_error *error)
+static bool load_record(gis_sorted_results *s, const unsigned char *record, gis_error *error)
 {
     bool sound;
     memcpy(&s->head, record, sizeof s->head);
@@ -55,12 +55,12 @@ static bool load(gis_sorted_results *s, const unsigned char *record, gis_error *
            (sound || gis_fail(error, "%s/%s: the file was damaged or changed", s->directory, s->name));
 }
 
-static bool take(void *user, const unsigned char *record, gis_error *error)
+static bool take_record(void *user, const unsigned char *record, gis_error *error)
 {
     sorting *own = user;
     gis_sorted_results *s = own->sorted;
     bool keep = false;
-    if (!load(s, record, error) || !own->keep(own->user, &s->head, &s->one, &keep, error)) return false;
+    if (!load_record(s, record, error) || !own->keep(own->user, &s->head, &s->one, &keep, error)) return false;
     s->n += keep;
     return !keep || gis_disk_file_write(&own->out, record, (size_t)s->head.bytes, error);
 }
@@ -71,7 +71,7 @@ bool gis_sorted_results_sort(gis_sorted_results *sorted, gis_sorted_results_keep
     sorting own = {.sorted = sorted, .keep = keep, .user = user};
     name_of(sorted, "sorted", name);
     const bool done = gis_disk_file_create(&own.out, sorted->directory, name, error) &&
-                      gis_sorter_take(sorted->sorter, take, &own, error) && gis_disk_file_flush(&own.out, error);
+                      gis_sorter_take(sorted->sorter, take_record, &own, error) && gis_disk_file_flush(&own.out, error);
     gis_sorter_free(sorted->sorter);
     sorted->sorter = NULL;
     sorted->file = own.out;
@@ -88,7 +88,7 @@ void gis_sorted_results_rewind(gis_sorted_results *sorted)
 }
 
 /* Makes sure that at least `needed` bytes are in the buffer. */
-static bool fill(gis_sorted_results *s, size_t needed, gis_error *error)
+static bool fill_buffer(gis_sorted_results *s, size_t needed, gis_error *error)
 {
     const size_t have = s->filled - s->used;
     if (have >= needed) return true;
@@ -110,9 +110,10 @@ bool gis_sorted_results_next(gis_sorted_results *sorted, bool *any, gis_error *e
     gis_sort_head head;
     *any = sorted->used < sorted->filled || sorted->from < sorted->file.size;
     if (!*any) return true;
-    if (!fill(sorted, sizeof head, error)) return false;
+    if (!fill_buffer(sorted, sizeof head, error)) return false;
     memcpy(&head, sorted->buffer + sorted->used, sizeof head);
-    if (!fill(sorted, (size_t)head.bytes, error) || !load(sorted, sorted->buffer + sorted->used, error)) return false;
+    if (!fill_buffer(sorted, (size_t)head.bytes, error) || !load_record(sorted, sorted->buffer + sorted->used, error))
+        return false;
     sorted->used += (size_t)head.bytes;
     return true;
 }

@@ -20,7 +20,7 @@ static bool is_there(const char *path, size_t n)
 }
 
 /* A copy of the text with the current directory inserted at offset `at`. */
-static char *prefixed(const char *text, size_t at)
+static char *insert_directory(const char *text, size_t at)
 {
     char *here = gis_path_here();
     if (!here) return CPLStrdup(text);
@@ -69,18 +69,18 @@ char *gis_plan_absolute_source(const char *source)
     size_t at = 0;
     if (*source == '/' ? find_in_archive(source, &at)
                        : is_there(source, strlen(source)) || find_behind_driver(source, &at))
-        return prefixed(source, is_there(source, strlen(source)) && *source != '/' ? 0 : at);
+        return insert_directory(source, is_there(source, strlen(source)) && *source != '/' ? 0 : at);
     return CPLStrdup(source);
 }
 
 char *gis_plan_absolute_output(const char *path)
 {
-    return *path == '/' || strcmp(path, "-") == 0 ? CPLStrdup(path) : prefixed(path, 0);
+    return *path == '/' || strcmp(path, "-") == 0 ? CPLStrdup(path) : insert_directory(path, 0);
 }
 
 char *gis_plan_absolute_shape(const char *shape)
 {
-    if (*shape == '@' && shape[1] != '/' && strcmp(shape, "@-") != 0) return prefixed(shape, 1);
+    if (*shape == '@' && shape[1] != '/' && strcmp(shape, "@-") != 0) return insert_directory(shape, 1);
     return CPLStrdup(shape);
 }
 

@@ -55,7 +55,7 @@ static void put_group(gis_json *out, const gis_shard_run *parts)
     gis_json_line(out);
 }
 
-static void describe(gis_json *out, const gis_plan *plan, const gis_plan_load *load, const gis_shard_run *parts)
+static void describe_plan(gis_json *out, const gis_plan *plan, const gis_plan_load *load, const gis_shard_run *parts)
 {
     const gis_layer_rules *rules = &parts->request->rules;
     gis_json_open(out, '{');
@@ -103,7 +103,7 @@ bool gis_plan_describe(const gis_plan *plan, const gis_shard_run *parts, const c
     gis_plan_load *load = calloc(plan->shards, sizeof *load);
     if (!load) return gis_no_memory(error);
     weigh_shards(plan, parts->spool, load);
-    describe(&json, plan, load, parts);
+    describe_plan(&json, plan, load, parts);
     free(load);
     const bool done = (gis_json_text(&json) || gis_no_memory(error)) &&
                       gis_disk_file_create(&file, directory, "plan.json.part", error) &&

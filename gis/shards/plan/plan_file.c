@@ -82,7 +82,7 @@ static const gis_padding holes_of_facts[] = {GIS_PADDING_BETWEEN(gis_layer_facts
                                              GIS_PADDING_BETWEEN(gis_layer_facts, id_type, invalid),
                                              GIS_PADDING_BETWEEN(gis_layer_facts, multi, checksum)};
 
-static void fill(const gis_plan *plan, gis_text *to)
+static void fill_bytes(const gis_plan *plan, gis_text *to)
 {
     const plan_head head = head_of_ours();
     const plan_numbers numbers = {.arguments = plan->arguments,
@@ -107,7 +107,7 @@ bool gis_plan_write(const gis_plan *plan, const char *directory, gis_error *erro
 {
     gis_text bytes = {0};
     gis_disk_file file = {0};
-    fill(plan, &bytes);
+    fill_bytes(plan, &bytes);
     const bool done =
         (gis_text_get(&bytes) || gis_no_memory(error)) && gis_disk_file_create(&file, directory, NAME ".part", error) &&
         gis_disk_file_write(&file, bytes.at, bytes.length, error) && gis_disk_file_place(&file, directory, NAME, error);
@@ -123,7 +123,7 @@ typedef struct plan_bytes {
     size_t left;
 } plan_bytes;
 
-static bool take(plan_bytes *from, void *to, size_t n)
+static bool take_bytes(plan_bytes *from, void *to, size_t n)
 {
     if (from->left < n) return false;
     memcpy(to, from->at, n);
@@ -136,17 +136,17 @@ static bool take(plan_bytes *from, void *to, size_t n)
 static char *take_text(plan_bytes *from)
 {
     uint64_t n;
-    if (!take(from, &n, sizeof n) || n > from->left) return NULL;
+    if (!take_bytes(from, &n, sizeof n) || n > from->left) return NULL;
     char *text = CPLCalloc(1, (size_t)n + 1);
-    if (text) take(from, text, (size_t)n);
+    if (text) take_bytes(from, text, (size_t)n);
     return text;
 }
 
 static bool take_plan(plan_bytes *from, gis_plan *plan, gis_error *error)
 {
     plan_numbers numbers;
-    if (!take(from, &numbers, sizeof numbers) || numbers.facts_size != sizeof plan->facts ||
-        !take(from, &plan->facts, sizeof plan->facts))
+    if (!take_bytes(from, &numbers, sizeof numbers) || numbers.facts_size != sizeof plan->facts ||
+        !take_bytes(from, &plan->facts, sizeof plan->facts))
         return false;
     plan->shards = numbers.shards;
     plan->memory = numbers.memory;
@@ -164,7 +164,7 @@ static bool take_plan(plan_bytes *from, gis_plan *plan, gis_error *error)
            (!plan->facts.has_id || id == OFTInteger64 || id == OFTReal || id == OFTString);
 }
 
-static bool altered(const char *directory, gis_error *error)
+static bool fail_altered(const char *directory, gis_error *error)
 {
     return gis_fail(error, "%s/" NAME ": it was altered or cut off; make the plan anew", directory);
 }
@@ -174,18 +174,18 @@ static bool read_bytes(const char *directory, char *bytes, size_t n, gis_plan *p
     plan_bytes from = {bytes, n};
     plan_head head;
     const plan_head ours = head_of_ours();
-    if (!take(&from, &head, sizeof head) || memcmp(head.what, ours.what, sizeof head.what) != 0)
+    if (!take_bytes(&from, &head, sizeof head) || memcmp(head.what, ours.what, sizeof head.what) != 0)
         return gis_fail(error, "%s/" NAME ": this is no plan of sunder plan", directory);
     head.version[sizeof head.version - 1] = '\0';
     if (strcmp(head.version, ours.version) != 0)
         return gis_fail(error, "%s: the plan was made by sunder %s, and this is %s; make it anew", directory,
                         head.version, ours.version);
     uint64_t checksum;
-    if (from.left < sizeof checksum) return altered(directory, error);
+    if (from.left < sizeof checksum) return fail_altered(directory, error);
     from.left -= sizeof checksum;
     memcpy(&checksum, from.at + from.left, sizeof checksum);
     if (checksum != gis_checksum_of(0, bytes, n - sizeof checksum) || !take_plan(&from, plan, error))
-        return altered(directory, error);
+        return fail_altered(directory, error);
     plan->stamp = checksum;
     return true;
 }
@@ -218,7 +218,7 @@ bool gis_plan_read(const char *directory, gis_plan *plan, gis_error *error)
     if (!there) return gis_fail(error, "%s: there is no plan in it; sunder plan makes a directory with one", directory);
     char *bytes = NULL;
     bool done = gis_disk_file_open(&file, directory, NAME, error);
-    if (done && file.size > MOST_BYTES) done = altered(directory, error);
+    if (done && file.size > MOST_BYTES) done = fail_altered(directory, error);
     done = done && ((bytes = malloc((size_t)file.size + 1)) || gis_no_memory(error)) &&
            gis_disk_file_read(&file, 0, bytes, (size_t)file.size, error) &&
            read_bytes(directory, bytes, (size_t)file.size, plan, error);

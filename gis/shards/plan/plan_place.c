@@ -75,7 +75,7 @@ static void sync_parent(const char *directory)
     close(opened);
 }
 
-static void forget(gis_plan_place *place)
+static void forget_place(gis_plan_place *place)
 {
     gis_leftover_forget(place->leftover);
     CPLFree(place->path);
@@ -90,7 +90,7 @@ bool gis_plan_place_end(gis_plan_place *place, const char *directory, bool *take
     open_to_others(place->lock);
     const bool done = rename(place->path, directory) == 0;
     const int why = errno;
-    if (done) forget(place);
+    if (done) forget_place(place);
     gis_release();
     *taken = !done && (why == ENOTEMPTY || why == EEXIST || why == ENOTDIR);
     if (done) sync_parent(directory);
@@ -101,5 +101,5 @@ void gis_plan_place_clear(gis_plan_place *place)
 {
     if (!place->path) return;
     gis_remove_tree(place->path);
-    forget(place);
+    forget_place(place);
 }

@@ -33,7 +33,7 @@ gis_plan_estimate gis_plan_estimate_group(const gis_shard_run *parts)
 gis_plan_estimate gis_plan_estimate_merge(const gis_plan *plan, const gis_shard_run *parts)
 {
     const double features = (double)plan->facts.source.features;
-    const gis_plan_estimate lot = gis_plan_estimate_group(parts);
-    return (gis_plan_estimate){.bytes = fmax(lot.bytes, gis_shard_run_bytes_written(features, parts->request->drawn)),
-                               .seconds = lot.seconds + ceil(seconds_anyway + seconds_merged * features)};
+    const gis_plan_estimate group = gis_plan_estimate_group(parts);
+    return (gis_plan_estimate){.bytes = fmax(group.bytes, gis_shard_run_bytes_written(features, parts->request->drawn)),
+                               .seconds = group.seconds + ceil(seconds_anyway + seconds_merged * features)};
 }

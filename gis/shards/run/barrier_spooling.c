@@ -15,7 +15,7 @@ typedef struct spooling {
     size_t n;
 } spooling;
 
-static bool take(void *user, const gis_barrier_common *common, gis_barrier_feature *f, gis_error *error)
+static bool take_barrier(void *user, const gis_barrier_common *common, gis_barrier_feature *f, gis_error *error)
 {
     spooling *s = user;
     const gis_spooled_barrier barrier = {
@@ -40,7 +40,7 @@ static bool spool_all(const gis_barrier_request *requests, size_t n, const gis_b
     for (size_t k = 0; k < n && done; k++) {
         gis_barrier_common common;
         s.request = &requests[k];
-        done = gis_barrier_visit(&requests[k], around, BATCH, take, &s, &common, error);
+        done = gis_barrier_visit(&requests[k], around, BATCH, take_barrier, &s, &common, error);
         CPLFree(common.layer);
     }
     done = done && gis_barriers_finish(s.writer, error);

@@ -41,7 +41,7 @@ typedef struct spooling {
 
 static bool by_area(const spooling *s) { return s->input.request->rules.weighting != GIS_WEIGHTING_EVEN; }
 
-static bool weigh(spooling *s, gis_error *error)
+static bool weigh_batch(spooling *s, gis_error *error)
 {
     gis_layer_input *input = &s->input;
     if (!by_area(s)) return gis_layer_weights(input, error);
@@ -60,7 +60,7 @@ static bool take_demands(spooling *s, gis_error *error)
     gis_layer_default_demands(input);
     gis_layer_box(input, box);
     gis_box_join(s->shapes, box);
-    if (!gis_layer_marks(input, error) || !gis_layer_number_blocks(input, &s->keys, error) || !weigh(s, error) ||
+    if (!gis_layer_marks(input, error) || !gis_layer_number_blocks(input, &s->keys, error) || !weigh_batch(s, error) ||
         !gis_layer_limits(input, error))
         return false;
     gis_layer_box(input, box);
@@ -153,7 +153,7 @@ static bool add_batch(spooling *s, gis_error *error)
 
 /* ---- Values that depend on all features -------------------------------------------------------------------------- */
 
-static bool settle(void *user, gis_spool_feature *feature, gis_error *error)
+static bool settle_feature(void *user, gis_spool_feature *feature, gis_error *error)
 {
     const spooling *s = user;
     sunder_feature *demands = &feature->demands;
@@ -253,7 +253,7 @@ static bool spool_barriers(spooling *s, const char *directory, gis_error *error)
     return done;
 }
 
-static bool finish(spooling *s, unsigned shards, const char *directory, gis_error *error)
+static bool finish_spools(spooling *s, unsigned shards, const char *directory, gis_error *error)
 {
     const bool settles = by_area(s) || s->keys.n > 0;
     gis_layer_drop_features(&s->input);
@@ -263,12 +263,12 @@ static bool finish(spooling *s, unsigned shards, const char *directory, gis_erro
     s->areas = NULL;
     fill_facts(s);
     say_what_is_known(s);
-    return gis_spool_finish(s->writer, shards, settles ? settle : NULL, s, error) &&
+    return gis_spool_finish(s->writer, shards, settles ? settle_feature : NULL, s, error) &&
            (!s->aside || gis_spool_finish(s->aside, 1, NULL, NULL, error)) &&
            gis_disk_file_place(&s->status, directory, "status", error) && spool_barriers(s, directory, error);
 }
 
-static void clear(spooling *s)
+static void clear_spooling(spooling *s)
 {
     gis_spool_writer_free(s->writer);
     gis_spool_writer_free(s->aside);
@@ -287,8 +287,8 @@ static bool spool_once(const gis_layer_input_request *request, unsigned shards, 
     gis_box_clear(facts->box);
     gis_box_clear(s.shapes);
     const bool done =
-        read_batches(&s, request, directory, again, error) && (*again || finish(&s, shards, directory, error));
-    clear(&s);
+        read_batches(&s, request, directory, again, error) && (*again || finish_spools(&s, shards, directory, error));
+    clear_spooling(&s);
     return done;
 }
 

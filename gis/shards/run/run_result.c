@@ -43,7 +43,7 @@ static gis_value block_value(const gis_shard_run *p, bool has_null, const gis_pa
                               p->block_fid[gis_joined_block(j, own->b) - j->block]);
 }
 
-static bool pass(passing *at, const gis_source *source, size_t i, gis_error *error)
+static bool pass_feature(passing *at, const gis_source *source, size_t i, gis_error *error)
 {
     gis_shard_run *p = at->parts;
     const gis_joined *j = &p->joined;
@@ -125,7 +125,7 @@ static bool visit_features(const gis_result *r, bool has_null, gis_feature_visit
                 gis_sorted_results_next(&p->joined.rows, &at.any, error);
     while (done && any) {
         done = begin_batch(&at, input, &sums, error);
-        for (size_t i = 0; i < gis_source_count(source) && done; i++) done = pass(&at, source, i, error);
+        for (size_t i = 0; i < gis_source_count(source) && done; i++) done = pass_feature(&at, source, i, error);
         any = !p->whole;
         if (any) done = done && gis_source_next(source, &any, error);
     }

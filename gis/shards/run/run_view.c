@@ -104,7 +104,7 @@ static bool take_rows(const spool_view *s, gis_view_feature *feature, gis_error 
     return !any;
 }
 
-static bool fill(void *of, gis_view_feature *feature, gis_error *error)
+static bool fill_features(void *of, gis_view_feature *feature, gis_error *error)
 {
     const spool_view *s = of;
     filling f = {.feature = feature, .n = s->parts->facts.source.features};
@@ -161,7 +161,7 @@ static bool keep_conflict(spool_view *s, const gis_part_result *one, gis_error *
     return true;
 }
 
-static bool conflicts(void *of, const sunder_conflict **conflict, size_t *n, gis_error *error)
+static bool list_conflicts(void *of, const sunder_conflict **conflict, size_t *n, gis_error *error)
 {
     spool_view *s = of;
     gis_sorted_results *sorted = &s->parts->joined.conflicts;
@@ -188,7 +188,7 @@ static bool lend_shape(void *user, const gis_spool_feature *feature, gis_error *
     return true;
 }
 
-static bool shape(void *of, size_t feature, uint64_t place, const sunder_shape **out, gis_error *error)
+static bool lend_feature_shape(void *of, size_t feature, uint64_t place, const sunder_shape **out, gis_error *error)
 {
     spool_view *s = of;
     (void)feature;
@@ -207,7 +207,7 @@ static bool lend_geometry(void *user, const gis_spool_feature *barrier, gis_erro
     return true;
 }
 
-static bool geometry(void *of, uint64_t place, sunder_obstacle *out, gis_error *error)
+static bool lend_barrier_geometry(void *of, uint64_t place, sunder_obstacle *out, gis_error *error)
 {
     spool_view *s = of;
     if (!gis_spool_read_one(s->parts->barriers.all, place, lend_geometry, s, error)) return false;
@@ -235,7 +235,7 @@ static bool ask_name(spool_view *s, gis_spool *spool, uint64_t place, GIntBig *f
     return !s->text.failed || gis_no_memory(error);
 }
 
-static bool name(void *of, size_t feature, uint64_t place, GIntBig *fid, const char **id, gis_error *error)
+static bool feature_name(void *of, size_t feature, uint64_t place, GIntBig *fid, const char **id, gis_error *error)
 {
     spool_view *s = of;
     (void)feature;
@@ -281,12 +281,12 @@ bool gis_shard_run_view(const gis_result *result, gis_result_view *out, gis_erro
     *out = (gis_result_view){s,
                              parts->facts.source.features,
                              barriers,
-                             fill,
+                             fill_features,
                              fill_barriers,
-                             conflicts,
-                             shape,
-                             geometry,
-                             name,
+                             list_conflicts,
+                             lend_feature_shape,
+                             lend_barrier_geometry,
+                             feature_name,
                              barrier_name,
                              close_view};
     if (!s) return gis_no_memory(error);

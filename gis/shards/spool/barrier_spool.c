@@ -62,7 +62,7 @@ struct gis_barriers_writer {
 };
 
 /* The distance that features must keep from the barrier: half its width plus the gap, rounded up as in the core. */
-static double owed(const gis_barriers_writer *w, const sunder_barrier *b)
+static double distance_owed(const gis_barriers_writer *w, const sunder_barrier *b)
 {
     const double half = b->width / 2, gap = b->gap < 0 ? w->gap : b->gap, sum = half + gap, back = sum - half;
     return (half - (sum - back)) + (gap - back) > 0 ? nextafter(sum, INFINITY) : sum;
@@ -92,10 +92,10 @@ static bool copy_barrier(const gis_spooled_barrier *from, gis_spooled_barrier *t
     return true;
 }
 
-static bool note(gis_barriers_writer *w, const gis_spooled_barrier *barrier, gis_error *error)
+static bool note_facts(gis_barriers_writer *w, const gis_spooled_barrier *barrier, gis_error *error)
 {
     const sunder_obstacle *o = &barrier->demands.geometry;
-    const double own = owed(w, &barrier->demands);
+    const double own = distance_owed(w, &barrier->demands);
     const size_t size = size_of(o);
     const bool more = own > w->most || w->n == 1,
                is[FACTS] = {size > 0, o->lines > 0, own == 0, own >= w->most || more};
@@ -112,7 +112,7 @@ static bool note(gis_barriers_writer *w, const gis_spooled_barrier *barrier, gis
 
 /* ---- Writing ----------------------------------------------------------------------------------------------------- */
 
-static bool add(gis_spool_writer *to, const gis_spooled_barrier *b, double reach, gis_error *error)
+static bool add_barrier(gis_spool_writer *to, const gis_spooled_barrier *b, double reach, gis_error *error)
 {
     const gis_spool_feature feature = {
         .index = b->number,
@@ -155,7 +155,8 @@ bool gis_barriers_create(const char *directory, double gap, gis_barriers_writer 
 bool gis_barriers_add(gis_barriers_writer *writer, const gis_spooled_barrier *barrier, gis_error *error)
 {
     writer->n++;
-    return note(writer, barrier, error) && add(writer->all, barrier, owed(writer, &barrier->demands), error);
+    return note_facts(writer, barrier, error) &&
+           add_barrier(writer->all, barrier, distance_owed(writer, &barrier->demands), error);
 }
 
 bool gis_barriers_finish(gis_barriers_writer *writer, gis_error *error)
@@ -169,7 +170,9 @@ bool gis_barriers_finish(gis_barriers_writer *writer, gis_error *error)
         for (int i = 0; i < k; i++)
             again =
                 again || (writer->fact[i].there && writer->fact[i].barrier.number == writer->fact[k].barrier.number);
-        if (!again) done = add(few, &writer->fact[k].barrier, owed(writer, &writer->fact[k].barrier.demands), error);
+        if (!again)
+            done = add_barrier(few, &writer->fact[k].barrier, distance_owed(writer, &writer->fact[k].barrier.demands),
+                               error);
     }
     done = done && gis_spool_finish(few, 1, NULL, NULL, error) && gis_spool_finish(writer->all, 1, NULL, NULL, error);
     gis_spool_writer_free(few);
@@ -240,7 +243,7 @@ static void box_of(const gis_spool_feature *f, double box[4])
         box[c] = c < 2 ? nextafter(box[c] - f->reach, -INFINITY) : nextafter(box[c] + f->reach, INFINITY);
 }
 
-static bool take(void *user, const gis_spool_feature *f, gis_error *error)
+static bool take_barrier(void *user, const gis_spool_feature *f, gis_error *error)
 {
     loading *l = user;
     double box[4] = {INFINITY, INFINITY, -INFINITY, -INFINITY};
@@ -275,7 +278,7 @@ static int by_number(const void *a, const void *b)
 }
 
 /* Sorts by number and removes duplicates: a barrier that every part gets may have been read twice. */
-static void sort(gis_barriers_list *list)
+static void sort_barriers(gis_barriers_list *list)
 {
     size_t kept = 0;
     if (list->n) qsort(list->item, list->n, sizeof *list->item, by_number);
@@ -296,11 +299,12 @@ bool gis_barriers_load(const gis_spooled_barriers *spool, const double (*box)[4]
     *out = (gis_barriers_list){0};
     if (!spool->all) return true;
     for (size_t k = 0; k < gis_spool_cells(spool->all) && done; k++)
-        if (meets_any(&l, gis_spool_cell_at(spool->all, k)->box)) done = gis_spool_read(spool->all, k, take, &l, error);
+        if (meets_any(&l, gis_spool_cell_at(spool->all, k)->box))
+            done = gis_spool_read(spool->all, k, take_barrier, &l, error);
     l.all = true;
     for (size_t k = 0; k < gis_spool_cells(spool->everywhere) && done; k++)
-        done = gis_spool_read(spool->everywhere, k, take, &l, error);
-    sort(out);
+        done = gis_spool_read(spool->everywhere, k, take_barrier, &l, error);
+    sort_barriers(out);
     return done;
 }
 

@@ -79,7 +79,7 @@ uint64_t gis_spool_checksum(const gis_spool *spool) { return spool->index.checks
 size_t gis_spool_cells(const gis_spool *spool) { return spool->index.n; }
 const gis_spool_cell *gis_spool_cell_at(const gis_spool *spool, size_t cell) { return &spool->index.entry[cell].cell; }
 
-static bool load(gis_spool *spool, size_t cell, gis_error *error)
+static bool load_cell(gis_spool *spool, size_t cell, gis_error *error)
 {
     const gis_spool_entry *entry = &spool->index.entry[cell];
     gis_spool_room *records = &spool->records;
@@ -116,7 +116,7 @@ static bool visit_record(gis_spool *spool, uint64_t from, size_t at, gis_spool_v
 
 bool gis_spool_read(gis_spool *spool, size_t cell, gis_spool_visit *visit, void *user, gis_error *error)
 {
-    if (!load(spool, cell, error)) return false;
+    if (!load_cell(spool, cell, error)) return false;
     for (size_t at = 0; at < spool->records.used; at += gis_spool_record_head(spool->records.at + at)->bytes)
         if (!visit_record(spool, spool->index.entry[cell].from, at, visit, user, error)) return false;
     return true;
@@ -138,7 +138,7 @@ bool gis_spool_read_one(gis_spool *spool, uint64_t place, gis_spool_visit *visit
 bool gis_spool_skim(gis_spool *spool, size_t cell, gis_spool_glance *glance, void *user, gis_error *error)
 {
     const uint64_t from = spool->index.entry[cell].from;
-    if (!gis_go_on(error) || !load(spool, cell, error)) return false;
+    if (!gis_go_on(error) || !load_cell(spool, cell, error)) return false;
     for (size_t at = 0; at < spool->records.used;) {
         unsigned char *record = spool->records.at + at;
         gis_spool_feature feature;

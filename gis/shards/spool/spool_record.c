@@ -11,7 +11,7 @@
 
 _Static_assert(sizeof(gis_spool_head) % 8 == 0, "what follows a head is aligned");
 
-static size_t padded(size_t bytes) { return (bytes + 7) & ~(size_t)7; }
+static size_t padded_size(size_t bytes) { return (bytes + 7) & ~(size_t)7; }
 
 /* Optional members of a record, one bit each; their data follow the head in the order of the bits, with the sizes in
  * size_of[]. */
@@ -53,12 +53,12 @@ static size_t place_of(const gis_spool_head *head, uint32_t flag)
 }
 
 /* Copies the data of the member `flag` to `to`, if the record has it. */
-static void get(const unsigned char *record, const gis_spool_head *head, uint32_t flag, void *to, size_t bytes)
+static void get_member(const unsigned char *record, const gis_spool_head *head, uint32_t flag, void *to, size_t bytes)
 {
     if (head->has & flag) memcpy(to, record + place_of(head, flag), bytes);
 }
 
-static void put(unsigned char *record, const gis_spool_head *head, uint32_t flag, const void *from, size_t bytes)
+static void put_member(unsigned char *record, const gis_spool_head *head, uint32_t flag, const void *from, size_t bytes)
 {
     if (head->has & flag) memcpy(record + place_of(head, flag), from, bytes);
 }
@@ -79,7 +79,7 @@ static void lay_out(const gis_spool_head *head, content *c)
     c->ring_ends = c->line_xy + 2 * sizeof(double) * c->of_lines.points;
     c->line_ends = c->ring_ends + (has_ends(head) ? sizeof(uint32_t) * ((size_t)head->rings + head->polygons) : 0);
     c->id = c->line_ends + sizeof(uint32_t) * c->of_lines.lines;
-    c->bytes = padded(c->id + c->id_bytes);
+    c->bytes = padded_size(c->id + c->id_bytes);
 }
 
 /* Parses a record for which `left` bytes are available. False: it is invalid. */
@@ -89,8 +89,8 @@ static bool find_content(const unsigned char *record, size_t left, gis_spool_hea
     if (left < sizeof *head) return false;
     memcpy(head, record, sizeof *head);
     if (head->bytes > left || head->has > ALL || place_of(head, ALL + 1) > head->bytes) return false;
-    get(record, head, LINES, &c->of_lines, sizeof c->of_lines);
-    get(record, head, ID, &c->id_bytes, sizeof c->id_bytes);
+    get_member(record, head, LINES, &c->of_lines, sizeof c->of_lines);
+    get_member(record, head, ID, &c->id_bytes, sizeof c->id_bytes);
     if (c->id_bytes > head->bytes) return false;
     lay_out(head, c);
     return c->bytes == head->bytes;
@@ -183,13 +183,13 @@ bool gis_spool_record_make(gis_spool_room *room, const gis_spool_feature *featur
     room->used = c.bytes;
     memset(room->at + c.bytes - 8, 0, 8); /* clears the padding */
     memcpy(room->at, &head, sizeof head);
-    put(room->at, &head, BLOCK, &demands->block, sizeof demands->block);
-    put(room->at, &head, AREA, &feature->area, sizeof feature->area);
-    put(room->at, &head, START, feature->start, sizeof feature->start);
-    put(room->at, &head, REACH, &feature->reach, sizeof feature->reach);
-    put(room->at, &head, BOX, box, sizeof box);
-    put(room->at, &head, LINES, &c.of_lines, sizeof c.of_lines);
-    put(room->at, &head, ID, &c.id_bytes, sizeof c.id_bytes);
+    put_member(room->at, &head, BLOCK, &demands->block, sizeof demands->block);
+    put_member(room->at, &head, AREA, &feature->area, sizeof feature->area);
+    put_member(room->at, &head, START, feature->start, sizeof feature->start);
+    put_member(room->at, &head, REACH, &feature->reach, sizeof feature->reach);
+    put_member(room->at, &head, BOX, box, sizeof box);
+    put_member(room->at, &head, LINES, &c.of_lines, sizeof c.of_lines);
+    put_member(room->at, &head, ID, &c.id_bytes, sizeof c.id_bytes);
     if (vertices) memcpy(room->at + c.xy, xy, 2 * vertices * sizeof *xy);
     if (points) memcpy(room->at + c.line_xy, feature->lines.xy, 2 * points * sizeof *xy);
     if (has_ends(&head)) put_ends(put_ends(room->at + c.ring_ends, ring_end, rings), poly_end, polygons);
@@ -205,7 +205,7 @@ void gis_spool_record_box(const unsigned char *record, double box[4])
     gis_spool_head head;
     memcpy(&head, record, sizeof head);
     if (head.has & BOX)
-        get(record, &head, BOX, box, 4 * sizeof *box);
+        get_member(record, &head, BOX, box, 4 * sizeof *box);
     else
         box_of_vertices((const void *)(record + place_of(&head, ALL + 1)), head.vertices, box);
 }
@@ -215,7 +215,7 @@ size_t gis_spool_record_vertices(const unsigned char *record)
     gis_spool_head head;
     counts lines = {0};
     memcpy(&head, record, sizeof head);
-    get(record, &head, LINES, &lines, sizeof lines);
+    get_member(record, &head, LINES, &lines, sizeof lines);
     return (size_t)head.vertices + lines.points;
 }
 
@@ -224,7 +224,7 @@ void gis_spool_record_settle(unsigned char *record, const sunder_feature *demand
     gis_spool_head *head = gis_spool_record_head(record);
     head->weight = demands->weight;
     head->max_shift = demands->max_shift;
-    put(record, head, BLOCK, &demands->block, sizeof demands->block);
+    put_member(record, head, BLOCK, &demands->block, sizeof demands->block);
 }
 
 bool gis_spool_record_feature(unsigned char *record, size_t left, gis_spool_feature *feature)
@@ -240,10 +240,10 @@ bool gis_spool_record_feature(unsigned char *record, size_t left, gis_spool_feat
         .demands = {.weight = head.weight, .max_shift = head.max_shift, .block = -1, .fixed = (head.has & FIXED) != 0},
         .start = {NAN, NAN},
         .id = id};
-    get(record, &head, BLOCK, &feature->demands.block, sizeof feature->demands.block);
-    get(record, &head, AREA, &feature->area, sizeof feature->area);
-    get(record, &head, START, feature->start, sizeof feature->start);
-    get(record, &head, REACH, &feature->reach, sizeof feature->reach);
+    get_member(record, &head, BLOCK, &feature->demands.block, sizeof feature->demands.block);
+    get_member(record, &head, AREA, &feature->area, sizeof feature->area);
+    get_member(record, &head, START, feature->start, sizeof feature->start);
+    get_member(record, &head, REACH, &feature->reach, sizeof feature->reach);
     return true;
 }
 

@@ -116,7 +116,7 @@ static bool settle_record(gis_spool_writer *writer, unsigned char *record, gis_e
     return true;
 }
 
-static bool take(void *user, const unsigned char *record, gis_error *error)
+static bool take_record(void *user, const unsigned char *record, gis_error *error)
 {
     gis_spool_writer *writer = user;
     double box[4];
@@ -199,7 +199,7 @@ static bool write_features(gis_spool_writer *writer, gis_error *error)
         return false;
     begin_cell(writer);
     if (!is_framed(writer) && !order_again(writer, error)) return false;
-    if (!gis_sorter_take(writer->sorter, take, writer, error) || !end_cell(writer, error)) return false;
+    if (!gis_sorter_take(writer->sorter, take_record, writer, error) || !end_cell(writer, error)) return false;
     if (writer->refused == UINT64_MAX) return gis_disk_file_place(&writer->out, writer->directory, "features", error);
     *error = writer->why;
     return false;
