@@ -1,4 +1,4 @@
-/* checksum.h: a number that tells whether bytes are what they were. */
+/* checksum.h: a checksum that detects changed bytes. */
 #ifndef GIS_CHECKSUM_H
 #define GIS_CHECKSUM_H
 
@@ -6,8 +6,8 @@
 #include <stdint.h>
 #include <string.h>
 
-/* Goes on from a checksum (0: from none), by eight bytes at a time: a multiplication with an odd number and a shift are
- * each one to one, so a change of eight bytes alone always shows. */
+/* Continues a checksum (0: begins one) with n bytes, eight at a time. Multiplication by an odd number and xor with a
+ * shifted value are both invertible, so a change within one group of eight bytes is always detected. */
 static inline uint64_t gis_checksum_of(uint64_t checksum, const void *bytes, size_t n)
 {
     const unsigned char *at = bytes;

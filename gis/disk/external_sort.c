@@ -1,6 +1,5 @@
-/* external_sort.c: see external_sort.h. Records are gathered until they fill the memory that they may take; then they
- * are sorted and written behind the last such part, into one file; in the end parts are merged by a heap of their first
- * records. */
+/* external_sort.c: see external_sort.h. Records are collected until they fill the memory allowed; then they are sorted
+ * and appended to a file as a run. At the end the runs are merged with a heap of their first records. */
 #include "disk/external_sort.h"
 
 #include "base/array.h"
@@ -9,22 +8,22 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A sorted part, and what of it was read but not yet taken. */
+/* A sorted run in the file, and its records that were read but not yet returned. */
 typedef struct run {
-    uint64_t from, end; /* in the file: what was not yet read */
-    unsigned char *at;  /* room of its own; the records in it begin at `used` and end at `filled` */
+    uint64_t from, end; /* the part of the file that was not read yet */
+    unsigned char *at;  /* buffer; the records in it begin at `used` and end at `filled` */
     size_t used, filled, room;
 } run;
 
 struct gis_sorter {
     char *directory, *parts;
-    size_t most; /* bytes of a part */
+    size_t most; /* largest size of a run, in bytes */
     gis_disk_file runs;
     run *run;
     size_t n, capacity;
-    unsigned char *part; /* records of the part that is gathered, in the order in which they came */
+    unsigned char *part; /* records being collected, in the order in which they were added */
     size_t used, room;
-    gis_keyed *place; /* where each is, and a key of it */
+    gis_keyed *place; /* offset of each record in `part`, and one of its keys */
     size_t places, place_room;
 };
 
@@ -41,11 +40,12 @@ static bool fail_content(const gis_disk_file *file, gis_error *error)
     return gis_fail(error, "%s: the file was damaged or changed", file->path);
 }
 
-/* ---- Parts ------------------------------------------------------------------------------------------------------- */
+/* ---- Runs -------------------------------------------------------------------------------------------------------- */
 
 enum { LEAST_ROOM = 1 << 16 };
 
-/* Makes room for `bytes` further bytes. Never more than a part may take: doubling would exceed the bound. */
+/* Makes room for `bytes` further bytes. The buffer never grows beyond `most` for several records; doubling alone would
+ * exceed it. */
 static bool make_room(gis_sorter *s, size_t bytes, gis_error *error)
 {
     if (s->room - s->used >= bytes) return true;
@@ -59,8 +59,8 @@ static bool make_room(gis_sorter *s, size_t bytes, gis_error *error)
     return true;
 }
 
-/* By the first keys, by the second where these agree, and else as they came: by the second keys first, since what is
- * sorted keeps its order. */
+/* Sorts by the first key, then by the second, then by order of addition. It sorts by the second key first, since
+ * gis_keyed_sort() is stable. */
 static bool sort_part(gis_sorter *s, gis_error *error)
 {
     gis_keyed *place = s->place;
@@ -98,13 +98,14 @@ static bool take_part(gis_sorter *s, gis_sort_take *take, void *user, gis_error 
 
 static gis_sort_head *first_of(const run *r) { return head_of(r->at + r->used); }
 
-/* Has the first record of what is left whole in memory; *any = false: nothing is left. */
+/* Makes sure that the first remaining record of a run is completely in memory, reading `share` bytes at a time. *any is
+ * set to false if no record remains. */
 static bool refill(gis_sorter *s, run *r, size_t share, bool *any, gis_error *error)
 {
     const size_t have = r->filled - r->used;
     *any = have > 0 || r->from < r->end;
     if (!*any || (have >= sizeof(gis_sort_head) && have >= first_of(r)->bytes)) return true;
-    /* The share, or what the record needs that is there in part. */
+    /* Read a share, or the whole record if it is larger. */
     size_t wanted = share;
     if (have >= sizeof(gis_sort_head) && first_of(r)->bytes > wanted) wanted = first_of(r)->bytes;
     if (have) memmove(r->at, r->at + r->used, have);
@@ -120,17 +121,18 @@ static bool refill(gis_sorter *s, run *r, size_t share, bool *any, gis_error *er
     r->from += more;
     r->used = 0;
     r->filled = have + more;
-    return refill(s, r, share, any, error); /* once more where the record is larger than its share */
+    return refill(s, r, share, any, error); /* again, if the record is larger than the share */
 }
 
-/* Runs lie in the order in which their records came. */
+/* Does a's first record come before b's? Records with equal keys are in the order of their runs, which is the order of
+ * addition. */
 static bool before(const run *a, const run *b)
 {
     const int by_keys = compare(first_of(a), first_of(b));
     return by_keys ? by_keys < 0 : a < b;
 }
 
-/* Moves the heap's entry i down to its place. */
+/* Moves entry i of the heap down to its place. */
 static void sink(run **heap, size_t n, size_t i)
 {
     for (size_t child; (child = 2 * i + 1) < n; i = child) {
@@ -163,7 +165,7 @@ static bool merge_heap(gis_sorter *s, run **heap, size_t share, gis_sort_take *t
     return true;
 }
 
-/* Least bytes read of a run at once: fewer would cost a seek for every few records. */
+/* The smallest number of bytes read from a run at once; smaller reads would cost a seek for every few records. */
 enum { LEAST_SHARE = 1 << 16 };
 
 static bool merge(gis_sorter *s, gis_sort_take *take, void *user, gis_error *error)
@@ -181,7 +183,7 @@ static bool merge(gis_sorter *s, gis_sort_take *take, void *user, gis_error *err
     return done;
 }
 
-/* ---- Records as they come ---------------------------------------------------------------------------------------- */
+/* ---- The sorter -------------------------------------------------------------------------------------------------- */
 
 bool gis_sorter_new(const char *directory, const char *parts, size_t most, gis_sorter **out, gis_error *error)
 {

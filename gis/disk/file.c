@@ -1,4 +1,5 @@
-/* file.c: see file.h. A file appears by a rename, after its bytes are on the disk: so it is there whole, or not. */
+/* file.c: see file.h. A file appears by a rename after its bytes are on the disk, so it is there completely or not at
+ * all. */
 #define _GNU_SOURCE
 #include "disk/file.h"
 
@@ -32,7 +33,7 @@ static bool is_unique(const char *name)
     return n > of_these && strcmp(name + n - of_these, UNIQUE) == 0;
 }
 
-/* A new file: a file or link that has the name goes, and is not written into. A device stays what it is. */
+/* Creates a new file. An existing file or link of this name is removed, not written into; a device is opened. */
 static int open_new(const char *path)
 {
     struct stat status;
@@ -51,7 +52,7 @@ static FILE *create(char *path, const char *name)
     return stream;
 }
 
-/* A file, and no pipe, which would be waited for. */
+/* Opens a plain file for reading. Other kinds are refused; opening a pipe would block. */
 static FILE *open_to_read(const char *path, struct stat *status)
 {
     const int opened = open(path, O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
@@ -65,7 +66,8 @@ static FILE *open_to_read(const char *path, struct stat *status)
     return stream;
 }
 
-/* Records are small, and a call for a few of them takes longer than they do. Without it things are only slower. */
+/* Size of the buffer of a written file: records are small, and a system call for a few of them takes longer than
+ * copying them. If it cannot be allocated, writing is only slower. */
 enum { BUFFER = 1 << 17 };
 
 static void add_buffer(gis_disk_file *file)
@@ -97,7 +99,7 @@ bool gis_disk_file_flush(gis_disk_file *file, gis_error *error)
     return fflush(file->stream) == 0 || cannot_write(file->path, error);
 }
 
-/* That a file has a name is on the disk only once its directory is. */
+/* Syncs a directory; only then is the name of a new file in it on the disk. */
 static bool sync_directory(const char *directory, gis_error *error)
 {
     const int opened = open(directory, O_RDONLY | O_DIRECTORY | O_CLOEXEC);

@@ -1,4 +1,4 @@
-/* stage.c: the hidden directory and its contents. Its maker holds a lock on it as long as the process lives: the lock
+/* stage.c: the hidden directory and its contents. The process that made it holds a lock on it until it ends; the lock
  * distinguishes an abandoned stage from one in use (stage_remains.c). */
 #define _GNU_SOURCE
 #include "disk/stage_internal.h"
@@ -36,7 +36,7 @@ void gis_stage_place_of(const char *final_path, char **directory, char **name)
     CPLFree(path);
 }
 
-/* Forgets the stage, which is gone, or stays as it is. */
+/* Closes the stage and forgets its name, when the directory was removed or stays as it is. */
 static void leave(gis_stage *stage)
 {
     if (stage->inner >= 0) close(stage->inner);
@@ -81,8 +81,8 @@ static bool choose_letters(char letters[6])
     return true;
 }
 
-/* Makes the new directory, opens it and, where possible, locks it; -1: errno tells why not. EAGAIN: the name was taken,
- * or another process that removes empty stages held the lock first. */
+/* Makes a new directory, opens it and, if possible, locks it. Returns -1 with errno on failure; EAGAIN: the name was
+ * taken, or another process that removes empty stages held the lock first. */
 static int make_private(int outer, const char *name)
 {
     if (mkdirat(outer, name, 0700) != 0) {
@@ -101,7 +101,7 @@ static int make_private(int outer, const char *name)
     return -1;
 }
 
-/* As many attempts as collisions with other runs make plausible. */
+/* Number of attempts; more collisions with other runs are implausible. */
 enum { ATTEMPTS = 100 };
 
 bool gis_stage_make(gis_stage *stage, gis_error *error)
@@ -111,7 +111,7 @@ bool gis_stage_make(gis_stage *stage, gis_error *error)
     for (int attempt = 0; attempt < ATTEMPTS && reason == EAGAIN; attempt++) {
         char name[] = GIS_STAGE_PREFIX "XXXXXX";
         if (!choose_letters(name + sizeof GIS_STAGE_PREFIX - 1)) return cannot_write(stage, errno, error);
-        gis_hold(); /* it is there, and known to be */
+        gis_hold(); /* so that a signal finds the directory registered for removal */
         stage->inner = make_private(stage->outer, name);
         reason = errno;
         if (stage->inner >= 0) {
@@ -144,7 +144,7 @@ const char *gis_stage_main(const gis_stage *stage) { return stage->main; }
 
 /* ---- Copying in -------------------------------------------------------------------------------------------------- */
 
-/* Bytes copied at a time, so that a signal is noticed between two pieces. */
+/* Number of bytes copied at once; signals are handled in between. */
 enum { PIECE = 1 << 20 };
 
 static bool write_all(int to, const char *bytes, size_t n)
@@ -183,11 +183,10 @@ static bool copy_file(const char *from, const char *to, mode_t mode, gis_error *
     return done || gis_fail(error, "%s: cannot be copied: %s", from, strerror(reason));
 }
 
-/* Datasets nest directories only a few levels deep. A tree that is deeper than this is no dataset, or contains a
- * cycle. */
+/* Datasets nest directories only a few levels deep. A deeper tree is not a dataset, or contains a cycle. */
 enum { DEEPEST = 8 };
 
-/* Recurses at most DEEPEST deep. */
+/* Copies a file or a directory; recurses at most DEEPEST levels. */
 static bool copy_tree(const char *from, const char *to, int depth, gis_error *error)
 {
     struct stat status;

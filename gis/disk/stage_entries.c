@@ -1,5 +1,5 @@
-/* stage_entries.c: entries of an open directory, queried and moved by name, without following links. */
-#define _GNU_SOURCE /* renameat2() */
+/* stage_entries.c: tests and moves entries of an open directory by name, without following links. */
+#define _GNU_SOURCE /* for renameat2() */
 #include "disk/stage_internal.h"
 
 #include <cpl_string.h>
@@ -47,7 +47,8 @@ bool gis_entry_is_file(int directory, const char *name)
 char **gis_entry_names(int directory)
 {
     char **names = NULL;
-    const int again = openat(directory, ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC); /* to be read from its beginning */
+    /* a new descriptor, which reads from the beginning */
+    const int again = openat(directory, ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     DIR *list = again >= 0 ? fdopendir(again) : NULL;
     if (!list && again >= 0) close(again);
     for (const struct dirent *entry; list && (entry = readdir(list)) != NULL;)

@@ -1,11 +1,11 @@
-/* stage_publish.c: the renames that put staged files in place, and their undoing.
+/* stage_publish.c: the renames that put staged files in place, and undoing them.
  *
- * Everything is synced before the first rename. A rename is atomic: a single file that replaces a single file is at
- * every moment the old one or the new one. Several renames are not atomic, and the process may be killed between two of
- * them. So a record of the plan is written and synced first, superseded files move aside into the stage, then new files
- * move to their places, the main one last. As long as one new file is still in the stage the run is unfinished, and the
- * next run that finds the record can restore the old state (stage_remains.c); with the last one the new state is
- * complete. */
+ * Everything is synced before the first rename. A rename is atomic: if a single file replaces a single file, the old
+ * one or the new one is there at every moment. Several renames are not atomic, and the process may be killed between
+ * two of them. So a record of the plan is written and synced first, replaced files are moved aside into the stage, and
+ * new files are moved to their places, the main one last. As long as one new file is still in the stage the run is
+ * unfinished, and the next run that finds the record can restore the old state (stage_remains.c); after the last rename
+ * the new state is complete. */
 #define _GNU_SOURCE
 #include "disk/stage_internal.h"
 
@@ -23,21 +23,21 @@
 
 /* ---- Syncing ----------------------------------------------------------------------------------------------------- */
 
-/* Some file systems know no fsync, of directories above all. */
+/* Does this error mean that the file system has no fsync (for directories, for example)? */
 static bool cannot_sync(int reason)
 {
     return reason == EINVAL || reason == EROFS || reason == ENOTSUP || reason == EBADF;
 }
 
-/* A file must be on the disk before the rename is, else a crash could leave the name with nothing behind it. shown: the
- * path, for messages. */
+/* Syncs an open file. A file must be on the disk before its rename is; otherwise a crash could leave the name without
+ * the content. shown: the path, for messages. */
 static bool sync_open(int file, const char *shown, gis_error *error)
 {
     const bool done = file >= 0 && (fsync(file) == 0 || cannot_sync(errno));
     return done || gis_fail(error, "%s: cannot be brought to the disk: %s", shown, strerror(errno));
 }
 
-/* Keeps an error of the disk for the caller of sync. */
+/* An error here is ignored, since the later fsync reports it again. */
 void gis_stage_write_out(const gis_stage *stage)
 {
 #ifdef SYNC_FILE_RANGE_WRITE
@@ -51,7 +51,7 @@ void gis_stage_write_out(const gis_stage *stage)
 #endif
 }
 
-/* A file, or a directory after all that is in it. */
+/* Syncs a file, or a directory after everything in it. */
 static bool sync_tree(int directory, const char *name, const char *shown, gis_error *error)
 {
     if (!gis_go_on(error)) return false;
@@ -119,7 +119,7 @@ static void remove_record(const gis_stage *stage) { unlinkat(stage->inner, GIS_S
 /* ---- Renames ----------------------------------------------------------------------------------------------------- */
 
 typedef struct renaming {
-    int from, to; /* directories */
+    int from, to; /* descriptors of directories */
     const char *name;
 } renaming;
 
@@ -146,8 +146,8 @@ static void undo(journal *log)
     }
 }
 
-/* Superseded files step aside, all but the main one where a plain file replaces a plain file: rename() does that in
- * one step, so that at every moment either the old or the new one is there. */
+/* Moves replaced files aside. The main file stays if a plain file replaces a plain file: rename() replaces it in one
+ * step, so that the old or the new one is there at every moment. */
 static bool step_aside(const gis_stage *stage, int aside, bool main_in_one_step, journal *log, gis_error *error)
 {
     bool done = true;
@@ -170,7 +170,8 @@ static bool put_all(const gis_stage *stage, char **names, bool main_in_one_step,
 
 /* ---- Publishing -------------------------------------------------------------------------------------------------- */
 
-/* A directory that has the name of one of the files may hold anything: it stays, and the run fails. */
+/* Marks existing files with the names of new ones as replaced. An existing directory with the name of a new file may
+ * hold anything, so the run fails. */
 static bool supersede_namesakes(gis_stage *stage, char **names, gis_error *error)
 {
     bool done = true;
@@ -183,7 +184,7 @@ static bool supersede_namesakes(gis_stage *stage, char **names, gis_error *error
     return done;
 }
 
-/* How many of the superseded files are there. */
+/* The number of replaced files that exist. */
 static int count_old(const gis_stage *stage)
 {
     int n = 0;
@@ -191,7 +192,7 @@ static int count_old(const gis_stage *stage)
     return n;
 }
 
-/* Where superseded files wait; -1: it cannot be made. */
+/* Makes and opens the directory to which replaced files are moved; -1: it cannot be made. */
 static int make_aside(const gis_stage *stage, gis_error *error)
 {
     const int opened = mkdirat(stage->inner, GIS_STAGE_OLD, 0700) == 0
@@ -201,8 +202,8 @@ static int make_aside(const gis_stage *stage, gis_error *error)
     return opened;
 }
 
-/* Performs the renames and sets the outcome while signals are held. An earlier signal is heeded before the first
- * rename or not at all. */
+/* Makes all renames and sets the outcome while signals are held. A signal that arrives earlier is handled before the
+ * first rename, or not at all. */
 static bool rename_all(const gis_stage *stage, char **names, bool in_one_step, gis_error *error)
 {
     const size_t most = (size_t)(CSLCount(names) + CSLCount(stage->superseded)) + 1;
@@ -232,8 +233,8 @@ static bool put_in_order(gis_stage *stage, char **names, gis_error *error)
                       sync_tree(stage->inner, ".", stage->inside, error) &&
                       (renames < 2 || write_record(stage, names, error)) &&
                       rename_all(stage, names, in_one_step, error);
-    /* The new state is whole, and so is the old one: that this sync may fail changes nothing but which of them a power
-     * failure leaves. */
+    /* Whether the renames were made or undone, the state is consistent; if this sync fails, only the state after a
+     * power failure is uncertain. */
     (void)sync_open(stage->outer, stage->directory, NULL);
     remove_record(stage);
     return done;

@@ -1,12 +1,12 @@
-/* stage_remains.c: remains of a run that was killed among its renames, and the way back.
+/* stage_remains.c: finds the remains of a run that was killed between renames, and restores the old files.
  *
  * A stage that belongs to the effective user alone (base/trust.h) and whose lock is free was abandoned. Other entries
- * with the name of a stage are left alone: where other users may write, they may hold a forged record. If the stage has
- * a record and a new file is still in it, the run did not finish: files that were moved aside go back, files that came
- * to an empty place are removed (if they are the very files of the record), and the output is as before. A file that
- * another run has put there since is not replaced. Each step may be repeated: a run that is killed while it does this
- * leaves a state that the next one can finish. If no new file is in the stage, all were put in place, and only the
- * stage remained. An empty stage is removed. */
+ * with such a name are not touched: where other users may write, they may contain a forged record. If the stage has a
+ * record and a new file is still in it, the run did not finish: files that were moved aside are moved back, new files
+ * that were put in place are removed (if they are exactly those of the record), and the output is as before. A file
+ * that another run has put there since is not replaced. Each step may be repeated, so a run that is killed here leaves
+ * a state that the next one can finish. If no new file is in the stage, all were put in place, and only the stage is
+ * removed. An empty stage is removed as well. */
 #define _GNU_SOURCE
 #include "disk/stage_internal.h"
 
@@ -28,10 +28,10 @@
 
 typedef struct remains {
     const char *directory; /* of the output, for messages */
-    const char *name;      /* of the stage */
-    int outer, inner;      /* both of them, open */
-    char *main;            /* the main file of the run that made it; NULL: there is no record */
-    char **old, **fresh;   /* names of superseded files; "MARK NAME" of new ones */
+    const char *name;      /* name of the stage */
+    int outer, inner;      /* descriptors of the output's directory and of the stage */
+    char *main;            /* name of the main file of the run that made the stage; NULL: there is no record */
+    char **old, **fresh;   /* names of replaced files; "MARK NAME" of new files */
 } remains;
 
 /* ---- The record -------------------------------------------------------------------------------------------------- */
@@ -56,7 +56,7 @@ static const char *fresh_name(const char *entry)
     return blank ? blank + 1 : "";
 }
 
-/* False if the name is not an entry of the directory. */
+/* Reads a line of the record; false if it names anything but an entry of the directory. */
 static bool read_line(remains *found, const char *line)
 {
     const char *rest;
@@ -88,8 +88,8 @@ static FILE *open_record(const remains *found)
     return file;
 }
 
-/* A record that was not written to its end was not acted upon, and does as little harm. One that names anything but
- * entries of the directory is no record of ours. */
+/* Reads the record. The renames of an incomplete record were not begun, so reading it does no harm. A record that names
+ * anything but entries of the directory was not written by this program, and is ignored. */
 static void read_record(remains *found)
 {
     FILE *file = open_record(found);
@@ -106,7 +106,7 @@ static void read_record(remains *found)
     if (!plain) forget_record(found);
 }
 
-/* ---- The way back ------------------------------------------------------------------------------------------------ */
+/* ---- Restoring --------------------------------------------------------------------------------------------------- */
 
 static bool unfinished(const remains *found)
 {
@@ -145,7 +145,7 @@ static bool bring_back(const remains *found, gis_error *error)
     return done;
 }
 
-/* The record goes last: until then all of this can be done again. */
+/* Removes the stage, the record last: until then everything can be repeated. */
 static void clear_away(const remains *found)
 {
     char **names = gis_entry_names(found->inner);
@@ -166,7 +166,7 @@ static bool settle(remains *found, const char *name, gis_sentences *said, gis_er
                               "%s/%s is left of a run that was ended before it changed anything; it can be removed",
                               found->directory, found->name);
         else
-            unlinkat(found->outer, found->name, AT_REMOVEDIR); /* if it is empty */
+            unlinkat(found->outer, found->name, AT_REMOVEDIR); /* succeeds only if it is empty */
         return true;
     }
     if (strcmp(found->main, name) != 0) return true;
@@ -189,7 +189,8 @@ static void tell_way_back(const remains *found, gis_sentences *said)
                       found->directory, found->name, found->directory, found->name);
 }
 
-/* A stage in use is left alone. Where locks do not work this is unknown: then a message tells the way back. */
+/* Handles a stage that belongs to the user. One in use is not touched. If locks do not work that is not known, and a
+ * message says how to restore the files. */
 static bool look_at(remains *found, const char *name, gis_sentences *said, gis_error *error)
 {
     if (flock(found->inner, LOCK_EX | LOCK_NB) == 0) return settle(found, name, said, error);
@@ -199,8 +200,8 @@ static bool look_at(remains *found, const char *name, gis_sentences *said, gis_e
     return true;
 }
 
-/* The stage belongs to the user but is open to others, as on a file system that gives all directories one mode: its
- * contents cannot be trusted, yet may be the former files. */
+/* Handles a stage that belongs to the user but is open to others, as on file systems that give all directories one
+ * mode. Its contents cannot be trusted, but may be the old files, so a message says where they are. */
 static void look_from_outside(remains *found, const char *name, gis_sentences *said)
 {
     const int opened = openat(found->outer, found->name, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
@@ -212,7 +213,7 @@ static void look_from_outside(remains *found, const char *name, gis_sentences *s
     if (opened >= 0) close(opened);
 }
 
-/* The prefix, and six letters or digits. */
+/* Is it the name of a stage: the prefix, and six letters or digits? */
 static bool is_called_so(const char *entry)
 {
     const size_t n = sizeof GIS_STAGE_PREFIX - 1;

@@ -16,8 +16,7 @@
 
 #define LETTERS "XXXXXX"
 
-/* A process that removes abandoned files may hold the lock: then it is not free, or by then the file has no name any
- * more. */
+/* If a process that removes abandoned files holds the lock, the file is removed or about to be. */
 bool gis_not_abandoned(int descriptor)
 {
     struct stat now;
@@ -53,7 +52,7 @@ int gis_make_directory(char *path)
     return -1;
 }
 
-/* mkstemp() makes files for their owner alone. */
+/* The file gets the usual mode, since mkstemp() makes files for their owner only. */
 int gis_make_file(char *path)
 {
     int opened;
@@ -76,7 +75,8 @@ static bool is_called(const char *name, const char *prefix)
            strncmp(name + n - of_end, end, fixed) == 0;
 }
 
-/* An empty directory was made and not yet marked; rmdir(2) finds out which is empty. */
+/* Removes an abandoned directory. One without the mark may have been made just now, so it is removed only if it is
+ * empty, which rmdir(2) checks. */
 static void remove_directory(int directory, const char *name, int opened)
 {
     struct stat mark;

@@ -1,5 +1,5 @@
-/* text_file.c: see text_file.h. The temporary file lies in the same directory, so that putting it in place is a rename,
- * which happens or does not. */
+/* text_file.c: see text_file.h. The temporary file is in the same directory, so that putting it in place is a rename,
+ * which is atomic. */
 #define _GNU_SOURCE
 #include "disk/text_file.h"
 
@@ -14,11 +14,11 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* The temporary file's name repeats at most this many bytes of the final name, so that no file system finds it too
- * long. */
+/* The temporary file's name repeats at most this number of bytes of the final name, so that it is not too long for any
+ * file system. */
 enum { SHOWN_OF_NAME = 100 };
 
-/* DIRECTORY/NAME.sunder-XXXXXX: mkstemp() draws the letters, so that the name cannot be foreseen. */
+/* DIRECTORY/NAME.sunder-XXXXXX; mkstemp() replaces the letters, so that the name cannot be predicted. */
 static char *beside(const char *path)
 {
     const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
@@ -47,7 +47,7 @@ static FILE *open_temporary(gis_text_file *file)
     return opened;
 }
 
-/* *reason: why the file could not be written; 0: an error says what else went wrong. */
+/* Writes the text and closes the file. *reason: the errno if writing failed; 0: `write` failed and has set *error. */
 static bool write_all(FILE *to, gis_text_writer *write, const void *of, int *reason, gis_error *error)
 {
     errno = 0;

@@ -1,8 +1,9 @@
-/* text_file.h: a text put into a file in two steps, so that what can fail has failed before anything is changed.
+/* text_file.h: writes a text into a file in two steps, so that everything that can fail has failed before anything is
+ * changed.
  *
- *   gis_text_file_write   to a temporary file beside it
- *   gis_text_file_place   renamed; what stood there steps aside
- *   gis_text_file_end     kept: what stood there goes. Not kept: all is as before. Always called. */
+ *  gis_text_file_write   writes to a temporary file beside the final one
+ *  gis_text_file_place   renames it; an existing file is moved aside
+ *  gis_text_file_end     keep: removes the file moved aside; else restores it. Always to be called. */
 #ifndef GIS_TEXT_FILE_H
 #define GIS_TEXT_FILE_H
 
@@ -12,17 +13,17 @@
 
 typedef struct gis_text_file {
     char *path;      /* with links resolved: the link stays, and its target is replaced */
-    char *temporary; /* NULL: there is none (yet, any more, or since the file is a pipe or a device) */
-    char *former;    /* where the former file waits: TEMPORARY~; NULL: nowhere */
+    char *temporary; /* NULL: not made, or the file is a pipe or a device */
+    char *former;    /* path to which the existing file was moved (TEMPORARY~); NULL: it was not moved */
     bool placed;
-    gis_leftover *leftover, *former_leftover; /* the same, for a signal */
+    gis_leftover *leftover, *former_leftover; /* register the files, so that a signal removes or restores them */
 } gis_text_file;
 
-/* Writes all of it. False: with an error, or because the file could not be written, which that knows. */
+/* Writes the whole text to a stream. False: *error is set, or writing to the stream failed (ferror()). */
 typedef bool gis_text_writer(const void *of, FILE *to, gis_error *error);
 
-/* Start from a zeroed struct. A pipe or a device (/dev/stdout, /dev/null) cannot be renamed over: it is written at
- * once. `what` names the file's role in the messages. */
+/* Writes the temporary file; start from a zeroed struct. A pipe or a device (/dev/stdout, /dev/null) cannot be replaced
+ * by a rename, so it is written at once. `what` is the option that names the file, for messages. */
 bool gis_text_file_write(gis_text_file *file, const char *path, gis_text_writer *write, const void *of,
                          const char *what, gis_error *error);
 bool gis_text_file_place(gis_text_file *file, const char *what, gis_error *error);

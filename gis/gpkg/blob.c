@@ -7,7 +7,7 @@
 
 enum { HEAD = 8, VERSION = 2, FLAGS = 3, BOX_KINDS = 0x0e, EXTENDED = 0x20, POINT_BYTES = 16 };
 
-/* The machine's order of bytes. */
+/* The byte order of this machine. */
 #ifdef CPL_LSB
 static const unsigned char order = wkbNDR;
 #else
@@ -24,7 +24,7 @@ const unsigned char *gis_blob_geometry(const unsigned char *blob, size_t size, s
     return blob + HEAD + box[kind];
 }
 
-/* The unread part. */
+/* The part of the well-known binary that was not read yet. */
 typedef struct rest {
     const unsigned char *at, *end;
 } rest;

@@ -1,10 +1,10 @@
-/* gpkg_rtree.c: packing a SQLite R-tree.
+/* gpkg_rtree.c: fills a SQLite R-tree with packed nodes.
  *
  * The tree is three tables (SQLite's documentation of its R*Tree module, "Shadow Tables"): _node holds the nodes as
- * blobs, _rowid tells the leaf of each row, _parent the parent of each node but the root, which is node 1. A node is,
- * big-endian: two bytes of depth (in the root only), two bytes that count its cells, then cells of 24 bytes: the row or
- * child in 8 and four floats. Leaves are filled with consecutive boxes along a Hilbert curve through their centres
- * [KF93], the levels above with consecutive nodes. */
+ * blobs, _rowid the leaf of each row, _parent the parent of each node except the root, which is node 1. A node is, in
+ * big-endian order: two bytes of depth (in the root only), two bytes with the number of its cells, then cells of 24
+ * bytes: the row or child in 8 bytes and four floats. Leaves are filled with consecutive boxes along a Hilbert curve
+ * through their centres [KF93], the levels above with consecutive nodes. */
 #include "gpkg/gpkg_rtree.h"
 
 #include "base/array.h"
@@ -33,7 +33,7 @@ static bool run(GDALDatasetH dataset, const char *sql, gis_error *error)
     return gis_sql_run(dataset, sql, WHAT, error);
 }
 
-/* GDAL's handle of the database; NULL where rows cannot be handed to SQLite past GDAL. */
+/* GDAL's handle of the database; NULL if GDAL uses another SQLite than this program finds. */
 static void *handle_of(GDALDatasetH dataset)
 {
     void *handle = GDALGetInternalHandle(dataset, "SQLITE_HANDLE");
@@ -43,7 +43,7 @@ static void *handle_of(GDALDatasetH dataset)
     return handle;
 }
 
-/* "rtree_TABLE_COLUMN" and a suffix, with quotes doubled and around; CPLFree(). */
+/* "rtree_TABLE_COLUMN" followed by `suffix`, quoted with `quote`; quotes inside are doubled. CPLFree(). */
 static char *tree_name(OGRLayerH layer, const char *suffix, char quote)
 {
     char *plain = gis_printed("rtree_%s_%s%s", OGR_L_GetName(layer), OGR_L_GetGeometryColumn(layer), suffix);
@@ -59,20 +59,20 @@ static char *tree_name(OGRLayerH layer, const char *suffix, char quote)
     return quoted;
 }
 
-/* ---- Gathering --------------------------------------------------------------------------------------------------- */
+/* ---- Collecting boxes -------------------------------------------------------------------------------------------- */
 
 bool gis_rtree_begin(GDALDatasetH dataset, OGRLayerH layer, gis_rtree *tree, gis_error *error)
 {
     const char *column = OGR_L_GetGeometryColumn(layer);
     if (!column || !column[0]) return true;
-    if (!run(dataset, "SELECT 1", error)) /* any SQL makes GDAL create tables and indexes that it had put off */
+    if (!run(dataset, "SELECT 1", error)) /* any SQL makes GDAL create deferred tables and indexes */
         return false;
     char *literal = tree_name(layer, "_insert", '\'');
     char *find = gis_printed("SELECT sql FROM sqlite_master WHERE type = 'trigger' AND name = %s", literal);
     tree->trigger = gis_sql_ask(dataset, find);
     CPLFree(find);
     CPLFree(literal);
-    if (tree->trigger && !handle_of(dataset)) gis_rtree_clear(tree); /* GDAL fills it */
+    if (tree->trigger && !handle_of(dataset)) gis_rtree_clear(tree); /* then GDAL fills the tree */
     if (!tree->trigger) return true;
     char *name = tree_name(layer, "_insert", '"');
     char *drop = gis_printed("DROP TRIGGER %s", name);
@@ -105,7 +105,7 @@ void gis_rtree_clear(gis_rtree *tree)
 
 /* ---- Nodes ------------------------------------------------------------------------------------------------------- */
 
-/* Big-endian, as SQLite has it on every machine. */
+/* Writes a number in big-endian order, which SQLite uses on every machine. */
 static unsigned char *put_number(unsigned char *to, uint64_t value, int bytes)
 {
     for (int shift = 8 * bytes - 8; shift >= 0; shift -= 8) *to++ = (unsigned char)(value >> shift);
@@ -119,27 +119,27 @@ static unsigned char *put_float(unsigned char *to, float value)
     return put_number(to, bits, 4);
 }
 
-/* A feature, or a node, and the node that it is in. */
+/* A feature's FID or a node's number, and the number of the node that contains it. */
 typedef int64_t row_of[2];
 
 typedef struct packing {
-    const char *scratch; /* where rows of features are sorted; NULL: in memory */
+    const char *scratch; /* directory in which rows of features are sorted; NULL: in memory */
     gis_sqlite_rows nodes;
-    size_t capacity;     /* cells in a node */
-    unsigned char *node; /* room for one */
-    gis_index_box *cell; /* [capacity] of the leaf that is being filled */
+    size_t capacity;     /* number of cells in a node */
+    unsigned char *node; /* buffer for one node */
+    gis_index_box *cell; /* [capacity] of the leaf being filled */
     size_t cells, features, taken;
-    gis_keyed *leaf; /* of all features, in memory: by key_of() of the FID, the node */
+    gis_keyed *leaf; /* the leaf of each feature, keyed by key_of(FID); if scratch is NULL */
     size_t leaves, leaf_room;
-    gis_sorter *sorter; /* ... or in bounded memory */
-    row_of *parent;     /* of all nodes but the root, by their numbers */
+    gis_sorter *sorter; /* the same, in bounded memory; if scratch is given */
+    row_of *parent;     /* of all nodes except the root, by number */
     size_t parents, parent_room;
-    gis_index_box *level; /* the nodes of one level */
+    gis_index_box *level; /* the boxes of the nodes of one level */
     size_t in_level, level_room;
-    GIntBig next; /* number of the next node */
+    GIntBig next; /* number for the next node */
 } packing;
 
-/* As an unsigned number in the same order. */
+/* The FID as an unsigned number that sorts in the same order. */
 static uint64_t key_of(int64_t fid) { return (uint64_t)fid ^ UINT64_C(1) << 63; }
 static int64_t fid_of(uint64_t key) { return (int64_t)(key ^ UINT64_C(1) << 63); }
 
@@ -164,8 +164,8 @@ static bool note_parent(packing *all, int64_t child, int64_t node, gis_error *er
     return true;
 }
 
-/* One node of consecutive cells; gives its number and box in *made. root_depth < 0: it is not the root, which is
- * node 1. */
+/* Writes a node with n consecutive cells and sets *made to its number and box. root_depth: depth of the tree if the
+ * node is the root (node 1); -1 otherwise. */
 static bool write_node(packing *all, const gis_index_box *cells, size_t n, bool leaf, int root_depth,
                        gis_index_box *made, gis_error *error)
 {
@@ -184,11 +184,11 @@ static bool write_node(packing *all, const gis_index_box *cells, size_t n, bool 
             node.side[k] = k % 2 ? fmaxf(node.side[k], cells[i].side[k]) : fminf(node.side[k], cells[i].side[k]);
         }
     }
-    *made = node; /* which may be one of the cells */
+    *made = node; /* only now, since *made may be one of the cells */
     return done && gis_sqlite_rows_add_bytes(&all->nodes, node.fid, all->node, HEADER + CELL * all->capacity, error);
 }
 
-/* The next box along the curve: a leaf that is full, or the last one, is written. */
+/* Adds the next box along the curve to the current leaf, and writes the leaf if it is full or the box is the last. */
 static bool take_box(void *user, const gis_index_box *box, gis_error *error)
 {
     packing *all = user;
@@ -203,7 +203,8 @@ static bool take_box(void *user, const gis_index_box *box, gis_error *error)
                       error);
 }
 
-/* Level upon level above the leaves, in place: the boxes of a level's nodes become the cells of the next. */
+/* Writes the levels above the leaves, up to the root. The boxes of one level's nodes become the cells of the next
+ * level, in the same array. */
 static bool write_levels(packing *all, gis_error *error)
 {
     if (all->features <= all->capacity) return true;
@@ -213,7 +214,7 @@ static bool write_levels(packing *all, gis_error *error)
         size_t made = 0;
         for (size_t first = 0; first < n; first += all->capacity) {
             const size_t count = n - first < all->capacity ? n - first : all->capacity;
-            /* made <= first: these cells are written already. */
+            /* made <= first, so only cells that were written already are overwritten. */
             if (!write_node(all, all->level + first, count, false, top ? depth : -1, &all->level[made++], error))
                 return false;
         }
@@ -236,7 +237,7 @@ static bool empty_tables(GDALDatasetH dataset, OGRLayerH layer, gis_error *error
     return done;
 }
 
-/* Cells in a node of this tree: SQLite chose the size of a node by the size of a page. */
+/* The number of cells in a node of this tree. SQLite chose the size of a node to suit the page size. */
 static size_t node_capacity(GDALDatasetH dataset, OGRLayerH layer)
 {
     char *name = tree_name(layer, "_node", '"');
@@ -259,10 +260,11 @@ static bool begin_rows(gis_sqlite_rows *rows, GDALDatasetH dataset, OGRLayerH la
     return done;
 }
 
-/* Rows at a time, between which the user may stop; and how many are many. */
+/* STRETCH: number of rows written between two checks for signals. MANY_ROWS: from this number on, statements for
+ * several rows at once are used. */
 enum { STRETCH = 10000, MANY_ROWS = 100 };
 
-/* For ascending keys. */
+/* Writes n rows in ascending order of their keys. */
 static bool write_rows(gis_sqlite_rows *rows, row_of *row, size_t n, gis_error *error)
 {
     bool done = true;
@@ -282,7 +284,7 @@ static bool write_parents(GDALDatasetH dataset, OGRLayerH layer, packing *all, g
     return done;
 }
 
-/* Rows of features, as many as are written at a time. */
+/* A buffer of rows of features. */
 typedef struct stretch {
     gis_sqlite_rows *rows;
     row_of row[STRETCH];
@@ -311,7 +313,7 @@ static bool write_from_memory(packing *all, stretch *s, gis_error *error)
     return done;
 }
 
-/* By rising keys, though the tree has them along the curve. */
+/* Writes the _rowid table in ascending order of FIDs, although the leaves are in the order of the curve. */
 static bool write_leaves(GDALDatasetH dataset, OGRLayerH layer, packing *all, gis_error *error)
 {
     gis_sqlite_rows rows = {0};

@@ -10,9 +10,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- Noting ------------------------------------------------------------------------------------------------------ */
+/* ---- Adding boxes ------------------------------------------------------------------------------------------------ */
 
-/* A box as it is sorted. */
+/* A box with the keys by which it is sorted. */
 typedef struct record {
     gis_sort_head head;
     gis_index_box box;
@@ -30,7 +30,7 @@ static float above(double x)
     return (double)f < x ? nextafterf(f, INFINITY) : f;
 }
 
-/* Rounded outwards. */
+/* Converts a box to floats, rounded outwards. */
 static void set(gis_index_box *out, GIntBig fid, const OGREnvelope *box)
 {
     out->fid = fid;
@@ -46,8 +46,8 @@ static bool store(gis_index_boxes *boxes, const gis_index_box *box, gis_error *e
            gis_disk_file_write(&boxes->file, box, sizeof *box, error);
 }
 
-/* In memory a box is made where it stays: made elsewhere and copied whole right after its parts it would wait for all
- * that was written before to reach the cache, some hundred nanoseconds for a row. */
+/* In memory, the box is built in its final place. Built elsewhere and copied, it would have to wait until its parts
+ * reach the cache, which costs some hundred nanoseconds per row. */
 bool gis_index_boxes_add(gis_index_boxes *boxes, GIntBig fid, const OGREnvelope *box, gis_error *error)
 {
     gis_index_box passing, *one = &passing;
@@ -73,10 +73,10 @@ void gis_index_boxes_clear(gis_index_boxes *boxes)
 
 /* ---- Order ------------------------------------------------------------------------------------------------------- */
 
-/* The curve's grid is finer than the boxes of any layer need to be told apart. */
+/* The curve's grid is fine enough to distinguish the boxes of any layer. */
 enum { CURVE_BITS = 16 };
 
-/* Where the centre lies along the curve. Boxes at the same place keep the order in which they came. */
+/* The position of the box's centre along the curve. Boxes at the same position keep their order of insertion. */
 static uint32_t along(const gis_index_boxes *boxes, const gis_index_box *box)
 {
     const float *around = boxes->around, *side = box->side;
@@ -87,7 +87,7 @@ static uint32_t along(const gis_index_boxes *boxes, const gis_index_box *box)
 
 static bool take_from_memory(gis_index_boxes *boxes, gis_index_boxes_take *take, void *user, gis_error *error)
 {
-    gis_keyed *places = malloc((boxes->n + 1) * sizeof *places); /* along the curve, and which box */
+    gis_keyed *places = malloc((boxes->n + 1) * sizeof *places); /* position along the curve, and number of the box */
     for (size_t i = 0; places && i < boxes->n; i++) places[i] = (gis_keyed){along(boxes, &boxes->at[i]), i};
     bool done = (places && gis_keyed_sort(places, boxes->n)) || gis_no_memory(error);
     for (size_t i = 0; done && i < boxes->n; i++) done = take(user, &boxes->at[places[i].with], error);
@@ -107,7 +107,7 @@ static bool take_record(void *user, const unsigned char *bytes, gis_error *error
     return t->take(t->user, &one->box, error);
 }
 
-/* Rows are read in batches of this size. */
+/* Number of boxes read at once. */
 enum { STRETCH = 4096 };
 
 static bool sort_file(gis_index_boxes *boxes, gis_sorter *sorter, gis_error *error)

@@ -1,6 +1,6 @@
-/* index_boxes.h: the boxes of the features of a layer, for its spatial index: noted as the features are written, then
- * given back along a Hilbert curve [KF93]. They stay in memory; where a directory is named, they lie in a file there
- * and are sorted on the disk, to the same order. */
+/* index_boxes.h: the boxes of a layer's features, for its spatial index: added as features are written, then returned
+ * in the order of a Hilbert curve [KF93]. They are kept in memory; if `scratch` names a directory, they are in a file
+ * there and are sorted on disk, to the same order. */
 #ifndef GIS_INDEX_BOXES_H
 #define GIS_INDEX_BOXES_H
 
@@ -13,20 +13,20 @@ typedef struct gis_index_box {
     float side[4]; /* min x, max x, min y, max y, rounded outward */
 } gis_index_box;
 
-/* Zeroed, but for scratch: none. */
+/* A zeroed struct is empty; `scratch` may be set. */
 typedef struct gis_index_boxes {
-    const char *scratch; /* the directory, borrowed; NULL: memory */
-    gis_index_box *at;   /* [n], in memory */
+    const char *scratch; /* directory for the file, borrowed; NULL: in memory */
+    gis_index_box *at;   /* [n], if in memory */
     size_t n, capacity;
     gis_disk_file file;
-    float around[4]; /* all of them, if n > 0 */
+    float around[4]; /* box of all boxes, if n > 0 */
 } gis_index_boxes;
 
 bool gis_index_boxes_add(gis_index_boxes *boxes, GIntBig fid, const OGREnvelope *box, gis_error *error);
 
-/* Takes each box in order; false ends it all. */
+/* Gets each box in order; returning false ends the loop. */
 typedef bool gis_index_boxes_take(void *user, const gis_index_box *box, gis_error *error);
-/* Once only: they are gone as they are taken. */
+/* Calls `take` for all boxes in order. Only once: the boxes are dropped. */
 bool gis_index_boxes_in_order(gis_index_boxes *boxes, gis_index_boxes_take *take, void *user, gis_error *error);
 void gis_index_boxes_clear(gis_index_boxes *boxes);
 

@@ -1,7 +1,8 @@
-/* layer_styles.c: rows of layer_styles, which QGIS reads when it opens a GeoPackage.
+/* layer_styles.c: rows of the table layer_styles, which QGIS reads when it opens a GeoPackage.
  *
- * What QGIS 3.22 wants of a row, found by trying: f_table_catalog and f_table_schema empty texts, not NULL (with NULL
- * the style is silently ignored); one row with useAsDefault = 1; categories on a plain column, not on an expression. */
+ * What QGIS 3.22 requires of a row, found by experiment: f_table_catalog and f_table_schema are empty texts, not NULL
+ * (with NULL the style is silently ignored); one row has useAsDefault = 1; categories use a plain column, not an
+ * expression. */
 #include "gpkg/layer_styles.h"
 
 #include "base/path.h"
@@ -11,7 +12,7 @@
 #include <cpl_string.h>
 #include <string.h>
 
-/* The name of our rows, and their owner: by it they are told from the user's. */
+/* Name and owner of the rows that this program writes, which distinguish them from the user's. */
 #define OURS "sunder"
 
 static const char make_table[] =
@@ -37,7 +38,7 @@ static char *quoted(const char *text)
     return with_quotes;
 }
 
-/* The time that GDAL itself would write, so that a fixed date makes a reproducible file. */
+/* An SQL expression for the time that GDAL itself would write, so that a fixed date makes the file reproducible. */
 static char *time_expression(void)
 {
     const char *fixed = CPLGetConfigOption("OGR_CURRENT_DATE", NULL);
@@ -97,7 +98,7 @@ static OGRLayerH own_styles(GDALDatasetH source, OGRLayerH layer)
     char *sql = gis_printed("SELECT styleName, styleQML, styleSLD, description, owner FROM layer_styles "
                                      "WHERE f_table_name = %s AND owner IS NOT '" OURS "' ORDER BY id",
                                      name);
-    gis_listener listener = {0}; /* most files have no such table */
+    gis_listener listener = {0}; /* most files have no such table, which GDAL reports as an error */
     gis_listen_begin(&listener);
     OGRLayerH result = GDALDatasetExecuteSQL(source, sql, NULL, NULL);
     gis_listen_end();

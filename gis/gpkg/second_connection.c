@@ -1,5 +1,5 @@
-/* second_connection.c: see second_connection.h. The file is found by the name under which SQLite has it: GDAL's may
- * have more to say. */
+/* second_connection.c: see second_connection.h. The file is opened under the name that SQLite has for it, since GDAL's
+ * connection string may contain more than a path. */
 #include "gpkg/second_connection.h"
 
 #include "gpkg/sqlite_calls.h"
@@ -13,7 +13,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-/* Numbers of SQLite's application interface. */
+/* Constants of SQLite's programming interface. */
 enum { OK = 0, OPEN_READONLY = 1, OPEN_NO_LOCK_FOR_THREADS = 0x8000 };
 
 typedef struct calls {
@@ -39,7 +39,8 @@ static bool has_log(void *database)
     return has;
 }
 
-/* That it is a file is asked of its name alone: opening and closing it here would take SQLite's locks on it away. */
+/* Whether it is a plain file is found by stat() on its name: opening and closing the file here would release SQLite's
+ * locks on it. */
 void *gis_second_connection_open(void *database)
 {
     calls sqlite;
@@ -69,7 +70,8 @@ char *gis_sql_append_stretch(char *sql, const char *key, gis_sqlite_stretch whic
     return gis_sql_append(gis_sql_append_name(gis_sql_append(sql, " WHERE "), key), number);
 }
 
-/* Of one of both at a time SQLite knows where to look; for both together it would read the whole table. */
+/* SQLite finds min() or max() alone by looking up the key; for both in one SELECT it would read the whole table. So two
+ * subqueries are used. */
 bool gis_sqlite_find_middle(void *database, const char *table, const char *key, int64_t *middle, uint64_t *span)
 {
     static const char *const ask[] = {"SELECT (SELECT min(", "), (SELECT max("};

@@ -1,5 +1,5 @@
-/* sql.c: see sql.h. GDAL returns no result both for a statement that has none and for one that failed: what it
- * reported meanwhile tells them apart. */
+/* sql.c: see sql.h. GDAL returns no result both for a statement without one and for one that failed; errors that it
+ * reports meanwhile distinguish the two. */
 #include "gpkg/sql.h"
 
 #include <cpl_conv.h>

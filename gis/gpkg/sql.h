@@ -1,4 +1,4 @@
-/* sql.h: statements on a dataset whose failures GDAL only reports. */
+/* sql.h: runs SQL on a dataset, and detects failures, which GDAL only reports. */
 #ifndef GIS_GPKG_SQL_H
 #define GIS_GPKG_SQL_H
 
@@ -8,11 +8,11 @@
 #include <gdal.h>
 #include <stdbool.h>
 
-/* Runs one statement that returns nothing of interest; false with the error "WHAT cannot be written: GDAL's reason". */
+/* Runs a statement whose result is not needed; fails with "WHAT cannot be written: GDAL's reason". */
 bool gis_sql_run(GDALDatasetH dataset, const char *sql, const char *what, gis_error *error);
 
-/* The text in the first column of the first row that a query gives, to be freed with CPLFree(); NULL if there is
- * none. */
+/* The first column of the first row of a query, as text, to be freed with CPLFree(); NULL if there is no row or it is
+ * null. */
 char *gis_sql_ask(GDALDatasetH dataset, const char *sql);
 
 #endif

@@ -1,4 +1,4 @@
-/* sqlite_calls.c: see sqlite_calls.h. Types and numbers are those of SQLite's application interface, which does not
+/* sqlite_calls.c: see sqlite_calls.h. Types and constants are those of SQLite's programming interface, which does not
  * change. */
 #define _GNU_SOURCE
 #include "gpkg/sqlite_calls.h"
@@ -16,9 +16,9 @@ typedef struct sqlite3_backup sqlite3_backup;
 
 enum { OK = 0, BUSY = 5, LOCKED = 6, READONLY = 8, CORRUPT = 11, NOTADB = 26, DONE = 101 };
 enum { OPEN_READONLY = 1, OPEN_READWRITE = 2 };
-enum { RESULT = 0xff }; /* beyond it: what kind of that result */
+enum { RESULT = 0xff }; /* the low byte of a result code; the rest is detail */
 
-/* (POSIX guarantees that a pointer to data can hold a pointer to a function.) */
+/* Copies the address byte by byte: POSIX guarantees that a pointer to data can hold a pointer to a function. */
 bool gis_sqlite_find(const char *name, void *function)
 {
     void *found = dlsym(RTLD_DEFAULT, name);
@@ -28,7 +28,7 @@ bool gis_sqlite_find(const char *name, void *function)
 
 /* ---- Signals ----------------------------------------------------------------------------------------------------- */
 
-/* Called every STEPS steps of a statement, from within it: some thousands of them take a millisecond. */
+/* SQLite calls stop() every STEPS steps of a statement; some thousands of steps take a millisecond. */
 enum { STEPS = 1000 };
 
 static int stop(void *user)
@@ -37,7 +37,7 @@ static int stop(void *user)
     return gis_interrupted();
 }
 
-/* SQLite calls this for each database that is opened. (GDAL has SQLite forget that when it closes one with
+/* SQLite calls this for each database that is opened. (GDAL removes this hook when it closes a database with
  * SpatiaLite.) */
 static int watch_database(sqlite3 *database, char **message, const void *routines)
 {
@@ -56,7 +56,7 @@ void gis_sqlite_heed_signals(void)
 
 /* ---- Replacing --------------------------------------------------------------------------------------------------- */
 
-/* Copied at a time: some megabytes, between which a signal is heard. */
+/* Number of pages copied at once (some megabytes); signals are handled in between. */
 enum { PAGES = 1024 };
 
 typedef struct calls {
@@ -81,7 +81,7 @@ static bool find_all(calls *sqlite)
            gis_sqlite_find("sqlite3_backup_finish", &sqlite->finish);
 }
 
-/* The transaction is committed by the step that comes to the last page. */
+/* Copies the pages. The step that reaches the last page commits the transaction, so each step might. */
 static bool copy_pages(const calls *sqlite, sqlite3_backup *copy, int *result, gis_error *error)
 {
     do {
@@ -97,7 +97,7 @@ static gis_sqlite_outcome copy_all(const calls *sqlite, sqlite3 *from, sqlite3 *
     int result = OK;
     sqlite3_backup *copy = sqlite->begin(to, "main", from, "main");
     bool done = copy && copy_pages(sqlite, copy, &result, error);
-    if (copy) sqlite->finish(copy); /* rolls back unfinished changes */
+    if (copy) sqlite->finish(copy); /* rolls an unfinished copy back */
     if (done) return GIS_SQLITE_DONE;
     int reason = (result ? result : sqlite->error_code(to)) & RESULT;
     if (reason == NOTADB || reason == CORRUPT) return GIS_SQLITE_CANNOT;

@@ -9,9 +9,9 @@
 
 /* ---- Statements -------------------------------------------------------------------------------------------------- */
 
-/* ROWS_AT_ONCE: rows of one statement; with more a row is no cheaper. MOST_PARAMETERS: the number of parameters that
- * every SQLite accepts. MOST_STATEMENTS, MOST_HELD: a batch for the other thread has at most this many statements,
- * and bytes; smaller batches cost more, since the thread is woken more often. */
+/* ROWS_AT_ONCE: rows of one statement; more would not be faster. MOST_PARAMETERS: the number of parameters that every
+ * SQLite accepts. MOST_STATEMENTS, MOST_HELD: a batch for the other thread has at most this number of statements, and
+ * of bytes; smaller batches cost more, since the thread is woken more often. */
 enum { ROWS_AT_ONCE = 64, MOST_PARAMETERS = 999, MOST_STATEMENTS = 32, MOST_HELD = 1 << 20 };
 
 static void *prepare(void *database, const char *sql)
@@ -21,7 +21,7 @@ static void *prepare(void *database, const char *sql)
     return sqlite && sqlite->prepare(database, sql, -1, &statement, NULL) == GIS_SQLITE_OK ? statement : NULL;
 }
 
-/* The statement for n rows; NULL if SQLite rejects it. */
+/* A statement that inserts n rows; NULL if SQLite rejects it. */
 static void *prepare_rows(const gis_sqlite_inserts *rows, const char *sql, size_t n)
 {
     const size_t start = strlen(sql);
@@ -71,7 +71,7 @@ void gis_sqlite_inserts_end(gis_sqlite_inserts *rows)
     *rows = (gis_sqlite_inserts){0};
 }
 
-/* ---- What is held back goes in ----------------------------------------------------------------------------------- */
+/* ---- Inserting the rows of a batch ------------------------------------------------------------------------------- */
 
 static bool bind(const gis_sqlite_batch *batch, void *statement, int at, const gis_sqlite_held *held)
 {
@@ -86,7 +86,7 @@ static bool bind(const gis_sqlite_batch *batch, void *statement, int at, const g
     }
 }
 
-/* Rows from `first` on, as many as the statement has. The outcome of SQLite. */
+/* Inserts n rows from `first` on with a statement for n rows. Returns SQLite's result code. */
 static int send(const gis_sqlite_batch *batch, void *statement, size_t first, size_t n)
 {
     const gis_sqlite_functions *sqlite = gis_sqlite_find_functions();
@@ -97,12 +97,13 @@ static int send(const gis_sqlite_batch *batch, void *statement, size_t first, si
     return stepped == GIS_SQLITE_DONE ? reset : reset != GIS_SQLITE_OK ? reset : stepped;
 }
 
-/* If one of the rows broke a rule of the table, none of them was inserted and the transaction continues: so each row is
- * inserted by itself, which identifies the offender. After any other failure SQLite may have rolled back the whole
- * transaction, and no further statement is run. */
+/* Did a single row violate a constraint? Then no row of the statement was inserted, and the transaction continues; each
+ * row is inserted separately, to identify the one at fault. After any other failure SQLite may have rolled the
+ * transaction back, and no further statement is run. */
 static bool is_of_one_row(int outcome) { return (outcome & GIS_SQLITE_KIND) == GIS_SQLITE_CONSTRAINT; }
 
-/* n rows from *done on, which counts those that are in: by one statement if it has as many, or one by one. */
+/* Inserts n rows from *done on: with one statement if it is for n rows, else one by one. *done is advanced by the
+ * number of rows inserted. */
 static int send_some(const gis_sqlite_batch *batch, size_t n, size_t *done)
 {
     const gis_sqlite_inserts *rows = batch->of;
@@ -118,7 +119,7 @@ static int send_some(const gis_sqlite_batch *batch, size_t n, size_t *done)
     return outcome;
 }
 
-/* Once a row was not taken nothing that was given behind it goes in. */
+/* Inserts all rows of a batch. After a row was rejected no later row is inserted. */
 static void send_all(void *context)
 {
     gis_sqlite_batch *batch = context;
@@ -135,7 +136,7 @@ static void send_all(void *context)
     batch->refused = true;
 }
 
-/* All that goes in is in. */
+/* Waits until all batches handed over are inserted. False, with *key and *reason, if a row was rejected. */
 static bool await(gis_sqlite_inserts *rows, int64_t *key, const char **reason)
 {
     gis_side_thread_wait(rows->beside, 0);
@@ -146,8 +147,7 @@ static bool await(gis_sqlite_inserts *rows, int64_t *key, const char **reason)
     return false;
 }
 
-/* What is held back begins to go in, behind what went before it: what did so first is in then, and makes room for what
- * comes. */
+/* Hands the current batch over for insertion, and waits until the oldest batch is finished and can be reused. */
 static bool start(gis_sqlite_inserts *rows, int64_t *key, const char **reason)
 {
     gis_side_thread_do(rows->beside, send_all, &rows->batch[rows->added_to]);
@@ -164,7 +164,7 @@ bool gis_sqlite_inserts_flush(gis_sqlite_inserts *rows, int64_t *key, const char
     return (rows->batch[rows->added_to].rows == 0 || start(rows, key, reason)) && await(rows, key, reason);
 }
 
-/* ---- Holding back ------------------------------------------------------------------------------------------------ */
+/* ---- Collecting rows --------------------------------------------------------------------------------------------- */
 
 static bool hold(gis_sqlite_batch *batch, gis_sqlite_held *held, const void *bytes, size_t size)
 {
@@ -176,7 +176,7 @@ static bool hold(gis_sqlite_batch *batch, gis_sqlite_held *held, const void *byt
     return true;
 }
 
-/* Puts the row behind those that are held back; false if memory is out. */
+/* Appends a row to the batch; false if memory is out. */
 static bool hold_row(gis_sqlite_batch *batch, size_t columns, int64_t key, const void *bytes, size_t size,
                      const gis_value *values)
 {
@@ -206,7 +206,7 @@ bool gis_sqlite_inserts_add(gis_sqlite_inserts *rows, int64_t *key, const void *
     return (batch->rows < MOST_STATEMENTS * rows->at_once && batch->size < MOST_HELD) || start(rows, key, reason);
 }
 
-/* ---- Beside rows ------------------------------------------------------------------------------------------------- */
+/* ---- Other direct access ----------------------------------------------------------------------------------------- */
 
 bool gis_sqlite_says(void *database, const char *sql, void *head, size_t from, const void *bytes, size_t size)
 {

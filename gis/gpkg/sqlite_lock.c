@@ -1,5 +1,5 @@
-/* sqlite_lock.c: see sqlite_lock.h. F_GETLK queries a lock without taking it, so no other process is disturbed; where
- * it cannot know (a file system without locks) the database counts as not in use. */
+/* sqlite_lock.c: see sqlite_lock.h. F_GETLK tests for a lock without taking it, so no other process is disturbed; on a
+ * file system without locks the database counts as not in use. */
 #define _GNU_SOURCE
 #include "gpkg/sqlite_lock.h"
 
@@ -17,14 +17,14 @@
 #include <time.h>
 #include <unistd.h>
 
-/* Locks of the open file, not of the process, where the system has them. */
+/* Locks that belong to the open file instead of the process, if the system has them. */
 #ifdef F_OFD_SETLK
 enum { SET_LOCK = F_OFD_SETLK, GET_LOCK = F_OFD_GETLK };
 #else
 enum { SET_LOCK = F_SETLK, GET_LOCK = F_GETLK };
 #endif
 
-/* One byte for a writer that waits for readers, one for a writer, and 510 for readers. */
+/* SQLite's lock bytes: one for a writer that waits for readers, one for a writer, and 510 for readers. */
 enum { PENDING = 0x40000000, RESERVED = PENDING + 1, ALL = 512 };
 
 static struct flock range(short type, off_t start, off_t length)
@@ -47,7 +47,7 @@ bool gis_sqlite_is(const char *path)
     return is;
 }
 
-/* Does anyone hold a lock that one of this type on these bytes would meet? */
+/* Does another process hold a lock that conflicts with one of this type on these bytes? */
 static bool meets(const char *path, short type, off_t start, off_t length)
 {
     int file = open(path, O_RDONLY | O_CLOEXEC);
@@ -61,7 +61,7 @@ bool gis_sqlite_in_use(const char *path) { return meets(path, F_WRLCK, PENDING, 
 
 bool gis_sqlite_being_written(const char *path) { return meets(path, F_WRLCK, PENDING, 2); }
 
-/* Milliseconds between two attempts: much shorter than a person notices, much longer than an attempt takes. */
+/* Milliseconds between two attempts: too short for a person to notice, much longer than an attempt takes. */
 enum { MOMENT = 20 };
 
 static void wait_a_moment(void)
@@ -74,7 +74,7 @@ int gis_sqlite_lock(const char *path, gis_error *error)
 {
     int file = open(path, O_RDWR | O_CLOEXEC);
     if (file < 0 && (errno == EACCES || errno == EROFS || errno == EPERM))
-        return -2; /* nor can anyone of us write in it; whether it may be replaced is the directory's affair */
+        return -2; /* SQLite cannot write it either; the directory's permissions decide whether it can be replaced */
     if (file < 0) {
         gis_fail(error, "%s: %s", path, strerror(errno));
         return -1;

@@ -1,8 +1,9 @@
-/* sqlite_names.h: statements put together of words and names. */
+/* sqlite_names.h: builds SQL statements from text and names. */
 #ifndef GIS_SQLITE_NAMES_H
 #define GIS_SQLITE_NAMES_H
 
-/* A statement, put together: `to` with more behind it, or with a name in quotes, its own doubled; CPLFree(). */
+/* Appends text, or a name in double quotes (quotes in it are doubled), to the statement `to`, which is freed. CPLFree()
+ * the result. */
 char *gis_sql_append(char *to, const char *more);
 char *gis_sql_append_name(char *to, const char *name);
 

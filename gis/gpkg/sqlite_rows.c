@@ -19,10 +19,10 @@ static bool fail(const gis_sqlite_rows *rows, gis_error *error)
                     gis_sqlite_find_functions()->error_message(rows->database));
 }
 
-/* Rows of one statement: what beginning and ending one costs is a small part of them then. */
+/* Number of rows inserted by one statement, so that the cost of starting and ending a statement matters little. */
 enum { AT_ONCE = 100 };
 
-/* n rows of both columns; or of the values alone, in the column of that name. */
+/* Prepares a statement for n rows of both columns or, if `values` is given, of the column of that name alone. */
 static bool prepare(const gis_sqlite_rows *rows, const char *table, const char *values, size_t n, void **statement,
                     gis_error *error)
 {
@@ -47,7 +47,7 @@ bool gis_sqlite_rows_begin(gis_sqlite_rows *rows, void *database, const char *ta
                       prepare(rows, table, many, AT_ONCE, &rows->next, error)));
 }
 
-/* bound: its parameters are. */
+/* Runs a statement and resets it. bound: all its parameters were bound. */
 static bool insert(const gis_sqlite_rows *rows, void *statement, bool bound, gis_error *error)
 {
     const gis_sqlite_functions *sqlite = gis_sqlite_find_functions();
@@ -55,7 +55,7 @@ static bool insert(const gis_sqlite_rows *rows, void *statement, bool bound, gis
     return (sqlite->reset(statement) == GIS_SQLITE_OK && done) || fail(rows, error);
 }
 
-/* Are these the keys that SQLite would assign, without having to look any of them up? */
+/* Are these keys exactly those that SQLite would assign by itself, each one greater than the last? */
 static bool follow(const gis_sqlite_rows *rows, const int64_t (*row)[2], size_t n)
 {
     int64_t last = rows->last;
@@ -64,7 +64,8 @@ static bool follow(const gis_sqlite_rows *rows, const int64_t (*row)[2], size_t 
     return so;
 }
 
-/* Where a key does not rise the greatest one is not the last. */
+/* Remembers the last key. If a key does not ascend, the greatest key is not the last one, so SQLite's own keys are not
+ * used any more. */
 static void note_keys(gis_sqlite_rows *rows, const int64_t (*row)[2], size_t n)
 {
     for (size_t k = 0; k < n && rows->next; k++) {

@@ -5,7 +5,7 @@
 
 #include <string.h>
 
-/* Types of values, as SQLite numbers them. */
+/* SQLite's numbers for types of values. */
 enum { INTEGER = 1, REAL = 2, TEXT = 3, BYTES = 4 };
 
 void *gis_sqlite_select_begin(void *database, const char *sql)

@@ -1,5 +1,5 @@
-/* sqlite_statement.h: what statements are made, filled and run with, as SQLite has it in this program. Types and
- * numbers are those of SQLite's application interface, which does not change. */
+/* sqlite_statement.h: SQLite's functions for preparing, binding and running statements, found in the running program.
+ * Types and constants are those of SQLite's programming interface, which does not change. */
 #ifndef GIS_SQLITE_STATEMENT_H
 #define GIS_SQLITE_STATEMENT_H
 
@@ -12,7 +12,7 @@ enum {
     GIS_SQLITE_ROW = 100,
     GIS_SQLITE_DONE = 101
 };
-enum { GIS_SQLITE_KIND = 0xff }; /* beyond it: what kind of that result */
+enum { GIS_SQLITE_KIND = 0xff }; /* the low byte of a result code; the rest is detail */
 
 typedef struct gis_sqlite_functions {
     const char *(*source_id)(void);
@@ -27,7 +27,7 @@ typedef struct gis_sqlite_functions {
     int (*finalize)(void *);
     const void *(*column_bytes)(void *, int);
     int (*column_size)(void *, int);
-    void *(*column_value)(void *, int); /* a question about a column takes a lock, one about a value none */
+    void *(*column_value)(void *, int); /* functions for columns take a lock, those for values do not */
     int (*value_type)(void *);
     int64_t (*value_number)(void *);
     double (*value_real)(void *);
@@ -39,7 +39,7 @@ typedef struct gis_sqlite_functions {
     char *(*print)(int, char *, const char *, ...);
 } gis_sqlite_functions;
 
-/* Looked up once; the program's libraries stay as they are. NULL: one is missing. */
+/* Looks the functions up at the first call. NULL: one is missing. */
 const gis_sqlite_functions *gis_sqlite_find_functions(void);
 
 #endif

@@ -1,10 +1,9 @@
-/* style_qml.c: the QGIS style documents, put together from a few symbols.
+/* style_qml.c: the QGIS style documents, composed of a few symbols.
  *
- * Colours: what stays is quiet grey, what moved is teal, what stands fast is near black, what is still in conflict is
- * red; arrows are blue, conflicts magenta, those with barriers violet. Where a proved conflict has a disc and a thick
- * line, an unresolved one has a ring and a thin line. Teal, red, blue and magenta stay apart for most colour-blind
- * readers because they differ in lightness too. Properties are written as <prop>, which QGIS 3.0 and all later versions
- * read. */
+ * Colours: unmoved features are grey, moved ones teal, fixed ones near black, blocked ones red; arrows are blue,
+ * conflicts magenta, those with barriers violet. A proved conflict has a disc and a thick line, an unresolved one a
+ * ring and a thin line. Teal, red, blue and magenta also differ in lightness, so most colour-blind readers can
+ * distinguish them. Properties are written as <prop>, which QGIS 3.0 and all later versions read. */
 #include "gpkg/layer_styles.h"
 #include "sunder.h"
 
@@ -53,7 +52,7 @@ static void add_line(gis_text *to, const char *colour, const char *width)
     gis_text_print(to, "</layer>");
 }
 
-/* One property of a symbol layer as an expression of QGIS. */
+/* Adds a property of a symbol layer that is given by a QGIS expression. */
 static void add_expression(gis_text *to, const char *property, const char *expression)
 {
     gis_text_print(to,
@@ -67,7 +66,7 @@ static void add_expression(gis_text *to, const char *property, const char *expre
                    property, expression);
 }
 
-/* A line whose width, in millimetres, is an expression of QGIS. */
+/* Adds a line whose width, in millimetres, is given by a QGIS expression. */
 static void add_line_by(gis_text *to, const char *colour, const char *expression)
 {
     begin_layer(to, "SimpleLine");
@@ -80,7 +79,7 @@ static void add_line_by(gis_text *to, const char *colour, const char *expression
     gis_text_print(to, "</layer>");
 }
 
-/* outline NULL: none; size_by NULL: `size` for all, else an expression of QGIS. */
+/* Adds a marker. outline: its colour, NULL: none. size_by: a QGIS expression for the size, NULL: `size`. */
 static void add_marker(gis_text *to, const char *shape, const char *colour, const char *size, const char *size_by,
                        const char *outline)
 {
@@ -106,7 +105,7 @@ static void begin_symbol(gis_text *to, const char *type, const char *name)
     gis_text_print(to, "<symbol name=\"%s\" type=\"%s\" alpha=\"1\" clip_to_extent=\"1\" force_rhr=\"0\">", name, type);
 }
 
-/* A marker drawn along a line: at its last vertex, turned with it, or at its first. */
+/* Adds a marker along a line: at its first or last vertex, as `placement` says, rotated with the line. */
 static void add_marker_line(gis_text *to, const char *placement, const char *parent, const char *shape,
                             const char *colour, const char *size, const char *size_by, const char *outline)
 {
@@ -134,7 +133,7 @@ static void add_symbol(gis_text *to, kind of, const char *name, const char *colo
 
 /* ---- Renderers --------------------------------------------------------------------------------------------------- */
 
-/* For the statuses in sunder_st, whose words are the core's. */
+/* Colours for the statuses in the field sunder_st, whose values are the core's words. */
 static const struct {
     const char *colour, *outline;
 } statuses[] = {
@@ -172,7 +171,7 @@ static void begin_single(gis_text *to)
 
 static void end_single(gis_text *to) { gis_text_print(to, "</symbols>\n</renderer-v2>\n"); }
 
-/* A head of fixed size at the end of each move: moves are often shorter on the sheet than any arrow. */
+/* Adds arrows with a head of fixed size, since moves are often shorter on the sheet than any arrow. */
 static void add_arrows(gis_text *to)
 {
     static const char blue[] = "31,78,200,255";
@@ -184,18 +183,18 @@ static void add_arrows(gis_text *to)
     end_single(to);
 }
 
-/* Of conflicts, in QGIS's expressions; a null is no answer, and so neither. */
+/* Conditions on conflicts as QGIS expressions. A null reason is neither open nor allowed. */
 #define IS_BARRIER "&quot;kind&quot; IN ('barrier','barrier_drawn','barrier_near')"
 #define IS_OPEN "coalesce(&quot;reason&quot;,'') = 'unresolved'"
 #define IS_ALLOWED "coalesce(&quot;reason&quot;,'') IN ('kept','same_block')"
 
-/* The size of a conflict's disc: by how much of the required distance is missing, as a share of the most. */
+/* The size of a conflict's disc: grows with `missing`, relative to the largest value in the layer. */
 #define BY_MISSING "coalesce(1.8 + 1.6 * sqrt(&quot;missing&quot; / nullif(maximum(&quot;missing&quot;), 0)), 2.2)"
 
-/* How a conflict is drawn: with what, and whether it is known that it could not be solved. */
+/* The rules for drawing conflicts: the label, the condition, the colour, and the symbol. */
 static const struct {
     const char *label, *filter, *colour;
-    bool open; /* a thin line, and a ring */
+    bool open; /* the conflict is unresolved: a thin line and a ring */
 } conflict_rules[] = {
     {"between features", "NOT (" IS_BARRIER ") AND NOT (" IS_OPEN ") AND NOT (" IS_ALLOWED ")", "231,0,138,255", false},
     {"between features, unresolved", "NOT (" IS_BARRIER ") AND (" IS_OPEN ")", "231,0,138,255", true},
@@ -205,8 +204,9 @@ static const struct {
 };
 enum { CONFLICT_RULES = sizeof conflict_rules / sizeof *conflict_rules };
 
-/* Thick lines; and a disc at one end, since the link of two features that touch has no length and would not show. The
- * disc grows with `missing`, from the least that is seen to about twice that. */
+/* Adds the symbol of a conflict: a line, and a disc at one end, since the line between two features that touch has no
+ * length and would not be seen. The disc grows with `missing`, from the smallest size that is visible to about twice
+ * that. */
 static void add_conflict_symbol(gis_text *to, int rule)
 {
     const char *colour = conflict_rules[rule].colour;
@@ -232,8 +232,8 @@ static void add_conflicts(gis_text *to)
     gis_text_print(to, "</symbols>\n</renderer-v2>\n");
 }
 
-/* A line as wide as its share of the greatest force. They cover the map, so their rule is switched off until its box in
- * the legend is marked. */
+/* Adds lines whose width grows with the force. They would cover the map, so the rule is switched off until the user
+ * ticks it in the legend. */
 static void add_pushes(gis_text *to)
 {
     gis_text_print(to, "<renderer-v2 type=\"RuleRenderer\" forceraster=\"0\" symbollevels=\"0\" enableorderby=\"0\">\n"

@@ -1,6 +1,6 @@
-/* table.c: see table.h. The statement is GDAL's own, so rows come in its order; what a database has to say of one that
- * cannot be read is left to GDAL, too, which reads it again. Where that order is that of the keys the rows behind the
- * middle one are read by another thread, which has the file open once more. */
+/* table.c: see table.h. The SELECT is the same as GDAL's, so rows come in GDAL's order. If a row cannot be read, the
+ * error is ignored here, since GDAL reads the layer again and reports it. If that order is the order of keys, the rows
+ * of the second half are read by another thread through a second connection. */
 #include "gpkg/table.h"
 
 #include "base/array.h"
@@ -18,7 +18,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Columns before those of the fields. */
+/* Columns of the SELECT; the fields follow. */
 enum { FID, GEOMETRY, FIELDS };
 
 static char *select_statement(OGRLayerH layer)
@@ -31,7 +31,7 @@ static char *select_statement(OGRLayerH layer)
     return gis_sql_append_name(gis_sql_append(sql, " FROM "), OGR_L_GetName(layer));
 }
 
-/* Is it what GDAL would take as it stands into a field of that type? */
+/* Would GDAL take this value into a field of this type without conversion? */
 static bool suits(const gis_value *value, OGRFieldType type)
 {
     switch (value->kind) {
@@ -44,7 +44,7 @@ static bool suits(const gis_value *value, OGRFieldType type)
     }
 }
 
-/* *record = NULL: the row is not plain. */
+/* Makes a record of the current row; *record = NULL if the row is not plain. */
 static bool pack(gis_packed *packed, void *statement, gis_value *value, const unsigned char **record, gis_error *error)
 {
     gis_value fid;
@@ -66,15 +66,15 @@ static bool pack(gis_packed *packed, void *statement, gis_value *value, const un
 
 /* ---- Rows -------------------------------------------------------------------------------------------------------- */
 
-/* Rows that a statement gives, and where they go. */
+/* A statement whose rows are read, and the records made of them. */
 typedef struct reading {
     void *statement;
-    gis_sqlite_next next; /* what it has come to */
+    gis_sqlite_next next; /* what the last step returned */
     gis_packed *packed;
-    gis_value *value; /* room for those of a row */
+    gis_value *value; /* buffer for the values of a row */
 } reading;
 
-/* Reads the first row: from here on the file cannot change. */
+/* Prepares the statement and reads its first row; from here on the file cannot change. */
 static void begin(reading *r, void *database, const char *sql, gis_packed *packed)
 {
     *r = (reading){.packed = packed, .statement = gis_sqlite_select_begin(database, sql), .next = GIS_SQLITE_BROKEN};
@@ -98,16 +98,17 @@ static bool read_rows(reading *r, gis_table_take *take, void *user, bool *all, g
         if (!take(user, record, error) || !gis_go_on(error)) return false;
     }
     *all = r->next == GIS_SQLITE_AT_END;
-    return gis_go_on(error); /* a statement that is cut short */
+    return gis_go_on(error); /* false if a signal ended the statement early */
 }
 
 /* ---- In halves --------------------------------------------------------------------------------------------------- */
 
-/* Keys so far from each other are those of a table that takes longer to read than a thread to begin. */
+/* If the smallest and the largest key are at least this far apart, reading the table takes longer than starting a
+ * thread. */
 enum { MANY_ROWS = 5000 };
 
-/* What SQLite tells of how it goes about a statement: in one step, told by these words (older versions have one word
- * more in front of the name), and others behind them if `more`. */
+/* Does SQLite's query plan for `sql` consist of one step whose description is `verb`, `name` and `way` (older versions
+ * write "TABLE" before the name)? more: further words may follow. */
 static bool goes_by(void *database, const char *sql, const char *verb, const char *name, const char *way, bool more)
 {
     enum { DETAIL = 3 };
@@ -129,14 +130,14 @@ static bool goes_by(void *database, const char *sql, const char *verb, const cha
     return so && found;
 }
 
-/* Rows up to a key, and those beyond. */
+/* Statements for the rows with keys up to the middle one, and for those with greater keys. */
 typedef struct halves {
     char *sql[2];
-    void *again; /* the database, for the latter; NULL: it is to be read as one */
+    void *again; /* a second connection, for the second statement; NULL: the table is not divided */
 } halves;
 
-/* Do rows come by rising keys, as they lie in the table, in each half and in all of it? Not those of a view, and not
- * where an index has all there is to read. */
+/* Are rows returned in ascending order of keys, by the whole statement and by both halves? Not if it is a view, or if
+ * an index covers all columns. */
 static bool rise(void *database, OGRLayerH layer, const char *all, const halves *h)
 {
     const char *name = OGR_L_GetName(layer);
@@ -166,14 +167,14 @@ static void clear_halves(halves *h)
     gis_second_connection_close(h->again);
 }
 
-/* What the other thread reads. */
+/* The half that the other thread reads. */
 typedef struct half {
     reading rows;
     gis_packed packed;
     const unsigned char **record;
     size_t n, capacity;
     bool done, all;
-    gis_error error; /* if not done */
+    gis_error error; /* set if not `done` */
 } half;
 
 static bool keep(void *user, const unsigned char *record, gis_error *error)
@@ -201,7 +202,7 @@ static bool take_half(half *h, gis_packed *packed, gis_table_take *take, void *u
     return true;
 }
 
-/* Both are at their first rows. */
+/* Reads both halves at once; both statements are at their first rows. */
 static bool read_both(reading *first, half *second, gis_table_take *take, void *user, bool *all, gis_error *error)
 {
     gis_side_thread *beside = gis_side_thread_new();
@@ -211,7 +212,7 @@ static bool read_both(reading *first, half *second, gis_table_take *take, void *
     return done && (!*all || take_half(second, first->packed, take, user, all, error));
 }
 
-/* *tried = false: nothing was given, and it is to be read as one. */
+/* Reads the table in halves if that is possible. *tried is false if it was not; then nothing was given to `take`. */
 static bool read_halves(void *database, OGRLayerH layer, const char *sql, gis_packed *packed, gis_table_take *take,
                         void *user, bool *tried, bool *all, gis_error *error)
 {
