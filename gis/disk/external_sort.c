@@ -27,7 +27,7 @@ struct gis_sorter {
     size_t places, place_room;
 };
 
-static int compare(const gis_sort_head *p, const gis_sort_head *q)
+static int compare_heads(const gis_sort_head *p, const gis_sort_head *q)
 {
     if (p->first != q->first) return p->first < q->first ? -1 : 1;
     return (p->second > q->second) - (p->second < q->second);
@@ -46,7 +46,7 @@ enum { LEAST_ROOM = 1 << 16 };
 
 /* Makes room for `bytes` further bytes. The buffer never grows beyond `most` for several records; doubling alone would
  * exceed it. */
-static bool make_room(gis_sorter *s, size_t bytes, gis_error *error)
+static bool reserve_part(gis_sorter *s, size_t bytes, gis_error *error)
 {
     if (s->room - s->used >= bytes) return true;
     size_t room = 2 * s->room > LEAST_ROOM ? 2 * s->room : LEAST_ROOM;
@@ -61,7 +61,7 @@ static bool make_room(gis_sorter *s, size_t bytes, gis_error *error)
 
 /* Sorts by the first key, then by the second, then by order of addition. It sorts by the second key first, since
  * gis_keyed_sort() is stable. */
-static bool sort_part(gis_sorter *s, gis_error *error)
+static bool sort_records(gis_sorter *s, gis_error *error)
 {
     gis_keyed *place = s->place;
     for (size_t k = 0; k < s->places; k++) place[k].key = head_of(s->part + place[k].with)->second;
@@ -70,9 +70,9 @@ static bool sort_part(gis_sorter *s, gis_error *error)
     return gis_keyed_sort(place, s->places) || gis_no_memory(error);
 }
 
-static bool write_part(gis_sorter *s, gis_error *error)
+static bool write_run(gis_sorter *s, gis_error *error)
 {
-    if (!sort_part(s, error)) return false;
+    if (!sort_records(s, error)) return false;
     if (!s->runs.stream && !gis_disk_file_create(&s->runs, s->directory, s->parts, error)) return false;
     if (!gis_array_reserve(&s->run, &s->capacity, s->n + 1, sizeof *s->run)) return gis_no_memory(error);
     run *next = &s->run[s->n++];
@@ -86,9 +86,9 @@ static bool write_part(gis_sorter *s, gis_error *error)
     return gis_go_on(error);
 }
 
-static bool take_part(gis_sorter *s, gis_sort_take *take, void *user, gis_error *error)
+static bool take_records(gis_sorter *s, gis_sort_take *take, void *user, gis_error *error)
 {
-    if (!sort_part(s, error)) return false;
+    if (!sort_records(s, error)) return false;
     for (size_t k = 0; k < s->places; k++)
         if (!take(user, s->part + s->place[k].with, error)) return false;
     return true;
@@ -100,7 +100,7 @@ static gis_sort_head *first_of(const run *r) { return head_of(r->at + r->used); 
 
 /* Makes sure that the first remaining record of a run is completely in memory, reading `share` bytes at a time. *any is
  * set to false if no record remains. */
-static bool refill(gis_sorter *s, run *r, size_t share, bool *any, gis_error *error)
+static bool refill_run(gis_sorter *s, run *r, size_t share, bool *any, gis_error *error)
 {
     const size_t have = r->filled - r->used;
     *any = have > 0 || r->from < r->end;
@@ -121,23 +121,23 @@ static bool refill(gis_sorter *s, run *r, size_t share, bool *any, gis_error *er
     r->from += more;
     r->used = 0;
     r->filled = have + more;
-    return refill(s, r, share, any, error); /* again, if the record is larger than the share */
+    return refill_run(s, r, share, any, error); /* again, if the record is larger than the share */
 }
 
 /* Does a's first record come before b's? Records with equal keys are in the order of their runs, which is the order of
  * addition. */
-static bool before(const run *a, const run *b)
+static bool run_is_before(const run *a, const run *b)
 {
-    const int by_keys = compare(first_of(a), first_of(b));
+    const int by_keys = compare_heads(first_of(a), first_of(b));
     return by_keys ? by_keys < 0 : a < b;
 }
 
 /* Moves entry i of the heap down to its place. */
-static void sink(run **heap, size_t n, size_t i)
+static void sift_down(run **heap, size_t n, size_t i)
 {
     for (size_t child; (child = 2 * i + 1) < n; i = child) {
-        if (child + 1 < n && before(heap[child + 1], heap[child])) child++;
-        if (!before(heap[child], heap[i])) return;
+        if (child + 1 < n && run_is_before(heap[child + 1], heap[child])) child++;
+        if (!run_is_before(heap[child], heap[i])) return;
         run *lower = heap[i];
         heap[i] = heap[child];
         heap[child] = lower;
@@ -149,18 +149,18 @@ static bool merge_heap(gis_sorter *s, run **heap, size_t share, gis_sort_take *t
     size_t n = 0;
     for (size_t k = 0; k < s->n; k++) {
         bool any;
-        if (!refill(s, &s->run[k], share, &any, error)) return false;
+        if (!refill_run(s, &s->run[k], share, &any, error)) return false;
         if (any) heap[n++] = &s->run[k];
     }
-    for (size_t i = n / 2; i-- > 0;) sink(heap, n, i);
+    for (size_t i = n / 2; i-- > 0;) sift_down(heap, n, i);
     while (n > 0) {
         run *least = heap[0];
         bool any;
         if (!gis_go_on(error) || !take(user, least->at + least->used, error)) return false;
         least->used += first_of(least)->bytes;
-        if (!refill(s, least, share, &any, error)) return false;
+        if (!refill_run(s, least, share, &any, error)) return false;
         if (!any) heap[0] = heap[--n];
-        sink(heap, n, 0);
+        sift_down(heap, n, 0);
     }
     return true;
 }
@@ -168,7 +168,7 @@ static bool merge_heap(gis_sorter *s, run **heap, size_t share, gis_sort_take *t
 /* The smallest number of bytes read from a run at once; smaller reads would cost a seek for every few records. */
 enum { LEAST_SHARE = 1 << 16 };
 
-static bool merge(gis_sorter *s, gis_sort_take *take, void *user, gis_error *error)
+static bool merge_runs(gis_sorter *s, gis_sort_take *take, void *user, gis_error *error)
 {
     free(s->part);
     free(s->place);
@@ -201,8 +201,8 @@ bool gis_sorter_new(const char *directory, const char *parts, size_t most, gis_s
 bool gis_sorter_add(gis_sorter *sorter, const void *record, gis_error *error)
 {
     const size_t bytes = (size_t)((const gis_sort_head *)record)->bytes;
-    if (sorter->places && sorter->used + bytes > sorter->most && !write_part(sorter, error)) return false;
-    if (!make_room(sorter, bytes, error)) return false;
+    if (sorter->places && sorter->used + bytes > sorter->most && !write_run(sorter, error)) return false;
+    if (!reserve_part(sorter, bytes, error)) return false;
     if (!gis_array_reserve(&sorter->place, &sorter->place_room, sorter->places + 1, sizeof *sorter->place))
         return gis_no_memory(error);
     memcpy(sorter->part + sorter->used, record, bytes);
@@ -213,8 +213,8 @@ bool gis_sorter_add(gis_sorter *sorter, const void *record, gis_error *error)
 
 bool gis_sorter_take(gis_sorter *sorter, gis_sort_take *take, void *user, gis_error *error)
 {
-    if (sorter->n == 0) return take_part(sorter, take, user, error);
-    return write_part(sorter, error) && merge(sorter, take, user, error);
+    if (sorter->n == 0) return take_records(sorter, take, user, error);
+    return write_run(sorter, error) && merge_runs(sorter, take, user, error);
 }
 
 void gis_sorter_free(gis_sorter *sorter)

@@ -44,7 +44,7 @@ static int open_new(const char *path)
     return open(path, O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
 }
 
-static FILE *create(char *path, const char *name)
+static FILE *create_stream(char *path, const char *name)
 {
     const int opened = is_unique(name) ? gis_make_file(path) : open_new(path);
     FILE *stream = opened >= 0 ? fdopen(opened, "w+") : NULL;
@@ -81,7 +81,7 @@ bool gis_disk_file_create(gis_disk_file *file, const char *directory, const char
     *file = (gis_disk_file){.path = gis_disk_path(directory, name)};
     if (!file->path) return gis_no_memory(error);
     gis_hold();
-    file->stream = create(file->path, name);
+    file->stream = create_stream(file->path, name);
     if (file->stream) file->leftover = gis_leftover_temporary(file->path);
     gis_release();
     if (file->stream) add_buffer(file);

@@ -37,7 +37,7 @@ void gis_stage_place_of(const char *final_path, char **directory, char **name)
 }
 
 /* Closes the stage and forgets its name, when the directory was removed or stays as it is. */
-static void leave(gis_stage *stage)
+static void forget_directory(gis_stage *stage)
 {
     if (stage->inner >= 0) close(stage->inner);
     stage->inner = -1;
@@ -62,7 +62,7 @@ bool gis_stage_new(const char *final_path, gis_stage **out, gis_error *error)
     bool done = (stage->outer >= 0 || cannot_write(stage, errno, error)) && gis_stage_make(stage, error);
     if (done) {
         unlinkat(stage->outer, gis_path_name(stage->inside), AT_REMOVEDIR);
-        leave(stage);
+        forget_directory(stage);
         *out = stage;
     } else {
         gis_stage_free(stage);
@@ -128,7 +128,7 @@ void gis_stage_free(gis_stage *stage)
 {
     if (!stage) return;
     if (stage->inside) gis_remove_tree_in(stage->outer, gis_path_name(stage->inside));
-    leave(stage);
+    forget_directory(stage);
     if (stage->outer >= 0) close(stage->outer);
     CPLFree(stage->directory);
     CPLFree(stage->main);

@@ -12,7 +12,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-static bool look(int directory, const char *name, struct stat *status)
+static bool entry_status(int directory, const char *name, struct stat *status)
 {
     return fstatat(directory, name, status, AT_SYMLINK_NOFOLLOW) == 0;
 }
@@ -20,7 +20,7 @@ static bool look(int directory, const char *name, struct stat *status)
 bool gis_entry_mark(int directory, const char *name, char mark[GIS_MARK_SIZE])
 {
     struct stat status;
-    if (!look(directory, name, &status)) return false;
+    if (!entry_status(directory, name, &status)) return false;
     snprintf(mark, GIS_MARK_SIZE, "%ju-%jd-%jd.%ld", (uintmax_t)status.st_ino, (intmax_t)status.st_size,
              (intmax_t)status.st_mtim.tv_sec, status.st_mtim.tv_nsec);
     return true;
@@ -29,19 +29,19 @@ bool gis_entry_mark(int directory, const char *name, char mark[GIS_MARK_SIZE])
 bool gis_entry_is_there(int directory, const char *name)
 {
     struct stat status;
-    return look(directory, name, &status);
+    return entry_status(directory, name, &status);
 }
 
 bool gis_entry_is_directory(int directory, const char *name)
 {
     struct stat status;
-    return look(directory, name, &status) && S_ISDIR(status.st_mode);
+    return entry_status(directory, name, &status) && S_ISDIR(status.st_mode);
 }
 
 bool gis_entry_is_file(int directory, const char *name)
 {
     struct stat status;
-    return look(directory, name, &status) && S_ISREG(status.st_mode);
+    return entry_status(directory, name, &status) && S_ISREG(status.st_mode);
 }
 
 char **gis_entry_names(int directory)

@@ -128,7 +128,7 @@ typedef struct journal {
     int n;
 } journal;
 
-static bool move(journal *log, const gis_stage *stage, renaming it, bool replace, gis_error *error)
+static bool move_entry(journal *log, const gis_stage *stage, renaming it, bool replace, gis_error *error)
 {
     if (gis_entry_move(it.from, it.to, it.name, replace) != 0)
         return errno == EEXIST
@@ -138,7 +138,7 @@ static bool move(journal *log, const gis_stage *stage, renaming it, bool replace
     return true;
 }
 
-static void undo(journal *log)
+static void undo_renames(journal *log)
 {
     while (log->n > 0) {
         const renaming *last = &log->done[--log->n];
@@ -153,7 +153,7 @@ static bool step_aside(const gis_stage *stage, int aside, bool main_in_one_step,
     bool done = true;
     for (char **name = stage->superseded; done && name && *name; name++)
         if (gis_entry_is_there(stage->outer, *name) && !(main_in_one_step && strcmp(*name, stage->main) == 0))
-            done = move(log, stage, (renaming){stage->outer, aside, *name}, true, error);
+            done = move_entry(log, stage, (renaming){stage->outer, aside, *name}, true, error);
     return done;
 }
 
@@ -162,9 +162,9 @@ static bool put_all(const gis_stage *stage, char **names, bool main_in_one_step,
     bool done = true;
     for (char **name = names; done && *name; name++)
         if (strcmp(*name, stage->main) != 0)
-            done = move(log, stage, (renaming){stage->inner, stage->outer, *name}, false, error);
+            done = move_entry(log, stage, (renaming){stage->inner, stage->outer, *name}, false, error);
     if (done && CSLFindString(names, stage->main) >= 0)
-        done = move(log, stage, (renaming){stage->inner, stage->outer, stage->main}, main_in_one_step, error);
+        done = move_entry(log, stage, (renaming){stage->inner, stage->outer, stage->main}, main_in_one_step, error);
     return done;
 }
 
@@ -215,7 +215,7 @@ static bool rename_all(const gis_stage *stage, char **names, bool in_one_step, g
     if (done)
         gis_set_outcome(GIS_DECIDED);
     else
-        undo(&log);
+        undo_renames(&log);
     if (aside >= 0) close(aside);
     gis_release();
     CPLFree(log.done);

@@ -45,7 +45,7 @@ static void forget_record(remains *found)
     found->old = found->fresh = NULL;
 }
 
-static const char *after(const char *line, const char *kind)
+static const char *text_after(const char *line, const char *kind)
 {
     return strncmp(line, kind, strlen(kind)) == 0 ? line + strlen(kind) : NULL;
 }
@@ -62,14 +62,14 @@ static bool read_line(remains *found, const char *line)
     const char *rest;
     bool plain = true;
     char *name = CPLUnescapeString(line, NULL, CPLES_BackslashQuotable);
-    if ((rest = after(name, GIS_RECORD_MAIN))) {
+    if ((rest = text_after(name, GIS_RECORD_MAIN))) {
         plain = gis_is_plain_name(rest);
         CPLFree(found->main);
         found->main = CPLStrdup(rest);
-    } else if ((rest = after(name, GIS_RECORD_OLD))) {
+    } else if ((rest = text_after(name, GIS_RECORD_OLD))) {
         plain = gis_is_plain_name(rest);
         found->old = CSLAddString(found->old, rest);
-    } else if ((rest = after(name, GIS_RECORD_NEW))) {
+    } else if ((rest = text_after(name, GIS_RECORD_NEW))) {
         plain = gis_is_plain_name(fresh_name(rest));
         found->fresh = CSLAddString(found->fresh, rest);
     }
@@ -108,14 +108,14 @@ static void read_record(remains *found)
 
 /* ---- Restoring --------------------------------------------------------------------------------------------------- */
 
-static bool unfinished(const remains *found)
+static bool is_unfinished(const remains *found)
 {
     for (char **entry = found->fresh; entry && *entry; entry++)
         if (gis_entry_is_there(found->inner, fresh_name(*entry))) return true;
     return false;
 }
 
-static bool move(const remains *found, int from, int to, const char *name, gis_error *error)
+static bool move_back(const remains *found, int from, int to, const char *name, gis_error *error)
 {
     if (gis_entry_move(from, to, name, false) == 0) return true;
     const char *why =
@@ -131,7 +131,7 @@ static bool take_away(const remains *found, const char *entry, gis_error *error)
     const size_t n = (size_t)(name - entry);
     const bool ours = gis_entry_mark(found->outer, name, mark) && strlen(mark) + 1 == n &&
                       strncmp(mark, entry, n - 1) == 0 && !gis_entry_is_there(found->inner, name);
-    return !ours || move(found, found->outer, found->inner, name, error);
+    return !ours || move_back(found, found->outer, found->inner, name, error);
 }
 
 static bool bring_back(const remains *found, gis_error *error)
@@ -140,7 +140,7 @@ static bool bring_back(const remains *found, gis_error *error)
     bool done = true;
     for (char **entry = found->fresh; done && entry && *entry; entry++) done = take_away(found, *entry, error);
     for (char **name = found->old; done && aside >= 0 && name && *name; name++)
-        done = !gis_entry_is_there(aside, *name) || move(found, aside, found->outer, *name, error);
+        done = !gis_entry_is_there(aside, *name) || move_back(found, aside, found->outer, *name, error);
     if (aside >= 0) close(aside);
     return done;
 }
@@ -157,7 +157,7 @@ static void clear_away(const remains *found)
 
 /* ---- What is found beside an output ------------------------------------------------------------------------------ */
 
-static bool settle(remains *found, const char *name, gis_sentences *said, gis_error *error)
+static bool settle_stage(remains *found, const char *name, gis_sentences *said, gis_error *error)
 {
     read_record(found);
     if (!found->main) {
@@ -170,7 +170,7 @@ static bool settle(remains *found, const char *name, gis_sentences *said, gis_er
         return true;
     }
     if (strcmp(found->main, name) != 0) return true;
-    bool half = unfinished(found);
+    bool half = is_unfinished(found);
     if (half && !bring_back(found, error)) return false;
     clear_away(found);
     if (half)
@@ -193,7 +193,7 @@ static void tell_way_back(const remains *found, gis_sentences *said)
  * message says how to restore the files. */
 static bool look_at(remains *found, const char *name, gis_sentences *said, gis_error *error)
 {
-    if (flock(found->inner, LOCK_EX | LOCK_NB) == 0) return settle(found, name, said, error);
+    if (flock(found->inner, LOCK_EX | LOCK_NB) == 0) return settle_stage(found, name, said, error);
     if (errno == EWOULDBLOCK) return true;
     read_record(found);
     if (found->main && strcmp(found->main, name) == 0) tell_way_back(found, said);

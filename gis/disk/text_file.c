@@ -19,7 +19,7 @@
 enum { SHOWN_OF_NAME = 100 };
 
 /* DIRECTORY/NAME.sunder-XXXXXX; mkstemp() replaces the letters, so that the name cannot be predicted. */
-static char *beside(const char *path)
+static char *temporary_path(const char *path)
 {
     const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
     const size_t size = strlen(path) + sizeof GIS_OWN_LETTERS + 1;
@@ -69,7 +69,7 @@ bool gis_text_file_write(gis_text_file *file, const char *path, gis_text_writer 
     if (!file->path) return gis_no_memory(error);
     if (!gis_link_may_be_followed(path, what, error)) return false;
     bool special = stat(file->path, &info) == 0 && !S_ISREG(info.st_mode);
-    if (!special && !(file->temporary = beside(file->path))) return gis_no_memory(error);
+    if (!special && !(file->temporary = temporary_path(file->path))) return gis_no_memory(error);
     FILE *to = special ? fopen(file->path, "w") : open_temporary(file);
     int reason = errno;
     if (to && write_all(to, write, of, &reason, error)) return true;

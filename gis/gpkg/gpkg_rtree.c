@@ -28,7 +28,7 @@ enum { HEADER = 4, CELL = 24 };
 
 /* ---- SQL --------------------------------------------------------------------------------------------------------- */
 
-static bool run(GDALDatasetH dataset, const char *sql, gis_error *error)
+static bool run_sql(GDALDatasetH dataset, const char *sql, gis_error *error)
 {
     return gis_sql_run(dataset, sql, WHAT, error);
 }
@@ -65,7 +65,7 @@ bool gis_rtree_begin(GDALDatasetH dataset, OGRLayerH layer, gis_rtree *tree, gis
 {
     const char *column = OGR_L_GetGeometryColumn(layer);
     if (!column || !column[0]) return true;
-    if (!run(dataset, "SELECT 1", error)) /* any SQL makes GDAL create deferred tables and indexes */
+    if (!run_sql(dataset, "SELECT 1", error)) /* any SQL makes GDAL create deferred tables and indexes */
         return false;
     char *literal = tree_name(layer, "_insert", '\'');
     char *find = gis_printed("SELECT sql FROM sqlite_master WHERE type = 'trigger' AND name = %s", literal);
@@ -76,7 +76,7 @@ bool gis_rtree_begin(GDALDatasetH dataset, OGRLayerH layer, gis_rtree *tree, gis
     if (!tree->trigger) return true;
     char *name = tree_name(layer, "_insert", '"');
     char *drop = gis_printed("DROP TRIGGER %s", name);
-    bool done = run(dataset, drop, error);
+    bool done = run_sql(dataset, drop, error);
     CPLFree(drop);
     CPLFree(name);
     return done;
@@ -230,7 +230,7 @@ static bool empty_tables(GDALDatasetH dataset, OGRLayerH layer, gis_error *error
     for (size_t i = 0; done && i < sizeof tables / sizeof *tables; i++) {
         char *name = tree_name(layer, tables[i], '"');
         char *sql = gis_printed("DELETE FROM %s", name);
-        done = run(dataset, sql, error);
+        done = run_sql(dataset, sql, error);
         CPLFree(sql);
         CPLFree(name);
     }
@@ -349,7 +349,7 @@ static bool write_nodes(GDALDatasetH dataset, OGRLayerH layer, packing *all, gis
     return done;
 }
 
-static bool fill(GDALDatasetH dataset, OGRLayerH layer, gis_index_boxes *boxes, gis_error *error)
+static bool fill_tree(GDALDatasetH dataset, OGRLayerH layer, gis_index_boxes *boxes, gis_error *error)
 {
     const size_t capacity = node_capacity(dataset, layer);
     if (!capacity) return gis_fail(error, "the spatial index of layer %s is not as expected", OGR_L_GetName(layer));
@@ -370,7 +370,8 @@ static bool fill(GDALDatasetH dataset, OGRLayerH layer, gis_index_boxes *boxes, 
 bool gis_rtree_end(GDALDatasetH dataset, OGRLayerH layer, gis_rtree *tree, gis_error *error)
 {
     if (!tree->trigger) return true;
-    bool done = (tree->boxes.n == 0 || fill(dataset, layer, &tree->boxes, error)) && run(dataset, tree->trigger, error);
+    bool done = (tree->boxes.n == 0 || fill_tree(dataset, layer, &tree->boxes, error)) &&
+                run_sql(dataset, tree->trigger, error);
     gis_rtree_clear(tree);
     return done;
 }

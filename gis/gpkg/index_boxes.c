@@ -18,29 +18,29 @@ typedef struct record {
     gis_index_box box;
 } record;
 
-static float below(double x)
+static float float_below(double x)
 {
     float f = (float)x;
     return (double)f > x ? nextafterf(f, -INFINITY) : f;
 }
 
-static float above(double x)
+static float float_above(double x)
 {
     float f = (float)x;
     return (double)f < x ? nextafterf(f, INFINITY) : f;
 }
 
 /* Converts a box to floats, rounded outwards. */
-static void set(gis_index_box *out, GIntBig fid, const OGREnvelope *box)
+static void set_box(gis_index_box *out, GIntBig fid, const OGREnvelope *box)
 {
     out->fid = fid;
-    out->side[0] = below(box->MinX);
-    out->side[1] = above(box->MaxX);
-    out->side[2] = below(box->MinY);
-    out->side[3] = above(box->MaxY);
+    out->side[0] = float_below(box->MinX);
+    out->side[1] = float_above(box->MaxX);
+    out->side[2] = float_below(box->MinY);
+    out->side[3] = float_above(box->MaxY);
 }
 
-static bool store(gis_index_boxes *boxes, const gis_index_box *box, gis_error *error)
+static bool store_box(gis_index_boxes *boxes, const gis_index_box *box, gis_error *error)
 {
     return (boxes->file.stream || gis_disk_file_create(&boxes->file, boxes->scratch, "boxes.XXXXXX", error)) &&
            gis_disk_file_write(&boxes->file, box, sizeof *box, error);
@@ -56,8 +56,8 @@ bool gis_index_boxes_add(gis_index_boxes *boxes, GIntBig fid, const OGREnvelope 
             return gis_no_memory(error);
         one = &boxes->at[boxes->n];
     }
-    set(one, fid, box);
-    if (boxes->scratch && !store(boxes, one, error)) return false;
+    set_box(one, fid, box);
+    if (boxes->scratch && !store_box(boxes, one, error)) return false;
     if (boxes->n++ == 0) memcpy(boxes->around, one->side, sizeof one->side);
     for (int k = 0; k < 4; k++)
         boxes->around[k] = k % 2 ? fmaxf(boxes->around[k], one->side[k]) : fminf(boxes->around[k], one->side[k]);
@@ -77,7 +77,7 @@ void gis_index_boxes_clear(gis_index_boxes *boxes)
 enum { CURVE_BITS = 16 };
 
 /* The position of the box's centre along the curve. Boxes at the same position keep their order of insertion. */
-static uint32_t along(const gis_index_boxes *boxes, const gis_index_box *box)
+static uint32_t position_along(const gis_index_boxes *boxes, const gis_index_box *box)
 {
     const float *around = boxes->around, *side = box->side;
     const uint32_t x = gis_curve_cell(((double)side[0] + side[1]) / 2, around[0], around[1], CURVE_BITS);
@@ -88,7 +88,7 @@ static uint32_t along(const gis_index_boxes *boxes, const gis_index_box *box)
 static bool take_from_memory(gis_index_boxes *boxes, gis_index_boxes_take *take, void *user, gis_error *error)
 {
     gis_keyed *places = malloc((boxes->n + 1) * sizeof *places); /* position along the curve, and number of the box */
-    for (size_t i = 0; places && i < boxes->n; i++) places[i] = (gis_keyed){along(boxes, &boxes->at[i]), i};
+    for (size_t i = 0; places && i < boxes->n; i++) places[i] = (gis_keyed){position_along(boxes, &boxes->at[i]), i};
     bool done = (places && gis_keyed_sort(places, boxes->n)) || gis_no_memory(error);
     for (size_t i = 0; done && i < boxes->n; i++) done = take(user, &boxes->at[places[i].with], error);
     free(places);
@@ -118,7 +118,7 @@ static bool sort_file(gis_index_boxes *boxes, gis_sorter *sorter, gis_error *err
         const size_t n = boxes->n - k < STRETCH ? boxes->n - k : STRETCH;
         done = gis_disk_file_read(&boxes->file, k * sizeof *box, box, n * sizeof *box, error) && gis_go_on(error);
         for (size_t i = 0; i < n && done; i++) {
-            const record one = {.head = {sizeof one, along(boxes, &box[i]), 0}, .box = box[i]};
+            const record one = {.head = {sizeof one, position_along(boxes, &box[i]), 0}, .box = box[i]};
             done = gis_sorter_add(sorter, &one, error);
         }
     }

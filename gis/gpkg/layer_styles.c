@@ -21,12 +21,12 @@ static const char make_table[] =
     "styleName TEXT(30), styleQML TEXT, styleSLD TEXT, useAsDefault BOOLEAN, description TEXT, owner TEXT(30), "
     "ui TEXT(30), update_time DATETIME DEFAULT (strftime('%Y-%m-%dT%H:%M:%fZ','now')))";
 
-static bool run(GDALDatasetH dataset, const char *sql, gis_error *error)
+static bool run_sql(GDALDatasetH dataset, const char *sql, gis_error *error)
 {
     return gis_sql_run(dataset, sql, "the styles", error);
 }
 
-static char *quoted(const char *text)
+static char *quoted_text(const char *text)
 {
     char *escaped = CPLEscapeString(text ? text : "", -1, CPLES_SQL);
     size_t length = strlen(escaped);
@@ -42,7 +42,7 @@ static char *quoted(const char *text)
 static char *time_expression(void)
 {
     const char *fixed = CPLGetConfigOption("OGR_CURRENT_DATE", NULL);
-    return fixed ? quoted(fixed) : CPLStrdup("strftime('%Y-%m-%dT%H:%M:%fZ','now')");
+    return fixed ? quoted_text(fixed) : CPLStrdup("strftime('%Y-%m-%dT%H:%M:%fZ','now')");
 }
 
 static bool prepare_table(GDALDatasetH dataset, gis_error *error)
@@ -52,7 +52,7 @@ static bool prepare_table(GDALDatasetH dataset, gis_error *error)
                                         "description, last_change) VALUES ('layer_styles', 'attributes', "
                                         "'layer_styles', '', %s)",
                                         now);
-    bool done = run(dataset, make_table, error) && run(dataset, enlist, error);
+    bool done = run_sql(dataset, make_table, error) && run_sql(dataset, enlist, error);
     CPLFree(enlist);
     CPLFree(now);
     return done;
@@ -63,7 +63,7 @@ typedef struct row {
     bool is_default;
 } row;
 
-static bool insert(GDALDatasetH dataset, OGRLayerH layer, const row *style, gis_error *error)
+static bool insert_style(GDALDatasetH dataset, OGRLayerH layer, const row *style, gis_error *error)
 {
     const char *texts[] = {
         OGR_L_GetName(layer), OGR_L_GetGeometryColumn(layer), style->name, style->qml, style->sld, style->description,
@@ -71,7 +71,7 @@ static bool insert(GDALDatasetH dataset, OGRLayerH layer, const row *style, gis_
     char *values[sizeof texts / sizeof *texts];
     size_t length = 400, n = sizeof texts / sizeof *texts;
     for (size_t i = 0; i < n; i++) {
-        values[i] = quoted(texts[i]);
+        values[i] = quoted_text(texts[i]);
         length += strlen(values[i]);
     }
     char *now = time_expression();
@@ -81,7 +81,7 @@ static bool insert(GDALDatasetH dataset, OGRLayerH layer, const row *style, gis_
              "styleQML, styleSLD, useAsDefault, description, owner, update_time) "
              "VALUES ('', '', %s, %s, %s, %s, %s, %d, %s, %s, %s)",
              values[0], values[1], values[2], values[3], values[4], style->is_default, values[5], values[6], now);
-    bool done = run(dataset, sql, error);
+    bool done = run_sql(dataset, sql, error);
     CPLFree(sql);
     CPLFree(now);
     for (size_t i = 0; i < n; i++) CPLFree(values[i]);
@@ -94,7 +94,7 @@ static OGRLayerH own_styles(GDALDatasetH source, OGRLayerH layer)
 {
     GDALDriverH driver = GDALGetDatasetDriver(source);
     if (!driver || !EQUAL(GDALGetDescription(driver), "GPKG")) return NULL;
-    char *name = quoted(OGR_L_GetName(layer));
+    char *name = quoted_text(OGR_L_GetName(layer));
     char *sql = gis_printed("SELECT styleName, styleQML, styleSLD, description, owner FROM layer_styles "
                                      "WHERE f_table_name = %s AND owner IS NOT '" OURS "' ORDER BY id",
                                      name);
@@ -117,7 +117,7 @@ static bool copy_styles(GDALDatasetH dataset, OGRLayerH layer, GDALDatasetH sour
         char *texts[5];
         for (int i = 0; i < 5; i++) texts[i] = CPLStrdup(OGR_F_GetFieldAsString(each, i));
         row style = {texts[0], texts[1], texts[2], texts[3], texts[4], false};
-        done = (*table_made || prepare_table(dataset, error)) && insert(dataset, layer, &style, error);
+        done = (*table_made || prepare_table(dataset, error)) && insert_style(dataset, layer, &style, error);
         *table_made = true;
         for (int i = 0; i < 5; i++) CPLFree(texts[i]);
     }
@@ -134,7 +134,7 @@ bool gis_styles_write(GDALDatasetH dataset, OGRLayerH layer, gis_style style, GD
     bool done = !qml.failed || gis_no_memory(error);
     if (done && qml.length > 0) {
         row ours = {OURS, gis_text_get(&qml), "", "drawn for the results of sunder", OURS, true};
-        done = prepare_table(dataset, error) && insert(dataset, layer, &ours, error);
+        done = prepare_table(dataset, error) && insert_style(dataset, layer, &ours, error);
         table_made = true;
     }
     gis_text_clear(&qml);
@@ -144,9 +144,9 @@ bool gis_styles_write(GDALDatasetH dataset, OGRLayerH layer, gis_style style, GD
 bool gis_styles_forget(GDALDatasetH dataset, const char *layer, gis_error *error)
 {
     char *there = gis_sql_ask(dataset, "SELECT 1 FROM sqlite_master WHERE type = 'table' AND name = 'layer_styles'");
-    char *name = quoted(layer);
+    char *name = quoted_text(layer);
     char *sql = gis_printed("DELETE FROM layer_styles WHERE f_table_name = %s", name);
-    bool done = !there || run(dataset, sql, error);
+    bool done = !there || run_sql(dataset, sql, error);
     CPLFree(sql);
     CPLFree(name);
     CPLFree(there);

@@ -28,10 +28,10 @@ bool gis_sqlite_find(const char *name, void *function)
 
 /* ---- Signals ----------------------------------------------------------------------------------------------------- */
 
-/* SQLite calls stop() every STEPS steps of a statement; some thousands of steps take a millisecond. */
+/* SQLite calls stop_statement() every STEPS steps of a statement; some thousands of steps take a millisecond. */
 enum { STEPS = 1000 };
 
-static int stop(void *user)
+static int stop_statement(void *user)
 {
     (void)user;
     return gis_interrupted();
@@ -44,7 +44,8 @@ static int watch_database(sqlite3 *database, char **message, const void *routine
     void (*progress_handler)(sqlite3 *, int, int (*)(void *), void *);
     (void)message;
     (void)routines;
-    if (gis_sqlite_find("sqlite3_progress_handler", &progress_handler)) progress_handler(database, STEPS, stop, NULL);
+    if (gis_sqlite_find("sqlite3_progress_handler", &progress_handler))
+        progress_handler(database, STEPS, stop_statement, NULL);
     return OK;
 }
 

@@ -14,7 +14,7 @@
  * of bytes; smaller batches cost more, since the thread is woken more often. */
 enum { ROWS_AT_ONCE = 64, MOST_PARAMETERS = 999, MOST_STATEMENTS = 32, MOST_HELD = 1 << 20 };
 
-static void *prepare(void *database, const char *sql)
+static void *prepare_statement(void *database, const char *sql)
 {
     void *statement = NULL;
     const gis_sqlite_functions *sqlite = gis_sqlite_find_functions();
@@ -37,7 +37,7 @@ static void *prepare_rows(const gis_sqlite_inserts *rows, const char *sql, size_
         if (last) *at++ = ')';
     }
     *at = 0;
-    void *statement = prepare(rows->database, all);
+    void *statement = prepare_statement(rows->database, all);
     free(all);
     return statement;
 }
@@ -73,7 +73,7 @@ void gis_sqlite_inserts_end(gis_sqlite_inserts *rows)
 
 /* ---- Inserting the rows of a batch ------------------------------------------------------------------------------- */
 
-static bool bind(const gis_sqlite_batch *batch, void *statement, int at, const gis_sqlite_held *held)
+static bool bind_value(const gis_sqlite_batch *batch, void *statement, int at, const gis_sqlite_held *held)
 {
     const gis_sqlite_functions *sqlite = gis_sqlite_find_functions();
     const unsigned char *bytes = batch->buffer + held->at;
@@ -87,12 +87,12 @@ static bool bind(const gis_sqlite_batch *batch, void *statement, int at, const g
 }
 
 /* Inserts n rows from `first` on with a statement for n rows. Returns SQLite's result code. */
-static int send(const gis_sqlite_batch *batch, void *statement, size_t first, size_t n)
+static int send_rows(const gis_sqlite_batch *batch, void *statement, size_t first, size_t n)
 {
     const gis_sqlite_functions *sqlite = gis_sqlite_find_functions();
     const size_t columns = batch->of->columns;
     for (size_t k = 0; k < n * columns; k++)
-        if (!bind(batch, statement, (int)k + 1, &batch->held[first * columns + k])) return GIS_SQLITE_MISUSE;
+        if (!bind_value(batch, statement, (int)k + 1, &batch->held[first * columns + k])) return GIS_SQLITE_MISUSE;
     const int stepped = sqlite->step(statement), reset = sqlite->reset(statement);
     return stepped == GIS_SQLITE_DONE ? reset : reset != GIS_SQLITE_OK ? reset : stepped;
 }
@@ -110,12 +110,12 @@ static int send_some(const gis_sqlite_batch *batch, size_t n, size_t *done)
     const size_t end = *done + n;
     int outcome = GIS_SQLITE_OK;
     if (rows->many && n == rows->at_once) {
-        outcome = send(batch, rows->many, *done, n);
+        outcome = send_rows(batch, rows->many, *done, n);
         if (outcome == GIS_SQLITE_OK) *done = end;
         if (is_of_one_row(outcome)) outcome = GIS_SQLITE_OK;
     }
     for (; outcome == GIS_SQLITE_OK && *done < end; *done += outcome == GIS_SQLITE_OK)
-        outcome = send(batch, rows->one, *done, 1);
+        outcome = send_rows(batch, rows->one, *done, 1);
     return outcome;
 }
 
@@ -137,7 +137,7 @@ static void send_all(void *context)
 }
 
 /* Waits until all batches handed over are inserted. False, with *key and *reason, if a row was rejected. */
-static bool await(gis_sqlite_inserts *rows, int64_t *key, const char **reason)
+static bool await_batches(gis_sqlite_inserts *rows, int64_t *key, const char **reason)
 {
     gis_side_thread_wait(rows->beside, 0);
     if (!rows->failed) return true;
@@ -148,25 +148,26 @@ static bool await(gis_sqlite_inserts *rows, int64_t *key, const char **reason)
 }
 
 /* Hands the current batch over for insertion, and waits until the oldest batch is finished and can be reused. */
-static bool start(gis_sqlite_inserts *rows, int64_t *key, const char **reason)
+static bool start_batch(gis_sqlite_inserts *rows, int64_t *key, const char **reason)
 {
     gis_side_thread_do(rows->beside, send_all, &rows->batch[rows->added_to]);
     gis_side_thread_wait(rows->beside, GIS_SIDE_THREAD_PIECES - 1);
     rows->added_to = (rows->added_to + 1) % GIS_SIDE_THREAD_PIECES;
     gis_sqlite_batch *next = &rows->batch[rows->added_to];
     next->rows = next->size = 0;
-    return (rows->beside && !next->refused) || await(rows, key, reason);
+    return (rows->beside && !next->refused) || await_batches(rows, key, reason);
 }
 
 bool gis_sqlite_inserts_flush(gis_sqlite_inserts *rows, int64_t *key, const char **reason)
 {
     *reason = NULL;
-    return (rows->batch[rows->added_to].rows == 0 || start(rows, key, reason)) && await(rows, key, reason);
+    return (rows->batch[rows->added_to].rows == 0 || start_batch(rows, key, reason)) &&
+           await_batches(rows, key, reason);
 }
 
 /* ---- Collecting rows --------------------------------------------------------------------------------------------- */
 
-static bool hold(gis_sqlite_batch *batch, gis_sqlite_held *held, const void *bytes, size_t size)
+static bool hold_bytes(gis_sqlite_batch *batch, gis_sqlite_held *held, const void *bytes, size_t size)
 {
     if (!gis_array_reserve(&batch->buffer, &batch->buffer_room, batch->size + size, 1)) return false;
     held->at = batch->size;
@@ -185,11 +186,11 @@ static bool hold_row(gis_sqlite_batch *batch, size_t columns, int64_t key, const
     gis_sqlite_held *row = batch->held + first;
     row[0] = (gis_sqlite_held){.value = {GIS_INTEGER, {.integer = key}}};
     row[1] = (gis_sqlite_held){.bytes = true};
-    bool done = hold(batch, &row[1], bytes, size);
+    bool done = hold_bytes(batch, &row[1], bytes, size);
     for (size_t k = 2; done && k < columns; k++) {
         row[k] = (gis_sqlite_held){.value = values[k - 2]};
         if (row[k].value.kind == GIS_TEXT)
-            done = hold(batch, &row[k], row[k].value.as.text, strlen(row[k].value.as.text));
+            done = hold_bytes(batch, &row[k], row[k].value.as.text, strlen(row[k].value.as.text));
     }
     batch->rows += done;
     return done;
@@ -203,7 +204,7 @@ bool gis_sqlite_inserts_add(gis_sqlite_inserts *rows, int64_t *key, const void *
         *reason = "out of memory";
         return false;
     }
-    return (batch->rows < MOST_STATEMENTS * rows->at_once && batch->size < MOST_HELD) || start(rows, key, reason);
+    return (batch->rows < MOST_STATEMENTS * rows->at_once && batch->size < MOST_HELD) || start_batch(rows, key, reason);
 }
 
 /* ---- Other direct access ----------------------------------------------------------------------------------------- */
@@ -211,7 +212,7 @@ bool gis_sqlite_inserts_add(gis_sqlite_inserts *rows, int64_t *key, const void *
 bool gis_sqlite_says(void *database, const char *sql, void *head, size_t from, const void *bytes, size_t size)
 {
     const gis_sqlite_functions *sqlite = gis_sqlite_find_functions();
-    void *statement = prepare(database, sql);
+    void *statement = prepare_statement(database, sql);
     if (!statement) return false;
     bool same = sqlite->step(statement) == GIS_SQLITE_ROW;
     const unsigned char *said = same ? sqlite->column_bytes(statement, 0) : NULL;

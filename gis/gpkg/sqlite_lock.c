@@ -27,7 +27,7 @@ enum { SET_LOCK = F_SETLK, GET_LOCK = F_GETLK };
 /* SQLite's lock bytes: one for a writer that waits for readers, one for a writer, and 510 for readers. */
 enum { PENDING = 0x40000000, RESERVED = PENDING + 1, ALL = 512 };
 
-static struct flock range(short type, off_t start, off_t length)
+static struct flock lock_range(short type, off_t start, off_t length)
 {
     return (struct flock){.l_type = type, .l_whence = SEEK_SET, .l_start = start, .l_len = length};
 }
@@ -48,18 +48,18 @@ bool gis_sqlite_is(const char *path)
 }
 
 /* Does another process hold a lock that conflicts with one of this type on these bytes? */
-static bool meets(const char *path, short type, off_t start, off_t length)
+static bool lock_is_held(const char *path, short type, off_t start, off_t length)
 {
     int file = open(path, O_RDONLY | O_CLOEXEC);
-    struct flock lock = range(type, start, length);
+    struct flock lock = lock_range(type, start, length);
     bool met = file >= 0 && fcntl(file, GET_LOCK, &lock) == 0 && lock.l_type != F_UNLCK;
     if (file >= 0) close(file);
     return met;
 }
 
-bool gis_sqlite_in_use(const char *path) { return meets(path, F_WRLCK, PENDING, ALL); }
+bool gis_sqlite_in_use(const char *path) { return lock_is_held(path, F_WRLCK, PENDING, ALL); }
 
-bool gis_sqlite_being_written(const char *path) { return meets(path, F_WRLCK, PENDING, 2); }
+bool gis_sqlite_being_written(const char *path) { return lock_is_held(path, F_WRLCK, PENDING, 2); }
 
 /* Milliseconds between two attempts: too short for a person to notice, much longer than an attempt takes. */
 enum { MOMENT = 20 };
@@ -80,7 +80,7 @@ int gis_sqlite_lock(const char *path, gis_error *error)
         return -1;
     }
     for (int waited = 0;; waited += MOMENT) {
-        struct flock lock = range(F_WRLCK, PENDING, ALL);
+        struct flock lock = lock_range(F_WRLCK, PENDING, ALL);
         if (fcntl(file, SET_LOCK, &lock) == 0) return file;
         if (errno != EAGAIN && errno != EACCES) {
             close(file);

@@ -32,7 +32,7 @@ static char *select_statement(OGRLayerH layer)
 }
 
 /* Would GDAL take this value into a field of this type without conversion? */
-static bool suits(const gis_value *value, OGRFieldType type)
+static bool value_suits(const gis_value *value, OGRFieldType type)
 {
     switch (value->kind) {
     case GIS_TEXT: return type == OFTString && CPLIsUTF8(value->as.text, -1);
@@ -45,7 +45,8 @@ static bool suits(const gis_value *value, OGRFieldType type)
 }
 
 /* Makes a record of the current row; *record = NULL if the row is not plain. */
-static bool pack(gis_packed *packed, void *statement, gis_value *value, const unsigned char **record, gis_error *error)
+static bool pack_row(gis_packed *packed, void *statement, gis_value *value, const unsigned char **record,
+                     gis_error *error)
 {
     gis_value fid;
     size_t size, bytes;
@@ -53,7 +54,7 @@ static bool pack(gis_packed *packed, void *statement, gis_value *value, const un
     *record = NULL;
     if (!gis_sqlite_select_value(statement, FID, &fid) || fid.kind != GIS_INTEGER) return true;
     for (int i = 0; i < packed->fields; i++)
-        if (!gis_sqlite_select_value(statement, FIELDS + i, &value[i]) || !suits(&value[i], packed->type[i]))
+        if (!gis_sqlite_select_value(statement, FIELDS + i, &value[i]) || !value_suits(&value[i], packed->type[i]))
             return true;
     const unsigned char *blob = gis_sqlite_select_bytes(statement, GEOMETRY, &size, &null);
     const unsigned char *geometry = blob ? gis_blob_geometry(blob, size, &bytes) : NULL;
@@ -75,7 +76,7 @@ typedef struct reading {
 } reading;
 
 /* Prepares the statement and reads its first row; from here on the file cannot change. */
-static void begin(reading *r, void *database, const char *sql, gis_packed *packed)
+static void begin_reading(reading *r, void *database, const char *sql, gis_packed *packed)
 {
     *r = (reading){.packed = packed, .statement = gis_sqlite_select_begin(database, sql), .next = GIS_SQLITE_BROKEN};
     if (!r->statement) return;
@@ -83,7 +84,7 @@ static void begin(reading *r, void *database, const char *sql, gis_packed *packe
     r->next = gis_sqlite_select_next(r->statement);
 }
 
-static void end(reading *r)
+static void end_reading(reading *r)
 {
     gis_sqlite_select_end(r->statement);
     CPLFree(r->value);
@@ -93,7 +94,7 @@ static bool read_rows(reading *r, gis_table_take *take, void *user, bool *all, g
 {
     for (; r->next == GIS_SQLITE_HAS_ROW; r->next = gis_sqlite_select_next(r->statement)) {
         const unsigned char *record;
-        if (!pack(r->packed, r->statement, r->value, &record, error)) return false;
+        if (!pack_row(r->packed, r->statement, r->value, &record, error)) return false;
         if (!record) return true;
         if (!take(user, record, error) || !gis_go_on(error)) return false;
     }
@@ -138,7 +139,7 @@ typedef struct halves {
 
 /* Are rows returned in ascending order of keys, by the whole statement and by both halves? Not if it is a view, or if
  * an index covers all columns. */
-static bool rise(void *database, OGRLayerH layer, const char *all, const halves *h)
+static bool keys_rise(void *database, OGRLayerH layer, const char *all, const halves *h)
 {
     const char *name = OGR_L_GetName(layer);
     bool so = goes_by(database, all, "SCAN", name, "", false);
@@ -147,7 +148,7 @@ static bool rise(void *database, OGRLayerH layer, const char *all, const halves 
     return so;
 }
 
-static halves divide(void *database, OGRLayerH layer, const char *all)
+static halves divide_table(void *database, OGRLayerH layer, const char *all)
 {
     const char *key = OGR_L_GetFIDColumn(layer);
     int64_t middle;
@@ -156,7 +157,7 @@ static halves divide(void *database, OGRLayerH layer, const char *all)
     if (!gis_sqlite_find_middle(database, OGR_L_GetName(layer), key, &middle, &span) || span < MANY_ROWS) return h;
     h.sql[0] = gis_sql_append_stretch(CPLStrdup(all), key, GIS_SQLITE_UP_TO, middle);
     h.sql[1] = gis_sql_append_stretch(CPLStrdup(all), key, GIS_SQLITE_BEYOND, middle);
-    if (rise(database, layer, all, &h)) h.again = gis_second_connection_open(database);
+    if (keys_rise(database, layer, all, &h)) h.again = gis_second_connection_open(database);
     return h;
 }
 
@@ -177,7 +178,7 @@ typedef struct half {
     gis_error error; /* set if not `done` */
 } half;
 
-static bool keep(void *user, const unsigned char *record, gis_error *error)
+static bool keep_record(void *user, const unsigned char *record, gis_error *error)
 {
     half *h = user;
     if (!gis_array_reserve(&h->record, &h->capacity, h->n + 1, sizeof *h->record)) return gis_no_memory(error);
@@ -188,7 +189,7 @@ static bool keep(void *user, const unsigned char *record, gis_error *error)
 static void read_half(void *context)
 {
     half *h = context;
-    h->done = read_rows(&h->rows, keep, h, &h->all, &h->error);
+    h->done = read_rows(&h->rows, keep_record, h, &h->all, &h->error);
 }
 
 static bool take_half(half *h, gis_packed *packed, gis_table_take *take, void *user, bool *all, gis_error *error)
@@ -216,18 +217,18 @@ static bool read_both(reading *first, half *second, gis_table_take *take, void *
 static bool read_halves(void *database, OGRLayerH layer, const char *sql, gis_packed *packed, gis_table_take *take,
                         void *user, bool *tried, bool *all, gis_error *error)
 {
-    halves h = divide(database, layer, sql);
+    halves h = divide_table(database, layer, sql);
     half second = {0};
     reading first = {0};
     bool done = !h.again || gis_packed_begin(&second.packed, layer, error);
     if (done && h.again) {
-        begin(&first, database, h.sql[0], packed);
-        begin(&second.rows, h.again, h.sql[1], &second.packed);
+        begin_reading(&first, database, h.sql[0], packed);
+        begin_reading(&second.rows, h.again, h.sql[1], &second.packed);
     }
     *tried = first.statement && first.next == GIS_SQLITE_HAS_ROW && second.rows.next == GIS_SQLITE_HAS_ROW;
     if (done && *tried) done = read_both(&first, &second, take, user, all, error);
-    end(&first);
-    end(&second.rows);
+    end_reading(&first);
+    end_reading(&second.rows);
     gis_packed_clear(&second.packed);
     free(second.record);
     clear_halves(&h);
@@ -240,9 +241,9 @@ static bool read_all(void *database, const char *sql, gis_packed *packed, gis_ta
                      gis_error *error)
 {
     reading rows;
-    begin(&rows, database, sql, packed);
+    begin_reading(&rows, database, sql, packed);
     const bool done = !rows.statement || read_rows(&rows, take, user, all, error);
-    end(&rows);
+    end_reading(&rows);
     return done;
 }
 
