@@ -1,12 +1,12 @@
-/* array.c: see array.h. The pointer is read and written as bytes: it is one to any type, and C does not let it be taken
- * for a `void *` in its place. */
+/* array.c: see array.h. `array` is the address of a pointer to any element type. C does not allow access to such a
+ * pointer as a `void *`, so it is copied byte by byte. */
 #include "base/array.h"
 
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* Least capacity of an array after its first growth: most arrays hold a few elements, or very many. */
+/* The smallest capacity after the first growth. */
 enum { FIRST = 16 };
 
 bool gis_array_grow(void *array, size_t *capacity, size_t needed, size_t size)

@@ -1,5 +1,5 @@
-/* core_error.c: see core_error.h. The library stops only because the program asked it to, so the message is the
- * program's own and has no prefix. */
+/* core_error.c: see core_error.h. The library is cancelled only when the program asks for it, so the message is the
+ * program's own, without a prefix. */
 #include "base/core_error.h"
 
 bool gis_core_failed(gis_error *error, const char *who, const sunder_error *why)

@@ -3,11 +3,11 @@
 #define GIS_EXIT_STATUS_H
 
 enum {
-    GIS_DONE = 0,      /* the run did what was asked */
-    GIS_FAILED = 1,    /* it did not, outputs are as they were */
-    GIS_USAGE = 2,     /* the call was wrong, nothing was done */
+    GIS_DONE = 0,      /* the run did what was requested */
+    GIS_FAILED = 1,    /* the run failed; outputs are unchanged */
+    GIS_USAGE = 2,     /* the command line was wrong; nothing was done */
     GIS_UNRESOLVED = 3 /* the run is complete, but conflicts remain (separate) or were found (check), or there is no
-                          route (route); with --allow-conflicts GIS_DONE */
+                        * route (route); GIS_DONE with --allow-conflicts */
 };
 
 #endif

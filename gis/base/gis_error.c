@@ -1,4 +1,5 @@
-/* gis_error.c: sentences on the way up, and GDAL's own reports caught instead of printed. */
+/* gis_error.c: errors as sentences that functions return to their callers, and GDAL's reports, which are collected
+ * instead of printed. */
 #include "base/gis_error.h"
 
 #include "base/array.h"
@@ -11,7 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* One message is one line, and has no blanks at its end: GDAL's and SQLite's texts sometimes break that. */
+/* Makes a message one line without blanks at its end; texts of GDAL and SQLite sometimes contain line breaks. */
 static void flatten(char *text)
 {
     size_t end = 0;
@@ -96,7 +97,7 @@ void gis_sentences_clear(gis_sentences *list)
     *list = (gis_sentences){0};
 }
 
-/* A driver may repeat a warning for every feature: past this many different ones the rest says nothing new. */
+/* A driver may repeat a warning for each feature; at most this number of different warnings is kept. */
 enum { WARNINGS_KEPT = 100 };
 
 static void CPL_STDCALL hear(CPLErr class, CPLErrorNum number, const char *text)

@@ -1,6 +1,6 @@
-/* interrupt.c: see interrupt.h. A signal handler may call very few functions and may interrupt the program anywhere. So
- * it sets a flag that all work polls; for work that does not poll, it walks a list that is changed only while signals
- * are blocked. */
+/* interrupt.c: see interrupt.h. A signal handler may call few functions, and may interrupt the program anywhere. So it
+ * sets a flag that all work polls; for work that does not poll, it removes the files in a list that is changed only
+ * while signals are blocked. */
 #define _GNU_SOURCE
 #include "base/interrupt.h"
 
@@ -16,16 +16,16 @@
 #include <string.h>
 #include <unistd.h>
 
-/* Seconds that work which does not look has to end by itself. */
+/* Seconds in which work that does not poll may end by itself. */
 enum { PATIENCE = 1 };
 
 struct gis_leftover {
-    char *path, *back_to; /* back_to: where to jump back to, or NULL */
-    gis_outcome stays;    /* from this outcome on; GIS_OPEN: never */
+    char *path, *back_to; /* back_to: path to which `path` is moved back, or NULL */
+    gis_outcome stays;    /* `path` is kept from this outcome on; GIS_OPEN: it is always removed */
     gis_leftover *next;
 };
 
-/* The variables of the program that are not handed from function to function: a signal has no other way in. */
+/* Global variables, since a signal handler gets no argument. */
 static atomic_int interrupted, outcome, told;
 static gis_leftover *leftovers;
 static pthread_t main_thread;
@@ -46,7 +46,8 @@ static void clear_away(void)
     }
 }
 
-/* No work polled the flag. If the signal comes while the output is being put in place, the new output stands. */
+/* Called if no work polled the flag in time. If the output is being put in place at that moment, it waits again, and
+ * the new output stays. */
 static void lose_patience(void)
 {
     if (atomic_load(&outcome) == GIS_DECIDING) alarm(PATIENCE);
@@ -70,8 +71,8 @@ static void end_at_once(int number)
     pthread_sigmask(SIG_UNBLOCK, &this_one, NULL);
 }
 
-/* A process limit raises its signal again at each write, or each second; such a repetition is no second request to
- * end. */
+/* The signal of a process limit is raised again at each write, or each second; such a repetition does not count as a
+ * second signal. */
 static bool is_limit(int number) { return number == SIGXFSZ || number == SIGXCPU; }
 
 static void hear(int number)
@@ -88,8 +89,8 @@ static void hear(int number)
     errno = reason;
 }
 
-/* SIGHUP: the terminal is gone, or the machine goes down. SIGXFSZ, SIGXCPU: a file, or the time of the processor, is at
- * the limit that was set for the process (setrlimit(2)). */
+/* The signals that end a run. SIGHUP: the terminal was closed, or the machine shuts down. SIGXFSZ, SIGXCPU: a file, or
+ * the CPU time, has reached the limit of the process (setrlimit(2)). */
 static const int requests[] = {SIGHUP, SIGXFSZ, SIGXCPU, SIGINT, SIGTERM};
 enum { N_REQUESTS = sizeof requests / sizeof *requests };
 
@@ -104,15 +105,15 @@ static sigset_t all_of_them(void)
 
 /* ---- Outside ----------------------------------------------------------------------------------------------------- */
 
-/* Waiting reads and writes are interrupted: no SA_RESTART. */
+/* Installs the handler. Without SA_RESTART, so that blocking reads and writes are interrupted. */
 static void catch (int number)
 {
     const struct sigaction action = {.sa_handler = hear, .sa_mask = all_of_them()};
     sigaction(number, &action, NULL);
 }
 
-/* A parent may have chosen to ignore the signal: nohup(1) ignores SIGHUP so that the run survives its terminal; a limit
- * may be meant to be reported by the call that meets it. */
+/* Did the parent process choose to ignore the signal? nohup(1) ignores SIGHUP so that the run survives its terminal; a
+ * limit may be ignored so that the system call reports it. */
 static bool is_to_be_ignored(int number)
 {
     struct sigaction now;

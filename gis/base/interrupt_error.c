@@ -1,4 +1,4 @@
-/* interrupt_error.c: see interrupt.h. An interruption as an error. */
+/* interrupt_error.c: see interrupt.h. Turns an interruption into an error. */
 #include "base/interrupt.h"
 
 bool gis_go_on(gis_error *error) { return !gis_interrupted() || gis_fail(error, GIS_INTERRUPTED); }

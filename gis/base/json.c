@@ -1,4 +1,4 @@
-/* json.c: see json.h. Each value knows whether a comma is due before it, so callers that write a list need not treat
+/* json.c: see json.h. Each value writes the comma that is due before it, so callers that write a list need not treat
  * the first member specially. A failed allocation is remembered, and tested once, at the end. */
 #include "base/json.h"
 
@@ -47,7 +47,7 @@ void gis_json_line(gis_json *out)
     out->need_comma = false;
 }
 
-/* The bytes of the character that begins here (RFC 3629); 0: it is none. */
+/* The number of bytes of the UTF-8 character that begins here (RFC 3629); 0: it is invalid. */
 static size_t character_size(const unsigned char *c)
 {
     size_t n = *c < 0x80 ? 1 : *c < 0xc2 ? 0 : *c < 0xe0 ? 2 : *c < 0xf0 ? 3 : *c < 0xf5 ? 4 : 0;
@@ -58,8 +58,8 @@ static size_t character_size(const unsigned char *c)
     return too_long || beyond ? 0 : n;
 }
 
-/* Names of files and layers may be in no or another encoding, or cut in the middle of a character; each byte that is
- * part of none becomes U+FFFD, so that the rest can be read. */
+/* Appends a string in quotes. Names of files and layers may be in another encoding, or cut within a character; each
+ * invalid byte becomes U+FFFD, so that the rest can be read. */
 static void quoted(gis_json *out, const char *text)
 {
     append(out, "\"", 1);
@@ -163,9 +163,9 @@ void gis_json_put_bool(gis_json *out, const char *key, bool value)
     gis_json_bool(out, value);
 }
 
-/* %.15g drops trailing zeros, and decimals of up to 15 digits are told apart by doubles: if 15 digits read back, no
- * shorter decimal than what it prints does. 17 always read back. Subnormals (all below 1e-300) have fewer digits: they
- * start at one. */
+/* The numbers of digits that are tried. %.15g drops trailing zeros, and every decimal of up to 15 digits survives
+ * conversion to a double, so if 15 digits read back, the printed text is the shortest decimal. 17 digits always read
+ * back. Subnormal numbers have fewer digits, so below few_digits_below the search begins at one. */
 enum { DIGITS_TOLD_APART = DBL_DIG, DIGITS_ENOUGH = DBL_DECIMAL_DIG };
 static const double few_digits_below = 1e-300;
 

@@ -1,16 +1,16 @@
-/* keyed_sort.c: see keyed_sort.h. Radix sort: digit by digit from the lowest up, but for those in which all keys agree.
- * qsort() calls a comparison twenty times for each of a million. */
+/* keyed_sort.c: see keyed_sort.h. Radix sort from the lowest digit up; digits in which all keys agree are skipped.
+ * qsort() would call a comparison twenty times for each of a million elements. */
 #include "base/keyed_sort.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-/* Counters of one digit fit the nearest cache. */
+/* The counters of one digit fit into the first-level cache. */
 enum { DIGIT = 11, DIGITS = 1 << DIGIT, BITS = 64 };
 
 static size_t digit_of(const gis_keyed *one, int shift) { return (size_t)(one->key >> shift) & (DIGITS - 1); }
 
-/* Where things of each digit begin. */
+/* Computes for each digit the position of its first element. */
 static void count(const gis_keyed *from, size_t n, int shift, size_t start[DIGITS])
 {
     memset(start, 0, DIGITS * sizeof *start);

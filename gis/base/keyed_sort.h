@@ -1,4 +1,4 @@
-/* keyed_sort.h: many things sorted by a number. */
+/* keyed_sort.h: sorts large arrays by an integer key. */
 #ifndef GIS_KEYED_SORT_H
 #define GIS_KEYED_SORT_H
 
@@ -6,12 +6,13 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* A number, and what goes along with it. */
+/* A key, and a number that is sorted along with it. */
 typedef struct gis_keyed {
     uint64_t key, with;
 } gis_keyed;
 
-/* By rising keys; alike ones keep their order. False if memory is out, and the list as it was. */
+/* Sorts by ascending keys; elements with equal keys keep their order. False if memory is out; then the list is
+ * unchanged. */
 bool gis_keyed_sort(gis_keyed *list, size_t n);
 
 #endif

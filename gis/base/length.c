@@ -1,5 +1,5 @@
-/* length.c: see length.h. Conversions are done so that equal units cancel: 10us-ft on a layer in US survey feet is the
- * double 10, not 10 * (1200 / 3937) / 0.304800609601219. */
+/* length.c: see length.h. Conversions cancel equal units: 10us-ft on a layer in US survey feet is exactly the double
+ * 10, not 10 * (1200 / 3937) / 0.304800609601219. */
 #include "base/length.h"
 
 #include <math.h>
@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Metres in a unit as numerator / denominator, both exact doubles. */
+/* The metres in a unit as numerator / denominator; both are exact doubles. */
 typedef struct unit {
     const char *suffix;
     gis_length_unit unit;
@@ -21,8 +21,8 @@ static const unit known_units[] = {
 };
 #define N_UNITS (sizeof known_units / sizeof known_units[0])
 
-/* CRS definitions give their unit as a decimal of some ten digits; two that agree to this are the same unit (the
- * international and the US foot differ by 2e-6). */
+/* CRS definitions give their unit as a decimal with about ten digits; units that agree to this relative difference are
+ * the same (the international and the US foot differ by 2e-6). */
 static const double same_unit = 1e-9;
 
 bool gis_length_parse_number(const char *text, size_t n, double *value)
@@ -40,8 +40,8 @@ bool gis_length_parse_number(const char *text, size_t n, double *value)
     return true;
 }
 
-/* How much of the text is the number: all up to a letter that starts a unit. The e of an exponent is followed by a
- * digit or a sign. */
+/* The length of the number at the beginning of the text: everything up to a letter of a unit. An e belongs to the
+ * number if a digit or a sign follows. */
 static size_t number_part(const char *text, size_t n)
 {
     size_t i = 0;
@@ -83,7 +83,7 @@ static bool is_unit(const unit *candidate, double metres)
 bool gis_length_in_layer_units(const gis_length *given, const gis_crs_units *units, const char *what, double *out,
                                gis_error *error)
 {
-    if (given->value == 0) { /* zero is zero in every unit, on every layer */
+    if (given->value == 0) { /* 0 needs no unit, also on a layer with angular coordinates */
         *out = 0;
         return true;
     }
@@ -111,7 +111,7 @@ bool gis_length_in_layer_units(const gis_length *given, const gis_crs_units *uni
     while (to < N_UNITS && !is_unit(&known_units[to], units->unit_metres)) to++;
     double value = given->value;
     if (given->unit == GIS_SHEET_MILLIMETRE) value *= units->scale;
-    if (to == N_UNITS) /* a unit that is not in the table: the decimal of the CRS must do */
+    if (to == N_UNITS) /* not in the table: use the factor that the CRS gives */
         value = value * known_units[from].numerator / known_units[from].denominator / units->unit_metres;
     else if (known_units[to].numerator * known_units[from].denominator !=
              known_units[from].numerator * known_units[to].denominator)

@@ -1,7 +1,7 @@
-/* length.h: lengths as users write them, and their value in the units of a layer.
+/* length.h: lengths as users write them, and their values in the units of a layer.
  *
- * A bare number is in the layer's units. m, km, ft (international), us-ft are converted by the linear unit of the
- * layer's CRS; mm is on the sheet, and needs --scale. */
+ * A bare number is in the layer's units. m, km, ft (international) and us-ft are converted with the linear unit of the
+ * layer's CRS; mm is measured on the map sheet, and needs --scale. */
 #ifndef GIS_LENGTH_H
 #define GIS_LENGTH_H
 
@@ -24,31 +24,31 @@ typedef struct gis_length {
     gis_length_unit unit;
 } gis_length;
 
-/* An optional length. */
+/* A length that may be missing. */
 typedef struct gis_optional_length {
-    const char *text; /* as it was written; NULL: not given */
+    const char *text; /* as the user wrote it; NULL: not given */
     gis_length length;
 } gis_optional_length;
 
 /* What a layer's CRS says about its coordinates, and the scale of the map. */
 typedef struct gis_crs_units {
     bool has_crs;
-    bool geographic;    /* coordinates are angles: no length but zero has a meaning */
+    bool geographic;    /* coordinates are angles, so that only the length 0 has a meaning */
     double unit_metres; /* metres in one unit of a projected CRS */
-    double scale;       /* N of 1:N, 0 if not given */
+    double scale;       /* N of the scale 1:N; 0 if not given */
 } gis_crs_units;
 
-/* Reads a finite decimal number (no inf, nan or hexadecimal) that fills text[0..n). */
+/* Parses text[0..n) as a finite decimal number (not inf, nan or hexadecimal). */
 bool gis_length_parse_number(const char *text, size_t n, double *value);
 
-/* Reads a length that fills text[0..n). On failure *why is a short reason, and out is untouched. */
+/* Parses text[0..n) as a length. On failure *why is a short reason, and *out is unchanged. */
 bool gis_length_parse(const char *text, size_t n, gis_length *out, const char **why);
 
-/* The length in the units of the layer. The message of a failure names `what`, the option or operand, and says
- * what to do. */
+/* Converts a length to the layer's units. `what` names the option or operand in the error message, which says what to
+ * do. */
 bool gis_length_in_layer_units(const gis_length *given, const gis_crs_units *units, const char *what, double *out,
                                gis_error *error);
-/* The same of one that may not be given: then *out stays as it is. */
+/* The same for an optional length: if it is not given, *out is unchanged. */
 bool gis_optional_length_in_layer_units(const gis_optional_length *given, const gis_crs_units *units, const char *what,
                                         double *out, gis_error *error);
 

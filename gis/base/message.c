@@ -1,6 +1,6 @@
-/* message.c: one line a message. Texts from elsewhere (a driver, a broken file) may hold line breaks and other control
- * characters. A script that reads stderr line by line must still see one message as one line, and a terminal must not
- * be told what to do by a file. */
+/* message.c: prints messages, one line each. Texts from elsewhere (a driver, a damaged file) may contain line breaks
+ * and other control characters; these are replaced, so that a script that reads stderr by lines gets one message per
+ * line, and a file cannot control the terminal. */
 #include "base/message.h"
 
 #include "base/array.h"
@@ -19,8 +19,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-/* At most this many warnings of a kind are printed; in a layer of thousands of broken features the rest would add
- * nothing. */
+/* At most this number of similar warnings is printed; the rest is counted. */
 enum { SAID_OF_A_KIND = 10 };
 
 enum { TEXT_SIZE = 2048 }; /* longer ones are cut */
@@ -38,15 +37,16 @@ static const char *const kind_words[GIS_MESSAGE_N] = {
     [GIS_MESSAGE_GDAL] = "gdal",
 };
 
-/* Warnings that are summed up together: of one kind and one layer, and those of lists alike but for their numbers. */
+/* The warnings that are counted together: those of one kind about features of one layer, or those of one kind from a
+ * list that differ only in numbers. */
 typedef struct tally {
     gis_message_kind kind;
-    char *alike; /* the layer, as messages name it; "": all of the kind */
-    char *first; /* number of warnings that were not printed */
+    char *alike; /* the layer as messages name it, or the text without its numbers; "": all warnings of the kind */
+    char *first; /* text of the first warning that was not printed */
     size_t n;
 } tally;
 
-/* State of all messages: the process has one stderr, and threads take turns to use this state. */
+/* The state of all messages. `turn` protects it, since several threads print. */
 static struct {
     pthread_mutex_t turn;
     gis_messages_request how;
@@ -59,12 +59,12 @@ static _Thread_local struct {
     char name[GIS_WHO_SIZE], layer[GIS_WHO_SIZE], id[GIS_WHO_SIZE];
     bool has_fid, has_id;
     int64_t fid;
-    size_t before; /* length of the layer's part of the name */
+    size_t before; /* length of the part of the name up to the layer */
 } last;
 
-/* ---- Subjects ---------------------------------------------------------------------------------------------------- */
+/* ---- Names of features ------------------------------------------------------------------------------------------- */
 
-/* Names are asked for by the million, for messages that are seldom said. */
+/* Copies a text, cut to the buffer. Fast, since names are made for millions of features, and few are printed. */
 static void keep(char to[GIS_WHO_SIZE], const char *text)
 {
     size_t n = strnlen(text, GIS_WHO_SIZE - 1);
@@ -88,14 +88,15 @@ void gis_name_subject(const gis_subject *subject, char *text, size_t size)
     last.fid = subject->fid;
 }
 
-/* One line. */
+/* Replaces control characters by blanks, in place. */
 static void cleanse(char *text)
 {
     for (char *c = text; *c; c++)
         if ((unsigned char)*c < ' ' || *c == 0x7f) *c = ' ';
 }
 
-/* FID 1 is not named by what begins as FID 12 does. The text is cleansed, the name is not. */
+/* Does the text contain the name that gis_name_subject() made last, followed by no further digit or letter (so that FID
+ * 12 is not taken for FID 1)? The text was cleansed already. */
 static bool names_last(const char *text)
 {
     char name[GIS_WHO_SIZE];
@@ -110,7 +111,7 @@ static bool names_last(const char *text)
 typedef struct line {
     const char *level, *kind, *text;
     size_t count;
-    int exit_status; /* of an error; -1 */
+    int exit_status; /* exit status of an error; -1: a warning */
 } line;
 
 static void print_words(FILE *to, const line *said) { fprintf(to, PREFIX "%s: %s\n", said->level, said->text); }
@@ -127,7 +128,7 @@ static void put_subject(gis_json *out, const char *text)
     gis_json_put_string(out, "id", named && last.has_id ? last.id : NULL);
 }
 
-/* Where memory is out for that, in words. */
+/* Prints a line as JSON; as words if memory is out. */
 static void print_json(FILE *to, const line *said)
 {
     gis_json out = {0};
@@ -157,14 +158,14 @@ static void print(FILE *to, const line *said)
 
 static void print_to_stderr(const line *said)
 {
-    fflush(stdout); /* so that the order is right where both go to one terminal */
+    fflush(stdout); /* so that lines are in order if both go to one terminal */
     gis_progress_break();
     print(stderr, said);
 }
 
 /* ---- Kinds ------------------------------------------------------------------------------------------------------- */
 
-/* Each number becomes a mark. */
+/* Copies the text, with a '#' in place of each number. */
 static void without_numbers(const char *text, char *out, size_t size)
 {
     size_t n = 0;
@@ -189,7 +190,7 @@ static tally *tally_of(gis_message_kind kind, const char *alike)
     return new;
 }
 
-/* What could not be counted for want of memory is said. */
+/* Prints or counts a warning. If counting fails for lack of memory, it is printed. */
 static void say_warning(gis_message_kind kind, const char *alike, char *text)
 {
     pthread_mutex_lock(&messages.turn);
@@ -230,7 +231,7 @@ static void say_sums(void)
 
 /* ---- Said by others ---------------------------------------------------------------------------------------------- */
 
-/* The layer of the feature that the text names; else "". */
+/* If the text names the last subject, copies the subject's name up to its layer; else "". */
 static void layer_of(const char *text, char layer[GIS_WHO_SIZE])
 {
     layer[0] = '\0';
@@ -253,7 +254,8 @@ void gis_say_warning(gis_message_kind kind, const char *format, ...)
 
 void gis_say_warnings(gis_message_kind kind, const gis_sentences *list)
 {
-    for (size_t i = 0; i < list->n && !gis_interrupted(); i++) { /* after a signal they tell of calls cut short */
+    /* after a signal, errors are about interrupted calls */
+    for (size_t i = 0; i < list->n && !gis_interrupted(); i++) {
         char text[TEXT_SIZE], alike[TEXT_SIZE];
         snprintf(text, sizeof text, "%s", list->items[i]);
         cleanse(text);
@@ -287,14 +289,15 @@ int gis_say_failure(const gis_error *error)
 
 static bool begins(const char *text, const char *with) { return strncmp(text, with, strlen(with)) == 0; }
 
-/* Is it a former log, or empty, or no file at all? Anything else might be what the user has no second copy of. */
+/* May the file be replaced by a log: is it an earlier log, empty, or not a plain file? Any other file may be the user's
+ * only copy. */
 static bool may_replace(const char *path)
 {
     struct stat info;
     char begin[32] = "";
     if (stat(path, &info) != 0 || !S_ISREG(info.st_mode) || info.st_size == 0) return true;
     FILE *file = fopen(path, "r");
-    if (!file) return true; /* then it cannot be opened below, either, or only be written */
+    if (!file) return true; /* opening it for writing decides below */
     size_t n = fread(begin, 1, sizeof begin - 1, file);
     begin[n] = '\0';
     fclose(file);
@@ -312,7 +315,8 @@ bool gis_messages_begin(const gis_messages_request *request, gis_error *error)
                               request->log);
     messages.log = fopen(request->log, "w");
     if (!messages.log) return gis_fail(error, "--log: cannot write %s: %s", request->log, strerror(errno));
-    setvbuf(messages.log, NULL, _IOLBF, 0); /* it can be followed, and is there after a kill */
+    setvbuf(messages.log, NULL, _IOLBF, 0); /* line by line, so that it can be followed, and is complete if the run is
+                                             * killed */
     gis_set_last_words(request->json ? INTERRUPTED_JSON : INTERRUPTED_WORDS, fileno(messages.log));
     return true;
 }

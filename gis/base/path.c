@@ -1,5 +1,5 @@
 /* path.c: see path.h. */
-#define _GNU_SOURCE /* getcwd() of any length */
+#define _GNU_SOURCE /* for getcwd() without a limit */
 #include "base/path.h"
 
 #include <cpl_conv.h>
@@ -23,7 +23,7 @@ char *gis_printed(const char *format, ...)
     return text;
 }
 
-/* A copy of n bytes. */
+/* A copy of the first n bytes. */
 static char *part_of(const char *path, size_t n)
 {
     char *part = CPLCalloc(1, n + 1);

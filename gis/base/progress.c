@@ -1,4 +1,4 @@
-/* progress.c: see progress.h. Progress never goes back: a stage begins where the previous one ended, and nothing is
+/* progress.c: see progress.h. Progress never goes back: a stage begins where the previous one ended, and no value is
  * printed twice. */
 #include "base/progress.h"
 
@@ -6,10 +6,10 @@
 
 #include <stdio.h>
 
-/* GDAL's bar, 0...10...20 ... 100 - done.: a mark each 2.5 percent, every fourth a number. */
+/* GDAL's bar, "0...10...20 ... 100 - done.": a mark for each 2.5 percent, every fourth a number. */
 enum { BAR_MARKS = 40, MARKS_A_NUMBER = 4, PERCENT_A_NUMBER = 10 };
 
-/* Is the cursor behind marks of a bar? */
+/* Does the current line of stderr contain an unfinished bar? */
 static bool in_bar;
 
 gis_progress gis_progress_new(gis_progress_kind kind) { return (gis_progress){.kind = kind, .to = 1, .shown = -1}; }
@@ -23,7 +23,7 @@ void gis_progress_stage(gis_progress *progress, double from, double to)
     gis_progress_call(0, progress);
 }
 
-/* Those of the stages that begin before the mark: 0...10 solve ...20 */
+/* Prints the names of the stages that begin before this mark, as in "0...10 solve ...20". */
 static void print_names(gis_progress *progress, int mark)
 {
     for (; progress->name && progress->name->word && progress->name->from * BAR_MARKS <= mark; progress->name++)

@@ -1,5 +1,5 @@
 /* remove_tree.c: see remove_tree.h. Everything is relative to open directories (unlinkat, openat without following
- * links): no path is built, which would need memory, and no other process can redirect the removal meanwhile. */
+ * links): no path is built, which would need memory, and no other process can redirect the removal. */
 #define _GNU_SOURCE
 #include "base/remove_tree.h"
 
@@ -12,7 +12,8 @@
 
 #ifdef SYS_getdents64
 
-/* The kernel's struct linux_dirent64: inode and offset (8 bytes each), length of the entry (2), type (1), name. */
+/* The layout of the kernel's struct linux_dirent64: inode and offset (8 bytes each), length of the entry (2), type (1),
+ * name. */
 enum { LENGTH_AT = 16, NAME_AT = 19, ROOM = 2048, DEEPEST = 16 };
 
 static void empty(int directory, int depth);
@@ -28,8 +29,8 @@ static void remove_entry(int directory, const char *name, int depth)
     unlinkat(directory, name, AT_REMOVEDIR);
 }
 
-/* A directory that entries are removed from need not list all that are left: it is listed again until nothing more can
- * be removed. Datasets nest a few levels deep. */
+/* Removes everything in a directory. Listing it while entries are removed may miss some, so it is listed twice.
+ * Datasets nest only a few levels deep. */
 static void empty(int directory, int depth)
 {
     _Alignas(uint64_t) char entries[ROOM];

@@ -1,5 +1,5 @@
-/* resources.c: see resources.h. The clock is POSIX's monotonic one, which cannot be set; the memory is the kernel's own
- * account of the process, as printed by `time -v`. */
+/* resources.c: see resources.h. The clock is POSIX's monotonic one, which cannot be set; memory is the kernel's count
+ * for the process, as `time -v` prints it. */
 #include "base/resources.h"
 
 #include <stdlib.h> /* __GLIBC__ */
@@ -30,22 +30,22 @@ uint64_t gis_peak_rss(void)
 #ifdef __APPLE__
     return (uint64_t)usage.ru_maxrss;
 #else
-    return (uint64_t)usage.ru_maxrss * 1024; /* Linux and the BSDs count in KiB */
+    return (uint64_t)usage.ru_maxrss * 1024; /* in KiB on Linux and the BSDs */
 #endif
 }
 
-/* Left to itself the C library takes arrays of up to 32 MB out of the heap once one as large was freed. There a hole
- * is kept until another array fits into it, and an array of zeros is written to, all of it, where pages that are fresh
- * cost nothing until they are touched. For a million features, whose arrays have 8 MB and more, that is 17 MB, and was
- * 60 while nothing went back before the end. Smaller ones come and go: from the system each time, 110,000
- * pages of theirs are made anew, 0.3 seconds of 17. */
+/* The smallest size of arrays that are taken from the system one by one. By default glibc takes arrays of up to 32 MB
+ * from the heap once one of that size was freed. There a freed array stays until another fits into it, and an array of
+ * zeros must be written, whereas fresh pages cost nothing until they are touched. For a million features, whose arrays
+ * have 8 MB and more, the heap would keep 17 MB, and 60 MB before gis_memory_back() existed. Smaller arrays are
+ * allocated too often to be taken from the system: 110,000 pages would be made anew, 0.3 of 17 seconds. */
 #define LARGE (8 << 20)
 
 void gis_memory_begin(void)
 {
 #ifdef __GLIBC__
     mallopt(M_MMAP_THRESHOLD, LARGE);
-    mallopt(M_TRIM_THRESHOLD, 2 * LARGE); /* as the library has it beside the other */
+    mallopt(M_TRIM_THRESHOLD, 2 * LARGE); /* the library's own ratio between the two */
 #endif
 }
 

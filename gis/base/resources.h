@@ -1,19 +1,20 @@
-/* resources.h: what a run takes of time and of memory, and on how many threads it may. */
+/* resources.h: time, memory and number of threads of a run. */
 #ifndef GIS_RESOURCES_H
 #define GIS_RESOURCES_H
 
 #include <stdint.h>
 
-/* Seconds of a clock that never goes back. */
+/* The time in seconds on a clock that never goes back. */
 double gis_clock(void);
-/* The number of threads asked for; for 0 the number of processors. */
+/* The number of threads to use: `asked`, or for 0 the number of processors. */
 unsigned gis_threads(unsigned asked);
-/* The greatest amount of memory that the process has held, in bytes; 0: the system does not say. */
+/* The largest resident memory of the process, in bytes; 0: not known. */
 uint64_t gis_peak_rss(void);
-/* Before anything is allocated: large arrays come from the system one by one, and go back to it when they are freed. */
+/* Sets up allocation; call it before anything is allocated. Large arrays are then taken from the system one by one, and
+ * returned to it when they are freed. */
 void gis_memory_begin(void);
-/* Memory that was freed goes back to the system, as far as the C library would keep it: what comes next is of another
- * kind, and would be held beside it. */
+/* Returns freed memory to the system, which the C library would keep. Call it between stages that allocate different
+ * things. */
 void gis_memory_back(void);
 
 #endif

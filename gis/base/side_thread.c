@@ -14,15 +14,15 @@ typedef struct piece {
 
 struct gis_side_thread {
     pthread_t thread;
-    pthread_mutex_t lock; /* of what follows */
+    pthread_mutex_t lock; /* protects the members that follow */
     pthread_cond_t changed;
-    piece left[GIS_SIDE_THREAD_PIECES]; /* to do, the first of them first */
+    piece left[GIS_SIDE_THREAD_PIECES]; /* pieces to be done, in order */
     size_t n;
     bool end;
 };
 
-/* The work is done without the lock, and counts as left to do until it has ended. What GDAL would say on this thread is
- * said by the results of the work. */
+/* Does the pieces of work one by one, without holding the lock; a piece stays in the list until it is done. GDAL's
+ * messages on this thread are suppressed, since the results of the work tell the same. */
 static void *serve(void *argument)
 {
     gis_side_thread *b = argument;

@@ -1,4 +1,4 @@
-/* side_thread.h: work on a second thread, piece after piece, while the caller continues. */
+/* side_thread.h: does pieces of work on a second thread, one after the other, while the caller continues. */
 #ifndef GIS_SIDE_THREAD_H
 #define GIS_SIDE_THREAD_H
 
@@ -6,18 +6,18 @@
 
 typedef struct gis_side_thread gis_side_thread;
 
-/* As many pieces can be given before the first of them has ended. */
+/* Number of pieces that can be handed over before the first of them is done. */
 enum { GIS_SIDE_THREAD_PIECES = 3 };
 
-/* NULL where there can be no other thread: then the caller's does what it is given, as it is given. */
+/* A second thread; NULL if none can be started: then the caller's thread does each piece when it is handed over. */
 gis_side_thread *gis_side_thread_new(void);
-/* Does work(context), which is to end by itself, once what was given before has ended; waits where that is as much as
- * can be given. From here until it is known to have ended what the work uses is the work's alone. */
+/* Hands work(context) over, to be done after the earlier pieces; waits if GIS_SIDE_THREAD_PIECES pieces are unfinished.
+ * Until it is known to be done, the caller must not touch what the work uses. */
 void gis_side_thread_do(gis_side_thread *beside, void (*work)(void *context), void *context);
-/* Waits until at most `left` pieces are unfinished, the most recent ones; the output of all others can be read
- * then. */
+/* Waits until at most `left` pieces, the most recent ones, are unfinished; the results of all others can then be
+ * read. */
 void gis_side_thread_wait(gis_side_thread *beside, size_t left);
-/* Waits for all of them, too. */
+/* Waits for all pieces, and ends the thread. */
 void gis_side_thread_free(gis_side_thread *beside);
 
 #endif

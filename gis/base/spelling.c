@@ -1,13 +1,13 @@
-/* spelling.c: see spelling.h. The edit distance is that of Damerau and Levenshtein in its restricted form (optimal
- * string alignment): letters put in, left out, exchanged, or swapped with their neighbour, none of them twice. Beside
- * it a word that was cut short at either end is near, too. */
+/* spelling.c: see spelling.h. The edit distance is the restricted one of Damerau and Levenshtein (optimal string
+ * alignment): insertions, deletions, substitutions, and swaps of neighbouring letters. A word that is the beginning or
+ * the end of another is near as well. */
 #include "base/spelling.h"
 
 #include <ctype.h>
 #include <stdbool.h>
 #include <strings.h>
 
-enum { LONGEST = 40 }; /* longer words are no slips of the pen */
+enum { LONGEST = 40 }; /* longer words are not compared */
 
 static int letter(char c) { return tolower((unsigned char)c); }
 
@@ -33,7 +33,7 @@ static size_t edit_distance(const char *a, size_t n, const char *b, size_t m)
     return last[m];
 }
 
-/* Is the part at one end of the word? Short ones are at the end of too many. */
+/* Does the word begin or end with `part`? Shorter parts than SHORTEST_PART occur in too many words. */
 enum { SHORTEST_PART = 4 };
 
 static bool begins_or_ends(const char *word, size_t n, const char *part, size_t m)
@@ -46,8 +46,8 @@ gis_spelling gis_spelling_of(const char *word, size_t n) { return (gis_spelling)
 void gis_spelling_offer(gis_spelling *search, const char *word, size_t n)
 {
     if (search->n == 0 || search->n > LONGEST || n == 0 || n > LONGEST) return;
-    /* One slip in a word of four letters, two in one of eight: with more, all short options would be near each
-     * other. */
+    /* One error in a word of four letters, two in one of eight, else three; with more, all short options would be near
+     * each other. */
     size_t tolerated = search->n <= 4 ? 1 : search->n <= 8 ? 2 : 3;
     size_t found = edit_distance(search->word, search->n, word, n);
     if (found > tolerated && begins_or_ends(word, n, search->word, search->n)) found = tolerated;

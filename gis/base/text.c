@@ -20,7 +20,7 @@ void gis_text_empty(gis_text *text)
 
 const char *gis_text_get(const gis_text *text) { return text->failed ? NULL : text->at ? text->at : ""; }
 
-/* Room for n bytes more and the NUL. */
+/* Makes room for n more bytes and the NUL. */
 static bool reserve(gis_text *text, size_t n)
 {
     if (text->failed) return false;
@@ -44,7 +44,7 @@ void gis_text_add_bytes(gis_text *text, const char *bytes, size_t n)
 
 void gis_text_add(gis_text *text, const char *string) { gis_text_add_bytes(text, string, strlen(string)); }
 
-/* Into the room that there is; once more, if that was too little. */
+/* Prints into the available room, and again after growing if that was too small. */
 void gis_text_print(gis_text *text, const char *format, ...)
 {
     va_list arguments, again;

@@ -1,5 +1,5 @@
 /* trust.c: see trust.h. */
-#define _GNU_SOURCE /* O_PATH */
+#define _GNU_SOURCE /* for O_PATH */
 #include "base/trust.h"
 
 #include "base/path.h"
@@ -11,7 +11,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-enum { PERMISSIONS = 07777 & ~02000 }; /* all bits but that of the group (setgid), which is inherited */
+enum { PERMISSIONS = 07777 & ~02000 }; /* all mode bits except setgid, which a directory inherits */
 
 bool gis_is_own(int descriptor)
 {
@@ -65,7 +65,8 @@ int gis_open_directory(const char *path)
     const char *of = *path ? path : ".";
     const int opened = open(of, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
 #ifdef O_PATH
-    if (opened < 0 && errno == EACCES) return open(of, O_PATH | O_DIRECTORY | O_CLOEXEC); /* it cannot be listed */
+    /* a directory that cannot be listed */
+    if (opened < 0 && errno == EACCES) return open(of, O_PATH | O_DIRECTORY | O_CLOEXEC);
 #endif
     return opened;
 }

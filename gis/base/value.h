@@ -1,10 +1,10 @@
-/* value.h: the value of a field. */
+/* value.h: the value of an attribute field. */
 #ifndef GIS_VALUE_H
 #define GIS_VALUE_H
 
 #include <cpl_port.h>
 
-/* Of a field of the program's own, or of a plain one of the source. */
+/* The value of a field that the program adds, or of a plain field of the source. */
 typedef struct gis_value {
     enum { GIS_NULL, GIS_INTEGER, GIS_REAL, GIS_TEXT } kind;
     union {

@@ -1,4 +1,4 @@
-/* block_keys.c: see block_keys.h. Memory goes by how many keys there are, not by how many features have one. */
+/* block_keys.c: see block_keys.h. Memory depends on the number of distinct keys, not of features. */
 #include "layer/block_keys.h"
 
 #include "base/array.h"
@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* FNV-1a. */
+/* The hash function FNV-1a. */
 static size_t hash(const char *key)
 {
     uint64_t h = UINT64_C(14695981039346656037);
@@ -14,7 +14,7 @@ static size_t hash(const char *key)
     return (size_t)(h ^ h >> 32);
 }
 
-/* Where the key is, or would go. */
+/* The slot of the key, or the empty slot where it would go. */
 static size_t find(const gis_block_keys *keys, const char *key)
 {
     size_t at = hash(key) & (keys->slots - 1);
@@ -22,7 +22,7 @@ static size_t find(const gis_block_keys *keys, const char *key)
     return at;
 }
 
-/* Keeps the table at most half full. */
+/* Grows the table if needed, so that it is at most half full. */
 static bool make_room(gis_block_keys *keys)
 {
     if (2 * (keys->n + 1) <= keys->slots) return true;

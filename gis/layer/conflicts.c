@@ -1,4 +1,4 @@
-/* conflicts.c: one conflict as a row, and the layer of conflicts. check prints the same rows as lines. */
+/* conflicts.c: the row of a conflict, and the layer of conflicts. `check` prints the same rows as lines. */
 #include "layer/output.h"
 
 #include <cpl_conv.h>
@@ -76,7 +76,7 @@ const char *gis_barrier_layer(const gis_layer_input *input, const gis_barrier_fe
     return input->barriers.layer[barrier->request];
 }
 
-/* Things by their numbers, with commas: FIDs, of barriers LAYER:FID. */
+/* The FIDs of n things, separated by commas; barriers as LAYER:FID. Null if n is 0. */
 static bool things_value(const gis_things *things, const size_t *thing, size_t n, char **copy, gis_value *value,
                          gis_error *error)
 {
@@ -104,7 +104,7 @@ static bool things_value(const gis_things *things, const size_t *thing, size_t n
     return true;
 }
 
-/* NAN: none is known. */
+/* A length as a value; null if it is NAN. */
 static gis_value length_value(double length)
 {
     return isnan(length) ? (gis_value){.kind = GIS_NULL} : (gis_value){GIS_REAL, {.real = length}};

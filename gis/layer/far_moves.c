@@ -5,7 +5,7 @@
 
 #include <math.h>
 
-/* 2^43: doubles beyond it are more than a thousandth of a unit apart. */
+/* 2^43: adjacent doubles beyond it differ by more than a thousandth. */
 static const double sound_limit = 0x1p43;
 
 static bool is_sound(const double box[4])

@@ -1,5 +1,5 @@
-/* layer_checksum.c: see layer_checksum.h. Of conditions the answers count, and not the columns that they name: these
- * may be of other tables, and a change that changes no answer changes no move. */
+/* layer_checksum.c: see layer_checksum.h. For conditions the checksum covers their results, not the columns that they
+ * name: these may be in other tables, and a change that changes no result changes no move. */
 #include "layer/layer_checksum.h"
 
 #include "base/interrupt.h"
@@ -10,10 +10,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Features of a batch. */
+/* Number of features in a batch. */
 enum { BATCH = 8192 };
 
-/* A field that was looked for when the layer was begun; -1: the option was not given. */
+/* The index of a field that was found when the layer was opened; -1: the option was not given. */
 static int field_of(const gis_layer_input *input, const char *name)
 {
     return name ? gis_source_field(input->source, name) : -1;

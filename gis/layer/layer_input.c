@@ -1,5 +1,6 @@
-/* layer_input.c: a layer read: its source opened, its features made shapes, the rules applied to each, all of it
- * handed to the core. Hints about a misunderstood call stand here, where its failure is known to come of opening. */
+/* layer_input.c: reads a layer: opens its source, makes shapes of its features, applies the rules to each, and passes
+ * everything to the core. Hints about a misunderstood command line are added here, where it is known that opening
+ * failed. */
 #include "layer/layer_input.h"
 
 #include "base/core_error.h"
@@ -14,7 +15,7 @@
 #include <string.h>
 #include <unistd.h>
 
-/* Tells users who write OUTPUT INPUT, as with ogr2ogr. */
+/* Gives a hint if the operands are in the order OUTPUT INPUT, as for ogr2ogr. */
 static bool hint_at_order(const gis_layer_input_request *request, gis_error *error)
 {
     const char *input = request->source.path, *output = request->output;
@@ -23,7 +24,7 @@ static bool hint_at_order(const gis_layer_input_request *request, gis_error *err
     return false;
 }
 
-/* Points are taken where a symbol is given, which is easily forgotten. */
+/* Adds a hint if the source has points and no symbol was given. */
 static bool hint_at_symbol(const gis_layer_input *input, gis_error *error)
 {
     if (input->points || !input->request->may_have_symbols || !strstr(error->message, "Point")) return false;
@@ -47,7 +48,7 @@ static bool open_source(gis_layer_input *input, bool packed, gis_error *error)
     return gis_layer_fields(input, error);
 }
 
-/* Of what conflicts with anything. */
+/* The box of a feature's shape. False if it has none, or is ignored. */
 static bool feature_box(const gis_layer_input *input, size_t i, double box[4])
 {
     if (!input->shape[i] || sunder_shape_is_empty(input->shape[i])) return false;
@@ -90,7 +91,7 @@ bool gis_layer_point(const gis_layer_input *input, size_t i, double xy[2], bool 
     return true;
 }
 
-/* Of points the side of a barrier is that of the point itself, whatever the symbol. */
+/* Sets the side anchors of points: the point itself, whatever its symbol is. */
 static bool set_sides(gis_layer_input *input, gis_error *error)
 {
     sunder_error why;
@@ -119,13 +120,13 @@ static bool make_layer(gis_layer_input *input, gis_error *error)
     return set_sides(input, error);
 }
 
-/* Barriers are read for moves of this many times the longest limit, since a longer limit that would solve a conflict is
- * reported, too. */
+/* Barriers are read within this multiple of the longest limit, since the report also says which longer limit would
+ * solve a conflict. */
 static const double limits_known = 4;
 
 double gis_layer_barrier_reach(double longest_limit) { return limits_known * longest_limit; }
 
-/* The longest way that any feature may go. */
+/* The longest move that any feature may make. */
 static double longest_limit(const gis_layer_input *input)
 {
     double longest = 0;
@@ -135,7 +136,8 @@ static double longest_limit(const gis_layer_input *input)
     return longest;
 }
 
-/* Of the shape, and of the point that goes the same way: a symbol may be drawn beside it. */
+/* The box of a feature's shape and of its point, which makes the same move: the symbol may be drawn beside the
+ * point. */
 static bool box_of_ways(const gis_layer_input *input, size_t i, double box[4])
 {
     double at[2];
@@ -147,14 +149,16 @@ static bool box_of_ways(const gis_layer_input *input, size_t i, double box[4])
     return true;
 }
 
-/* How far about a feature barriers decide on its side; a point has the side that it stands on. */
+/* The distance within which barriers decide on which side a feature stands; 0 for a point, which has the side where it
+ * stands. */
 static double side_reach(const gis_layer_input *input, size_t i)
 {
     double box[4];
     return !input->points && feature_box(input, i, box) ? sunder_side_reach(box) : 0;
 }
 
-/* Where barriers matter: about each feature; or anywhere between where all are and where all were, for a check. */
+/* The boxes near which barriers matter: that of each feature or, for a check with --before, one box around all old and
+ * new positions. */
 static gis_barrier_targets *find_targets(const gis_layer_input *input)
 {
     const double *also = input->request->also;

@@ -1,5 +1,5 @@
-/* layer_rules.c: the rules applied to each feature: lengths, fixed and ignored features, blocks by a field, weights.
- * Errors in the data name the feature; errors in a rule name the option. */
+/* layer_rules.c: applies the rules to each feature: lengths, fixed and ignored features, blocks by a field, weights,
+ * limits. Errors in the data name the feature; errors in a rule name the option. */
 #include "layer/layer_rules.h"
 
 #include "layer/layer_input.h"
@@ -17,7 +17,8 @@ const char *gis_weighting_string(gis_weighting weighting)
     return (unsigned)weighting <= GIS_WEIGHTING_SQRT_AREA ? word[weighting] : "";
 }
 
-/* Before anything is said of features: what a call lacks is not to stand behind warnings about them. */
+/* Called before features are read, so that an error about a missing field is not preceded by warnings about
+ * features. */
 bool gis_layer_fields(gis_layer_input *input, gis_error *error)
 {
     const gis_source *source = input->source;
@@ -95,7 +96,7 @@ bool gis_layer_wrong_number(const gis_layer_input *input, size_t i, int field, c
                     OGR_Fld_GetNameRef(OGR_F_GetFieldDefnRef(feature, field)), held, needed);
 }
 
-/* Each one's own limit, in place of the common one. */
+/* Replaces the common limit by each feature's own from --max-shift-field. */
 bool gis_layer_limits(gis_layer_input *input, gis_error *error)
 {
     const int field = input->limit_field;
@@ -131,7 +132,7 @@ double gis_layer_area_weight(gis_weighting by, double area, double median)
     return by == GIS_WEIGHTING_SQRT_AREA ? sqrt(weight) : weight;
 }
 
-/* Each area (or its root) relative to the median of those that count. */
+/* Sets weights to the area (or its square root) relative to the median area of the features that are not ignored. */
 static bool weigh_by_area(gis_layer_input *input, gis_weighting by, gis_error *error)
 {
     double *areas = malloc((input->n + 1) * sizeof *areas);
@@ -177,7 +178,7 @@ bool gis_layer_weights(gis_layer_input *input, gis_error *error)
     for (size_t i = 0; i < input->n; i++) {
         double weight = input->feature[i].weight;
         if (input->feature[i].ignored) {
-            input->feature[i].weight = 1; /* it is not asked for, and may have been anything */
+            input->feature[i].weight = 1; /* not used; the factor may be anything */
         } else if (!gis_layer_is_weight(weight)) {
             char who[GIS_WHO_SIZE];
             gis_feature_name(input, i, who, sizeof who);

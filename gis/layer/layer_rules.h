@@ -1,4 +1,4 @@
-/* layer_rules.h: what is asked of the features of a layer: the rules of separate and check. */
+/* layer_rules.h: the rules of separate and check for the features of a layer. */
 #ifndef GIS_LAYER_RULES_H
 #define GIS_LAYER_RULES_H
 
@@ -7,7 +7,7 @@
 
 /* --weight */
 typedef enum gis_weighting { GIS_WEIGHTING_EVEN, GIS_WEIGHTING_AREA, GIS_WEIGHTING_SQRT_AREA } gis_weighting;
-/* "1", "area", "sqrt-area"; "" for what is none of them. */
+/* "1", "area" or "sqrt-area"; "" for other values. */
 const char *gis_weighting_string(gis_weighting weighting);
 
 /* Strings are borrowed; zeroed members mean "not given". */
@@ -16,9 +16,10 @@ typedef struct gis_layer_rules {
     const char *ignore_where, *fixed_where; /* SQL */
     const char *block_field, *weight_field, *max_shift_field;
     gis_weighting weighting;
-    bool count_thin; /* where the tolerance is 0: how many overlaps would one of a hundredth of a metre join? */
-    /* The library's own options, as the command line gives them. What depends on the layer, such as its unit, is filled
-     * in by gis_layer_core_options(). */
+    bool count_thin; /* if the tolerance is 0: report how many overlaps a tolerance of a hundredth of a metre would
+                      * join */
+    /* The core's options, as the command line gives them. Those that depend on the layer, such as on its unit, are
+     * filled in by gis_layer_core_options(). */
     sunder_layer_options core;
 } gis_layer_rules;
 

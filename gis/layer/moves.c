@@ -1,5 +1,5 @@
-/* moves.c: see moves.h. Blocks are the result's, limits and all else the original's: where a block field is of the
- * result alone (sunder_blk), the original has it from there. */
+/* moves.c: see moves.h. Blocks are those of the result, since the block field may exist only there (sunder_blk); limits
+ * and everything else are those of the original. */
 #include "layer/moves.h"
 
 #include "base/core_error.h"
@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A feature, by what it is known by. */
+/* A feature and the key by which it is matched. */
 typedef struct known {
     char *key; /* owned */
     size_t feature;
@@ -29,7 +29,8 @@ static void free_keys(known *list, size_t n)
     free(list);
 }
 
-/* A FID of a format that keeps none stands in a field. */
+/* The key of feature i: the value of --id-field or of fid_field (sunder_fid, if the format keeps no FIDs); else its
+ * FID. Freed with free(). */
 static char *key_of(const gis_layer_input *input, size_t i, int fid_field)
 {
     OGRFeatureH feature = gis_source_feature(input->source, i);
@@ -41,7 +42,7 @@ static char *key_of(const gis_layer_input *input, size_t i, int fid_field)
     return copy ? strcpy(copy, text) : NULL;
 }
 
-/* All features by their keys, sorted; two of one key are an error. */
+/* Lists all features sorted by key; fails if two have the same key. */
 static bool list_keys(const gis_layer_input *input, int fid_field, known **out, gis_error *error)
 {
     known *list = calloc(input->n + 1, sizeof *list);
@@ -84,7 +85,8 @@ static void take_pair(pairing *p, size_t was, size_t is)
     m->matched[m->n++] = was;
 }
 
-/* Features of both, in the order of the original. */
+/* Matches features of both layers, in the order of the original. Features that are only in the original are listed as
+ * lost. */
 static bool match(pairing *p, gis_error *error)
 {
     gis_moves *m = p->moves;
@@ -111,7 +113,7 @@ static bool match(pairing *p, gis_error *error)
     return ok;
 }
 
-/* Of points the sides that each had. */
+/* Sets the side anchors of points to where they stood in the original. */
 static bool set_sides(gis_moves *m, gis_error *error)
 {
     sunder_error why;
@@ -191,7 +193,7 @@ size_t gis_moves_count(const gis_moves *moves, sunder_conflict_kind kind)
     return found;
 }
 
-/* A thing of the matched layers as one of the original. */
+/* Converts the number of a thing in the matched layers to one in the original. */
 static size_t thing_of(const gis_moves *moves, size_t thing)
 {
     if (thing == SIZE_MAX) return thing;
@@ -223,7 +225,7 @@ bool gis_moves_row(const gis_moves *moves, size_t k, gis_conflict_texts *scratch
     memcpy(from, row.from, sizeof row.from);
     memcpy(to, row.to, sizeof row.to);
     if (!lost && row.kind != SUNDER_CONFLICT_NOT_A_TRANSLATE) return true;
-    /* There is no way, and no distance, to tell of. */
+    /* The row has no line and no distances. */
     anchor_of(moves, row.a, from);
     memcpy(to, from, sizeof row.to);
     for (int column = COLUMN_DISTANCE; column <= COLUMN_REQUIRED; column++)

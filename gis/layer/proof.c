@@ -5,7 +5,7 @@
 
 #include <stdlib.h>
 
-/* The FID or, if FIDs are not unique, the place in the input. */
+/* How the proof identifies a feature: by its FID or, if FIDs are not unique, by its place in the input. */
 static int64_t call_feature(const void *of, size_t feature)
 {
     const gis_layer_input *input = of;
@@ -58,7 +58,7 @@ static bool put_blocks(gis_proof_lines *lines, FILE *to, gis_error *error)
     return done;
 }
 
-/* What was made of one thing, behind its number. */
+/* Writes the line that was made, preceded by its number. */
 static bool put_line(gis_proof_lines *lines, const char *key, size_t number, gis_json *line, FILE *to, gis_error *error)
 {
     const char *rest = gis_json_text(&lines->json);

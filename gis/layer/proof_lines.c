@@ -17,7 +17,7 @@ static void put_feature(gis_proof_lines *w, size_t feature)
     gis_json_signed(&w->json, w->things.feature(w->things.of, feature));
 }
 
-/* A feature, or a barrier as "LAYER:FID". */
+/* Writes a feature as its number, or a barrier as "LAYER:FID". */
 static void put_thing(gis_proof_lines *w, const char *key, size_t thing)
 {
     if (key) gis_json_key(&w->json, key);
@@ -61,7 +61,7 @@ static void put_sizes(gis_proof_lines *w, const char *key, const size_t *number,
     gis_json_close(&w->json, ']');
 }
 
-/* Members of blocks as lists, in the order of the input. */
+/* Makes linked lists of the members of each block, in input order. */
 static bool list_blocks(gis_proof_lines *w, gis_error *error)
 {
     const size_t n = w->things.n;
@@ -130,7 +130,7 @@ static void put_ways(gis_proof_lines *w, const sunder_proof *proof, const sunder
     gis_json_close(&w->json, ']');
 }
 
-/* The two ways between whose lines a block stays where it is, each by its node and its place there. */
+/* Writes the two alternatives between whose lines a block cannot move, each as a node and its number there. */
 static void put_still(gis_proof_lines *w, const sunder_proof *proof, const sunder_proof_node *leaf)
 {
     gis_json_key(&w->json, "still");
@@ -304,7 +304,8 @@ static void put_node(gis_proof_lines *w, const sunder_bound_tree *tree, const su
     gis_json_close(&w->json, '}');
 }
 
-/* Of each row the place of the first price that is not 0, and all from there to the last; of a row of zeros nothing. */
+/* Writes a row of prices as the index of the first price that is not 0, followed by the prices from there to the last
+ * that is not 0; an empty list if all are 0. */
 static void put_price_row(gis_proof_lines *w, const uint32_t *price, size_t columns)
 {
     size_t first = 0, end = columns;
@@ -359,7 +360,7 @@ bool gis_proof_tree(gis_proof_lines *lines, const sunder_bound_tree *tree, gis_e
     return true;
 }
 
-/* ---- Heads of lines, and what is no part's ----------------------------------------------------------------------- */
+/* ---- Whole lines, and lines about the layer ---------------------------------------------------------------------- */
 
 static void end_line(gis_json *json)
 {
@@ -414,7 +415,7 @@ bool gis_proof_print(gis_json *json, FILE *to, gis_error *error)
     return done && gis_go_on(error);
 }
 
-/* ---- Whose trees come first -------------------------------------------------------------------------------------- */
+/* ---- The order of trees ------------------------------------------------------------------------------------------ */
 
 static size_t first_of_tree(const gis_proof_lines *w, const sunder_bound_tree *tree)
 {

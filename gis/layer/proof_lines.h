@@ -1,9 +1,9 @@
 /* proof_lines.h: the file of --proof, line by line, as docs/PROOF.md describes it: the proofs of the lower bound and of
  * the verdicts.
  *
- * Statements about a conflict or a tree do not contain its number in the file, so any part of a layer that knows it can
- * make them: numbers are assigned when everything is put in order, to conflicts by their features, and to groups of
- * trees by the first of their movable features, which no two groups share. */
+ * The text about a conflict or a tree does not contain its number in the file, so the text can be made while only a
+ * part of the layer is known. Numbers are assigned when all lines are put in order: conflicts by their features, and
+ * groups of trees by the first of their movable features, which no two groups share. */
 #ifndef GIS_PROOF_LINES_H
 #define GIS_PROOF_LINES_H
 
@@ -13,42 +13,44 @@
 
 #include <stdio.h>
 
-/* The features and barriers that a report is on. */
+/* The features and barriers of a report. */
 typedef struct gis_proof_things {
     const void *of;
-    size_t n;                                           /* features: from here on things are barriers */
-    int64_t (*feature)(const void *of, size_t feature); /* what it is called by */
-    int64_t (*barrier)(const void *of, size_t thing, const char **layer); /* its FID */
+    size_t n;                                           /* number of features: things with numbers from here on are
+                                                         * barriers */
+    int64_t (*feature)(const void *of, size_t feature); /* the number that identifies a feature */
+    /* the FID of a barrier, and the name of its layer */
+    int64_t (*barrier)(const void *of, size_t thing, const char **layer);
     const sunder_feature *(*demands)(const void *of, size_t feature);
 } gis_proof_things;
 
-/* Zeroed: none. */
+/* A zeroed struct is empty. */
 typedef struct gis_proof_lines {
-    gis_json json; /* where lines are made */
+    gis_json json; /* where the text is made */
     gis_proof_things things;
     const sunder_report *report; /* borrowed */
-    size_t *next;                /* [n] of the same block, in the order of the input; n: none follows */
-    size_t *first;               /* [n] of the block that is called by this one; likewise */
+    size_t *next;                /* [n] next member of the same block, in input order; n: none */
+    size_t *first;               /* [n] first member of the block that is identified by this feature; n: none */
 } gis_proof_lines;
 
 bool gis_proof_lines_begin(gis_proof_lines *lines, const gis_proof_things *things, const sunder_report *report,
                            gis_error *error);
 void gis_proof_lines_clear(gis_proof_lines *lines);
-/* The first of its block, or the feature itself. */
+/* The number that identifies the feature's block: its first feature, or the feature itself if it is in no block. */
 size_t gis_proof_block(const gis_proof_lines *lines, size_t feature);
 
-/* What stands behind the number of the report's k-th conflict, and of the group of one of its trees. */
+/* Make the text that follows the number of conflict k, or of a tree's group. */
 void gis_proof_conflict(gis_proof_lines *lines, size_t k);
 bool gis_proof_tree(gis_proof_lines *lines, const sunder_bound_tree *tree, gis_error *error);
 
-/* Where a tree belongs: by its group's first feature, and among those of its group. */
+/* The place of a tree: its group's first feature, and its number within the group; and its number in the report. */
 typedef struct gis_proof_place {
     size_t first, among, tree;
 } gis_proof_place;
-/* Of all trees of the report, in its order; *out is the caller's, with free(). */
+/* Computes the places of all trees, in the report's order; the caller frees *out with free(). */
 bool gis_proof_order(const gis_proof_lines *lines, gis_proof_place **out, size_t *n, gis_error *error);
 
-/* ---- Whole lines ------------------------------------------------------------------------------------------------- */
+/* ---- Complete lines ---------------------------------------------------------------------------------------------- */
 
 typedef struct gis_proof_head {
     const char *layer;
@@ -59,14 +61,14 @@ typedef struct gis_proof_head {
 } gis_proof_head;
 
 void gis_proof_head_line(gis_json *json, const gis_proof_head *head);
-/* Between them: what the members are called by. */
+/* Begin and end the line of a block; between the two, the numbers of its members are written. */
 void gis_proof_block_begins(gis_json *json);
 void gis_proof_block_ends(gis_json *json);
-/* {"key":number, and the rest. */
+/* Makes the line {"key":number, followed by `rest`. */
 void gis_proof_line(gis_json *json, const char *key, size_t number, const char *rest);
 
-/* What the writer holds goes to the file. False: a signal came, memory is out; or, which the file knows, it could not
- * be written. */
+/* Writes the text to the file and empties it. False: a signal has arrived, memory is out, or writing failed
+ * (ferror()). */
 bool gis_proof_print(gis_json *json, FILE *to, gis_error *error);
 
 #endif

@@ -1,5 +1,5 @@
-/* pushes.c: what presses on what in the result, and how hard, as lines between the anchors as they stand then. A
- * barrier has no anchor: of it the corner is taken that is nearest to the feature's. */
+/* pushes.c: the contact forces in the result, as lines between the anchors after the moves. A barrier has no anchor, so
+ * the line ends at its vertex nearest to the feature's anchor. */
 #include "layer/output.h"
 
 #include <string.h>

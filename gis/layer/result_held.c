@@ -1,4 +1,4 @@
-/* result_held.c: see result.h. What became of a layer that is held in memory stands in the core's report. */
+/* result_held.c: see result.h. The result of a layer in memory, taken from the core's report. */
 #include "layer/result_held.h"
 
 #include "layer/output.h"
@@ -88,7 +88,7 @@ static bool write_symbols(const gis_result *r, gis_sink *sink, gis_error *error)
 
 static bool write_proof(const gis_result *r, const sunder_layer_summary *summary, FILE *to, gis_error *error)
 {
-    (void)summary; /* the report has its own */
+    (void)summary; /* the report contains one */
     return gis_proof_write(r->input, r->of, to, error);
 }
 

@@ -4,7 +4,7 @@
 
 #include "layer/result.h"
 
-/* Of a layer that was read whole, and its report. */
+/* The result of a layer that was read whole, from its report. */
 gis_result gis_result_held(const gis_layer_input *input, sunder_report *report);
 
 /* result_view_held.c */

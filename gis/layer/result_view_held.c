@@ -1,4 +1,4 @@
-/* result_view_held.c: see result.h. A layer that is held in memory, with its report, to be drawn. */
+/* result_view_held.c: see result.h. The view of a layer in memory with its report. */
 #include "base/interrupt.h"
 #include "geometry/gis_box.h"
 #include "layer/result_held.h"

@@ -1,5 +1,5 @@
-/* rows.c: the rows of the layers of separate but conflicts.c's and pushes.c's. What is written of a feature is what the
- * core says of it: its move and the place that this leads to are the doubles that were proved. */
+/* rows.c: rows of the layers of separate, except those of conflicts.c and pushes.c. Moves and new places are exactly
+ * the doubles that the core verified. */
 #include "layer/rows.h"
 
 #include "base/interrupt.h"

@@ -1,5 +1,5 @@
-/* rows.h: the layers of results row by row: from a report (output.h), or from rows kept elsewhere until all are there.
- * A layer is begun, its rows are written in order, then the next one is begun. */
+/* rows.h: writes the layers of results row by row, from a report (output.h) or from rows that were stored elsewhere. A
+ * layer is begun and its rows are written in order; then the next layer is begun. */
 #ifndef GIS_LAYER_ROWS_H
 #define GIS_LAYER_ROWS_H
 
@@ -7,14 +7,14 @@
 
 /* A FID as a value; null if there is none. */
 gis_value gis_fid_as_value(GIntBig fid);
-/* What a block is called: by its first member, that is by the FID, or, where FIDs are not unique, by the place in the
- * input. first: that place; -1: no block, which is null. In a format without null the value of a feature
- * that stands alone is its own number, which no other feature has. */
+/* The value of a block: the FID of its first member or, if FIDs are not unique, its place in the input (`first`). first
+ * = -1: no block, which gives null. In a format without null, a feature in no block gets its own number, which no block
+ * has. */
 gis_value gis_block_as_value(bool fids_unique, int64_t first, GIntBig fid);
 
 /* ---- LAYER ------------------------------------------------------------------------------------------------------- */
 
-/* What became of a feature. */
+/* The result for a feature. */
 typedef struct gis_feature_row {
     double dx, dy;
     sunder_feature_status status;
@@ -22,37 +22,37 @@ typedef struct gis_feature_row {
 } gis_feature_row;
 
 bool gis_main_begin(gis_sink *sink, gis_sink_layer **layer, gis_error *error);
-/* Of feature i of the sink's source, or of its batch. */
+/* Writes the row of feature i of the sink's source, or of its current batch. */
 bool gis_main_row(gis_sink_layer *layer, size_t i, const gis_feature_row *row, gis_error *error);
 
 /* ---- LAYER_displacement ------------------------------------------------------------------------------------------ */
 
-/* A feature that moved; `from` is where its arrow starts. */
+/* A feature that moved; `from` is the start of its arrow. */
 typedef struct gis_arrow_row {
     gis_value fid, id, block;
     double from[2], move[2];
 } gis_arrow_row;
 
-/* id: the type of ids. */
+/* id: the type of the column "id". */
 bool gis_displacement_begin(gis_sink *sink, OGRFieldType id, OGRSpatialReferenceH crs, gis_sink_layer **layer,
                             gis_error *error);
 bool gis_displacement_row(gis_sink_layer *layer, const gis_arrow_row *row, gis_error *error);
 
 /* ---- LAYER_conflicts, LAYER_pushes ------------------------------------------------------------------------------- */
 
-/* How the things of a report are called, by their numbers in it: features, and from `features` on barriers. */
+/* Names of the things of a report, by their numbers: features, and from `features` on barriers. */
 typedef struct gis_things {
     const void *of;
     size_t features;
     GIntBig (*fid)(const void *of, size_t feature);
-    /* The user's own key; null without one. *copy keeps a text (start with NULL, free at the end). */
+    /* The value of --id-field; null if there is none. *copy owns the text (start with NULL, free it at the end). */
     bool (*id)(const void *of, size_t feature, char **copy, gis_value *value, gis_error *error);
-    /* Of a barrier the FID, and the name of its layer, which lives as long as `of`. */
+    /* The FID of a barrier, and the name of its layer, which is valid as long as `of`. */
     GIntBig (*barrier)(const void *of, size_t thing, const char **layer);
 } gis_things;
 
-/* The columns of LAYER_conflicts, as the values of one conflict. Texts in them stay valid until the next call with the
- * same scratch, which starts zeroed and is cleared at the end. */
+/* The columns of LAYER_conflicts. Texts in the values of a conflict are valid until the next call with the same
+ * `scratch`, which starts zeroed and is cleared at the end. */
 enum {
     COLUMN_FID_A,
     COLUMN_ID_A,
@@ -75,34 +75,34 @@ enum {
 };
 
 typedef struct gis_conflict_texts {
-    char *id[2]; /* OGR lends a text only until the next one is asked for: these are copies */
+    char *id[2]; /* copies, since OGR reuses a text at the next call */
     char *blocked_by, *need_gone;
 } gis_conflict_texts;
 
-/* Is the thing a barrier, and no feature, nor SIZE_MAX, nothing? */
+/* Is the number that of a barrier (and not of a feature, or SIZE_MAX)? */
 bool gis_things_is_barrier(const gis_things *things, size_t thing);
 bool gis_things_conflict(const gis_things *things, const sunder_conflict *conflict, gis_conflict_texts *scratch,
                          gis_value values[N_CONFLICT_COLUMNS], gis_error *error);
 void gis_conflict_texts_clear(gis_conflict_texts *scratch);
 
-/* The columns of LAYER_pushes; all texts are the barriers'. */
+/* The columns of LAYER_pushes; the texts are borrowed from the barriers. */
 enum { N_PUSH_COLUMNS = 7 };
 void gis_things_push(const gis_things *things, const sunder_push *push, gis_value values[N_PUSH_COLUMNS]);
 
-/* The layer is called MAIN_suffix, or MAIN if suffix is "". */
+/* Adds the layer MAIN_suffix, or MAIN if suffix is "". */
 bool gis_conflicts_begin(gis_sink *sink, const char *suffix, OGRFieldType id, OGRSpatialReferenceH crs,
                          gis_sink_layer **layer, gis_error *error);
 bool gis_pushes_begin(gis_sink *sink, OGRSpatialReferenceH crs, gis_sink_layer **layer, gis_error *error);
-/* A row of either: values, and a line. */
+/* Writes a row with a line as geometry. */
 bool gis_line_row(gis_sink_layer *layer, const gis_value *values, const double from[2], const double to[2],
                   gis_error *error);
 
 /* ---- LAYER_symbols ----------------------------------------------------------------------------------------------- */
 
-/* multi: some symbol has several members. */
+/* multi: some symbol has several polygons. */
 bool gis_symbols_begin(gis_sink *sink, bool multi, OGRSpatialReferenceH crs, gis_sink_layer **layer, gis_error *error);
-/* The symbol of a feature of the source, moved: its corners plus the move, which the core chose so that they are
- * doubles. shape: NULL: it has none. */
+/* Writes the symbol of a feature of the source, moved: its vertices plus the move, which the core rounded so that the
+ * sums are doubles. shape == NULL: it has none. */
 bool gis_symbols_row(gis_sink_layer *layer, OGRFeatureH feature, const sunder_shape *shape, double dx, double dy,
                      bool multi, gis_error *error);
 

@@ -1,5 +1,5 @@
-/* run_core.c: passes a layer to the core, by the rules. The core reports numbers out of range; for one given as an
- * option that is a usage error. */
+/* run_core.c: calls the core by the rules. The core rejects numbers out of range; for numbers given as options that is
+ * wrong usage. */
 #include "base/resources.h"
 #include "layer/trace_file.h"
 
@@ -12,7 +12,7 @@ double gis_layer_thin(const gis_layer_input *input)
     return input->gap == 0 || thin < input->gap ? thin : 0;
 }
 
-/* Symbols join by touch where a tolerance is asked for, and not else: they are meant to be told apart. */
+/* Symbols join blocks by touching only if a tolerance is given, since symbols should stay distinct. */
 sunder_layer_options gis_layer_core_options(const gis_layer_input *input)
 {
     const gis_layer_rules *rules = &input->request->rules;
@@ -27,13 +27,14 @@ sunder_layer_options gis_layer_core_options(const gis_layer_input *input)
     return core;
 }
 
-/* The receiver of progress. */
+/* Passes progress on. */
 typedef struct watcher {
     gis_progress *progress;
-    double next; /* from there on memory goes back again */
+    double next; /* the fraction at which memory is returned to the system next */
 } watcher;
 
-/* A fifth of the work after the other, and what one of them freed goes back before the next takes its own. */
+/* After each such fraction of the work, freed memory is returned to the system, so that the next stage does not add to
+ * it. */
 #define STRETCH 0.2
 
 static bool go_on(double fraction, void *user)

@@ -1,6 +1,6 @@
-/* shapes.c: from features to shapes. Polygons are taken as they are, arcs as polylines grown by what they may be
- * off, points as the symbol drawn at them. What cannot conflict (null, empty, of another kind, invalid with --invalid
- * skip) has no shape and passes through as skipped. */
+/* shapes.c: makes shapes of features: polygons as they are, arcs as polylines enlarged to contain the arc, points as
+ * the symbol drawn at them. Features that cannot conflict (null, empty, of another kind, or invalid with --invalid
+ * skip) have no shape and are output as skipped. */
 #include "layer/layer_input.h"
 #include "layer/shapes_ahead.h"
 
@@ -15,18 +15,19 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Corners of the polygon that a shape with arcs is grown by. With 16 it reaches a fiftieth farther than the disc that
- * it contains, whose radius is itself under a thousandth of the arc's (GDAL's chords span four degrees). */
+/* Number of vertices of the polygon by which a shape with arcs is enlarged. With 16 it reaches a fiftieth farther than
+ * the disc that it contains; the radius of this disc is less than a thousandth of the arc's (GDAL's chords span four
+ * degrees). */
 static const unsigned growth_segments = 16;
 
 #define SYMBOL_FORMS "WKT, @FILE, disc:R[:N], inside-disc:R[:N], square:SIDE or rectangle:WxH"
 
-/* An addition to the radius before growing. Rounding the sum to doubles may move it inward by less than four units in
- * the last place of its largest coordinate: twice that is added. The arithmetic of the radius is off by some 1e-16 of
- * it: a billionth of it is added, which is invisible. */
+/* Additions to the radius. Rounding the sum to doubles may move vertices inward by less than four units in the last
+ * place of the largest coordinate; twice that is added. The radius itself has a relative error of about 1e-16; a
+ * billionth is added, which is invisible. */
 static const double grown_ulps = 8, grown_part = 1e-9;
 
-/* S grown by a disc that contains the disc of `radius`, as a shape of doubles. */
+/* Enlarges a shape by a polygon that contains the disc of this radius, and rounds the result to doubles. */
 static bool grow(const sunder_shape *shape, double radius, const char *who, sunder_shape **out, gis_error *error)
 {
     double box[4], most = 0;
@@ -57,7 +58,7 @@ static bool polygon_shape(gis_layer_input *input, size_t i, gis_polygonal_part *
     bool invalid;
     if (!gis_source_polygons(input->source, i, part, error)) return false;
     if (input->request->wound) gis_polygons_wind(&part->set);
-    /* Almost all are valid and without arcs: their names are not needed. */
+    /* Almost all polygons are valid and without arcs; no name is needed for them. */
     if (gis_layer_plain_shape(input, part, i)) return true;
     gis_feature_name(input, i, who, sizeof who);
     if (!gis_shape_of_feature(&part->set, input->request->invalid, who, "invalid: ", &shape, &invalid, error))
@@ -91,7 +92,7 @@ static bool append_translate(const sunder_shape *symbol, const double at[2], gis
     return ok;
 }
 
-/* The symbol at every point of the feature; of several their union. */
+/* Makes the shape of feature i: the symbol at each of its points; for several points their union. */
 static bool place_symbol(gis_layer_input *input, size_t i, const sunder_shape *symbol, const char *who,
                          gis_error *error)
 {
@@ -103,7 +104,7 @@ static bool place_symbol(gis_layer_input *input, size_t i, const sunder_shape *s
     for (size_t k = 0; ok && k < n; k++) ok = append_translate(symbol, at + 2 * k, &all, who, error);
     CPLFree(at);
     sunder_error why;
-    /* A symbol that rounding to the point's place has broken is taken by the even-odd rule. */
+    /* A symbol that becomes invalid by rounding at its place is read by the even-odd rule. */
     if (ok && gis_polygons_shape(&all, SUNDER_VALIDITY_STRICT, &input->shape[i], &why) != SUNDER_OK &&
         gis_polygons_shape(&all, SUNDER_VALIDITY_EVEN_ODD, &input->shape[i], &why) != SUNDER_OK)
         ok = gis_core_failed(error, who, &why);
@@ -124,15 +125,15 @@ static bool read_symbol(const gis_layer_input *input, const char *text, const ch
     return true;
 }
 
-/* State for making shapes: `part` holds the polygons of one feature at a time; the other members serve points. */
+/* State for making shapes: `part` is a buffer for the polygons of a feature; the other members are for points. */
 struct gis_layer_shaping {
     gis_polygonal_part part;
-    sunder_shape *symbol; /* NULL: every point has its own */
-    int symbol_field;     /* -1: none has */
-    int size_field;       /* -1: all symbols are as large as they are */
+    sunder_shape *symbol; /* the common symbol; NULL: each point has its own */
+    int symbol_field;     /* -1: not given */
+    int size_field;       /* -1: symbols are not scaled */
 };
 
-/* --symbol, --symbol-field and --symbol-size-field. */
+/* Reads --symbol, --symbol-field and --symbol-size-field. */
 static bool read_symbols(const gis_layer_input *input, gis_layer_shaping *how, gis_error *error)
 {
     const gis_layer_input_request *request = input->request;
@@ -146,7 +147,7 @@ static bool read_symbols(const gis_layer_input *input, gis_layer_shaping *how, g
     return read_symbol(input, symbol, "--symbol", &how->symbol, error);
 }
 
-/* The feature's own symbol, from --symbol-field; *own stays NULL where it has none and the common one holds. */
+/* Reads the feature's own symbol from --symbol-field; *own stays NULL if it is blank and the common one is used. */
 static bool own_symbol(const gis_layer_input *input, size_t i, const gis_layer_shaping *how, const char *who,
                        sunder_shape **own, gis_error *error)
 {
@@ -159,11 +160,11 @@ static bool own_symbol(const gis_layer_input *input, size_t i, const gis_layer_s
         return gis_fail(error, "%s: %s in %s is no symbol; expected " SYMBOL_FORMS, who, text,
                         input->request->symbol_field);
     if (read_symbol(input, text, who, own, error)) return true;
-    error->exit_status = GIS_FAILED; /* it is the data that is wrong, not the call */
+    error->exit_status = GIS_FAILED; /* the data are wrong, not the command line */
     return false;
 }
 
-/* The shape times a factor: corners as the nearest doubles, by the even-odd rule where that breaks it. */
+/* Scales a shape by a factor; vertices are rounded, and if that makes it invalid, it is read by the even-odd rule. */
 static bool enlarge(const sunder_shape *shape, double factor, const char *who, sunder_shape **out, gis_error *error)
 {
     gis_polygons all = {0};
@@ -206,7 +207,7 @@ static bool point_shape(gis_layer_input *input, size_t i, const gis_layer_shapin
     return ok;
 }
 
-/* --invalid skip lets features through that have a coordinate which is no finite number. */
+/* Warns of a feature with a coordinate that is not finite, which --invalid skip lets through. */
 static void skip_broken(gis_layer_input *input, size_t i)
 {
     char who[GIS_WHO_SIZE];
@@ -223,7 +224,7 @@ void gis_layer_shaping_free(gis_layer_shaping *shaping)
     free(shaping);
 }
 
-/* Reads the symbols that the options ask for only once, whatever the number of batches. */
+/* Reads the symbols that options give; only once, not for each batch. */
 static bool begin_shaping(gis_layer_input *input, gis_error *error)
 {
     if (input->shaping) return true;

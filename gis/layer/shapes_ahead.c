@@ -1,6 +1,6 @@
-/* shapes_ahead.c: shapes of plain polygons, which almost all are, on two threads, before each feature is looked at in
- * its turn (shapes.c). What does not become a shape here, for whatever reason, is left to that: so what is said of
- * features, and the first that fails, do not depend on threads. */
+/* shapes_ahead.c: makes the shapes of plain polygons, as almost all are, on two threads before features are examined
+ * one by one (shapes.c). Anything that does not become a shape here, for whatever reason, is left to shapes.c, so that
+ * messages do not depend on threads. */
 #include "layer/shapes_ahead.h"
 
 #include "base/interrupt.h"
@@ -9,7 +9,8 @@
 
 #include <stdatomic.h>
 
-/* Below this number of features starting a thread takes longer than the work; also the size of a batch. */
+/* MANY: with fewer features, starting a thread takes longer than the work. AT_A_TIME: number of features that a thread
+ * takes at once. */
 enum { MANY = 5000, AT_A_TIME = 512 };
 
 bool gis_layer_plain_shape(const gis_layer_input *input, const gis_polygonal_part *part, size_t i)
@@ -21,7 +22,7 @@ bool gis_layer_plain_shape(const gis_layer_input *input, const gis_polygonal_par
 
 typedef struct making {
     const gis_layer_input *input;
-    atomic_size_t next; /* the first feature not taken yet */
+    atomic_size_t next; /* the first feature that no thread has taken */
 } making;
 
 static void make(void *context)

@@ -1,5 +1,5 @@
-/* symbols_anew.c: the layer of symbols of a source whose shapes were not kept: they are made again, as they were when
- * the layer was read. */
+/* symbols_anew.c: writes the layer of symbols of a source whose shapes were not kept; they are made again, in the same
+ * way. */
 #include "layer/output.h"
 
 #include "base/interrupt.h"
@@ -20,7 +20,7 @@ static bool write_batch(gis_sink_layer *layer, gis_layer_input *input, bool mult
 bool gis_write_symbols_anew(gis_sink *sink, const gis_layer_input *input, bool multi, bool batches, gis_move_of *move,
                             void *user, gis_error *error)
 {
-    gis_layer_input anew = *input; /* of whose counts, shapes and shaping it has its own */
+    gis_layer_input anew = *input; /* it has its own counts, shapes and state */
     gis_sink_layer *layer;
     bool any = true;
     anew.shape = NULL;

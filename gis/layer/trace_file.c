@@ -17,7 +17,7 @@ static void put_features(gis_json *json, const gis_layer_input *input, const sun
     gis_json_close(json, ']');
 }
 
-/* Layer and FID of each; nothing where there is none. */
+/* Writes layer and FID of each barrier of the event; nothing if there is none. */
 static void put_barriers(gis_json *json, const gis_layer_input *input, const sunder_trace_event *event)
 {
     if (event->things == 0 || event->thing[event->things - 1] < input->n) return;

@@ -1,6 +1,4 @@
-/* trace_file.h: the file of --trace: what each stage of a separation did, one JSON line an event, with FIDs;
- * docs/trace.md.
- * */
+/* trace_file.h: makes the file of --trace: one JSON line for each step of a separation, with FIDs (docs/trace.md). */
 #ifndef GIS_TRACE_FILE_H
 #define GIS_TRACE_FILE_H
 
@@ -12,7 +10,7 @@ typedef struct gis_trace {
     gis_json json; /* the lines so far */
 } gis_trace;
 
-/* A sunder_trace; user: a gis_trace. */
+/* A sunder_trace callback; `user` is a gis_trace. */
 void gis_trace_event(const sunder_trace_event *event, void *user);
 void gis_trace_clear(gis_trace *trace);
 

@@ -1,6 +1,6 @@
-/* barrier_parse.c: the argument of --barrier, taken apart in place. Commas part it; a comma that belongs to a value is
- * written \, and a backslash before anything else is itself, so that paths may have some. What follows where= is an
- * expression, with commas of its own, and is taken as it stands, to the end. */
+/* barrier_parse.c: parses the value of --barrier in place. Parts are separated by commas; a comma within a value is
+ * written "\,", and any other backslash is itself, so that paths may contain some. Everything after where= is an
+ * expression, in which commas have no special meaning. */
 #include "layer/barriers/barrier.h"
 
 #include "base/spelling.h"
@@ -17,7 +17,8 @@ void gis_barrier_request_clear(gis_barrier_request *request)
     *request = (gis_barrier_request){0};
 }
 
-/* Ends the word at *rest where the next comma stands, and moves on past it; NULL: it was the last. */
+/* Ends the word at *rest at the next comma and moves *rest behind it; NULL if it was the last word. Replaces "\," in
+ * the word. */
 static char *next_word(char **rest)
 {
     char *word = *rest, *to = word, *from = word;
@@ -60,7 +61,7 @@ static bool take_length(const char *argument, const char *key, const char *value
     return true;
 }
 
-/* One of two words: the first means true. */
+/* Sets *out to whether the value is `yes`; fails if it is neither `yes` nor `no`. */
 static bool take_choice(const char *argument, const char *key, const char *value, const char *yes, const char *no,
                         bool *out, gis_error *error)
 {

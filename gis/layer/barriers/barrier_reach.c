@@ -1,8 +1,8 @@
-/* barrier_reach.c: what of a barrier layer may be in the way of anything. A barrier is within reach if some feature
- * that goes as far as any may comes as near to it as half its width and its distance, or if it may decide on which side
- * of it a feature is (sunder_side_reach()). That is asked of boxes in a tree, so that what lies between features far
- * from each other is not read for both. Where the features lie in cells on disk the tree is that of the cells, and the
- * boxes of a cell's features are read when they are asked for; CELLS_HELD cells are kept. */
+/* barrier_reach.c: which barriers may be in the way of a feature. A barrier is within reach if some feature, after the
+ * longest move, may come as near to it as half its width plus its gap, or if the barrier may decide on which side of it
+ * a feature stands (sunder_side_reach()). A tree of the features' boxes is searched, so that barriers between groups of
+ * features that are far apart are not read. If the features are in cells on disk, the tree contains the cells, and the
+ * boxes of a cell's features are read when needed; CELLS_HELD cells are cached. */
 #include "layer/barriers/barrier.h"
 
 #include "base/interrupt.h"
@@ -17,12 +17,12 @@
 
 enum { CELLS_HELD = 2048 };
 
-/* Cells that were looked up: a cache of CELLS_HELD, the oldest is evicted first. */
+/* A cache of the boxes of CELLS_HELD cells; the oldest is dropped first. */
 typedef struct looked_up {
     gis_box_cells from;
-    double (**box)[4]; /* [from.cells] NULL: not held */
+    double (**box)[4]; /* [from.cells] NULL: not in the cache */
     size_t *n;
-    size_t *number; /* [boxes of the tree] which cells they are */
+    size_t *number; /* [boxes of the tree] number of the cell that each belongs to */
     size_t held[CELLS_HELD], at;
     bool failed;
     gis_error error;
@@ -32,7 +32,7 @@ struct gis_barrier_targets {
     double (*box)[4];
     size_t n;
     CPLQuadTree *tree; /* of the boxes; NULL: there are none */
-    looked_up *cells;  /* NULL: these are the features' */
+    looked_up *cells;  /* NULL: the boxes are those of features */
 };
 
 static void bounds_of(const void *box, CPLRectObj *out)
@@ -71,7 +71,7 @@ gis_barrier_targets *gis_barrier_targets_new(const double (*box)[4], size_t n)
     return targets;
 }
 
-/* ---- Of boxes in cells ------------------------------------------------------------------------------------------- */
+/* ---- Boxes in cells ---------------------------------------------------------------------------------------------- */
 
 static void free_cells(looked_up *cells)
 {
@@ -106,16 +106,17 @@ static bool look_up(looked_up *cells, size_t cell)
     return false;
 }
 
-/* A box around the boxes of the cell, grown as they are. */
+/* The box around the boxes of a cell's features after gis_barrier_target_grow(). */
 static void box_of_cell(looked_up *cells, size_t cell, double out[4])
 {
     memcpy(out, cells->from.around(cells->from.of, cell), 4 * sizeof *out);
-    if (!(sunder_side_reach(out) > cells->from.reach) || !look_up(cells, cell)) return; /* none grows */
+    /* no box of the cell is enlarged */
+    if (!(sunder_side_reach(out) > cells->from.reach) || !look_up(cells, cell)) return;
     for (size_t k = 0; k < cells->n[cell]; k++)
         for (int c = 0; c < 4; c++) out[c] = (c < 2 ? fmin : fmax)(out[c], cells->box[cell][k][c]);
 }
 
-/* Those that hold anything. *box: their boxes. */
+/* Lists the cells that are not empty, and sets *box to their boxes, *n to their number. */
 static looked_up *list_cells(const gis_box_cells *from, double (*box)[4], size_t *n)
 {
     const size_t cells = from->cells;
@@ -161,7 +162,7 @@ bool gis_barrier_targets_sound(const gis_barrier_targets *targets, gis_error *er
     return false;
 }
 
-/* Does some feature of the cell meet the box? */
+/* Does the box of a feature of the cell meet `box`? */
 static bool cell_meets(looked_up *cells, size_t cell, const double box[4])
 {
     if (cells->failed || !look_up(cells, cell)) return false;
@@ -181,7 +182,7 @@ void gis_barrier_targets_free(gis_barrier_targets *targets)
     free(targets);
 }
 
-/* A box grown by this much on all sides; rounded outward by more than the error of the sums. */
+/* Enlarges a box by `by` on all sides, rounded outward by more than the error of the sums. */
 static void grow(const double box[4], double by, double out[4])
 {
     for (int k = 0; k < 4; k++) {

@@ -1,12 +1,12 @@
-/* barrier_read.c: the features of barrier layers, one by one: polygons as shapes or as the rings around them, lines and
- * points as they are, arcs as their chords, each with its width.
+/* barrier_read.c: reads the features of barrier layers one by one: polygons as shapes, or as rings (as=boundary); lines
+ * and points as they are; arcs as chords; each with its width.
  *
- * Only what is within reach is read: what is farther from all features than any may move and the barrier's distance
- * besides stands in the way of nothing. A source with an index is asked for what meets the box of all that; where
- * widths come from a field, for what the widest would reach, which takes a look at that field alone. Without an index
- * GDAL would compare geometries with the box, and pass over some that are not valid; so such a source is asked for all.
- * What comes and is near no feature is let go as it is read, or once its coordinates are the layer's; of lines each
- * segment is asked. Where some feature may move any distance everything is within reach. */
+ * Only barriers within reach are read: those farther from all features than the longest move plus the distance to be
+ * kept are in the way of nothing. A source with an index is asked for the features in the box around all of that; if
+ * widths come from a field, the field is read first to find the largest. Without an index GDAL would compare geometries
+ * with the box and skip some that are invalid, so such a source is asked for all features. A feature that is near no
+ * feature of the layer is dropped when it is read, or after its coordinates were transformed; of lines each segment is
+ * tested. If some feature may move without limit, all barriers are within reach. */
 #include "layer/barriers/barrier.h"
 
 #include "base/array.h"
@@ -27,12 +27,13 @@ typedef struct reading {
     const gis_barrier_request *request;
     const gis_barrier_surroundings *around;
     gis_source *source;
-    OGRCoordinateTransformationH to_layer; /* NULL: coordinates stay as they are */
-    double width, distance;                /* of all, unless there is a field: the width, and from its edge */
-    double widest;                         /* no feature is wider */
+    OGRCoordinateTransformationH to_layer; /* NULL: coordinates are not transformed */
+    double width, distance;                /* the common width (if there is no width field), and the distance to be kept
+                                            * from its edge */
+    double widest;                         /* the largest width of any feature */
     int width_field;
     gis_polygonal_part part;
-    size_t batch; /* features of the source that are held at a time; 0: all */
+    size_t batch; /* largest number of the source's features held at once; 0: all */
     gis_barrier_take *take;
     void *user;
     gis_barrier_common *common;
@@ -58,7 +59,7 @@ static bool is_within_reach(const reading *r, OGRGeometryH geometry, double widt
     return gis_barrier_is_near(r->around, (double[4]){e.MinX, e.MinY, e.MaxX, e.MaxY}, width / 2 + r->distance);
 }
 
-/* Does some segment of its lines, or a point, come within reach? */
+/* Is a segment of its lines, or a point, within reach? */
 static bool any_is_within_reach(const reading *r, const gis_barrier_feature *feature)
 {
     const gis_lines *lines = &feature->lines;
@@ -73,7 +74,7 @@ static bool any_is_within_reach(const reading *r, const gis_barrier_feature *fea
 
 /* ---- One feature ------------------------------------------------------------------------------------------------- */
 
-/* Null or not positive is no width. */
+/* Reads the width of feature i. Null, and values that are not positive, give the common width. */
 static bool read_width(const reading *r, size_t i, const char *who, double *width, gis_error *error)
 {
     OGRFeatureH feature = gis_source_feature(r->source, i);
@@ -89,7 +90,8 @@ static bool read_width(const reading *r, size_t i, const char *who, double *widt
     return !(length.value > 0) || gis_length_in_layer_units(&length, r->around->units, who, width, error);
 }
 
-/* The geometry in the layer's CRS, arcs as chords; a copy, or the source's own. */
+/* Sets *out to the geometry in the layer's CRS, arcs as chords: a new geometry, or the source's own if there is no
+ * transformation. */
 static bool in_layer_crs(const reading *r, OGRGeometryH geometry, const char *who, OGRGeometryH *out, gis_error *error)
 {
     *out = geometry;
@@ -114,7 +116,7 @@ static bool in_layer_crs(const reading *r, OGRGeometryH geometry, const char *wh
     return ok;
 }
 
-/* Polygons as a shape, or as rings; lines and points. */
+/* Takes polygons as a shape or as rings, and lines and points. */
 static bool take_geometry(reading *r, OGRGeometryH geometry, const char *who, gis_barrier_feature *out,
                           gis_error *error)
 {
@@ -157,7 +159,7 @@ static bool take_feature(reading *r, size_t i, gis_error *error)
 
 /* ---- One layer --------------------------------------------------------------------------------------------------- */
 
-/* The box that is asked of the source, in its CRS. */
+/* The filter box for the source, in its CRS. False: all features are read. */
 static bool within(void *user, OGRLayerH layer, OGRSpatialReferenceH crs, double box[4])
 {
     reading *r = user;
@@ -165,7 +167,7 @@ static bool within(void *user, OGRLayerH layer, OGRSpatialReferenceH crs, double
     double here[4];
     gis_error ignored;
     r->widest = field ? INFINITY : r->width;
-    if (!isfinite(r->around->reach) || r->around->without_box) return false;
+    if (!isfinite(r->around->reach) || r->around->without_box) return false; /* all features are read */
     gis_length widest = {0, GIS_LAYER_UNIT};
     if (field &&
         (!gis_barrier_greatest(layer, field, &widest.value) ||
@@ -181,7 +183,7 @@ static bool within(void *user, OGRLayerH layer, OGRSpatialReferenceH crs, double
     return true;
 }
 
-/* Is it worth keeping? In another CRS that is seen later. */
+/* Keep the feature when it is read? In another CRS that can only be decided later. */
 static bool wants(void *user, OGRSpatialReferenceH crs, OGRFeatureH feature)
 {
     const reading *r = user;
@@ -272,7 +274,7 @@ bool gis_barrier_visit(const gis_barrier_request *request, const gis_barrier_sur
 
 /* ---- All of them ------------------------------------------------------------------------------------------------- */
 
-/* What was not given to a barrier is the layer's, which the core knows. */
+/* Makes the core's barriers. A gap of -1 stands for the layer's, which the core knows. */
 static bool make_barriers(const gis_barrier_request *requests, const double *distance, gis_barriers *out,
                           gis_error *error)
 {

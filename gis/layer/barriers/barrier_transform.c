@@ -1,5 +1,5 @@
-/* barrier_transform.c: barriers in another CRS than the layer's. Vertices are transformed, and what lies between two of
- * them is straight in the layer's CRS: the doubles so obtained are the barrier. */
+/* barrier_transform.c: barriers in another CRS than the layer's. Vertices are transformed, and edges between them are
+ * straight in the layer's CRS; the resulting doubles are the barrier. */
 #include "layer/barriers/barrier.h"
 
 #include "base/message.h"
@@ -26,8 +26,9 @@ bool gis_barrier_transformation(OGRSpatialReferenceH from, OGRSpatialReferenceH 
     return *out != NULL;
 }
 
-/* Points along each side of the box, and how much of its size the result is grown by: an edge bends between two of
- * them by far less, unless the box is so large that it is no map sheet any more, and then PROJ fails somewhere. */
+/* Number of points that are transformed along each side of the box, and the fraction of its size by which the result is
+ * enlarged. Between two such points an edge bends by much less, unless the box is far larger than a map sheet; and then
+ * PROJ fails somewhere. */
 enum { ALONG = 32 };
 static const double grown_by = 0.1;
 
@@ -50,5 +51,6 @@ bool gis_barrier_box(const double box[4], OGRSpatialReferenceH of_layer, OGRSpat
     if (back) OCTDestroyCoordinateTransformation(back);
     double grow = grown_by * fmax(out[2] - out[0], out[3] - out[1]);
     for (int k = 0; k < 4; k++) out[k] += k < 2 ? -grow : grow;
-    return ok && !(OSRIsGeographic(other) && (out[0] < -180 || out[2] > 180)); /* it may go round the other way */
+    /* the box may extend across the antimeridian */
+    return ok && !(OSRIsGeographic(other) && (out[0] < -180 || out[2] > 180));
 }
