@@ -13,7 +13,7 @@
 #include <string.h>
 
 /* Makes a message one line without blanks at its end; texts of GDAL and SQLite sometimes contain line breaks. */
-static void flatten(char *text)
+static void make_one_line(char *text)
 {
     size_t end = 0;
     for (size_t i = 0; text[i]; i++) {
@@ -33,7 +33,7 @@ static bool fail_with(gis_error *error, int exit_status, const char *format, va_
             snprintf(error->message, sizeof error->message, "%s", gis_interruption());
         else
             vsnprintf(error->message, sizeof error->message, format, arguments);
-        flatten(error->message);
+        make_one_line(error->message);
     }
     return false;
 }
@@ -86,7 +86,7 @@ bool gis_sentences_add(gis_sentences *list, const char *format, ...)
     va_start(arguments, format);
     vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
-    flatten(text);
+    make_one_line(text);
     return add_text(list, text);
 }
 
@@ -100,7 +100,7 @@ void gis_sentences_clear(gis_sentences *list)
 /* A driver may repeat a warning for each feature; at most this number of different warnings is kept. */
 enum { WARNINGS_KEPT = 100 };
 
-static void CPL_STDCALL hear(CPLErr class, CPLErrorNum number, const char *text)
+static void CPL_STDCALL hear_report(CPLErr class, CPLErrorNum number, const char *text)
 {
     (void)number;
     gis_listener *listener = CPLGetErrorHandlerUserData();
@@ -109,12 +109,12 @@ static void CPL_STDCALL hear(CPLErr class, CPLErrorNum number, const char *text)
     } else if (class >= CE_Failure) {
         if (listener->failures++ == 0) {
             snprintf(listener->first, sizeof listener->first, "%s", text);
-            flatten(listener->first);
+            make_one_line(listener->first);
         }
     }
 }
 
-void gis_listen_begin(gis_listener *listener) { CPLPushErrorHandlerEx(hear, listener); }
+void gis_listen_begin(gis_listener *listener) { CPLPushErrorHandlerEx(hear_report, listener); }
 
 void gis_listen_end(void) { CPLPopErrorHandler(); }
 

@@ -75,7 +75,7 @@ static void end_at_once(int number)
  * second signal. */
 static bool is_limit(int number) { return number == SIGXFSZ || number == SIGXCPU; }
 
-static void hear(int number)
+static void handle_signal(int number)
 {
     int reason = errno;
     if (!pthread_equal(pthread_self(), main_thread))
@@ -106,9 +106,9 @@ static sigset_t all_of_them(void)
 /* ---- Outside ----------------------------------------------------------------------------------------------------- */
 
 /* Installs the handler. Without SA_RESTART, so that blocking reads and writes are interrupted. */
-static void catch (int number)
+static void catch_signal(int number)
 {
-    const struct sigaction action = {.sa_handler = hear, .sa_mask = all_of_them()};
+    const struct sigaction action = {.sa_handler = handle_signal, .sa_mask = all_of_them()};
     sigaction(number, &action, NULL);
 }
 
@@ -124,9 +124,9 @@ static bool is_to_be_ignored(int number)
 void gis_catch_signals(void)
 {
     main_thread = pthread_self();
-    catch (SIGALRM);
+    catch_signal(SIGALRM);
     for (int k = 0; k < N_REQUESTS; k++)
-        if (!is_to_be_ignored(requests[k])) catch (requests[k]);
+        if (!is_to_be_ignored(requests[k])) catch_signal(requests[k]);
     gis_watch();
 }
 
@@ -166,7 +166,7 @@ void gis_release(void)
 
 void gis_set_outcome(gis_outcome now) { atomic_store(&outcome, (int)now); }
 
-static gis_leftover *add(const char *path, const char *back_to, gis_outcome stays)
+static gis_leftover *add_leftover(const char *path, const char *back_to, gis_outcome stays)
 {
     gis_leftover *leftover = CPLCalloc(1, sizeof *leftover);
     leftover->path = CPLStrdup(path);
@@ -179,11 +179,17 @@ static gis_leftover *add(const char *path, const char *back_to, gis_outcome stay
     return leftover;
 }
 
-gis_leftover *gis_leftover_temporary(const char *path) { return add(path, NULL, GIS_OPEN); }
+gis_leftover *gis_leftover_temporary(const char *path) { return add_leftover(path, NULL, GIS_OPEN); }
 
-gis_leftover *gis_leftover_until(gis_outcome outcome_then, const char *path) { return add(path, NULL, outcome_then); }
+gis_leftover *gis_leftover_until(gis_outcome outcome_then, const char *path)
+{
+    return add_leftover(path, NULL, outcome_then);
+}
 
-gis_leftover *gis_leftover_former(const char *path, const char *back_to) { return add(path, back_to, GIS_OPEN); }
+gis_leftover *gis_leftover_former(const char *path, const char *back_to)
+{
+    return add_leftover(path, back_to, GIS_OPEN);
+}
 
 void gis_leftover_forget(gis_leftover *leftover)
 {

@@ -17,33 +17,33 @@ void gis_json_clear(gis_json *out)
 
 const char *gis_json_text(const gis_json *out) { return gis_text_get(&out->text); }
 
-static void append(gis_json *out, const char *bytes, size_t n) { gis_text_add_bytes(&out->text, bytes, n); }
+static void append_bytes(gis_json *out, const char *bytes, size_t n) { gis_text_add_bytes(&out->text, bytes, n); }
 
 static void begin_value(gis_json *out)
 {
-    if (out->need_comma) append(out, ", ", 2);
+    if (out->need_comma) append_bytes(out, ", ", 2);
     out->need_comma = true;
 }
 
 void gis_json_open(gis_json *out, char bracket)
 {
     begin_value(out);
-    append(out, &bracket, 1);
+    append_bytes(out, &bracket, 1);
     out->need_comma = false;
 }
 
 void gis_json_close(gis_json *out, char bracket)
 {
-    append(out, &bracket, 1);
+    append_bytes(out, &bracket, 1);
     out->need_comma = true;
 }
 
 void gis_json_line(gis_json *out)
 {
     if (out->need_comma)
-        append(out, ",\n ", 3);
+        append_bytes(out, ",\n ", 3);
     else
-        append(out, "\n ", 2);
+        append_bytes(out, "\n ", 2);
     out->need_comma = false;
 }
 
@@ -60,29 +60,29 @@ static size_t character_size(const unsigned char *c)
 
 /* Appends a string in quotes. Names of files and layers may be in another encoding, or cut within a character; each
  * invalid byte becomes U+FFFD, so that the rest can be read. */
-static void quoted(gis_json *out, const char *text)
+static void append_quoted(gis_json *out, const char *text)
 {
-    append(out, "\"", 1);
+    append_bytes(out, "\"", 1);
     for (const char *c = text; *c;) {
         unsigned char byte = (unsigned char)*c;
         size_t n = character_size((const unsigned char *)c);
         char escape[8];
         if (byte == '"' || byte == '\\')
-            append(out, (char[]){'\\', *c}, 2);
+            append_bytes(out, (char[]){'\\', *c}, 2);
         else if (byte < 0x20 || n == 0)
-            append(out, escape, (size_t)snprintf(escape, sizeof escape, "\\u%04x", n ? byte : 0xfffd));
+            append_bytes(out, escape, (size_t)snprintf(escape, sizeof escape, "\\u%04x", n ? byte : 0xfffd));
         else
-            append(out, c, n);
+            append_bytes(out, c, n);
         c += n ? n : 1;
     }
-    append(out, "\"", 1);
+    append_bytes(out, "\"", 1);
 }
 
 void gis_json_key(gis_json *out, const char *key)
 {
     begin_value(out);
-    quoted(out, key);
-    append(out, ": ", 2);
+    append_quoted(out, key);
+    append_bytes(out, ": ", 2);
     out->need_comma = false;
 }
 
@@ -90,23 +90,23 @@ void gis_json_string(gis_json *out, const char *utf8)
 {
     begin_value(out);
     if (utf8)
-        quoted(out, utf8);
+        append_quoted(out, utf8);
     else
-        append(out, "null", 4);
+        append_bytes(out, "null", 4);
 }
 
 void gis_json_size(gis_json *out, uint64_t value)
 {
     char text[24];
     begin_value(out);
-    append(out, text, (size_t)snprintf(text, sizeof text, "%" PRIu64, value));
+    append_bytes(out, text, (size_t)snprintf(text, sizeof text, "%" PRIu64, value));
 }
 
 void gis_json_signed(gis_json *out, int64_t value)
 {
     char text[24];
     begin_value(out);
-    append(out, text, (size_t)snprintf(text, sizeof text, "%" PRId64, value));
+    append_bytes(out, text, (size_t)snprintf(text, sizeof text, "%" PRId64, value));
 }
 
 void gis_json_double(gis_json *out, double value)
@@ -114,28 +114,28 @@ void gis_json_double(gis_json *out, double value)
     char text[GIS_NUMBER_MAX];
     begin_value(out);
     if (!isfinite(value)) {
-        append(out, "null", 4);
+        append_bytes(out, "null", 4);
         return;
     }
     gis_number_text(value, text);
-    append(out, text, strlen(text));
+    append_bytes(out, text, strlen(text));
 }
 
 void gis_json_bool(gis_json *out, bool value)
 {
     begin_value(out);
-    append(out, value ? "true" : "false", value ? 4 : 5);
+    append_bytes(out, value ? "true" : "false", value ? 4 : 5);
 }
 
 void gis_json_null(gis_json *out)
 {
     begin_value(out);
-    append(out, "null", 4);
+    append_bytes(out, "null", 4);
 }
 
 void gis_json_raw(gis_json *out, const char *text)
 {
-    append(out, text, strlen(text));
+    append_bytes(out, text, strlen(text));
     out->need_comma = true;
 }
 

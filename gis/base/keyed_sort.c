@@ -11,7 +11,7 @@ enum { DIGIT = 11, DIGITS = 1 << DIGIT, BITS = 64 };
 static size_t digit_of(const gis_keyed *one, int shift) { return (size_t)(one->key >> shift) & (DIGITS - 1); }
 
 /* Computes for each digit the position of its first element. */
-static void count(const gis_keyed *from, size_t n, int shift, size_t start[DIGITS])
+static void count_digits(const gis_keyed *from, size_t n, int shift, size_t start[DIGITS])
 {
     memset(start, 0, DIGITS * sizeof *start);
     for (size_t i = 0; i < n; i++) start[digit_of(&from[i], shift)]++;
@@ -37,7 +37,7 @@ bool gis_keyed_sort(gis_keyed *list, size_t n)
     for (int shift = 0; shift < BITS; shift += DIGIT) {
         size_t start[DIGITS];
         if (((differ >> shift) & (DIGITS - 1)) == 0) continue;
-        count(from, n, shift, start);
+        count_digits(from, n, shift, start);
         for (size_t i = 0; i < n; i++) to[start[digit_of(&from[i], shift)]++] = from[i];
         gis_keyed *swap = from;
         from = to;

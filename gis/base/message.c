@@ -65,7 +65,7 @@ static _Thread_local struct {
 /* ---- Names of features ------------------------------------------------------------------------------------------- */
 
 /* Copies a text, cut to the buffer. Fast, since names are made for millions of features, and few are printed. */
-static void keep(char to[GIS_WHO_SIZE], const char *text)
+static void copy_name(char to[GIS_WHO_SIZE], const char *text)
 {
     size_t n = strnlen(text, GIS_WHO_SIZE - 1);
     memcpy(to, text, n);
@@ -80,16 +80,16 @@ void gis_name_subject(const gis_subject *subject, char *text, size_t size)
                 ? snprintf(text, size, "%s%slayer %s, FID %" PRId64, within, joint, subject->layer, subject->fid)
                 : snprintf(text, size, "%s%slayer %s, feature %zu", within, joint, subject->layer, subject->number + 1);
     if (subject->id && n >= 0 && (size_t)n < size) snprintf(text + n, size - (size_t)n, " (id %s)", subject->id);
-    keep(last.name, text);
-    keep(last.layer, subject->layer);
-    keep(last.id, subject->id ? subject->id : "");
+    copy_name(last.name, text);
+    copy_name(last.layer, subject->layer);
+    copy_name(last.id, subject->id ? subject->id : "");
     last.has_fid = subject->has_fid;
     last.has_id = subject->id != NULL;
     last.fid = subject->fid;
 }
 
 /* Replaces control characters by blanks, in place. */
-static void cleanse(char *text)
+static void replace_controls(char *text)
 {
     for (char *c = text; *c; c++)
         if ((unsigned char)*c < ' ' || *c == 0x7f) *c = ' ';
@@ -100,8 +100,8 @@ static void cleanse(char *text)
 static bool names_last(const char *text)
 {
     char name[GIS_WHO_SIZE];
-    keep(name, last.name);
-    cleanse(name);
+    copy_name(name, last.name);
+    replace_controls(name);
     const char *at = name[0] ? strstr(text, name) : NULL;
     return at && !isalnum((unsigned char)at[strlen(name)]);
 }
@@ -148,7 +148,7 @@ static void print_json(FILE *to, const line *said)
     gis_json_clear(&out);
 }
 
-static void print(FILE *to, const line *said)
+static void print_line(FILE *to, const line *said)
 {
     if (messages.how.json)
         print_json(to, said);
@@ -160,7 +160,7 @@ static void print_to_stderr(const line *said)
 {
     fflush(stdout); /* so that lines are in order if both go to one terminal */
     gis_progress_break();
-    print(stderr, said);
+    print_line(stderr, said);
 }
 
 /* ---- Kinds ------------------------------------------------------------------------------------------------------- */
@@ -195,7 +195,7 @@ static void say_warning(gis_message_kind kind, const char *alike, char *text)
 {
     pthread_mutex_lock(&messages.turn);
     const line said = {"warning", kind_words[kind], text, 1, -1};
-    if (messages.log) print(messages.log, &said);
+    if (messages.log) print_line(messages.log, &said);
     if (!messages.how.quiet) {
         tally *of_kind = tally_of(kind, alike);
         if (!of_kind || of_kind->n++ < SAID_OF_A_KIND)
@@ -236,7 +236,7 @@ static void layer_of(const char *text, char layer[GIS_WHO_SIZE])
 {
     layer[0] = '\0';
     if (!names_last(text)) return;
-    keep(layer, last.name);
+    copy_name(layer, last.name);
     if (last.before < GIS_WHO_SIZE) layer[last.before] = '\0';
 }
 
@@ -247,7 +247,7 @@ void gis_say_warning(gis_message_kind kind, const char *format, ...)
     va_start(arguments, format);
     vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
-    cleanse(text);
+    replace_controls(text);
     layer_of(text, alike);
     say_warning(kind, alike, text);
 }
@@ -258,7 +258,7 @@ void gis_say_warnings(gis_message_kind kind, const gis_sentences *list)
     for (size_t i = 0; i < list->n && !gis_interrupted(); i++) {
         char text[TEXT_SIZE], alike[TEXT_SIZE];
         snprintf(text, sizeof text, "%s", list->items[i]);
-        cleanse(text);
+        replace_controls(text);
         without_numbers(text, alike, sizeof alike);
         say_warning(kind, alike, text);
     }
@@ -277,9 +277,9 @@ int gis_say_failure(const gis_error *error)
     pthread_mutex_lock(&messages.turn);
     say_sums();
     snprintf(text, sizeof text, "%s", error->message);
-    cleanse(text);
+    replace_controls(text);
     const line said = {"error", failure_kind(error), text, 1, error->exit_status};
-    if (messages.log) print(messages.log, &said);
+    if (messages.log) print_line(messages.log, &said);
     print_to_stderr(&said);
     pthread_mutex_unlock(&messages.turn);
     return error->exit_status;

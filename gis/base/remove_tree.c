@@ -16,14 +16,14 @@
  * name. */
 enum { LENGTH_AT = 16, NAME_AT = 19, ROOM = 2048, DEEPEST = 16 };
 
-static void empty(int directory, int depth);
+static void empty_directory(int directory, int depth);
 
 static void remove_entry(int directory, const char *name, int depth)
 {
     if (strcmp(name, ".") == 0 || strcmp(name, "..") == 0 || unlinkat(directory, name, 0) == 0) return;
     int inside = openat(directory, name, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
     if (inside >= 0) {
-        empty(inside, depth + 1);
+        empty_directory(inside, depth + 1);
         close(inside);
     }
     unlinkat(directory, name, AT_REMOVEDIR);
@@ -31,7 +31,7 @@ static void remove_entry(int directory, const char *name, int depth)
 
 /* Removes everything in a directory. Listing it while entries are removed may miss some, so it is listed twice.
  * Datasets nest only a few levels deep. */
-static void empty(int directory, int depth)
+static void empty_directory(int directory, int depth)
 {
     _Alignas(uint64_t) char entries[ROOM];
     if (depth > DEEPEST) return;

@@ -23,7 +23,7 @@ struct gis_side_thread {
 
 /* Does the pieces of work one by one, without holding the lock; a piece stays in the list until it is done. GDAL's
  * messages on this thread are suppressed, since the results of the work tell the same. */
-static void *serve(void *argument)
+static void *do_pieces(void *argument)
 {
     gis_side_thread *b = argument;
     CPLPushErrorHandler(CPLQuietErrorHandler);
@@ -52,7 +52,7 @@ gis_side_thread *gis_side_thread_new(void)
     if (!b) return NULL;
     pthread_mutex_init(&b->lock, NULL);
     pthread_cond_init(&b->changed, NULL);
-    if (pthread_create(&b->thread, NULL, serve, b) == 0) return b;
+    if (pthread_create(&b->thread, NULL, do_pieces, b) == 0) return b;
     pthread_cond_destroy(&b->changed);
     pthread_mutex_destroy(&b->lock);
     free(b);

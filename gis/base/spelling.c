@@ -9,9 +9,9 @@
 
 enum { LONGEST = 40 }; /* longer words are not compared */
 
-static int letter(char c) { return tolower((unsigned char)c); }
+static int folded_letter(char c) { return tolower((unsigned char)c); }
 
-static size_t least(size_t a, size_t b) { return a < b ? a : b; }
+static size_t smaller_of(size_t a, size_t b) { return a < b ? a : b; }
 
 static size_t edit_distance(const char *a, size_t n, const char *b, size_t m)
 {
@@ -20,10 +20,10 @@ static size_t edit_distance(const char *a, size_t n, const char *b, size_t m)
     for (size_t i = 1; i <= n; i++) {
         row[0] = i;
         for (size_t k = 1; k <= m; k++) {
-            int p = letter(a[i - 1]), q = letter(b[k - 1]);
-            row[k] = least(least(last[k], row[k - 1]) + 1, last[k - 1] + (p != q));
-            if (i > 1 && k > 1 && p == letter(b[k - 2]) && letter(a[i - 2]) == q)
-                row[k] = least(row[k], before[k - 2] + 1);
+            int p = folded_letter(a[i - 1]), q = folded_letter(b[k - 1]);
+            row[k] = smaller_of(smaller_of(last[k], row[k - 1]) + 1, last[k - 1] + (p != q));
+            if (i > 1 && k > 1 && p == folded_letter(b[k - 2]) && folded_letter(a[i - 2]) == q)
+                row[k] = smaller_of(row[k], before[k - 2] + 1);
         }
         for (size_t k = 0; k <= m; k++) {
             before[k] = last[k];

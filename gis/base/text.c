@@ -21,7 +21,7 @@ void gis_text_empty(gis_text *text)
 const char *gis_text_get(const gis_text *text) { return text->failed ? NULL : text->at ? text->at : ""; }
 
 /* Makes room for n more bytes and the NUL. */
-static bool reserve(gis_text *text, size_t n)
+static bool reserve_bytes(gis_text *text, size_t n)
 {
     if (text->failed) return false;
     if (text->capacity - text->length > n) return true;
@@ -36,7 +36,7 @@ static bool reserve(gis_text *text, size_t n)
 
 void gis_text_add_bytes(gis_text *text, const char *bytes, size_t n)
 {
-    if (!reserve(text, n)) return;
+    if (!reserve_bytes(text, n)) return;
     memcpy(text->at + text->length, bytes, n);
     text->length += n;
     text->at[text->length] = '\0';
@@ -48,14 +48,14 @@ void gis_text_add(gis_text *text, const char *string) { gis_text_add_bytes(text,
 void gis_text_print(gis_text *text, const char *format, ...)
 {
     va_list arguments, again;
-    if (!reserve(text, 64)) return;
+    if (!reserve_bytes(text, 64)) return;
     va_start(arguments, format);
     va_copy(again, arguments);
     size_t room = text->capacity - text->length;
     int n = vsnprintf(text->at + text->length, room, format, arguments);
     if (n >= 0 && (size_t)n >= room) {
         text->at[text->length] = '\0';
-        if (reserve(text, (size_t)n)) vsnprintf(text->at + text->length, (size_t)n + 1, format, again);
+        if (reserve_bytes(text, (size_t)n)) vsnprintf(text->at + text->length, (size_t)n + 1, format, again);
     }
     if (n >= 0 && !text->failed) text->length += (size_t)n;
     va_end(again);

@@ -7,7 +7,7 @@
 #include <string.h>
 
 /* The hash function FNV-1a. */
-static size_t hash(const char *key)
+static size_t hash_key(const char *key)
 {
     uint64_t h = UINT64_C(14695981039346656037);
     for (; *key; key++) h = (h ^ (unsigned char)*key) * UINT64_C(1099511628211);
@@ -15,22 +15,22 @@ static size_t hash(const char *key)
 }
 
 /* The slot of the key, or the empty slot where it would go. */
-static size_t find(const gis_block_keys *keys, const char *key)
+static size_t find_slot(const gis_block_keys *keys, const char *key)
 {
-    size_t at = hash(key) & (keys->slots - 1);
+    size_t at = hash_key(key) & (keys->slots - 1);
     while (keys->slot[at] && strcmp(keys->key[keys->slot[at] - 1], key) != 0) at = (at + 1) & (keys->slots - 1);
     return at;
 }
 
 /* Grows the table if needed, so that it is at most half full. */
-static bool make_room(gis_block_keys *keys)
+static bool reserve_slots(gis_block_keys *keys)
 {
     if (2 * (keys->n + 1) <= keys->slots) return true;
     gis_block_keys larger = *keys;
     larger.slots = keys->slots ? 2 * keys->slots : 64;
     larger.slot = calloc(larger.slots, sizeof *larger.slot);
     if (!larger.slot) return false;
-    for (size_t k = 0; k < keys->n; k++) larger.slot[find(&larger, keys->key[k])] = k + 1;
+    for (size_t k = 0; k < keys->n; k++) larger.slot[find_slot(&larger, keys->key[k])] = k + 1;
     free(keys->slot);
     *keys = larger;
     return true;
@@ -38,11 +38,11 @@ static bool make_room(gis_block_keys *keys)
 
 bool gis_block_keys_add(gis_block_keys *keys, char *key, int64_t *number, gis_error *error)
 {
-    if (!make_room(keys) || !gis_array_reserve(&keys->key, &keys->capacity, keys->n + 1, sizeof *keys->key)) {
+    if (!reserve_slots(keys) || !gis_array_reserve(&keys->key, &keys->capacity, keys->n + 1, sizeof *keys->key)) {
         free(key);
         return gis_no_memory(error);
     }
-    const size_t at = find(keys, key);
+    const size_t at = find_slot(keys, key);
     if (keys->slot[at]) {
         free(key);
     } else {

@@ -87,7 +87,7 @@ static void take_pair(pairing *p, size_t was, size_t is)
 
 /* Matches features of both layers, in the order of the original. Features that are only in the original are listed as
  * lost. */
-static bool match(pairing *p, gis_error *error)
+static bool match_features(pairing *p, gis_error *error)
 {
     gis_moves *m = p->moves;
     const gis_layer_input *now = p->now;
@@ -158,7 +158,7 @@ bool gis_moves_check(const gis_layer_input_request *request, const gis_layer_inp
     p.before = calloc(room, sizeof *p.before);
     p.after = calloc(room, sizeof *p.after);
     bool ok = (out->matched && out->lost && p.before && p.after) || gis_no_memory(error);
-    ok = ok && match(&p, error) && make_layers(&p, error) &&
+    ok = ok && match_features(&p, error) && make_layers(&p, error) &&
          gis_layer_run_moves(&out->original, out->before, out->after, progress, &out->report, error);
     free(p.before);
     free(p.after);

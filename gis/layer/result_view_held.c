@@ -29,7 +29,7 @@ gis_view_barrier gis_view_barrier_of(const sunder_obstacle *geometry, double wid
     return out;
 }
 
-static bool fill(void *of, gis_view_feature *feature, gis_error *error)
+static bool fill_features(void *of, gis_view_feature *feature, gis_error *error)
 {
     const gis_result *held = of;
     for (size_t i = 0; i < held->input->n; i++) {
@@ -55,28 +55,28 @@ static bool fill_barriers(void *of, gis_view_barrier *barrier, gis_error *error)
     return true;
 }
 
-static bool conflicts(void *of, const sunder_conflict **conflict, size_t *n, gis_error *error)
+static bool list_conflicts(void *of, const sunder_conflict **conflict, size_t *n, gis_error *error)
 {
     (void)error;
     *conflict = sunder_report_conflicts(((const gis_result *)of)->of, n);
     return true;
 }
 
-static bool shape(void *of, size_t feature, uint64_t place, const sunder_shape **out, gis_error *error)
+static bool feature_shape(void *of, size_t feature, uint64_t place, const sunder_shape **out, gis_error *error)
 {
     (void)place, (void)error;
     *out = ((const gis_result *)of)->input->shape[feature];
     return true;
 }
 
-static bool geometry(void *of, uint64_t place, sunder_obstacle *out, gis_error *error)
+static bool barrier_geometry(void *of, uint64_t place, sunder_obstacle *out, gis_error *error)
 {
     (void)error;
     *out = ((const gis_result *)of)->input->barriers.barrier[place].geometry;
     return true;
 }
 
-static bool name(void *of, size_t feature, uint64_t place, GIntBig *fid, const char **id, gis_error *error)
+static bool feature_name(void *of, size_t feature, uint64_t place, GIntBig *fid, const char **id, gis_error *error)
 {
     const gis_layer_input *input = ((const gis_result *)of)->input;
     (void)place, (void)error;
@@ -102,9 +102,8 @@ static void close_nothing(void *of) { (void)of; }
 bool gis_result_held_view(const gis_result *result, gis_result_view *out, gis_error *error)
 {
     (void)error;
-    *out = (gis_result_view){(void *)result, result->input->n, result->input->barriers.n,
-                             fill,           fill_barriers,    conflicts,
-                             shape,          geometry,         name,
-                             barrier_name,   close_nothing};
+    *out = (gis_result_view){(void *)result, result->input->n, result->input->barriers.n, fill_features, fill_barriers,
+                             list_conflicts, feature_shape,    barrier_geometry,          feature_name,  barrier_name,
+                             close_nothing};
     return true;
 }

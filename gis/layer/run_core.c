@@ -55,7 +55,7 @@ static sunder_layer_options watched_options(const gis_layer_input *input, watche
     return how;
 }
 
-static bool ended(const gis_layer_input *input, sunder_status status, const sunder_error *why, gis_error *error)
+static bool check_status(const gis_layer_input *input, sunder_status status, const sunder_error *why, gis_error *error)
 {
     if (status == SUNDER_EARG) return gis_fail_usage(error, "%s", why->message);
     if (status != SUNDER_OK) return gis_fail(error, "layer %s: %s", gis_source_name(input->source), why->message);
@@ -70,7 +70,7 @@ bool gis_layer_run(const gis_layer_input *input, gis_layer_work *work, gis_progr
     how.trace = trace ? gis_trace_event : NULL;
     how.trace_user = trace;
     sunder_error why;
-    if (!ended(input, work(input->layer, &how, report, &why), &why, error)) return false;
+    if (!check_status(input, work(input->layer, &how, report, &why), &why, error)) return false;
     sunder_report_summary(*report, summary);
     return true;
 }
@@ -81,5 +81,5 @@ bool gis_layer_run_moves(const gis_layer_input *input, const sunder_layer *befor
     watcher w = {progress, STRETCH};
     sunder_layer_options how = watched_options(input, &w);
     sunder_error why;
-    return ended(input, sunder_layer_check_moves(before, after, &how, report, &why), &why, error);
+    return check_status(input, sunder_layer_check_moves(before, after, &how, report, &why), &why, error);
 }

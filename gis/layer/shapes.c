@@ -28,7 +28,7 @@ static const unsigned growth_segments = 16;
 static const double grown_ulps = 8, grown_part = 1e-9;
 
 /* Enlarges a shape by a polygon that contains the disc of this radius, and rounds the result to doubles. */
-static bool grow(const sunder_shape *shape, double radius, const char *who, sunder_shape **out, gis_error *error)
+static bool grow_shape(const sunder_shape *shape, double radius, const char *who, sunder_shape **out, gis_error *error)
 {
     double box[4], most = 0;
     sunder_shape_box(shape, box);
@@ -68,7 +68,7 @@ static bool polygon_shape(gis_layer_input *input, size_t i, gis_polygonal_part *
         gis_say_warning(GIS_MESSAGE_ARCS, "%s: its arcs are taken as polylines that differ from them by up to %g", who,
                         part->linearised);
     else if (part->linearised > 0 && shape && !sunder_shape_is_empty(shape)) {
-        if (!grow(shape, part->linearised, who, &grown, error)) {
+        if (!grow_shape(shape, part->linearised, who, &grown, error)) {
             sunder_shape_free(shape);
             return false;
         }
@@ -165,7 +165,7 @@ static bool own_symbol(const gis_layer_input *input, size_t i, const gis_layer_s
 }
 
 /* Scales a shape by a factor; vertices are rounded, and if that makes it invalid, it is read by the even-odd rule. */
-static bool enlarge(const sunder_shape *shape, double factor, const char *who, sunder_shape **out, gis_error *error)
+static bool scale_shape(const sunder_shape *shape, double factor, const char *who, sunder_shape **out, gis_error *error)
 {
     gis_polygons all = {0};
     sunder_error why;
@@ -188,7 +188,7 @@ static bool place_enlarged(gis_layer_input *input, size_t i, int size_field, con
     if (!(factor > 0) || !isfinite(factor))
         return gis_layer_wrong_number(input, i, size_field, "size of the symbol", "a finite number greater than 0",
                                       error);
-    if (!enlarge(symbol, factor, who, &larger, error)) return false;
+    if (!scale_shape(symbol, factor, who, &larger, error)) return false;
     bool ok = sunder_shape_is_empty(larger)
                   ? gis_fail(error, "%s: its symbol times %g encloses nothing that doubles can tell", who, factor)
                   : place_symbol(input, i, larger, who, error);

@@ -25,7 +25,7 @@ typedef struct making {
     atomic_size_t next; /* the first feature that no thread has taken */
 } making;
 
-static void make(void *context)
+static void make_shapes(void *context)
 {
     making *m = context;
     const gis_layer_input *input = m->input;
@@ -48,7 +48,7 @@ void gis_layer_shapes_ahead(gis_layer_input *input)
     making m = {.input = input};
     gis_side_thread *beside = gis_side_thread_new();
     if (!beside) return;
-    gis_side_thread_do(beside, make, &m);
-    make(&m);
+    gis_side_thread_do(beside, make_shapes, &m);
+    make_shapes(&m);
     gis_side_thread_free(beside);
 }

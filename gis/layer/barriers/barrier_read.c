@@ -160,7 +160,7 @@ static bool take_feature(reading *r, size_t i, gis_error *error)
 /* ---- One layer --------------------------------------------------------------------------------------------------- */
 
 /* The filter box for the source, in its CRS. False: all features are read. */
-static bool within(void *user, OGRLayerH layer, OGRSpatialReferenceH crs, double box[4])
+static bool filter_box(void *user, OGRLayerH layer, OGRSpatialReferenceH crs, double box[4])
 {
     reading *r = user;
     const char *field = r->request->width_field;
@@ -184,7 +184,7 @@ static bool within(void *user, OGRLayerH layer, OGRSpatialReferenceH crs, double
 }
 
 /* Keep the feature when it is read? In another CRS that can only be decided later. */
-static bool wants(void *user, OGRSpatialReferenceH crs, OGRFeatureH feature)
+static bool wants_feature(void *user, OGRSpatialReferenceH crs, OGRFeatureH feature)
 {
     const reading *r = user;
     OGRGeometryH geometry = OGR_F_GetGeometryRef(feature);
@@ -201,8 +201,8 @@ static bool open_source(reading *r, gis_error *error)
         .takes = GIS_TAKES_POLYGONS | GIS_TAKES_LINES | GIS_TAKES_POINTS,
         .layer_option = "layer=",
         .where_option = "where=",
-        .within = within,
-        .wants = wants,
+        .within = filter_box,
+        .wants = wants_feature,
         .user = r,
         .batch = r->batch,
         .not_finite = gis_invalid_not_finite(r->around->invalid, GIS_NOT_FINITE_LEFT_OUT),
@@ -292,7 +292,7 @@ static bool make_barriers(const gis_barrier_request *requests, const double *dis
     return true;
 }
 
-static bool append(void *user, const gis_barrier_common *common, gis_barrier_feature *feature, gis_error *error)
+static bool append_feature(void *user, const gis_barrier_common *common, gis_barrier_feature *feature, gis_error *error)
 {
     gis_barriers *out = user;
     (void)common;
@@ -313,7 +313,7 @@ static bool read_all(const gis_barrier_request *requests, size_t n, const gis_ba
     bool ok = (distance && out->layer) || gis_no_memory(error);
     for (size_t k = 0; ok && k < n; k++) {
         gis_barrier_common common;
-        ok = gis_barrier_visit(&requests[k], around, 0, append, out, &common, error);
+        ok = gis_barrier_visit(&requests[k], around, 0, append_feature, out, &common, error);
         distance[k] = common.distance;
         out->layer[k] = common.layer;
         out->requests++;
