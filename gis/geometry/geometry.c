@@ -1,7 +1,7 @@
-/* geometry.c: OGR geometries to arrays and back, and their translation in place.
+/* geometry.c: converts OGR geometries to arrays and back, and translates them in place.
  *
- * Geometries nest (a collection holds collections); the functions here recurse on that depth, which GDAL's own
- * readers bound by 32, never on the number of vertices or parts. */
+ * The functions recurse on the nesting of collections, which GDAL's readers limit to 32, never on the number of
+ * vertices or parts. */
 #include "geometry/geometry.h"
 
 #include <cpl_conv.h>
@@ -13,13 +13,13 @@ static bool is_polygon(OGRwkbGeometryType flat)
     return flat == wkbPolygon || flat == wkbCurvePolygon || flat == wkbTriangle;
 }
 
-/* Point, or a curve with vertices of its own. A LinearRing calls itself a LineString. */
+/* Is it a point, or a curve with vertices of its own? A LinearRing has the type LineString. */
 static bool is_leaf(OGRwkbGeometryType flat)
 {
     return flat == wkbPoint || flat == wkbLineString || flat == wkbCircularString;
 }
 
-/* ---- What is in it ----------------------------------------------------------------------------------------------- */
+/* ---- Content of a geometry --------------------------------------------------------------------------------------- */
 
 enum { HAS_POLYGON = 1, HAS_LINE = 2, HAS_POINT = 4 };
 
@@ -64,7 +64,7 @@ static bool append_polygon(OGRGeometryH polygon, gis_polygons *set, gis_error *e
         OGRGeometryH ring = OGR_G_GetGeometryRef(polygon, r);
         int n = OGR_G_GetPointCount(ring);
         if (n <= 0) {
-            if (r == 0) return true; /* no outer ring: the polygon encloses nothing, whatever its holes */
+            if (r == 0) return true; /* without an outer ring the polygon is empty, whatever its holes */
             continue;
         }
         if (!gis_polygons_reserve(set, (size_t)n, error)) return false;
@@ -87,16 +87,15 @@ static bool append_polygons(OGRGeometryH geometry, gis_polygonal_part *part, gis
     return true;
 }
 
-/* How far the arc through three points may be from the chords that GDAL draws for it. Its vertices lie on the circle,
- * so a chord of length c of a circle of radius R is at most the sagitta R - sqrt(R^2 - c^2/4) away. GDAL chooses the
- * step so that chords differ from arc to arc, hence each arc is linearised by itself here and its longest chord taken.
- * Everything is in doubles, whose error is far below the slack added at the end: 1e-9 of the radius is some 1e6 times
- * the relative rounding error of a dozen operations, and the vertices themselves are off by some ulps of a
- * coordinate. */
+/* The sagitta of a chord: how far an arc may be from the chord that GDAL draws for it. A chord of length c of a circle
+ * with radius R is at most R - sqrt(R^2 - c^2/4) away from the arc. GDAL's step differs from arc to arc, so each arc is
+ * linearised separately, and its longest chord is used. All this is computed in doubles; the rounding errors are far
+ * below the slack that is added at the end (1e-9 of the radius is about 1e6 times the relative error of a dozen
+ * operations, and the vertices are off by some ulps of a coordinate). */
 static double sagitta_of(double chord, double radius)
 {
     double half = chord / 2, rest = radius * radius - half * half;
-    return half * half / (radius + sqrt(fmax(0, rest))); /* R - sqrt(R^2 - c^2/4), without its cancellation */
+    return half * half / (radius + sqrt(fmax(0, rest))); /* R - sqrt(R^2 - c^2/4) without its cancellation */
 }
 
 static bool arc_deviation(OGRGeometryH arc, double *deviation, gis_error *error)
@@ -109,7 +108,7 @@ static bool arc_deviation(OGRGeometryH arc, double *deviation, gis_error *error)
     }
     double ax = x[1] - x[0], ay = y[1] - y[0], bx = x[2] - x[1], by = y[2] - y[1], cx = x[2] - x[0], cy = y[2] - y[0];
     double area2 = fabs(ax * cy - ay * cx);
-    double radius = cx == 0 && cy == 0 ? hypot(ax, ay) / 2 /* a full circle: the middle point is opposite */
+    double radius = cx == 0 && cy == 0 ? hypot(ax, ay) / 2 /* a full circle: the middle point is opposite the ends */
                                        : hypot(ax, ay) * hypot(bx, by) * hypot(cx, cy) / (2 * area2);
     OGRGeometryH line = OGR_G_GetLinearGeometry(arc, 0, NULL);
     if (!line) return gis_fail(error, "GDAL cannot linearise an arc");
@@ -120,9 +119,9 @@ static bool arc_deviation(OGRGeometryH arc, double *deviation, gis_error *error)
                                       OGR_G_GetY(line, i) - OGR_G_GetY(line, i - 1)));
     OGR_G_DestroyGeometry(line);
     double slack = 16 * DBL_EPSILON * largest;
-    double sagitta = 0; /* collinear points (an infinite radius) make a straight piece, on which the chords lie */
+    double sagitta = 0; /* collinear points have an infinite radius; their chords are exact */
     if (isfinite(radius)) sagitta = sagitta_of(longest, radius);
-    if (isfinite(radius) && n == 2 && area2 > 0) /* drawn as one chord, even if it spans more than half the circle */
+    if (isfinite(radius) && n == 2 && area2 > 0) /* drawn as one chord, even if it spans more than half of the circle */
         sagitta = fmax(sagitta, area2 / hypot(cx, cy));
     *deviation = fmax(*deviation, sagitta + 1e-9 * fmin(radius, longest) + slack);
     return true;
@@ -209,7 +208,7 @@ static void translate_leaf(OGRGeometryH leaf, double dx, double dy)
     bool z = OGR_G_Is3D(leaf), m = OGR_G_IsMeasured(leaf);
     for (int i = 0; i < n; i++) {
         double x = OGR_G_GetX(leaf, i) + dx, y = OGR_G_GetY(leaf, i) + dy;
-        /* The setter of the right dimension: another one would add or zero Z or M. */
+        /* Use the setter for the geometry's dimension; another one would add or clear Z or M. */
         if (z && m)
             OGR_G_SetPointZM(leaf, i, x, y, OGR_G_GetZ(leaf, i), OGR_G_GetM(leaf, i));
         else if (m)
@@ -223,7 +222,7 @@ static void translate_leaf(OGRGeometryH leaf, double dx, double dy)
 
 static void translate(OGRGeometryH geometry, double dx, double dy)
 {
-    if (OGR_G_IsEmpty(geometry)) return; /* giving an empty point coordinates would make it a point */
+    if (OGR_G_IsEmpty(geometry)) return; /* setting coordinates of an empty point would make it non-empty */
     if (is_leaf(wkbFlatten(OGR_G_GetGeometryType(geometry)))) {
         translate_leaf(geometry, dx, dy);
         return;

@@ -1,5 +1,5 @@
-/* geometry_wind.c: turning the rings of polygons. The direction of a ring is the turn at its lowest vertex, which the
- * library's predicate tells exactly: no sum of products whose sign rounding could spoil. */
+/* geometry_wind.c: orients the rings of polygons. The orientation of a ring is the turn at its lowest vertex, which the
+ * library's predicate determines exactly; the sign of an area could be wrong by rounding. */
 #include "geometry/geometry.h"
 
 #include <cpl_conv.h>
@@ -11,9 +11,9 @@ static sunder_point point_at(OGRGeometryH ring, int i)
 
 static bool same_point(sunder_point p, sunder_point q) { return p.x == q.x && p.y == q.y; }
 
-/* +1 counter-clockwise, -1 clockwise, 0 where the lowest vertex is a spike or all vertices coincide. The lowest vertex
- * (the rightmost of several) lies on the hull, so the turn there is the ring's orientation if the ring is simple; for a
- * ring that crosses itself this agrees with GDAL's reader of Shapefiles. n vertices, without the closing one. */
+/* The turn at the lowest vertex (the rightmost of several) of n vertices without the closing one: +1 counter-clockwise,
+ * -1 clockwise, 0 if it is a spike or all vertices coincide. The lowest vertex is on the convex hull, so for a simple
+ * ring this is its orientation; for a ring that crosses itself it is what GDAL's reader of Shapefiles assumes. */
 static int ring_turn(OGRGeometryH ring, int n)
 {
     int lowest = 0;
@@ -22,7 +22,7 @@ static int ring_turn(OGRGeometryH ring, int n)
         if (p.y < q.y || (p.y == q.y && p.x > q.x)) lowest = i;
     }
     sunder_point at = point_at(ring, lowest), before = at, after = at;
-    for (int i = 1; i < n && same_point(before, at); i++) /* repeated vertices are no neighbours */
+    for (int i = 1; i < n && same_point(before, at); i++) /* skip repeated vertices */
         before = point_at(ring, (lowest + n - i) % n);
     for (int i = 1; i < n && same_point(after, at); i++) after = point_at(ring, (lowest + i) % n);
     return sunder_orient(&before, &at, &after);

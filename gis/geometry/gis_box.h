@@ -1,4 +1,4 @@
-/* gis_box.h: boxes as xmin, ymin, xmax, ymax. An empty one has xmin > xmax. */
+/* gis_box.h: boxes as xmin, ymin, xmax, ymax. An empty box has xmin > xmax. */
 #ifndef GIS_GEOMETRY_BOX_H
 #define GIS_GEOMETRY_BOX_H
 
@@ -13,7 +13,7 @@ static inline void gis_box_clear(double box[4])
 
 static inline bool gis_box_is_empty(const double box[4]) { return !(box[0] <= box[2]); }
 
-/* Around the other one, too. */
+/* Enlarges the box so that it contains the other one. */
 static inline void gis_box_join(double box[4], const double other[4])
 {
     if (gis_box_is_empty(other)) return;
@@ -23,7 +23,7 @@ static inline void gis_box_join(double box[4], const double other[4])
     }
 }
 
-/* Have they a point in common? */
+/* Do the boxes have a point in common? */
 static inline bool gis_box_meets(const double a[4], const double b[4])
 {
     return a[0] <= b[2] && b[0] <= a[2] && a[1] <= b[3] && b[1] <= a[3];

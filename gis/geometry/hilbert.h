@@ -1,13 +1,13 @@
-/* hilbert.h: places along a Hilbert curve: neighbours along it are neighbours in the plane. */
+/* hilbert.h: positions along a Hilbert curve: points that are close along the curve are close in the plane. */
 #ifndef GIS_HILBERT_H
 #define GIS_HILBERT_H
 
 #include <math.h>
 #include <stdint.h>
 
-/* Position of a cell of a grid of 2^bits by 2^bits along the curve, bits <= 31: at each level the quadrant in which the
- * cell lies, then the quadrant's own rotation of the plane, which exchanges the axes and may flip both. Without
- * branches, since the quadrant is as good as random. */
+/* The position along the curve of a cell in a grid of 2^bits by 2^bits cells, bits <= 31. Each level contributes the
+ * quadrant in which the cell lies, and that quadrant's transformation of the plane, which may exchange the axes and
+ * flip both. Without branches, since quadrants are practically random. */
 static inline uint64_t gis_curve_position(uint32_t x, uint32_t y, unsigned bits)
 {
     uint64_t along = 0;
@@ -22,7 +22,7 @@ static inline uint64_t gis_curve_position(uint32_t x, uint32_t y, unsigned bits)
     return along;
 }
 
-/* The cell, along one axis of such a grid over [from, to], of a place. */
+/* The number of the cell that contains `place`, along one axis of such a grid over [from, to]. */
 static inline uint32_t gis_curve_cell(double place, double from, double to, unsigned bits)
 {
     const double t = to > from ? (place - from) / (to - from) : 0;

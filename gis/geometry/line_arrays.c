@@ -1,4 +1,4 @@
-/* line_arrays.c: see line_arrays.h. The functions recurse on the depth of collections, which GDAL's readers bound. */
+/* line_arrays.c: see line_arrays.h. The functions recurse on the nesting of collections, which GDAL's readers limit. */
 #include "geometry/line_arrays.h"
 
 #include "base/array.h"
@@ -17,7 +17,7 @@ static bool is_polygon(OGRwkbGeometryType flat)
     return flat == wkbPolygon || flat == wkbCurvePolygon || flat == wkbTriangle;
 }
 
-/* A point, or a line with vertices of its own; a ring calls itself one. */
+/* Appends a point, or a line with vertices of its own; a ring counts as a line. */
 static bool append_points(OGRGeometryH line, gis_lines *out, gis_error *error)
 {
     int n = OGR_G_GetPointCount(line);
@@ -32,7 +32,7 @@ static bool append_points(OGRGeometryH line, gis_lines *out, gis_error *error)
     return true;
 }
 
-/* A leaf, its arcs as the polylines that GDAL makes of them. */
+/* Appends a point or line; arcs become the polylines that GDAL makes of them. */
 static bool append_linear(OGRGeometryH line, gis_lines *out, bool *arcs, gis_error *error)
 {
     if (!OGR_G_HasCurveGeometry(line, TRUE)) return append_points(line, out, error);
@@ -43,7 +43,7 @@ static bool append_linear(OGRGeometryH line, gis_lines *out, bool *arcs, gis_err
     return ok;
 }
 
-/* A ring, with its first vertex at the end if it is not closed. */
+/* Appends a ring, and its first vertex once more if the ring is not closed. */
 static bool append_ring(OGRGeometryH ring, gis_lines *out, bool *arcs, gis_error *error)
 {
     const size_t lines = out->lines, first = 2 * out->points;
@@ -58,7 +58,7 @@ static bool append_ring(OGRGeometryH ring, gis_lines *out, bool *arcs, gis_error
     return true;
 }
 
-/* Either all leaves that are no polygons, or the rings of those that are. */
+/* rings = false: appends all points and lines; true: the rings of all polygons. */
 static bool append(OGRGeometryH geometry, bool rings, gis_lines *out, bool *arcs, gis_error *error)
 {
     if (OGR_G_IsEmpty(geometry)) return true;

@@ -1,7 +1,7 @@
-/* packed.c: see packed.h. A record is: the FID; how many bytes of geometry, and these, as ISO well-known binary in the
- * machine's own order; of each field a byte that says whether it is set, and its value. Nothing in it is aligned. One
- * that borrows its vertices has no geometry, and in place of the number of bytes that of the shape; the highest bit
- * says so, and the next one that it is a MultiPolygon. */
+/* packed.c: see packed.h. A record holds the FID; the number of bytes of the geometry, and these, as ISO well-known
+ * binary in the machine's byte order; and for each field a byte with its state, and its value. Nothing in it is
+ * aligned. A record that borrows its vertices has no geometry: the number of bytes is replaced by the number of the
+ * shape, with the highest bit set, and the next bit if it is a MultiPolygon. */
 #include "geometry/packed.h"
 
 #include "base/array.h"
@@ -12,16 +12,17 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { UNSET, EMPTY, VALUE }; /* states of a field: not set, null, or the value that follows */
+enum { UNSET, EMPTY, VALUE }; /* states of a field: not set, null, or a value follows */
 
-/* A chunk is twice as large as the one before it, from what most layers take as a whole. */
+/* Sizes of chunks of memory: each chunk is twice as large as the one before; the first is enough for most small
+ * layers. */
 enum { FIRST_CHUNK = 1 << 16, LARGEST_CHUNK = 4 << 20 };
 
-#define BORROWS UINT32_C(0x80000000) /* a geometry has fewer bytes: its size fits an int */
+#define BORROWS UINT32_C(0x80000000) /* cannot occur in a number of bytes, which is an int */
 #define BORROWS_MULTI UINT32_C(0x40000000)
-#define MOST_BORROWED BORROWS_MULTI /* the remaining values are numbers of shapes */
+#define MOST_BORROWED BORROWS_MULTI /* the largest number of shapes that fits into the remaining bits */
 
-/* ---- Room -------------------------------------------------------------------------------------------------------- */
+/* ---- Memory ------------------------------------------------------------------------------------------------------ */
 
 bool gis_packed_begin(gis_packed *packed, OGRLayerH layer, gis_error *error)
 {
@@ -53,7 +54,7 @@ void gis_packed_clear(gis_packed *packed)
     *packed = (gis_packed){0};
 }
 
-/* What room the last chunk had left is given up. */
+/* The unused rest of the last chunk is lost. */
 bool gis_packed_join(gis_packed *packed, gis_packed *from)
 {
     const size_t chunks = packed->chunks + from->chunks;
@@ -104,7 +105,7 @@ static bool has_points(OGRGeometryH polygon)
     return rings > 0;
 }
 
-/* A Polygon or MultiPolygon in the plane, no ring of it empty. */
+/* Is it a Polygon or MultiPolygon in two dimensions, without empty rings, in the layer's CRS? */
 static bool is_plain(const gis_packed *packed, OGRGeometryH geometry)
 {
     if (!geometry || OGR_G_GetSpatialReference(geometry) != packed->crs) return false;
@@ -157,7 +158,7 @@ bool gis_packed_add(gis_packed *packed, OGRFeatureH feature, const unsigned char
         return true;
     const GIntBig fid = OGR_F_GetFID(feature);
     const int bytes = OGR_G_WkbSize(geometry);
-    if (bytes <= 0) return true; /* too many for an int */
+    if (bytes <= 0) return true; /* the size does not fit an int */
     unsigned char *to = take(packed, sizeof fid + sizeof bytes + (size_t)bytes + size_of_values(packed, feature));
     if (!to) return gis_no_memory(error);
     const unsigned char *const at = to;
@@ -211,13 +212,13 @@ static uint32_t number_at(const unsigned char **at)
     return number;
 }
 
-/* The geometry part of a record. */
+/* The parts of a record behind the FID. */
 typedef struct place {
-    const unsigned char *geometry; /* from its own byte of order on; NULL: its vertices are borrowed */
-    const unsigned char *values;   /* behind it */
-    size_t bytes;                  /* its own coordinates */
-    bool multi;                    /* the number of borrowed ones */
-    uint32_t shape;                /* and the shape they are borrowed from */
+    const unsigned char *geometry; /* well-known binary; NULL: the vertices are borrowed */
+    const unsigned char *values;   /* the values of the fields */
+    size_t bytes;                  /* size of `geometry` */
+    bool multi;                    /* if borrowed: it is a MultiPolygon */
+    uint32_t shape;                /* if borrowed: number of the shape */
 } place;
 
 static place place_of(const unsigned char *record)
@@ -237,7 +238,7 @@ static place place_of(const unsigned char *record)
     return p;
 }
 
-/* Past the order of bytes and the type; tells the type. */
+/* Skips the byte order and the type, which it returns. */
 static uint32_t begin_geometry(const unsigned char **at)
 {
     ++*at;
@@ -285,7 +286,7 @@ static bool visit_finite(void *user, const unsigned char *points, size_t n, bool
 bool gis_packed_is_finite(const unsigned char *record)
 {
     const place p = place_of(record);
-    return !p.geometry || gis_packed_visit(p.geometry, visit_finite, NULL); /* a shape is finite */
+    return !p.geometry || gis_packed_visit(p.geometry, visit_finite, NULL); /* shapes have only finite coordinates */
 }
 
 static const unsigned char *pass_value(OGRFieldType type, const unsigned char *from)
@@ -294,9 +295,10 @@ static const unsigned char *pass_value(OGRFieldType type, const unsigned char *f
     return from + (type == OFTString ? strlen((const char *)from) + 1 : sizeof(int64_t));
 }
 
-/* ---- Vertices of a shape ----------------------------------------------------------------------------------------- */
+/* ---- Vertices of shapes ------------------------------------------------------------------------------------------ */
 
-/* The geometry of a record; one whose vertices are borrowed lives until another is asked for. NULL if memory is out. */
+/* The geometry of a record as well-known binary. If its vertices are borrowed, the result is valid until the next call.
+ * NULL if memory is out. */
 static const unsigned char *geometry_of(gis_packed *packed, const unsigned char *record, size_t *bytes)
 {
     const place p = place_of(record);
@@ -334,7 +336,7 @@ bool gis_packed_polygons(gis_packed *packed, const unsigned char *record, gis_po
     return geometry ? gis_packed_visit(geometry, visit_appending, &to) : gis_no_memory(error);
 }
 
-/* Is the geometry what the shape was given? *same; false if memory is out. */
+/* Sets *same to whether the shape was made from exactly this geometry; false if memory is out. */
 static bool is_given(gis_packed *packed, const place *p, bool multi, const sunder_shape *shape, bool *same)
 {
     *same = gis_shape_wkb_bytes(shape, multi) == p->bytes;
@@ -362,7 +364,7 @@ const unsigned char *gis_packed_add_borrowing(gis_packed *packed, const unsigned
     return at;
 }
 
-/* ---- Features again ---------------------------------------------------------------------------------------------- */
+/* ---- GDAL features ----------------------------------------------------------------------------------------------- */
 
 static const unsigned char *set_value(OGRFeatureH feature, int i, OGRFieldType type, const unsigned char *from)
 {
@@ -385,7 +387,7 @@ static const unsigned char *set_value(OGRFeatureH feature, int i, OGRFieldType t
     }
 }
 
-/* Everything that the record holds. False if memory is out. */
+/* Sets the FID, geometry and fields of a feature from the record. False if memory is out. */
 static bool unpack(gis_packed *packed, const unsigned char *record, OGRFeatureH feature)
 {
     size_t bytes;
@@ -414,9 +416,9 @@ OGRFeatureH gis_packed_copy(gis_packed *packed, const unsigned char *record)
     return NULL;
 }
 
-/* ---- Moved ------------------------------------------------------------------------------------------------------- */
+/* ---- Moved geometries -------------------------------------------------------------------------------------------- */
 
-/* For a geometry that the program owns. */
+/* Adds a move to n points in place; `points` must be in a buffer of this file. */
 static bool visit_moving(void *user, const unsigned char *points, size_t n, bool last)
 {
     const double *move = user;

@@ -1,12 +1,12 @@
-/* packed_borrowing.c: see packed_borrowing.h. With more threads than one another does the second half. */
+/* packed_borrowing.c: see packed_borrowing.h. If several threads are allowed, a second one does the second half. */
 #include "geometry/packed_borrowing.h"
 
 #include "base/side_thread.h"
 
-/* Below this number of features starting a thread takes longer than the work. */
+/* With fewer features, starting a thread takes longer than the work. */
 enum { MANY = 5000 };
 
-/* Records [begin, end). */
+/* The records begin ... end - 1. */
 typedef struct stretch {
     gis_packed *lean;
     const unsigned char **record;

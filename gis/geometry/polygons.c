@@ -1,6 +1,6 @@
-/* polygons.c: see polygons.h. Vertices, rings and polygons are counted from the start of the set, so that the last of
- * them are taken back by setting the counts back. That a signal has come is asked wherever vertices are added: all that
- * makes many of them ends there. */
+/* polygons.c: see polygons.h. Vertices, rings and polygons are counted from the start of the set, so the last ones are
+ * removed by reducing the counts. Whether a signal has arrived is tested wherever vertices are added, since all work
+ * that makes many of them passes here. */
 #include "geometry/polygons.h"
 
 #include "base/array.h"

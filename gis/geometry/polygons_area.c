@@ -1,12 +1,12 @@
-/* polygons_area.c: what rings enclose, and which way they run, in doubles that know what rounding has lost. A shape of
- * the core would say it exactly, but would have to be made. */
+/* polygons_area.c: areas and orientations of rings, in doubles with compensation of rounding errors. A shape of the
+ * core would give exact results, but making one costs more. */
 #include "geometry/polygons.h"
 
 #include <float.h>
 #include <math.h>
 
-/* A sum and what rounding has lost of it [Ogita, Rump, Oishi, Accurate sum and dot product, 2005, algorithm 5.3]: as
- * good as twice as many digits, and the same on every machine, which longer formats are not. */
+/* A compensated sum [Ogita, Rump, Oishi, Accurate sum and dot product, 2005, algorithm 5.3]: as accurate as with twice
+ * the number of digits, and the same on every machine, unlike wider floating-point formats. */
 typedef struct careful_sum {
     double sum, lost;
 } careful_sum;
@@ -25,7 +25,7 @@ static careful_sum difference(double a, double b)
     return s;
 }
 
-/* sign a b */
+/* Adds sign * a * b. */
 static void add_product(careful_sum *s, double sign, careful_sum a, careful_sum b)
 {
     const double product = a.sum * b.sum;
@@ -33,8 +33,8 @@ static void add_product(careful_sum *s, double sign, careful_sum a, careful_sum 
     s->lost += sign * (fma(a.sum, b.sum, -product) + (a.sum * b.lost + a.lost * b.sum));
 }
 
-/* Twice the signed area of a ring in units of 1 / unit; from its first vertex on, so that large coordinates cost no
- * digits. */
+/* Twice the signed area of a ring in units of 1 / unit. Vertices are taken relative to the first one, so that large
+ * coordinates lose no digits. */
 static double scaled_area(const double *xy, size_t n, double unit)
 {
     const double origin[2] = {unit * xy[0], unit * xy[1]};
@@ -50,7 +50,7 @@ static double scaled_area(const double *xy, size_t n, double unit)
     return twice.sum + twice.lost;
 }
 
-/* By which power of two a ring is to be scaled, so that products stay within the range of doubles. */
+/* The exponent of the power of two by which a ring is scaled, so that products stay within the range of doubles. */
 static int scale_of(const double *xy, size_t n)
 {
     double most = 0;
@@ -58,7 +58,7 @@ static int scale_of(const double *xy, size_t n)
     return most > 0x1p400 ? -600 : most < 0x1p-400 ? 600 : 0;
 }
 
-/* Twice the signed area of a ring, times 4^*scale. What overflows on the way does not come out finite. */
+/* Twice the signed area of a ring, times 4^*scale. Not finite if it overflows even so. */
 static double ring_area(const double *xy, size_t n, int *scale)
 {
     *scale = 0;
@@ -85,7 +85,7 @@ double gis_polygons_area(const gis_polygons *set)
 
 static void reverse(double *xy, size_t n)
 {
-    /* A closed ring has its first vertex at the end, too; of an open one it stays where it is. */
+    /* The first vertex stays the first; in a closed ring it is also the last. */
     if (n < 2) return;
     bool closed = xy[0] == xy[2 * n - 2] && xy[1] == xy[2 * n - 1];
     for (size_t i = closed ? 0 : 1, j = n - 1; i < j; i++, j--)

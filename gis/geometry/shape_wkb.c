@@ -4,7 +4,7 @@
 #include <stdint.h>
 #include <string.h>
 
-/* Bytes of: the order and the type of a geometry; how many it has of something; a point. */
+/* Sizes in bytes: byte order and type; a count; a point. */
 enum { HEAD = 1 + sizeof(uint32_t), COUNT = sizeof(uint32_t), POINT = 2 * sizeof(double) };
 
 static unsigned char *put(unsigned char *to, const void *from, size_t n)
@@ -21,10 +21,10 @@ static unsigned char *put_head(unsigned char *to, uint32_t type)
     return put_number(to, type);
 }
 
-/* Does the ring end with its first vertex once more, as it has to be written? */
+/* Is the ring's last vertex a copy of its first, as well-known binary requires? */
 static bool is_closed(const double *xy, size_t n) { return n > 1 && memcmp(xy, xy + 2 * (n - 1), POINT) == 0; }
 
-/* How many vertices all rings have as they are written. */
+/* The number of vertices written, with closing vertices. */
 static size_t count_vertices(const double *xy, const size_t *ring_end, size_t rings)
 {
     size_t vertices = rings ? ring_end[rings - 1] : 0;

@@ -1,5 +1,4 @@
-/* wkt.c: see wkt.h. A reader of our own, since GDAL's takes much that is not WKT and says little of what
- * is wrong. */
+/* wkt.c: see wkt.h. A parser of its own, since GDAL's accepts much that is not WKT and does not say what is wrong. */
 #include "geometry/wkt.h"
 
 #include <ctype.h>
@@ -11,8 +10,8 @@
 typedef struct reader {
     const char *start, *at;
     const char *who;
-    int tagged;    /* how many further numbers Z and M take; 0: no tag */
-    int dimension; /* numbers in every point, as the first one has them; 0: none read yet */
+    int tagged;    /* numbers in each point according to the tag (3 or 4); 0: there is no tag */
+    int dimension; /* numbers in each point, as in the first one; 0: none was read yet */
     gis_polygons *out;
     gis_error *error;
 } reader;
@@ -71,7 +70,8 @@ static bool read_number(reader *in, double *value)
     return true;
 }
 
-/* X Y, and Z and M that are dropped: as many numbers in every point as in the first, and as the tag says. */
+/* Reads X and Y, and skips Z and M. Every point must have the same number of coordinates as the first, and as the tag
+ * says. */
 static bool read_point(reader *in)
 {
     double value[4];
@@ -123,7 +123,7 @@ static bool read_members(reader *in)
     return take(in, ')') || wrong(in, "',' or ')'");
 }
 
-/* The tag Z, M or ZM after the type, apart from it or joined to it (POLYGONZ). */
+/* Reads the tag Z, M or ZM behind the type, separated from it or not (POLYGONZ). */
 static void read_tag(reader *in, size_t *type_length, const char *type)
 {
     size_t n = *type_length;
@@ -145,7 +145,7 @@ static void read_tag(reader *in, size_t *type_length, const char *type)
 
 const char *gis_wkt_after_srid(const char *text, int *srid)
 {
-    enum { DIGITS = 9 }; /* more are no SRID, and would not fit an int */
+    enum { DIGITS = 9 }; /* more digits are no SRID, and do not fit an int */
     const char *at = text;
     *srid = 0;
     while (isspace((unsigned char)*at)) at++;

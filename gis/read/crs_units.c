@@ -1,5 +1,5 @@
-/* crs_units.c: see crs_units.h. Only what the CRS itself says counts; the one place where coordinates are looked at, to
- * find the local scale of a Mercator map, feeds a warning and nothing else. */
+/* crs_units.c: see crs_units.h. Only the CRS itself matters; coordinates are used in one place, to compute the local
+ * scale of a Mercator map for a warning. */
 #include "read/crs_units.h"
 
 #include "base/message.h"
@@ -7,8 +7,8 @@
 #include <math.h>
 #include <string.h>
 
-/* A GeoPackage layer without a CRS is written, and read, with one called undefined (srs_id 0 or -1); that GDAL calls
- * the first one geographic says nothing about the coordinates. */
+/* A GeoPackage layer without a CRS is stored with one called "undefined" (srs_id 0 or -1); GDAL calls the first of
+ * these geographic, but that says nothing about the coordinates. */
 bool gis_crs_is_known(OGRSpatialReferenceH crs)
 {
     const char *name = crs ? OSRGetName(crs) : NULL;
@@ -31,7 +31,7 @@ gis_crs_units gis_crs_units_of(OGRSpatialReferenceH crs, double scale)
     return units;
 }
 
-/* Latitude, in degrees, of the middle of the box; NaN if PROJ cannot tell. */
+/* The latitude, in degrees, of the middle of the box; NaN if PROJ cannot compute it. */
 static double middle_latitude(OGRSpatialReferenceH crs, const double *box)
 {
     double x = (box[0] + box[2]) / 2, y = (box[1] + box[3]) / 2, latitude = NAN;
@@ -49,8 +49,8 @@ static double middle_latitude(OGRSpatialReferenceH crs, const double *box)
     return latitude;
 }
 
-/* On a Mercator map a length is that on the ground times the scale factor, cos(standard parallel) / cos(latitude) to
- * the accuracy a warning needs (the ellipsoid changes it by less than a hundredth). */
+/* Warns of a Mercator projection. A length on the map is that on the ground times cos(standard parallel) /
+ * cos(latitude); the ellipsoid changes this factor by less than a hundredth, which does not matter for a warning. */
 static void warn_mercator(OGRSpatialReferenceH crs, const char *layer, const double *box)
 {
     const char *projection = OSRGetAttrValue(crs, "PROJECTION", 0);

@@ -1,4 +1,4 @@
-/* crs_units.h: whether a CRS is known, and what it says about lengths. `crs` may be NULL everywhere. */
+/* crs_units.h: is a CRS known, and what does it say about lengths? `crs` may be NULL in all functions. */
 #ifndef GIS_CRS_UNITS_H
 #define GIS_CRS_UNITS_H
 
@@ -6,14 +6,14 @@
 
 #include "base/length.h"
 
-/* False also of the CRS called undefined that a GeoPackage gives to layers without one. */
+/* False for NULL, and for the CRS called "undefined" that a GeoPackage gives to layers without one. */
 bool gis_crs_is_known(OGRSpatialReferenceH crs);
-/* Are they the same, as far as both are known? */
+/* Are the two the same, or is one of them unknown? */
 bool gis_crs_may_be_same(OGRSpatialReferenceH p, OGRSpatialReferenceH q);
-/* The units of lengths in this CRS, on a map of scale 1:`scale`; 0: it was not given. */
+/* The units of lengths in this CRS, on a map of the scale 1:`scale` (0: not given). */
 gis_crs_units gis_crs_units_of(OGRSpatialReferenceH crs, double scale);
-/* Warns of a Mercator projection, whose lengths are not lengths on the ground, and of degrees, with the name of the
- * layer; `box` (xmin ymin xmax ymax, may be NULL) tells where the local scale is measured. */
+/* Warns of degrees, and of a Mercator projection, whose lengths are not lengths on the ground; `layer` names the layer.
+ * box: xmin ymin xmax ymax, where the local scale is computed; may be NULL. */
 void gis_crs_units_warn(OGRSpatialReferenceH crs, const char *layer, const double *box);
 
 #endif

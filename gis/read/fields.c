@@ -1,5 +1,5 @@
-/* fields.c: see fields.h. Formats tell values apart in ways of their own (a text where a number was meant, blanks where
- * a null was): what is read here is the same, whichever one holds it. */
+/* fields.c: see fields.h. Formats store values in different ways (a text for a number, an empty text for a null); these
+ * functions return the same for all. */
 #include "read/fields.h"
 
 #include "base/length.h"
@@ -48,7 +48,7 @@ bool gis_field_is_blank(OGRFeatureH feature, int field)
     return text[strspn(text, " ")] == '\0';
 }
 
-/* Doubles with all their digits, so that different ones stay different; the two zeros are equal. */
+/* Doubles are written with 17 digits, so that different ones stay different; 0 and -0 give the same text. */
 char *gis_field_key(OGRFeatureH feature, int field)
 {
     OGRFieldType type = OGR_Fld_GetType(OGR_F_GetFieldDefnRef(feature, field));

@@ -1,6 +1,6 @@
-/* read_shape.c: see read_shape.h. A layer's polygons are judged feature by feature, so that the one at fault can be
- * named, and taken together as one set: strictly where all are valid, by the even-odd rule where one had to be
- * repaired by it. */
+/* read_shape.c: see read_shape.h. The polygons of a layer are validated feature by feature, so that messages can name
+ * the one at fault, and then joined to one set: read strictly if all are valid, by the even-odd rule if one had to be
+ * repaired. */
 #include "read/read_shape.h"
 
 #include "base/core_error.h"
@@ -14,8 +14,7 @@
 #include <string.h>
 #include <unistd.h>
 
-/* Appends the polygons of one feature, as --invalid has it: each feature is judged by itself, so that the one
- * at fault can be named. */
+/* Appends the polygons of feature i, which is validated by itself according to --invalid. */
 static bool append_feature(const gis_source *source, size_t i, const gis_polygonal_part *part,
                            gis_invalid_policy policy, gis_polygons *all, bool *any_invalid, gis_error *error)
 {
@@ -29,7 +28,7 @@ static bool append_feature(const gis_source *source, size_t i, const gis_polygon
     sunder_shape *alone = NULL;
     bool invalid;
     if (!gis_shape_of_feature(&part->set, policy, who, "", &alone, &invalid, error)) return false;
-    if (!alone) /* skipped */
+    if (!alone) /* skipped, with a warning */
         return true;
     sunder_shape_free(alone);
     *any_invalid = *any_invalid || invalid;

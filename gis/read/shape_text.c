@@ -1,5 +1,5 @@
-/* shape_text.c: see shape_text.h. The beginning of a text distinguishes WKT from a data source; but if a file of that
- * name exists, e.g. one called "POLYGON (...)", the file is meant. */
+/* shape_text.c: see shape_text.h. The beginning of a text distinguishes WKT from a data source; but if there is a file
+ * of that name, such as one called "POLYGON (...)", the file is meant. */
 #include "read/shape_text.h"
 
 #include "base/core_error.h"
@@ -19,7 +19,7 @@ static const char *const standard_shapes[] = {"disc:", "inside-disc:", "square:"
 enum { DISC, INSIDE_DISC, SQUARE, RECTANGLE, N_STANDARD };
 
 static const unsigned default_segments = 32;
-/* More corners than this cannot be told from a circle at any scale, and would be a slip of the pen. */
+/* A polygon with more vertices cannot be distinguished from a circle at any scale; a larger number is an error. */
 static const double most_segments = 65536;
 
 static int standard_shape(const char *text)
@@ -35,7 +35,7 @@ bool gis_shape_is_text(const char *text)
     return gis_wkt_looks_like(text) && access(text, F_OK) != 0;
 }
 
-/* One measure of a standard shape: its radius, side, width or height. */
+/* Reads the radius, side, width or height (`what`) of a standard shape. */
 static bool read_length(const char *text, size_t n, const char *what, const char *who, const gis_crs_units *units,
                         double *out, gis_error *error)
 {
@@ -48,7 +48,7 @@ static bool read_length(const char *text, size_t n, const char *what, const char
     return gis_length_in_layer_units(&length, units, who, out, error);
 }
 
-/* A failure of the core about an argument is wrong usage; another one is a failure of the run. */
+/* An invalid argument is wrong usage; any other error of the core is a failure of the run. */
 static bool core_failed(const char *who, const sunder_error *why, gis_error *error)
 {
     if (why->status == SUNDER_EARG) return gis_fail_usage(error, "%s: %s", who, why->message);
@@ -90,7 +90,7 @@ static bool read_rectangle(const char *text, bool square, const char *who, const
     return true;
 }
 
-/* Reads a whole stream; the caller frees *text. */
+/* Reads all of a stream; the caller frees *text. */
 static bool read_stream(FILE *file, char **text, gis_error *error)
 {
     char *bytes = NULL;
@@ -173,7 +173,7 @@ static bool shape_from_text(const char *text, const char *who, const gis_crs_uni
         return ok;
     }
     if (gis_shape_of_wkt(text, who, policy, out, building, error)) return true;
-    if (!error->no_memory) error->exit_status = GIS_USAGE; /* a literal is part of the command line */
+    if (!error->no_memory) error->exit_status = GIS_USAGE; /* the text is part of the command line */
     return false;
 }
 

@@ -1,5 +1,5 @@
-/* source.c: opening, selecting, reading. The choice of the layer is in source_layer.c, the marking of features by an
- * expression in source_mark.c. */
+/* source.c: opens a source, selects its features, and reads them. source_layer.c chooses the layer, source_mark.c marks
+ * features by a condition. */
 #define _LARGEFILE64_SOURCE /* cpl_vsi.h needs struct stat64 */
 #include "read/source.h"
 
@@ -25,7 +25,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A feature as it was read; or its record, and the feature is NULL. */
+/* A feature that was read: a GDAL feature, or (if that is NULL) its record. */
 typedef struct gis_read_feature {
     OGRFeatureH feature;
     const unsigned char *record;
@@ -34,21 +34,22 @@ typedef struct gis_read_feature {
 struct gis_source {
     GDALDatasetH dataset;
     OGRLayerH layer;
-    bool is_result; /* the layer is a result set of --sql */
+    bool is_result; /* the layer is the result of --sql */
     OGRSpatialReferenceH crs;
     char *path, *name, *where;
-    const char *where_option; /* as messages call it; the request's */
-    const void **held;        /* [n] features as they were read, or records */
-    unsigned char *contents;  /* [n] with RECORD of those */
+    const char *where_option; /* name of the option for messages; borrowed from the request */
+    const void **held;        /* [n] GDAL features or records */
+    unsigned char *contents;  /* [n] content of each, with RECORD if held[i] is a record */
     size_t n, capacity, contents_capacity;
-    gis_packed *packed; /* what records are of */
+    gis_packed *packed; /* the memory of records */
     gis_source_facts facts;
-    bool fids_missing, fids_rising; /* for everything read so far: not set; each greater than the one before */
+    bool fids_missing, fids_rising; /* for all features read: some FID is not set; each FID is greater than the one
+                                     * before */
     GIntBig last_fid;
-    size_t batch, first, bytes; /* bytes: of geometries in the batch; see gis_source_request */
-    bool may_pack, ended;       /* ended: the last feature was read */
-    bool within;                /* GDAL compares with a box that the caller can do without */
-    bool (*wants)(void *user, OGRSpatialReferenceH crs, OGRFeatureH feature); /* of the request */
+    size_t batch, first, bytes; /* bytes: size of the batch's geometries; the others as in gis_source_request */
+    bool may_pack, ended;       /* ended: the last feature of the layer was read */
+    bool within;                /* GDAL compares features with a box that the caller does not depend on */
+    bool (*wants)(void *user, OGRSpatialReferenceH crs, OGRFeatureH feature); /* from the request */
     void *user;
     bool facts_given, fids_mean_nothing;
     gis_not_finite not_finite;
@@ -58,7 +59,7 @@ struct gis_source {
     gis_sentences warnings;
 };
 
-enum { RECORD = 0x80 }; /* beside a content */
+enum { RECORD = 0x80 }; /* flag in `contents` */
 
 static gis_read_feature read_of(const gis_source *source, size_t i)
 {
@@ -80,7 +81,7 @@ static bool open_dataset(gis_source *source, const gis_source_request *request, 
     if (!gis_path_suits_gdal(request->path, "the input", error)) return false;
     const char *planted = gis_sqlite_planted_companion(request->path);
     if (planted) return gis_fail(error, GIS_SQLITE_PLANTED, request->path, planted, request->path);
-    /* The standard input cannot be rewound past a megabyte unless GDAL is told to keep it all. */
+    /* Standard input can be rewound only up to a megabyte, unless GDAL is told to keep all of it. */
     if (strncmp(request->path, "/vsistdin/", 10) == 0 && !CPLGetConfigOption("CPL_VSISTDIN_BUFFER_LIMIT", NULL))
         CPLSetThreadLocalConfigOption("CPL_VSISTDIN_BUFFER_LIMIT", "-1");
     gis_sqlite_heed_signals();
@@ -168,17 +169,17 @@ static bool choose_crs(gis_source *source, const gis_source_request *request, gi
     gis_listener_clear(&listener);
     if (status != OGRERR_NONE)
         return gis_fail_usage(error, "--input-crs %s: not a coordinate reference system", request->input_crs);
-    /* Data is x, y as GIS draws it, whatever axis order the authority gives. */
+    /* Coordinates are in the order x, y, whatever axis order the authority defines. */
     OSRSetAxisMappingStrategy(source->crs, OAMS_TRADITIONAL_GIS_ORDER);
     return true;
 }
 
 /* ---- Reading ----------------------------------------------------------------------------------------------------- */
 
-/* A batch ends when its geometries take this many bytes. */
+/* A batch ends when its geometries reach this size. */
 enum { BATCH_BYTES = 32 << 20 };
 
-/* feature: NULL: there is but its record. */
+/* Updates the facts about the layer. feature == NULL: there is only its record. */
 static void note_facts(gis_source *source, OGRFeatureH feature, const unsigned char *record, gis_content content)
 {
     gis_source_facts *facts = &source->facts;
@@ -197,7 +198,7 @@ static void note_facts(gis_source *source, OGRFeatureH feature, const unsigned c
 
 static size_t bytes_of(OGRGeometryH geometry) { return geometry ? (size_t)OGR_G_WkbSize(geometry) : 0; }
 
-/* Takes the feature over, packed if there is a record of it. */
+/* Adds a feature, and takes it over; if there is a record, the record is kept and the feature is destroyed. */
 static bool keep(gis_source *source, OGRFeatureH feature, const unsigned char *record, bool finite)
 {
     const gis_content content = !finite  ? GIS_BROKEN
@@ -219,7 +220,7 @@ static bool keep_record(void *user, const unsigned char *record, gis_error *erro
     return keep(user, NULL, record, true) || gis_no_memory(error);
 }
 
-/* May it stay, or go? It fails where neither is allowed. */
+/* Warns or fails, as the request says, because a coordinate of the feature is not finite. */
 static bool judge_not_finite(const gis_source *source, OGRFeatureH feature, gis_error *error)
 {
     char who[GIS_WHO_SIZE];
@@ -231,7 +232,7 @@ static bool judge_not_finite(const gis_source *source, OGRFeatureH feature, gis_
     return true;
 }
 
-/* One feature, which is the source's from now on if *kept. */
+/* Reads one feature. *kept is set if the source has taken it over. */
 static bool take(gis_source *source, OGRFeatureH feature, bool *kept, gis_error *error)
 {
     const unsigned char *record = NULL;
@@ -270,7 +271,8 @@ static void forget_facts(gis_source *source)
     if (!source->facts_given) source->facts = (gis_source_facts){0};
 }
 
-/* Reads the whole layer past GDAL, if it is one whole table and all of that is plain; else nothing. */
+/* Reads the whole layer without GDAL if it is a table without selection, and all its rows are plain; otherwise leaves
+ * the source empty. */
 static bool read_table(gis_source *source, const gis_source_request *request, gis_error *error)
 {
     const bool whole = request && !source->batch && !request->sql && !request->bbox && !request->within &&
@@ -285,7 +287,7 @@ static bool read_table(gis_source *source, const gis_source_request *request, gi
     return begin_packing(source, error);
 }
 
-/* request: NULL: all features are wanted. */
+/* Reads a batch, or all features. request == NULL: no feature is filtered. */
 static bool read_features(gis_source *source, const gis_source_request *request, gis_error *error)
 {
     if (!read_table(source, request, error)) return false;
@@ -298,11 +300,11 @@ static bool read_features(gis_source *source, const gis_source_request *request,
         if (!kept) OGR_F_Destroy(feature);
         if (!taken || !gis_go_on(error)) return false;
     }
-    return gis_go_on(error); /* a statement that is cut short may look like the last feature */
+    return gis_go_on(error); /* a statement that a signal ended looks like the end of the layer */
 }
 
-/* Names the first feature that GDAL cannot compare with the box of the source's filter; false if there is none. The
- * filter is gone then. */
+/* Writes the name of the first feature that GDAL cannot compare with the box of the source's filter to `who`. Returns
+ * false if there is none. The filter is removed. */
 static bool name_incomparable(gis_source *source, char *who, size_t size)
 {
     OGRGeometryH box = OGR_G_Clone(OGR_L_GetSpatialFilter(source->layer));
@@ -323,7 +325,8 @@ static bool name_incomparable(gis_source *source, char *who, size_t size)
 }
 
 /* GDAL drops a feature that it cannot compare with a box, such as a polygon with an open ring, and reports the reason
- * without the feature. A caller that gave the box itself may read without it. */
+ * without the feature. If the box came from the caller's `within`, reading without it
+ * may succeed. */
 static bool fail_in_a_box(gis_source *source, const char *reason, gis_error *error)
 {
     char who[GIS_WHO_SIZE];
@@ -337,7 +340,7 @@ static bool fail_in_a_box(gis_source *source, const char *reason, gis_error *err
     return false;
 }
 
-/* The batch, or all there is. */
+/* Reads a batch, or all features, and reports errors of the driver. */
 static bool read_batch(gis_source *source, const gis_source_request *request, gis_error *error)
 {
     gis_listener listener = {0};
@@ -358,7 +361,7 @@ static bool read_batch(gis_source *source, const gis_source_request *request, gi
     return done;
 }
 
-/* What an earlier reading found must still hold. */
+/* At the end of the layer: fails if the number of features differs from that of an earlier reading. */
 static bool ends_as_known(const gis_source *source, gis_error *error)
 {
     const size_t read = source->first + source->n;
@@ -396,7 +399,8 @@ static int compare_fids(const void *a, const void *b)
     return (p > q) - (p < q);
 }
 
-/* Of all features again: those in memory, or, where these are a batch, those of the layer. */
+/* Lists the FIDs of all features again: of those in memory or, if they are read in batches, by reading the layer
+ * again. */
 static bool list_fids(gis_source *source, GIntBig *fids, size_t *n)
 {
     *n = source->facts.features;
@@ -409,7 +413,7 @@ static bool list_fids(gis_source *source, GIntBig *fids, size_t *n)
     return k == *n;
 }
 
-/* Only where they do not rise are they all looked at together. */
+/* Determines whether all FIDs are set and different. They are compared only if they are not ascending. */
 static bool look_at_fids(gis_source *source, gis_error *error)
 {
     bool *unique = &source->facts.fids_unique;
@@ -435,7 +439,8 @@ bool gis_source_find_facts(gis_source *source, gis_source_facts *facts, gis_erro
     return true;
 }
 
-/* Marking reads the layer anew (source_mark.c); then what follows the batch comes next again. */
+/* Makes the features behind the current batch come next again, after source_mark.c has read the layer from its
+ * beginning. */
 bool gis_source_resume(gis_source *source, gis_error *error)
 {
     OGR_L_ResetReading(source->layer);
@@ -460,7 +465,7 @@ bool gis_source_goes_by_fids(const gis_source *source)
 
 /* ---- Opening a source -------------------------------------------------------------------------------------------- */
 
-/* Before features are read, which asking may disturb. */
+/* Gets the extent before features are read, since that may disturb reading. */
 static void find_extent(gis_source *source)
 {
     OGREnvelope box;
@@ -606,7 +611,7 @@ bool gis_source_borrow(gis_source *source, sunder_shape *const *shape, unsigned 
     gis_packed lean;
     if (!source->may_pack || !gis_packed_begin(&lean, source->layer, error)) return !source->may_pack;
     lean.shape = shape;
-    /* Once more only where all of it succeeds: what is there is good until then. */
+    /* The records are replaced only if all copies succeed. */
     const unsigned char **record = malloc((source->n + 1) * sizeof *record);
     for (size_t i = 0; i < source->n && record; i++) record[i] = read_of(source, i).record;
     const bool ok = record ? gis_packed_borrow_all(&lean, source->layer, record, source->n, gis_threads(threads), error)

@@ -1,5 +1,5 @@
-/* source_checksum.c: see source_checksum.h. Geometries count as well-known binary in the machine's own order, which is
- * how they are packed, too. */
+/* source_checksum.c: see source_checksum.h. Geometries are taken as well-known binary in the machine's byte order, as
+ * they are packed. */
 #include "read/source_checksum.h"
 
 #include "base/array.h"
@@ -11,7 +11,7 @@
 
 typedef struct checking {
     const gis_source *source;
-    int *none; /* no field is asked for */
+    int *none; /* a map in which no field is requested */
     unsigned char *bytes;
     size_t room;
 } checking;

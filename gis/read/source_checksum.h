@@ -1,4 +1,4 @@
-/* source_checksum.h: a number that tells whether a layer is what it was. */
+/* source_checksum.h: a checksum that detects whether a layer has changed. */
 #ifndef GIS_SOURCE_CHECKSUM_H
 #define GIS_SOURCE_CHECKSUM_H
 
@@ -6,9 +6,8 @@
 
 #include <stdint.h>
 
-/* Goes on from a checksum (0: from none) over the FIDs and the geometries of the features, in their order; of a source
- * that is read by batches those of the batch. However many are read at a time, and packed or not, it comes to the
- * same. */
+/* Continues a checksum (0: begins one) with the FIDs and geometries of the features, in order; for a source that is
+ * read in batches, those of the current batch. The result does not depend on the size of batches, or on packing. */
 bool gis_source_checksum(const gis_source *source, uint64_t *checksum, gis_error *error);
 
 #endif

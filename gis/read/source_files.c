@@ -1,5 +1,5 @@
-/* source_files.c: see source_files.h. Files that exist are compared by device and inode: links, dots and mounts give
- * one file many names. */
+/* source_files.c: see source_files.h. Existing files are compared by device and inode, since links, dots and mounts
+ * give a file many names. */
 #include "read/source_files.h"
 
 #include <cpl_conv.h>
@@ -20,7 +20,8 @@ static bool is_file(const char *path)
     return stat(path, &status) == 0 && S_ISREG(status.st_mode);
 }
 
-/* What follows a driver's name, as in GPKG:file:layer or GeoJSON:file, or the path itself. One letter is a drive. */
+/* The path behind a driver's name, as in GPKG:file:layer or GeoJSON:file; the path itself if there is none. A single
+ * letter is a drive. */
 static const char *without_driver(const char *path)
 {
     size_t n = strspn(path, "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_");
@@ -29,9 +30,9 @@ static const char *without_driver(const char *path)
     return *path == '"' ? path + 1 : path;
 }
 
-/* Returns the file in the ordinary file system behind a virtual path, to be freed with CPLFree(), or NULL if there
- * is none (/vsimem/, a network). Prefixes (a driver's name, /vsizip/, /vsigzip/ within it, /vsisubfile/0_100,) and
- * the braces that may enclose an archive's name are removed. Then the shortest prefix that is a file is the archive. */
+/* The ordinary file behind a virtual path, to be freed with CPLFree(); NULL if there is none (/vsimem/, a network).
+ * Prefixes (a driver's name, /vsizip/, /vsigzip/ within it, /vsisubfile/0_100,) and braces around an archive's name are
+ * removed; then the shortest prefix that is a file is the archive. */
 static char *real_file(const char *name)
 {
     const char *path = without_driver(name);
@@ -46,7 +47,7 @@ static char *real_file(const char *name)
     }
     if (!virtual) return CPLStrdup(path);
     if (*path == '{') path++;
-    if (!*path) /* /vsistdout/ itself */
+    if (!*path) /* for example /vsistdout/ itself */
         return NULL;
     char *found = CPLStrdup(path);
     for (char *end = strpbrk(found + 1, ends); end; end = strpbrk(end + 1, ends)) {

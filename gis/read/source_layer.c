@@ -1,12 +1,12 @@
-/* source_layer.c: which layer of a dataset is meant, and whether it can hold what a command needs. Nothing is guessed:
- * of several that fit none is taken, and they are listed. */
+/* source_layer.c: chooses the layer of a dataset, and checks whether it can hold what a command needs. Nothing is
+ * guessed: if several layers are suitable, none is taken, and they are listed. */
 #include "read/source_layer.h"
 #include "read/source.h"
 
 #include <stdio.h>
 #include <string.h>
 
-/* The kinds of geometry that a layer of this declared type may hold. Unknown types and collections may hold any. */
+/* The kinds of geometry that a layer of this declared type may hold; unknown types and collections may hold any. */
 static unsigned kinds_of(OGRwkbGeometryType type)
 {
     OGRwkbGeometryType flat = wkbFlatten(type);
@@ -36,7 +36,7 @@ static void append(char *text, size_t size, const char *more)
     snprintf(text + used, size - used, "%s", more);
 }
 
-/* "roads (Line String), rivers (Multi Line String)"; those of a kind in `takes`, or all with takes == 0. */
+/* Writes "roads (Line String), rivers (Multi Line String)": the layers of a kind in `takes`, or all if takes is 0. */
 static void list_layers(GDALDatasetH dataset, unsigned takes, char *text, size_t size)
 {
     text[0] = '\0';
@@ -93,7 +93,7 @@ OGRLayerH gis_choose_layer(GDALDatasetH dataset, const gis_source_request *reque
         }
     }
     if (fit == 1) return fitting;
-    if (visible == 1) return only; /* gis_layer_fits() will report what is wrong with it */
+    if (visible == 1) return only; /* gis_layer_fits() will report if it is unsuitable */
     list_layers(dataset, fit ? takes : 0, listed, sizeof listed);
     if (fit)
         gis_fail(error, "%s has several layers that may be meant; choose one with %s: %s", path,

@@ -1,4 +1,4 @@
-/* source_layer.h: which layer of a dataset is meant. */
+/* source_layer.h: chooses a layer of a dataset. */
 #ifndef GIS_SOURCE_LAYER_H
 #define GIS_SOURCE_LAYER_H
 
@@ -8,12 +8,11 @@
 #include "base/gis_error.h"
 #include "read/source.h"
 
-/* The layer that the request names; if it names none, the only layer of an accepted kind; else NULL, and a sentence
+/* The layer that the request names; if it names none, the only layer of an accepted kind; otherwise NULL, with an error
  * that lists the layers. Borrowed from the dataset. */
 OGRLayerH gis_choose_layer(GDALDatasetH dataset, const gis_source_request *request, gis_error *error);
 
-/* May a layer of this declared type hold the required geometries? If not, the sentence tells its type and the required
- * one. */
+/* Fails if a layer of this declared type cannot hold the required geometries; the error names both types. */
 bool gis_layer_fits(OGRLayerH layer, const char *name, unsigned takes, gis_error *error);
 
 #endif

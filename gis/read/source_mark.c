@@ -1,6 +1,6 @@
-/* source_mark.c: which features satisfy an expression (--fixed-where, --ignore-where). The layer itself evaluates it
- * where it can, as it does for --where, and its FIDs identify the features; where FIDs carry no meaning, a layer in
- * memory evaluates it instead. */
+/* source_mark.c: finds the features that satisfy a condition (--fixed-where, --ignore-where). The layer evaluates it if
+ * possible, as it does for --where, and its FIDs identify the features; if FIDs have no meaning, a layer in memory
+ * evaluates it. */
 #define _GNU_SOURCE /* strcasestr() */
 #include "read/source_mark.h"
 
@@ -14,12 +14,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- By the layer itself ----------------------------------------------------------------------------------------- */
+/* ---- Evaluated by the layer -------------------------------------------------------------------------------------- */
 
-/* Takes the FID of a feature that satisfies the condition. */
+/* Gets the FID of a feature that satisfies the condition. */
 typedef bool take_fid(void *user, GIntBig fid);
 
-/* Queries the layer again with both filters. */
+/* Reads the features of the layer that satisfy both --where and the condition. */
 static bool ask_layer(const gis_source *source, const char *where, take_fid *take, void *user, gis_error *error)
 {
     OGRLayerH layer = gis_source_layer(source);
@@ -61,7 +61,7 @@ static bool take_mark(void *user, GIntBig fid)
     return true;
 }
 
-/* FIDs tell which features came. */
+/* Marks features by the FIDs that the query returns. */
 static bool mark_by_filter(const gis_source *source, const char *where, bool *marks, gis_error *error)
 {
     marking m = {.n = gis_source_count(source), .marks = marks};
@@ -74,7 +74,7 @@ static bool mark_by_filter(const gis_source *source, const char *where, bool *ma
     return done;
 }
 
-/* ---- The same for batches ---------------------------------------------------------------------------------------- */
+/* ---- For batches ------------------------------------------------------------------------------------------------- */
 
 static bool take_range(void *user, GIntBig fid)
 {
@@ -95,7 +95,7 @@ static int compare_ranges(const void *a, const void *b)
     return (p[0] > q[0]) - (p[0] < q[0]);
 }
 
-/* The answer to the condition, queried at its first use. NULL: the error tells why. */
+/* The result of the condition; the layer is queried at the first use. NULL: *error says why. */
 static const gis_marked *find_marked(gis_source *source, const char *where, gis_error *error)
 {
     gis_source_marks *all = gis_source_marks_of(source);
@@ -113,7 +113,7 @@ static const gis_marked *find_marked(gis_source *source, const char *where, gis_
     return marked;
 }
 
-/* Is it in the range, before it, or behind it? */
+/* Is the FID before the range, in it, or behind it? */
 static int compare_with_range(const void *fid, const void *range)
 {
     const GIntBig key = *(const GIntBig *)fid, *r = range;
@@ -130,23 +130,23 @@ static bool mark_batch(gis_source *source, const char *where, bool *marks, gis_e
     return marked != NULL;
 }
 
-/* ---- In memory --------------------------------------------------------------------------------------------------- */
+/* ---- Evaluated in memory ----------------------------------------------------------------------------------------- */
 
 static GDALDriverH memory_driver(void)
 {
-    GDALDriverH driver = GDALGetDriverByName("MEM"); /* for vectors since 3.11, else raster only */
+    GDALDriverH driver = GDALGetDriverByName("MEM"); /* supports vectors since GDAL 3.11, only rasters before */
     if (!driver || !GDALGetMetadataItem(driver, GDAL_DCAP_VECTOR, NULL)) driver = GDALGetDriverByName("Memory");
     return driver;
 }
 
-/* The features of a result set may share FIDs, and a filter would renumber them: so the attributes are laid out in a
- * layer of memory whose FIDs are our own numbers, and that is asked, in OGR's SQL. */
+/* Copies the attributes to a layer in memory, whose FIDs are the features' numbers, and evaluates the condition there
+ * in OGR's SQL: features of a result set may share FIDs, and a filter would renumber them. */
 static bool mark_in_memory(const gis_source *source, const char *where, bool *marks, gis_error *error)
 {
     const size_t first = gis_source_first(source);
     GDALDriverH driver = memory_driver();
     GDALDatasetH memory = driver ? GDALCreate(driver, "", 0, 0, 0, GDT_Unknown, NULL) : NULL;
-    /* Geometries come along where the condition is about them. */
+    /* Geometries are copied only if the condition is about them. */
     OGRwkbGeometryType type = strcasestr(where, "OGR_GEOM") ? wkbUnknown : wkbNone;
     OGRLayerH layer = memory ? GDALDatasetCreateLayer(memory, gis_source_name(source), NULL, type, NULL) : NULL;
     bool done = layer != NULL;

@@ -1,4 +1,4 @@
-/* source_mark.h: what source.c and source_mark.c share of sources that are read by batches. */
+/* source_mark.h: what source.c and source_mark.c share for sources that are read in batches. */
 #ifndef GIS_SOURCE_MARK_H
 #define GIS_SOURCE_MARK_H
 
@@ -7,21 +7,21 @@
 /* The FIDs of all features that satisfy a condition. */
 typedef struct gis_marked {
     char *where;
-    GIntBig (*range)[2]; /* [n] first and last of FIDs without a gap; ascending */
+    GIntBig (*range)[2]; /* [n] first and last FID of each range of consecutive FIDs; ascending */
     size_t n, capacity;
 } gis_marked;
 
-/* One for each condition that was queried. Zeroed: none. */
+/* The conditions that were queried. A zeroed struct is empty. */
 typedef struct gis_source_marks {
     gis_marked *marked;
     size_t n, capacity;
 } gis_source_marks;
 
-/* NULL: the source is not read by batches. */
+/* The marks of a source; NULL if it is not read in batches. */
 gis_source_marks *gis_source_marks_of(gis_source *source);
-/* Do FIDs tell features apart, as far as is known? */
+/* Do FIDs identify features, as far as is known? */
 bool gis_source_goes_by_fids(const gis_source *source);
-/* Goes on behind the batch, after the layer was read for something else. */
+/* Continues reading behind the current batch, after the layer was read for another purpose. */
 bool gis_source_resume(gis_source *source, gis_error *error);
 
 #endif

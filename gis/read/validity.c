@@ -1,6 +1,6 @@
-/* validity.c: see validity.h. The core first reads the set strictly, so a valid set is taken as it is, and an invalid
- * one is known with the place at fault; only then does it compute the even-odd set. A failed allocation is an error
- * under every policy. */
+/* validity.c: see validity.h. The core reads a set strictly first, so a valid set is taken as it is, and for an invalid
+ * one the place of the defect is known; only then is the even-odd set computed. A failed allocation is an error under
+ * every policy. */
 #include "read/validity.h"
 
 #include "base/message.h"

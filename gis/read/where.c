@@ -1,6 +1,6 @@
-/* where.c: see where.h. GDAL passes a condition to the database that holds the layer, which requires that database's
- * SQL, and evaluates it itself for all other formats, in its own dialect. A condition in the wrong dialect is an
- * unknown column to the other, without a hint at the cause. */
+/* where.c: see where.h. For a database GDAL passes a condition on, so it must be in the database's SQL; for all other
+ * formats GDAL evaluates it itself, in its own dialect. A condition in the wrong dialect is reported as an unknown
+ * column, which does not show the cause. */
 #define _GNU_SOURCE /* strcasestr() */
 #include "read/where.h"
 
@@ -10,7 +10,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* The drivers whose layers are asked in a SQL of their own. */
+/* Does the layer's driver evaluate conditions in an SQL of its own? */
 static bool has_own_sql(GDALDatasetH dataset)
 {
     static const char *const drivers[] = {"GPKG", "SQLite", "PostgreSQL", "MySQL", "MSSQLSpatial", "OCI"};

@@ -1,4 +1,4 @@
-/* where.h: why a condition on features was not understood. */
+/* where.h: explains why a condition was not understood. */
 #ifndef GIS_WHERE_H
 #define GIS_WHERE_H
 
@@ -7,9 +7,9 @@
 
 #include "base/gis_error.h"
 
-/* GIS_USAGE: the option and the condition, the reason that GDAL gives, and what helps: which words the layer's format
- * has for sizes, where the condition has another format's, and which fields the layer has. dataset: of the layer; NULL:
- * GDAL itself is to understand the condition. Always false. */
+/* Fails (wrong usage) with the option and the condition, the reason that GDAL gives, and a hint: how the layer's format
+ * names areas, if the condition uses another format's word, and which fields the layer has. dataset: that of the layer;
+ * NULL: GDAL evaluates the condition. Returns false. */
 bool gis_fail_where(GDALDatasetH dataset, OGRLayerH layer, const char *option, const char *where, const char *reason,
                     gis_error *error);
 

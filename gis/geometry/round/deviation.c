@@ -1,4 +1,4 @@
-/* deviation.c: see round.h. How far a double is from an exact number. */
+/* deviation.c: see round.h. The distance between a double and an exact number. */
 #include "geometry/round/steps.h"
 
 #include "base/core_error.h"
@@ -14,7 +14,7 @@ double gis_ulp(double x)
     return nextafter(x, INFINITY) - x;
 }
 
-/* A double as the library writes exact numbers: "num" or "num/den" in lowest terms; false if it is too long. */
+/* Writes a double as the library writes exact numbers: "num" or "num/den" in lowest terms; false if it does not fit. */
 static bool exact_text(double x, char *text, size_t size)
 {
     int exponent;

@@ -1,15 +1,15 @@
-/* mend_multipolygon.c: the polygons of one rounded set against each other: one valid multipolygon is made of them.
+/* mend_multipolygon.c: makes a valid multipolygon of rounded polygons.
  *
- * Each polygon is valid by itself by now (round.c, mend_polygon.c). Together they are a valid multipolygon if their
- * interiors are disjoint and their boundaries meet in points only. Before rounding that held. Rounding moved vertices
- * by a hair: where two polygons met in a corner, or came nearer than a unit in the last place, they may now overlap or
- * share a piece of wall.
+ * Each polygon is valid by itself already (round.c, mend_polygon.c). Together they are a valid multipolygon if their
+ * interiors are disjoint and their boundaries meet in points only. That held before rounding; but rounding moved
+ * vertices by up to an ulp, so polygons that met in a point, or were nearer than an ulp, may now overlap or share part
+ * of an edge.
  *
- * Whichever two do so have a vertex of one within a few units of an edge of the other: on the way from where they were
- * to where they are there was a first contact, at a vertex. A grid of vertices finds such neighbours, in doubles and
- * generously; those that hang together are a group. Then the question is exact: the interior of the union of n
- * polygons, each with a connected interior, has n components exactly if they are apart in the sense above. A group that
- * is not is bent through its vertices, united, and rounded again, until all is well. */
+ * If two polygons do, a vertex of one is within a few ulps of an edge of the other, since the first contact during the
+ * move was at a vertex. A grid of vertices finds such neighbours, in doubles with generous bounds; neighbours form
+ * groups. Then the test is exact: n polygons with connected interiors are apart in the sense above exactly if the
+ * interior of their union has n components. A group that fails is bent through its vertices, united and rounded again,
+ * until all groups are valid. */
 #include "base/core_error.h"
 #include "geometry/round/constants.h"
 #include "geometry/round/steps.h"
@@ -28,7 +28,7 @@ static size_t root_of(size_t *parent, size_t p)
     return p;
 }
 
-/* The smaller number is the root, so that a group stands where its first polygon does. */
+/* Joins two groups. The smaller number becomes the root, so that a group takes the position of its first polygon. */
 static void join(size_t *parent, size_t p, size_t q)
 {
     p = root_of(parent, p);
@@ -43,10 +43,10 @@ static void join(size_t *parent, size_t p, size_t q)
 
 typedef struct grid {
     double least[2], step[2];
-    size_t cells[2];  /* columns, rows */
-    size_t *cell_end; /* [columns * rows] */
-    size_t *vertex;   /* by cell */
-    size_t *owner;    /* [vertices] its polygon */
+    size_t cells[2];  /* numbers of columns and rows */
+    size_t *cell_end; /* [columns * rows] ends of the cells' vertices in `vertex` */
+    size_t *vertex;   /* numbers of the vertices, cell by cell */
+    size_t *owner;    /* [vertices] the polygon of each vertex */
 } grid;
 
 static void grid_clear(grid *g)
@@ -56,7 +56,7 @@ static void grid_clear(grid *g)
     free(g->owner);
 }
 
-/* Column or row; whatever the rounding, a larger coordinate has no smaller number. */
+/* The column or row of a coordinate; despite rounding, a larger coordinate never gets a smaller number. */
 static size_t cell_along(const grid *g, int axis, double at)
 {
     double k = at / g->step[axis] - g->least[axis] / g->step[axis];
@@ -97,7 +97,7 @@ static bool grid_make(const gis_polygons *set, grid *g, gis_error *error)
             for (; v < set->ring_end[r]; v++) g->owner[v] = p;
     for (size_t v = 0; v < set->vertices; v++) g->cell_end[cell_of(g, set->xy + 2 * v) + 1]++;
     for (size_t c = 0; c < n; c++) g->cell_end[c + 1] += g->cell_end[c];
-    /* Counted one cell on, so that filling turns starts into ends. */
+    /* Counts were stored one cell later, so that filling turns the starts of cells into their ends. */
     for (size_t v = 0; v < set->vertices; v++) g->vertex[g->cell_end[cell_of(g, set->xy + 2 * v)]++] = v;
     return true;
 }
@@ -106,7 +106,7 @@ static bool is_near(const double *a, const double *b, const double *c, const dou
 {
     double off;
     gis_place_along(a, b, c, reach, &off);
-    return !(off > 1); /* a number that is none would be near */
+    return !(off > 1); /* true also for NaN */
 }
 
 static void join_in_cell(const gis_polygons *set, const grid *g, size_t cell, const double *a, const double *b,
@@ -118,8 +118,8 @@ static void join_in_cell(const gis_polygons *set, const grid *g, size_t cell, co
     }
 }
 
-/* Joins a polygon with those that have a vertex near to its edge ab, which is followed through the grid in pieces of a
- * cell or so. */
+/* Joins a polygon with those that have a vertex near its edge ab. The edge is followed through the grid in pieces of
+ * about a cell. */
 static void join_along(const gis_polygons *set, const grid *g, const double *a, const double *b, size_t polygon,
                        double moved, size_t *parent)
 {
@@ -159,8 +159,8 @@ static void polygon_box(const gis_polygons *set, size_t p, double box[4])
         }
 }
 
-/* What stood in a hole that is no more shows by no vertex near an edge: all within the box of a polygon that may have
- * lost one is joined with it. */
+/* Joins all polygons whose boxes meet that of a polygon that may have lost a hole: a polygon inside the former hole
+ * need not have a vertex near an edge. */
 static void join_inside(const gis_polygons *set, size_t suspect, size_t *parent)
 {
     double box[4], other[4];
@@ -209,8 +209,8 @@ static bool unite(const gis_polygons *group, sunder_validity validity, sunder_su
     return ok;
 }
 
-/* Mends a group of polygons that rounding has made invalid; *bad tells whether it has. The group is united again
- * with its edges bent through the vertices near them (gis_bend_set()), and rounded. */
+/* Tests a group of polygons and mends it if needed (*bad is set): its edges are bent through the vertices near them
+ * (gis_bend_set()), the group is united again, and the result is rounded into *mended. */
 static bool mend_group(const gis_polygons *group, int round, bool *bad, gis_rounded *mended, gis_suspects *suspects,
                        double *moved, gis_error *error)
 {
@@ -230,13 +230,13 @@ static bool mend_group(const gis_polygons *group, int round, bool *bad, gis_roun
     return ok;
 }
 
-/* ---- All of them, until all is well ------------------------------------------------------------------------------ */
+/* ---- All groups, until all are valid ----------------------------------------------------------------------------- */
 
-/* The set of the next round: groups that are well as they were, the others as what became of them. */
+/* The set for the next round: valid groups unchanged, the others mended. */
 typedef struct rebuilding {
     gis_rounded next;
     gis_suspects suspects;
-    double moved; /* the farthest of all groups */
+    double moved; /* the largest move of any group */
     size_t bad;
 } rebuilding;
 
@@ -262,7 +262,7 @@ static bool append_group(const gis_polygons *set, const size_t *member, size_t n
     return ok;
 }
 
-/* Members of all groups, group by group in the order of their first polygons. */
+/* Lists the members of all groups, group by group, in the order of their first polygons. */
 static void list_members(size_t *parent, size_t n, size_t *count, size_t *member)
 {
     for (size_t p = 0; p < n; p++) count[root_of(parent, p)]++;
@@ -274,7 +274,7 @@ static void list_members(size_t *parent, size_t n, size_t *count, size_t *member
     for (size_t p = 0; p < n; p++) member[count[root_of(parent, p)]++] = p;
 }
 
-/* One round; *again: some group was mended, and all are to be looked at once more. */
+/* One round. *again is set if a group was mended, so that all have to be tested again. */
 static bool mend_once(gis_rounded *rounded, int round, gis_suspects *suspects, bool *again, gis_error *error)
 {
     const gis_polygons *set = &rounded->set;

@@ -1,15 +1,15 @@
-/* mend_polygon.c: repairs polygons that rounding to doubles has broken.
+/* mend_polygon.c: repairs polygons that rounding to doubles has made invalid.
  *
- * Vertices have moved by less than an ulp. That breaks a polygon with tight spots, and sums often have them: rings that
- * meet in points, a vertex on the middle of another ring's edge, needles thinner than an ulp. Two steps repair it:
+ * Vertices have moved by less than an ulp. That makes polygons with tight spots invalid, and sums often have them:
+ * rings that meet in points, a vertex on an edge of another ring, needles thinner than an ulp. Two steps repair them:
  *
- *  - an edge is bent through every vertex that lies within a few ulps of it: it gets a new vertex equal to that one.
- *    This moves the edge by at most that distance, and rings that crossed by a hair touch again (snap rounding, with
- *    the vertices as the hot pixels);
- *  - if the polygon is still invalid, it is replaced by the set that its rings enclose by the even-odd rule, computed
- *    exactly by the core and rounded: tiny folds and needles of no width disappear. It may become several polygons.
+ * - an edge is bent through every vertex within a few ulps of it: it gets a new vertex equal to that one. This moves
+ * the edge by at most that distance, and rings that crossed slightly touch again (snap rounding, with the vertices as
+ * hot pixels); - if the polygon is still invalid, it is replaced by the set that its rings enclose by the even-odd
+ * rule, computed exactly by the core and rounded; tiny folds and needles without width disappear. It may become several
+ * polygons.
  *
- * Rounding in the second step can break other places: both steps are repeated. Distances in doubles only choose where
+ * Rounding in the second step may cause new defects, so both steps are repeated. Distances in doubles only choose where
  * to bend; the core's exact validation decides what is valid. */
 #include "base/core_error.h"
 #include "geometry/round/constants.h"
@@ -23,7 +23,7 @@ bool gis_end_ring_with_area(gis_polygons *set, size_t first, bool *kept, gis_err
 {
     while (set->vertices > first + 1 && gis_same_vertex(set->xy + 2 * first, set->xy + 2 * (set->vertices - 1)))
         set->vertices--;
-    const sunder_point *point = (const sunder_point *)set->xy; /* pairs of doubles, laid out as points are */
+    const sunder_point *point = (const sunder_point *)set->xy; /* pairs of doubles have the layout of sunder_point */
     *kept = false;
     for (size_t i = first + 2; i < set->vertices && !*kept; i++)
         *kept = sunder_orient(&point[first], &point[first + 1], &point[i]) != 0;
@@ -32,7 +32,7 @@ bool gis_end_ring_with_area(gis_polygons *set, size_t first, bool *kept, gis_err
     return true;
 }
 
-/* Rings [first, last) as a shape of one polygon; *out is NULL where they are none. */
+/* Makes a shape of the rings first ... last - 1 as one polygon; *out is NULL if they are invalid. */
 static bool strict_shape(const gis_polygons *set, size_t first, size_t last, sunder_shape **out, gis_error *error)
 {
     size_t start = first ? set->ring_end[first - 1] : 0, rings = last - first;
@@ -47,11 +47,11 @@ static bool strict_shape(const gis_polygons *set, size_t first, size_t last, sun
     return status == SUNDER_OK || status == SUNDER_EINVALID || gis_core_failed(error, NULL, &why);
 }
 
-/* What rings [first, last) are as a polygon. Where rings touch it may be valid in the sense of SUNDER_VALIDITY_STRICT
- * alone: an interior that falls apart, a ring that meets itself. */
+/* The state of rings as a polygon. If rings touch, it may be valid only in the sense of SUNDER_VALIDITY_STRICT, but not
+ * of OGC: its interior is not connected, or a ring touches itself. */
 typedef enum polygon_state { BROKEN, TOUCHES, WELL } polygon_state;
 
-/* False only where the question cannot be answered. */
+/* Determines the state of the rings first ... last - 1. Fails only if memory is out or the core fails. */
 static bool look_at(const gis_polygons *set, size_t first, size_t last, polygon_state *state, gis_error *error)
 {
     sunder_shape *shape;
@@ -69,7 +69,7 @@ static bool append_exact(const sunder_sum *sum, gis_polygons *to, gis_error *err
     for (size_t p = 0; p < size.polygons; p++) {
         for (size_t r = 0; r < sunder_sum_rings(sum, p); r++) {
             size_t n;
-            double off = 0; /* they were doubles, and still are */
+            double off = 0; /* the vertices are doubles, so nothing is rounded */
             const uint32_t *vertex = sunder_sum_ring(sum, p, r, &n);
             if (!gis_polygons_reserve(to, n, error)) return false;
             if (sunder_sum_vertices(sum, vertex, n, to->xy + 2 * to->vertices, &off, &why) != SUNDER_OK)
@@ -82,8 +82,7 @@ static bool append_exact(const sunder_sum *sum, gis_polygons *to, gis_error *err
     return true;
 }
 
-/* Appends rings [first, last) of another set, which touch, as polygons that are valid in the sense of OGC; their
- * corners are the same. */
+/* Appends rings that touch as polygons that are valid in the sense of OGC, with the same vertices. */
 static bool settle(gis_polygons *set, const gis_polygons *from, size_t first, size_t last, gis_error *error)
 {
     sunder_shape *shape;
@@ -104,7 +103,7 @@ typedef struct bend {
     double t, distance, xy[2];
 } bend;
 
-/* Vertices by x, so that an edge only looks at those near it. */
+/* Vertices sorted by x, so that only those near an edge are tested. */
 typedef struct column {
     double xy[2];
 } column;
@@ -131,7 +130,8 @@ double gis_place_along(const double *a, const double *b, const double *c, const 
     return t;
 }
 
-/* Is c so near to the inside of the edge ab that rounding may have put it on the wrong side? */
+/* Is c so near to the inside of the edge ab that rounding may have put it on the wrong side? Sets *found to the place
+ * and distance. */
 static bool is_near(const double *a, const double *b, const double *c, const double reach[2], bend *found)
 {
     double off, t;
@@ -143,7 +143,7 @@ static bool is_near(const double *a, const double *b, const double *c, const dou
     return off <= 1;
 }
 
-/* The vertices near to ab, in their order along it; bends has room for all vertices. */
+/* Finds the vertices near ab, in order along it; `bends` must have room for all vertices. */
 static size_t find_bends(const column *columns, size_t n, const double *a, const double *b, double ulps, bend *bends)
 {
     double reach[2];
@@ -220,8 +220,7 @@ bool gis_bend_set(const gis_polygons *from, int round, gis_polygons *to, double 
 
 /* ---- The even-odd set, rounded ----------------------------------------------------------------------------------- */
 
-/* Appends a polygon of the shape. Of a ring that falls together nothing is appended, and of a polygon whose outer ring
- * does nothing at all. */
+/* Appends polygon p of the shape. Rings without area are dropped; if that is the outer ring, nothing is appended. */
 static bool append_rounded(const sunder_shape *shape, size_t p, gis_polygons *out, double *moved, gis_error *error)
 {
     size_t first = out->rings;
@@ -240,7 +239,7 @@ static bool append_rounded(const sunder_shape *shape, size_t p, gis_polygons *ou
     return out->rings == first || gis_polygons_end_polygon(out, error);
 }
 
-/* What rings [0, set->rings) of a one-polygon set enclose. */
+/* Appends the set that all rings of `set` enclose by the even-odd rule, rounded. */
 static bool enclosed(const gis_polygons *set, gis_polygons *out, double *moved, gis_error *error)
 {
     sunder_shape *shape = NULL;
@@ -253,9 +252,9 @@ static bool enclosed(const gis_polygons *set, gis_polygons *out, double *moved, 
     return ok;
 }
 
-/* ---- Both, until all is well ------------------------------------------------------------------------------------- */
+/* ---- Both steps, until all is valid ------------------------------------------------------------------------------ */
 
-/* Appends the valid ones to `done`, and the rest to `broken`. */
+/* Appends the valid polygons to `done`, the others to `broken`. */
 static bool sort_out(const gis_polygons *set, gis_polygons *done, gis_polygons *broken, gis_error *error)
 {
     for (size_t p = 0; p < set->polygons; p++) {
@@ -269,7 +268,8 @@ static bool sort_out(const gis_polygons *set, gis_polygons *done, gis_polygons *
     return true;
 }
 
-/* One broken polygon, rings [first, last): mended, or in pieces to try again. */
+/* One round for an invalid polygon, the rings first ... last - 1: appends what is valid to `done`, the rest to
+ * `again`. */
 static bool mend_once(const gis_polygons *set, size_t first, size_t last, int round, gis_polygons *done,
                       gis_polygons *again, double *moved, gis_error *error)
 {
@@ -287,7 +287,8 @@ static bool mend_once(const gis_polygons *set, size_t first, size_t last, int ro
     return ok;
 }
 
-/* Replaces rings [first, set->rings) by valid polygons, and raises *moved to how far that moves a boundary. */
+/* Replaces the rings first ... set->rings - 1 by valid polygons; raises *moved to the largest distance by which the
+ * boundary moved. */
 static bool mend(gis_polygons *set, size_t first, double *moved, gis_error *error)
 {
     gis_polygons work = {0};

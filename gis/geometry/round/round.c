@@ -1,9 +1,8 @@
-/* round.c: a sum in doubles that is valid.
+/* round.c: rounds an exact sum to valid polygons in doubles.
  *
- * Every vertex goes to its nearest double, so the boundary moves by less than an ulp. Rings that fall together so are
- * left out (round_polygons.c), polygons that rounding has broken are mended (mend_polygon.c), and those that it has
- * brought into each other are united (mend_multipolygon.c). The core's exact validation says what is well, before and
- * after. */
+ * Every vertex is rounded to its nearest double, so the boundary moves by less than an ulp. Rings that lose their area
+ * are dropped (round_polygons.c), polygons that become invalid are mended (mend_polygon.c), and polygons that now
+ * overlap are united (mend_multipolygon.c). The core's exact validation decides what is valid. */
 #include "geometry/round/steps.h"
 
 bool gis_round_sum(const sunder_sum *sum, gis_rounded *out, gis_error *error)

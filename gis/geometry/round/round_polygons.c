@@ -1,4 +1,4 @@
-/* round_polygons.c: see steps.h. The polygons of a sum in doubles, each valid by itself. */
+/* round_polygons.c: see steps.h. Rounds the polygons of a sum to doubles, each valid by itself. */
 #include "geometry/round/steps.h"
 
 #include "base/array.h"
@@ -7,7 +7,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Appends one ring of the sum; repeated vertices once. A ring that has fallen together is not appended. */
+/* Appends a ring of the sum without repeated vertices. *kept = false: the ring has lost its area, and is dropped. */
 static bool append_ring(const sunder_sum *sum, size_t polygon, size_t ring, gis_rounded *out, double *deviation,
                         bool *kept, gis_error *error)
 {
@@ -46,7 +46,8 @@ void gis_suspects_clear(gis_suspects *suspects)
     *suspects = (gis_suspects){0};
 }
 
-/* Polygon p of the sum, mended where that is needed; raises out->deviation, and *moved to what mending adds. */
+/* Appends polygon p of the sum, mended if needed; raises out->deviation, and *moved to the distance that mending
+ * adds. */
 static bool append_polygon(const sunder_sum *sum, size_t p, gis_rounded *out, double *moved, gis_suspects *suspects,
                            gis_error *error)
 {
@@ -58,12 +59,12 @@ static bool append_polygon(const sunder_sum *sum, size_t p, gis_rounded *out, do
         bool kept;
         if (!append_ring(sum, p, r, out, &deviation, &kept, error)) return false;
         lost = lost || !kept;
-        if (r == 0 && !kept) break; /* without its outer ring, a polygon and its holes are gone */
+        if (r == 0 && !kept) break; /* without its outer ring the polygon is dropped with its holes */
     }
     out->deviation = fmax(out->deviation, deviation);
     if (out->set.rings == first) return true;
     if (deviation == 0)
-        return gis_polygons_end_polygon(&out->set, error); /* the exact polygon itself, which is valid */
+        return gis_polygons_end_polygon(&out->set, error); /* all vertices are exact, so the polygon is valid */
     ok = gis_end_valid_polygon(&out->set, first, moved, &out->repaired, error);
     for (size_t k = before; ok && (lost || out->repaired > repaired) && k < out->set.polygons; k++)
         ok = gis_suspect(suspects, k, error);

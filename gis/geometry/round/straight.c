@@ -1,15 +1,15 @@
-/* straight.c: walls that a turned shape has left with a corner too many.
+/* straight.c: removes vertices in straight walls that come from a turned shape.
  *
- * The sides of a shape that was turned (sunder buffer --align) are parallel to the walls up to rounding only. Where a
- * wall should run on in a straight line there is a corner instead, of some 1e-16: a house that was a rectangle would
- * have eight corners. Such a corner lies within a few units in the last place of the line between its neighbours, and
- * goes. What that moves counts in the deviation; the polygons are looked at again as after rounding. */
+ * The sides of a turned shape (sunder buffer --align) are parallel to the walls only up to rounding. So where a wall
+ * should be straight it has a vertex with an angle of about 1e-16; a rectangular house would get eight vertices. Such a
+ * vertex is within a few ulps of the line between its neighbours, and is removed. The move counts in the deviation, and
+ * the polygons are validated again as after rounding. */
 #include "geometry/round/constants.h"
 #include "geometry/round/steps.h"
 
 #include <math.h>
 
-/* Is vertex v within reach of the inside of ab? *moved is raised by how far it is. */
+/* Is vertex v within reach of the inside of ab? Raises *moved to its distance. */
 static bool is_straight(const double *a, const double *b, const double *v, double *moved)
 {
     double unit[2], off;
@@ -20,8 +20,8 @@ static bool is_straight(const double *a, const double *b, const double *v, doubl
     return true;
 }
 
-/* Appends what is left of a ring of n vertices, all of it if nothing but a line would be. The first vertex stays:
- * it is the lexicographically smallest, a true corner. */
+/* Appends a ring without its straight vertices; if nothing would remain but a line, the whole ring. The first vertex is
+ * kept: it is the lexicographically smallest, and so a true corner. */
 static bool append_ring(const double *xy, size_t n, gis_polygons *to, double *moved, gis_error *error)
 {
     size_t start = to->vertices, kept = 0;
