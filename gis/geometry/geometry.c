@@ -220,20 +220,21 @@ static void translate_leaf(OGRGeometryH leaf, double dx, double dy)
     }
 }
 
-static void translate(OGRGeometryH geometry, double dx, double dy)
+static void translate_vertices(OGRGeometryH geometry, double dx, double dy)
 {
     if (OGR_G_IsEmpty(geometry)) return; /* setting coordinates of an empty point would make it non-empty */
     if (is_leaf(wkbFlatten(OGR_G_GetGeometryType(geometry)))) {
         translate_leaf(geometry, dx, dy);
         return;
     }
-    for (int i = 0; i < OGR_G_GetGeometryCount(geometry); i++) translate(OGR_G_GetGeometryRef(geometry, i), dx, dy);
+    for (int i = 0; i < OGR_G_GetGeometryCount(geometry); i++)
+        translate_vertices(OGR_G_GetGeometryRef(geometry, i), dx, dy);
 }
 
 bool gis_geometry_translate(OGRGeometryH geometry, double dx, double dy, gis_error *error)
 {
     (void)error;
-    if (geometry && (dx != 0 || dy != 0)) translate(geometry, dx, dy);
+    if (geometry && (dx != 0 || dy != 0)) translate_vertices(geometry, dx, dy);
     return true;
 }
 

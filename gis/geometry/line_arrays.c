@@ -59,7 +59,7 @@ static bool append_ring(OGRGeometryH ring, gis_lines *out, bool *arcs, gis_error
 }
 
 /* rings = false: appends all points and lines; true: the rings of all polygons. */
-static bool append(OGRGeometryH geometry, bool rings, gis_lines *out, bool *arcs, gis_error *error)
+static bool append_lines(OGRGeometryH geometry, bool rings, gis_lines *out, bool *arcs, gis_error *error)
 {
     if (OGR_G_IsEmpty(geometry)) return true;
     OGRwkbGeometryType flat = wkbFlatten(OGR_G_GetGeometryType(geometry));
@@ -69,17 +69,17 @@ static bool append(OGRGeometryH geometry, bool rings, gis_lines *out, bool *arcs
     if (polygon && !rings) return true;
     for (int i = 0; i < OGR_G_GetGeometryCount(geometry) && whole; i++) {
         OGRGeometryH part = OGR_G_GetGeometryRef(geometry, i);
-        whole = polygon ? append_ring(part, out, arcs, error) : append(part, rings, out, arcs, error);
+        whole = polygon ? append_ring(part, out, arcs, error) : append_lines(part, rings, out, arcs, error);
     }
     return whole;
 }
 
 bool gis_lines_append(OGRGeometryH geometry, gis_lines *out, bool *arcs, gis_error *error)
 {
-    return append(geometry, false, out, arcs, error);
+    return append_lines(geometry, false, out, arcs, error);
 }
 
 bool gis_lines_append_rings(OGRGeometryH geometry, gis_lines *out, bool *arcs, gis_error *error)
 {
-    return append(geometry, true, out, arcs, error);
+    return append_lines(geometry, true, out, arcs, error);
 }

@@ -78,7 +78,7 @@ static size_t next_chunk(const gis_packed *packed)
 }
 
 /* Reserves `size` bytes behind the last record; NULL if memory is out. */
-static unsigned char *take(gis_packed *packed, size_t size)
+static unsigned char *reserve_record(gis_packed *packed, size_t size)
 {
     if (packed->room - packed->used < size) {
         const size_t usual = next_chunk(packed), room = size > usual / 16 ? size : usual;
@@ -133,7 +133,7 @@ static size_t size_of_values(const gis_packed *packed, OGRFeatureH feature)
     return size;
 }
 
-static unsigned char *put(unsigned char *to, const void *from, size_t n)
+static unsigned char *put_bytes(unsigned char *to, const void *from, size_t n)
 {
     memcpy(to, from, n);
     return to + n;
@@ -143,10 +143,10 @@ static unsigned char *put_value(unsigned char *to, OGRFieldType type, const OGRF
 {
     *to = (unsigned char)state_of(value);
     if (*to++ != VALUE) return to;
-    if (type == OFTString) return put(to, value->String, strlen(value->String) + 1);
-    if (type == OFTReal) return put(to, &value->Real, sizeof value->Real);
+    if (type == OFTString) return put_bytes(to, value->String, strlen(value->String) + 1);
+    if (type == OFTReal) return put_bytes(to, &value->Real, sizeof value->Real);
     const int64_t number = type == OFTInteger ? value->Integer : value->Integer64;
-    return put(to, &number, sizeof number);
+    return put_bytes(to, &number, sizeof number);
 }
 
 bool gis_packed_add(gis_packed *packed, OGRFeatureH feature, const unsigned char **record, gis_error *error)
@@ -159,11 +159,12 @@ bool gis_packed_add(gis_packed *packed, OGRFeatureH feature, const unsigned char
     const GIntBig fid = OGR_F_GetFID(feature);
     const int bytes = OGR_G_WkbSize(geometry);
     if (bytes <= 0) return true; /* the size does not fit an int */
-    unsigned char *to = take(packed, sizeof fid + sizeof bytes + (size_t)bytes + size_of_values(packed, feature));
+    unsigned char *to =
+        reserve_record(packed, sizeof fid + sizeof bytes + (size_t)bytes + size_of_values(packed, feature));
     if (!to) return gis_no_memory(error);
     const unsigned char *const at = to;
-    to = put(to, &fid, sizeof fid);
-    to = put(to, &bytes, sizeof bytes);
+    to = put_bytes(to, &fid, sizeof fid);
+    to = put_bytes(to, &bytes, sizeof bytes);
     if (OGR_G_ExportToIsoWkb(geometry, GIS_WKB_ORDER, to) != OGRERR_NONE) return gis_no_memory(error);
     to += bytes;
     for (int i = 0; i < packed->fields; i++) to = put_value(to, packed->type[i], OGR_F_GetRawFieldRef(feature, i));
@@ -182,15 +183,15 @@ const unsigned char *gis_packed_add_row(gis_packed *packed, GIntBig fid, const u
     const int geometry_bytes = (int)bytes;
     size_t size = (size_t)packed->fields;
     for (int i = 0; i < packed->fields; i++) size += size_of(&values[i]);
-    unsigned char *const at = take(packed, sizeof fid + sizeof geometry_bytes + bytes + size), *to = at;
+    unsigned char *const at = reserve_record(packed, sizeof fid + sizeof geometry_bytes + bytes + size), *to = at;
     if (!at) return NULL;
-    to = put(to, &fid, sizeof fid);
-    to = put(to, &geometry_bytes, sizeof geometry_bytes);
-    to = put(to, geometry, bytes);
+    to = put_bytes(to, &fid, sizeof fid);
+    to = put_bytes(to, &geometry_bytes, sizeof geometry_bytes);
+    to = put_bytes(to, geometry, bytes);
     for (int i = 0; i < packed->fields; i++) {
         const gis_value *value = &values[i];
         *to++ = value->kind == GIS_NULL ? EMPTY : VALUE;
-        to = put(to, value->kind == GIS_TEXT ? (const void *)value->as.text : &value->as, size_of(value));
+        to = put_bytes(to, value->kind == GIS_TEXT ? (const void *)value->as.text : &value->as, size_of(value));
     }
     return at;
 }
@@ -357,10 +358,10 @@ const unsigned char *gis_packed_add_borrowing(gis_packed *packed, const unsigned
     const size_t values = (size_t)(end - p.values), size = (size_t)(end - record);
     bool same = false;
     if (shape && !is_given(packed, &p, multi, shape, &same)) return NULL;
-    unsigned char *const at = take(packed, same ? sizeof(GIntBig) + sizeof(uint32_t) + values : size);
-    if (!at || !same) return at ? put(at, record, size) - size : NULL;
+    unsigned char *const at = reserve_record(packed, same ? sizeof(GIntBig) + sizeof(uint32_t) + values : size);
+    if (!at || !same) return at ? put_bytes(at, record, size) - size : NULL;
     const uint32_t number = (uint32_t)i | BORROWS | (multi ? BORROWS_MULTI : 0);
-    put(put(put(at, record, sizeof(GIntBig)), &number, sizeof number), p.values, values);
+    put_bytes(put_bytes(put_bytes(at, record, sizeof(GIntBig)), &number, sizeof number), p.values, values);
     return at;
 }
 
@@ -388,7 +389,7 @@ static const unsigned char *set_value(OGRFeatureH feature, int i, OGRFieldType t
 }
 
 /* Sets the FID, geometry and fields of a feature from the record. False if memory is out. */
-static bool unpack(gis_packed *packed, const unsigned char *record, OGRFeatureH feature)
+static bool set_feature(gis_packed *packed, const unsigned char *record, OGRFeatureH feature)
 {
     size_t bytes;
     const unsigned char *wkb = geometry_of(packed, record, &bytes), *at = place_of(record).values;
@@ -404,14 +405,14 @@ OGRFeatureH gis_packed_feature(gis_packed *packed, const unsigned char *record)
 {
     if (packed->made && packed->made_of == record) return packed->made;
     if (!packed->made) packed->made = OGR_F_Create(packed->definition);
-    packed->made_of = packed->made && unpack(packed, record, packed->made) ? record : NULL;
+    packed->made_of = packed->made && set_feature(packed, record, packed->made) ? record : NULL;
     return packed->made_of ? packed->made : NULL;
 }
 
 OGRFeatureH gis_packed_copy(gis_packed *packed, const unsigned char *record)
 {
     OGRFeatureH feature = OGR_F_Create(packed->definition);
-    if (!feature || unpack(packed, record, feature)) return feature;
+    if (!feature || set_feature(packed, record, feature)) return feature;
     OGR_F_Destroy(feature);
     return NULL;
 }

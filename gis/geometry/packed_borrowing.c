@@ -14,7 +14,7 @@ typedef struct stretch {
     bool done;
 } stretch;
 
-static void borrow(void *context)
+static void borrow_stretch(void *context)
 {
     stretch *s = context;
     s->done = true;
@@ -35,8 +35,8 @@ bool gis_packed_borrow_all(gis_packed *lean, OGRLayerH layer, const unsigned cha
     stretch first = {.lean = lean, .record = record, .end = half};
     stretch second = {.lean = &other, .record = record, .begin = half, .end = n};
     gis_side_thread *beside = half < n ? gis_side_thread_new() : NULL;
-    gis_side_thread_do(beside, borrow, &second);
-    borrow(&first);
+    gis_side_thread_do(beside, borrow_stretch, &second);
+    borrow_stretch(&first);
     gis_side_thread_free(beside);
     const bool done = first.done && second.done && gis_packed_join(lean, &other);
     gis_packed_clear(&other);

@@ -17,7 +17,7 @@ void gis_polygons_clear(gis_polygons *set)
     *set = (gis_polygons){0};
 }
 
-static bool reserve(void *array, size_t *capacity, size_t needed, size_t size, gis_error *error)
+static bool reserve_array(void *array, size_t *capacity, size_t needed, size_t size, gis_error *error)
 {
     return gis_array_reserve(array, capacity, needed, size) || gis_no_memory(error);
 }
@@ -25,7 +25,7 @@ static bool reserve(void *array, size_t *capacity, size_t needed, size_t size, g
 bool gis_polygons_reserve(gis_polygons *set, size_t vertices, gis_error *error)
 {
     return gis_go_on(error) &&
-           reserve(&set->xy, &set->xy_capacity, set->vertices + vertices, 2 * sizeof *set->xy, error);
+           reserve_array(&set->xy, &set->xy_capacity, set->vertices + vertices, 2 * sizeof *set->xy, error);
 }
 
 bool gis_polygons_vertex(gis_polygons *set, double x, double y, gis_error *error)
@@ -39,7 +39,7 @@ bool gis_polygons_vertex(gis_polygons *set, double x, double y, gis_error *error
 
 bool gis_polygons_end_ring(gis_polygons *set, gis_error *error)
 {
-    if (!reserve(&set->ring_end, &set->ring_capacity, set->rings + 1, sizeof *set->ring_end, error)) return false;
+    if (!reserve_array(&set->ring_end, &set->ring_capacity, set->rings + 1, sizeof *set->ring_end, error)) return false;
     set->ring_end[set->rings++] = set->vertices;
     return true;
 }
@@ -54,7 +54,8 @@ bool gis_polygons_end_closed_ring(gis_polygons *set, gis_error *error)
 
 bool gis_polygons_end_polygon(gis_polygons *set, gis_error *error)
 {
-    if (!reserve(&set->poly_end, &set->poly_capacity, set->polygons + 1, sizeof *set->poly_end, error)) return false;
+    if (!reserve_array(&set->poly_end, &set->poly_capacity, set->polygons + 1, sizeof *set->poly_end, error))
+        return false;
     set->poly_end[set->polygons++] = set->rings;
     return true;
 }

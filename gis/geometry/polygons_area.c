@@ -11,17 +11,17 @@ typedef struct careful_sum {
     double sum, lost;
 } careful_sum;
 
-static void add(careful_sum *s, double term)
+static void add_term(careful_sum *s, double term)
 {
     const double sum = s->sum + term, part = sum - s->sum;
     s->lost += (s->sum - (sum - part)) + (term - part);
     s->sum = sum;
 }
 
-static careful_sum difference(double a, double b)
+static careful_sum exact_difference(double a, double b)
 {
     careful_sum s = {a, 0};
-    add(&s, -b);
+    add_term(&s, -b);
     return s;
 }
 
@@ -29,7 +29,7 @@ static careful_sum difference(double a, double b)
 static void add_product(careful_sum *s, double sign, careful_sum a, careful_sum b)
 {
     const double product = a.sum * b.sum;
-    add(s, sign * product);
+    add_term(s, sign * product);
     s->lost += sign * (fma(a.sum, b.sum, -product) + (a.sum * b.lost + a.lost * b.sum));
 }
 
@@ -40,8 +40,8 @@ static double scaled_area(const double *xy, size_t n, double unit)
     const double origin[2] = {unit * xy[0], unit * xy[1]};
     careful_sum twice = {0, 0}, x = {0, 0}, y = {0, 0};
     for (size_t i = 1; i < n; i++) {
-        const careful_sum next_x = difference(unit * xy[2 * i], origin[0]);
-        const careful_sum next_y = difference(unit * xy[2 * i + 1], origin[1]);
+        const careful_sum next_x = exact_difference(unit * xy[2 * i], origin[0]);
+        const careful_sum next_y = exact_difference(unit * xy[2 * i + 1], origin[1]);
         add_product(&twice, 1, x, next_y);
         add_product(&twice, -1, y, next_x);
         x = next_x;
@@ -78,12 +78,12 @@ double gis_polygons_area(const gis_polygons *set)
             const double twice = fabs(ring_area(set->xy + 2 * from, set->ring_end[r] - from, &scale));
             const double one = ldexp(twice, -2 * scale - 1);
             if (one == INFINITY) return INFINITY;
-            add(&area, r == first ? one : -one);
+            add_term(&area, r == first ? one : -one);
         }
     return area.sum + area.lost;
 }
 
-static void reverse(double *xy, size_t n)
+static void reverse_ring(double *xy, size_t n)
 {
     /* The first vertex stays the first; in a closed ring it is also the last. */
     if (n < 2) return;
@@ -104,6 +104,6 @@ void gis_polygons_wind(gis_polygons *set)
             double *xy = set->xy + 2 * first;
             int scale;
             const size_t n = set->ring_end[r] - first;
-            if ((ring_area(xy, n, &scale) > 0) != outer) reverse(xy, n);
+            if ((ring_area(xy, n, &scale) > 0) != outer) reverse_ring(xy, n);
         }
 }

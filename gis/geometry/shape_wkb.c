@@ -7,13 +7,13 @@
 /* Sizes in bytes: byte order and type; a count; a point. */
 enum { HEAD = 1 + sizeof(uint32_t), COUNT = sizeof(uint32_t), POINT = 2 * sizeof(double) };
 
-static unsigned char *put(unsigned char *to, const void *from, size_t n)
+static unsigned char *put_bytes(unsigned char *to, const void *from, size_t n)
 {
     memcpy(to, from, n);
     return to + n;
 }
 
-static unsigned char *put_number(unsigned char *to, uint32_t number) { return put(to, &number, sizeof number); }
+static unsigned char *put_number(unsigned char *to, uint32_t number) { return put_bytes(to, &number, sizeof number); }
 
 static unsigned char *put_head(unsigned char *to, uint32_t type)
 {
@@ -54,8 +54,8 @@ void gis_shape_wkb_write(const sunder_shape *shape, bool multi, unsigned char *t
             const size_t n = ring_end[ring] - vertex;
             const double *first = xy + 2 * vertex;
             const bool open = n && !is_closed(first, n);
-            to = put(put_number(to, (uint32_t)(n + open)), first, n * POINT);
-            if (open) to = put(to, first, POINT);
+            to = put_bytes(put_number(to, (uint32_t)(n + open)), first, n * POINT);
+            if (open) to = put_bytes(to, first, POINT);
         }
     }
 }

@@ -33,7 +33,7 @@ static bool is_word(const char *text, size_t n, const char *word)
     return strlen(word) == n && strncasecmp(text, word, n) == 0;
 }
 
-static bool wrong(reader *in, const char *expected)
+static bool fail_at(reader *in, const char *expected)
 {
     size_t place = (size_t)(in->at - in->start) + 1;
     if (*in->at == '\0')
@@ -41,7 +41,7 @@ static bool wrong(reader *in, const char *expected)
     return gis_fail(in->error, "%s: WKT, character %zu ('%.1s'): expected %s", in->who, place, in->at, expected);
 }
 
-static bool take(reader *in, char c)
+static bool take_character(reader *in, char c)
 {
     skip_blanks(in);
     if (*in->at != c) return false;
@@ -62,10 +62,10 @@ static bool read_number(reader *in, double *value)
 {
     size_t n = strspn(in->at, "0123456789+-.eE");
     char *end;
-    if (n == 0) return wrong(in, "a number");
+    if (n == 0) return fail_at(in, "a number");
     *value = strtod(in->at, &end);
-    if (end != in->at + n) return wrong(in, "a number");
-    if (!isfinite(*value)) return wrong(in, "a number that a double can hold");
+    if (end != in->at + n) return fail_at(in, "a number");
+    if (!isfinite(*value)) return fail_at(in, "a number that a double can hold");
     in->at += n;
     return true;
 }
@@ -80,19 +80,19 @@ static bool read_point(reader *in)
         if (!read_number(in, &value[n])) return false;
     if (in->dimension == 0 && in->tagged == 0) in->dimension = n;
     if (n != (in->tagged ? in->tagged : in->dimension))
-        return wrong(in, n < (in->tagged ? in->tagged : in->dimension) ? "another number: points differ in dimension"
-                                                                       : "fewer numbers: points differ in dimension");
+        return fail_at(in, n < (in->tagged ? in->tagged : in->dimension) ? "another number: points differ in dimension"
+                                                                         : "fewer numbers: points differ in dimension");
     return gis_polygons_vertex(in->out, value[0], value[1], in->error);
 }
 
 static bool read_ring(reader *in)
 {
     size_t first = in->out->vertices;
-    if (!take(in, '(')) return wrong(in, "'(' of a ring");
+    if (!take_character(in, '(')) return fail_at(in, "'(' of a ring");
     do {
         if (!read_point(in)) return false;
-    } while (take(in, ','));
-    if (!take(in, ')')) return wrong(in, "',' or ')'");
+    } while (take_character(in, ','));
+    if (!take_character(in, ')')) return fail_at(in, "',' or ')'");
     const double *xy = in->out->xy;
     size_t n = in->out->vertices - first, last = in->out->vertices - 1;
     if (n > 1 && xy[2 * first] == xy[2 * last] && xy[2 * first + 1] == xy[2 * last + 1]) n--;
@@ -105,22 +105,22 @@ static bool read_ring(reader *in)
 static bool read_polygon(reader *in)
 {
     if (take_empty(in)) return true;
-    if (!take(in, '(')) return wrong(in, "'(' of a polygon");
+    if (!take_character(in, '(')) return fail_at(in, "'(' of a polygon");
     do {
         if (!read_ring(in)) return false;
-    } while (take(in, ','));
-    if (!take(in, ')')) return wrong(in, "',' or ')'");
+    } while (take_character(in, ','));
+    if (!take_character(in, ')')) return fail_at(in, "',' or ')'");
     return gis_polygons_end_polygon(in->out, in->error);
 }
 
 static bool read_members(reader *in)
 {
     if (take_empty(in)) return true;
-    if (!take(in, '(')) return wrong(in, "'(' of a multipolygon");
+    if (!take_character(in, '(')) return fail_at(in, "'(' of a multipolygon");
     do {
         if (!read_polygon(in)) return false;
-    } while (take(in, ','));
-    return take(in, ')') || wrong(in, "',' or ')'");
+    } while (take_character(in, ','));
+    return take_character(in, ')') || fail_at(in, "',' or ')'");
 }
 
 /* Reads the tag Z, M or ZM behind the type, separated from it or not (POLYGONZ). */
@@ -188,6 +188,6 @@ bool gis_wkt_read(const char *text, const char *who, gis_polygons *out, gis_erro
                         n ? (int)(n < 40 ? n : 40) : 4, n ? type : "this");
     if (!(one ? read_polygon(&in) : read_members(&in))) return false;
     skip_blanks(&in);
-    if (*in.at) return wrong(&in, "the end of the text");
+    if (*in.at) return fail_at(&in, "the end of the text");
     return true;
 }

@@ -117,7 +117,7 @@ static OGRGeometryH box_polygon(const double box[4])
     return gis_geometry_polygon(&ring, 0);
 }
 
-static bool execute(gis_source *source, const gis_source_request *request, gis_error *error)
+static bool run_statement(gis_source *source, const gis_source_request *request, gis_error *error)
 {
     OGRGeometryH box = request->bbox ? box_polygon(request->bbox) : NULL;
     gis_sqlite_heed_signals();
@@ -199,7 +199,7 @@ static void note_facts(gis_source *source, OGRFeatureH feature, const unsigned c
 static size_t bytes_of(OGRGeometryH geometry) { return geometry ? (size_t)OGR_G_WkbSize(geometry) : 0; }
 
 /* Adds a feature, and takes it over; if there is a record, the record is kept and the feature is destroyed. */
-static bool keep(gis_source *source, OGRFeatureH feature, const unsigned char *record, bool finite)
+static bool keep_feature(gis_source *source, OGRFeatureH feature, const unsigned char *record, bool finite)
 {
     const gis_content content = !finite  ? GIS_BROKEN
                                 : record ? GIS_POLYGONS
@@ -217,7 +217,7 @@ static bool keep(gis_source *source, OGRFeatureH feature, const unsigned char *r
 
 static bool keep_record(void *user, const unsigned char *record, gis_error *error)
 {
-    return keep(user, NULL, record, true) || gis_no_memory(error);
+    return keep_feature(user, NULL, record, true) || gis_no_memory(error);
 }
 
 /* Warns or fails, as the request says, because a coordinate of the feature is not finite. */
@@ -233,7 +233,7 @@ static bool judge_not_finite(const gis_source *source, OGRFeatureH feature, gis_
 }
 
 /* Reads one feature. *kept is set if the source has taken it over. */
-static bool take(gis_source *source, OGRFeatureH feature, bool *kept, gis_error *error)
+static bool take_feature(gis_source *source, OGRFeatureH feature, bool *kept, gis_error *error)
 {
     const unsigned char *record = NULL;
     if (source->wants && !source->wants(source->user, source->crs, feature)) return true;
@@ -241,7 +241,7 @@ static bool take(gis_source *source, OGRFeatureH feature, bool *kept, gis_error 
     const bool finite = record ? gis_packed_is_finite(record) : gis_geometry_is_finite(OGR_F_GetGeometryRef(feature));
     if (!finite && !judge_not_finite(source, feature, error)) return false;
     if (!finite && source->not_finite == GIS_NOT_FINITE_LEFT_OUT) return true;
-    *kept = keep(source, feature, finite ? record : NULL, finite);
+    *kept = keep_feature(source, feature, finite ? record : NULL, finite);
     return *kept || gis_no_memory(error);
 }
 
@@ -296,7 +296,7 @@ static bool read_features(gis_source *source, const gis_source_request *request,
         source->ended = feature == NULL;
         if (source->ended) break;
         bool kept = false;
-        const bool taken = take(source, feature, &kept, error);
+        const bool taken = take_feature(source, feature, &kept, error);
         if (!kept) OGR_F_Destroy(feature);
         if (!taken || !gis_go_on(error)) return false;
     }
@@ -498,14 +498,14 @@ static bool begin_reading(gis_source *source, const gis_source_request *request,
     return read_batch(source, request, error) && (source->batch || source->facts_given || look_at_fids(source, error));
 }
 
-static bool fill(gis_source *source, const gis_source_request *request, gis_error *error)
+static bool fill_source(gis_source *source, const gis_source_request *request, gis_error *error)
 {
     source->path = CPLStrdup(request->path);
     source->where_option = request->where_option ? request->where_option : "--where";
     if (!open_dataset(source, request, error)) return false;
     if (request->sql) {
         source->name = gis_path_stem(request->path);
-        if (!execute(source, request, error)) return false;
+        if (!run_statement(source, request, error)) return false;
     } else {
         source->layer = gis_choose_layer(source->dataset, request, error);
         if (!source->layer) return false;
@@ -519,7 +519,7 @@ bool gis_source_open(const gis_source_request *request, gis_source **out, gis_er
 {
     gis_source *source = calloc(1, sizeof *source);
     if (!source) return gis_no_memory(error);
-    if (!fill(source, request, error)) {
+    if (!fill_source(source, request, error)) {
         gis_source_close(source);
         return false;
     }

@@ -30,7 +30,7 @@ static const char *words_for(unsigned takes)
 }
 
 /* Appends to a text of fixed size; what does not fit is dropped, which only shortens a list in a message. */
-static void append(char *text, size_t size, const char *more)
+static void append_text(char *text, size_t size, const char *more)
 {
     size_t used = strlen(text);
     snprintf(text + used, size - used, "%s", more);
@@ -43,13 +43,13 @@ static void list_layers(GDALDatasetH dataset, unsigned takes, char *text, size_t
     for (int i = 0; i < GDALDatasetGetLayerCount(dataset); i++) {
         OGRLayerH layer = GDALDatasetGetLayer(dataset, i);
         if (GDALDatasetIsLayerPrivate(dataset, i) || (takes && !(kinds_of(OGR_L_GetGeomType(layer)) & takes))) continue;
-        if (text[0]) append(text, size, ", ");
-        append(text, size, OGR_L_GetName(layer));
-        append(text, size, " (");
-        append(text, size, OGRGeometryTypeToName(OGR_L_GetGeomType(layer)));
-        append(text, size, ")");
+        if (text[0]) append_text(text, size, ", ");
+        append_text(text, size, OGR_L_GetName(layer));
+        append_text(text, size, " (");
+        append_text(text, size, OGRGeometryTypeToName(OGR_L_GetGeomType(layer)));
+        append_text(text, size, ")");
     }
-    if (!text[0]) append(text, size, "none");
+    if (!text[0]) append_text(text, size, "none");
 }
 
 bool gis_layer_fits(OGRLayerH layer, const char *name, unsigned takes, gis_error *error)

@@ -29,7 +29,7 @@ static size_t root_of(size_t *parent, size_t p)
 }
 
 /* Joins two groups. The smaller number becomes the root, so that a group takes the position of its first polygon. */
-static void join(size_t *parent, size_t p, size_t q)
+static void join_polygons(size_t *parent, size_t p, size_t q)
 {
     p = root_of(parent, p);
     q = root_of(parent, q);
@@ -114,7 +114,8 @@ static void join_in_cell(const gis_polygons *set, const grid *g, size_t cell, co
 {
     for (size_t i = cell ? g->cell_end[cell - 1] : 0; i < g->cell_end[cell]; i++) {
         size_t v = g->vertex[i];
-        if (g->owner[v] != polygon && is_near(a, b, set->xy + 2 * v, reach)) join(parent, polygon, g->owner[v]);
+        if (g->owner[v] != polygon && is_near(a, b, set->xy + 2 * v, reach))
+            join_polygons(parent, polygon, g->owner[v]);
     }
 }
 
@@ -168,7 +169,7 @@ static void join_inside(const gis_polygons *set, size_t suspect, size_t *parent)
     for (size_t p = 0; p < set->polygons && !gis_interrupted(); p++) {
         polygon_box(set, p, other);
         if (other[0] <= box[2] && other[2] >= box[0] && other[1] <= box[3] && other[3] >= box[1])
-            join(parent, suspect, p);
+            join_polygons(parent, suspect, p);
     }
 }
 
@@ -198,7 +199,7 @@ static bool find_groups(const gis_polygons *set, const gis_suspects *suspects, d
 
 /* ---- One group --------------------------------------------------------------------------------------------------- */
 
-static bool unite(const gis_polygons *group, sunder_validity validity, sunder_sum **out, gis_error *error)
+static bool unite_group(const gis_polygons *group, sunder_validity validity, sunder_sum **out, gis_error *error)
 {
     sunder_shape *shape = NULL;
     sunder_error why;
@@ -216,14 +217,15 @@ static bool mend_group(const gis_polygons *group, int round, bool *bad, gis_roun
 {
     sunder_sum *sum = NULL;
     sunder_sum_size size;
-    if (!unite(group, SUNDER_VALIDITY_STRICT, &sum, error)) return false;
+    if (!unite_group(group, SUNDER_VALIDITY_STRICT, &sum, error)) return false;
     sunder_sum_get_size(sum, &size);
     sunder_sum_free(sum);
     *bad = size.polygons != group->polygons;
     if (!*bad) return true;
     gis_polygons bent = {0};
     sum = NULL;
-    bool ok = gis_bend_set(group, round, &bent, moved, error) && unite(&bent, SUNDER_VALIDITY_EVEN_ODD, &sum, error) &&
+    bool ok = gis_bend_set(group, round, &bent, moved, error) &&
+              unite_group(&bent, SUNDER_VALIDITY_EVEN_ODD, &sum, error) &&
               gis_round_polygons(sum, mended, suspects, error);
     gis_polygons_clear(&bent);
     sunder_sum_free(sum);

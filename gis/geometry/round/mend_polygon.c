@@ -52,7 +52,7 @@ static bool strict_shape(const gis_polygons *set, size_t first, size_t last, sun
 typedef enum polygon_state { BROKEN, TOUCHES, WELL } polygon_state;
 
 /* Determines the state of the rings first ... last - 1. Fails only if memory is out or the core fails. */
-static bool look_at(const gis_polygons *set, size_t first, size_t last, polygon_state *state, gis_error *error)
+static bool find_state(const gis_polygons *set, size_t first, size_t last, polygon_state *state, gis_error *error)
 {
     sunder_shape *shape;
     if (!strict_shape(set, first, last, &shape, error)) return false;
@@ -83,7 +83,7 @@ static bool append_exact(const sunder_sum *sum, gis_polygons *to, gis_error *err
 }
 
 /* Appends rings that touch as polygons that are valid in the sense of OGC, with the same vertices. */
-static bool settle(gis_polygons *set, const gis_polygons *from, size_t first, size_t last, gis_error *error)
+static bool append_touching(gis_polygons *set, const gis_polygons *from, size_t first, size_t last, gis_error *error)
 {
     sunder_shape *shape;
     sunder_sum *sum = NULL;
@@ -240,7 +240,7 @@ static bool append_rounded(const sunder_shape *shape, size_t p, gis_polygons *ou
 }
 
 /* Appends the set that all rings of `set` enclose by the even-odd rule, rounded. */
-static bool enclosed(const gis_polygons *set, gis_polygons *out, double *moved, gis_error *error)
+static bool append_enclosed(const gis_polygons *set, gis_polygons *out, double *moved, gis_error *error)
 {
     sunder_shape *shape = NULL;
     sunder_error why;
@@ -260,8 +260,8 @@ static bool sort_out(const gis_polygons *set, gis_polygons *done, gis_polygons *
     for (size_t p = 0; p < set->polygons; p++) {
         size_t from = p ? set->poly_end[p - 1] : 0, to = set->poly_end[p];
         polygon_state state;
-        if (!look_at(set, from, to, &state, error)) return false;
-        bool ok = state == TOUCHES ? settle(done, set, from, to, error)
+        if (!find_state(set, from, to, &state, error)) return false;
+        bool ok = state == TOUCHES ? append_touching(done, set, from, to, error)
                                    : gis_polygons_append(state == WELL ? done : broken, set, from, to, error);
         if (!ok) return false;
     }
@@ -278,7 +278,7 @@ static bool mend_once(const gis_polygons *set, size_t first, size_t last, int ro
     bool ok = gis_polygons_append(&one, set, first, last, error) && gis_bend_set(&one, round, &bent, &bends, error) &&
               sort_out(&bent, done, &broken, error);
     if (ok && broken.polygons)
-        ok = enclosed(&broken, &pieces, &rounding, error) && sort_out(&pieces, done, again, error);
+        ok = append_enclosed(&broken, &pieces, &rounding, error) && sort_out(&pieces, done, again, error);
     *moved = fmax(*moved, bends + rounding);
     gis_polygons_clear(&one);
     gis_polygons_clear(&bent);
@@ -289,7 +289,7 @@ static bool mend_once(const gis_polygons *set, size_t first, size_t last, int ro
 
 /* Replaces the rings first ... set->rings - 1 by valid polygons; raises *moved to the largest distance by which the
  * boundary moved. */
-static bool mend(gis_polygons *set, size_t first, double *moved, gis_error *error)
+static bool mend_polygon(gis_polygons *set, size_t first, double *moved, gis_error *error)
 {
     gis_polygons work = {0};
     double total = 0;
@@ -315,17 +315,17 @@ static bool mend(gis_polygons *set, size_t first, double *moved, gis_error *erro
 bool gis_end_valid_polygon(gis_polygons *set, size_t first, double *moved, size_t *repaired, gis_error *error)
 {
     polygon_state state;
-    if (!look_at(set, first, set->rings, &state, error)) return false;
+    if (!find_state(set, first, set->rings, &state, error)) return false;
     if (state == WELL) return gis_polygons_end_polygon(set, error);
     if (state == BROKEN) {
         *repaired += 1;
-        return mend(set, first, moved, error);
+        return mend_polygon(set, first, moved, error);
     }
     gis_polygons copy = {0};
     bool ok = gis_polygons_append(&copy, set, first, set->rings, error);
     set->vertices = first ? set->ring_end[first - 1] : 0;
     set->rings = first;
-    ok = ok && settle(set, &copy, 0, copy.rings, error);
+    ok = ok && append_touching(set, &copy, 0, copy.rings, error);
     gis_polygons_clear(&copy);
     return ok;
 }
