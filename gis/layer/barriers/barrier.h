@@ -93,10 +93,10 @@ typedef struct gis_barrier_common {
 /* Gets a feature, and must clear it in any case. */
 typedef bool gis_barrier_take(void *user, const gis_barrier_common *common, gis_barrier_feature *feature,
                               gis_error *error);
-/* Visits the features of one --barrier that are within reach, in their order. If GDAL fails to compare one with the box
- * around all that is within reach, error->in_a_box is set: the caller then discards what it got and visits again without
- * a box. batch: the largest number of the source's features held at once; 0: all. The caller frees common->layer, which
- * is NULL if the source was not opened. */
+/* Visits the features of one --barrier that are within reach, in their order. If GDAL fails to compare one with the
+ * box around all that is within reach, error->in_a_box is set: the caller then discards what it got and visits again
+ * without a box. batch: the largest number of the source's features held at once; 0: all. The caller frees
+ * common->layer, which is NULL if the source was not opened. */
 bool gis_barrier_visit(const gis_barrier_request *request, const gis_barrier_surroundings *around, size_t batch,
                        gis_barrier_take *take, void *user, gis_barrier_common *common, gis_error *error);
 void gis_barrier_feature_clear(gis_barrier_feature *feature);
