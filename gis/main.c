@@ -1,4 +1,4 @@
-/* main.c: which command, with which options. */
+/* main.c: finds the command, parses its options, and runs it. */
 #include "base/interrupt.h"
 #include "base/message.h"
 #include "base/resources.h"
@@ -37,8 +37,8 @@ const gis_command gis_commands[] = {
 };
 const size_t gis_n_commands = sizeof gis_commands / sizeof gis_commands[0];
 
-/* GDAL's messages outside of the places that listen to it: warnings are passed on in our form; failures come back as
- * return values and are reported, once, by the caller. */
+/* The handler of GDAL's messages, except in functions that install their own. It prints warnings in the form of this
+ * program; failures are return values, which the caller reports once. */
 static void hear_gdal(CPLErr class, CPLErrorNum number, const char *words)
 {
     (void)number;
@@ -52,7 +52,8 @@ static const gis_command *find_command(const char *name)
     return NULL;
 }
 
-/* Errors in the arguments are reported before the arguments are fully parsed, but in the form that they request. */
+/* Returns whether --messages=json is among the arguments. Errors found before the arguments are completely parsed are
+ * then reported as JSON, too. */
 static bool wants_json(int argc, char **argv)
 {
     for (int i = 1; i < argc && strcmp(argv[i], "--") != 0; i++)
@@ -91,7 +92,8 @@ static int run(const gis_command *command, int argc, char **argv)
     return status;
 }
 
-/* A full disk shows when the last bytes leave: stdout counts as an output too. */
+/* Closes stdout and returns the exit status; a write error, such as a full disk, may be found only when the last bytes
+ * are written. */
 static int close_stdout(int status)
 {
     bool failed = ferror(stdout) != 0;
@@ -137,8 +139,8 @@ static int no_command(void)
     return gis_say_failure(&error);
 }
 
-/* A standard stream that is closed leaves its number to the next file opened, and messages would go into that file, a
- * log or an output. So a file that refuses everything is opened in its place. */
+/* Opens /dev/null for each closed standard stream, in a mode in which its use fails. Else the next file to be opened,
+ * such as a log or an output, would get the number of the stream, and messages would be written to that file. */
 static void hold_standard_streams(void)
 {
     for (int number = STDIN_FILENO; number <= STDERR_FILENO; number++)

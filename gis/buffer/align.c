@@ -1,8 +1,9 @@
-/* align.c: a dissolved set made block by block, the shape turned for each (turned_shape.c).
+/* align.c: --align with --dissolve. A dissolved set is made block by block, and the shape is turned for each block
+ * (turned_shape.c).
  *
- * A dissolved set has a direction for each of its blocks: features whose dilations by the shape as given hang together.
- * Each block is made by itself, rounded, and the blocks are united, since turned shapes may reach into each other; the
- * union's crossings are rounded once more. */
+ * A block is a group of features whose dilations by the shape as given are connected. Each block is dilated or eroded
+ * by itself and rounded. Turned shapes may reach into other blocks, hence the results of the blocks are united, and the
+ * crossings of the union are rounded once more. */
 #include "buffer/buffer.h"
 
 #include "base/core_error.h"
@@ -14,7 +15,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A part of the whole, for progress and for being stopped. */
+/* The interval [from, to] of the progress of `whole` that one stage takes. The stage reports, and can be stopped,
+ * through it. */
 typedef struct part {
     const sunder_sum_options *whole;
     double from, to;
@@ -26,7 +28,7 @@ static bool tell_part(double fraction, void *user)
     return !p->whole->progress || p->whole->progress(p->from + (p->to - p->from) * fraction, p->whole->progress_user);
 }
 
-/* The sum in doubles, if the core made one; else its message. */
+/* Rounds the sum to doubles if `status` is SUNDER_OK; else sets *error to the core's message `why`. */
 static bool round_result(sunder_status status, const sunder_sum *sum, const sunder_error *why, gis_rounded *out,
                          gis_error *error)
 {
@@ -34,7 +36,8 @@ static bool round_result(sunder_status status, const sunder_sum *sum, const sund
     return gis_round_sum(sum, out, error);
 }
 
-/* Shares of the progress bar: finding the blocks, and making them; the rest is uniting them. */
+/* The shares of the progress that the stages take: finding the blocks, and making them. The rest is the share of their
+ * union. */
 static const double find_share = 0.2, make_share = 0.6;
 
 /* ---- Blocks ------------------------------------------------------------------------------------------------------ */
@@ -75,7 +78,7 @@ static CPLRectObj box_of(const gis_polygons *set, size_t polygon)
     return box;
 }
 
-/* Boxes of all polygons, by the numbers of polygons. */
+/* A quadtree of the bounding boxes of all polygons; its items are the numbers of the polygons. */
 static CPLQuadTree *index_of(const gis_polygons *set)
 {
     CPLRectObj all = {INFINITY, INFINITY, -INFINITY, -INFINITY};
@@ -92,8 +95,8 @@ static CPLQuadTree *index_of(const gis_polygons *set)
     return index;
 }
 
-/* The polygon of the dilation that a feature lies in: it holds the feature's first corner moved by a point well inside
- * the shape. */
+/* Returns the polygon of the dilation that contains the point `at`, or set->polygons if none does. `at` is the first
+ * vertex of a feature, moved by an interior point of the shape, hence it is interior to the dilation. */
 static size_t block_of(const gis_polygons *set, const CPLQuadTree *index, const double *at)
 {
     const CPLRectObj here = {at[0], at[1], at[0], at[1]};
@@ -106,7 +109,7 @@ static size_t block_of(const gis_polygons *set, const CPLQuadTree *index, const 
     return found;
 }
 
-/* Deals the members to blocks; *n of them have polygons. */
+/* Assigns each member of the set that has polygons to a block, and sorts members[0..*n) by block. */
 static bool find_blocks(const gis_buffer *buffer, const gis_buffer_set *set, const sunder_sum_options *how,
                         in_block *members, size_t *n, double *deviation, gis_error *error)
 {
@@ -141,7 +144,8 @@ static bool find_blocks(const gis_buffer *buffer, const gis_buffer_set *set, con
     return ok;
 }
 
-/* What a block came to, after what others did. */
+/* Adds the result of a block to that of the set: its polygons to `polygons`, its deviation, repairs, segments and
+ * points to `all`. */
 static bool append_block(gis_buffer_set *all, const gis_buffer_set *block, gis_polygons *polygons, gis_error *error)
 {
     if (!gis_polygons_append_all(polygons, &block->result.set, error)) return false;
@@ -159,7 +163,7 @@ static bool append_block(gis_buffer_set *all, const gis_buffer_set *block, gis_p
     return true;
 }
 
-/* The blocks' polygons, which may overlap, as one set. */
+/* Unites the polygons of the blocks, which may overlap; the result becomes all->result. */
 static bool unite_blocks(gis_buffer_set *all, const gis_polygons *polygons, const sunder_sum_options *how,
                          gis_error *error)
 {

@@ -1,8 +1,8 @@
-/* buffer_layers.c: the layers that sunder buffer writes. A feature keeps its FID and attributes; if it vanished, or
- * was empty, its geometry is empty; if it had no polygons, null. A set of dissolved features has the value of the
- * field, if one was named, and the number of its features. With --explode each polygon of a set is a feature with
- * the attributes of the set, except the number, which does not apply to one polygon; sets without polygons are not
- * written. */
+/* buffer_layers.c: the layers that sunder buffer writes. Without --dissolve a feature keeps its FID and attributes; its
+ * geometry is empty if the result or the feature's geometry is empty, and null if the feature had no polygons. A set of
+ * dissolved features has the value of --dissolve-field, if given, and the number of its features. With --explode each
+ * polygon of a set is a feature with the attributes of the set, except the number of features, which does not apply to
+ * one polygon; sets without polygons are not written. */
 #include "buffer/buffer.h"
 
 #include "base/interrupt.h"
@@ -10,8 +10,8 @@
 
 #include <string.h>
 
-/* Is the layer one of multipolygons? It is, if the source's layer is, and wherever a result may have, or has, more
- * polygons than one. */
+/* Is the output layer one of MultiPolygons? It is if the layer of the source is one, if features are dissolved, or if a
+ * result has more than one polygon; never with --explode. */
 static bool is_multi(const gis_buffer *buffer)
 {
     if (buffer->request->explode) return false;
@@ -29,7 +29,7 @@ static OGRGeometryH geometry_of(const gis_buffer_set *set, bool multi)
     return gis_geometry_polygons(polygons, multi);
 }
 
-/* The field of --dissolve-field, as it is. */
+/* The definition of the field of --dissolve-field in the source; owned by its layer. */
 static OGRFieldDefnH field_of(const gis_buffer *buffer)
 {
     OGRFeatureDefnH layer = OGR_L_GetLayerDefn(gis_source_layer(buffer->input.source));
@@ -89,7 +89,8 @@ static bool write_main(gis_sink *sink, const gis_buffer *buffer, gis_error *erro
     return true;
 }
 
-/* Which feature a degenerate part is of: its FID and the user's key; null where features are dissolved. */
+/* The feature that a degenerate segment or point belongs to: its FID and the value of --id-field; both are null where
+ * features are dissolved. */
 typedef struct owner {
     gis_value values[2];
     gis_conflict_texts texts;

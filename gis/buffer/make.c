@@ -1,5 +1,6 @@
-/* make.c: makes all sets, on several threads (one set: make_set.c). The assignment of sets to threads is arbitrary; the
- * result is not: a set depends on the input only, and if several fail the first one is reported. */
+/* make.c: computes all sets on several threads (make_set.c computes one). Which thread computes a set is arbitrary, but
+ * the result is not: a set depends on the input only, and if several sets fail, the error of the first one is
+ * returned. */
 #include "buffer/buffer.h"
 
 #include "base/interrupt.h"
@@ -13,16 +14,17 @@
 
 typedef struct making {
     gis_buffer *buffer;
-    gis_progress *progress; /* reported by the thread that holds the lock */
-    unsigned threads;       /* for a single set */
+    gis_progress *progress; /* called by the thread that has locked `lock`, or by the only one that computes */
+    unsigned threads;       /* the number of threads inside the computation of a single set */
     atomic_size_t next;
     atomic_bool stop;
-    pthread_mutex_t lock; /* of what follows */
-    size_t done, failed;  /* the least set that failed */
+    pthread_mutex_t lock; /* protects the members below */
+    size_t done, failed;  /* the least number of a set that failed; the number of sets if none did */
     gis_error error;
 } making;
 
-/* The progress of a single large set comes from inside it; of several each can be stopped there. */
+/* The progress callback of the core within a set. A single set reports its progress; one of several only checks whether
+ * it must stop. */
 static bool tell_inside(double fraction, void *user)
 {
     making *m = user;
@@ -47,7 +49,7 @@ static void fail(making *m, size_t set, const gis_error *error)
     if (!buffer->request->dissolve) gis_feature_name(&buffer->input, buffer->set[set].member[0], who, sizeof who);
     bool stopped = gis_is_interruption(error);
     pthread_mutex_lock(&m->lock);
-    /* work that was stopped because other work failed is not the cause */
+    /* a set that was stopped since another one failed is not the cause of the failure */
     if (set < m->failed && !(stopped && atomic_load(&m->stop))) {
         m->failed = set;
         m->error = *error;
@@ -89,7 +91,7 @@ static void add_up(gis_buffer *buffer)
     }
 }
 
-/* This thread works, too: where no other can be started it does everything. */
+/* The calling thread computes sets, too; if no other thread can be started it computes all of them. */
 bool gis_buffer_make(gis_buffer *buffer, gis_progress *progress, gis_error *error)
 {
     size_t asked = gis_threads(buffer->request->threads), threads = asked < buffer->sets ? asked : buffer->sets,

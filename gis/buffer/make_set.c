@@ -1,5 +1,5 @@
-/* make_set.c: grows or shrinks one set of features. They are joined as they stand, the core computes the result
- * exactly, and it is then rounded. The deviations by rounding are added up, never estimated. */
+/* make_set.c: dilates or erodes one set of features. Its members are joined as they are, the core computes the result
+ * exactly, and the result is then rounded. The deviations by rounding are computed and added up, never estimated. */
 #include "buffer/buffer.h"
 
 #include "base/core_error.h"
@@ -9,15 +9,16 @@
 
 static bool has_shape(const gis_buffer *buffer, size_t feature) { return buffer->input.shape[feature] != NULL; }
 
-/* Has it polygons, or a geometry that is empty? */
+/* Returns whether the feature has polygons or an empty geometry. */
 static bool has_polygons(const gis_buffer *buffer, size_t feature)
 {
     OGRGeometryH geometry = gis_source_geometry(buffer->input.source, feature);
     return has_shape(buffer, feature) || (geometry && OGR_G_IsEmpty(geometry));
 }
 
-/* What an invalid feature was repaired to, with its crossings rounded: one of them as rationals would make rationals of
- * a whole layer. *deviation is raised to what that moves. */
+/* Appends a repaired feature to `all`, with the crossings of its rings rounded to doubles: a single rational vertex
+ * would make all coordinates of the joined shape rational. *deviation is raised to the largest distance by which a
+ * vertex moved. */
 static bool append_repaired(const sunder_shape *shape, gis_polygons *all, double *deviation, gis_error *error)
 {
     sunder_sum *sum;
@@ -56,7 +57,8 @@ bool gis_buffer_join(const gis_buffer *buffer, const gis_buffer_set *set, sunder
     return ok;
 }
 
-/* Converts up to this many vertices of the sum to doubles; raises *deviation to their largest error. */
+/* Converts n vertices of the sum to doubles in xy[2 * n]; raises *deviation to their largest error. Fails if a
+ * coordinate exceeds the range of doubles. */
 static bool to_doubles(const sunder_sum *sum, const uint32_t *vertex, size_t n, double *xy, double *deviation,
                        gis_error *error)
 {

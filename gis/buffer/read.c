@@ -1,5 +1,5 @@
-/* read.c: the layer that is grown or shrunk, and the shape it is done by. The layer comes first: its CRS gives lengths
- * in the shape their meaning. */
+/* read.c: reads the layer that is dilated or eroded, and the shape. The layer is read first, since its CRS defines the
+ * units of lengths in the shape. */
 #include "buffer/buffer.h"
 
 #include "base/message.h"

@@ -1,5 +1,5 @@
-/* sets.c: which features are grown together: each by itself, all, or those with one value of a field. Sets stand in the
- * order of their first features, and features within them in their own. */
+/* sets.c: groups features into sets: each feature by itself, all features, or those with equal values of a field. Sets
+ * are sorted by their first features, and the features of a set by their numbers. */
 #include "buffer/buffer.h"
 
 #include "read/fields.h"
@@ -8,11 +8,11 @@
 #include <string.h>
 
 typedef struct dissolve_key {
-    char *key; /* the value of the field as text; NULL: null */
+    char *key; /* the value of the field as text; NULL for a null value */
     size_t feature, set;
 } dissolve_key;
 
-/* Nulls stand by themselves: each is a value of its own. */
+/* Sorts by value and then by feature. Null values come first; no two of them are in one set. */
 static int by_key(const void *a, const void *b)
 {
     const dissolve_key *ka = a, *kb = b;
@@ -44,7 +44,7 @@ static bool read_keys(const gis_buffer *buffer, dissolve_key *keys, gis_error *e
     return true;
 }
 
-/* Numbers a set by its first feature, then puts the features in the order of sets. */
+/* Sets the number of each set to its first feature, then sorts the features by set. */
 static void sort_keys(dissolve_key *keys, size_t n)
 {
     qsort(keys, n, sizeof *keys, by_key);
@@ -53,7 +53,7 @@ static void sort_keys(dissolve_key *keys, size_t n)
     qsort(keys, n, sizeof *keys, by_first);
 }
 
-/* Lists and bytes have no one text to compare. */
+/* Fails if the field is a list or binary: such values have no text by which they could be compared. */
 static bool has_single_values(const gis_buffer *buffer, gis_error *error)
 {
     OGRFeatureDefnH layer = OGR_L_GetLayerDefn(gis_source_layer(buffer->input.source));

@@ -1,9 +1,10 @@
-/* turned_shape.c: the main direction of buildings, and a shape turned to it.
+/* turned_shape.c: the main direction of buildings, and the shape turned to it.
  *
- * Walls are taken modulo a right angle: each side of length L and angle a is the vector L (cos 4a, sin 4a), and a
- * quarter of the angle of their sum is the main direction, in (-45, 45] degrees. The shape is turned about the origin
- * and its corners rounded to doubles: it is a choice of shape, and what is done with that shape is exact. Corners that
- * this leaves in straight walls are taken out in the end (geometry/round/straight.c). */
+ * Directions of walls are taken modulo a right angle: a side of length L and angle a is represented by the vector L
+ * (cos 4a, sin 4a), and a quarter of the angle of the sum of these vectors is the main direction, in (-45, 45] degrees.
+ * The shape is turned about the origin and its vertices are rounded to doubles. This rounding only chooses the shape;
+ * the operation with that shape is exact. Vertices that it leaves in straight walls are removed at the end
+ * (geometry/round/straight.c). */
 #include "buffer/buffer.h"
 
 #include "base/core_error.h"

@@ -1,4 +1,4 @@
-/* buffer.c: sunder buffer. Read, grow or shrink, round, write. */
+/* buffer.c: the command sunder buffer. It reads a layer, dilates or erodes it, rounds the result and writes it. */
 #include "base/message.h"
 #include "base/resources.h"
 #include "commands/command_report.h"
@@ -19,7 +19,7 @@ typedef struct buffer_run {
     double start;
 } buffer_run;
 
-/* Opened before the work is done: what can be refused is refused at once. */
+/* Opens the output before the computation, so that an output that must be refused is refused at once. */
 static bool open_sink(buffer_run *run, gis_error *error)
 {
     static const char *const suffixes[] = {"degenerate_segments", "degenerate_points", NULL};
@@ -33,7 +33,7 @@ static bool open_sink(buffer_run *run, gis_error *error)
            gis_sink_open(&request, source, &run->sink, error);
 }
 
-/* All but the last step, which is gis_deliver()'s. */
+/* Computes and writes everything; only gis_deliver(), which puts the files in place, is left to do. */
 static bool make_and_write(buffer_run *run, gis_error *error)
 {
     gis_sink_result result;
@@ -65,7 +65,7 @@ static bool print_summary(const void *made, gis_error *error)
 {
     const buffer_run *run = made;
     const gis_buffer *buffer = &run->buffer;
-    (void)error; /* what stdio refuses shows when it is flushed */
+    (void)error; /* an error of stdio is found when stdout is flushed */
     printf("%s: %zu features (invalid %zu, null %zu)", gis_source_name(buffer->input.source), buffer->input.n,
            buffer->input.invalid, buffer->input.null);
     if (run->request.dissolve) printf(" in %zu set%s", buffer->sets, buffer->sets == 1 ? "" : "s");

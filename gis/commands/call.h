@@ -1,19 +1,20 @@
-/* call.h: lists the options that a command was given, as text for reports and for a plan. */
+/* call.h: lists the options that a command was given, as text, for reports and for plans. */
 #ifndef GIS_CALL_H
 #define GIS_CALL_H
 
 #include "options/options.h"
 #include "report/page.h"
 
-/* The options that were given, in the order of the table; lists once a value. Start zeroed, clear in any case. */
+/* The given options, in the order of gis_option_table; an option with a list of values has an entry for each value.
+ * Start zeroed; clear on failure, too. */
 typedef struct gis_call {
     gis_page_option *option;
     size_t n, capacity;
 } gis_call;
 
-/* All that are wanted. */
+/* Appends the given options for which wanted() returns true. */
 bool gis_call_list_of(const gis_options *options, bool (*wanted)(const gis_option *), gis_call *call, gis_error *error);
-/* All but those of the section "Running", which change no result. */
+/* Appends all given options except those of the group GIS_GROUP_RUNNING, which change no result. */
 bool gis_call_list(const gis_options *options, gis_call *call, gis_error *error);
 void gis_call_clear(gis_call *call);
 

@@ -1,4 +1,4 @@
-/* check.c: sunder check. The exact list of overlaps and of pairs that are too close, in any layer. */
+/* check.c: the command sunder check. It lists all overlaps and all pairs that are too close in a layer, exactly. */
 #include "base/interrupt.h"
 #include "base/message.h"
 #include "commands/command_report.h"
@@ -18,15 +18,15 @@ typedef struct check_run {
     gis_destinations to;
     gis_layer_input_request request;
     gis_layer_input input;
-    char *layer;    /* LAYER_conflicts, unless --output-layer gives another name; the sink borrows it */
-    gis_sink *sink; /* NULL: no OUTPUT */
+    char *layer;    /* LAYER_conflicts, unless --output-layer gives another name; the sink borrows this string */
+    gis_sink *sink; /* NULL: there is no OUTPUT */
     sunder_report *report;
     sunder_layer_summary summary;
-    gis_moves moves; /* of --before */
+    gis_moves moves; /* the moves since --before */
     gis_progress progress;
 } check_run;
 
-/* Opened before the work is done. */
+/* Opens the output before the computation; does nothing without OUTPUT. */
 static bool open_sink(check_run *run, gis_error *error)
 {
     const char *path = run->to.output, *source = gis_source_name(run->input.source);
@@ -39,7 +39,7 @@ static bool open_sink(check_run *run, gis_error *error)
     return gis_sink_open(&request, run->input.source, &run->sink, error);
 }
 
-/* What broke a rule since --before, if that is given. */
+/* Finds the moves since --before that break a rule; does nothing without --before. */
 static bool check_moves(check_run *run, gis_error *error)
 {
     gis_layer_input_request original;
@@ -48,7 +48,7 @@ static bool check_moves(check_run *run, gis_error *error)
     gis_layer_box(&run->input, box);
     gis_resolve_original(run->options, &run->request, gis_source_name(run->input.source), &original);
     original.also = box;
-    original.moves = true; /* the same barriers count as when its features were moved */
+    original.moves = true; /* hence the same barriers count as when the features were moved */
     if (!gis_moves_check(&original, &run->input, &run->progress, &run->moves, error)) return false;
     const gis_source *before = run->moves.original.source;
     return gis_destinations_spare(&run->to, before, error) &&
@@ -66,7 +66,7 @@ static bool write_layer(check_run *run, gis_error *error)
            gis_write_moves(layer, &run->moves, error) && gis_sink_finish(run->sink, &result, error);
 }
 
-/* All but the last step, which is gis_deliver()'s. */
+/* Checks and writes everything; only gis_deliver(), which puts the files in place, is left to do. */
 static bool check_and_write(check_run *run, gis_error *error)
 {
     if (!open_sink(run, error)) return false;
@@ -80,7 +80,7 @@ static bool check_and_write(check_run *run, gis_error *error)
     return true;
 }
 
-/* Tabs and line breaks in a user's key would break the columns: they become blanks. */
+/* Prints a text with tabs and line breaks replaced by blanks, since they would break the columns. */
 static void print_text(const char *text)
 {
     for (; *text; text++) putchar(*text == '\t' || *text == '\n' || *text == '\r' ? ' ' : *text);
@@ -161,7 +161,7 @@ static bool print(const void *checked, gis_error *error)
     return true;
 }
 
-/* The findings of --before, by kind; a key that appears only with that option. */
+/* Adds the key "moves", the numbers of findings of --before by kind; it exists only with that option. */
 static void json_moves(gis_json *out, const gis_moves *moves)
 {
     gis_json_key(out, "moves");

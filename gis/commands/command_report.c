@@ -1,5 +1,5 @@
-/* command_report.c: see command_report.h. Keys stand in the order in which the interface lists them; scripts may
- * rely on the keys. */
+/* command_report.c: see command_report.h. JSON keys are written in the order in which the manual page lists them;
+ * scripts may rely on the keys. */
 #include "commands/command_report.h"
 
 #include "base/exit_status.h"

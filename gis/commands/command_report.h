@@ -1,4 +1,4 @@
-/* command_report.h: pieces that the reports of several commands share. */
+/* command_report.h: parts of the statistics that several commands print. */
 #ifndef GIS_COMMAND_REPORT_H
 #define GIS_COMMAND_REPORT_H
 
@@ -6,12 +6,12 @@
 #include "options/options.h"
 #include "sunder.h"
 
-/* A time, to the nanosecond: more digits would be noise. */
+/* Adds a time in seconds, rounded to nanoseconds. */
 void gis_json_seconds(gis_json *out, const char *key, double seconds);
 void gis_json_operations(gis_json *out, const sunder_counts *counts);
 void gis_json_conflict_counts(gis_json *out, const sunder_conflict_counts *counts);
 
-/* Is anything in conflict between blocks? */
+/* Returns whether there is any conflict, not counting those within blocks. */
 bool gis_any_conflict(const sunder_conflict_counts *counts);
 /* Returns the exit status of a complete run: GIS_UNRESOLVED if `unresolved` (the goal was missed) and
  * OPT_ALLOW_CONFLICTS is not given. */

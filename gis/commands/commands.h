@@ -1,4 +1,4 @@
-/* commands.h: the commands, a file each. */
+/* commands.h: the functions that run the commands; each is in a file of its own. */
 #ifndef GIS_COMMANDS_H
 #define GIS_COMMANDS_H
 
@@ -12,7 +12,7 @@ int gis_command_buffer(const gis_options *options);
 int gis_command_route(const gis_options *options);
 int gis_command_plan(const gis_options *options);
 int gis_command_merge(const gis_options *options);
-/* separate --shard K PLAN */
+/* the command line separate --shard K PLAN */
 int gis_command_shard(const gis_options *options);
 
 #endif

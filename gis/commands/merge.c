@@ -1,4 +1,5 @@
-/* merge.c: sunder merge. The shards of a plan joined, and written as separate writes. */
+/* merge.c: the command sunder merge. It joins the shards of a plan and writes the result as the command separate
+ * does. */
 #include "base/message.h"
 #include "base/resources.h"
 #include "commands/commands.h"
@@ -9,9 +10,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- Are all shards there? --------------------------------------------------------------------------------------- */
+/* ---- Looking for missing shards ---------------------------------------------------------------------------------- */
 
-/* Numbers, those that follow each other as one: 2, 5-7. Of very many the first. */
+/* Writes the numbers of the missing shards to `text`, consecutive ones as a range: 2, 5-7. If `size` does not suffice
+ * the list ends with "...". */
 static void list_missing(const bool *missing, unsigned shards, char *text, size_t size)
 {
     enum { ROOM_FOR_ONE = 32 };
@@ -59,7 +61,7 @@ static bool all_there(const gis_shard_run *parts, const gis_plan *plan, gis_erro
     return done;
 }
 
-/* ---- The whole --------------------------------------------------------------------------------------------------- */
+/* ---- Joining the shards ------------------------------------------------------------------------------------------ */
 
 static bool resume(gis_separate_run *run, const gis_planned *planned, const char *directory, gis_error *error)
 {

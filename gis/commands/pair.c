@@ -1,5 +1,5 @@
-/* pair.c: sunder pair. The least translation of Q that takes its interior off P, as JSON, or as a layer `pair`:
- * the line from the anchor of Q to where it goes. */
+/* pair.c: the command sunder pair. It finds the shortest translation of Q that separates its interior from P, and
+ * writes it as JSON, or as a layer `pair` with a line from the anchor of Q to its translated position. */
 #include "base/core_error.h"
 #include "base/message.h"
 #include "commands/commands.h"

@@ -1,4 +1,5 @@
-/* plan.c: sunder plan. The layer onto the disk, cut, with all that its shards and their merge want to know. */
+/* plan.c: the command sunder plan. It copies the layer to disk and cuts it into shards; the directory of the plan
+ * contains all data that the shards and their merge need. */
 #include "base/exit_status.h"
 #include "base/message.h"
 #include "commands/commands.h"
@@ -9,7 +10,7 @@
 #include <stdio.h>
 #include <unistd.h>
 
-/* A process takes no more unless --max-memory says so. */
+/* The limit in bytes for the memory of a process, unless --max-memory gives one. */
 static const double usual_memory = 1e9;
 
 typedef struct plan_run {
@@ -18,7 +19,7 @@ typedef struct plan_run {
     gis_layer_input_request request;
     gis_plan_place place;
     gis_shard_run parts;
-    bool quiet, there; /* there: nothing was to be done */
+    bool quiet, there; /* there: the same plan existed already, and nothing was done */
 } plan_run;
 
 static bool read_call(plan_run *run, const gis_options *options, gis_error *error)
@@ -38,7 +39,7 @@ static bool read_call(plan_run *run, const gis_options *options, gis_error *erro
            gis_planned_rules(&run->planned.options, &run->request.rules, error);
 }
 
-/* What is there already may be this very plan; then all is done. */
+/* Compares the plan that exists already with the requested one. If they are equal run->there is set; else it fails. */
 static bool compare_with_former(plan_run *run, gis_error *error)
 {
     gis_plan former;
@@ -66,7 +67,7 @@ static bool make_plan(plan_run *run, gis_error *error)
     if (!gis_plan_place_begin(run->directory, &run->place, error)) return false;
     const char *place = run->place.path;
     if (!gis_shard_run_begin(&run->request, place, plan->shards, plan->memory, &run->parts, error)) return false;
-    plan->facts = *facts; /* which are the parts' still */
+    plan->facts = *facts; /* a shallow copy: run->parts owns the facts */
     plan->spool = gis_spool_checksum(run->parts.spool);
     const bool written = gis_plan_status_checksum(place, &plan->status, error) &&
                          gis_plan_describe(plan, &run->parts, place, error) && gis_plan_write(plan, place, error);

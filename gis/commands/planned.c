@@ -11,14 +11,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- The arguments of a plan ------------------------------------------------------------------------------------- */
+/* ---- The arguments stored in a plan ------------------------------------------------------------------------------ */
 
-/* How a run of plan is watched is its own affair, and so is what it is about. */
+/* Is the option stored among the arguments of a plan? Options that only report on the run of `plan` are not. */
 static bool is_planned(const gis_option *option)
 {
     switch (option->id) {
     case OPT_SHARDS:
-    case OPT_MAX_MEMORY: /* the plan has these as numbers */
+    case OPT_MAX_MEMORY: /* the plan stores these two as numbers */
     case OPT_PROGRESS:
     case OPT_QUIET:
     case OPT_LOG:
@@ -36,7 +36,8 @@ static const gis_option *option_of(const char *name)
     return NULL;
 }
 
-/* NULL: memory is out. */
+/* Returns the value of the option with relative paths made absolute; NULL if out of memory. The caller frees it with
+ * CPLFree(). */
 static char *absolute(const gis_option *option, const char *value)
 {
     switch (option ? option->type : GIS_TYPE_TEXT) {
@@ -63,7 +64,7 @@ bool gis_planned_arguments(const gis_options *options, gis_plan *plan, gis_error
     return done;
 }
 
-/* ---- Parsed again ------------------------------------------------------------------------------------------------ */
+/* ---- Parsing the stored arguments -------------------------------------------------------------------------------- */
 
 static const gis_command *find_separate(void)
 {
@@ -97,7 +98,7 @@ static bool add_now(gis_planned *planned, const gis_options *now, gis_error *err
     return done;
 }
 
-/* Is this one of the plan's given now, too? */
+/* Returns whether an option of the plan is also given in this call, so that its stored value is ignored. */
 static bool is_overridden(const gis_options *now, const char *argument)
 {
     for (int id = 0; id < OPT_N; id++) {
@@ -143,6 +144,6 @@ bool gis_planned_rules(const gis_options *options, gis_layer_rules *rules, gis_e
     const bool points = options->given[OPT_SYMBOL] || options->given[OPT_SYMBOL_FIELD];
     if (!gis_separate_choose_layers(options->text[OPT_LAYERS], points, &chosen, error)) return false;
     rules->core.keep_pushes = (chosen & GIS_SEPARATE_PUSHES) != 0;
-    rules->count_thin = true; /* whether a summary is printed is not known before the end */
+    rules->count_thin = true; /* needed if a summary is printed, which is not known before the end */
     return true;
 }

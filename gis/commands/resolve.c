@@ -1,6 +1,6 @@
-/* resolve.c: see resolve.h. Here alone is known how an option is spelt, whether one that was not given has a value all
- * the same, and which of them mean one thing together. The order in which requests are resolved and carried out is the
- * commands' affair: it is the order in which errors are told. */
+/* resolve.c: see resolve.h. Only this file knows how an option is spelled, which value an option has that was not
+ * given, and which options depend on each other. The commands decide the order in which requests are resolved and
+ * executed; it is the order in which errors are found. */
 #include "commands/resolve.h"
 
 #include "read/source_files.h"
@@ -10,10 +10,10 @@
 #include <string.h>
 #include <unistd.h>
 
-/* ---- Words ------------------------------------------------------------------------------------------------------- */
+/* ---- Words of enumerations --------------------------------------------------------------------------------------- */
 
-/* The number of a CHOICE's word in the enumeration that `word` gives the words of, from 0 on up to its end, the empty
- * word. False, with an error: the table of options and the enumeration do not agree. */
+/* *number becomes the index of the option's value in an enumeration. word(i) is the name of enumerator i; "" marks the
+ * end. Fails if the enumeration has no such name, that is, if it and the table of options differ. */
 static bool resolve_choice(const gis_options *options, gis_option_id id, const char *(*word)(unsigned),
                            unsigned *number, gis_error *error)
 {
@@ -28,7 +28,7 @@ static bool resolve_choice(const gis_options *options, gis_option_id id, const c
     return false;
 }
 
-/* The functions that give an enumeration its words, of one type. */
+/* The functions that name the enumerators, converted to one type. */
 static const char *algorithm_word(unsigned i) { return sunder_algorithm_string((sunder_algorithm)i); }
 static const char *decomposition_word(unsigned i) { return sunder_decomposition_string((sunder_decomposition)i); }
 static const char *order_word(unsigned i) { return sunder_order_string((sunder_order)i); }
@@ -45,9 +45,9 @@ static bool resolve_invalid(const gis_options *options, gis_invalid_policy *out,
     return true;
 }
 
-/* ---- What several requests share --------------------------------------------------------------------------------- */
+/* ---- Parts that several requests have ---------------------------------------------------------------------------- */
 
-/* More threads than any machine has processors would be a slip of the pen. */
+/* The largest number of threads that is used; a larger one is taken for a typing error. */
 static const double most_threads = 4096;
 
 static uint64_t seed_of(const gis_options *options)
@@ -55,7 +55,7 @@ static uint64_t seed_of(const gis_options *options)
     return options->given[OPT_SEED] ? (uint64_t)options->number[OPT_SEED] : 0;
 }
 
-/* 0: as many as there are processors. */
+/* Returns the number of threads; 0: one for each processor. */
 static unsigned thread_count(const gis_options *options)
 {
     return options->given[OPT_THREADS] ? (unsigned)fmin(options->number[OPT_THREADS], most_threads) : 0;
@@ -66,10 +66,10 @@ gis_optional_length gis_resolve_length(const gis_options *options, gis_option_id
     return (gis_optional_length){options->text[id], options->length[id]};
 }
 
-/* It is the last operand of every command; NULL: not given. */
+/* Returns the operand OUTPUT, which is the last operand of every command; NULL if it was not given. */
 static const char *output_of(const gis_options *options) { return options->operand[options->command->most - 1]; }
 
-/* The operand that messages call INPUT, or OBSTACLES. */
+/* Returns the request for the operand that messages call INPUT or OBSTACLES. */
 static gis_source_request resolve_source(const gis_options *options)
 {
     return (gis_source_request){
@@ -90,9 +90,10 @@ static gis_shape_request resolve_shape(const gis_options *options, gis_option_id
     return (gis_shape_request){gis_option_table[id].names, options->text[id], invalid};
 }
 
-/* ---- The commands' requests -------------------------------------------------------------------------------------- */
+/* ---- The requests of the commands -------------------------------------------------------------------------------- */
 
-/* Symbols that lie on each other are what a layer of points is separated for; buildings that do belong together. */
+/* Sets how contained features are treated. By default points are separated, since symbols that lie on each other are
+ * the purpose of separating points; polygons have the default of --contained. */
 static bool resolve_contained(const gis_options *options, sunder_containment *out, gis_error *error)
 {
     bool points = options->given[OPT_SYMBOL] || options->given[OPT_SYMBOL_FIELD];
@@ -130,8 +131,8 @@ static bool resolve_rules(const gis_options *options, gis_layer_rules *out, gis_
     return resolve_contained(options, &out->core.contained, error);
 }
 
-/* The files that go with the output may not be those of a barrier; the output itself is looked after where that is
- * read. */
+/* Refuses a file of --stats, --report, --proof or --trace that is a file of a barrier's dataset. The reading of
+ * barriers checks OUTPUT itself. */
 static bool spare_barrier(const gis_options *options, const char *dataset, gis_error *error)
 {
     static const gis_option_id files[] = {OPT_STATS, OPT_REPORT, OPT_PROOF, OPT_TRACE};
@@ -171,7 +172,8 @@ void gis_resolve_original(const gis_options *options, const gis_layer_input_requ
     out->rules.block_field = NULL;
 }
 
-/* What a check has no use for but for what was done to the layer; and what may select others from the original. */
+/* Checks the options of the command check that depend on --before: some apply to moves only, and some select features
+ * in a way that cannot be repeated on the original layer. */
 static bool check_before(const gis_options *options, gis_error *error)
 {
     static const gis_option_id of_moves[] = {OPT_MAX_SHIFT, OPT_MAX_SHIFT_FIELD, OPT_FIXED_WHERE, OPT_ALLOW_JUMPS},
@@ -231,7 +233,7 @@ bool gis_resolve_memory(const gis_options *options, double *bytes, gis_error *er
     return true;
 }
 
-/* What selects from a data source selects from nothing where both operands are texts. */
+/* Refuses options that select from a data source if both operands are texts. */
 static bool check_selection(const gis_options *options, gis_error *error)
 {
     static const gis_option_id of_sources[] = {OPT_INPUT_LAYER, OPT_WHERE, OPT_SQL, OPT_BBOX,
@@ -335,7 +337,7 @@ bool gis_resolve_route(const gis_options *options, gis_route_request *out, gis_e
     return true;
 }
 
-/* ---- Where results go -------------------------------------------------------------------------------------------- */
+/* ---- Destinations of results ------------------------------------------------------------------------------------- */
 
 gis_sink_request gis_resolve_sink(const gis_options *options, const char *path, const char *main_layer)
 {
@@ -393,7 +395,7 @@ static bool spare_named(const gis_options *options, const char *log, gis_error *
     }
     for (const char *const *each = options->list[OPT_BARRIER]; !named && each && *each; each++) {
         gis_barrier_request barrier = {0};
-        gis_error ignored; /* what is wrong with it is told where it is read */
+        gis_error ignored; /* an invalid barrier is reported when barriers are read */
         named = gis_barrier_parse(*each, &barrier, &ignored) && gis_path_lies_in(barrier.dataset, log);
         gis_barrier_request_clear(&barrier);
     }

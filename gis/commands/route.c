@@ -1,4 +1,4 @@
-/* route.c: the command sunder route. It finds a shortest way for a robot among obstacles, with contact allowed, and
+/* route.c: the command sunder route. It finds a shortest path of a robot among obstacles, with contact allowed, and
  * writes it as JSON or as layers. */
 #include "base/core_error.h"
 #include "base/message.h"
@@ -18,8 +18,9 @@ typedef struct route_run {
     gis_route_input input;
     sunder_route *route;
     gis_sink *sink;                  /* NULL: no layers are written */
-    double max_deviation;            /* of layers; NaN: none are written */
-    char reason[GIS_WHO_SIZE + 128]; /* "" where there is a route */
+    double max_deviation;            /* the largest deviation of coordinates in the layers; NaN: no layers are
+                                      * written */
+    char reason[GIS_WHO_SIZE + 128]; /* why there is no route; "" if there is one */
 } route_run;
 
 static bool open_sink(route_run *run, gis_error *error)

@@ -1,4 +1,5 @@
-/* separate.c: sunder separate. Read, separate, write, say what came of it. */
+/* separate.c: the command sunder separate. It reads a layer, separates its features, writes the result and prints a
+ * summary. */
 #include "base/message.h"
 #include "base/resources.h"
 #include "commands/command_report.h"
@@ -9,8 +10,8 @@
 #include "layer/far_moves.h"
 #include "layer/result_held.h"
 
-/* The layer onto the disk; the source once more, to be written from, by batches unless the format compares features in
- * the end. */
+/* Copies the layer to disk and opens the source a second time, to write from. Features are read from it in batches,
+ * unless the format requires that features be compared after writing. */
 static bool read_in_parts(gis_separate_run *run, double memory, gis_error *error)
 {
     return gis_shard_run_begin(&run->request, NULL, 1, memory, &run->parts, error) &&
@@ -43,10 +44,10 @@ static bool separate_whole(gis_separate_run *run, gis_error *error)
     return gis_separate_write_layers(run, error);
 }
 
-/* Where the library's share of the bar begins to do what. */
+/* Converts a fraction of the library's progress to a fraction of the whole run. */
 #define OF_LIBRARY(fraction) (GIS_SEPARATE_READ + (fraction) * (GIS_SEPARATE_DONE - GIS_SEPARATE_READ))
 
-/* As the seconds of --stats are called. */
+/* The names of the stages, as in "seconds" of --stats. */
 static const gis_progress_name stages[] = {{0, "read"},
                                            {GIS_SEPARATE_READ, "solve"},
                                            {OF_LIBRARY(SUNDER_PROGRESS_SOLVED), "explain"},

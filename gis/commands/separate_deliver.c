@@ -1,5 +1,5 @@
-/* separate_deliver.c: the end of a separation: its output, --stats, --report, --proof, --trace and the summary, all of
- * them or none. */
+/* separate_deliver.c: delivers the results of a separation: the output, --stats, --report, --proof, --trace and the
+ * summary. Either all of them are put in place, or none. */
 #include "commands/call.h"
 #include "commands/command_report.h"
 #include "commands/resolve.h"

@@ -1,5 +1,5 @@
-/* separate_figures.c: what came of a separation, in figures: for --stats, and in words on standard output. Keys stand
- * in the order in which the interface lists them; scripts may rely on the keys. */
+/* separate_figures.c: the statistics of a separation: JSON for --stats, and the summary on standard output. JSON keys
+ * are written in the order in which the manual page lists them; scripts may rely on the keys. */
 #include "base/resources.h"
 #include "commands/command_report.h"
 #include "commands/resolve.h"
@@ -10,7 +10,7 @@
 #include <math.h>
 #include <stdio.h>
 
-/* The feature with the longest move; OGRNullFID: none, or it has no FID. */
+/* Returns the FID of the feature with the longest move; OGRNullFID if no feature moved or it has no FID. */
 static GIntBig longest_fid(const gis_separate_run *run)
 {
     const size_t feature = run->summary.max_feature;
@@ -52,7 +52,7 @@ const char *gis_separate_unit(const gis_separate_run *run)
         OSRGetAngularUnits(crs, &name);
     else
         OSRGetLinearUnits(crs, &name);
-    return name ? name : "unknown"; /* the CRS owns it */
+    return name ? name : "unknown"; /* the CRS owns the string */
 }
 
 static void json_losses(gis_json *out, const gis_sentences *losses)
@@ -110,7 +110,8 @@ void gis_separate_stats(gis_json *out, const gis_separate_run *run)
     gis_json_raw(out, "\n");
 }
 
-/* A tolerance of 0 is the default where the gap is, and joins no walls that were drawn twice. */
+/* Prints the number of pairs that overlap only slightly, and the --touch-tolerance that would join them into blocks.
+ * Without a gap the default tolerance is 0, which does not join walls that were digitised twice. */
 static void print_thin(const gis_separate_run *run)
 {
     size_t thin = run->summary.thin;
@@ -122,7 +123,7 @@ static void print_thin(const gis_separate_run *run)
            thin == 1 ? "it into one block" : "them into blocks");
 }
 
-/* Kinds whose names need a word, where there are any. */
+/* Prints the numbers of conflicts before and after. A kind with a note is explained if there are conflicts of it. */
 static void print_counts(const sunder_layer_summary *summary)
 {
     const sunder_conflict_counts *before = &summary->before, *after = &summary->after;
@@ -153,7 +154,7 @@ static void print_counts(const sunder_layer_summary *summary)
 bool gis_separate_print(const void *separated, gis_error *error)
 {
     const gis_separate_run *run = separated;
-    (void)error; /* what stdio refuses shows when it is flushed */
+    (void)error; /* an error of stdio is found when stdout is flushed */
     const sunder_layer_summary *summary = &run->summary;
     printf("%s: %zu features, %zu vertices, %zu blocks, %zu clusters\n", gis_source_name(run->input.source),
            run->input.n, summary->vertices, summary->blocks, summary->clusters);

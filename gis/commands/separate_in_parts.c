@@ -1,9 +1,10 @@
-/* separate_in_parts.c: from parts on the disk to an output: of a layer that memory does not hold, or of a plan. */
+/* separate_in_parts.c: writes the output from parts on disk, for a layer that exceeds the memory and for a plan. */
 #include "base/resources.h"
 #include "commands/progress_shares.h"
 #include "commands/separate_run.h"
 
-/* Where the format changes what it is given, all features are held, to be compared with what was written. */
+/* Opens the output. If its format changes values, the source is opened again with all features in memory, so that they
+ * can be compared with what was written. */
 static bool open_sink(gis_separate_run *run, gis_error *error)
 {
     run->scratch = gis_shard_run_scratch(&run->parts, error);

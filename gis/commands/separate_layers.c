@@ -1,5 +1,5 @@
-/* separate_layers.c: the layers that separate writes: which, by --layers and by what the output takes; and all of them
- * written and read back. */
+/* separate_layers.c: chooses the layers that separate writes, by --layers and by what the output supports, and writes
+ * them and reads them back. */
 #include "base/resources.h"
 #include "commands/progress_shares.h"
 #include "commands/resolve.h"

@@ -1,5 +1,5 @@
-/* separate_run.h: a separation, and what is the same for one that is done in one process, in parts, or by shards of a
- * plan: the output is opened, figures and layers are made, and all of it is delivered. */
+/* separate_run.h: the state of a separation, and the steps that are the same whether it is done in memory, in parts, or
+ * by the shards of a plan: opening the output, computing statistics, writing layers and delivering the results. */
 #ifndef GIS_SEPARATE_RUN_H
 #define GIS_SEPARATE_RUN_H
 
@@ -10,7 +10,7 @@
 #include "shards/run/shard_run.h"
 #include "write/deliver.h"
 
-/* Bits of --layers. */
+/* The layers of --layers, as bits; GIS_SEPARATE_LAYERS is their number. */
 enum {
     GIS_SEPARATE_MAIN = 1,
     GIS_SEPARATE_DISPLACEMENT = 2,
@@ -25,62 +25,66 @@ typedef struct gis_separate_run {
     gis_destinations to;
     gis_layer_input_request request;
     gis_layer_input input;
-    const char *suffixes[GIS_SEPARATE_LAYERS]; /* of the layers besides the main one; the sink borrows them */
+    const char *suffixes[GIS_SEPARATE_LAYERS]; /* the suffixes of the layers besides the main one, NULL-terminated; the
+                                                * sink borrows the array */
     gis_sink *sink;
     sunder_report *report;
     sunder_layer_summary summary;
     gis_progress progress;
-    gis_trace trace; /* where --trace is given */
-    unsigned chosen; /* which layers are written */
-    bool taken;      /* standard output is */
+    gis_trace trace; /* filled if --trace is given */
+    unsigned chosen; /* the layers to write, as bits */
+    bool taken;      /* standard output is used by a result, hence no summary is printed */
     bool verified;
     double start, read, write;
-    bool source_held;    /* all features of the source are; else it is read by batches */
-    const char *scratch; /* the directory for what is noted of features; NULL: memory */
-    uint64_t stamp;      /* of what shards were done for */
-    double began;        /* to separate */
-    gis_shard_run parts; /* of a layer that is not held */
-    gis_result result;   /* from when it is separated */
+    bool source_held;    /* all features of the source are in memory; else they are read in batches */
+    const char *scratch; /* the directory for temporary data on features; NULL: they are kept in memory */
+    uint64_t stamp;      /* identifies the run that shards belong to */
+    double began;        /* when the separation began, in seconds of gis_clock() */
+    gis_shard_run parts; /* the parts on disk of a layer that is not held in memory */
+    gis_result result;   /* valid after the separation */
 } gis_separate_run;
 
-/* ---- separate.c: from beginning to end --------------------------------------------------------------------------- */
+/* ---- separate.c: begin and end of a run -------------------------------------------------------------------------- */
 
-/* Where results go is looked at, and the rules are resolved. The run is to be ended in any case. */
+/* Checks the destinations of the results and resolves the request. The caller calls gis_separate_end() on failure,
+ * too. */
 bool gis_separate_begin(const gis_options *options, gis_separate_run *run, gis_error *error);
-/* The exit status; what failed is said. */
+/* Frees the run and returns the exit status of the program; prints *error unless `done`. */
 int gis_separate_end(gis_separate_run *run, bool done, const gis_error *error);
 
-/* ---- separate_layers.c: which layers are written ----------------------------------------------------------------- */
+/* ---- separate_layers.c: the layers ------------------------------------------------------------------------------- */
 
-/* What --layers chooses of those that apply; an unknown name is wrong usage. */
+/* *chosen becomes the layers that `list` (--layers; NULL: all) names and that apply; the layer of symbols applies to
+ * points only. An unknown name is a usage error. */
 bool gis_separate_choose_layers(const char *list, bool points, unsigned *chosen, gis_error *error);
-/* The sink is opened before the work is done: what can be refused is refused before hours of computing. */
+/* Opens the output before the computation, so that an output that must be refused is refused at once. */
 bool gis_separate_open_sink(gis_separate_run *run, gis_error *error);
-/* Writes the layers of run->result: all but the last step, which is gis_deliver()'s. */
+/* Writes the layers of run->result; only gis_deliver(), which puts the files in place, is left to do. */
 bool gis_separate_write_layers(gis_separate_run *run, gis_error *error);
 
-/* ---- separate_in_parts.c: of a layer that is not held ------------------------------------------------------------ */
+/* ---- separate_in_parts.c: a layer in parts on disk --------------------------------------------------------------- */
 
-/* As gis_separate_open_sink(). From here on the layer is separated. */
+/* Opens the output as gis_separate_open_sink() does, and starts the clock of the separation. */
 bool gis_separate_in_parts_begin(gis_separate_run *run, gis_error *error);
-/* All shards are there: joins them, and writes the layers. */
+/* Joins the shards, which must all be done, and writes the layers. */
 bool gis_separate_in_parts_end(gis_separate_run *run, gis_error *error);
 
-/* ---- separate_figures.c: what came of it ------------------------------------------------------------------------- */
+/* ---- separate_figures.c: statistics ------------------------------------------------------------------------------ */
 
-/* What part of the cost is not proved to be needed; of a cost beyond doubles all of it, as far as a double can tell. */
+/* Returns the share of the cost that exceeds the lower bound; 1 if the cost exceeds the range of doubles, and 0 if it
+ * is 0. */
 double gis_separate_optimality_gap(const sunder_layer_summary *summary);
-/* The name of the layer's unit, the CRS's own. */
+/* Returns the name that the CRS gives to the unit of the layer, or "unknown"; it is borrowed from the CRS. */
 const char *gis_separate_unit(const gis_separate_run *run);
 void gis_separate_stats(gis_json *out, const gis_separate_run *run);
-/* The summary, on standard output; of a gis_separate_run. */
+/* Prints the summary to standard output; `separated` is a gis_separate_run. */
 bool gis_separate_print(const void *separated, gis_error *error);
 
 /* ---- separate_deliver.c ------------------------------------------------------------------------------------------ */
 
-/* Is the summary printed? */
+/* Returns whether the summary is printed. */
 bool gis_separate_is_summarised(const gis_separate_run *run);
-/* All is put in place. */
+/* Writes the statistics, report, proof and trace and puts all files in place. */
 bool gis_separate_deliver(const gis_separate_run *run, gis_error *error);
 
 #endif

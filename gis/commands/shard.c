@@ -1,4 +1,5 @@
-/* shard.c: sunder separate --shard K PLAN. One shard of a plan, into a file there. */
+/* shard.c: the command line sunder separate --shard K PLAN. It separates one shard of a plan and writes the result into
+ * the directory of the plan. */
 #include "base/exit_status.h"
 #include "base/json.h"
 #include "base/message.h"
@@ -13,7 +14,7 @@
 typedef struct shard_run {
     const char *directory;
     unsigned k, shards;
-    bool quiet, there; /* there: it was done already */
+    bool quiet, there; /* there: the shard was done already */
     double start;
 } shard_run;
 
@@ -33,7 +34,7 @@ static void json_shard(gis_json *out, const shard_run *run)
 static bool print(const void *done, gis_error *error)
 {
     const shard_run *run = done;
-    (void)error; /* what stdio refuses shows when it is flushed */
+    (void)error; /* an error of stdio is found when stdout is flushed */
     if (run->there)
         printf("%s: shard %u of %u was done already\n", run->directory, run->k, run->shards);
     else
@@ -51,7 +52,8 @@ static bool deliver(const shard_run *run, const gis_destinations *to, bool taken
     return done;
 }
 
-/* What is there and is not what it should be is said, and made again. */
+/* Sets run->there if the shard is done already. An unusable file of it causes a warning; the shard is then made
+ * again. */
 static bool look(shard_run *run, const gis_shard_run *parts, uint64_t stamp, gis_error *error)
 {
     gis_shard_state state;

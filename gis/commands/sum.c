@@ -1,4 +1,4 @@
-/* sum.c: sunder sum. JSON with the canonical sum on stdout, or layers, and the figures. */
+/* sum.c: the command sunder sum. It writes the canonical sum as JSON to stdout, or as layers, and statistics. */
 #include "base/core_error.h"
 #include "base/interrupt.h"
 #include "base/message.h"
@@ -15,10 +15,10 @@ typedef struct sum_run {
     gis_destinations to;
     sunder_sum_options how;
     gis_operands operands;
-    sunder_shape *reflected; /* -Q, with --reflect */
+    sunder_shape *reflected; /* -Q, if --reflect is given */
     sunder_sum *sum;
     gis_sink *sink;       /* NULL: no layers are written */
-    double max_deviation; /* of layers; NaN: none are written */
+    double max_deviation; /* the largest deviation of coordinates in the layers; NaN: no layers are written */
     double read, decompose, compute, write, start;
 } sum_run;
 
@@ -46,7 +46,7 @@ static bool compute(sum_run *run, gis_error *error)
     return true;
 }
 
-/* One coordinate pair: rationals as strings, or decimals. */
+/* Writes one coordinate pair: with --exact rationals as strings, else decimals. */
 static bool json_vertex(gis_json *out, const sum_run *run, uint32_t vertex, gis_error *error)
 {
     if (!gis_go_on(error)) return false;
@@ -97,7 +97,7 @@ static bool json_polygon(gis_json *out, const sum_run *run, size_t polygon, gis_
     return true;
 }
 
-/* The keys polygons, degenerate_segments and degenerate_points, to follow those of the summary. */
+/* Writes the keys polygons, degenerate_segments and degenerate_points, which come after those of the summary. */
 static bool json_geometry(gis_json *out, const sum_run *run, gis_error *error)
 {
     sunder_sum_size size;
@@ -181,7 +181,7 @@ static void json_seconds(gis_json *out, const sum_run *run)
     gis_json_close(out, '}');
 }
 
-/* The convolution has no phases that count for themselves. */
+/* Writes the counts of operations, in total and by phase; the convolution counts no phases. */
 static void json_operations(gis_json *out, const sum_run *run)
 {
     sunder_counts counts;
@@ -202,12 +202,13 @@ static void json_operations(gis_json *out, const sum_run *run)
     gis_json_close(out, '}');
 }
 
-/* The summary, with `geometry` (its keys, ready) at the end unless that is NULL. */
+/* Writes the summary, followed by the text `geometry` (the keys of json_geometry()) unless that is NULL. */
 static bool json_sum(gis_json *out, const sum_run *run, const char *geometry, gis_error *error)
 {
     sunder_sum_method method;
     sunder_sum_get_method(run->sum, &method);
-    bool united = method.decomposition != SUNDER_DECOMPOSITION_AUTO; /* the convolution's pieces are its own affair */
+    /* false for the convolution, which has no decomposition and no order to report */
+    bool united = method.decomposition != SUNDER_DECOMPOSITION_AUTO;
     gis_json_open(out, '{');
     gis_json_put_string(out, "command", "sum");
     gis_json_put_string(out, "algorithm", sunder_algorithm_string(method.algorithm));
@@ -228,7 +229,7 @@ static bool json_sum(gis_json *out, const sum_run *run, const char *geometry, gi
     return true;
 }
 
-/* Opened before the work is done: what can be refused is refused at once. */
+/* Opens the output before the computation, so that an output that must be refused is refused at once. */
 static bool open_sink(sum_run *run, gis_error *error)
 {
     static const char *const suffixes[] = {
@@ -241,7 +242,7 @@ static bool open_sink(sum_run *run, gis_error *error)
            gis_sink_open(&request, gis_operands_source(&run->operands), &run->sink, error);
 }
 
-/* All but the last step, which is gis_deliver()'s. */
+/* Writes the layers; only gis_deliver(), which puts the files in place, is left to do. */
 static bool write_layers(sum_run *run, gis_error *error)
 {
     gis_sink_result result;
@@ -255,7 +256,7 @@ static bool write_layers(sum_run *run, gis_error *error)
 
 static bool report(sum_run *run, bool taken, gis_error *error)
 {
-    bool wanted = !run->sink && !taken; /* the whole sum, on standard output */
+    bool wanted = !run->sink && !taken; /* the complete sum is printed to standard output */
     gis_json geometry = {.need_comma = true}, whole = {0}, stats = {0};
     double begin = gis_clock();
     bool ok = run->sink ? write_layers(run, error)

@@ -1,12 +1,12 @@
-/* help.c: --help, made from the table of options. It fits a screen: options of our own have a line each, those known
- * from ogr2ogr are listed by name, wrapped, with their defaults. */
+/* help.c: prints --help, generated from the table of options. It fits on a screen: options that are specific to sunder
+ * have a line each; those known from ogr2ogr are listed by name, wrapped, with their defaults. */
 #include "options/options.h"
 
 #include <stdio.h>
 #include <string.h>
 
-/* Lists of names are wrapped before the one column, so that a terminal of a hundred shows them; what is said of an
- * option of our own begins at the other, or after the option where that is longer. */
+/* SCREEN_WIDTH: lists of names are wrapped before this column, for terminals of 100 columns. HELP_COLUMN: the
+ * description of an option begins there, or after the option if that is longer. */
 enum { SCREEN_WIDTH = 96, HELP_COLUMN = 37 };
 
 static const char *const group_titles[GIS_N_GROUPS] = {
@@ -17,7 +17,8 @@ static const char *const group_titles[GIS_N_GROUPS] = {
     [GIS_GROUP_RUNNING] = "Running:",
 };
 
-/* "--gap LENGTH", with other spellings in brackets if wanted. Returns the length. */
+/* Writes "--gap LENGTH" to `text`, with the other spellings and the default if `spellings` is true. Returns the length
+ * of the text. */
 static size_t describe(const gis_option *option, bool spellings, char *text, size_t size)
 {
     size_t n = strcspn(option->names, " ");

@@ -22,7 +22,7 @@ void gis_options_clear(gis_options *options)
     *options = (gis_options){0};
 }
 
-/* Is the word one of the choice's (a|b|c)? */
+/* Is word[0..n) one of the choices, which are separated by '|' ("a|b|c")? */
 static bool is_choice(const char *choices, const char *word, size_t n)
 {
     for (const char *c = choices; *c;) {
@@ -33,7 +33,7 @@ static bool is_choice(const char *choices, const char *word, size_t n)
     return false;
 }
 
-/* Does the list of spellings hold this one? */
+/* Is word[0..n) one of the spellings, which are separated by blanks? */
 static bool is_named(const char *names, const char *word, size_t n)
 {
     for (const char *c = names; *c;) {
@@ -52,7 +52,7 @@ static const gis_option *find_option(unsigned command, const char *word, size_t 
     return NULL;
 }
 
-/* The length of the first spelling, by which messages call the option. */
+/* The length of the first spelling, which is the name of the option in messages. */
 static int name_length(const gis_option *option) { return (int)strcspn(option->names, " "); }
 
 static bool push(gis_options *out, gis_option_id id, const char *value, gis_error *error)
@@ -83,7 +83,8 @@ static bool join(gis_options *out, const char *key, const char *value, const cha
     return true;
 }
 
-/* XMIN,YMIN,XMAX,YMAX in one word, or the four numbers as four words. */
+/* Reads XMIN,YMIN,XMAX,YMAX from one argument, or the four numbers from four arguments, of which `value` is the
+ * first. */
 static bool read_box(arguments *in, const char *value, double box[4], gis_error *error)
 {
     double read[4];
@@ -104,7 +105,7 @@ static bool read_box(arguments *in, const char *value, double box[4], gis_error 
     return true;
 }
 
-/* Whole numbers of up to this many digits are exact doubles. */
+/* The most digits of an integer that is surely exact as a double. */
 enum { COUNT_DIGITS = DBL_DIG };
 
 static bool read_count(const gis_option *option, const char *value, double *number, gis_error *error)
@@ -144,7 +145,7 @@ bool gis_option_is_needed(const gis_option *option)
     return id == OPT_SHAPE || id == OPT_ROBOT || id == OPT_FROM || id == OPT_TO || id == OPT_SHARDS;
 }
 
-/* Takes one value of the option; `value` is NULL for a flag. */
+/* Stores one value of the option; `value` is NULL for a flag. */
 static bool set_value(const gis_option *option, arguments *in, const char *value, gis_options *out, gis_error *error)
 {
     int n = name_length(option);
@@ -193,7 +194,8 @@ static size_t dashes(const char *word, size_t n)
     return count < n ? count : n;
 }
 
-/* The nearest spelling, if one is near, and whether another command knows the option. */
+/* Fails with a message that suggests the most similar spelling, if one is similar, or says that the option belongs to
+ * other commands. */
 static bool unknown_option(const gis_command *command, const char *word, size_t n, gis_error *error)
 {
     const gis_option *elsewhere = find_option(GIS_EVERY, word, n);
@@ -240,7 +242,8 @@ static bool parse_option(const char *word, arguments *in, gis_options *out, gis_
     return set_value(option, in, value, out, error);
 }
 
-/* Of a shard of a plan all is said by that, but for what every command knows. */
+/* With --shard all other options must be those of the plan, except options that the command merge has, too. Fails if
+ * another one is given. */
 static bool check_shard(const gis_options *out, gis_error *error)
 {
     for (int i = 0; i < OPT_N; i++) {
@@ -253,7 +256,7 @@ static bool check_shard(const gis_options *out, gis_error *error)
            gis_fail_usage(error, "sunder separate --shard K takes one operand, PLAN; `sunder plan` makes one");
 }
 
-/* What the options say together. */
+/* Sets the defaults of choices and checks the conditions between options and operands. */
 static bool finish(gis_options *out, gis_error *error)
 {
     const gis_command *command = out->command;

@@ -1,12 +1,12 @@
-/* options.h: the one table of options. It feeds the parser (options.c), --help (help.c), --options-json
- * (options_json.c), from which other programs know them, and the tests that compare these with the manual page. */
+/* options.h: the table of options. The parser (options.c), --help (help.c) and --options-json (options_json.c) are
+ * generated from it; other programs read the latter, and tests compare all of them with the manual page. */
 #ifndef GIS_OPTIONS_H
 #define GIS_OPTIONS_H
 
 #include "base/gis_error.h"
 #include "base/length.h"
 
-/* Commands, as bits. */
+/* The commands, as bits. */
 enum {
     GIS_SEPARATE = 1,
     GIS_CHECK = 2,
@@ -14,7 +14,7 @@ enum {
     GIS_PAIR = 8,
     GIS_BUFFER = 16,
     GIS_ROUTE = 32,
-    GIS_PLAN = 64, /* knows what separate knows */
+    GIS_PLAN = 64, /* has the options of separate */
     GIS_MERGE = 128,
     GIS_LAYERS = GIS_SEPARATE | GIS_CHECK | GIS_PLAN,
     GIS_SHAPES = GIS_SUM | GIS_PAIR,
@@ -41,65 +41,66 @@ typedef enum gis_option_id {
 } gis_option_id;
 /* clang-format on */
 
-/* The kind of a value. The kinds of text are for programs that offer choices: a completion, a dialogue. */
+/* The type of an option's value. Types of text are distinguished for programs that offer choices: shell completion,
+ * dialogues. */
 typedef enum gis_option_type {
     GIS_TYPE_FLAG,
     GIS_TYPE_TEXT,
-    GIS_TYPE_LAYER,     /* of INPUT */
-    GIS_TYPE_FIELD,     /* of that layer */
-    GIS_TYPE_SQL,       /* a condition on its features */
-    GIS_TYPE_STATEMENT, /* of SQL */
+    GIS_TYPE_LAYER,     /* the name of a layer of INPUT */
+    GIS_TYPE_FIELD,     /* the name of a field of that layer */
+    GIS_TYPE_SQL,       /* an SQL condition on its features */
+    GIS_TYPE_STATEMENT, /* an SQL statement */
     GIS_TYPE_SHAPE,
-    GIS_TYPE_POINT,   /* X,Y */
-    GIS_TYPE_DATASET, /* that is read */
+    GIS_TYPE_POINT,   /* coordinates X,Y */
+    GIS_TYPE_DATASET, /* a dataset that is read */
     GIS_TYPE_OUTPUT,  /* a dataset that is written */
-    GIS_TYPE_FILE,    /* that is written */
+    GIS_TYPE_FILE,    /* a file that is written */
     GIS_TYPE_FORMAT,  /* a driver of GDAL */
     GIS_TYPE_CRS,
-    GIS_TYPE_CHOICE,   /* one of metavar's words, parted by | */
-    GIS_TYPE_CHOICES,  /* several of metavar's words, there and here parted by commas */
-    GIS_TYPE_LENGTH,   /* gis_length, >= 0 */
+    GIS_TYPE_CHOICE,   /* one word of metavar, which are separated by '|' */
+    GIS_TYPE_CHOICES,  /* several words of metavar; in both, words are separated by commas */
+    GIS_TYPE_LENGTH,   /* a gis_length >= 0 */
     GIS_TYPE_COUNT,    /* an integer >= 0 */
     GIS_TYPE_NUMBER,   /* a decimal >= 0 */
     GIS_TYPE_SCALE,    /* N or 1:N, > 0 */
-    GIS_TYPE_BOX,      /* four numbers with commas, or, as -spat has them, four arguments */
-    GIS_TYPE_OPTIONAL, /* alone, or with =metavar */
-    /* These may be given again. */
-    GIS_TYPE_BARRIERS, /* a data source with its keys */
-    GIS_TYPE_FORMATS,  /* a driver of GDAL each */
+    GIS_TYPE_BOX,      /* four numbers separated by commas, or four arguments as of -spat */
+    GIS_TYPE_OPTIONAL, /* a flag, or =metavar as its value */
+    /* options of the types below may be repeated */
+    GIS_TYPE_BARRIERS, /* a dataset with keys, as of --barrier */
+    GIS_TYPE_FORMATS,  /* a driver of GDAL for each value */
     GIS_TYPE_SETTINGS, /* K=V */
-    GIS_TYPE_PAIRS     /* K=V; also as two arguments, K V, as older GDAL takes --config */
+    GIS_TYPE_PAIRS     /* K=V, or the two arguments K V, as older versions of GDAL accept for --config */
 } gis_option_type;
 
-/* Sections of --help. What is peculiar to the commands gets a line each; the rest is known from ogr2ogr. */
+/* The sections of --help. Options that are specific to sunder have a line each; the others are known from ogr2ogr. */
 typedef enum gis_option_group {
     GIS_GROUP_OWN,
-    GIS_GROUP_IDENTITY, /* listed with those of the command's own */
+    GIS_GROUP_IDENTITY, /* listed in the section of GIS_GROUP_OWN */
     GIS_GROUP_INPUT,
     GIS_GROUP_OUTPUT,
     GIS_GROUP_TROUBLE,
     GIS_GROUP_RUNNING,
-    GIS_GROUP_HIDDEN, /* an alternative spelling, described with its option */
+    GIS_GROUP_HIDDEN, /* not listed: an alternative spelling, described with its option */
     GIS_N_GROUPS
 } gis_option_group;
 
 typedef struct gis_option {
     gis_option_id id;
-    const char *names; /* the long name, then other spellings, parted by blanks */
+    const char *names; /* the long name, then other spellings, separated by blanks */
     gis_option_type type;
     unsigned commands;
     gis_option_group group;
-    const char *metavar;  /* NULL: takes no value */
-    const char *fallback; /* what holds if it is not given, or NULL */
-    const char *help;     /* with the unit of lengths */
+    const char *metavar;  /* the placeholder of the value in --help; NULL: the option takes no value */
+    const char *fallback; /* the default, as text; NULL: there is none */
+    const char *help;     /* the description, with the unit of lengths */
 } gis_option;
 
-/* Indexed by gis_option_id, in the order of --help. */
+/* The table of options, indexed by gis_option_id; the order is that of --help. */
 extern const gis_option gis_option_table[OPT_N];
 
-/* May it be given again, each time with one more value? (A flag may be, too, and means the same.) */
+/* May the option be repeated, each time with one more value? (A flag may be repeated, too, without effect.) */
 bool gis_option_is_list(const gis_option *option);
-/* Does no command that knows it run without it? */
+/* Do all commands that have the option fail without it? */
 bool gis_option_is_needed(const gis_option *option);
 
 typedef struct gis_options gis_options;
@@ -107,11 +108,11 @@ typedef struct gis_options gis_options;
 typedef struct gis_command {
     unsigned bit;
     const char *name;
-    const char *operands; /* as in the usage line */
-    size_t least, most;   /* how many operands */
+    const char *operands; /* the operands, as in the usage line */
+    size_t least, most;   /* the least and the largest number of operands */
     const char *summary;
-    const char *example;                    /* operands and options of a usual call */
-    int (*run)(const gis_options *options); /* prints its own errors; returns the exit status */
+    const char *example;                    /* the operands and options of a typical call */
+    int (*run)(const gis_options *options); /* runs the command, prints its errors and returns the exit status */
 } gis_command;
 
 extern const gis_command gis_commands[];
@@ -120,27 +121,29 @@ extern const size_t gis_n_commands;
 struct gis_options {
     const gis_command *command;
     bool given[OPT_N];
-    const char *text[OPT_N];  /* of texts, CHOICE, OPTIONAL, LENGTH: as given, else the fallback of a CHOICE, or NULL */
-    const char **list[OPT_N]; /* values of a repeatable option: NULL-terminated, or NULL */
+    const char *text[OPT_N];  /* of options whose value is a text, CHOICE, OPTIONAL or LENGTH: the value as given, else
+                               * the default of a CHOICE, or NULL */
+    const char **list[OPT_N]; /* the values of a repeatable option: NULL-terminated, or NULL */
     gis_length length[OPT_N];
-    double number[OPT_N]; /* of COUNT, NUMBER, SCALE */
+    double number[OPT_N]; /* the values of COUNT, NUMBER and SCALE */
     double box[4];
-    const char *operand[3]; /* NULL where not given */
+    const char *operand[3]; /* NULL for operands that are not given */
     size_t n_operands;
-    char **owned; /* texts made here (K=V from two arguments) */
+    char **owned; /* [n_owned] texts allocated here (K=V joined from two arguments) */
     size_t n_owned;
 };
 
-/* Reads the arguments after the command's name. Strings are borrowed. With --help among them, given[OPT_HELP] is set
- * and nothing else is asked of them. Failures are GIS_USAGE. Clear in any case. */
+/* Parses the arguments that follow the name of the command. *out borrows the strings of argv. If --help is among them,
+ * only given[OPT_HELP] is set, and nothing else is checked. All failures are usage errors (GIS_USAGE). The caller calls
+ * gis_options_clear() on failure, too. */
 bool gis_options_parse(const gis_command *command, int argc, char **argv, gis_options *out, gis_error *error);
 void gis_options_clear(gis_options *options);
 
-/* --help of the program and of one command, on stdout. */
+/* Print --help of the program, and of one command, to stdout. */
 void gis_help_program(void);
 void gis_help_command(const gis_command *command);
 
-/* --options-json: all commands with their operands and options, as JSON on stdout. False if memory is out. */
+/* --options-json: prints all commands with their operands and options to stdout as JSON. Fails if out of memory. */
 bool gis_options_json(gis_error *error);
 
 #endif

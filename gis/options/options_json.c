@@ -44,7 +44,7 @@ static void put_piece(gis_json *out, const char *piece, size_t n)
     gis_json_string(out, text);
 }
 
-/* The pieces of a text between separators, but for the first few of them. */
+/* Writes the substrings of `text` between separators as an array, without the first `skipped` ones. */
 static void put_pieces(gis_json *out, const char *text, char separator, size_t skipped)
 {
     const char stops[] = {separator, '\0'};
@@ -68,7 +68,7 @@ static void put_values(gis_json *out, const gis_option *option)
     }
 }
 
-/* Could what --help calls the default be typed, or does it only tell of it ("gap / 10", "all processors")? */
+/* Is the default a value that could be typed, unlike a description such as "gap / 10" or "all processors"? */
 static bool is_typed(const gis_option *option)
 {
     const char *text = option->fallback;
@@ -95,7 +95,7 @@ static void put_option(gis_json *out, const gis_option *option)
     gis_json_close(out, '}');
 }
 
-/* The operands stand in the usage line, those that may be left out in brackets. */
+/* Writes the operands of the usage line as an array; optional ones are in brackets there. */
 static void put_operands(gis_json *out, const gis_command *command)
 {
     gis_json_open(out, '[');
@@ -106,7 +106,7 @@ static void put_operands(gis_json *out, const gis_command *command)
         const char *kind = strcmp(name, "OUTPUT") == 0 ? "output" : strcmp(name, "INPUT") == 0 ? "dataset" : "operand";
         gis_json_open(out, '{');
         gis_json_put_string(out, "name", name);
-        gis_json_put_string(out, "kind", kind); /* operand: a data source, or a SHAPE */
+        gis_json_put_string(out, "kind", kind); /* "operand": a data source or a SHAPE */
         gis_json_put_bool(out, "needed", !bracket);
         gis_json_close(out, '}');
         word += n;
@@ -149,7 +149,7 @@ bool gis_options_json(gis_error *error)
     gis_json_close(&out, '}');
     gis_json_raw(&out, "\n");
     const char *text = gis_json_text(&out);
-    if (text) fputs(text, stdout); /* what stdio refuses shows when it is closed */
+    if (text) fputs(text, stdout); /* an error of stdio is found when stdout is closed */
     bool ok = text || gis_no_memory(error);
     gis_json_clear(&out);
     return ok;

@@ -1,4 +1,4 @@
-/* options_table.c: every option, once. The order within a group is the order in --help. */
+/* options_table.c: the table of all options. The order within a group is the order in --help. */
 #include "options/options.h"
 
 #define OWN GIS_GROUP_OWN

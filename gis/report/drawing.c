@@ -1,8 +1,9 @@
 /* drawing.c: see drawing.h.
  *
- * A ring is cut by the four sides of a box in turn [Sutherland and Hodgman 1974]. Of a ring that is not convex this may
- * leave edges that run to and fro along a side of the box: the box is larger than the window, so that they are not
- * seen. Coordinates of the picture are rounded and repeated corners left out, so that what is small costs little. */
+ * A ring is clipped by the four sides of a box in turn [Sutherland and Hodgman 1974]. If the ring is not convex, the
+ * result may have overlapping edges along a side of the box; the box is larger than the window, so that they are not
+ * visible. Coordinates of the picture are rounded to integers and repeated vertices omitted, which keeps the paths of
+ * small shapes short. */
 #include "report/drawing.h"
 
 #include "base/array.h"
@@ -34,15 +35,17 @@ static bool reserve(gis_corners *corners, size_t n, gis_error *error)
     return gis_array_reserve(&corners->xy, &corners->capacity, 2 * n, sizeof *corners->xy) || gis_no_memory(error);
 }
 
-/* ---- Cutting ----------------------------------------------------------------------------------------------------- */
+/* ---- Clipping ---------------------------------------------------------------------------------------------------- */
 
-/* How far a corner lies inside of side k of the box: left, top, right, bottom. */
+/* Returns the signed distance of `at` from side k of the box (0 to 3: minimum x, minimum y, maximum x, maximum y); it
+ * is positive inside. */
 static double inside(const double *at, const double box[4], int k)
 {
     return k < 2 ? at[k] - box[k] : box[k] - at[k - 2];
 }
 
-/* Cuts n corners at `from` by one side; what is left goes to `to`, which has room for twice as many. */
+/* Clips the ring of n vertices at `from` by side k of the box. Writes the result to `to`, which has room for 2 * n
+ * vertices, and returns its number of vertices. */
 static size_t cut_by_side(const double *from, size_t n, const double box[4], int k, double *to)
 {
     size_t m = 0;
@@ -63,8 +66,8 @@ static size_t cut_by_side(const double *from, size_t n, const double box[4], int
     return m;
 }
 
-/* One ring as it is in the picture, cut, at the beginning of scratch. Each side at most doubles the corners: a ring
- * goes out and comes back between any two. */
+/* Moves the ring, converts it to coordinates of the picture and clips it; the result is in *scratch. Each side of the
+ * box at most doubles the number of vertices, since a ring may leave and enter the box between any two. */
 static bool cut_ring(const gis_picture *picture, const double *ring, size_t n, const double move[2],
                      gis_corners *scratch, gis_error *error)
 {
@@ -103,7 +106,7 @@ static void add_ring(const gis_corners *ring, gis_text *to)
         last[0] = x;
         last[1] = y;
     }
-    /* What is smaller than a unit is one unit wide, so that it is there. */
+    /* a ring that is rounded to one point gets the width of one unit, so that it is visible */
     if (ring->n > 0) gis_text_add(to, last[0] == first[0] && last[1] == first[1] ? "1 0 0 1z" : "0 0z");
 }
 
@@ -120,8 +123,8 @@ bool gis_picture_add_shape(const gis_picture *picture, const sunder_shape *shape
     return true;
 }
 
-/* Is a piece of a line seen, or near what is? Ends that both lie beyond a side of the picture, widened by its size,
- * tell. */
+/* Returns whether the segment ab may be visible: false if both ends lie beyond the same side of the picture by more
+ * than its width or height. */
 static bool may_be_seen(const gis_picture *picture, const double a[2], const double b[2])
 {
     const double size[2] = {picture->width, picture->height};
@@ -130,7 +133,8 @@ static bool may_be_seen(const gis_picture *picture, const double a[2], const dou
     return true;
 }
 
-/* Points farther outside than this only give a direction. */
+/* Rounds a coordinate to an integer and limits it to +-1e8: a point farther away only determines the direction of a
+ * line. */
 static long whole(double value)
 {
     const double most = 1e8;
@@ -153,7 +157,7 @@ void gis_picture_add_line(const gis_picture *picture, const double *xy, size_t n
     }
 }
 
-/* ---- Fewer corners ----------------------------------------------------------------------------------------------- */
+/* ---- Simplification ---------------------------------------------------------------------------------------------- */
 
 static double squared_distance(const double *p, const double *a, const double *b)
 {
@@ -162,7 +166,8 @@ static double squared_distance(const double *p, const double *a, const double *b
     return (u - part * x) * (u - part * x) + (v - part * y) * (v - part * y);
 }
 
-/* The corner between `first` and `last` (both may be n, which is corner 0 again) that lies farthest from their line. */
+/* Returns the vertex between `first` and `last` that is farthest from the segment between these two, and the square of
+ * its distance; n stands for vertex 0. Returns `first` if all distances are 0. */
 static size_t farthest(const double *xy, size_t n, size_t first, size_t last, double *distance)
 {
     size_t best = first;
@@ -177,8 +182,8 @@ static size_t farthest(const double *xy, size_t n, size_t first, size_t last, do
     return best;
 }
 
-/* Corners to be kept between two that are. The halves are taken on by a stack of ends, which is never deeper than there
- * are corners; keep[] marks. */
+/* Marks in keep[] the vertices between `first` and `last` that the simplification keeps [DP73]. The recursion uses
+ * `stack`, which holds the ends of the second halves; its depth is at most n. */
 static void keep_between(const double *xy, size_t n, size_t first, size_t last, double tolerance, bool *keep,
                          size_t *stack)
 {
@@ -199,10 +204,10 @@ static void keep_between(const double *xy, size_t n, size_t first, size_t last, 
     }
 }
 
-/* Marks what is kept of a ring, or of a line: the ends of the pieces, then what lies between them. */
+/* Marks in keep[] the vertices that the simplification of a ring or of a line keeps. */
 static void keep_ring(const double *xy, size_t n, double tolerance, bool *keep, size_t *stack)
 {
-    /* From the first corner to the one farthest from it and back: two lines. */
+    /* the ring is divided at its first vertex and at the vertex farthest from that one */
     size_t opposite = 0;
     double most = 0;
     for (size_t i = 1; i < n; i++) {

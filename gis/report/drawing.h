@@ -1,4 +1,5 @@
-/* drawing.h: shapes as paths of a picture, and with fewer corners. For eyes alone: nothing is decided here. */
+/* drawing.h: converts shapes to SVG paths of a picture, and simplifies them. Results are for display only and are not
+ * exact. */
 #ifndef GIS_REPORT_DRAWING_H
 #define GIS_REPORT_DRAWING_H
 
@@ -6,37 +7,40 @@
 #include "base/text.h"
 #include "sunder.h"
 
-/* A window of the map as a picture of whole units, y downwards. */
+/* A window of the map (minimum x, minimum y, maximum x, maximum y) as a picture with integer coordinates; the y axis of
+ * the picture points down. */
 typedef struct gis_picture {
     double window[4];
     int width, height;
 } gis_picture;
 
-/* A place of the map in the picture; beyond it where it lies outside of the window. */
+/* Converts a point of the map to coordinates of the picture; points outside the window are converted, too. */
 void gis_picture_place(const gis_picture *picture, double x, double y, double at[2]);
-/* How long a length of the map is in it. */
+/* Converts a length of the map to units of the picture. */
 double gis_picture_length(const gis_picture *picture, double length);
 
-/* Room for corners on their way, kept from one shape to the next. Start zeroed; clear at the end. */
+/* An array of vertices that is reused for many shapes. A zeroed struct is empty; clear it after use. */
 typedef struct gis_corners {
     double *xy;
-    size_t n, capacity; /* in doubles */
+    size_t n, capacity; /* the capacity, in doubles */
 } gis_corners;
 
 void gis_corners_clear(gis_corners *corners);
 
-/* The shape, moved, as data of an SVG path ("M12 30l4 0 0 5z"), for the fill rule nonzero: cut off just outside of the
- * window, corners rounded to the picture's units. Adds nothing where nothing is to be seen. */
+/* Adds the data of an SVG path ("M12 30l4 0 0 5z", fill rule nonzero): the shape, translated by `move`, clipped by a
+ * box slightly larger than the window, with coordinates rounded to units of the picture. Adds nothing if no ring meets
+ * the box. */
 bool gis_picture_add_shape(const gis_picture *picture, const sunder_shape *shape, const double move[2],
                            gis_corners *scratch, gis_text *to, gis_error *error);
 
-/* A line likewise; a line of one point is a point. Pieces of it that lie well outside are left out. */
+/* Adds a polyline of n vertices in the same form; a polyline of one vertex is drawn as a point. Segments that lie far
+ * outside the window are omitted. */
 void gis_picture_add_line(const gis_picture *picture, const double *xy, size_t n, gis_text *to);
 
-/* A ring (n corners) without those that are not needed to stay within `tolerance` of it [DP73]; at least three stay,
- * unless all of it is that small: then none. The result is in corners->xy. */
+/* Simplifies a ring of n vertices: vertices are omitted while the result stays within the distance `tolerance` of the
+ * ring [DP73]. The result is in corners->xy. It has at least three vertices, or none if the ring is too small. */
 bool gis_corners_simplify(gis_corners *corners, const double *xy, size_t n, double tolerance, gis_error *error);
-/* A line likewise: its ends stay. */
+/* Simplifies a polyline in the same way; its ends are kept. */
 bool gis_corners_simplify_line(gis_corners *corners, const double *xy, size_t n, double tolerance, gis_error *error);
 
 #endif

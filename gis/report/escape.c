@@ -15,7 +15,8 @@
 
 enum { REPLACEMENT = 0xFFFD };
 
-/* The next character, and how many bytes it took (of what is no UTF-8 one). */
+/* Returns the next character of a UTF-8 string, and its number of bytes; REPLACEMENT and 1 byte for an invalid
+ * sequence. */
 static uint32_t next_character(const char *words, size_t *taken)
 {
     const unsigned char *at = (const unsigned char *)words;
@@ -26,7 +27,7 @@ static uint32_t next_character(const char *words, size_t *taken)
     if (n == 0 || at[0] > 0xF4) return REPLACEMENT;
     uint32_t code = at[0] & (0x7FU >> n);
     for (size_t i = 1; i < n; i++) {
-        if ((at[i] & 0xC0U) != 0x80) return REPLACEMENT; /* the NUL at the end is no continuation */
+        if ((at[i] & 0xC0U) != 0x80) return REPLACEMENT; /* the NUL at the end is no continuation byte */
         code = code << 6 | (at[i] & 0x3FU);
     }
     if (code < least[n] || code > 0x10FFFF || (code >= 0xD800 && code < 0xE000)) return REPLACEMENT;

@@ -1,25 +1,26 @@
-/* histogram.c: the lengths of moves as bars. Bars have one width, a round number, so that heights compare; where a few
- * moves are far longer than all others the last bar holds them together, and says so. */
+/* histogram.c: the histogram of the lengths of moves. All bars have the same width, a round number. If a few moves are
+ * far longer than the others, the last bar counts all of them and is labelled so. */
 #include "report/pictures.h"
 
 #include <math.h>
 #include <string.h>
 
-/* About how many bars; and which part of the moves are to be seen by their length. */
+/* BARS: the approximate number of bars. seen_part: the share of the moves that are not counted in the last, open
+ * bar. */
 enum { BARS = 20 };
 static const double seen_part = 0.98;
 
-/* Of the picture: its sides, the rims that hold its words, and the least height of a bar that is not empty. */
+/* The size of the picture, its margins, which hold labels, and the least height of a bar with a count above 0. */
 enum { WIDTH = 960, HEIGHT = 260, LEFT = 8, RIGHT = 30, TOP = 24, BOTTOM = 44, LEAST = 2 };
 
 typedef struct bars {
-    double width; /* of one, a length of the layer */
-    size_t n;     /* of them */
+    double width; /* of one bar, in units of the layer */
+    size_t n;     /* the number of bars */
     size_t count[BARS + 1], most;
-    bool open; /* the last one holds all that is longer, too */
+    bool open; /* the last bar counts all longer moves, too */
 } bars;
 
-/* 1, 2 or 5 times a power of ten, no less than the value. */
+/* Returns the least of the numbers 1, 2 and 5 times a power of ten that is not less than the value. */
 static double round_up(double value)
 {
     double power = pow(10, floor(log10(value)));
@@ -38,7 +39,7 @@ static bars count_bars(const gis_page_model *model)
     double usual = gis_page_length(&model->feature[model->moved[last_seen]]);
     all.open = longest > 2 * usual;
     all.width = round_up((all.open ? usual : longest) / (BARS - 1));
-    if (!(all.width > 0) || isinf(all.width)) all.width = longest; /* beyond what can be counted in */
+    if (!(all.width > 0) || isinf(all.width)) all.width = longest; /* the width exceeds the range of doubles or is 0 */
     for (size_t k = 0; k < model->n_moved; k++) {
         double at = floor(gis_page_length(&model->feature[model->moved[k]]) / all.width);
         size_t bar = at < BARS ? (size_t)at : BARS;

@@ -1,5 +1,5 @@
-/* lede.c: the first sentences of the page: the request, as it was typed, and its result. A length appears as it was
- * typed ("0.2 mm"), followed by its value in the layer's unit. */
+/* lede.c: the first sentences of the page: the request as it was typed, and its result. A length appears as it was
+ * typed ("0.2 mm"), followed by its value in units of the layer. */
 #include "base/path.h"
 #include "report/escape.h"
 #include "report/sections.h"
@@ -8,7 +8,7 @@
 #include <math.h>
 #include <string.h>
 
-/* A length as it was typed, its unit set apart. A bare number has the layer's unit. */
+/* Writes a length as it was typed, with a space before the unit. A number without a unit has the unit of the layer. */
 static void add_typed(const gis_page_model *model, const gis_optional_length *typed, gis_text *to)
 {
     const size_t digits = strspn(typed->text, "0123456789.+-eE");
@@ -18,7 +18,7 @@ static void add_typed(const gis_page_model *model, const gis_optional_length *ty
     gis_escape_markup(to, unit);
 }
 
-/* The same, and what it is in the layer's unit, unless it was typed in that. */
+/* Writes a length as it was typed, and its value in units of the layer if it was typed in another unit. */
 static void add_length(const gis_page_model *model, const gis_optional_length *typed, double value, gis_text *to)
 {
     if (!typed->text || typed->length.unit == GIS_LAYER_UNIT) {
@@ -32,9 +32,9 @@ static void add_length(const gis_page_model *model, const gis_optional_length *t
     gis_text_add(to, ")");
 }
 
-/* ---- What was asked for ------------------------------------------------------------------------------------------ */
+/* ---- The request ------------------------------------------------------------------------------------------------- */
 
-/* "roads where class = 'main', drawn 0.3 mm wide, with a gap of 0.1 mm" */
+/* Writes a barrier: "roads where class = 'main', drawn 0.3 mm wide, with a gap of 0.1 mm" */
 static void add_barrier(const gis_page_model *model, const gis_barrier_request *barrier, gis_text *to)
 {
     gis_text_add(to, "<b><bdi>");
@@ -117,7 +117,7 @@ static void add_task(const gis_page_model *model, gis_text *to)
     gis_text_add(to, ". ");
 }
 
-/* ---- What came of it --------------------------------------------------------------------------------------------- */
+/* ---- The result -------------------------------------------------------------------------------------------------- */
 
 static void add_solved(size_t before, size_t after, gis_text *to)
 {

@@ -1,20 +1,21 @@
 /* map_data.c: see map_data.h.
  *
- * Numbers are whole multiples of a step, and stand in texts as variable-length quantities in base 64, as in source maps
- * [ECMA-426]: sign in the lowest bit, five bits a letter, the sixth says that more follow. So a corner takes some six
- * bytes, and no letter means anything to HTML. The object holds
+ * Numbers are integer multiples of a step, written as variable-length quantities in base 64, as in source maps
+ * [ECMA-426]: each letter has five bits of the number, and its sixth bit says whether more letters follow; the lowest
+ * bit of the number is its sign. A vertex takes about six bytes, and no letter has a meaning in HTML. The JSON object
+ * has the members
  *
- *   box            of all that is drawn; coordinates are its lower left corner plus a whole number of steps
- *   step, unit     the length of one; what the layer's unit is called
- *   label          names of the features drawn, in their order
- *   status         a digit each, by the order of sunder_feature_status
- *   move           dx, dy each
- *   anchor         x, y of each whose move is not 0, as the difference from the one before
- *   shape          of each feature its rings: how many corners, then the difference of each from the last one, through
- *                  all features; 0 ends the feature
- *   barrier        of each: its width; its lines, as shape has rings; its rings likewise
- *   conflict       of each that is listed: is it proved? and the two ends of its link: x, y from the last, dx, dy
- */
+ *  box            the bounding box of all that is drawn; a coordinate is its minimum plus a multiple of the step
+ *  step, unit     the length of a step; the unit of the layer
+ *  label          the names of the drawn features, in the order of the features
+ *  status         a digit for each feature, a sunder_feature_status
+ *  move           dx, dy of each feature
+ *  anchor         x, y of each feature whose move is not 0, as the difference from the previous one
+ *  shape          the rings of each feature: the number of vertices, then each vertex as the difference from the
+ *      previous one, also across features; 0 ends a feature
+ *  barrier        of each barrier its width, its lines in the form of shape, and its rings in the same form
+ *  conflict       of each listed conflict: 1 if it is proved, else 0; then the two ends of its link, each as the
+ *      difference from the previous point */
 #include "report/map_data.h"
 
 #include "base/interrupt.h"
@@ -25,10 +26,10 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* The map shows at most this many conflicts, the worst; the layer has them all. */
+/* The map shows at most this number of conflicts, the worst ones; the output layer has all of them. */
 enum { MOST_CONFLICTS = 50000 };
 
-/* A text that is being written, and the place that differences are taken from. */
+/* The text that is written, and the previous point, from which differences are taken. */
 typedef struct data_writer {
     const gis_page_model *model;
     const gis_thinning *thinning;
@@ -51,7 +52,8 @@ static void add_integer(gis_text *to, long long value)
     gis_text_add_bytes(to, text, n);
 }
 
-/* Halves, since the extent may be more than a double holds. */
+/* Converts a coordinate to steps from the minimum of the box. The operands are halved since the extent may exceed the
+ * range of doubles. */
 static long long steps(const data_writer *writer, double value, int axis)
 {
     return llround((value / 2 - writer->model->extent[axis] / 2) / (writer->step / 2));
@@ -68,8 +70,8 @@ static void add_corner(data_writer *writer, double x, double y)
     }
 }
 
-/* The power of ten that is some thousandths of the lengths that matter (the gap, the mean move), or of an average
- * feature where there are none; and no finer than the extent in 2^40 steps. */
+/* Returns the step: the power of ten that is at most 1/200 of the gap or of the mean move, whichever is smaller;
+ * without both, of a tenth of the size of an average feature. It is not much less than 2^-40 of the extent. */
 static double choose_step(const gis_page_model *model)
 {
     const gis_page_request *request = model->request;
@@ -123,7 +125,7 @@ static bool add_anchor(data_writer *writer, size_t i, gis_error *error)
     return true;
 }
 
-/* The rings of a feature as they are drawn: those that are left, one after the other. */
+/* Adds the rings of a feature as they are drawn, without rings that the simplification removes. */
 static bool add_shape(data_writer *writer, size_t i, gis_error *error)
 {
     const sunder_shape *shape;
@@ -144,7 +146,7 @@ static bool add_shape(data_writer *writer, size_t i, gis_error *error)
             for (size_t k = 0; k < n; k++) add_corner(writer, ring[2 * k], ring[2 * k + 1]);
         }
     gis_corners_clear(&scratch);
-    add_integer(writer->to, 0); /* no ring has so few corners: the feature ends */
+    add_integer(writer->to, 0); /* marks the end of the feature; no ring has 0 vertices */
     return ok;
 }
 

@@ -1,10 +1,10 @@
-/* map_data.h: the data of the page's map, for its script. */
+/* map_data.h: the data of the interactive map of the page, read by its script. */
 #ifndef GIS_REPORT_MAP_DATA_H
 #define GIS_REPORT_MAP_DATA_H
 
 #include "report/thinning.h"
 
-/* Adds one JSON object that may stand in a script element. */
+/* Adds one JSON object; it is safe within a script element. */
 bool gis_map_data_write(const gis_page_model *model, const gis_thinning *thinning, gis_text *to, gis_error *error);
 
 #endif

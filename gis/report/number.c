@@ -1,4 +1,4 @@
-/* number.c: see number.h. Spaces within a number and before its unit do not break (U+202F, U+00A0). */
+/* number.c: see number.h. Spaces within a number and before its unit are no-break spaces (U+202F, U+00A0). */
 #include "report/number.h"
 
 #include <math.h>
@@ -10,11 +10,10 @@
 #define NO_BREAK "\xC2\xA0"
 #define MINUS "\xE2\x88\x92"
 
-/* Below the first bound the leading digits are so far behind the point, and from the second on so far before it, that a
- * power of ten is easier to read. */
+/* Numbers below the first bound and from the second bound on are written with a power of ten. */
 static const double least_plain = 1e-4, most_plain = 1e15;
 
-/* 17 digits tell doubles apart. */
+/* Any two doubles differ in 17 digits. */
 enum { LENGTH_DIGITS = 3, AREA_DIGITS = 4, DIGITS_ENOUGH = 17 };
 
 gis_report_unit gis_report_unit_of(const char *name)
@@ -35,7 +34,7 @@ gis_report_unit gis_report_unit_of(const char *name)
     return (gis_report_unit){"", ""};
 }
 
-/* Digits in groups of three from the right; four together stay so, as is usual. */
+/* Writes digits in groups of three from the right; a number of four digits is not divided. */
 static void add_grouped(gis_text *to, const char *digits, size_t n)
 {
     for (size_t i = 0; i < n; i++) {
@@ -53,7 +52,7 @@ void gis_report_count(gis_text *to, size_t n)
 static void add_plain(gis_text *to, double size, int digits)
 {
     char text[64];
-    int power = (int)floor(log10(size)); /* of the first digit */
+    int power = (int)floor(log10(size)); /* the exponent of the first digit */
     int behind = power < digits - 1 ? digits - 1 - power : 0;
     snprintf(text, sizeof text, "%.*f", behind, size);
     size_t whole = strcspn(text, "."), n = strlen(text);
@@ -63,7 +62,7 @@ static void add_plain(gis_text *to, double size, int digits)
     gis_text_add_bytes(to, text + whole, n - whole);
 }
 
-/* A power of ten. */
+/* Writes an exponent in superscript digits. */
 static void add_raised(gis_text *to, int power)
 {
     static const char *const digits[] = {"\xE2\x81\xB0", "\xC2\xB9",     "\xC2\xB2",     "\xC2\xB3",
@@ -129,8 +128,8 @@ void gis_report_area(gis_text *to, double value, const gis_report_unit *unit)
     add_unit(to, value, unit->area);
 }
 
-/* The number of `digits` digits nearest above (sign 1) or below (-1) the value. The nearest number is moved by one step
- * in the last digit if it is on the wrong side: once is enough, since it is the nearest. */
+/* Returns the number with at most `digits` digits that is nearest to the value from above (sign 1) or from below (sign
+ * -1). If the nearest number is on the wrong side, it is moved by one unit in the last digit, which is enough. */
 static double to_side(double value, int digits, int sign)
 {
     char text[64];

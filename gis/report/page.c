@@ -1,4 +1,4 @@
-/* page.c: see page.h. Writes the template; each slot is filled by the file in charge of it. */
+/* page.c: see page.h. It writes the template; a section of another file fills each slot. */
 #include "report/page.h"
 
 #include "report/map_data.h"
@@ -20,7 +20,7 @@ static bool add_after(const gis_page_model *model, const gis_thinning *thinning,
     return gis_page_add_overview(model, true, to, error);
 }
 
-/* A slot holds a text that is known beforehand, or what a section makes. */
+/* A slot is filled by a constant text, or by the function that writes a section. */
 static const struct {
     const char *name;
     const char *text;

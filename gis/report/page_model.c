@@ -1,8 +1,8 @@
 /* page_model.c: see page_model.h.
  *
- * Worst first: overlaps before pairs that are merely too near, for they are what a map may not show; the deeper, and
- * the more of the gap is missing, the worse. What may overlap (kept) comes last. Ties are ended by the features'
- * numbers, so that the order is one. */
+ * Conflicts are sorted by severity: by the depth of the overlap, then by the missing part of the gap, largest first.
+ * Pairs that may overlap (SUNDER_REASON_KEPT) come last. Ties are broken by the numbers of the features, so that the
+ * order is unique. */
 #include "report/page_model.h"
 
 #include <cpl_conv.h>
@@ -48,7 +48,8 @@ bool gis_page_shape(const gis_page_model *model, size_t feature, const sunder_sh
 
 /* ---- Barriers ---------------------------------------------------------------------------------------------------- */
 
-/* Areas before lines, then by width, so that pictures draw many in one path; else as they came. */
+/* Sorts areas before lines, then by width, so that a picture draws barriers of equal width in one path; ties keep the
+ * order of the barriers. */
 static int by_width(const void *left, const void *right)
 {
     const gis_view_barrier *a = left, *b = right;
@@ -57,7 +58,7 @@ static int by_width(const void *left, const void *right)
     return (a->order > b->order) - (a->order < b->order);
 }
 
-/* Of a network that extends beyond the layer, only the part around the layer is kept. */
+/* Takes the barriers that meet the extent of the features, enlarged by a tenth of its larger side. */
 static bool take_barriers(gis_page_model *model, gis_error *error)
 {
     static const double beyond = 0.1;
@@ -84,7 +85,7 @@ bool gis_page_geometry(const gis_page_model *model, const gis_view_barrier *barr
     return view->geometry(view->of, barrier->place, geometry, error);
 }
 
-/* ---- Orders ------------------------------------------------------------------------------------------------------ */
+/* ---- Sorting ----------------------------------------------------------------------------------------------------- */
 
 static int descending(double a, double b) { return (a < b) - (a > b); }
 
@@ -98,7 +99,7 @@ static int worse_first(const void *left, const void *right)
     return order ? order : (a->b > b->b) - (a->b < b->b);
 }
 
-/* Barriers, which follow the features, have no part in that. */
+/* Marks a feature as involved in a conflict; barriers, whose numbers follow those of the features, are not marked. */
 static void involve(gis_page_model *model, size_t thing)
 {
     if (thing < model->n) model->feature[thing].involved = true;
@@ -154,10 +155,10 @@ static bool take_moves(gis_page_model *model, gis_error *error)
     return true;
 }
 
-/* ---- Places ------------------------------------------------------------------------------------------------------ */
+/* ---- Close-ups --------------------------------------------------------------------------------------------------- */
 
-/* Of pictures of a place: width to height; how much of the surroundings is seen about what matters; and how many places
- * conflicts may take, so that the longest moves are seen, too. */
+/* aspect: width to height of a close-up; margin: the surroundings on each side, relative to what is shown.
+ * CONFLICT_PLACES: the number of close-ups that conflicts may take, so that the longest moves have some, too. */
 static const double aspect = 4.0 / 3.0, margin = 0.45;
 enum { CONFLICT_PLACES = 8 };
 
@@ -172,7 +173,8 @@ static void frame(const double box[4], double window[4])
     window[3] = y + half / aspect;
 }
 
-/* What matters of a feature, around a point at which it matters: not all of a feature that is large beside `reach`. */
+/* Adds to `box` the part of a feature, before and after its move, that lies within the distance `reach` of the box
+ * `about`: a large feature is not shown completely. */
 static void add_near(double box[4], const gis_view_feature *feature, const double about[4], double reach)
 {
     double wide[4] = {about[0] - reach, about[1] - reach, about[2] + reach, about[3] + reach}, there[4];
@@ -211,7 +213,7 @@ static void move_window(const gis_view_feature *feature, double window[4])
     frame(box, window);
 }
 
-/* The place in whose window the middle of another lies; NULL: in none. */
+/* Returns the place in [first, end) whose window contains the centre of `window`; NULL if none does. */
 static gis_page_place *shown_in(gis_page_place *first, gis_page_place *end, const double window[4])
 {
     double x = window[0] / 2 + window[2] / 2, y = window[1] / 2 + window[3] / 2;
@@ -220,7 +222,7 @@ static gis_page_place *shown_in(gis_page_place *first, gis_page_place *end, cons
     return first < end ? first : NULL;
 }
 
-/* Adds a place, unless it is shown already, among those from `first` on, or there is no room left before `limit`. */
+/* Adds a place, unless one of the places from number `first` on shows it already, or there are `limit` places. */
 static void add_place(gis_page_model *model, size_t first, size_t limit, const gis_page_place *place)
 {
     gis_page_place *shown = shown_in(model->place + first, model->place + model->n_places, place->window);

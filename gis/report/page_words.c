@@ -19,7 +19,7 @@ const char *gis_page_kind(sunder_conflict_kind kind)
     return (size_t)kind < N_OF(words) && words[kind] ? words[kind] : sunder_conflict_kind_string(kind);
 }
 
-/* What is said of a crowd appears in texts for people only. */
+/* The reason of a crowded conflict; it is distinguished only in texts for readers. */
 enum { CROWDED = SUNDER_REASON_UNRESOLVED + 1 };
 
 static const struct {

@@ -1,5 +1,5 @@
-/* pictures.c: see pictures.h. Each class of features is one path, named for what the page's style sheet makes of it:
- * those that stand still lie lowest, those in conflict on top. Units are tenths of a pixel. */
+/* pictures.c: see pictures.h. Each class of features is one path with the class name of the style sheet; features that
+ * did not move are at the bottom, those in conflict on top. The unit is a tenth of a pixel. */
 #include "report/pictures.h"
 
 #include "base/interrupt.h"
@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The order in which classes are drawn, and what they are called after and before the move. */
+/* The classes in the order of drawing, and their class names after and before the move. */
 static const struct {
     sunder_feature_status status;
     const char *after, *before;
@@ -33,7 +33,7 @@ static void begin_svg(picture_writer *writer, const char *class, const char *lab
                    writer->picture.width, writer->picture.height, label);
 }
 
-/* One feature, if any of it is in the picture. */
+/* Adds a feature to the open path if its box meets the window. */
 static bool add_feature(picture_writer *writer, size_t i, double part, gis_error *error)
 {
     const gis_view_feature *feature = &writer->model->feature[i];
@@ -48,7 +48,7 @@ static bool add_feature(picture_writer *writer, size_t i, double part, gis_error
 
 typedef bool add_one(picture_writer *writer, size_t feature, double part, gis_error *error);
 
-/* A path for all features of one status; none if they are all invisible. */
+/* Adds a path with all features of one status; none if no feature of it is visible. */
 static bool add_path(picture_writer *writer, const char *class, double part, add_one *add, sunder_feature_status status,
                      gis_error *error)
 {
@@ -69,15 +69,15 @@ static bool add_path(picture_writer *writer, const char *class, double part, add
 
 /* ---- Barriers ---------------------------------------------------------------------------------------------------- */
 
-/* How barriers are drawn, in one of the pictures' layers of paint. */
+/* How barriers are drawn in one pass. */
 typedef struct barrier_paint {
-    const char *class, *wide_class; /* of lines as wide as `wide`; NULL: the same */
-    double wide, more;              /* units of the picture: the stored width plus this */
-    bool own_width;                 /* the path says how wide it is */
-    double least_size;              /* smaller barriers are left out */
+    const char *class, *wide_class; /* the class of lines that are at least `wide` wide; NULL: the same as `class` */
+    double wide, more;              /* in units of the picture; `more` is added to the width of the barrier */
+    bool own_width;                 /* the path has an attribute with its width */
+    double least_size;              /* barriers smaller than this are not drawn */
 } barrier_paint;
 
-/* What of one barrier is seen, added to the path that is open. */
+/* Adds the visible part of a barrier to the open path. */
 static bool add_barrier(picture_writer *writer, const gis_view_barrier *barrier, gis_error *error)
 {
     static const double still[2] = {0, 0};
@@ -100,7 +100,8 @@ static void open_barriers(picture_writer *writer, const gis_view_barrier *barrie
     gis_text_add(writer->to, " d=\"");
 }
 
-/* One path for all barriers of a kind and a width, which follow each other; none where nothing of them is seen. */
+/* Adds a path for each group of consecutive barriers of equal type and width; none if nothing of the group is
+ * visible. */
 static bool paint_barriers(picture_writer *writer, const barrier_paint *paint, gis_error *error)
 {
     const gis_page_model *model = writer->model;
@@ -126,15 +127,15 @@ static bool paint_barriers(picture_writer *writer, const barrier_paint *paint, g
     return true;
 }
 
-/* Their rims first, so that roads that meet run into each other. */
+/* Draws the outlines of all barriers first, so that roads that meet are not separated by an outline. */
 static bool add_barriers(picture_writer *writer, double rim, double least_size, gis_error *error)
 {
     const barrier_paint rims = {"rim", NULL, 0, rim, true, least_size}, roads = {"road", NULL, 0, 0, true, least_size};
     return paint_barriers(writer, &rims, error) && paint_barriers(writer, &roads, error);
 }
 
-/* Where they pass under features: a broken line along the middle, or along the edge of an area, in the colour that the
- * barrier itself has there, so that it is seen on features alone. */
+/* Marks barriers under features by a dashed line along the centre line, or along the boundary of an area. Its colour is
+ * that of the barriers, so that it is visible on features only. */
 static bool add_underpasses(picture_writer *writer, gis_error *error)
 {
     enum { WIDE = 60 };
@@ -142,7 +143,7 @@ static bool add_underpasses(picture_writer *writer, gis_error *error)
     return paint_barriers(writer, &under, error);
 }
 
-/* ---- A place ----------------------------------------------------------------------------------------------------- */
+/* ---- Close-ups --------------------------------------------------------------------------------------------------- */
 
 enum { CLOSE_UP_WIDTH = 4000, CLOSE_UP_HEIGHT = 3000, CLOSE_UP_RIM = 30 };
 
@@ -164,7 +165,7 @@ static void add_line(picture_writer *writer, const char *class, const double fro
     gis_text_print(writer->to, "<path class=\"%s\" d=\"M%.0f %.0fL%.0f %.0f\"/>\n", class, a[0], a[1], b[0], b[1]);
 }
 
-/* Where those that moved stood, and the way that they went. */
+/* Draws the original positions of the features that moved, and an arrow from there to the new position. */
 static bool add_moves(picture_writer *writer, gis_error *error)
 {
     const gis_page_model *model = writer->model;
@@ -185,7 +186,8 @@ static bool add_moves(picture_writer *writer, gis_error *error)
     return true;
 }
 
-/* A link of hardly any length would not be seen: a disc stands for it, or a ring if nothing is proved of it. */
+/* Draws the link of a conflict, and a disc if the link is too short to be visible; the disc is open if the conflict is
+ * not proved. */
 static void add_link(picture_writer *writer, const sunder_conflict *conflict)
 {
     enum { SHORT = 120, RADIUS = 50 };
@@ -229,19 +231,20 @@ bool gis_page_add_close_up(const gis_page_model *model, const gis_page_place *pl
 
 /* ---- The whole layer --------------------------------------------------------------------------------------------- */
 
-/* The longer side of a picture. Features that are tiny at this size are thinned: one is drawn in each square of this
- * many units, as a box, so that a large layer makes no large picture; the squares are larger where features are many.
- * Features that moved or are in conflict take precedence. */
+/* OVERVIEW_SIDE is the longer side of a picture. Tiny features are thinned: in each square of SQUARE units
+ * (LARGE_SQUARE for a layer of more than MANY features) only one is drawn, as a box, so that the picture of a large
+ * layer stays small. Features in conflict and those that moved take precedence. */
 enum { OVERVIEW_SIDE = 10000, OVERVIEW_RIM = 12, SQUARE = 30, LARGE_SQUARE = 80, MANY = 10000 };
 enum { SQUARES = OVERVIEW_SIDE / SQUARE + 1 };
 
 typedef struct overview_writer {
     picture_writer writer;
     double square, part; /* part: 0 before, 1 after */
-    bool *taken;         /* [SQUARES][SQUARES] */
+    bool *taken;         /* [SQUARES][SQUARES] whether a square has a feature */
 } overview_writer;
 
-/* Adds a feature that is tiny, if its square is free. False: it is not tiny. */
+/* Draws a feature that is not larger than a square, unless its square is taken. Returns false if the feature is
+ * larger. */
 static bool add_tiny(overview_writer *whole, const gis_view_feature *feature)
 {
     const gis_picture *picture = &whole->writer.picture;
@@ -261,7 +264,7 @@ static bool add_tiny(overview_writer *whole, const gis_view_feature *feature)
 
 static bool add_for_overview(picture_writer *writer, size_t i, double part, gis_error *error)
 {
-    overview_writer *whole = (overview_writer *)writer; /* its first member */
+    overview_writer *whole = (overview_writer *)writer; /* writer is the first member of the struct */
     const gis_view_feature *feature = &writer->model->feature[i];
     return !feature->vertices || add_tiny(whole, feature) || add_feature(writer, i, part, error);
 }
@@ -290,7 +293,7 @@ bool gis_page_add_overview(const gis_page_model *model, bool after, gis_text *to
                              calloc((size_t)SQUARES * SQUARES, sizeof(bool))};
     if (!whole.taken) return gis_no_memory(error);
     begin_svg(&whole.writer, "overview", after ? "the whole layer, after" : "the whole layer, before");
-    /* The most telling first, for the squares; drawn in the order of the classes, for what lies on top. */
+    /* the paths are made in order of precedence for the squares, and written in the order of drawing */
     gis_text paths[CLASSES] = {0};
     bool ok = add_barriers(&whole.writer, OVERVIEW_RIM, 4 * whole.square, error);
     for (int k = CLASSES - 1; ok && k >= 0; k--) {

@@ -1,4 +1,4 @@
-/* sections.c: see sections.h; the tables stand in tables.c. */
+/* sections.c: see sections.h; the tables are in tables.c. */
 #include "report/sections.h"
 
 #include "base/json.h"
@@ -39,7 +39,7 @@ void gis_page_add_number_of(gis_text *to, size_t n, const char *one, const char 
     gis_text_print(to, " %s", n == 1 ? one : many);
 }
 
-/* ---- The few numbers that matter --------------------------------------------------------------------------------- */
+/* ---- Key figures ------------------------------------------------------------------------------------------------- */
 
 static void open_figure(gis_text *to, const char *class, const char *name)
 {
@@ -100,7 +100,7 @@ bool gis_page_figures(const gis_page_model *model, const gis_thinning *thinning,
     return ok;
 }
 
-/* ---- The map, its pictures --------------------------------------------------------------------------------------- */
+/* ---- The map and the close-ups ----------------------------------------------------------------------------------- */
 
 bool gis_page_legend(const gis_page_model *model, const gis_thinning *thinning, gis_text *to, gis_error *error)
 {
@@ -235,7 +235,7 @@ bool gis_page_moves(const gis_page_model *model, const gis_thinning *thinning, g
     return true;
 }
 
-/* ---- The end ----------------------------------------------------------------------------------------------------- */
+/* ---- The footer -------------------------------------------------------------------------------------------------- */
 
 bool gis_page_colophon(const gis_page_model *model, const gis_thinning *thinning, gis_text *to, gis_error *error)
 {

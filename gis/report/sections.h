@@ -1,4 +1,4 @@
-/* sections.h: the parts of the page that are text: headings, figures, tables. Each adds HTML. */
+/* sections.h: the sections of the page that are text: headings, figures and tables. Each function adds HTML. */
 #ifndef GIS_REPORT_SECTIONS_H
 #define GIS_REPORT_SECTIONS_H
 
@@ -8,23 +8,23 @@ typedef bool gis_page_section(const gis_page_model *model, const gis_thinning *t
                               gis_error *error);
 
 gis_page_section gis_page_title;       /* the layer's name */
-gis_page_section gis_page_lede;        /* what came of the run, in a sentence or two */
-gis_page_section gis_page_figures;     /* the few numbers that matter */
-gis_page_section gis_page_legend;      /* parts that only some layers have */
-gis_page_section gis_page_map_note;    /* how much of the layer the map draws */
-gis_page_section gis_page_places;      /* close-ups, the worst first */
+gis_page_section gis_page_lede;        /* the request and its result, in a few sentences */
+gis_page_section gis_page_figures;     /* the key figures */
+gis_page_section gis_page_legend;      /* the part of the legend that only some layers have */
+gis_page_section gis_page_map_note;    /* how much of the layer the map shows */
+gis_page_section gis_page_places;      /* close-ups, the worst conflicts first */
 gis_page_section gis_page_moves;       /* the histogram */
-gis_page_section gis_page_blocked;     /* the table of conflicts that remain */
-gis_page_section gis_page_certificate; /* what is proved, and what was requested */
-gis_page_section gis_page_colophon;    /* program and date */
+gis_page_section gis_page_blocked;     /* the table of remaining conflicts */
+gis_page_section gis_page_certificate; /* what is proved, and the options of the run */
+gis_page_section gis_page_colophon;    /* version and date */
 
-/* Pairs in conflict between blocks, of every kind. */
+/* Returns the number of pairs in conflict between blocks, of all kinds. */
 size_t gis_page_count(const sunder_conflict_counts *counts);
-/* "12 features" */
+/* Writes "12 features": the number, then `one` or `many`. */
 void gis_page_add_number_of(gis_text *to, size_t n, const char *one, const char *many);
-/* A link that shows a window of the map: its opening tag. */
+/* Writes the opening tag of a link that shows `window` on the map. */
 void gis_page_open_link(const double window[4], gis_text *to);
-/* The name of a feature, escaped, and set apart from the words about it. */
+/* Writes the name of a feature or barrier, escaped, in a bdi element. */
 bool gis_page_add_name(const gis_page_model *model, size_t thing, gis_text *to, gis_error *error);
 
 #endif

@@ -1,5 +1,5 @@
-/* tables.c: the tables of the page: conflicts that remain, and the certificate. Cells that sort by a number carry it in
- * data-value; what is unknown carries none, and sorts last. */
+/* tables.c: the tables of the page: the remaining conflicts, and the certificate. The attribute data-value of a cell
+ * has the number by which the table is sorted; cells with unknown values lack it and are sorted last. */
 #include "base/json.h"
 #include "report/escape.h"
 #include "report/page_words.h"
@@ -9,8 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Rows of conflicts: as many as a reader goes through, so that the page has few nodes; on paper as many as fit on two
- * sheets, the style sheet leaves out the others. */
+/* The largest number of rows of conflicts on the screen, so that the page has few nodes; and on paper, about two
+ * sheets: the style sheet hides the others there. */
 enum { MOST_ROWS = 100, MOST_ON_PAPER = 30 };
 
 static void open_number(gis_text *to, double value)
@@ -32,7 +32,7 @@ static void add_length_cell(const gis_page_model *model, double value, gis_text 
 
 /* ---- Conflicts --------------------------------------------------------------------------------------------------- */
 
-/* Adds a cell that names up to MOST_NAMED other features in the pair's way and counts the rest. */
+/* Writes a cell with the names of up to MOST_NAMED features that block the pair, and the number of the others. */
 static bool add_blockers(const gis_page_model *model, const sunder_conflict *conflict, gis_text *to, gis_error *error)
 {
     enum { MOST_NAMED = 6 };
@@ -47,7 +47,7 @@ static bool add_blockers(const gis_page_model *model, const sunder_conflict *con
     return true;
 }
 
-/* What would free the pair: what a solution is known for. */
+/* Writes a cell with the changes of the request for which a solution of the conflict is known. */
 static bool add_needs(const gis_page_model *model, const sunder_conflict *conflict, gis_text *to, gis_error *error)
 {
     const char *separator = "";
@@ -102,7 +102,7 @@ static bool add_row(const gis_page_model *model, const sunder_conflict *conflict
     return true;
 }
 
-/* The reasons that occur, explained. */
+/* Writes the reasons that occur, their numbers and explanations. */
 static void add_reasons(const gis_page_model *model, gis_text *to)
 {
     gis_text_add(to, "<dl class=\"reasons\">\n");
@@ -117,7 +117,7 @@ static void add_reasons(const gis_page_model *model, gis_text *to)
     gis_text_add(to, "</dl>\n");
 }
 
-/* How many there are, where not all are shown. */
+/* Writes how many conflicts there are, if only `shown` of them are listed. */
 static void add_rest(const gis_page_model *model, size_t shown, const char *class, gis_text *to)
 {
     if (model->n_conflicts <= shown) return;
@@ -188,7 +188,8 @@ static void add_counts(const gis_page_model *model, gis_text *to)
 static void open_term(gis_text *to, const char *name) { gis_text_print(to, "<div><dt>%s</dt><dd>", name); }
 static void close_term(gis_text *to) { gis_text_add(to, "</dd></div>\n"); }
 
-/* What the stages took, as in --stats; not where the page has to be the same for each run. */
+/* Writes the times of the stages, as in --stats; not with SOURCE_DATE_EPOCH, for which the page must be
+ * reproducible. */
 static void add_seconds(const gis_page_request *request, gis_text *to)
 {
     const char *epoch = getenv("SOURCE_DATE_EPOCH");

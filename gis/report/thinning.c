@@ -1,10 +1,10 @@
 /* thinning.c: see thinning.h.
  *
- * The page is to open at once, so that its map has a size that it may not exceed. Features are drawn whole in the order
- * of their importance, as long as there is room: those in a conflict that remains or in its way, those that moved, the
- * farthest first, those near any of them, the rest. Of the others corners are left out that lie within a tolerance, and
- * features that are as small; the tolerance is doubled until the map is small enough. The choice depends on the layer
- * alone. */
+ * The page must load quickly, hence the size of its map is limited. Features are drawn completely in the order of their
+ * importance, until the limit is reached: those that are in a conflict or block one, those that moved, the longest
+ * moves first, those near any of these, and the rest. All other features are simplified with a tolerance, and those not
+ * larger than it are omitted; the tolerance is doubled until the map is small enough. The choice depends on the layer
+ * only. */
 #include "report/thinning.h"
 
 #include "base/interrupt.h"
@@ -13,15 +13,16 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Bytes of the map that may be spent on features drawn in full, if not all can be; and the average bytes of a feature
- * and of a corner, measured over layers of buildings. */
+/* most_bytes: the limit of the map; most_whole: the fraction of it for features that are drawn completely, if not all
+ * are. The average bytes of a feature and of a vertex were measured on layers of buildings. */
 static const double most_bytes = 6.5e6, most_whole = 0.6;
 enum { FEATURE_BYTES = 24, CORNER_BYTES = 6 };
 
-/* Nearness is tested on a grid with this many cells in each direction. */
+/* "Near" is decided on a grid with this number of cells in each direction. */
 enum { CELLS = 512 };
 
-/* The cells that a box meets, a cell more on every side: first and last in x, then in y. */
+/* Returns the range of cells that a box meets, with one more cell on every side: minimum x, minimum y, maximum x,
+ * maximum y. */
 static void cells_of(const gis_page_model *model, const double box[4], size_t cells[4])
 {
     for (int k = 0; k < 4; k++) {
@@ -52,7 +53,7 @@ static bool is_telling(const gis_view_feature *feature)
     return feature->involved || feature->move[0] != 0 || feature->move[1] != 0;
 }
 
-/* Marks the cells of all features that moved or are in conflict. */
+/* Marks the cells of all features that moved, are in a conflict, or block one. */
 static void mark_telling(const gis_page_model *model, bool *marked)
 {
     for (size_t i = 0; i < model->n; i++) {
@@ -65,14 +66,14 @@ static void mark_telling(const gis_page_model *model, bool *marked)
     }
 }
 
-/* ---- What is drawn whole ----------------------------------------------------------------------------------------- */
+/* ---- Features that are drawn completely -------------------------------------------------------------------------- */
 
-/* A map that is being filled. */
+/* The state of the choice of features that are drawn completely. */
 typedef struct room {
     const gis_page_model *model;
     gis_thinning *thinning;
     double taken, most;
-    bool full; /* something found no room: nothing that matters less is drawn whole */
+    bool full; /* a feature exceeded the limit, so that no less important one is drawn completely */
 } room;
 
 static double whole_bytes(const gis_view_feature *feature) { return FEATURE_BYTES + CORNER_BYTES * feature->vertices; }
@@ -105,14 +106,14 @@ static bool fill(room *map, gis_error *error)
     return true;
 }
 
-/* ---- What is not ------------------------------------------------------------------------------------------------- */
+/* ---- Simplified features ----------------------------------------------------------------------------------------- */
 
 static bool is_as_small(const gis_view_feature *feature, double tolerance)
 {
     return fmax(feature->box[2] - feature->box[0], feature->box[3] - feature->box[1]) <= tolerance;
 }
 
-/* What a feature takes, simplified; 0: it is left out. */
+/* *bytes becomes the estimated size of a simplified feature; 0 if it is omitted. */
 static bool simpler_bytes(const gis_page_model *model, size_t i, double tolerance, gis_corners *scratch, double *bytes,
                           gis_error *error)
 {
@@ -131,7 +132,8 @@ static bool simpler_bytes(const gis_page_model *model, size_t i, double toleranc
     return true;
 }
 
-/* Simplifies what is not drawn whole, with the thinning's tolerance; *bytes is what that takes. */
+/* Simplifies the features that are not drawn completely with the tolerance of the thinning; *bytes becomes the sum of
+ * their estimated sizes. */
 static bool thin(const gis_page_model *model, gis_thinning *thinning, double *bytes, gis_error *error)
 {
     gis_corners scratch = {0};
@@ -189,7 +191,7 @@ static bool line_bytes(const gis_page_model *model, const gis_view_barrier *barr
     return true;
 }
 
-/* Those that are as small as the tolerance are left out. */
+/* Doubles the tolerance of barriers until they are small enough. Barriers not larger than the tolerance are omitted. */
 static bool choose_barriers(const gis_page_model *model, gis_thinning *thinning, gis_error *error)
 {
     gis_corners scratch = {0};

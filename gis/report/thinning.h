@@ -1,4 +1,4 @@
-/* thinning.h: which features of a large layer the page's map draws. */
+/* thinning.h: chooses which features of a large layer the map of the page draws. */
 #ifndef GIS_REPORT_THINNING_H
 #define GIS_REPORT_THINNING_H
 
@@ -6,19 +6,19 @@
 #include "report/page_model.h"
 
 typedef enum gis_drawn {
-    GIS_DRAWN_NOT,     /* nothing to draw, or too small to draw among so large a number */
-    GIS_DRAWN_SIMPLER, /* without corners that lie within the tolerance */
+    GIS_DRAWN_NOT,     /* without shape, or not larger than the tolerance */
+    GIS_DRAWN_SIMPLER, /* simplified: without vertices that lie within the tolerance */
     GIS_DRAWN_WHOLE
 } gis_drawn;
 
 typedef struct gis_thinning {
     unsigned char *drawn; /* [features] gis_drawn */
-    double tolerance;     /* 0: nothing is simplified */
+    double tolerance;     /* the tolerance of simplification; 0: all features are drawn completely */
     size_t whole, simpler, left_out;
-    double barrier_tolerance; /* of barriers, likewise */
+    double barrier_tolerance; /* the tolerance for barriers; 0: they are drawn completely */
 } gis_thinning;
 
-/* Clear in any case. */
+/* The caller calls gis_thinning_clear() on failure, too. */
 bool gis_thinning_choose(const gis_page_model *model, gis_thinning *thinning, gis_error *error);
 void gis_thinning_clear(gis_thinning *thinning);
 

@@ -1,4 +1,5 @@
-/* coordinate.c: see coordinate.h. A fraction is not turned into a double here: the core takes it as it is, exactly. */
+/* coordinate.c: see coordinate.h. A fraction is passed to the core as text, since converting it to a double would not
+ * be exact. */
 #include "route/coordinate.h"
 
 #include "base/length.h"
@@ -6,7 +7,8 @@
 #include <cpl_conv.h>
 #include <string.h>
 
-/* X or Y: a decimal, taken as the nearest double, or a fraction of whole numbers, taken as it is. */
+/* Reads text[0..n), one ordinate: a decimal, which becomes the nearest double *value, or a fraction of integers, which
+ * is copied to *fraction and *exact. Returns false if it is neither. */
 static bool read_ordinate(const char *text, size_t n, double *value, char **fraction, const char **exact)
 {
     const char *slash = memchr(text, '/', n);

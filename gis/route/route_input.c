@@ -1,5 +1,5 @@
-/* route_input.c: obstacles of a layer of any kind, or of a text, and the robot. A feature is one obstacle with all
- * that it has: polygons as a shape, lines and points as chains. */
+/* route_input.c: reads the obstacles, from a layer of any geometry type or from a text, and the robot. Each feature is
+ * one obstacle with all its geometry: polygons become a shape, lines and points become chains. */
 #include "route/route_input.h"
 
 #include "base/interrupt.h"
@@ -36,7 +36,7 @@ static bool make_room(gis_route_input *input, size_t n, gis_error *error)
     return true;
 }
 
-/* The polygons of a feature after --invalid, and its lines and points. */
+/* Reads the polygons of a feature, treated as --invalid says, and its lines and points. */
 static bool read_feature(gis_route_input *input, size_t i, OGRGeometryH geometry, gis_polygonal_part *part,
                          gis_error *error)
 {
@@ -78,7 +78,8 @@ static bool read_layer(gis_route_input *input, gis_error *error)
     return ok;
 }
 
-/* Does the WKT name a kind that gis_shape_from_text() does not know, lines or points? */
+/* Returns whether the text is WKT of a type that gis_shape_from_text() does not support: points, lines or a
+ * collection. */
 static bool is_other_wkt(const char *text)
 {
     static const char *const kinds[] = {"POINT", "MULTIPOINT", "LINESTRING", "MULTILINESTRING", "GEOMETRYCOLLECTION"};
@@ -92,7 +93,7 @@ static bool is_other_wkt(const char *text)
     return false;
 }
 
-/* A literal is part of the command line, and what is wrong with it wrong usage; a file is not. */
+/* Reads obstacles given as WKT. Invalid WKT on the command line (`literal`) is a usage error, in a file it is not. */
 static bool read_wkt(gis_route_input *input, const char *wkt, const char *who, bool literal, gis_error *error)
 {
     int srid;
@@ -133,7 +134,7 @@ static bool read_text(gis_route_input *input, const char *text, gis_error *error
     return ok;
 }
 
-/* ---- All of it --------------------------------------------------------------------------------------------------- */
+/* ---- Reading the input ------------------------------------------------------------------------------------------- */
 
 static void join_place(double box[4], double x, double y)
 {
@@ -141,7 +142,8 @@ static void join_place(double box[4], double x, double y)
     box[2] = fmax(box[2], x), box[3] = fmax(box[3], y);
 }
 
-/* Where lengths are not those on the ground it tells the local scale, in the middle of the obstacles. */
+/* Warns if lengths in the CRS differ from lengths on the ground; the warning contains the local scale at the centre of
+ * the obstacles. */
 static void warn_of_crs(const gis_route_input *input)
 {
     double box[4] = {INFINITY, INFINITY, -INFINITY, -INFINITY};

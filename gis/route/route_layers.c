@@ -1,5 +1,6 @@
-/* route_layers.c: a route as layers: legs, placements of the robot, configuration-space obstacles and free space.
- * The core's answers are exact; how far the doubles of any layer are from them is added up as they are written. */
+/* route_layers.c: writes a route as layers: legs, placements of the robot, configuration-space obstacles and free
+ * space. The core's results are exact; the largest deviation of the written doubles from them is determined while
+ * writing. */
 #include "route/route_layers.h"
 
 #include "base/core_error.h"
@@ -11,8 +12,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Placements between the ends of a leg, at most; one at least every width of the robot if that many do. More would be a
- * smear on any sheet. */
+/* The largest number of placements on a leg. Below it, the distance between placements is at most the smaller side of
+ * the robot's box. */
 static const double most_steps = 100;
 
 typedef struct route_writer {
@@ -46,7 +47,7 @@ static bool vertex(route_writer *w, size_t i, double xy[2], gis_error *error)
     return true;
 }
 
-/* A route without legs is one point: start and goal are the same. */
+/* Writes a line for each leg. A route whose start and goal are equal has no leg. */
 static bool write_legs(route_writer *w, gis_error *error)
 {
     static const gis_field fields[] = {{"leg", OFTInteger64, 0}, {"len", OFTReal, 0}};
@@ -112,11 +113,10 @@ static void grow_box(double box[4], const double xy[2])
     }
 }
 
-/* The frame's margin is this fraction of the larger side of its contents, so that the picture shows free space
- * outside. */
+/* The margin of the frame is the larger side of its content divided by this, so that free space outside is visible. */
 static const double margins_across = 10;
 
-/* A frame around obstacles and route, with a margin, as far as doubles reach. */
+/* Sets `box` to the box of obstacles and route with a margin, limited to the range of doubles. */
 static void frame(const route_writer *w, const gis_polygons *obstacles, double box[4])
 {
     box[0] = box[1] = INFINITY;
@@ -138,8 +138,8 @@ static void frame(const route_writer *w, const gis_polygons *obstacles, double b
     }
 }
 
-/* What the frame and all rings of the obstacles enclose by the even-odd rule is the frame less the obstacles, since
- * these are disjoint but for points. */
+/* Sets *out to the frame minus the obstacles. It is the even-odd set of the frame and all rings of the obstacles, since
+ * the obstacles' interiors are disjoint. */
 static bool free_space(const gis_polygons *obstacles, const double box[4], gis_polygons *out, gis_error *error)
 {
     const double corner[4][2] = {{box[0], box[1]}, {box[2], box[1]}, {box[2], box[3]}, {box[0], box[3]}};

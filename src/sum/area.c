@@ -1,8 +1,8 @@
-/* The exact area of a sum. Vertices have denominators of their own, so terms are reduced, and summed in pairs of one
- * size. */
+/* operands.c: see operands.h. Data sources are read before texts, since their CRS defines the units of lengths in the
+ * other operand. */
 #include "sum/sum_value.h"
 
-/* Twice the area over one edge, x1 y2 - x2 y1, in lattice units: the origin drops out over a closed ring. */
+/* Returns the SRID of an operand: the code of EPSG of a source's CRS, or the SRID before WKT; 0 if there is none. */
 static sunder_i_ratio edge_term(sunder_i_arena *arena, const sunder_sum *sum, uint32_t u, uint32_t v)
 {
     const sunder_i_rational_point a = sunder_i_sum_point(arena, sum, u), b = sunder_i_sum_point(arena, sum, v);
@@ -10,8 +10,7 @@ static sunder_i_ratio edge_term(sunder_i_arena *arena, const sunder_sum *sum, ui
         arena, (sunder_i_ratio){sunder_i_rational_cross(arena, a, b), sunder_i_big_mul(arena, a.w, b.w)});
 }
 
-/* Sums are taken in pairs, pairs of pairs and so on, so that operands of one addition are of one size: level k holds
- * the sum of 2^k terms, or nothing. */
+/* operands.h: the operands P and Q of the commands sum and pair. */
 typedef struct adder {
     sunder_i_ratio level[64];
     bool full[64];
@@ -36,7 +35,7 @@ static sunder_i_ratio total_of(sunder_i_arena *arena, const adder *a)
     return total;
 }
 
-/* Edges are summed in groups of this size; the arena of a group is freed, and only its sum is kept. */
+/* The request of the operands. Strings and lists are borrowed during the call. */
 #define EDGES 256
 
 static sunder_i_ratio area_twice(sunder_i_arena *arena, const sunder_sum *sum)

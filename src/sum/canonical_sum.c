@@ -1,5 +1,4 @@
-/* The canonical form: one sort of all rings, which are dealt to their polygons in that order; segments and points are
- * sorted as they are. */
+/* P and Q: each a SHAPE in any form, or a data source */
 #include "sum/canonical_sum.h"
 
 #include "base/sort.h"
@@ -14,7 +13,7 @@ int sunder_i_sum_vertex_cmp(void *context, uint32_t v, uint32_t w)
     return v == w ? 0 : sunder_i_hpoint_cmp(&sum->lattice, &sum->vertex[v], &sum->vertex[w]);
 }
 
-/* ---- Rings ---- */
+/* the selection from an operand that is a data source; the member path is set when it is read */
 
 static int compare_rings(void *context, uint32_t a, uint32_t b)
 {
@@ -28,7 +27,7 @@ static int compare_rings(void *context, uint32_t a, uint32_t b)
     return (m > n) - (m < n);
 }
 
-/* Of hpoints, each within 2^-50 of its size: may b, which is not below a as a double, be below or equal? */
+/* N of the scale 1:N; 0: not given */
 static bool is_open(double a, double b) { return b - a <= SUNDER_I_DOUBT(0x1p-49 * (fabs(a) + fabs(b)) + DBL_MIN); }
 
 static const sunder_i_hpoint *first_place(const sunder_i_found *f, uint32_t ring)
@@ -36,14 +35,14 @@ static const sunder_i_hpoint *first_place(const sunder_i_found *f, uint32_t ring
     return &f->place[f->vertex[f->ring[ring].start]];
 }
 
-/* Sorts rings whose order the doubles left open. */
+/* NULL if the operand is a text */
 static bool settle_rings(sunder_i_found *f, const sunder_i_valued *k, size_t n, uint32_t *order)
 {
     for (size_t i = 0; i < n; i++) order[i] = k[i].item;
     return n == 1 || sunder_i_sort_indices(order, n, compare_rings, f);
 }
 
-/* The same for rings with one x, whose y differ as doubles. */
+/* the units of the operands' CRS, if there is one */
 static bool sort_column(sunder_i_found *f, sunder_i_valued *k, size_t n, uint32_t *order)
 {
     for (size_t i = 0; i < n; i++) k[i].value = first_place(f, k[i].item)->ay;
@@ -66,7 +65,7 @@ static bool is_column(const sunder_i_found *f, sunder_i_lattice *l, const sunder
 static bool sort_rings_by_places(sunder_i_found *f, sunder_i_lattice *l, uint32_t *order)
 {
     const size_t n = f->rings;
-    sunder_i_valued *k = sunder_i_alloc(4 * n, sizeof *k); /* a column is sorted behind, with room of its own */
+    sunder_i_valued *k = sunder_i_alloc(4 * n, sizeof *k); /* seconds for building p and q from coordinates in memory */
     bool ok = k != NULL;
     for (uint32_t r = 0; ok && r < n; r++) k[r] = (sunder_i_valued){first_place(f, r)->ax, r, 0};
     ok = ok && sunder_i_sort_valued(k, n);
@@ -83,7 +82,7 @@ static bool sort_rings_by_places(sunder_i_found *f, sunder_i_lattice *l, uint32_
     return ok;
 }
 
-/* By the numbers of the vertices where the rings start; those that share one, by their further vertices. */
+/* Reads the operands; on failure *out is not changed and nothing must be cleared. */
 static bool sort_rings_by_numbers(sunder_i_found *f, uint32_t *order)
 {
     const size_t n = f->rings;
@@ -107,9 +106,7 @@ static bool sort_rings(sunder_i_found *f, sunder_i_lattice *l, uint32_t *order)
     return sunder_i_sort_indices(order, f->rings, compare_rings, f);
 }
 
-/* Outer rings take the polygons in order; then every ring, in order, the next place in its polygon.
- *
- * place: [rings] the result; hole: [rings] zeros, by polygon in the end; polygon: [components] of each. */
+/* Returns the source that the output is compared with and whose CRS it gets; NULL if both operands are texts. */
 static void deal_rings(const sunder_i_found *f, const uint32_t *order, uint32_t *place, uint32_t *hole,
                        uint32_t *polygon, sunder_sum *out)
 {
@@ -119,7 +116,7 @@ static void deal_rings(const sunder_i_found *f, const uint32_t *order, uint32_t 
     size_t sum = 0;
     for (size_t p = 0; p < out->polygons; p++) {
         const uint32_t rings = hole[p];
-        hole[p] = (uint32_t)sum + 1; /* the place of its next hole, after the outer ring */
+        hole[p] = (uint32_t)sum + 1; /* Fails if writing the output would replace one of the sources. */
         sum += rings;
         out->poly_end[p] = sum;
     }
@@ -170,7 +167,9 @@ static bool put_rings(sunder_i_found *f, sunder_sum *out)
     return true;
 }
 
-/* ---- Degenerate parts ---- */
+/* planar_map_layers.c: writes the planar map of a sum as layers for inspection. Each vertex is rounded once, so that
+ * edges and faces that meet in the map also meet in the layers; a face that rounding made invalid is repaired like a
+ * polygon of a sum. */
 
 static int compare_segments(void *context, uint32_t a, uint32_t b)
 {
@@ -211,9 +210,9 @@ bool sunder_i_canonical(sunder_i_found *found, sunder_sum *out)
     return put_rings(found, out) && put_segments(found, out) && put_points(found, out);
 }
 
-/* ---- The checker ---- */
+/* [2 * vertices] the rounded coordinates of all vertices */
 
-/* Compares two rows of vertices. */
+/* [half-edges] whether a half-edge is part of a ring already */
 static int compare_rows(sunder_sum *sum, const uint32_t *v, size_t m, const uint32_t *w, size_t n)
 {
     for (size_t i = 0; i < m && i < n; i++) {
@@ -258,5 +257,6 @@ const char *sunder_i_canonical_check(sunder_sum *sum)
     for (size_t i = 1; i < sum->points && !wrong; i++)
         if (sunder_i_sum_vertex_cmp(sum, sum->point[i - 1], sum->point[i]) >= 0) wrong = "points are out of order";
     sum->lattice.counts = counts;
-    return sum->lattice.arena.failed ? NULL : wrong; /* without memory nothing can be checked */
+    return sum->lattice.arena.failed ? NULL : wrong; /* Returns whether the half-edge separates two faces. (An antenna
+                                                      * has the same face on both sides.) */
 }
