@@ -69,7 +69,7 @@ static bool begin_messages(const gis_options *options, gis_error *error)
     return gis_resolve_messages(options, &request, error) && gis_messages_begin(&request, error);
 }
 
-static int run(const gis_command *command, int argc, char **argv)
+static int run_command(const gis_command *command, int argc, char **argv)
 {
     gis_options options;
     gis_error error;
@@ -158,7 +158,7 @@ int main(int argc, char **argv)
     const char *first = argc > 1 ? argv[1] : NULL;
     const gis_command *command = first ? find_command(first) : NULL;
     if (command) {
-        status = run(command, argc - 2, argv + 2);
+        status = run_command(command, argc - 2, argv + 2);
     } else if (!first) {
         status = no_command();
     } else if (strcmp(first, "--version") == 0) {

@@ -32,7 +32,7 @@ static bool tell_inside(double fraction, void *user)
     return !gis_interrupted() && !atomic_load(&m->stop);
 }
 
-static void tell(making *m)
+static void note_done(making *m)
 {
     pthread_mutex_lock(&m->lock);
     m->done++;
@@ -42,7 +42,7 @@ static void tell(making *m)
     pthread_mutex_unlock(&m->lock);
 }
 
-static void fail(making *m, size_t set, const gis_error *error)
+static void note_failure(making *m, size_t set, const gis_error *error)
 {
     char who[GIS_WHO_SIZE] = "";
     const gis_buffer *buffer = m->buffer;
@@ -59,7 +59,7 @@ static void fail(making *m, size_t set, const gis_error *error)
     pthread_mutex_unlock(&m->lock);
 }
 
-static void *work(void *argument)
+static void *make_sets(void *argument)
 {
     making *m = argument;
     gis_error error;
@@ -73,8 +73,8 @@ static void *work(void *argument)
         if (k >= m->buffer->sets) break;
         bool blocks = m->buffer->request->dissolve && m->buffer->request->align;
         if (!(blocks ? gis_buffer_make_blocks : gis_buffer_make_set)(m->buffer, &m->buffer->set[k], &how, &error))
-            fail(m, k, &error);
-        tell(m);
+            note_failure(m, k, &error);
+        note_done(m);
     }
     return NULL;
 }
@@ -100,8 +100,8 @@ bool gis_buffer_make(gis_buffer *buffer, gis_progress *progress, gis_error *erro
     pthread_t *thread = calloc(threads + 1, sizeof *thread);
     if (!thread) return gis_no_memory(error);
     pthread_mutex_init(&m.lock, NULL);
-    while (started + 1 < threads && pthread_create(&thread[started], NULL, work, &m) == 0) started++;
-    work(&m);
+    while (started + 1 < threads && pthread_create(&thread[started], NULL, make_sets, &m) == 0) started++;
+    make_sets(&m);
     for (size_t i = 0; i < started; i++) pthread_join(thread[i], NULL);
     pthread_mutex_destroy(&m.lock);
     free(thread);

@@ -28,7 +28,7 @@ static void add_sides(const sunder_shape *shape, double sum[2])
         }
 }
 
-static bool turn(const sunder_shape *shape, double angle, gis_polygons *out, gis_error *error)
+static bool turn_shape(const sunder_shape *shape, double angle, gis_polygons *out, gis_error *error)
 {
     double c = cos(angle), s = sin(angle);
     if (!gis_polygons_append_shape(out, shape, 0, 0, error)) return false;
@@ -47,7 +47,7 @@ bool gis_buffer_turned(const gis_buffer *buffer, const gis_buffer_set *set, sund
         if (buffer->input.shape[set->member[i]]) add_sides(buffer->input.shape[set->member[i]], sum);
     gis_polygons turned = {0};
     sunder_error why;
-    bool ok = turn(buffer->shape, atan2(sum[1], sum[0]) / 4, &turned, error) &&
+    bool ok = turn_shape(buffer->shape, atan2(sum[1], sum[0]) / 4, &turned, error) &&
               (gis_polygons_shape(&turned, SUNDER_VALIDITY_EVEN_ODD, out, &why) == SUNDER_OK ||
                gis_core_failed(error, "--shape, turned", &why));
     gis_polygons_clear(&turned);

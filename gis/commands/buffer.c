@@ -76,7 +76,7 @@ static bool print_summary(const void *made, gis_error *error)
     return true;
 }
 
-static bool deliver(const buffer_run *run, bool taken, gis_error *error)
+static bool deliver_buffer(const buffer_run *run, bool taken, gis_error *error)
 {
     gis_json stats = {0};
     if (run->to.stats) json_buffer(&stats, &run->buffer);
@@ -102,7 +102,7 @@ int gis_command_buffer(const gis_options *options)
     gis_progress_stage(&run.progress, 0, GIS_BUFFER_READ);
     ok = ok && gis_buffer_read(&run.request, &run.buffer, &error) &&
          gis_destinations_spare(&run.to, run.buffer.input.source, &error) && make_and_write(&run, &error) &&
-         deliver(&run, taken, &error);
+         deliver_buffer(&run, taken, &error);
     int status = ok ? GIS_DONE : gis_say_failure(&error);
     gis_sink_free(run.sink);
     gis_buffer_clear(&run.buffer);

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static bool add(gis_call *call, const gis_option *option, const char *value, gis_error *error)
+static bool append_option(gis_call *call, const gis_option *option, const char *value, gis_error *error)
 {
     if (!gis_array_reserve(&call->option, &call->capacity, call->n + 1, sizeof *call->option))
         return gis_no_memory(error);
@@ -27,7 +27,7 @@ static bool add_numbers(gis_call *call, const gis_option *option, const double *
         size_t length = strlen(words);
         snprintf(words + length, sizeof words - length, "%s%s", k ? "," : "", number);
     }
-    return add(call, option, words, error);
+    return append_option(call, option, words, error);
 }
 
 static bool add_option(gis_call *call, const gis_options *options, const gis_option *option, gis_error *error)
@@ -35,7 +35,7 @@ static bool add_option(gis_call *call, const gis_options *options, const gis_opt
     gis_option_id id = option->id;
     if (gis_option_is_list(option)) {
         for (const char **each = options->list[id]; each && *each; each++)
-            if (!add(call, option, *each, error)) return false;
+            if (!append_option(call, option, *each, error)) return false;
         return true;
     }
     switch (option->type) {
@@ -43,8 +43,8 @@ static bool add_option(gis_call *call, const gis_options *options, const gis_opt
     case GIS_TYPE_NUMBER:
     case GIS_TYPE_SCALE: return add_numbers(call, option, &options->number[id], 1, error);
     case GIS_TYPE_BOX: return add_numbers(call, option, options->box, 4, error);
-    case GIS_TYPE_FLAG: return add(call, option, "", error);
-    default: return add(call, option, options->text[id] ? options->text[id] : "", error);
+    case GIS_TYPE_FLAG: return append_option(call, option, "", error);
+    default: return append_option(call, option, options->text[id] ? options->text[id] : "", error);
     }
 }
 

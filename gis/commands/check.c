@@ -152,7 +152,7 @@ static void print_counts(const check_run *run)
     putchar('\n');
 }
 
-static bool print(const void *checked, gis_error *error)
+static bool print_check(const void *checked, gis_error *error)
 {
     const check_run *run = checked;
     if (!print_lines(run, error)) return false;
@@ -189,12 +189,12 @@ static void json_check(gis_json *out, const check_run *run)
     gis_json_raw(out, "\n");
 }
 
-static bool deliver(const check_run *run, bool taken, gis_error *error)
+static bool deliver_check(const check_run *run, bool taken, gis_error *error)
 {
     gis_json stats = {0};
     if (run->to.stats) json_check(&stats, run);
     const gis_delivery delivery = {
-        .to = &run->to, .sink = run->sink, .stats = &stats, .print = taken ? NULL : print, .run = run};
+        .to = &run->to, .sink = run->sink, .stats = &stats, .print = taken ? NULL : print_check, .run = run};
     bool ok = gis_deliver(&delivery, error);
     gis_json_clear(&stats);
     return ok;
@@ -210,7 +210,7 @@ int gis_command_check(const gis_options *options)
     ok = ok && gis_resolve_layer(options, &run.request, &error) &&
          gis_layer_input_read(&run.request, &run.input, &error) &&
          gis_destinations_spare(&run.to, run.input.source, &error) && check_and_write(&run, &error) &&
-         deliver(&run, taken, &error);
+         deliver_check(&run, taken, &error);
     int status = ok ? gis_complete_status(options, gis_any_conflict(&run.summary.before) || gis_moves_rows(&run.moves))
                     : gis_say_failure(&error);
     gis_sink_free(run.sink);

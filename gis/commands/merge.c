@@ -32,7 +32,7 @@ static void list_missing(const bool *missing, unsigned shards, char *text, size_
     }
 }
 
-static bool look(const gis_shard_run *parts, const gis_plan *plan, bool *missing, bool *any, gis_error *error)
+static bool find_missing(const gis_shard_run *parts, const gis_plan *plan, bool *missing, bool *any, gis_error *error)
 {
     *any = false;
     for (unsigned k = 0; k < plan->shards; k++) {
@@ -51,7 +51,7 @@ static bool all_there(const gis_shard_run *parts, const gis_plan *plan, gis_erro
     char list[400];
     bool *missing = calloc(plan->shards, sizeof *missing), any;
     if (!missing) return gis_no_memory(error);
-    bool done = look(parts, plan, missing, &any, error);
+    bool done = find_missing(parts, plan, missing, &any, error);
     if (done && any) {
         list_missing(missing, plan->shards, list, sizeof list);
         done = gis_fail(error, "%s: missing of its %u shards: %s; sunder separate --shard K %s makes them",
@@ -63,7 +63,7 @@ static bool all_there(const gis_shard_run *parts, const gis_plan *plan, gis_erro
 
 /* ---- Joining the shards ------------------------------------------------------------------------------------------ */
 
-static bool resume(gis_separate_run *run, const gis_planned *planned, const char *directory, gis_error *error)
+static bool resume_run(gis_separate_run *run, const gis_planned *planned, const char *directory, gis_error *error)
 {
     const gis_plan *plan = &planned->plan;
     return gis_planned_rules(&planned->options, &run->request.rules, error) &&
@@ -85,7 +85,7 @@ int gis_command_merge(const gis_options *options)
               gis_separate_begin(&planned.options, &run, &error);
     run.options = &planned.options;
     run.stamp = planned.plan.stamp;
-    ok = ok && resume(&run, &planned, directory, &error);
+    ok = ok && resume_run(&run, &planned, directory, &error);
     if (ok) gis_shard_run_warn_of_group(&run.parts);
     run.read = gis_clock() - run.start;
     ok = ok && gis_separate_in_parts_begin(&run, &error) && gis_separate_in_parts_end(&run, &error) &&

@@ -76,7 +76,7 @@ static bool make_plan(plan_run *run, gis_error *error)
     return !taken || compare_with_former(run, error);
 }
 
-static void print(const plan_run *run)
+static void print_plan(const plan_run *run)
 {
     if (run->quiet) return;
     if (run->there) {
@@ -98,7 +98,7 @@ int gis_command_plan(const gis_options *options)
     ok = ok && (access(run.directory, F_OK) == 0 ? compare_with_former(&run, &error) : make_plan(&run, &error));
     if (ok) {
         gis_progress_done(&progress);
-        print(&run);
+        print_plan(&run);
     }
     const int status = ok ? GIS_DONE : gis_say_failure(&error);
     gis_shard_run_clear(&run.parts);

@@ -38,7 +38,7 @@ static const gis_option *option_of(const char *name)
 
 /* Returns the value of the option with relative paths made absolute; NULL if out of memory. The caller frees it with
  * CPLFree(). */
-static char *absolute(const gis_option *option, const char *value)
+static char *absolute_value(const gis_option *option, const char *value)
 {
     switch (option ? option->type : GIS_TYPE_TEXT) {
     case GIS_TYPE_BARRIERS: return gis_plan_absolute_barrier(value);
@@ -53,7 +53,7 @@ bool gis_planned_arguments(const gis_options *options, gis_plan *plan, gis_error
     gis_call call = {0};
     bool done = gis_call_list_of(options, is_planned, &call, error);
     for (size_t k = 0; k < call.n && done; k++) {
-        char *value = absolute(option_of(call.option[k].name), call.option[k].value);
+        char *value = absolute_value(option_of(call.option[k].name), call.option[k].value);
         done = gis_plan_add_argument(plan, call.option[k].name, *value ? value : NULL, error);
         CPLFree(value);
     }

@@ -36,7 +36,7 @@ static bool open_sink(route_run *run, gis_error *error)
            gis_sink_open(&request, run->input.source ? run->input.source : run->input.robot_source, &run->sink, error);
 }
 
-static bool find(route_run *run, gis_error *error)
+static bool find_route(route_run *run, gis_error *error)
 {
     sunder_error why;
     gis_progress progress = gis_resolve_progress(run->options);
@@ -115,7 +115,7 @@ static bool write_layers(route_run *run, gis_error *error)
     return true;
 }
 
-static bool report(route_run *run, bool taken, gis_error *error)
+static bool report_route(route_run *run, bool taken, gis_error *error)
 {
     gis_json text = {0};
     bool ok = (!run->sink || write_layers(run, error)) && json_route(&text, run, error) &&
@@ -134,7 +134,7 @@ int gis_command_route(const gis_options *options)
     bool taken,
         ok = gis_destinations_check(&run.to, &taken, &error) && gis_resolve_route(options, &run.request, &error) &&
              gis_route_input_read(&run.request, &run.input, &error) && (!run.to.output || open_sink(&run, &error));
-    ok = ok && find(&run, &error) && report(&run, taken, &error);
+    ok = ok && find_route(&run, &error) && report_route(&run, taken, &error);
     int status = ok ? gis_complete_status(options, run.reason[0] != '\0') : gis_say_failure(&error);
     gis_sink_free(run.sink);
     sunder_route_free(run.route);

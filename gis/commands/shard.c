@@ -31,7 +31,7 @@ static void json_shard(gis_json *out, const shard_run *run)
     gis_json_raw(out, "\n");
 }
 
-static bool print(const void *done, gis_error *error)
+static bool print_shard(const void *done, gis_error *error)
 {
     const shard_run *run = done;
     (void)error; /* an error of stdio is found when stdout is flushed */
@@ -42,11 +42,12 @@ static bool print(const void *done, gis_error *error)
     return true;
 }
 
-static bool deliver(const shard_run *run, const gis_destinations *to, bool taken, gis_error *error)
+static bool deliver_shard(const shard_run *run, const gis_destinations *to, bool taken, gis_error *error)
 {
     gis_json stats = {0};
     if (to->stats) json_shard(&stats, run);
-    const gis_delivery delivery = {.to = to, .stats = &stats, .print = taken || run->quiet ? NULL : print, .run = run};
+    const gis_delivery delivery = {
+        .to = to, .stats = &stats, .print = taken || run->quiet ? NULL : print_shard, .run = run};
     const bool done = gis_deliver(&delivery, error);
     gis_json_clear(&stats);
     return done;
@@ -54,7 +55,7 @@ static bool deliver(const shard_run *run, const gis_destinations *to, bool taken
 
 /* Sets run->there if the shard is done already. An unusable file of it causes a warning; the shard is then made
  * again. */
-static bool look(shard_run *run, const gis_shard_run *parts, uint64_t stamp, gis_error *error)
+static bool find_state(shard_run *run, const gis_shard_run *parts, uint64_t stamp, gis_error *error)
 {
     gis_shard_state state;
     gis_error why;
@@ -64,7 +65,7 @@ static bool look(shard_run *run, const gis_shard_run *parts, uint64_t stamp, gis
     return true;
 }
 
-static bool work(shard_run *run, const gis_planned *planned, gis_progress *progress, gis_error *error)
+static bool separate_shard(shard_run *run, const gis_planned *planned, gis_progress *progress, gis_error *error)
 {
     const gis_plan *plan = &planned->plan;
     gis_layer_input_request request = {0};
@@ -73,7 +74,7 @@ static bool work(shard_run *run, const gis_planned *planned, gis_progress *progr
         gis_resolve_layer(&planned->options, &request, error) &&
         gis_planned_rules(&planned->options, &request.rules, error) &&
         gis_shard_run_resume(&request, run->directory, &plan->facts, plan->shards, plan->memory, &parts, error) &&
-        gis_plan_check(plan, &parts, false, error) && look(run, &parts, plan->stamp, error) &&
+        gis_plan_check(plan, &parts, false, error) && find_state(run, &parts, plan->stamp, error) &&
         (run->there || gis_shard_run_separate(&parts, run->k, plan->stamp, progress, error));
     gis_shard_run_clear(&parts);
     gis_layer_input_request_clear(&request);
@@ -96,9 +97,9 @@ int gis_command_shard(const gis_options *options)
         ok = gis_fail_usage(&error, "--shard %.0f: the shards of %s are 1 to %u", k, run.directory, run.shards);
     if (ok) run.k = (unsigned)k;
     gis_progress_stage(&progress, 0, 1);
-    ok = ok && work(&run, &planned, &progress, &error);
+    ok = ok && separate_shard(&run, &planned, &progress, &error);
     if (ok) gis_progress_done(&progress);
-    ok = ok && deliver(&run, &to, taken, &error);
+    ok = ok && deliver_shard(&run, &to, taken, &error);
     gis_planned_clear(&planned);
     return ok ? GIS_DONE : gis_say_failure(&error);
 }

@@ -19,7 +19,7 @@ static const char *const group_titles[GIS_N_GROUPS] = {
 
 /* Writes "--gap LENGTH" to `text`, with the other spellings and the default if `spellings` is true. Returns the length
  * of the text. */
-static size_t describe(const gis_option *option, bool spellings, char *text, size_t size)
+static size_t describe_option(const gis_option *option, bool spellings, char *text, size_t size)
 {
     size_t n = strcspn(option->names, " ");
     const char *joint = option->type == GIS_TYPE_OPTIONAL ? "[=" : " ";
@@ -44,7 +44,7 @@ static void print_own(unsigned command)
         const gis_option *option = &gis_option_table[i];
         if (option->group > GIS_GROUP_IDENTITY || !(option->commands & command)) continue;
         char name[256];
-        describe(option, false, name, sizeof name);
+        describe_option(option, false, name, sizeof name);
         printf("  %-*s %s", HELP_COLUMN - 3, name, option->help);
         if (option->fallback) printf(" [%s]", option->fallback);
         printf("\n");
@@ -58,7 +58,7 @@ static void print_packed(unsigned command, gis_option_group group)
         const gis_option *option = &gis_option_table[i];
         if (option->group != group || !(option->commands & command)) continue;
         char name[256];
-        size_t length = describe(option, true, name, sizeof name);
+        size_t length = describe_option(option, true, name, sizeof name);
         if (column && column + 2 + length > (size_t)SCREEN_WIDTH) {
             printf(",\n");
             column = 0;

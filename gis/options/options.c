@@ -55,7 +55,7 @@ static const gis_option *find_option(unsigned command, const char *word, size_t 
 /* The length of the first spelling, which is the name of the option in messages. */
 static int name_length(const gis_option *option) { return (int)strcspn(option->names, " "); }
 
-static bool push(gis_options *out, gis_option_id id, const char *value, gis_error *error)
+static bool push_value(gis_options *out, gis_option_id id, const char *value, gis_error *error)
 {
     size_t n = 0;
     while (out->list[id] && out->list[id][n]) n++;
@@ -67,7 +67,7 @@ static bool push(gis_options *out, gis_option_id id, const char *value, gis_erro
     return true;
 }
 
-static bool join(gis_options *out, const char *key, const char *value, const char **joined, gis_error *error)
+static bool join_pair(gis_options *out, const char *key, const char *value, const char **joined, gis_error *error)
 {
     char **owned = realloc(out->owned, (out->n_owned + 1) * sizeof *owned);
     if (!owned) return gis_no_memory(error);
@@ -154,13 +154,13 @@ static bool set_value(const gis_option *option, arguments *in, const char *value
     case GIS_TYPE_FLAG: return true;
     case GIS_TYPE_BARRIERS:
     case GIS_TYPE_FORMATS:
-    case GIS_TYPE_SETTINGS: return push(out, id, value, error);
+    case GIS_TYPE_SETTINGS: return push_value(out, id, value, error);
     case GIS_TYPE_PAIRS:
         if (!strchr(value, '=')) {
             if (in->next >= in->count) return gis_fail_usage(error, "%.*s %s: expected K=V", n, option->names, value);
-            if (!join(out, value, in->word[in->next++], &value, error)) return false;
+            if (!join_pair(out, value, in->word[in->next++], &value, error)) return false;
         }
-        return push(out, id, value, error);
+        return push_value(out, id, value, error);
     case GIS_TYPE_BOX: return read_box(in, value, out->box, error);
     case GIS_TYPE_COUNT: return read_count(option, value, &out->number[id], error);
     case GIS_TYPE_NUMBER: return read_number(option, value, &out->number[id], error);
@@ -188,7 +188,7 @@ static bool set_value(const gis_option *option, arguments *in, const char *value
     return true;
 }
 
-static size_t dashes(const char *word, size_t n)
+static size_t count_dashes(const char *word, size_t n)
 {
     size_t count = strspn(word, "-");
     return count < n ? count : n;
@@ -199,13 +199,13 @@ static size_t dashes(const char *word, size_t n)
 static bool unknown_option(const gis_command *command, const char *word, size_t n, gis_error *error)
 {
     const gis_option *elsewhere = find_option(GIS_EVERY, word, n);
-    gis_spelling search = gis_spelling_of(word + dashes(word, n), n - dashes(word, n));
+    gis_spelling search = gis_spelling_of(word + count_dashes(word, n), n - count_dashes(word, n));
     const char *spelling = NULL;
     for (int i = 0; i < OPT_N; i++) {
         const gis_option *option = &gis_option_table[i];
         if (!(option->commands & command->bit)) continue;
         for (const char *c = option->names; *c; c += strspn(c, " ")) {
-            size_t length = strcspn(c, " "), skip = dashes(c, length);
+            size_t length = strcspn(c, " "), skip = count_dashes(c, length);
             const char *before = search.best;
             gis_spelling_offer(&search, c + skip, length - skip);
             if (search.best != before) spelling = c;
@@ -257,7 +257,7 @@ static bool check_shard(const gis_options *out, gis_error *error)
 }
 
 /* Sets the defaults of choices and checks the conditions between options and operands. */
-static bool finish(gis_options *out, gis_error *error)
+static bool finish_options(gis_options *out, gis_error *error)
 {
     const gis_command *command = out->command;
     for (int i = 0; i < OPT_N; i++) {
@@ -311,5 +311,5 @@ bool gis_options_parse(const gis_command *command, int argc, char **argv, gis_op
             out->operand[out->n_operands++] = word;
         }
     }
-    return finish(out, error);
+    return finish_options(out, error);
 }

@@ -30,7 +30,7 @@ void gis_corners_clear(gis_corners *corners)
     *corners = (gis_corners){0};
 }
 
-static bool reserve(gis_corners *corners, size_t n, gis_error *error)
+static bool reserve_corners(gis_corners *corners, size_t n, gis_error *error)
 {
     return gis_array_reserve(&corners->xy, &corners->capacity, 2 * n, sizeof *corners->xy) || gis_no_memory(error);
 }
@@ -39,7 +39,7 @@ static bool reserve(gis_corners *corners, size_t n, gis_error *error)
 
 /* Returns the signed distance of `at` from side k of the box (0 to 3: minimum x, minimum y, maximum x, maximum y); it
  * is positive inside. */
-static double inside(const double *at, const double box[4], int k)
+static double distance_inside(const double *at, const double box[4], int k)
 {
     return k < 2 ? at[k] - box[k] : box[k] - at[k - 2];
 }
@@ -51,7 +51,7 @@ static size_t cut_by_side(const double *from, size_t n, const double box[4], int
     size_t m = 0;
     for (size_t i = 0; i < n; i++) {
         const double *a = from + 2 * (i ? i - 1 : n - 1), *b = from + 2 * i;
-        double in_a = inside(a, box, k), in_b = inside(b, box, k);
+        double in_a = distance_inside(a, box, k), in_b = distance_inside(b, box, k);
         if ((in_a < 0) != (in_b < 0)) {
             double part = in_a / (in_a - in_b);
             to[2 * m] = a[0] + part * (b[0] - a[0]);
@@ -74,15 +74,15 @@ static bool cut_ring(const gis_picture *picture, const double *ring, size_t n, c
     const double width = picture->width, height = picture->height;
     const double box[4] = {-0.1 * width, -0.1 * height, 1.1 * width, 1.1 * height};
     bool outside = false;
-    if (!reserve(scratch, n, error)) return false;
+    if (!reserve_corners(scratch, n, error)) return false;
     for (size_t i = 0; i < n; i++) {
         double *at = scratch->xy + 2 * i;
         gis_picture_place(picture, ring[2 * i] + move[0], ring[2 * i + 1] + move[1], at);
-        for (int k = 0; k < 4; k++) outside = outside || inside(at, box, k) < 0;
+        for (int k = 0; k < 4; k++) outside = outside || distance_inside(at, box, k) < 0;
     }
     scratch->n = n;
     for (int k = 0; outside && k < 4; k++) {
-        if (!reserve(scratch, 3 * scratch->n, error)) return false;
+        if (!reserve_corners(scratch, 3 * scratch->n, error)) return false;
         double *cut = scratch->xy + 2 * scratch->n;
         size_t m = cut_by_side(scratch->xy, scratch->n, box, k, cut);
         memmove(scratch->xy, cut, 2 * m * sizeof *cut);
@@ -135,7 +135,7 @@ static bool may_be_seen(const gis_picture *picture, const double a[2], const dou
 
 /* Rounds a coordinate to an integer and limits it to +-1e8: a point farther away only determines the direction of a
  * line. */
-static long whole(double value)
+static long whole_units(double value)
 {
     const double most = 1e8;
     return lround(fmax(-most, fmin(most, value)));
@@ -149,8 +149,8 @@ void gis_picture_add_line(const gis_picture *picture, const double *xy, size_t n
         gis_picture_place(picture, xy[2 * i], xy[2 * i + 1], at);
         if (i == 0) memcpy(last, at, sizeof at);
         bool seen = (i > 0 || n == 1) && may_be_seen(picture, last, at);
-        long dx = whole(at[0]) - whole(last[0]), dy = whole(at[1]) - whole(last[1]);
-        if (seen && !open) gis_text_print(to, "M%ld %ldl", whole(last[0]), whole(last[1]));
+        long dx = whole_units(at[0]) - whole_units(last[0]), dy = whole_units(at[1]) - whole_units(last[1]);
+        if (seen && !open) gis_text_print(to, "M%ld %ldl", whole_units(last[0]), whole_units(last[1]));
         if (seen && (!open || dx || dy)) gis_text_print(to, "%ld %ld ", dx, dy);
         open = seen;
         memcpy(last, at, sizeof at);
@@ -168,7 +168,7 @@ static double squared_distance(const double *p, const double *a, const double *b
 
 /* Returns the vertex between `first` and `last` that is farthest from the segment between these two, and the square of
  * its distance; n stands for vertex 0. Returns `first` if all distances are 0. */
-static size_t farthest(const double *xy, size_t n, size_t first, size_t last, double *distance)
+static size_t farthest_corner(const double *xy, size_t n, size_t first, size_t last, double *distance)
 {
     size_t best = first;
     *distance = 0;
@@ -190,7 +190,7 @@ static void keep_between(const double *xy, size_t n, size_t first, size_t last, 
     size_t depth = 0;
     for (;;) {
         double distance;
-        size_t middle = farthest(xy, n, first, last, &distance);
+        size_t middle = farthest_corner(xy, n, first, last, &distance);
         if (distance > tolerance * tolerance) {
             keep[middle] = true;
             stack[depth++] = last;
@@ -229,13 +229,14 @@ static void keep_line(const double *xy, size_t n, double tolerance, bool *keep, 
     keep_between(xy, n, 0, n - 1, tolerance, keep, stack);
 }
 
-static bool simplify(gis_corners *corners, const double *xy, size_t n, double tolerance, bool closed, gis_error *error)
+static bool simplify_corners(gis_corners *corners, const double *xy, size_t n, double tolerance, bool closed,
+                             gis_error *error)
 {
     corners->n = 0;
     if (n == 0) return true;
     bool *keep = calloc(n, sizeof *keep);
     size_t *stack = malloc((n + 1) * sizeof *stack);
-    bool ok = (keep && stack && reserve(corners, n, error)) || gis_no_memory(error);
+    bool ok = (keep && stack && reserve_corners(corners, n, error)) || gis_no_memory(error);
     if (ok) {
         (closed ? keep_ring : keep_line)(xy, n, tolerance, keep, stack);
         for (size_t i = 0; i < n; i++)
@@ -249,10 +250,10 @@ static bool simplify(gis_corners *corners, const double *xy, size_t n, double to
 
 bool gis_corners_simplify(gis_corners *corners, const double *xy, size_t n, double tolerance, gis_error *error)
 {
-    return simplify(corners, xy, n, tolerance, true, error);
+    return simplify_corners(corners, xy, n, tolerance, true, error);
 }
 
 bool gis_corners_simplify_line(gis_corners *corners, const double *xy, size_t n, double tolerance, gis_error *error)
 {
-    return simplify(corners, xy, n, tolerance, false, error);
+    return simplify_corners(corners, xy, n, tolerance, false, error);
 }

@@ -54,7 +54,7 @@ static void add_integer(gis_text *to, long long value)
 
 /* Converts a coordinate to steps from the minimum of the box. The operands are halved since the extent may exceed the
  * range of doubles. */
-static long long steps(const data_writer *writer, double value, int axis)
+static long long coordinate_steps(const data_writer *writer, double value, int axis)
 {
     return llround((value / 2 - writer->model->extent[axis] / 2) / (writer->step / 2));
 }
@@ -63,7 +63,7 @@ static long long length_steps(const data_writer *writer, double value) { return 
 
 static void add_corner(data_writer *writer, double x, double y)
 {
-    const long long at[2] = {steps(writer, x, 0), steps(writer, y, 1)};
+    const long long at[2] = {coordinate_steps(writer, x, 0), coordinate_steps(writer, y, 1)};
     for (int k = 0; k < 2; k++) {
         add_integer(writer->to, at[k] - writer->last[k]);
         writer->last[k] = at[k];

@@ -45,8 +45,8 @@ static const struct {
     {"colophon", NULL, gis_page_colophon},
 };
 
-static bool fill(const char *name, size_t n, const gis_page_model *model, const gis_thinning *thinning, gis_text *to,
-                 gis_error *error)
+static bool fill_slot(const char *name, size_t n, const gis_page_model *model, const gis_thinning *thinning,
+                      gis_text *to, gis_error *error)
 {
     for (size_t k = 0; k < sizeof slots / sizeof *slots; k++) {
         if (strlen(slots[k].name) != n || memcmp(slots[k].name, name, n) != 0) continue;
@@ -63,7 +63,7 @@ static bool fill_all(const gis_page_model *model, const gis_thinning *thinning, 
     for (const char *slot; (slot = strstr(rest, "{{")) != NULL;) {
         const char *name = slot + 2, *end = strstr(name, "}}");
         gis_text_add_bytes(to, rest, (size_t)(slot - rest));
-        if (!end || !fill(name, (size_t)(end - name), model, thinning, to, error)) return false;
+        if (!end || !fill_slot(name, (size_t)(end - name), model, thinning, to, error)) return false;
         rest = end + 2;
     }
     gis_text_add(to, rest);

@@ -87,20 +87,20 @@ bool gis_page_geometry(const gis_page_model *model, const gis_view_barrier *barr
 
 /* ---- Sorting ----------------------------------------------------------------------------------------------------- */
 
-static int descending(double a, double b) { return (a < b) - (a > b); }
+static int compare_descending(double a, double b) { return (a < b) - (a > b); }
 
 static int worse_first(const void *left, const void *right)
 {
     const sunder_conflict *a = *(const sunder_conflict *const *)left, *b = *(const sunder_conflict *const *)right;
     int order = (a->reason == SUNDER_REASON_KEPT) - (b->reason == SUNDER_REASON_KEPT);
-    if (!order) order = descending(a->depth, b->depth);
-    if (!order) order = descending(a->required - a->distance, b->required - b->distance);
+    if (!order) order = compare_descending(a->depth, b->depth);
+    if (!order) order = compare_descending(a->required - a->distance, b->required - b->distance);
     if (!order) order = (a->a > b->a) - (a->a < b->a);
     return order ? order : (a->b > b->b) - (a->b < b->b);
 }
 
 /* Marks a feature as involved in a conflict; barriers, whose numbers follow those of the features, are not marked. */
-static void involve(gis_page_model *model, size_t thing)
+static void mark_involved(gis_page_model *model, size_t thing)
 {
     if (thing < model->n) model->feature[thing].involved = true;
 }
@@ -117,9 +117,9 @@ static bool take_conflicts(gis_page_model *model, gis_error *error)
         const sunder_conflict *each = &conflicts[k];
         if (each->inside_block) continue;
         model->conflict[model->n_conflicts++] = each;
-        involve(model, each->a);
-        involve(model, each->b);
-        for (size_t i = 0; i < each->n_blocked_by; i++) involve(model, each->blocked_by[i]);
+        mark_involved(model, each->a);
+        mark_involved(model, each->b);
+        for (size_t i = 0; i < each->n_blocked_by; i++) mark_involved(model, each->blocked_by[i]);
     }
     qsort(model->conflict, model->n_conflicts, sizeof *model->conflict, worse_first);
     return true;
@@ -133,7 +133,7 @@ typedef struct move_order {
 static int longer_first(const void *left, const void *right)
 {
     const move_order *a = left, *b = right;
-    int order = descending(a->length, b->length);
+    int order = compare_descending(a->length, b->length);
     return order ? order : (a->feature > b->feature) - (a->feature < b->feature);
 }
 
@@ -162,7 +162,7 @@ static bool take_moves(gis_page_model *model, gis_error *error)
 static const double aspect = 4.0 / 3.0, margin = 0.45;
 enum { CONFLICT_PLACES = 8 };
 
-static void frame(const double box[4], double window[4])
+static void frame_box(const double box[4], double window[4])
 {
     double width = box[2] - box[0], height = box[3] - box[1], x = box[0] / 2 + box[2] / 2, y = box[1] / 2 + box[3] / 2;
     double half = fmax(width, height * aspect) / 2 * (1 + 2 * margin);
@@ -202,7 +202,7 @@ static void conflict_window(const gis_page_model *model, const sunder_conflict *
     double reach = fmax(fmin(size_of(a->box), size_of(b->box)), 2 * fmax(conflict->required, conflict->depth));
     add_near(box, a, about, reach);
     add_near(box, b, about, reach);
-    frame(box, window);
+    frame_box(box, window);
 }
 
 static void move_window(const gis_view_feature *feature, double window[4])
@@ -210,7 +210,7 @@ static void move_window(const gis_view_feature *feature, double window[4])
     double box[4];
     gis_page_box(feature, 1, box);
     gis_box_join(box, feature->box);
-    frame(box, window);
+    frame_box(box, window);
 }
 
 /* Returns the place in [first, end) whose window contains the centre of `window`; NULL if none does. */

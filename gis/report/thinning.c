@@ -90,7 +90,7 @@ static void draw_whole(room *map, size_t i)
     map->thinning->whole++;
 }
 
-static bool fill(room *map, gis_error *error)
+static bool choose_whole(room *map, gis_error *error)
 {
     const gis_page_model *model = map->model;
     bool *marked = calloc((size_t)CELLS * CELLS, sizeof *marked);
@@ -134,7 +134,7 @@ static bool simpler_bytes(const gis_page_model *model, size_t i, double toleranc
 
 /* Simplifies the features that are not drawn completely with the tolerance of the thinning; *bytes becomes the sum of
  * their estimated sizes. */
-static bool thin(const gis_page_model *model, gis_thinning *thinning, double *bytes, gis_error *error)
+static bool simplify_rest(const gis_page_model *model, gis_thinning *thinning, double *bytes, gis_error *error)
 {
     gis_corners scratch = {0};
     bool ok = true;
@@ -154,17 +154,17 @@ static bool thin(const gis_page_model *model, gis_thinning *thinning, double *by
     return ok;
 }
 
-static bool choose(const gis_page_model *model, gis_thinning *thinning, gis_error *error)
+static bool choose_features(const gis_page_model *model, gis_thinning *thinning, gis_error *error)
 {
     double all = 0, bytes;
     for (size_t i = 0; i < model->n; i++)
         if (model->feature[i].vertices) all += whole_bytes(&model->feature[i]);
     room map = {model, thinning, 0, all <= most_bytes ? most_bytes : most_whole * most_bytes, false};
-    if (!fill(&map, error)) return false;
+    if (!choose_whole(&map, error)) return false;
     if (!map.full) return true;
     double size = fmax(model->extent[2] - model->extent[0], model->extent[3] - model->extent[1]);
     for (thinning->tolerance = size / 0x1p14;; thinning->tolerance *= 2) {
-        if (!thin(model, thinning, &bytes, error)) return false;
+        if (!simplify_rest(model, thinning, &bytes, error)) return false;
         if (map.taken + bytes <= most_bytes) return true;
     }
 }
@@ -216,7 +216,7 @@ bool gis_thinning_choose(const gis_page_model *model, gis_thinning *thinning, gi
 {
     *thinning = (gis_thinning){.drawn = calloc(model->n + 1, 1)};
     if (!thinning->drawn) return gis_no_memory(error);
-    return model->empty || (choose(model, thinning, error) && choose_barriers(model, thinning, error));
+    return model->empty || (choose_features(model, thinning, error) && choose_barriers(model, thinning, error));
 }
 
 void gis_thinning_clear(gis_thinning *thinning)

@@ -35,7 +35,7 @@ static bool add_layer(route_writer *w, const char *suffix, OGRwkbGeometryType ty
     return gis_sink_add(w->sink, &request, layer, error);
 }
 
-static bool vertex(route_writer *w, size_t i, double xy[2], gis_error *error)
+static bool route_vertex(route_writer *w, size_t i, double xy[2], gis_error *error)
 {
     const char *text[2];
     sunder_route_vertex(w->route, i, xy);
@@ -55,7 +55,7 @@ static bool write_legs(route_writer *w, gis_error *error)
     if (!add_layer(w, "", wkbLineString, fields, 2, &layer, error)) return false;
     for (size_t i = 0; i + 1 < sunder_route_vertices(w->route); i++) {
         double from[2], to[2];
-        if (!vertex(w, i, from, error) || !vertex(w, i + 1, to, error)) return false;
+        if (!route_vertex(w, i, from, error) || !route_vertex(w, i + 1, to, error)) return false;
         const gis_value values[] = {{GIS_INTEGER, {.integer = (GIntBig)i + 1}},
                                     {GIS_REAL, {.real = hypot(to[0] - from[0], to[1] - from[1])}}};
         OGRGeometryH line = gis_geometry_line(from, to);
@@ -117,7 +117,7 @@ static void grow_box(double box[4], const double xy[2])
 static const double margins_across = 10;
 
 /* Sets `box` to the box of obstacles and route with a margin, limited to the range of doubles. */
-static void frame(const route_writer *w, const gis_polygons *obstacles, double box[4])
+static void frame_route(const route_writer *w, const gis_polygons *obstacles, double box[4])
 {
     box[0] = box[1] = INFINITY;
     box[2] = box[3] = -INFINITY;
@@ -184,7 +184,7 @@ static bool write_spaces(route_writer *w, gis_error *error)
     gis_sink_layer *layer;
     bool ok = gis_round_sum(sunder_route_obstacles(w->route), &rounded, error);
     if (ok) {
-        frame(w, &rounded.set, box);
+        frame_route(w, &rounded.set, box);
         ok = free_space(&rounded.set, box, &open, error) &&
              add_layer(w, "obstacles", wkbPolygon, NULL, 0, &layer, error) &&
              gis_write_polygons(layer, &rounded.set, NULL, error) &&

@@ -19,7 +19,7 @@ typedef struct map_run {
 
 static gis_value covered_by(uint32_t n) { return (gis_value){.kind = GIS_INTEGER, .as.integer = (GIntBig)n}; }
 
-static const double *vertex(const map_run *run, uint32_t half)
+static const double *half_edge_vertex(const map_run *run, uint32_t half)
 {
     return run->xy + 2 * (size_t)sunder_map_origin(run->map, half);
 }
@@ -47,7 +47,7 @@ static bool append_ring(map_run *run, uint32_t start, gis_error *error)
     size_t first = run->face.vertices;
     uint32_t half = start;
     do {
-        const double *xy = vertex(run, half);
+        const double *xy = half_edge_vertex(run, half);
         const double *last = run->face.vertices > first ? run->face.xy + 2 * (run->face.vertices - 1) : NULL;
         if ((!last || last[0] != xy[0] || last[1] != xy[1]) && !gis_polygons_vertex(&run->face, xy[0], xy[1], error))
             return false;
@@ -74,7 +74,7 @@ static uint32_t first_side(const map_run *run, uint32_t start)
 {
     uint32_t best = SUNDER_NOWHERE, half = start;
     do {
-        const double *a = vertex(run, half), *b = best == SUNDER_NOWHERE ? NULL : vertex(run, best);
+        const double *a = half_edge_vertex(run, half), *b = best == SUNDER_NOWHERE ? NULL : half_edge_vertex(run, best);
         if (is_side(run->map, half) && (!b || a[0] < b[0] || (a[0] == b[0] && a[1] < b[1]))) best = half;
         half = sunder_map_next(run->map, half);
     } while (half != start);
@@ -116,7 +116,7 @@ static bool write_edges(gis_sink_layer *layer, map_run *run, gis_error *error)
 {
     for (uint32_t e = 0; e < sunder_map_edges(run->map); e++) {
         gis_value value = covered_by(sunder_map_edge_covered(run->map, e));
-        OGRGeometryH line = gis_geometry_line(vertex(run, 2 * e), vertex(run, 2 * e + 1));
+        OGRGeometryH line = gis_geometry_line(half_edge_vertex(run, 2 * e), half_edge_vertex(run, 2 * e + 1));
         if (!line) return gis_no_memory(error);
         if (!gis_sink_write(layer, NULL, line, &value, error)) return false;
     }
