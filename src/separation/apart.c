@@ -1,8 +1,9 @@
-/* Are two sets the gap apart: are their interiors disjoint, and is no point of one nearer than the gap to the other?
+/* apart.c: tests whether two sets keep the gap: their interiors are disjoint, and no two points of them are closer than
+ * the gap.
  *
- * Once the interiors are known to be disjoint the least distance is one of two boundary edges, and as no two of them
- * cross properly it is that of an end of one from the other. Doubles settle all pairs of edges but those whose distance
- * is the gap to within the error; these are compared exactly, on a lattice that holds the gap, too. */
+ * If the interiors are disjoint, the distance of the sets is that of two boundary edges, and since no two edges cross
+ * properly, that of an end of one edge from the other. Doubles decide all pairs of edges except those whose distance
+ * equals the gap to within the error; these are compared exactly, on a lattice that contains the gap, too. */
 #include "separation/separation.h"
 
 #include "separation/operands/pair_operands.h"
@@ -11,7 +12,8 @@
 
 #include <math.h>
 
-/* The boundary edges of one operand near the other, by their tails. */
+/* Returns the boundary edges of one operand that may be within `reach` of the other, as the numbers of their first
+ * vertices; NULL if out of memory. */
 static uint32_t *edges_near(sunder_i_operands *g, int side, double reach, uint32_t *n)
 {
     const sunder_shape *s = g->shape[side];
@@ -28,7 +30,8 @@ static uint32_t *edges_near(sunder_i_operands *g, int side, double reach, uint32
 
 typedef enum nearness { FAR, NEAR, IN_DOUBT } nearness;
 
-/* Is a point of edge i of P nearer than `units` to one of edge j of Q? The interiors are disjoint. In doubles. */
+/* Returns whether edge i of P and edge j of Q are closer than `units` lattice units, in doubles. The interiors of P and
+ * Q are disjoint. */
 static nearness edges_near_each_other(const sunder_i_operands *g, uint32_t i, uint32_t j, double units)
 {
     const uint32_t in = g->shape[0]->form->cleaned.next[i], jn = g->shape[1]->form->cleaned.next[j];
@@ -38,8 +41,8 @@ static nearness edges_near_each_other(const sunder_i_operands *g, uint32_t i, ui
     sunder_i_box_of_segment(a, b, ab);
     sunder_i_box_of_segment(c, d, cd);
     if (!sunder_i_box_near(ab, cd, reach)) return FAR;
-    /* With disjoint interiors no two edges cross properly, so the least distance is at an end; with coordinates off by
-     * at most the error it is off by less than 8 times that. */
+    /* With disjoint interiors no two edges cross properly, so that the least distance is at an end of an edge. The
+     * coordinates have at most the error g->error, hence the distance has an error of less than 8 times that. */
     const double square = sunder_i_min(sunder_i_min(sunder_i_point_square(a, c, d), sunder_i_point_square(b, c, d)),
                                        sunder_i_min(sunder_i_point_square(c, a, b), sunder_i_point_square(d, a, b)));
     const double distance = sqrt(square);
@@ -60,7 +63,8 @@ static bool exactly_touch(sunder_i_operands *g, uint32_t i, uint32_t j)
            SUNDER_I_APART;
 }
 
-/* Is any edge of P nearer than the gap to one of Q? Without `gap` (on the lattice) in doubles, and perhaps in doubt. */
+/* Returns whether an edge of P is closer to one of Q than the gap. With `gap` (in lattice units) the result is exact;
+ * with NULL it is computed in doubles and may be IN_DOUBT. */
 static nearness any_near(sunder_i_operands *g, double units, const int64_t *gap)
 {
     uint32_t m, n;
@@ -79,14 +83,15 @@ static nearness any_near(sunder_i_operands *g, double units, const int64_t *gap)
     return worst;
 }
 
-/* The interiors are disjoint: are they nearer than the length? */
+/* Returns whether P and Q, whose interiors are disjoint, are closer than `length` (in the caller's units), in
+ * doubles. */
 static nearness roughly_near(sunder_i_operands *g, double length)
 {
     const double units = length / g->unit;
     return units >= 0 && units < 0x1p500 && (units > 0 || length == 0) ? any_near(g, units, NULL) : IN_DOUBT;
 }
 
-/* The interiors are disjoint: has an edge of P a point in common with one of Q? */
+/* Returns whether an edge of P and one of Q have a common point; exact. The interiors are disjoint. */
 static nearness any_touch(sunder_i_operands *g)
 {
     uint32_t m, n;
@@ -99,7 +104,7 @@ static nearness any_touch(sunder_i_operands *g)
     return FAR;
 }
 
-/* With the gap on the lattice, which may have to be a finer one for it. */
+/* Tests the gap exactly, on a lattice that contains the gap; it may be finer than that of the shapes alone. */
 static sunder_status exactly_apart(const sunder_shape *p, const sunder_shape *q,
                                    const sunder_i_operands_options *options, const double gap[2], bool *apart,
                                    sunder_error *err)
@@ -123,7 +128,7 @@ static sunder_status exactly_apart(const sunder_shape *p, const sunder_shape *q,
 sunder_status sunder_i_apart_by(const sunder_shape *p, const double tp[2], const sunder_shape *q, const double tq[2],
                                 const double gap[2], bool *apart, sunder_error *err)
 {
-    /* What the low part adds to doubles is within their doubt. */
+    /* the low part of the gap is less than the error of comparisons in doubles */
     const double most = gap[1] > 0 ? nextafter(gap[0], INFINITY) : gap[0];
     if (p->pieces == 0 || q->pieces == 0 || sunder_i_boxes_apart(p, tp, q, tq, most) ||
         sunder_i_surely_apart(p, tp, q, tq, most)) {
@@ -146,7 +151,7 @@ sunder_status sunder_i_apart_by(const sunder_shape *p, const double tp[2], const
 sunder_status sunder_i_meet(const sunder_shape *p, const double tp[2], const sunder_shape *q, const double tq[2],
                             double gap, double tolerance, sunder_i_encounter *out, sunder_error *err)
 {
-    /* Boxes that only touch prove nothing. */
+    /* shapes whose boxes only touch may touch */
     const double far = sunder_i_max(sunder_i_max(gap, tolerance), 0x1p-1074);
     *out = (sunder_i_encounter){.apart = true};
     if (p->pieces == 0 || q->pieces == 0 || sunder_i_boxes_apart(p, tp, q, tq, far)) return SUNDER_OK;

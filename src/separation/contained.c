@@ -1,10 +1,11 @@
-/* Does one set lie in another, both closed?
+/* contained.c: tests whether a closed set lies in another.
  *
- * P lies in Q exactly when no piece C of P has interior outside Q. If some piece has, then int C either misses Q
- * altogether or meets the boundary of Q along a stretch of positive length, since every part of the boundary of a
- * closed set that is the closure of its interior has length. So P lies in Q if every C overlaps a piece of Q, and along
- * every boundary edge of a member of Q, within C, other pieces cover the side that is not the member's own (members may
- * overlap and touch). "Almost everywhere" suffices, so closed intervals on the edge decide. */
+ * P lies in Q exactly if no convex piece C of P has interior points outside Q. If C has some, then the interior of C is
+ * either disjoint from Q, or it contains a part of the boundary of Q of positive length, since each part of the
+ * boundary of a set that is the closure of its interior has positive length. Hence P lies in Q if each C overlaps a
+ * piece of Q and, along each boundary edge of a polygon of Q, inside C, other pieces of Q cover the outer side of the
+ * edge (polygons may overlap and touch). It is enough that this holds except at finitely many points, so that closed
+ * intervals on the edge decide. */
 #include "separation/separation.h"
 
 #include "base/invariant.h"
@@ -14,9 +15,9 @@ typedef struct interval {
     sunder_i_fraction low, high;
 } interval;
 
-/* The part of the segment ab (t in [0, 1]) in piece i of operand `side`; false if it has no length. Along a side of it
- * the interior may lie on the right of ab (`right` true: counts) or on its left (does not), and is not met at all if
- * `right` is false. */
+/* Computes the part of the segment ab (t in [0, 1]) in piece i of operand `side`; returns false if it has no length. If
+ * the segment runs along a side of the piece, it counts only if `right` is true and the interior of the piece is on the
+ * right of ab. */
 static bool clip(sunder_i_operands *g, sunder_i_point a, sunder_i_point b, int side, uint32_t i, bool right,
                  interval *out)
 {
@@ -31,8 +32,8 @@ static bool clip(sunder_i_operands *g, sunder_i_point a, sunder_i_point b, int s
         const int turn = sunder_i_cross_sign(l, s, d);
         if (turn == 0) {
             const int where = sunder_i_orient(l, u, v, a);
-            /* On the line of the side: the convex set is on the side's left, so on the right of ab if they run
-             * opposite. */
+            /* The segment lies on the line of the side. The piece is on the left of the side, hence on the right of ab
+             * if the two directions are opposite. */
             if (where < 0 || (where == 0 && !(right && sunder_i_dot_sign(l, s, d) < 0))) return false;
             continue;
         }
@@ -46,11 +47,11 @@ static bool clip(sunder_i_operands *g, sunder_i_point a, sunder_i_point b, int s
     return sunder_i_fraction_cmp(l, &out->low, &out->high) < 0;
 }
 
-/* Do the n closed intervals, in any order, cover *want but for points? */
+/* Returns whether the n closed intervals, in any order, cover *want except for finitely many points. */
 static bool intervals_cover(sunder_i_lattice *l, interval *v, uint32_t n, const interval *want)
 {
     sunder_i_fraction reached = want->low;
-    /* While one begins at or before what is reached and ends past it, go on from its end; n is small. */
+    /* Extends the covered part to the end of an interval that begins in it, while there is one; n is small. */
     bool grew = true;
     while (grew && sunder_i_fraction_cmp(l, &reached, &want->high) < 0) {
         grew = false;
@@ -64,7 +65,7 @@ static bool intervals_cover(sunder_i_lattice *l, interval *v, uint32_t n, const 
     return sunder_i_fraction_cmp(l, &reached, &want->high) >= 0;
 }
 
-/* Is the right side of edge e of Q, as far as it runs inside piece i of P, in Q? */
+/* Returns whether the right side of edge e of Q, inside piece i of P, belongs to Q. */
 static bool edge_harmless(sunder_i_operands *g, uint32_t i, uint32_t e, interval *buffer)
 {
     const sunder_shape *q = g->shape[1];

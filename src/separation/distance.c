@@ -1,4 +1,4 @@
-/* The distance of two sets, to about an ulp, and a shortest link. */
+/* distance.c: the distance of two sets, to about one ulp, and a shortest segment between them. */
 #include "separation/separation.h"
 
 #include "separation/operands/pair_operands.h"
@@ -6,15 +6,15 @@
 #include <math.h>
 
 typedef struct link {
-    double square; /* units, squared */
-    uint32_t i, j; /* edges of P and Q, by their tails */
+    double square; /* the squared distance, in squared lattice units */
+    uint32_t i, j; /* the edges of P and Q, by their first vertices */
 } link;
 
 typedef struct vector {
     double x, y;
 } vector;
 
-/* Differences are taken on the lattice, where nothing cancels, and only then rounded. */
+/* Returns to - from. The difference is computed on the lattice without cancellation and then rounded. */
 static vector between(sunder_i_operands *g, sunder_i_point to, sunder_i_point from)
 {
     sunder_i_lattice *l = &g->placed.lattice;
@@ -27,8 +27,8 @@ static vector between(sunder_i_operands *g, sunder_i_point to, sunder_i_point fr
     return d;
 }
 
-/* From p to the nearest point of the segment ab, and which point that is. The foot's distance comes from the exact
- * cross product over the length. */
+/* Returns the squared distance of p from the segment ab; a + *t (b - a) is the nearest point. The distance from an
+ * inner point of the segment is the exact cross product divided by the length. */
 static double to_segment(sunder_i_operands *g, sunder_i_point p, sunder_i_point a, sunder_i_point b, double *t)
 {
     sunder_i_lattice *l = &g->placed.lattice;
@@ -44,7 +44,8 @@ static double to_segment(sunder_i_operands *g, sunder_i_point p, sunder_i_point 
     return cross * cross / square;
 }
 
-/* The least over the four ends; *which says which: 0 a, 1 b (ends of P's edge), 2 c, 3 d. */
+/* Returns the squared distance of edge i of P from edge j of Q, the least over their four ends. *which is the end: 0 or
+ * 1 of P's edge, 2 or 3 of Q's; *t is the parameter of the nearest point on the other edge. */
 static double edge_square(sunder_i_operands *g, uint32_t i, uint32_t j, int *which, double *t)
 {
     const sunder_i_point a = g->at[0][i], b = g->at[0][g->shape[0]->form->cleaned.next[i]];
@@ -75,8 +76,8 @@ static double box_square(const double *a, const double *b, const double *c, cons
     return square;
 }
 
-/* Of two edges as near as each other the one that comes first counts: so the answer does not depend on the order of
- * the search. */
+/* Replaces *best if the edges i and j are closer, or equally close and first in order, so that the answer does not
+ * depend on the order of the search. */
 static void offer(sunder_i_operands *g, uint32_t i, uint32_t j, link *best)
 {
     int which;
@@ -86,7 +87,8 @@ static void offer(sunder_i_operands *g, uint32_t i, uint32_t j, link *best)
         *best = (link){square, i, j};
 }
 
-/* Compares edges from .. to - 1 of P with edges first .. last - 1 of Q, which all lie in `box`; updates *best. */
+/* Compares the edges from .. to - 1 of P with the edges first .. last - 1 of Q, all of which lie in `box`; updates
+ * *best. */
 static void compare_edges(sunder_i_operands *g, uint32_t from, uint32_t to, uint32_t first, uint32_t last,
                           const double box[4], link *best)
 {
@@ -103,10 +105,10 @@ static void compare_edges(sunder_i_operands *g, uint32_t from, uint32_t to, uint
     }
 }
 
-#define BLOCK 16         /* consecutive edges under one box */
-#define BLOCKS_FROM 4096 /* with fewer pairs of edges blocks do not pay */
+#define BLOCK 16         /* the number of consecutive edges that share a box */
+#define BLOCKS_FROM 4096 /* with fewer pairs of edges, boxes of blocks are not worth computing */
 
-/* The boxes of the blocks of one operand; NULL if memory is out. */
+/* Returns the boxes of the blocks of one operand; NULL if out of memory. */
 static double (*block_boxes(sunder_i_operands *g, int side, uint32_t blocks))[4]
 {
     const sunder_shape *s = g->shape[side];
@@ -139,7 +141,8 @@ static void compare_two(sunder_i_operands *g, const blocks *p, uint32_t i, const
     compare_edges(g, i * BLOCK, block_end(p, i), j * BLOCK, block_end(q, j), q->box[j], best);
 }
 
-/* The two blocks whose boxes are nearest come first: then most of the others need no second look. */
+/* Compares the two blocks with the closest boxes first, so that most other pairs of blocks are excluded by their
+ * boxes. */
 static void compare_blocks(sunder_i_operands *g, link *best)
 {
     blocks p = {.edges = g->shape[0]->vertices}, q = {.edges = g->shape[1]->vertices};
@@ -181,7 +184,7 @@ static link nearest_edges(sunder_i_operands *g)
     return best;
 }
 
-/* A coordinate in the caller's units again. */
+/* Converts a point from lattice units to the caller's units. */
 static vector outside(sunder_i_operands *g, vector v)
 {
     return (vector){v.x * g->unit + g->placed.origin_p[0] + g->base[0],
@@ -207,7 +210,8 @@ static void link_ends(sunder_i_operands *g, const link *k, double on_p[2], doubl
     on_q[1] = b.y;
 }
 
-/* A point of both pieces i and j: the middle of what is left of P's, clipped by the sides of Q's in doubles. */
+/* Returns a point of both pieces i of P and j of Q: the mean of the vertices of their intersection, computed in
+ * doubles. `buffer` has room for two polygons. */
 static vector common_point(sunder_i_operands *g, uint32_t i, uint32_t j, vector *buffer)
 {
     const sunder_i_operand_piece p = sunder_i_operands_piece(g, 0, i), q = sunder_i_operands_piece(g, 1, j);
@@ -226,7 +230,7 @@ static vector common_point(sunder_i_operands *g, uint32_t i, uint32_t j, vector 
             if ((s > 0 && t < 0) || (s < 0 && t > 0))
                 then[kept++] = (vector){u.x + (v.x - u.x) * (s / (s - t)), u.y + (v.y - u.y) * (s / (s - t))};
         }
-        if (kept == 0) break; /* thinner than the doubles can tell: what was left is near enough */
+        if (kept == 0) break; /* the intersection is thinner than the errors; the previous polygon is close enough */
         vector *swap = now;
         now = then;
         then = swap;
@@ -275,7 +279,7 @@ sunder_status sunder_i_distance(const sunder_shape *p, const double tp[2], const
         const link k = nearest_edges(&g);
         sunder_i_lattice *l = &g.placed.lattice;
         d = sqrt(k.square) * g.unit;
-        /* Zero exactly where they touch. */
+        /* the distance is 0 exactly if the sets touch */
         if (sunder_i_segments_meet(l, g.at[0][k.i], g.at[0][p->form->cleaned.next[k.i]], g.at[1][k.j],
                                    g.at[1][q->form->cleaned.next[k.j]]) != SUNDER_I_APART)
             d = 0;

@@ -1,5 +1,5 @@
-/* Which least translation of Q parts it from P? The box test first; then the search without a gap, where touching is
- * apart, or that with one. */
+/* least_translation.c: computes the least translation of Q that separates it from P. The boxes are tested first; then
+ * follows the search without a gap, where contact is allowed, or the search with a gap. */
 #include "separation/least_translation.h"
 #include "base/invariant.h"
 #include "separation/gap/gap.h"

@@ -1,4 +1,4 @@
-/* Do the interiors of two sets meet? */
+/* overlap.c: tests whether the interiors of two sets meet. */
 #include "separation/separation.h"
 
 #include "separation/operands/pair_operands.h"

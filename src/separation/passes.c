@@ -1,11 +1,11 @@
-/* Does a point on its straight path meet a set? And does the set hold it at the start?
+/* passes.c: tests whether a point on its straight path meets a set, and whether the set contains the start of the path.
  *
- * A closed set that does not hold the start of the path is met exactly when one of its boundary edges is. So the edges
- * whose boxes meet the path's box are tested (predicate/passage.c, in doubles first). Only if one is met is the start
- * tested: against the convex pieces, closed, since these cover the set and share their diagonals.
+ * A closed set that does not contain the start of the path is met exactly if one of its boundary edges is. So the edges
+ * whose boxes meet the path's box are tested (predicate/passage.c, first in doubles). Only if one is met is the start
+ * tested against the closed convex pieces, whose union is the set.
  *
- * Corners that are not doubles (those of a repaired shape) become rational points, and all tests of the set are done in
- * big integers then. */
+ * Vertices that are not doubles (those of a repaired shape) become rational points, and all tests of the set are then
+ * done in big integers. */
 #include "separation/separation.h"
 
 #include "predicate/rational_point.h"
@@ -22,7 +22,7 @@ static bool box_holds(const double box[4], const double at[2])
     return box[0] <= at[0] && at[0] <= box[2] && box[1] <= at[1] && at[1] <= box[3];
 }
 
-/* ---- Corners in doubles ------------------------------------------------------------------------------------------ */
+/* ---- Vertices in doubles ----------------------------------------------------------------------------------------- */
 
 static bool holds_doubles(const sunder_shape *p, const double at[2])
 {
@@ -52,9 +52,9 @@ static bool meets_doubles(const sunder_i_passage *way, const double way_box[4], 
     return false;
 }
 
-/* ---- Rational corners -------------------------------------------------------------------------------------------- */
+/* ---- Rational vertices ------------------------------------------------------------------------------------------- */
 
-/* The shape's corners, and the way's two ends, in units of one power of two. */
+/* The vertices of the shape and the two ends of the path, in one unit, a power of two. */
 typedef struct rationals {
     sunder_i_arena arena;
     sunder_i_rational_point *corner, from, to;
@@ -82,7 +82,7 @@ static sunder_i_rational_point put_corner(sunder_i_arena *arena, const sunder_sh
                                      e->den};
 }
 
-/* No unit of a coordinate of vertex v is lower, nor than unit. */
+/* Returns the lower one of `unit` and the exponents of the lowest bits of the coordinates of vertex v. */
 static long lower_unit(const sunder_shape *p, uint32_t v, long unit)
 {
     if (p->form->numbers->exact[v].den.size)
@@ -94,7 +94,7 @@ static long lower_unit(const sunder_shape *p, uint32_t v, long unit)
     return unit;
 }
 
-/* Vertex i of the n vertices listed in `which`, or of all. */
+/* Returns vertex i of those listed in `which`; NULL: of all vertices. */
 static uint32_t asked(const uint32_t *which, uint32_t i) { return which ? which[i] : i; }
 
 static bool put(rationals *r, const sunder_i_passage *way, const sunder_shape *p, const uint32_t *which, uint32_t n)
@@ -148,7 +148,7 @@ static bool share_coordinates(const void *context)
     return true;
 }
 
-/* The edge from corner c to corner d, as they were put. */
+/* Returns whether the path meets the edge from vertex c to vertex d, as numbered in r->corner. */
 static bool meets_edge(rationals *r, uint32_t c, uint32_t d)
 {
     const meeting m = {r, c, d};
@@ -170,7 +170,8 @@ static bool meets_rational(rationals *r, const sunder_shape *p)
     return false;
 }
 
-/* Held, or met without being held; the other is not asked for. */
+/* Sets *holds to whether the shape contains the start of the path; or, if holds is NULL, *passes to whether the path
+ * meets the shape but does not start in it. */
 static sunder_status ask_rational(const sunder_i_passage *way, const sunder_shape *p, bool *holds, bool *passes,
                                   sunder_error *err)
 {
@@ -185,7 +186,7 @@ static sunder_status ask_rational(const sunder_i_passage *way, const sunder_shap
     return SUNDER_OK;
 }
 
-/* ---- Either ------------------------------------------------------------------------------------------------------ */
+/* ---- The tests --------------------------------------------------------------------------------------------------- */
 
 sunder_status sunder_i_holds(const sunder_shape *p, const double point[2], bool *holds, sunder_error *err)
 {

@@ -1,6 +1,7 @@
-/* Are two sets surely farther apart than a length? Looks for a line that separates them by more than all rounding:
- * between two convex sets that are apart there is one along an edge of either, or nearly. This settles most pairs with
- * neighbouring boxes at a tenth of the cost of an exact answer; for all others the result is "not known". */
+/* surely_apart.c: tests whether the distance of two sets certainly exceeds a length. It looks for a line that separates
+ * them by more than all rounding errors: for disjoint convex sets there is one parallel to an edge of either, or nearly
+ * so. This decides most pairs with neighbouring boxes at a tenth of the cost of an exact answer; for all others the
+ * result is "unknown". */
 #include "separation/separation.h"
 
 #include "shape/shape.h"
@@ -9,13 +10,13 @@
 
 #include <math.h>
 
-/* Sets with more corners are better tested piece by piece. */
+/* Sets with more vertices are better tested piece by piece. */
 #define MOST_CORNERS 24
-/* Squares of shorter edges are lost below all doubles. */
+/* The squares of shorter edges are below the range of doubles. */
 #define SHORTEST 0x1p-450
 
-/* Corners from the lower left of P's box, in doubles. Each went through two differences and a sum, of numbers no larger
- * than `size` in sum, so it is off by less than 2^-51 of that. */
+/* Vertices relative to the lower left corner of P's box, in doubles. Each results from a difference and a sum of
+ * numbers whose absolute sum is at most `size`, hence its error is less than 2^-51 of `size`. */
 typedef struct corners {
     double xy[2 * MOST_CORNERS];
     uint32_t n;
@@ -34,8 +35,8 @@ static double place(const sunder_shape *s, const double t[2], const double origi
     return size;
 }
 
-/* How far Q's corners lie beyond all of P's in direction n, of any length: the least of the one, less the most of the
- * other. */
+/* Returns how far Q lies beyond P in direction n, of any length: the least product of n with Q's vertices, less the
+ * largest with P's. */
 static double beyond(const corners *p, const corners *q, const double n[2])
 {
     double most = -INFINITY, least = INFINITY;
@@ -50,10 +51,10 @@ static double beyond(const corners *p, const corners *q, const double n[2])
     return least - most;
 }
 
-/* Tests the edges of one set that face the other; their middles tell the direction. A product of n with a corner is off
- * by |n| (in the sum of its coordinates) times the corner's error and 2^-51 of its size, so the difference of two by
- * twice 2^-50 of that. The difference itself rounds by less than once more. The length of n and the required distance
- * are off by 2^-50 of themselves. */
+/* Tests the edges of shape s as normals of separating lines; `way`, the difference of the centres, determines their
+ * direction. A product of n with a vertex has an error of |n| (the sum of its absolute coordinates) times the vertex's
+ * error, plus 2^-51 of its size, so that the difference of two has twice 2^-50 of that, and its own rounding is less
+ * than that once more. The length of n and the required distance have relative errors of 2^-50. */
 static bool parts_along(const sunder_shape *s, const corners *at, const corners *p, const corners *q,
                         const double way[2], double far, double size)
 {
@@ -78,7 +79,7 @@ bool sunder_i_surely_apart(const sunder_shape *p, const double tp[2], const sund
     if (p->rational || q->rational || p->vertices > MOST_CORNERS || q->vertices > MOST_CORNERS) return false;
     corners at_p, at_q;
     const double of_p = place(p, s, origin, &at_p), of_q = place(q, t, origin, &at_q), size = sunder_i_max(of_p, of_q);
-    /* No product comes near the greatest double; underflow is negligible beside the doubt. */
+    /* no product comes near the greatest double; underflow is negligible compared with the doubt */
     if (!(size < 0x1p400 && size > 0x1p-400 && far < 0x1p400)) return false;
     const double way[2] = {(q->box[0] - p->box[0]) + (q->box[2] - p->box[2]) + 2 * (t[0] - s[0]),
                            (q->box[1] - p->box[1]) + (q->box[3] - p->box[3]) + 2 * (t[1] - s[1])};

@@ -1,5 +1,5 @@
-/* Do two lengths suffice to part a pair? By the squared length of the least translation, which is rational, as are the
- * lengths; what rounds them by a bit would leave open what misses by that. */
+/* within.c: tests whether two lengths suffice to separate a pair, by the squared length of the least translation, which
+ * is rational, as the lengths are. Rounded numbers would leave cases open that differ by one bit. */
 #include "separation/separation.h"
 
 #include "number/ratio.h"

@@ -1,8 +1,8 @@
-/* Does a pair stand worse than it stood? Exactly.
+/* worsened.c: tests exactly whether a pair of shapes is worse than before.
  *
- * How ill a pair stands is measured by the squared distance or, where interiors meet, by the squared length of the
- * least translation that parts them; to be disjoint is better than to meet. Both are rational. Doubles decide where
- * they differ by more than they can be off; else the rationals are compared. */
+ * The measure is the squared distance or, if the interiors meet, the squared length of the least translation that
+ * separates them; disjoint interiors are better than overlapping ones. Both numbers are rational. Doubles decide if
+ * they differ by more than their errors; else the rational numbers are compared. */
 #include "separation/separation.h"
 
 #include "predicate/rational_point.h"
@@ -28,9 +28,9 @@ static bool is_less(sunder_i_arena *a, const square *p, const square *q)
     return sunder_i_ratio_cmp(a, u, v) < 0;
 }
 
-/* ---- Disjoint: distances ---- */
+/* ---- Disjoint pairs: distances ---- */
 
-/* The squared distance of vertex v of one operand from an edge of the other, exactly. */
+/* Returns the exact squared distance of vertex v of one operand from an edge of the other. */
 static square end_square(sunder_i_operands *g, int side, uint32_t v, uint32_t edge)
 {
     sunder_i_lattice *l = &g->placed.lattice;
@@ -45,7 +45,7 @@ static square end_square(sunder_i_operands *g, int side, uint32_t v, uint32_t ed
     const bool beyond_a = sunder_i_big_sign(sunder_i_rational_dot(m, u, e)) > 0;
     const bool beyond_b = beyond_a && sunder_i_big_sign(sunder_i_rational_dot(m, w, e)) >= 0;
     if (beyond_a && !beyond_b) {
-        /* e's own denominator drops out. */
+        /* the denominator of e cancels */
         const sunder_i_big cross = sunder_i_rational_cross(m, e, u);
         const sunder_i_big den = sunder_i_big_mul(m, sunder_i_rational_dot(m, e, e), sunder_i_big_mul(m, u.w, u.w));
         return (square){{sunder_i_big_mul(m, cross, cross), den}, 2 * l->exponent};
@@ -54,9 +54,10 @@ static square end_square(sunder_i_operands *g, int side, uint32_t v, uint32_t ed
     return (square){{sunder_i_rational_dot(m, *d, *d), sunder_i_big_mul(m, d->w, d->w)}, 2 * l->exponent};
 }
 
-/* All ends against all edges: the least distance in doubles first, then exactly for those that may be the least. A
- * coordinate in doubles is off by g->error at most. With u = 2^-53 and coordinates of at most M, the foot of the
- * perpendicular is off by less than 16 u M besides, and a distance by at most 8 g->error + 32 u M. */
+/* Returns the least squared distance of all vertices from all edges of the other operand: the least distance in doubles
+ * first, then exact ones for those that may be the least. A coordinate in doubles has an error of at most g->error.
+ * With u = 2^-53 and coordinates of at most M, the foot of the perpendicular has a further error below 16 u M, and a
+ * distance one of at most 8 g->error + 32 u M. */
 static square least_square(sunder_i_operands *g)
 {
     double least = INFINITY;
@@ -80,7 +81,7 @@ static square least_square(sunder_i_operands *g)
     return best;
 }
 
-/* No coordinate of the pair is larger. */
+/* Returns an upper bound of the coordinates of the pair. */
 static double size_of(const sunder_i_pair *pair)
 {
     double size = 0, box[4];
@@ -100,7 +101,8 @@ static sunder_status compare_distances(const sunder_i_pair *was, const sunder_i_
     if (!status) status = sunder_i_distance(is->p, is->tp, is->q, is->tq, &now, on, on + 2, err);
     if (status) return status;
     *worse = now < before;
-    /* Each is right to some ulps of the coordinates: on a wide lattice the cross product that it comes from cancels. */
+    /* each distance is accurate to some ulps of the coordinates; on a wide lattice the cross product has
+     * cancellation */
     if (fabs(now - before) > 0x1p-40 * (now + before + size_of(was) + size_of(is))) return SUNDER_OK;
     sunder_i_operands g, h;
     status =
@@ -117,7 +119,7 @@ static sunder_status compare_distances(const sunder_i_pair *was, const sunder_i_
     return status;
 }
 
-/* ---- In each other: least translations ---- */
+/* ---- Overlapping pairs: least translations ---- */
 
 static sunder_status compare_texts(const char *was, const char *is, bool *worse, sunder_error *err)
 {
@@ -133,8 +135,9 @@ static sunder_status compare_texts(const char *was, const char *is, bool *worse,
 
 static double at(const double *t, int c) { return t ? t[c] : 0; }
 
-/* Is the least translation surely no longer now? What took them apart then, less what they have moved since, takes them
- * apart: that is enough where it is shorter by more than doubles can be off, whose sums of five terms these are. */
+/* Returns whether the least translation is certainly not longer than before. The translation that separated the pair
+ * then, minus the change of position since, separates it now; if it is shorter by more than the error of these sums of
+ * five terms, that is sufficient. */
 static bool is_surely_no_deeper(const sunder_i_depth *d, const sunder_i_pair *was, const sunder_i_pair *is)
 {
     double left[2], size = 0;
@@ -147,7 +150,8 @@ static bool is_surely_no_deeper(const sunder_i_depth *d, const sunder_i_pair *wa
     return hypot(left[0], left[1]) + 0x1p-47 * size < d->least;
 }
 
-/* No farther than what doubles of the lengths may tell apart from that one. */
+/* The factor of the length up to which a translation is computed: beyond it, doubles of the lengths certainly
+ * differ. */
 #define BARELY (1 + 0x1p-20)
 
 static sunder_status compare_exactly(const sunder_i_pair *was, const sunder_separation *now, bool *worse,
@@ -171,7 +175,7 @@ static sunder_status compare_lengths(const sunder_i_pair *was, const sunder_i_de
     sunder_status status = sunder_i_least(is->p, is->q, &o, &now, worse, err);
     if (status) return status;
     if (!*worse && now.distance != d->distance) {
-        *worse = now.distance > d->distance; /* nearest doubles of the true lengths keep their order */
+        *worse = now.distance > d->distance; /* the nearest doubles of the exact lengths have the same order */
     } else if (!*worse) {
         status = compare_exactly(was, &now, worse, err);
     }
@@ -179,7 +183,7 @@ static sunder_status compare_lengths(const sunder_i_pair *was, const sunder_i_de
     return status;
 }
 
-/* ---- How it stood ------------------------------------------------------------------------------------------------ */
+/* ---- The state before ------------------------------------------------------------------------------------------- */
 
 static sunder_status find_depth(const sunder_i_pair *was, sunder_i_depth *d, sunder_error *err)
 {
@@ -200,7 +204,7 @@ static sunder_status find_depth(const sunder_i_pair *was, sunder_i_depth *d, sun
     return SUNDER_OK;
 }
 
-/* ---- The question ------------------------------------------------------------------------------------------------ */
+/* ---- The test ---------------------------------------------------------------------------------------------------- */
 
 sunder_status sunder_i_pair_worsened_since(const sunder_i_pair *was, sunder_i_depth *depth, const sunder_i_pair *is,
                                            bool *worse, sunder_error *err)

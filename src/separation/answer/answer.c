@@ -1,7 +1,7 @@
-/* Exact vectors as nearest doubles, and doubles as exact vectors.
+/* answer.c: converts exact vectors to the nearest doubles, and doubles to exact vectors.
  *
- * A coordinate is num / den * 2^e, and is rounded once; a length is the root of such a number (root.c). Small numbers
- * take a shorter way, in machine arithmetic, which gives the same or says that it cannot. */
+ * A coordinate is num / den * 2^e and is rounded once; a length is the square root of such a number (root.c). Small
+ * numbers are first tried in machine arithmetic, which returns the same result or fails. */
 #include "separation/answer/answer.h"
 
 #include "separation/answer/root.h"
@@ -43,13 +43,14 @@ sunder_i_rational_point sunder_i_exact_translation_point(sunder_i_operands *oper
 
 /* ---- Doubles ---- */
 
-/* num / den * 2^exponent where all is small enough for one correctly rounded division; false where it is not. */
+/* *out becomes num / den * 2^exponent, correctly rounded, by one division of doubles. Returns false if a number is too
+ * large for that. */
 static bool quick_ratio(sunder_i_i128 num, sunder_i_i128 den, long exponent, double *out)
 {
     const sunder_i_i128 most = (sunder_i_i128)1 << 53;
     if (num > most || num < -most || den > most || exponent < -800 || exponent > 800) return false;
     *out = (double)(int64_t)num / (double)(int64_t)den * sunder_i_power_of_two(exponent);
-    return true; /* the quotient lies between 2^-53 and 2^53: scaling is exact */
+    return true; /* the quotient is 0 or between 2^-53 and 2^53 in absolute value: scaling is exact */
 }
 
 void sunder_i_answer_numbers(sunder_i_operands *operands, const sunder_i_exact_translation *v, sunder_separation *out)
@@ -65,9 +66,9 @@ void sunder_i_answer_numbers(sunder_i_operands *operands, const sunder_i_exact_t
     sunder_i_root(&l->arena, sunder_i_rational_dot(&l->arena, big, big), big.w, e, &out->distance, &out->lower_bound);
 }
 
-/* ---- Doubles as vectors ---- */
+/* ---- Doubles as exact vectors ---- */
 
-/* The double v as num / 2^bits lattice units. */
+/* Returns the integer num and sets *bits such that the double v is num / 2^bits lattice units. */
 static sunder_i_big in_units(sunder_i_lattice *l, double v, unsigned long *bits)
 {
     int e;
@@ -96,7 +97,7 @@ bool sunder_i_answer_exact(sunder_i_operands *operands, const sunder_i_exact_tra
     sunder_i_lattice *l = &operands->placed.lattice;
     if (!isfinite(dx) || !isfinite(dy)) return false;
     if (v->small && l->exponent > -400 && l->exponent < 400) {
-        /* A product with one rounding, against an integer that a double holds. */
+        /* fma() rounds the product and difference once, hence it is 0 exactly if the two are equal */
         const sunder_i_i128 most = (sunder_i_i128)1 << 53;
         const double w = (double)(int64_t)v->w;
         if (v->w < most && v->x < most && v->x > -most && v->y < most && v->y > -most) {
@@ -114,12 +115,12 @@ bool sunder_i_answer_exact(sunder_i_operands *operands, const sunder_i_exact_tra
     return true;
 }
 
-/* ---- Nothing to do, or too much ---- */
+/* ---- Answers without a search ---- */
 
 void sunder_separation_clear(sunder_separation *separation)
 {
     if (!separation) return;
-    sunder_i_free(separation->dx_text); /* the others stand behind it */
+    sunder_i_free(separation->dx_text); /* the block that also holds the other two texts */
     separation->dx_text = separation->dy_text = separation->distance_squared_text = NULL;
 }
 

@@ -1,49 +1,50 @@
-/* Options of a least translation; and the step from an exact vector on the lattice to the caller's form: nearest
- * doubles and texts. */
+/* answer.h: the options of a least translation, and the conversion of an exact vector on the lattice to the caller's
+ * form: the nearest doubles, and texts. */
 #ifndef SUNDER_I_ANSWER_H
 #define SUNDER_I_ANSWER_H
 
 #include "separation/operands/pair_operands.h"
 
 typedef struct sunder_i_least_options {
-    const double *tp, *tq;          /* exact translations, or NULL */
+    const double *tp, *tq;          /* exact translations of P and of Q; NULL: none */
     double gap;                     /* >= 0, finite */
-    double upper;                   /* a length past which the answer no longer matters; INFINITY for none */
-    bool texts;                     /* make the three texts */
-    bool bound_only;                /* wanted are overlap and lower_bound; dx and dy need not be free */
+    double upper;                   /* a length beyond which the answer is not needed; INFINITY: no limit */
+    bool texts;                     /* set the three texts of the answer */
+    bool bound_only;                /* only overlap and lower_bound are needed; (dx, dy) need not separate the
+                                     * operands */
     bool force_wide, force_squares; /* for tests */
 } sunder_i_least_options;
 
-/* Nothing has to move; the answer lies beyond the upper limit. */
+/* The answer if nothing has to move; and the answer if the least translation is longer than `upper`. */
 sunder_status sunder_i_stay(bool texts, sunder_separation *out, sunder_error *err);
 void sunder_i_too_far(double upper, sunder_separation *out, bool *beyond);
 
-/* (x / w, y / w) lattice units, w > 0: as 128-bit integers where they fit (`small`: |x|, |y|, w < 2^63), else as big
- * ones. */
+/* The vector (x / w, y / w) in lattice units, w > 0: 128-bit integers if `small` (|x|, |y|, w < 2^63), else the big
+ * integers of `big`. */
 typedef struct sunder_i_exact_translation {
     bool small;
     sunder_i_i128 x, y, w;
     sunder_i_rational_point big;
 } sunder_i_exact_translation;
 
-/* Is it `small`? */
+/* Returns whether the point's x, y and w are below 2^63 in absolute value. */
 bool sunder_i_hpoint_is_short(const sunder_i_hpoint *point);
 sunder_i_exact_translation sunder_i_exact_translation_of(sunder_i_operands *operands, const sunder_i_hpoint *point);
-/* As big integers. */
+/* Returns the vector with big integers. */
 sunder_i_rational_point sunder_i_exact_translation_point(sunder_i_operands *operands,
                                                          const sunder_i_exact_translation *v);
 
-/* dx, dy, distance: the nearest doubles; lower_bound: the distance rounded down. */
+/* Sets dx, dy and distance to the nearest doubles, and lower_bound to the distance rounded down. */
 void sunder_i_answer_numbers(sunder_i_operands *operands, const sunder_i_exact_translation *v, sunder_separation *out);
 
-/* The three texts; on failure none is left. */
+/* Sets the three texts; on failure all are NULL. */
 sunder_status sunder_i_answer_texts(sunder_i_operands *operands, const sunder_i_exact_translation *v,
                                     sunder_separation *out, sunder_error *err);
 
-/* (dx, dy) in lattice units, exactly. */
+/* Returns (dx, dy), in the caller's units, as an exact vector in lattice units. */
 sunder_i_rational_point sunder_i_doubles_point(sunder_i_operands *operands, double dx, double dy);
 
-/* Are out->dx and out->dy exactly the vector? */
+/* Returns whether (dx, dy) is exactly the vector v. */
 bool sunder_i_answer_exact(sunder_i_operands *operands, const sunder_i_exact_translation *v, double dx, double dy);
 
 #endif

@@ -1,17 +1,18 @@
-/* Exact vectors as texts: fractions in lowest terms, in the caller's units. Numbers of up to 127 bits are reduced and
- * written in machine arithmetic, others by sunder_i_big_ratio_text(). All three texts stand in one block, which begins
- * with that of dx (sunder_separation_clear()). */
+/* answer_texts.c: writes exact vectors as fractions in lowest terms, in the caller's units. Numbers of up to 127 bits
+ * are reduced and written in machine arithmetic, others by sunder_i_big_ratio_text(). The three texts are in one block
+ * of memory, which begins with that of dx (sunder_separation_clear()). */
 #include "separation/answer/answer.h"
 
 #include <string.h>
 
-#define LONGEST (2 * 39 + 3 + 7) /* a sign, two numbers below 2^127, a stroke, the end; 7 are written over in front */
+#define LONGEST                                                                                                        \
+    (2 * 39 + 3 + 7) /* a sign, two numbers below 2^127, a slash and NUL; up to 7 bytes before the text are
+                                  * overwritten */
 
-/* ---- Short fractions, written from their ends backwards ---- */
+/* ---- Short fractions, written from the end backwards ---- */
 
-/* The eight decimal digits of v, below 10^8, as a word whose lowest byte is the first digit: halved again and again,
- * all parts of a word at a time. The quotients are exact: n 10486 / 2^20 for n below 10^4, n 103 / 2^10 for n below
- * 100. */
+/* Returns the eight decimal digits of v < 10^8, one in each byte; the lowest byte is the first digit. Each step halves
+ * all parts of the word at once. The quotients are exact: n 10486 / 2^20 for n < 10^4, and n 103 / 2^10 for n < 100. */
 static inline uint64_t eight_digits(uint64_t v)
 {
     const uint64_t fours = v / 10000 | v % 10000 << 32;
@@ -21,7 +22,7 @@ static inline uint64_t eight_digits(uint64_t v)
     return tens | (twos - 10 * tens) << 8;
 }
 
-/* Writes them, the first of them first. */
+/* Writes the digits as characters, the first digit first. */
 static inline void put_word(char *at, uint64_t digits)
 {
     digits |= 0x3030303030303030;
@@ -31,15 +32,15 @@ static inline void put_word(char *at, uint64_t digits)
     memcpy(at, &digits, sizeof digits);
 }
 
-/* Writes the decimal digits of v, below 10^19, before `end`, at least `least` of them; returns the first
- * digit. Up to seven bytes before it are overwritten. */
+/* Writes the decimal digits of v < 10^19 so that they end before `end`, padded with zeros to at least `least` digits;
+ * returns the address of the first digit. Up to seven bytes before it are overwritten. */
 static char *put_low_digits(char *end, uint64_t v, int least)
 {
     char *at = end;
     for (; v >= 100000000; v /= 100000000) put_word(at -= 8, eight_digits(v % 100000000));
     const uint64_t last = eight_digits(v);
     put_word(at - 8, last);
-    at -= 8 - __builtin_ctzll(last | (uint64_t)1 << 56) / 8; /* without zeros in front, but for the only digit */
+    at -= 8 - __builtin_ctzll(last | (uint64_t)1 << 56) / 8; /* skips leading zeros, but not the only digit */
     while (end - at < least) *--at = '0';
     return at;
 }
@@ -51,8 +52,8 @@ static char *put_digits(char *end, sunder_i_u128 v)
     return put_low_digits(end, (uint64_t)v, 1);
 }
 
-/* num / den * 2^exponent, both odd and without a common divisor (num may be 0), before `end`; NULL if that is not
- * short. */
+/* Writes num / den * 2^exponent so that it ends before `end`, and returns its beginning. num and den are odd and have
+ * no common divisor (num may be 0). Returns NULL if a number has more than 127 bits. */
 static char *put_fraction(char *end, bool negative, sunder_i_u128 num, sunder_i_u128 den, long exponent)
 {
     if (num == 0) {
@@ -73,7 +74,7 @@ static char *put_fraction(char *end, bool negative, sunder_i_u128 num, sunder_i_
     return end;
 }
 
-/* Takes the factors of two out of v, not 0; how many. */
+/* Divides v, which is not 0, by the largest power of two that divides it, and returns the exponent. */
 static long take_twos(sunder_i_u128 *v)
 {
     const unsigned twos = sunder_i_u128_twos(*v);
@@ -81,7 +82,7 @@ static long take_twos(sunder_i_u128 *v)
     return (long)twos;
 }
 
-/* Divides both, which are odd, by what they have in common. */
+/* Divides two odd numbers by their greatest common divisor. */
 static void reduce(sunder_i_u128 *num, sunder_i_u128 *den)
 {
     if (*den == 1) return;
@@ -100,8 +101,9 @@ static char *put_coordinate(char *end, sunder_i_i128 c, sunder_i_i128 w, long ex
     return put_fraction(end, c < 0, num, den, exponent);
 }
 
-/* (x^2 + y^2) / w^2. What the numerator has in common with w is taken out twice, which leaves nothing: of a prime that
- * divides it a times and w b times, min(a, b) and then min(a - min(a, b), b) are min(a, 2 b). */
+/* Writes (x^2 + y^2) / w^2 in lowest terms. The common divisor with w is removed twice, which is enough: if a prime
+ * divides the numerator a times and w b times, it is removed min(a, b) and then min(a - min(a, b), b) times, together
+ * min(a, 2 b). */
 static char *put_norm(char *end, sunder_i_i128 x, sunder_i_i128 y, sunder_i_i128 w, long exponent)
 {
     sunder_i_u128 num = (sunder_i_u128)(x * x) + (sunder_i_u128)(y * y), den[2] = {(sunder_i_u128)w, (sunder_i_u128)w};
@@ -113,9 +115,9 @@ static char *put_norm(char *end, sunder_i_i128 x, sunder_i_i128 y, sunder_i_i128
     return put_fraction(end, false, num, den[0] * den[1], exponent);
 }
 
-/* ---- All three ---- */
+/* ---- The three texts ---- */
 
-/* The texts, the first two of known length, from a block that holds them one after the other. */
+/* Sets the texts to the three strings in `block`; `dx` and `dy` are the sizes of the first two, with NUL. */
 static void point_into(char *block, size_t dx, size_t dy, sunder_separation *out)
 {
     out->dx_text = block;
@@ -123,7 +125,8 @@ static void point_into(char *block, size_t dx, size_t dy, sunder_separation *out
     out->distance_squared_text = block + dx + dy;
 }
 
-/* False if one of them is not short. What cannot be had for want of memory is NULL. */
+/* Returns false if a number is too long for machine arithmetic. If out of memory it returns true and the texts stay
+ * NULL. */
 static bool short_texts(sunder_i_operands *g, const sunder_i_exact_translation *v, sunder_separation *out)
 {
     if (!v->small) return false;
@@ -141,7 +144,7 @@ static bool short_texts(sunder_i_operands *g, const sunder_i_exact_translation *
     return true;
 }
 
-/* Of texts that are each a block of its own; they are freed. */
+/* Copies the three texts to one block. */
 static void join(char *text[3], sunder_separation *out)
 {
     size_t bytes[3];

@@ -1,6 +1,7 @@
-/* root.c: see root.h. Such a root is irrational as a rule: its floor to more bits than a double has, with a bit beneath
- * that says whether anything was cut off, rounds like the root itself. Of small numbers the sum of two doubles comes so
- * near to it that they tell, too. They are the same on every machine, which longer formats are not. */
+/* root.c: see root.h. Such a root is irrational as a rule. Its floor with more bits than a double has, followed by one
+ * bit that says whether anything was cut off, is rounded like the root itself. For small numbers the sum of two doubles
+ * approximates the root so closely that the rounding is certain, except in rare cases. The results are the same on
+ * every machine, unlike those of extended formats. */
 #include "separation/answer/root.h"
 
 #include "number/lattice.h"
@@ -29,12 +30,13 @@ void sunder_i_root(sunder_i_arena *a, sunder_i_big n, sunder_i_big w, long expon
 
 /* ---- In doubles -------------------------------------------------------------------------------------------------- */
 
-/* sqrt(n) / w as d + rest, d the nearest double to that sum, within 2^-102 of itself.
+/* Returns d, the double nearest to the computed sum d + *rest, which is sqrt(n) / w with a relative error of at most
+ * 2^-102.
  *
- * With u = 2^-53: n is high + low exactly, and s s is p + e. Their difference is off by 7 u^2 n, so the correction of s
- * by 3.5 u^2 s; its division adds 2 u^2 s, and what Newton's step leaves out is 2 u^2 s. What the division by w leaves
- * of s is exact, its sum with the correction off by 3 u^2 s, and the last division adds as much: less than 14 u^2 in
- * all. */
+ * With u = 2^-53: n is exactly high + low, and s s is exactly p + e. Their difference has an error of 7 u^2 n, hence
+ * the correction of s one of 3.5 u^2 s; the division adds 2 u^2 s, and the neglected term of Newton's method is 2 u^2
+ * s. The remainder of the division of s by w is exact, its sum with the correction has an error of 3 u^2 s, and the
+ * last division adds as much: less than 14 u^2 in all. */
 static double root_over(sunder_i_u128 n, double w, double *rest)
 {
     const double high = (double)n, low = (double)(int64_t)(n - (sunder_i_u128)high);
@@ -46,9 +48,10 @@ static double root_over(sunder_i_u128 n, double w, double *rest)
     return d;
 }
 
-/* Is sqrt(n) / w, which is so near to d that two doubles cannot tell them apart, at least d (1) or less (-1)? 0 where
- * the integer near d w does not stand between d w and the root of n, nor is one of the two: lengths that are doubles
- * are those of squares as a rule, and then it does. */
+/* Compares r = sqrt(n) / w with the double d, which is so close to r that two doubles do not separate them: returns 1
+ * if r >= d, -1 if r <= d, and 0 if unknown. It uses the integer nearest to d w: if that lies between d w and sqrt(n),
+ * or equals one of them, the order is known. This decides the usual case, in which the length is a double because n is
+ * a square. */
 static int compare_root(sunder_i_u128 n, double w, double d)
 {
     const uint64_t between = (uint64_t)(d * w + 0.5); /* below 2^54 */
@@ -71,7 +74,7 @@ bool sunder_i_quick_root(sunder_i_u128 n, int64_t w, long exponent, double *near
     if (rest > (sunder_i_box_step(d, true) - d) / 2 - doubt || rest < doubt - (d - below) / 2) return false;
     int order = rest > doubt ? 1 : -1;
     if (fabs(rest) <= doubt) order = compare_root(n, (double)w, d);
-    /* The root lies between 2^-54 and 2^54: scaling is exact. */
+    /* the root lies between 2^-54 and 2^54: scaling is exact */
     *nearest = d * sunder_i_power_of_two(exponent);
     *down = (order > 0 ? d : below) * sunder_i_power_of_two(exponent);
     return order != 0;

@@ -1,8 +1,10 @@
-/* Points of the boundary of the grown obstacle, exactly, and the exact test of the gap. With N = 2^gap_bits the gap is
- * G / N. A side a + t d of length L = sqrt(q) has the normal n = (d.y, -d.x) and the moved line N n.x = C, where C = N
- * n.a + G L. So feet and crossings are fractions with integers and one or two square roots: L of each line, and the
- * half chord of a circle. Wherever the point is rational these roots are integers, which makes rational points simple:
- * no rational point lies on a line of irrational length, since N n.x would be rational and C is not. */
+/* boundary_points.c: exact points on the boundary of the grown obstacle, and the exact test of the gap.
+ *
+ * With N = 2^gap_bits the gap is G / N. A side a + t d of length L = sqrt(q) has the normal n = (d.y, -d.x); its offset
+ * line is N n.x = C with C = N n.a + G L. So feet of perpendiculars and crossings are fractions with integers and one
+ * or two square roots: the length L of each line, and half the chord of a circle. If such a point is rational these
+ * roots are integers, so that rational points are represented without roots: no rational point lies on an offset line
+ * of irrational length, since N n.x would be rational and C is not. */
 #include "separation/gap/gap_search.h"
 
 #include "predicate/rational_point.h"
@@ -13,7 +15,8 @@ typedef struct vec {
 
 static sunder_i_arena *arena_of(const sunder_i_gap_problem *p) { return &p->operands->placed.lattice.arena; }
 
-/* The problem in units that divide the lattice's, such that these points are integers in them. */
+/* Returns the problem in units that are a fraction of the lattice's, such that the n points have integer coordinates in
+ * them. */
 static sunder_i_gap_problem over_one(const sunder_i_gap_problem *p, const sunder_i_point *point, size_t n)
 {
     sunder_i_arena *m = arena_of(p);
@@ -38,7 +41,7 @@ static vec get(const sunder_i_gap_problem *p, sunder_i_point a)
     return (vec){sunder_i_big_mul(m, v.x, factor), sunder_i_big_mul(m, v.y, factor)};
 }
 
-/* Both points of a curve; of an arc they are one. */
+/* Sets out[] to the two points that define a curve; for an arc both are its centre. */
 static void points_of(const sunder_i_gap_curve *curve, sunder_i_point out[2])
 {
     out[0] = curve->a;
@@ -52,7 +55,7 @@ static sunder_i_gap_problem over_curve(const sunder_i_gap_problem *p, const sund
     return over_one(p, point, 2);
 }
 
-/* Times N. */
+/* Returns v * N. */
 static sunder_i_big scaled(const sunder_i_gap_problem *p, sunder_i_big v)
 {
     return p->gap_bits ? sunder_i_big_shl(arena_of(p), v, p->gap_bits) : v;
@@ -90,7 +93,7 @@ static sunder_i_surd scale(const sunder_i_gap_problem *p, sunder_i_surd a, sunde
     return sunder_i_surd_scale(arena_of(p), a, f);
 }
 
-/* A coordinate of the lattice's units in those of the problem. */
+/* Converts a coordinate from lattice units to the units of the problem. */
 static sunder_i_surd in_units(const sunder_i_gap_problem *p, sunder_i_surd a)
 {
     return sunder_i_big_is_one(p->over) ? a : scale(p, a, p->over);
@@ -106,13 +109,13 @@ static sunder_i_surd difference(const sunder_i_gap_problem *p, sunder_i_surd a, 
     return sunder_i_surd_sub(arena_of(p), a, b);
 }
 
-/* ---- Feet and crossings ---- */
+/* ---- Feet of perpendiculars, and crossings ---- */
 
 typedef struct line {
     vec d, n;
-    sunder_i_big square;  /* q */
-    sunder_i_surd length; /* L */
-    sunder_i_surd c;      /* C */
+    sunder_i_big square;  /* q, the squared length */
+    sunder_i_surd length; /* L, the length */
+    sunder_i_surd c;      /* C of the offset line */
 } line;
 
 static line moved_line(const sunder_i_gap_problem *p, const sunder_i_gap_curve *curve, sunder_i_roots *roots)
@@ -136,7 +139,7 @@ static void finish(sunder_i_surd_point *out, const sunder_i_gap_problem *p, sund
     out->w = negative ? sunder_i_big_neg(w) : w;
 }
 
-/* c (1 - g / |c|). */
+/* The point c (1 - g / |c|) of the circle of radius g about c that is nearest to the origin. */
 static void arc_foot(const sunder_i_gap_problem *p, const sunder_i_gap_curve *curve, sunder_i_surd_point *out)
 {
     const vec c = get(p, curve->a);
@@ -163,7 +166,8 @@ void sunder_i_gap_foot(const sunder_i_gap_problem *problem, const sunder_i_gap_c
     finish(out, p, scale(p, l.c, l.n.x), scale(p, l.c, l.n.y), scaled(p, l.square));
 }
 
-/* c + (n k + sign d s) / (q N) with k = C - N n.c and s = sqrt(G^2 q - k^2). */
+/* The crossing c + (n k + sign d s) / (q N) of an offset line and a circle about c, with k = C - N n.c and s = sqrt(G^2
+ * q - k^2). */
 static bool line_arc(const sunder_i_gap_problem *p, const sunder_i_gap_curve *side, const sunder_i_gap_curve *arc,
                      int sign, sunder_i_surd_point *out)
 {
@@ -182,7 +186,8 @@ static bool line_arc(const sunder_i_gap_problem *p, const sunder_i_gap_curve *si
     return true;
 }
 
-/* The middle, and on either side of it v turned left times sqrt((4 G^2 - Q N^2) Q) / (2 Q N), Q = |v|^2. */
+/* A crossing of two circles: the midpoint of their centres plus or minus v, turned left, times sqrt((4 G^2 - Q N^2) Q)
+ * / (2 Q N); v is the difference of the centres and Q = |v|^2. */
 static bool arc_arc(const sunder_i_gap_problem *p, const sunder_i_gap_curve *c, const sunder_i_gap_curve *d, int sign,
                     sunder_i_surd_point *out)
 {
@@ -217,7 +222,7 @@ bool sunder_i_gap_crossing(const sunder_i_gap_problem *problem, const sunder_i_g
     return true;
 }
 
-/* ---- Along a line of rational length ---- */
+/* ---- Positions on an offset line of rational length ---- */
 
 bool sunder_i_gap_along(const sunder_i_gap_problem *problem, const sunder_i_gap_curve *side, sunder_i_big along,
                         unsigned long bits, sunder_i_surd_point *out)
@@ -227,7 +232,7 @@ bool sunder_i_gap_along(const sunder_i_gap_problem *problem, const sunder_i_gap_
     out->roots.n = 0;
     const line l = moved_line(p, side, &out->roots);
     if (out->roots.n) return false;
-    /* n C / (q N) + d along / (L 2^bits), over q N 2^bits. */
+    /* the point n C / (q N) + d along / (L 2^bits), with the denominator q N 2^bits */
     sunder_i_arena *a = arena_of(p);
     const sunder_i_big k = scaled(p, mul(p, along, l.length.part[0])), c = sunder_i_big_shl(a, l.c.part[0], bits);
     finish(out, p, surd(p, add(p, mul(p, l.n.x, c), mul(p, l.d.x, k))),
@@ -238,7 +243,7 @@ bool sunder_i_gap_along(const sunder_i_gap_problem *problem, const sunder_i_gap_
 bool sunder_i_gap_position(const sunder_i_gap_problem *problem, const sunder_i_gap_curve *side,
                            const sunder_i_surd_point *at, unsigned long bits, sunder_i_big *along)
 {
-    /* The side's own units drop out: at is in those of the lattice. */
+    /* the result does not depend on the units of the side; `at` is in lattice units */
     const sunder_i_gap_problem q = over_curve(problem, side), *const p = &q;
     sunder_i_arena *a = arena_of(p);
     sunder_i_roots roots = {.n = 0};
@@ -249,7 +254,7 @@ bool sunder_i_gap_position(const sunder_i_gap_problem *problem, const sunder_i_g
     return true;
 }
 
-/* ---- The gap ---- */
+/* ---- The test of the gap ---- */
 
 int sunder_i_gap_cmp_side(const sunder_i_gap_problem *problem, const sunder_i_subsum *subsum, uint32_t k,
                           const sunder_i_surd_point *at, bool *inward, bool *flat)
@@ -273,7 +278,7 @@ int sunder_i_gap_cmp_side(const sunder_i_gap_problem *problem, const sunder_i_su
     order = 1;
     *inward = sunder_i_surd_sign(a, roots, turn) > 0;
     *flat = false;
-    if (sunder_i_surd_sign(a, roots, along) <= 0) { /* the corner */
+    if (sunder_i_surd_sign(a, roots, along) <= 0) { /* the first vertex of the side is nearest */
         const sunder_i_surd norm = sum(p, sunder_i_surd_mul(a, roots, vx, vx), sunder_i_surd_mul(a, roots, vy, vy));
         const sunder_i_surd wide = sunder_i_surd_shl(a, norm, 2 * p->gap_bits);
         order = sunder_i_surd_sign(a, roots, difference(p, wide, surd(p, limit)));

@@ -1,13 +1,13 @@
-/* With a gap and many pairs of pieces: which of them matter? The plane is searched in squares, nearest to the origin
- * first, as without a gap (squares.h), with subsums grown by the gap. A square that one grown subsum covers entirely
- * keeps that one; a square that few subsums come near keeps those. So within the limit the subsums kept cover what all
- * of them cover, and a point is tested against those of its square only; the boundary runs through open squares only,
- * so segments are taken from these. The limit is lowered to the first square that no subsum comes near, or whose middle
- * is certainly free.
+/* by_squares.c: for a problem with a gap and many pairs of pieces, finds the pairs that matter. The plane is searched
+ * in squares, nearest to the origin first, as without a gap (squares.h), with subsums grown by the gap. If one grown
+ * subsum covers a square completely, only that one is kept for it; if few subsums are near a square, these are kept.
+ * So, within the limit, the kept subsums cover what all of them cover, and a point is tested against those of its
+ * square only. The boundary of the obstacle lies in open squares only, so that candidate segments are taken from these.
+ * The limit is lowered to the nearest square that no subsum is near, or whose centre is certainly free.
  *
- * Squares are covered by more than all rounding, and a distance that exceeds the gap by less than 2^-17 of the
- * magnitude counts as near: so where it is uncertain which of two squares holds a point, or a point beside it
- * (step_to_rational.c), either square will do. */
+ * A square counts as covered only if a margin larger than all rounding errors is left, and a distance that exceeds the
+ * gap by less than 2^-17 of the magnitude counts as near. If it is uncertain which of two squares contains a point, or
+ * a point beside it (step_to_rational.c), either square can be used. */
 #include "base/extremes.h"
 #include "base/invariant.h"
 #include "separation/gap/gap.h"
@@ -25,7 +25,8 @@ typedef struct gathering {
     sunder_i_squares *q;
     sunder_i_gap_quadtree *to;
     size_t nodes_capacity;
-    uint64_t *pair; /* of all lists, one after the other: convex sets of P and of -Q */
+    uint64_t *pair; /* the pairs of all squares, one list after the other: a convex set of P in the high word, one of -Q
+                     * in the low word */
     size_t pairs, pairs_capacity;
     sunder_i_candidate *segment;
     size_t segments, segments_capacity;
@@ -63,7 +64,7 @@ static bool keep_segments(gathering *c, const sunder_i_square *s)
     return true;
 }
 
-/* Is the middle of an open square farther than the gap from all subsums near, for certain? */
+/* Returns whether the centre of an open square is certainly farther than the gap from all subsums near it. */
 static bool middle_is_free(const gathering *c, const sunder_i_square *s)
 {
     const double x = s->box[0] / 2 + s->box[2] / 2, y = s->box[1] / 2 + s->box[3] / 2;
@@ -105,7 +106,7 @@ static bool settle(gathering *c, const sunder_i_square *s, sunder_i_square_state
     return ok;
 }
 
-/* *done: the limit was reached. */
+/* Processes the squares in the order of distance. *done is set if the limit was reached. */
 static bool look_at_all(gathering *c, bool *done)
 {
     sunder_i_squares *q = c->q;
@@ -121,9 +122,9 @@ static bool look_at_all(gathering *c, bool *done)
     return true;
 }
 
-/* ---- What they keep becomes what is searched ---- */
+/* ---- Converting the result to the form of the search ---- */
 
-/* Boxes of -Q, and of P, are pieces too. */
+/* Appends the boxes of one operand (P or -Q) to its pieces. */
 static bool add_boxes(sunder_i_operands *g, const sunder_i_inner_convex *b, int side)
 {
     const uint32_t pieces = g->shape[side]->pieces;

@@ -1,17 +1,21 @@
-/* The search with a gap: the points of circles nearest to the origin, and where two circles cross. */
+/* circle_points.c: in the search with a gap, the points of circles nearest to the origin, and the crossings of two
+ * circles. */
 #include "separation/gap/gap_search.h"
 
 #include "base/extremes.h"
 
 #include <math.h>
 
-/* In doubles: is each of the two crossings certainly too far or covered, or is there none? The margins are far larger
- * than the errors: the sine of the half angle at the centres is above 1e-3, and so is its cosine. */
+/* Returns whether each of the two crossings of the circles about a and b is certainly too far or covered, or there is
+ * none, in doubles. The margins are far larger than the errors, since the sine and the cosine of half the angle at the
+ * centres are greater than 1e-3. */
 static bool arcs_idle(sunder_i_gap_state *s, const double a[2], const double b[2])
 {
     const double vx = b[0] - a[0], vy = b[1] - a[1], gap = s->gap, best = s->best, e = 8 * s->g->error;
     const double square = vx * vx + vy * vy;
-    if (s->g->coarse > 0) return false; /* else the differences are exact, and their products good to 2^-50 */
+    if (s->g->coarse > 0)
+        return false; /* else the differences are exact, and their products have a relative error
+                                         * below 2^-50 */
     if (square > 4 * gap * gap * (1 + 1e-9) + e * (gap + e)) return true;
     if (!(square > 1e-6 * gap * gap)) return false;
     const double product = gap * gap / square - 0.25; /* (half chord / length)^2 */
@@ -25,8 +29,9 @@ static bool arcs_idle(sunder_i_gap_state *s, const double a[2], const double b[2
     return true;
 }
 
-/* The centers' difference is taken on the lattice, where nothing cancels: v is off by 4 u of itself. With c = |v| / 2
- * and h^2 = g^2 - c^2 an error of 16 u g^2 in h^2 is one of 8 u g^2 / h in h, and turns the chord by 4 u. */
+/* Finds the crossings of two circles. The difference v of the centres is computed on the lattice without cancellation,
+ * with an error of 4 u |v|. With c = |v| / 2 and h^2 = g^2 - c^2, an error of 16 u g^2 in h^2 causes one of 8 u g^2 / h
+ * in h; the direction of the chord has an error of 4 u. */
 static void cross_arcs(sunder_i_gap_state *s, size_t i, size_t j)
 {
     const sunder_i_point a = s->p->center[i], b = s->p->center[j];
@@ -48,7 +53,7 @@ static void cross_arcs(sunder_i_gap_state *s, size_t i, size_t j)
                                 .crossing = true,
                                 .sign = sign,
                                 .cover = -1};
-        /* Nearly tangent: h is no more than the root of an error of h^2, 4 sqrt(u) g. */
+        /* If the circles are nearly tangent, h is at most the root of the error of h^2, 4 sqrt(u) g. */
         const double most = 0x1p-20 * s->gap, doubt = p.error < most ? p.error : half + most + s->error;
         const double key = sunder_i_gap_length(p.x, p.y) - doubt;
         if (key > s->best) continue;
@@ -63,7 +68,7 @@ void sunder_i_gap_take_arc(sunder_i_gap_state *s, size_t arc)
     const double x = sunder_i_approx(l, a.x), y = sunder_i_approx(l, a.y), length = sunder_i_gap_length(x, y);
     if (sunder_i_gap_deep_inside(s, x, y)) return;
     sunder_i_gap_point p = {.error = 2 * s->error, .c = {true, a, a}, .cover = -1};
-    /* About the origin itself all points are as near: the leftmost will do. */
+    /* all points of a circle about the origin are equally near; the leftmost one is taken */
     p.x = length > 0 ? x - s->gap * (x / length) : -s->gap;
     p.y = length > 0 ? y - s->gap * (y / length) : 0;
     if (sunder_i_gap_cover(s, p.x, p.y, p.error) < 0) sunder_i_gap_push(s, sunder_i_gap_length(p.x, p.y) - p.error, &p);

@@ -1,4 +1,5 @@
-/* The search with a gap: its numbers, and what covers a point. */
+/* covered_point.c: in the search with a gap, conversions to doubles, and the test whether a grown subsum covers a
+ * point. */
 #include "separation/gap/gap_search.h"
 
 #include "base/extremes.h"
@@ -10,7 +11,8 @@
 
 /* ---- Numbers ---- */
 
-/* From the topmost limbs; in two factors: the smallest sides of a wide lattice lie below all doubles. */
+/* Converts the four highest limbs. The power of two is applied as two factors, since the smallest sides of a wide
+ * lattice lie below the range of doubles. */
 double sunder_i_gap_big(sunder_i_big v, long exponent)
 {
     const long top = v.size < 0 ? -v.size : v.size;
@@ -24,7 +26,7 @@ double sunder_i_gap_big(sunder_i_big v, long exponent)
 
 double sunder_i_gap_length(double x, double y) { return sqrt(x * x + y * y); }
 
-/* Cut at 2^-60 of the magnitude. */
+/* The coordinates are truncated at 2^-60 of the magnitude. */
 void sunder_i_gap_doubles(sunder_i_gap_state *s, const sunder_i_surd_point *exact, double *x, double *y)
 {
     const sunder_i_lattice *l = &s->g->placed.lattice;
@@ -67,9 +69,10 @@ bool sunder_i_gap_near_box(const sunder_i_gap_state *s, size_t k, double x, doub
     return sunder_i_box_near_point(s->g->subsum[k].box, x, y, reach + s->g->error);
 }
 
-/* Only sides that may see the point from outside can be nearest: those over whose line it stands, or within the error
- * of a height. (The sign alone would not do: outside a sharp corner a point is far away, yet hardly above either side.)
- * A point that is inside and this close to a side's line is as close to a side's foot, and found. */
+/* Only a side that faces the point can be the nearest: its height over the side's line is positive, or zero to within
+ * the error of a height. (Its sign alone does not suffice: outside a sharp corner a point is far away but hardly above
+ * either side.) A point that is inside and this close to the line of a side is equally close to the foot on that side,
+ * which is found. */
 double sunder_i_gap_distance(const sunder_i_gap_state *s, const sunder_i_gap_subsum *piece, double x, double y)
 {
     double least = -1;
@@ -94,14 +97,14 @@ double sunder_i_gap_distance(const sunder_i_gap_state *s, const sunder_i_gap_sub
     return least < 0 ? 0 : sqrt(least);
 }
 
-/* How far the point stands out over side i. */
+/* Returns the signed distance of the point from the line of side i, positive outside. */
 static double height_over(const sunder_i_gap_subsum *r, uint32_t i, double x, double y)
 {
     return (r->sy[i] * (x - r->cx[i]) - r->sx[i] * (y - r->cy[i])) * r->inverse[i];
 }
 
-/* How far the point stands out over the side that it is farthest outside of, good to `error`: nothing is nearer than
- * that, and if it is negative the point is inside. */
+/* Returns the largest signed distance of the point from the lines of all sides, with an error of at most s->error. The
+ * distance from the piece is not less; if the result is negative the point is inside. */
 static double out_by(const sunder_i_gap_subsum *r, double x, double y)
 {
     double most = -INFINITY;
@@ -112,11 +115,12 @@ static double out_by(const sunder_i_gap_subsum *r, double x, double y)
     return most;
 }
 
-/* ---- Of many sides ---- */
+/* ---- Pieces with many sides ---- */
 
-/* How far the point is at least on the left (turn 1) or the right (-1) of the diagonal from the lowest corner to corner
- * i, but for the error of a height. A diagonal is a difference of rounded corners, off by 2 * 8 u M a coordinate, 23 u
- * M in all, and that turns the height by as much times |v| / |d|: `error` has 128 u S. */
+/* Returns a lower bound, less the error, of the signed distance of the point from the diagonal from vertex 0 to vertex
+ * i, positive on its left (turn 1) or right (turn -1). A diagonal is a difference of rounded vertices with an error of
+ * 2 * 8 u M in each coordinate, 23 u M in all, which causes an error of the height of 23 u M |v| / |d|; `error` allows
+ * for 128 u S. */
 static double beside_diagonal(const sunder_i_gap_state *s, const sunder_i_gap_subsum *r, uint32_t i, double x, double y,
                               int turn)
 {
@@ -124,8 +128,8 @@ static double beside_diagonal(const sunder_i_gap_state *s, const sunder_i_gap_su
     return (turn * (dx * vy - dy * vx) - s->error * (fabs(vx) + fabs(vy))) / sunder_i_gap_length(dx, dy);
 }
 
-/* By one triangle of the fan: a point deep in the triangle is as deep in the piece, and a point far outside over one
- * side is as far from the piece. */
+/* Tests the point with one triangle of the fan about vertex 0: a point deep inside the triangle is as deep inside the
+ * piece, and a point far outside over one side is as far from the piece. *side becomes the side of that triangle. */
 static sunder_i_fan_answer by_triangle(const sunder_i_gap_state *s, const sunder_i_gap_subsum *r, double x, double y,
                                        double deep, double far, uint32_t *side)
 {
@@ -136,7 +140,7 @@ static sunder_i_fan_answer by_triangle(const sunder_i_gap_state *s, const sunder
     return sunder_i_fan_says(&fan, (double[3]){height_over(r, low, x, y), left, right}, deep, far);
 }
 
-/* Is side i nearer than that for certain, its ends included? Then so is the piece. */
+/* Returns whether side i, with its ends, is certainly closer to the point than `least`; then the piece is, too. */
 static bool side_is_near(const sunder_i_gap_subsum *r, uint32_t i, double x, double y, double least)
 {
     const double vx = x - r->cx[i], vy = y - r->cy[i], along = (r->sx[i] * vx + r->sy[i] * vy) * r->inverse[i];

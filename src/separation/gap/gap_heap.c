@@ -1,9 +1,10 @@
-/* The heap of the search with a gap: stretches of boundary and points by the least length that they may have. */
+/* gap_heap.c: the priority queue of the search with a gap. Its items are parts of the boundary and points; the key is a
+ * lower bound of their distance from the origin. */
 #include "separation/gap/gap_search.h"
 
 #include "base/heap.h"
 
-/* By length alone; of equals the heap says which comes first (base/heap.h). */
+/* Compares keys only; the heap itself orders equal keys (base/heap.h). */
 static bool before(const void *a, const void *b)
 {
     return ((const sunder_i_gap_item *)a)->key < ((const sunder_i_gap_item *)b)->key;

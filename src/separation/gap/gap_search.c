@@ -1,13 +1,13 @@
-/* The search with a gap.
+/* gap_search.c: the search with a gap.
  *
- * As without one, the stretches of boundary are taken best first and moved past what covers them. The difference is
- * that places are irrational. Numbers with a known error (gap/search.h) show most of them to be covered: a point by a
- * grown subsum whose distance is less than the gap by more than all rounding, a stretch from one such point to another.
- * The rest is decided exactly, with points that are fractions of integers and square roots (boundary_points.c): nothing
- * is discarded or found that is not so. So the first free point is the nearest one, and its length the bound; ties are
- * broken exactly as well.
+ * As in the search without a gap, parts of the boundary are processed in the order of their distance from the origin
+ * and shortened by what covers them. The difference is that points are irrational. Numbers with a known error
+ * (gap_search.h) show that most of them are covered: a point, if its distance from a subsum is less than the gap by
+ * more than all rounding errors; a segment, from one such point to another. Everything else is decided exactly, with
+ * points that are fractions of integers and square roots (boundary_points.c), so that no wrong point is accepted or
+ * discarded. Hence the first free point is the nearest one, and its length is the bound; ties are also broken exactly.
  *
- * Where the nearest point is irrational, a rational one beside it is given (step_to_rational.c). */
+ * If the nearest point is irrational, a rational one near it is returned (step_to_rational.c). */
 #include "separation/gap/gap_search.h"
 
 #include "base/invariant.h"
@@ -15,7 +15,7 @@
 #include <float.h>
 #include <math.h>
 
-/* The distance of a moved side from the origin: a lower bound in doubles. */
+/* Returns a lower bound in doubles of the distance of an offset side from the origin. */
 static double side_key(const sunder_i_gap_state *s, size_t segment)
 {
     const sunder_i_candidate *c = s->p->segment + segment;
@@ -25,7 +25,8 @@ static double side_key(const sunder_i_gap_state *s, size_t segment)
     const double x = a[0] + q[0] + f * dy, y = a[1] + q[1] - f * dx;
     double t = -(x * dx + y * dy) / square;
     t = t > 0 ? t < 1 ? t : 1 : 0;
-    /* Where the direction is not known well enough, or lost below all doubles: the unmoved side, less the gap. */
+    /* if the direction is inaccurate, or below the range of doubles, the distance of the side without offset, less the
+     * gap, is used */
     if (s->g->coarse > 0 || !(square > SUNDER_I_SHORTEST * SUNDER_I_SHORTEST))
         return sqrt(c->square) - s->p->gap_units - 8 * s->g->error;
     return hypot(x + t * dx, y + t * dy) - 8 * s->g->error;
@@ -77,7 +78,7 @@ static sunder_contact kind_of(const sunder_i_gap_free_point *f, sunder_i_gap_roo
     }
 }
 
-/* Turns the point found into the answer, and its length into the bound. */
+/* Converts the found point to the answer, and its length to the bound. */
 static sunder_status conclude(sunder_i_gap_state *s, sunder_i_gap_answer *out, sunder_error *err)
 {
     const sunder_i_gap_free_point *f = &s->found;

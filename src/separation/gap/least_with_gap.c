@@ -1,9 +1,9 @@
-/* Which least translation leaves a gap g between two sets?
+/* least_with_gap.c: computes the least translation that leaves a gap g between two sets.
  *
- * The problem is set up on the lattice, with the gap beside it as a fraction of its own: a gap of many digits does not
- * make the lattice finer. The origin is tested first. Then candidates for boundary are listed, all of them or those
- * that the search by squares finds to matter, and the search begins (gap_search.c). Its result, and the doubles nearest
- * to it, are checked against every pair of pieces (verify_gap.c). */
+ * The problem is placed on the lattice, with the gap as a separate fraction, so that a gap with many digits does not
+ * make the lattice finer. The origin is tested first. Then the candidates for the boundary are listed, either all of
+ * them or those that the search by squares finds, and the search begins (gap_search.c). Its result, and the doubles
+ * nearest to it, are verified against every pair of pieces (verify_gap.c). */
 #include "separation/gap/gap_search.h"
 
 #include "base/sort.h"
@@ -12,7 +12,7 @@
 #include <math.h>
 #include <string.h>
 
-/* The corners that arcs may go round: sums of two convex vertices (the other kinds never stand out of the obstacle). */
+/* Finds the centres of arcs: sums of two convex vertices. Other vertices never lie on the boundary of the obstacle. */
 static bool find_centers(sunder_i_gap_problem *p)
 {
     sunder_i_operands *g = p->operands;
@@ -39,13 +39,13 @@ static bool find_centers(sunder_i_gap_problem *p)
     return true;
 }
 
-/* The way out along each axis, and the gap. */
+/* Returns the length of a translation along an axis that certainly leaves the gap. */
 static double way_out(const sunder_i_operands *g, double gap)
 {
     return (sunder_i_operands_way_out(g) + gap) * SUNDER_I_GAP_MORE + 64 * g->error;
 }
 
-/* Does every subsum keep the gap from the origin? */
+/* Returns whether every subsum keeps the gap from the origin. *memory becomes false if out of memory. */
 static bool origin_free(const sunder_i_gap_problem *p, bool *memory)
 {
     sunder_i_operands *g = p->operands;
@@ -62,7 +62,8 @@ static bool origin_free(const sunder_i_gap_problem *p, bool *memory)
         }
         uint32_t side;
         bool flat;
-        /* In doubles first: inside; nearer to a side than the gap; or on the far side of its line by more. */
+        /* doubles first: the origin is inside, closer to a side than the gap, or beyond the line of a side by more than
+         * the gap */
         bool far = false, inside = true, near = false;
         for (uint32_t i = 0; i < s->sides && !far; i++) {
             const double turn = s->sy[i] * s->cx[i] - s->sx[i] * s->cy[i];
@@ -89,7 +90,7 @@ static sunder_status run(sunder_i_gap_problem *p, sunder_i_gap_answer *answer, s
     return find_centers(p) ? sunder_i_gap_search(p, answer, err) : sunder_i_no_memory(err);
 }
 
-/* Do the doubles keep the gap as well? Exact. */
+/* Returns whether the translation (dx, dy) of doubles keeps the gap, too. Exact. */
 static bool doubles_free(const sunder_i_gap_problem *p, double dx, double dy)
 {
     sunder_i_operands *g = p->operands;
@@ -123,11 +124,13 @@ static sunder_status fill(sunder_i_gap_problem *p, const sunder_i_gap_answer *a,
     return texts ? sunder_i_answer_texts(g, &v, out, err) : SUNDER_OK;
 }
 
-/* Operands with this many pairs of pieces, those with many corners cut up, are searched by squares: fewer than without
- * a gap, since here a point is tested against all subsums listed, and arcs are crossed with each other. */
+/* Operands with this number of pairs of pieces, after pieces with many vertices are cut, are searched by squares. The
+ * number is smaller than without a gap, since here a point is tested against all listed subsums, and all arcs are
+ * intersected with each other. */
 #define SQUARES_FROM 4096
 
-/* By squares, with pieces of few corners; where that leads nowhere the operands are as they were. */
+/* Searches by squares, with pieces of few vertices. If the method does not suit the operands they are restored. Returns
+ * false if out of memory. */
 static bool take_squares(sunder_i_gap_problem *p, sunder_i_gap_quadtree *quadtree)
 {
     sunder_i_operands *g = p->operands;
@@ -141,7 +144,8 @@ static bool take_squares(sunder_i_gap_problem *p, sunder_i_gap_quadtree *quadtre
 static bool are_many(const sunder_i_gap_problem *p, const sunder_i_least_options *o)
 {
     const sunder_i_operands *g = p->operands;
-    if (!g->placed.lattice.narrow || !(p->gap_units < g->magnitude)) return false; /* boxes are on a narrow one only */
+    /* boxes exist on a narrow lattice only */
+    if (!g->placed.lattice.narrow || !(p->gap_units < g->magnitude)) return false;
     return o->force_squares || sunder_i_squares_worth(g, SQUARES_FROM);
 }
 
@@ -150,7 +154,7 @@ static sunder_status solve(sunder_i_gap_problem *p, const sunder_i_least_options
 {
     sunder_i_operands *g = p->operands;
     const double upper = o->upper / g->unit;
-    /* At the ends of the range of doubles the bound is that of the exact answer. */
+    /* near the ends of the range of doubles the bound is computed from the exact answer */
     p->bound_only = o->bound_only && g->unit > 0x1p-400 && g->unit < 0x1p400;
     p->limit = way_out(g, p->gap_units);
     if (upper < p->limit) p->limit = upper * SUNDER_I_GAP_MORE + 8 * g->error;
@@ -163,14 +167,14 @@ static sunder_status solve(sunder_i_gap_problem *p, const sunder_i_least_options
     const sunder_status status = run(p, &answer, err);
     if (status) return status;
     if (answer.found && !(answer.bound * g->unit > o->upper)) return fill(p, &answer, o->texts, out, err);
-    if (!(o->upper < INFINITY)) /* two sets can always be parted */
+    if (!(o->upper < INFINITY)) /* there is always a translation that separates two sets */
         return sunder_i_fail(err, SUNDER_EFAULT, "internal fault: no free translation was found");
     sunder_i_too_far(o->upper, out, beyond);
     return SUNDER_OK;
 }
 
-/* Places the operands, with the gap beside them. A gap far larger than the operands goes on the lattice too, whose
- * units are then chosen to suit. */
+/* Places the operands and the gap. A gap that is far larger than the operands becomes part of the lattice, too, whose
+ * unit then suits it. */
 static sunder_status set_up(sunder_i_operands *g, sunder_i_gap_problem *problem, const sunder_shape *p,
                             const sunder_shape *q, const sunder_i_least_options *o, bool gap_on_lattice,
                             sunder_error *err)

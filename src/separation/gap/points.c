@@ -1,11 +1,12 @@
-/* The search with a gap: points that nothing is known to cover are solved for, and asked exactly. */
+/* points.c: in the search with a gap, points that are not known to be covered are computed and tested exactly. */
 #include "separation/gap/gap_search.h"
 
 #include <math.h>
 
-/* ---- The exact place ---- */
+/* ---- Exact points ---- */
 
-/* A place that was computed with loss is computed again from the exact one. */
+/* If the error of a point in doubles exceeds this multiple of s->error, the point is computed again from the exact
+ * one. */
 #define LOSS_MAX 4096
 
 static bool solve(sunder_i_gap_state *s, sunder_i_gap_point *p)
@@ -19,9 +20,10 @@ static bool solve(sunder_i_gap_state *s, sunder_i_gap_point *p)
     return true;
 }
 
-/* ---- What is near ---- */
+/* ---- Subsums near a point ---- */
 
-/* The point tested, exactly and within `doubt`, and (if not NULL) the curves that it was made from. */
+/* A tested point: exact, and in doubles with the error `doubt`; `of` (may be NULL) contains the curves that it was
+ * computed from. */
 typedef struct question {
     const sunder_i_surd_point *at;
     double x, y, doubt;
@@ -33,7 +35,8 @@ static bool same_point(const sunder_i_gap_state *s, sunder_i_point a, sunder_i_p
     return s->g->placed.lattice.narrow && a.x == b.x && a.y == b.y;
 }
 
-/* Is the curve that of side k, or of its first corner? Not if that is not easily seen. */
+/* Returns whether the curve is the offset of side k, or, if `arc`, the circle about its first vertex. Returns false if
+ * this is not easily decided. */
 static bool is_curve(sunder_i_gap_state *s, const sunder_i_gap_curve *c, const sunder_i_subsum *m, uint32_t k, bool arc)
 {
     if (c->arc != arc || !s->g->placed.lattice.narrow) return false;
@@ -42,13 +45,14 @@ static bool is_curve(sunder_i_gap_state *s, const sunder_i_gap_curve *c, const s
            sunder_i_narrow_cross(c->d, sunder_i_narrow_sub(m->corner[k], c->a)) == 0;
 }
 
-/* sunder_i_gap_cmp_side() for a point that is outside for certain. Doubles know whether the corner or the side is
- * nearest, if neither is by less than the doubt, and then a curve that the point is on need not be asked. */
+/* Does the same as sunder_i_gap_cmp_side() for a point that is certainly outside. Doubles decide whether the vertex or
+ * the side is nearest if the difference exceeds the error; if the point was computed from that curve, its distance is
+ * exactly the gap. */
 static int compare_side(sunder_i_gap_state *s, const sunder_i_subsum *m, const sunder_i_gap_subsum *r, uint32_t k,
                         const question *q, bool *flat)
 {
     const double vx = q->x - r->cx[k], vy = q->y - r->cy[k], along = (r->sx[k] * vx + r->sy[k] * vy) / r->length[k];
-    if (along > r->length[k] + q->doubt) return 1; /* that end is the next side's corner */
+    if (along > r->length[k] + q->doubt) return 1; /* the second end is the first vertex of the next side */
     const double most = s->gap + q->doubt;
     if (along < 0 && vx * vx + vy * vy > most * most) return 1;
     const bool arc = along < -q->doubt;
@@ -56,7 +60,7 @@ static int compare_side(sunder_i_gap_state *s, const sunder_i_subsum *m, const s
         *flat = !arc;
         if (is_curve(s, &q->of->c, m, k, arc) || (q->of->crossing && is_curve(s, &q->of->d, m, k, arc))) return 0;
     } else if (q->of && q->of->crossing && q->of->d.arc && is_curve(s, &q->of->c, m, k, false)) {
-        /* Where the side's line meets a circle about one of its ends it touches it: there the end is nearest. */
+        /* if the side's line meets a circle about one of its ends, it touches the circle, and that end is nearest */
         *flat = false;
         if (is_curve(s, &q->of->d, m, k, true)) return 0;
         if (is_curve(s, &q->of->d, m, k + 1 < m->sides ? k + 1 : 0, true)) return 1;
@@ -65,8 +69,8 @@ static int compare_side(sunder_i_gap_state *s, const sunder_i_subsum *m, const s
     return sunder_i_gap_cmp_side(s->p, m, k, q->at, &inward, flat);
 }
 
-/* Is the point nearer to the subsum than the gap (-1), farther (1), or exactly as far (0), at corner or side *k? Sides
- * that are farther for certain do not ask. */
+/* Returns -1 if the point is closer to the subsum than the gap, 1 if it is farther, and 0 if its distance is the gap,
+ * at vertex or side *k. Sides that are certainly farther are not tested exactly. */
 static int compare(sunder_i_gap_state *s, size_t of, const question *q, uint32_t *k, bool *flat)
 {
     const sunder_i_subsum *m = s->g->subsum + of;
@@ -75,10 +79,10 @@ static int compare(sunder_i_gap_state *s, size_t of, const question *q, uint32_t
     if (r->vague) return sunder_i_gap_cmp(s->p, m, q->at, k, flat);
     const double reach = s->gap + q->doubt, distance = sunder_i_gap_distance(s, r, q->x, q->y);
     if (distance > reach) return 1;
-    if (!(distance >= 2 * q->doubt)) return sunder_i_gap_cmp(s->p, m, q->at, k, flat); /* it may be inside */
+    if (!(distance >= 2 * q->doubt)) return sunder_i_gap_cmp(s->p, m, q->at, k, flat); /* the point may be inside */
     int least = 1;
     for (uint32_t i = 0; i < r->n && least >= 0; i++) {
-        /* Its line is nearer than the gap; its second corner is the next side's first. */
+        /* the line of the side is closer than the gap; its second end is the first vertex of the next side */
         const double vx = q->x - r->cx[i], vy = q->y - r->cy[i], height = r->sy[i] * vx - r->sx[i] * vy;
         if (height > reach * r->length[i] || (height < -reach * r->length[i])) continue;
         bool is_flat = false;
@@ -123,7 +127,7 @@ bool sunder_i_gap_is_free(sunder_i_gap_state *s, const sunder_i_surd_point *at)
 
 /* ---- Free points ---- */
 
-/* Order of two free points; doubles settle what is not a tie. */
+/* Compares two free points; doubles decide all but ties. */
 static int order(sunder_i_gap_state *s, const sunder_i_gap_free_point *a, const sunder_i_gap_free_point *b)
 {
     const double u = sunder_i_gap_length(a->x, a->y), v = sunder_i_gap_length(b->x, b->y);
@@ -139,8 +143,8 @@ static void offer(sunder_i_gap_state *s, const sunder_i_gap_free_point *f)
     if (most < s->best) s->best = most;
 }
 
-/* A walk's last subsum is left at the point, as was guessed in doubles, if it lies on that subsum's boundary and leaves
- * the disc or the half-plane that the curve bounds there. */
+/* Returns whether the point really is where the walk along c leaves the subsum p->cover, as doubles estimated: the
+ * point lies on the boundary of that grown subsum, and c leaves the disc or half-plane that the curve d bounds. */
 static bool is_exit(sunder_i_gap_state *s, const question *q, const sunder_i_gap_free_point *f, long near)
 {
     const sunder_i_gap_point *p = q->of;

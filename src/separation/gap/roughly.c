@@ -1,5 +1,5 @@
-/* Is the gap kept from a side? By the topmost bits of a point, in balls: coordinates that span the range of doubles
- * make exact numbers of ten thousand bits, and nearly all that is asked of them is not close. */
+/* roughly.c: tests the gap from a side by the highest bits of a point, in ball arithmetic. If coordinates span the
+ * range of doubles, exact numbers have ten thousand bits, and nearly all comparisons are clear. */
 #include "separation/gap/gap.h"
 
 #include "predicate/rational_point.h"
@@ -32,7 +32,8 @@ static sunder_i_ball cross(rough_vector u, rough_vector v)
 
 static int cmp(sunder_i_ball a, sunder_i_ball b) { return sunder_i_ball_sign(sunder_i_ball_sub(a, b)); }
 
-/* By the way v from the corner of a side d to the point. */
+/* Compares the distance of a point from a side d with the gap; v is the vector from the first vertex of the side to the
+ * point. Returns false if the bits do not decide. */
 static bool decide(const sunder_i_gap_problem *p, rough_vector v, rough_vector d, int *order, bool *inward, bool *flat)
 {
     const sunder_i_ball square = dot(d, d), along = dot(v, d), height = cross(d, v);
@@ -52,7 +53,8 @@ static bool decide(const sunder_i_gap_problem *p, rough_vector v, rough_vector d
     return *order != 0;
 }
 
-/* The way from c to the point, which is taken exactly before any bit is dropped: they may be near each other. */
+/* Returns the vector from c to the point; the difference is computed exactly before it is rounded, since the two may be
+ * close to each other. */
 static rough_vector exact_way(sunder_i_arena *a, const sunder_i_surd_point *at, sunder_i_rational_point c)
 {
     const sunder_i_surd x =

@@ -1,7 +1,8 @@
-/* The search with a gap: along moved sides, past what covers them. Certain steps first: from a point that a grown
- * subsum covers to another one that it covers, since it is convex. The walk ends at the exact place where the line
- * leaves the last subsum. points.c decides about it, and if it is covered after all, by less than the margin, the walk
- * continues exactly from there, subsum by subsum, until certain steps are possible again. */
+/* segments.c: in the search with a gap, the walk along offset sides past the subsums that cover them. First it takes
+ * certain steps, from a point that a grown subsum covers to another one that it covers, which is valid since the subsum
+ * is convex. The walk ends at the exact point where the line leaves the last subsum, which points.c tests. If that
+ * point is covered after all, by less than the margin, the walk continues exactly from there, one subsum after the
+ * other, until certain steps are possible again. */
 #include "separation/gap/gap_search.h"
 
 #include "separation/operands/fan.h"
@@ -11,8 +12,8 @@
 #include <math.h>
 
 typedef struct moved {
-    sunder_i_carrier line;                 /* unmoved, on the lattice */
-    double ax, ay, dx, dy, square, length; /* moved; length = |d| */
+    sunder_i_carrier line;                 /* the side without offset, on the lattice */
+    double ax, ay, dx, dy, square, length; /* the first end of the offset side; its direction d; length = |d| */
 } moved;
 
 static moved moved_side(sunder_i_gap_state *s, size_t segment)
@@ -30,9 +31,10 @@ static moved moved_side(sunder_i_gap_state *s, size_t segment)
 
 static sunder_i_gap_curve curve_of(const moved *m) { return (sunder_i_gap_curve){false, m->line.a, m->line.d}; }
 
-/* ---- Where the line leaves a grown subsum ---- */
+/* ---- The point where a line leaves a grown subsum ---- */
 
-/* At t, over a curve; `loss`: how many times the usual error t |d| is off. */
+/* The exit at the parameter t through a curve of the subsum: the arc about vertex `at`, or the offset of side `at`.
+ * `loss` is the error of t as a multiple of the usual one. */
 typedef struct way_out {
     bool any;
     double t, loss;
@@ -40,7 +42,8 @@ typedef struct way_out {
     uint32_t at;
 } way_out;
 
-/* Over the disc about corner i, which has its middle at t: half the chord from the distance of the line. */
+/* Offers the exit from the disc about vertex i; `middle` is the parameter of the foot of its centre on the line. Half
+ * the chord is computed from the distance of the line. */
 static void leave_corner(const sunder_i_gap_state *s, const moved *m, const sunder_i_gap_subsum *r, uint32_t i,
                          double middle, bool forwards, way_out *w)
 {
@@ -48,12 +51,12 @@ static void leave_corner(const sunder_i_gap_state *s, const moved *m, const sund
     const double off = fabs(m->dx * vy - m->dy * vx) / m->length, in = s->gap - off;
     if (in < 0) return;
     const double half = sqrt(in * (s->gap + off)), t = middle + (forwards ? half : -half) / m->length;
-    /* An error e of `in` is one of e g / half in the half chord. */
+    /* an error e of `in` causes an error e g / half of half the chord */
     if (!w->any || (forwards ? t > w->t : t < w->t))
         *w = (way_out){true, t, half > 0 ? 1 + 4 * s->gap / half : INFINITY, true, i};
 }
 
-/* Over moved side i: n (x - corner) = gap with n = (sy, -sx) / length. */
+/* Offers the exit through the offset of side i, n (x - corner) = gap with n = (sy, -sx) / length. */
 static void leave_side(const sunder_i_gap_state *s, const moved *m, const sunder_i_gap_subsum *r, uint32_t i,
                        bool forwards, way_out *w)
 {
@@ -63,21 +66,23 @@ static void leave_side(const sunder_i_gap_state *s, const moved *m, const sunder
     const double t = (s->gap * r->length[i] - (r->sy[i] * vx - r->sx[i] * vy)) / slope;
     const double along = r->sx[i] * (vx + t * m->dx) + r->sy[i] * (vy + t * m->dy);
     if (!(along >= 0 && along <= r->length[i] * r->length[i])) return;
-    /* An error of the heights is divided by the sine of the angle between the lines. */
+    /* the errors of heights are divided by the sine of the angle between the lines */
     if (!w->any || (forwards ? t > w->t : t < w->t))
         *w = (way_out){true, t, 1 + 2 * r->length[i] * m->length / fabs(slope), false, i};
 }
 
-/* Where the disc about corner i leans on side k, an end of it: how far to the left of the line, times |d|. */
+/* Returns the signed distance from the line, times |d|, of the point where the disc about vertex i touches the offset
+ * of side k, of which i is an end; positive on the left. */
 static double lean(const sunder_i_gap_state *s, const moved *m, const sunder_i_gap_subsum *r, uint32_t i, uint32_t k)
 {
     const double x = r->cx[i] + s->gap * r->sy[k] * r->inverse[k], y = r->cy[i] - s->gap * r->sx[k] * r->inverse[k];
     return m->dx * (y - m->ay) - m->dy * (x - m->ax);
 }
 
-/* Counter-clockwise round what is grown the boundary is on the line's right, then on its left, and that is where it
- * leaves: between the corners farthest to either side the moved side is sought that ends on the left first. It is left
- * over that one, or over the disc before it. Backwards it is the other way round. */
+/* Finds the exit by bisection. Counterclockwise, the boundary of the grown subsum runs on the right of the line, then
+ * on its left, and the line leaves it in between: between the vertices farthest on either side, the first offset side
+ * that ends on the left is found. The exit is through that side, or through the arc before it. Backwards, left and
+ * right are exchanged. */
 static way_out leave_by_halving(sunder_i_gap_state *s, const moved *m, const sunder_i_gap_subsum *r, size_t k,
                                 bool forwards)
 {
@@ -94,7 +99,7 @@ static way_out leave_by_halving(sunder_i_gap_state *s, const moved *m, const sun
             low = i + 1;
     }
     way_out w = {.any = false};
-    for (uint32_t i = low + n - 1; i <= low + n; i++) { /* the one before, too: where they meet doubles may err */
+    for (uint32_t i = low + n - 1; i <= low + n; i++) { /* the previous one, too: doubles may err where the two meet */
         const uint32_t at = i % n;
         const double middle = ((r->cx[at] - m->ax) * m->dx + (r->cy[at] - m->ay) * m->dy) / m->square;
         leave_corner(s, m, r, at, middle, forwards, &w);
@@ -103,8 +108,9 @@ static way_out leave_by_halving(sunder_i_gap_state *s, const moved *m, const sun
     return w;
 }
 
-/* An estimate of where the moved line leaves grown subsum k, which the caller checks. No disc is left later than it
- * ends in the direction of the line, and no side later than the discs at its ends. */
+/* Returns an estimate of where the offset line leaves the grown subsum k; the caller verifies it. A disc is not left
+ * beyond its end in the direction of the line, and a side not later than the discs at its ends; this excludes most of
+ * them. */
 static way_out leave(sunder_i_gap_state *s, const moved *m, size_t k, bool forwards)
 {
     way_out w = {.any = false};
@@ -131,7 +137,7 @@ static sunder_i_gap_curve curve_over(const sunder_i_gap_state *s, size_t k, bool
     return (sunder_i_gap_curve){arc, sum->corner[i], arc ? sum->corner[i] : sum->side[i]};
 }
 
-/* The point of the segment's line over the curve: of a circle the one where the line leaves it. */
+/* Returns the crossing of the segment's line with a curve; of a circle the crossing where the line leaves it. */
 static sunder_i_gap_point point_over(const moved *m, size_t segment, sunder_i_gap_curve over, bool forwards)
 {
     return (sunder_i_gap_point){.c = curve_of(m),
@@ -144,12 +150,13 @@ static sunder_i_gap_point point_over(const moved *m, size_t segment, sunder_i_ga
                                 .cover = -1};
 }
 
-/* Does the line, which meets the grown subsum, leave it over that curve? Exact: it does where it leaves what the curve
- * bounds, the disc or the half-plane, and the point is no nearer to the subsum than the gap. */
+/* Returns whether the line, which meets the grown subsum k, leaves it at the point p. Exact: the line leaves the disc
+ * or half-plane that the curve bounds, and the point is not closer to the subsum than the gap. */
 static bool leaves_over(sunder_i_gap_state *s, sunder_i_gap_point *p, size_t k)
 {
     if (!p->d.arc) {
-        const int turn = sunder_i_operands_cross(s->g, p->c.d, p->d.d); /* out: to the side's right */
+        /* the line leaves the half-plane to the right of the side */
+        const int turn = sunder_i_operands_cross(s->g, p->c.d, p->d.d);
         if (p->forwards ? turn <= 0 : turn >= 0) return false;
     }
     const sunder_i_surd_point *exact = sunder_i_gap_solve(s, p);
@@ -174,18 +181,19 @@ void sunder_i_gap_pass(sunder_i_gap_state *s, const sunder_i_gap_point *from, si
         p = point_over(&m, from->segment, curve_over(s, k, i & 1, i / 2), forwards);
         known = leaves_over(s, &p, k);
     }
-    if (!known) return; /* memory is out: a convex set that a line meets is left once */
+    if (!known) return; /* out of memory: a line that meets a convex set leaves it somewhere */
     sunder_i_gap_doubles(s, p.exact, &p.x, &p.y);
     p.error = s->error;
     const double along = ((p.x - m.ax) * m.dx + (p.y - m.ay) * m.dy) / m.length, spare = 4 * s->error;
-    if (forwards ? along > m.length + spare : along < -spare) return; /* past the end; false if that cannot be told */
+    /* the point is certainly beyond the end of the segment */
+    if (forwards ? along > m.length + spare : along < -spare) return;
     sunder_i_gap_push(s, sunder_i_gap_length(p.x, p.y) - s->error, &p);
 }
 
 /* ---- Certain steps ---- */
 
-/* The farthest t short of `leave` that is covered by subsum k for certain, as far as the segment's end; false if none
- * is found. */
+/* Sets *t to the farthest tested parameter before `leave_at`, at most the end of the segment, at which subsum k
+ * certainly covers the line. Returns false if none is found. */
 static bool covered_until(sunder_i_gap_state *s, const moved *m, size_t k, bool forwards, double leave_at, double *t)
 {
     const double end = forwards ? 1 : 0;
@@ -202,7 +210,8 @@ static bool covered_until(sunder_i_gap_state *s, const moved *m, size_t k, bool 
     return false;
 }
 
-/* Of the subsums that cover the point at t for certain, the one that does so farthest; -1 if there is none. */
+/* Among the subsums that certainly cover the point at t, returns the one whose exit is farthest; -1 if there is
+ * none. */
 static long farthest_cover(sunder_i_gap_state *s, const moved *m, double t, bool forwards, way_out *out)
 {
     const double x = m->ax + t * m->dx, y = m->ay + t * m->dy;
@@ -221,13 +230,14 @@ static long farthest_cover(sunder_i_gap_state *s, const moved *m, double t, bool
     return best;
 }
 
-/* From t, which subsum `cover` covers for certain, to where nothing is known to cover; that point goes on the heap. */
+/* Walks from t, where subsum `cover` certainly covers the line, to a point that no subsum is known to cover; pushes
+ * that point. */
 static void walk(sunder_i_gap_state *s, size_t segment, const moved *m, double t, bool forwards)
 {
     way_out out = {.any = false};
     long cover = -1;
     for (size_t steps = 0; steps <= 2 * s->g->subsums && !s->failed; steps++) {
-        /* Any subsum that covers will do as long as it gets us further; else the one that reaches farthest. */
+        /* any covering subsum is used if it leads farther; else the one whose exit is farthest */
         long k = sunder_i_gap_other_cover(s, m->ax + t * m->dx, m->ay + t * m->dy, cover);
         if (k < 0) break;
         way_out w = leave(s, m, (size_t)k, forwards);
@@ -252,8 +262,8 @@ static void walk(sunder_i_gap_state *s, size_t segment, const moved *m, double t
     sunder_i_gap_push(s, sunder_i_gap_length(m->ax + t * m->dx, m->ay + t * m->dy) - s->error, &p);
 }
 
-/* The foot of the perpendicular from the origin, or the end that is nearest. Which of them it is is decided exactly:
- * the foot has the same parameter on the moved side as on the unmoved one. */
+/* Processes an offset side: its point nearest to the origin is the foot of the perpendicular, or an end. Which of them
+ * it is is decided exactly, since the foot has the same parameter on the offset side as on the side itself. */
 void sunder_i_gap_take_segment(sunder_i_gap_state *s, size_t segment)
 {
     const moved m = moved_side(s, segment);
@@ -261,7 +271,7 @@ void sunder_i_gap_take_segment(sunder_i_gap_state *s, size_t segment)
     const bool past = !before && sunder_i_operands_dot(s->g, m.line.b, m.line.d) <= 0;
     const double t = before ? 0 : past ? 1 : sunder_i_min(1, sunder_i_max(0, -(m.ax * m.dx + m.ay * m.dy) / m.square));
     const double x = m.ax + t * m.dx, y = m.ay + t * m.dy;
-    const bool tiny = !(m.length > SUNDER_I_SHORTEST); /* then this is unknown */
+    const bool tiny = !(m.length > SUNDER_I_SHORTEST); /* t is unknown then */
     const double key = tiny ? 0 : sunder_i_gap_length(x, y) - s->error;
     if (key > s->best) return;
     if (!tiny && sunder_i_gap_cover(s, x, y, 0) >= 0) {
@@ -269,7 +279,7 @@ void sunder_i_gap_take_segment(sunder_i_gap_state *s, size_t segment)
         if (!before) walk(s, segment, &m, t, false);
         return;
     }
-    /* An end is where the line meets the circle about the corner, in one point. */
+    /* an end of the offset side is the point where its line touches the circle about the vertex */
     const sunder_i_gap_point p = {.x = x,
                                   .y = y,
                                   .error = tiny ? INFINITY : s->error,

@@ -1,29 +1,29 @@
-/* Off a free point that is irrational, to a rational one. The grown subsums that touch there are convex, so each lies
- * behind the line through the point across the normal of its contact: whoever goes where all normals point, or at right
- * angles to them, is free of all these, however far. The other subsums are farther than the gap, so a small enough step
- * is free of them too: the step is made smaller, and the numbers longer, until the exact test agrees.
+/* step_to_rational.c: from a free irrational point to a rational one near it. The grown subsums that touch the point
+ * are convex, so that each lies behind the line through the point perpendicular to the normal of its contact: any step
+ * whose direction has no negative product with any of the normals stays clear of all of them. The other subsums are
+ * farther than the gap, so that a sufficiently small step stays clear of them, too: steps become smaller, and numbers
+ * longer, until the exact test succeeds.
  *
- * There always is room: a point that is held on all sides is rational, and one between two opposite contacts lies on a
- * rational line. A side of normal n (integers) and length L = |n| says n.p = c + g L, with c an integer and g rational,
- * a corner says |p - a| = g.
+ * Such a step always exists: a point where every direction is blocked is rational, and a point between two opposite
+ * contacts lies on a rational line. A side with the normal n (integers) and length L = |n| gives n.p = c + g L, with an
+ * integer c and a rational g; a vertex gives |p - a| = g.
  *
- * Opposite contacts. Two sides, n = -k m: adding up, 2 g L is rational, so is L, and the line n.p = c + g L. A side and
- * a corner: n.a = c + 2 g L, so L is rational and p = a - g n / L. Two corners: p is the middle.
+ * Opposite contacts. Two sides, n = -k m: by addition 2 g L is rational, so is L, and with it the line n.p = c + g L. A
+ * side and a vertex: n.a = c + 2 g L, so L is rational and p = a - g n / L. Two vertices: p is their midpoint.
  *
- * Held on all sides, a point has among its contacts two opposite pairs (on two rational lines, so it is rational), or
- * three whose normals n1, n2, n3 have l1 n1 + l2 n2 + l3 n3 = 0 with all l > 0, no two parallel:
- *   - three sides: the l are rational, and l1 L1 + l2 L2 + l3 L3 is. Roots of integers do not cancel with positive
- *     factors: all L are rational.
- *   - three corners: their circle has a rational center.
- *   - a side and two corners: p = m + t v, m the middle of the corners, v the way between them turned by a right angle,
- *     and t^2 rational. Suppose t is not. If n.v = 0, the way +-v is open. Else t = (c - n.m + g L) / n.v, and as its
- *     square is rational but t is not, L is irrational and c = n.m; then g L = t n.v <= |t v| L < g L.
- *   - two sides and a corner: w = (p - a) / g has |w| = 1 and n_i.w = r_i + L_i, r_i rational. Let e_1, e_2 be the
- *     basis with n_i.e_j = 0 or 1, so that w = sum (r_i + L_i) e_i, and s the angle of the normals: |L_i e_i| = 1 / sin
- *     s. Suppose some L is irrational; what stands beside each root in |w|^2 is zero. If both are, of one root: 1 =
- *     |r_1 e_1 + r_2 e_2|^2 + |z|^2 with z.n_i = L_i, so |z| = 1 / cos(s / 2) > 1. Of two roots: r = 0 and e_1.e_2 = 0,
- *     so |w|^2 = 2. If L_2 alone: 1 = (r_1 + L_1)^2 / L_1^2 + 1 / sin(s)^2, so n_1.w = 0 and w is the unit normal of
- *     side 2, not against it. */
+ * A point where every direction is blocked has two opposite pairs among its contacts (it is on two rational lines,
+ * hence rational), or three contacts with normals n1, n2, n3 and l1 n1 + l2 n2 + l3 n3 = 0, all l > 0, no two parallel:
+ * - three sides: the l are rational, and so is l1 L1 + l2 L2 + l3 L3. Roots of integers with positive factors do not
+ * cancel: all L are rational. - three vertices: the circle through them has a rational centre. - a side and two
+ * vertices: p = m + t v, m the midpoint of the vertices, v their difference turned by a right angle, and t^2 rational.
+ * Suppose that t is irrational. If n.v = 0, the direction +-v is free. Else t = (c - n.m + g L) / n.v, and since its
+ * square is rational but t is not, L is irrational and c = n.m; then g L = t n.v <= |t v| L < g L. - two sides and a
+ * vertex: w = (p - a) / g has |w| = 1 and n_i.w = r_i + L_i, r_i rational. Let e_1, e_2 be the basis with n_i.e_j = 0
+ * or 1, so that w = sum (r_i + L_i) e_i, and s the angle of the normals: |L_i e_i| = 1 / sin s. Suppose that some L is
+ * irrational; the coefficient of each root in |w|^2 is zero. If both are, with the same root: 1 = |r_1 e_1 + r_2 e_2|^2
+ * + |z|^2 with z.n_i = L_i, so |z| = 1 / cos(s / 2) > 1. With two roots: r = 0 and e_1.e_2 = 0, so |w|^2 = 2. If L_2
+ * alone is: 1 = (r_1 + L_1)^2 / L_1^2 + 1 / sin(s)^2, so n_1.w = 0 and w is the unit normal of side 2, not opposite to
+ * it. */
 #include "separation/gap/gap_search.h"
 
 #include "predicate/rational_point.h"
@@ -33,14 +33,15 @@
 #include <float.h>
 #include <math.h>
 
-/* ---- Room ---- */
+/* ---- Free directions ---- */
 
 typedef struct normal {
     sunder_i_surd x, y;
-    sunder_i_big over; /* of a corner: the way from there, times the point's w and this */
+    sunder_i_big over; /* the factor of the normal: that of a side times this; that of a vertex is the vector from there
+                        * to the point, times the point's w and this */
 } normal;
 
-/* The contact's normal, exactly, of some length. */
+/* Returns the exact normal of a contact; its length is arbitrary. */
 static normal normal_of(sunder_i_gap_state *s, const sunder_i_surd_point *at, const sunder_i_gap_contact *c)
 {
     sunder_i_lattice *l = &s->g->placed.lattice;
@@ -55,8 +56,8 @@ static normal normal_of(sunder_i_gap_state *s, const sunder_i_surd_point *at, co
         v.w};
 }
 
-/* Sign of n_i x n_j, or of n_i . n_j. The normals of sides are good to 8 u, those of corners to the point's error over
- * the gap as well. */
+/* Returns the sign of n_i x n_j or, if `dot`, of n_i . n_j. In doubles the normals of sides have a relative error of 8
+ * u; those of vertices have also the point's error divided by the gap. */
 static int sign_of(sunder_i_gap_state *s, const sunder_i_gap_free_point *f, size_t i, size_t j, bool dot)
 {
     const sunder_i_gap_contact *c = f->contact + i, *d = f->contact + j;
@@ -79,7 +80,8 @@ static int sign_of(sunder_i_gap_state *s, const sunder_i_gap_free_point *f, size
     return sign;
 }
 
-/* Is the normal of contact i turned by a right angle, to the left (turn 1) or right (-1), a way to go? */
+/* Returns whether the normal of contact i, turned by a right angle to the left (turn 1) or right (-1), is a free
+ * direction. */
 static bool may_turn(sunder_i_gap_state *s, const sunder_i_gap_free_point *f, size_t i, int turn)
 {
     for (size_t k = 0; k < f->contacts; k++)
@@ -102,7 +104,7 @@ sunder_i_gap_way sunder_i_gap_way_off(sunder_i_gap_state *s, const sunder_i_gap_
         way.room = way.left < 0 && way.right < 0 ? SUNDER_I_ROOM_NONE : SUNDER_I_ROOM_LINE;
         return way;
     }
-    /* Between the two all is strictly clear, unless some normal is at right angles to both. */
+    /* every direction between the two is free of all contacts, unless some normal is perpendicular to both */
     for (size_t k = 0; k < at->contacts; k++)
         if (sign_of(s, at, (size_t)way.left, k, false) == 0 && sign_of(s, at, k, (size_t)way.right, false) == 0)
             way.room = SUNDER_I_ROOM_LINE;
@@ -111,21 +113,23 @@ sunder_i_gap_way sunder_i_gap_way_off(sunder_i_gap_state *s, const sunder_i_gap_
 
 /* ---- Steps ---- */
 
-/* Ways narrower than this are left to exact steps: doubles would have to go too far along them to get off. */
+/* Sectors of free directions narrower than this are left to exact steps, since doubles would have to go too far to
+ * leave the boundary. */
 #define NARROW 0x1p-20
-/* The first step is some ulps long, so that doubles beside the point differ from it; each further step is 8 times as
- * long, DOUBLES_TRIED steps in all. */
+/* The first step is some ulps long, so that doubles near the point differ from it; each further one is 8 times as long.
+ * DOUBLES_TRIED is the number of steps. */
 #define FIRST_STEP 0x1p-49
 #define DOUBLES_TRIED 8
 
-/* To a place of doubles of the caller's units, where those are fine enough: what users like best. */
+/* Tries points whose coordinates are doubles in the caller's units, which users prefer. Returns false if none of them
+ * is free. */
 static bool to_doubles(sunder_i_gap_state *s, const sunder_i_gap_free_point *f, const sunder_i_gap_contact *a,
                        const sunder_i_gap_contact *b, const sunder_i_big xy[2], unsigned long bits,
                        sunder_i_surd_point *out)
 {
     const double unit = s->g->unit;
     if (!(unit > 0 && unit < INFINITY)) return false;
-    /* Where the way between a and b is wide, the middle of it. */
+    /* the bisector of the normals of a and b, if it is well defined */
     double ux = a->nx + b->nx, uy = a->ny + b->ny, gain = 1;
     const double f1 = sunder_i_gap_length(ux, uy);
     if (!(f1 > NARROW)) return false;
@@ -146,7 +150,7 @@ static bool to_doubles(sunder_i_gap_state *s, const sunder_i_gap_free_point *f, 
     return false;
 }
 
-/* The unit normal of a contact times 2^bits, within 4. */
+/* Sets n to 2^bits times the unit normal of a contact, with an error of at most 4. */
 static void unit_normal(sunder_i_gap_state *s, const sunder_i_surd_point *at, const sunder_i_gap_contact *c,
                         unsigned long bits, sunder_i_big n[2])
 {
@@ -166,7 +170,8 @@ static void unit_normal(sunder_i_gap_state *s, const sunder_i_surd_point *at, co
         n[k] = sunder_i_big_div_floor(a, sunder_i_surd_scaled(a, &at->roots, part[k], bits + s->p->gap_bits), length);
 }
 
-/* A step of 2^size lattice units into the open, in numbers of `bits` digits and with normals of `digits`. */
+/* *out becomes the point plus a step of 2^size lattice units in a free direction between the contacts i and j; the
+ * point is computed to `bits` bits after the point and the normals to `digits` bits. */
 static void step_off(sunder_i_gap_state *s, const sunder_i_gap_free_point *f, size_t i, size_t j, long size,
                      unsigned long bits, unsigned long digits, sunder_i_surd_point *out)
 {
@@ -175,8 +180,8 @@ static void step_off(sunder_i_gap_state *s, const sunder_i_gap_free_point *f, si
     sunder_i_surd_point_scaled(s->g, &f->exact, bits, at);
     unit_normal(s, &f->exact, f->contact + i, digits, n);
     unit_normal(s, &f->exact, f->contact + j, digits, m);
-    /* The middle between the normals; where they are far from each other that cancels, and is said by the ways: n
-     * turned left and m turned right. */
+    /* The direction is the sum of the normals n and m. If the angle between them is obtuse this sum cancels, and the
+     * sum of n turned left and m turned right is used. */
     const bool wide = sign_of(s, f, i, j, true) < 0;
     const sunder_i_big u[2] = {wide ? sunder_i_big_sub(a, m[1], n[1]) : sunder_i_big_add(a, n[0], m[0]),
                                wide ? sunder_i_big_sub(a, n[0], m[0]) : sunder_i_big_add(a, n[1], m[1])};
@@ -187,7 +192,8 @@ static void step_off(sunder_i_gap_state *s, const sunder_i_gap_free_point *f, si
         s->g, (sunder_i_rational_point){at[0], at[1], sunder_i_big_shl(a, sunder_i_big_i64(a, 1), bits)});
 }
 
-/* The same along the line between opposite contacts, the way that contact i turned left (turn 1) or right shows. */
+/* *out becomes the point plus a step along the line between opposite contacts, in the direction of the normal of
+ * contact i turned left (turn 1) or right (-1). Returns false if no rational line is known. */
 static bool step_along(sunder_i_gap_state *s, const sunder_i_gap_free_point *f, size_t i, int turn, long size,
                        unsigned long bits, sunder_i_surd_point *out)
 {
@@ -197,7 +203,8 @@ static bool step_along(sunder_i_gap_state *s, const sunder_i_gap_free_point *f, 
     if (k == f->contacts) return false;
     const sunder_i_subsum *m = s->g->subsum + f->contact[k].of;
     const sunder_i_gap_curve wall = {false, m->corner[f->contact[k].at], m->side[f->contact[k].at]};
-    const bool ahead = (sign_of(s, f, i, k, true) > 0) == (turn > 0); /* the side is its normal turned left */
+    /* the side's direction is its normal turned left */
+    const bool ahead = (sign_of(s, f, i, k, true) > 0) == (turn > 0);
     const unsigned long shift = (unsigned long)(size + (long)bits);
     const sunder_i_big step = sunder_i_big_shl(a, sunder_i_big_i64(a, ahead ? 1 : -1), shift);
     sunder_i_big along;
@@ -205,8 +212,8 @@ static bool step_along(sunder_i_gap_state *s, const sunder_i_gap_free_point *f, 
     return sunder_i_gap_along(s->p, &wall, sunder_i_big_add(a, along, step), bits, out);
 }
 
-/* Steps from 2^-33 of the length downwards, each round with twice as many digits more than the last: a way as narrow as
- * an angle of 2^-n is hit with n digits. */
+/* The number of rounds of exact steps. The first step is 2^-33 of the length; each round uses twice as many bits as the
+ * previous one and shorter steps. A sector of free directions with an angle of 2^-n is hit with n bits. */
 #define ROUNDS_MAX 12
 
 bool sunder_i_gap_rational_beside(sunder_i_gap_state *s, const sunder_i_gap_free_point *found,
@@ -217,7 +224,7 @@ bool sunder_i_gap_rational_beside(sunder_i_gap_state *s, const sunder_i_gap_free
     if (way->room == SUNDER_I_ROOM_NONE || found->contacts == 0) return false;
     const bool open = way->room == SUNDER_I_ROOM_OPEN || way->room == SUNDER_I_ROOM_HALF;
     if (open && to_doubles(s, found, found->contact + i, found->contact + j, xy, bits, out)) return true;
-    /* The greater coordinate is at least 2^size. */
+    /* the larger coordinate is at least 2^size */
     const unsigned long u = sunder_i_big_bits(xy[0]), v = sunder_i_big_bits(xy[1]);
     const long size = (long)(u > v ? u : v) - 2 - (long)bits;
     for (int round = 0; round < ROUNDS_MAX && !s->failed && !s->g->placed.lattice.arena.failed; round++) {

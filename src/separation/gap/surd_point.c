@@ -1,6 +1,6 @@
-/* Points whose coordinates are fractions of sums of square roots: their order, and their digits. Two points have at
- * most two roots each, which are joined to be compared; signs are exact (number/surd), and digits as many as are asked
- * for. */
+/* surd_point.c: points whose coordinates are fractions of sums of square roots: their order, and their digits. Each
+ * point has at most two roots; those of two points are joined for a comparison. Signs are exact (number/surd), and
+ * digits are computed to any number. */
 #include "separation/gap/gap.h"
 
 #include <math.h>
@@ -25,7 +25,7 @@ static sunder_i_surd norm(sunder_i_arena *a, const sunder_i_roots *roots, sunder
     return sunder_i_surd_add(a, sunder_i_surd_mul(a, roots, x, x), sunder_i_surd_mul(a, roots, y, y));
 }
 
-/* The same of a point, from the topmost bits. */
+/* Returns the squared distance of a point from the origin, in ball arithmetic. */
 static sunder_i_ball rough_norm(const sunder_i_surd_point *u)
 {
     const sunder_i_ball x = sunder_i_surd_ball(&u->roots, u->x), y = sunder_i_surd_ball(&u->roots, u->y);
@@ -42,7 +42,7 @@ int sunder_i_surd_point_cmp(sunder_i_operands *operands, const sunder_i_surd_poi
     const sunder_i_mark mark = sunder_i_arena_mark(a);
     sunder_i_roots roots = u->roots;
     int place[SUNDER_I_SURD_ROOTS];
-    sunder_i_roots_join(a, &roots, &v->roots, place); /* at most two each, and there is room for four */
+    sunder_i_roots_join(a, &roots, &v->roots, place); /* at most two roots each, and there is room for four */
     const sunder_i_surd ux = sunder_i_surd_scale(a, u->x, v->w), uy = sunder_i_surd_scale(a, u->y, v->w);
     const sunder_i_surd vx = sunder_i_surd_scale(a, sunder_i_surd_lift(a, v->x, place), u->w);
     const sunder_i_surd vy = sunder_i_surd_scale(a, sunder_i_surd_lift(a, v->y, place), u->w);

@@ -1,5 +1,6 @@
-/* The exact check of a result with a gap: asked of the pieces themselves, sides against corners; it shares only the
- * arithmetic with the search. Doubles say which sides and corners are near (errors as in gap/search.h). */
+/* verify_gap.c: the exact verification of a result with a gap. It tests the sides of the pieces against vertices of the
+ * other operand and shares only the arithmetic with the search. Doubles select the sides and vertices that are near
+ * (errors as in gap_search.h). */
 #include "separation/gap/gap.h"
 
 #include "predicate/rational_point.h"
@@ -14,11 +15,12 @@ typedef struct checking {
     double at[2], gap, doubt;
 } checking;
 
-/* A side of one piece, from which corners of the other are seen: q + t - p = t - (p + (-q)), for the operands have Q
- * reflected; seen from Q all is reflected in t / 2. */
+/* A side of a piece in relation to vertices of the other operand: q + t - p = t - (p + (-q)), since Q is reflected in
+ * the operands. For a side of Q everything is reflected in t / 2. */
 typedef struct side {
     sunder_i_point a, d;
-    double x, y, dx, dy, length; /* t - a, d, |d|; NaN, which answers no question, where it is too short for doubles */
+    double x, y, dx, dy, length; /* t - a, d and |d|; the length is NaN if it is too short for doubles: then every
+                                  * comparison is false */
 } side;
 
 static side side_of(const checking *c, const sunder_i_operand_piece *p, uint32_t k)
@@ -35,14 +37,14 @@ static side side_of(const checking *c, const sunder_i_operand_piece *p, uint32_t
     return s;
 }
 
-/* How far the corner stands out over the side's line. */
+/* Returns the signed distance of vertex m of q from the line of side s, positive on the outer (right) side. */
 static double height(const checking *c, const side *s, const sunder_i_operand_piece *q, uint32_t m)
 {
     const double *b = c->g->xy[q->side] + 2 * q->corner[m];
     return (s->dy * (s->x - b[0]) - s->dx * (s->y - b[1])) / s->length;
 }
 
-/* Is its distance from the side above the gap for certain? */
+/* Returns whether the distance of the vertex from the side certainly exceeds the gap. */
 static bool certainly_off(const checking *c, const side *s, const sunder_i_operand_piece *q, uint32_t m)
 {
     const double h = height(c, s, q, m), reach = c->gap + c->doubt;
@@ -53,8 +55,10 @@ static bool certainly_off(const checking *c, const side *s, const sunder_i_opera
 }
 
 typedef struct exact {
-    sunder_i_big turn, along, norm, square; /* of the way from the side's first corner, times w; |side|^2 */
-    sunder_i_big over;                      /* all that in units that divide the lattice's by this */
+    sunder_i_big turn, along, norm, square; /* cross and dot product of the side with the vector from its first end to
+                                             * the vertex, and the squared length of that vector, each times w; the
+                                             * squared length of the side */
+    sunder_i_big over;                      /* the factor by which all these are scaled from lattice units */
 } exact;
 
 static exact exactly(const checking *c, const side *s, const sunder_i_operand_piece *q, uint32_t m)
@@ -74,7 +78,8 @@ static exact exactly(const checking *c, const side *s, const sunder_i_operand_pi
                    sunder_i_big_norm(a, x, y), sunder_i_big_norm(a, dx, dy), over};
 }
 
-/* Is the corner no nearer than the gap to the side, its second end aside (that is the next side's first)? */
+/* Returns whether the distance of the vertex from the side, without its second end (the first end of the next side), is
+ * not less than the gap. */
 static bool keeps_off(const checking *c, const side *s, const sunder_i_operand_piece *q, uint32_t m)
 {
     if (certainly_off(c, s, q, m)) return true;
@@ -93,7 +98,7 @@ static bool keeps_off(const checking *c, const side *s, const sunder_i_operand_p
     return off;
 }
 
-/* Is the corner on the right of the side's line, or on it? */
+/* Returns whether the vertex is on the right of the side's line, or on it. */
 static bool is_outside(const checking *c, const side *s, const sunder_i_operand_piece *q, uint32_t m)
 {
     const double h = height(c, s, q, m);
@@ -108,8 +113,8 @@ static bool is_outside(const checking *c, const side *s, const sunder_i_operand_
 
 typedef enum parting { PARTED_NOT, PARTED, PARTED_FAR } parting;
 
-/* Does a side of p have all of q on its right? *by: such a side; if there is one that certainly has q more than the gap
- * away, so that the pair is settled, that one. */
+/* Returns whether a side of p has all of q on its right or on its line; *by becomes such a side. PARTED_FAR: all of q
+ * is certainly farther than the gap from one side's line, which settles the pair. */
 static parting side_parts(const checking *c, const sunder_i_operand_piece *p, const sunder_i_operand_piece *q, side *by)
 {
     bool parts = false;
@@ -127,8 +132,8 @@ static parting side_parts(const checking *c, const sunder_i_operand_piece *p, co
     return parts ? PARTED : PARTED_NOT;
 }
 
-/* The corners of p and of q that may be within the gap of the other piece: side `by`, of p, has all of q on its right,
- * so a corner farther than the gap from its line is farther from the other piece. */
+/* The vertices of p and of q that may be within the gap of the other piece. All of q is on the right of side `by` of p,
+ * so that a vertex farther than the gap from its line is farther than that from the other piece. */
 typedef struct close_by {
     uint32_t *p, *q, pn, qn;
 } close_by;
@@ -144,7 +149,7 @@ static close_by find_close(const checking *c, const sunder_i_operand_piece *p, c
         if (!(height(c, by, q, m) > most)) b.q[b.qn++] = m;
     for (uint32_t m = 0; m < p->n; m++) {
         const double *at = c->g->xy[p->side] + 2 * p->corner[m];
-        /* From the corner to the side's first. */
+        /* the vector from the vertex to the first end of the side */
         const double x = c->at[0] - at[0] - by->x, y = c->at[1] - at[1] - by->y;
         if (!((by->dy * x - by->dx * y) / by->length > most)) b.p[b.pn++] = m;
     }

@@ -1,8 +1,9 @@
-/* The board is halved again and again, as in outline/culling.c: a part that one subsum holds is closed whole, and only
- * subsums that come near a part are passed on to its halves. Squares that are never held keep their lists.
+/* board.c: see board.h. The board is divided into halves repeatedly, as in outline/culling.c: a part that one subsum
+ * covers is closed completely, and only subsums near a part are passed on to its halves. Squares that stay open keep
+ * lists of the subsums near them.
  *
- * All in doubles and one-sided: `held` is certain, with room for the error of a point that is looked up; the lists are
- * of all subsums that come within that error. */
+ * All tests are in doubles and one-sided: a closed square is certainly covered, with an allowance for the error of a
+ * point that is looked up; the lists have all subsums within that error. */
 #include "separation/obstacle/board.h"
 
 #include "base/invariant.h"
@@ -11,14 +12,14 @@
 #include <math.h>
 #include <string.h>
 
-#define TRIES 24 /* of the fattest subsums whose boxes hold a part; what they do not hold is rarely held */
-/* The board has LEAST to MOST squares a side, a power of two, and no more subsums than SUBSUMS_EACH for each square if
- * it can: a finer one holds more of the plane, and takes longer to be made. */
+#define TRIES 24 /* the number of the largest subsums tried of those whose boxes cover a part; others rarely cover it */
+/* The board has between LEAST and MOST squares in each direction, a power of two, and at most SUBSUMS_EACH subsums for
+ * each square if MOST allows. A finer board covers more of the plane but takes longer to build. */
 #define LEAST 16
 #define MOST 256
 #define SUBSUMS_EACH 16
 
-/* columns x0 .. x1 - 1, rows y0 .. y1 - 1; its list is the end of the common one */
+/* columns x0 .. x1 - 1, rows y0 .. y1 - 1; near[from .. to - 1] are the subsums near it */
 typedef struct part {
     uint32_t x0, y0, x1, y1;
     size_t from, to;
@@ -27,7 +28,7 @@ typedef struct part {
 typedef struct board {
     sunder_i_operands *g;
     sunder_i_board *h;
-    uint32_t *near; /* lists of the parts on the stack, one after the other */
+    uint32_t *near; /* the lists of the parts on the stack, one after the other */
     size_t near_n, near_capacity;
     part stack[64]; /* two for each halving: at most 2 * 2 * 9 */
     uint32_t stack_n;
@@ -42,7 +43,7 @@ static void part_box(const sunder_i_board *h, const part *p, double box[4])
     box[3] = p->y1 * step - h->reach;
 }
 
-/* Does the subsum hold the box, widened by the error, in its interior? */
+/* Returns whether the interior of the subsum contains the box, enlarged by the error. */
 static bool holds(sunder_i_operands *g, sunder_i_subsum *s, const double box[4])
 {
     const double e = 4 * g->error;
@@ -64,7 +65,7 @@ static void close_part(sunder_i_board *h, const part *p, uint32_t holder)
         for (uint32_t x = p->x0; x < p->x1; x++) h->holder[(size_t)y * h->n + x] = holder + 1;
 }
 
-/* The list of an open square; they are kept in the order in which squares come, and sorted by square at the end. */
+/* Appends the list of an open square. Lists are in the order in which squares are processed; arrange() sorts them. */
 static bool keep_list(board *b, const part *p, uint32_t *start)
 {
     sunder_i_board *h = b->h;
@@ -78,7 +79,8 @@ static bool keep_list(board *b, const part *p, uint32_t *start)
     return true;
 }
 
-/* Looks at one part with the list of its parent: closes it, keeps it, or puts it on the stack. */
+/* Examines one part with the list of its parent: closes it, stores its list if it is one square, or pushes it on the
+ * stack. */
 static bool settle(board *b, const part *parent, part p, uint32_t *start)
 {
     double box[4];
@@ -127,13 +129,13 @@ static bool descend(board *b, uint32_t *start)
             low.x1 = high.x0 = p.x0 + (p.x1 - p.x0) / 2;
         else
             low.y1 = high.y0 = p.y0 + (p.y1 - p.y0) / 2;
-        b->near_n = p.to; /* lists above belong to parts already done */
+        b->near_n = p.to; /* lists beyond this belong to parts that are done */
         if (!settle(b, &p, low, start) || !settle(b, &p, high, start)) return false;
     }
     return !b->g->placed.lattice.arena.failed;
 }
 
-/* Lists in the order of the squares, so that one array of ends will do; and the sums of open squares. */
+/* Sorts the lists by square, so that list_end suffices, and sums up the numbers of open squares. */
 static bool arrange(sunder_i_board *h, const uint32_t *start)
 {
     const size_t n = h->n;
@@ -192,7 +194,7 @@ void sunder_i_board_free(sunder_i_operands *operands)
     operands->board = NULL;
 }
 
-/* The column or row of a coordinate, those beyond the board clamped to its border. */
+/* Returns the column or row of a coordinate; coordinates beyond the board get its first or last one. */
 static uint32_t clamped(const sunder_i_board *h, double v)
 {
     const double at = (v + h->reach) * h->per_unit;

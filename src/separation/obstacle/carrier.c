@@ -1,9 +1,9 @@
-/* Is a point of a line covered by a subsum, and where does the line leave that subsum?
+/* carrier.c: tests whether a subsum covers a point of a line, and finds where the line leaves the subsum.
  *
- * A point is a + t d with an exact fraction t, so no point is ever constructed: its side of a subsum's side is the sign
- * of A + t B, with A and B cross products on the lattice, and the line leaves at t = -A / B. Doubles decide where they
- * clear their error bound; for subsums with many sides they select the few sides to be tested (fan.h, and by bisection
- * between the corners farthest to either side of the line). */
+ * A point is a + t d with an exact fraction t and is never constructed: its position relative to a side of a subsum is
+ * the sign of A + t B, where A and B are cross products on the lattice, and the line leaves the subsum at t = -A / B.
+ * Doubles decide if they exceed their error bound; for subsums with many sides they select the few sides to be tested
+ * (fan.h, and by bisection between the vertices farthest on either side of the line). */
 #include "separation/obstacle/carrier.h"
 #include "base/invariant.h"
 #include "separation/obstacle/board.h"
@@ -11,7 +11,8 @@
 
 #include <math.h>
 
-/* v to within 2^-52: (double) of a 128-bit integer is a call, and rarely needed. */
+/* Converts v to a double with a relative error of at most 2^-52. Converting a 128-bit integer calls a library function,
+ * which is rarely necessary. */
 static inline double fast_double(sunder_i_i128 v)
 {
     const int64_t low = (int64_t)v;
@@ -76,13 +77,14 @@ int sunder_i_carrier_cmp(sunder_i_operands *operands, const sunder_i_fraction *s
     if (d > bound) return 1;
     if (d < -bound) return -1;
     l->counts.exact_fallbacks++;
-    if (operands->brief) /* below 2^62 all of them */
+    if (operands->brief) /* all numbers are below 2^62 */
         return sunder_i_i128_sign((sunder_i_i128)(int64_t)s->num * (int64_t)t->den -
                                   (sunder_i_i128)(int64_t)t->num * (int64_t)s->den);
     return sunder_i_cmp_products(s->num, t->den, t->num, s->den);
 }
 
-/* Of plain numbers, cross(side, a + t d - corner) = A + t B. Degree 2 each; the sign of A + t B has degree 4. */
+/* Computes A and B such that cross(side k, a + t d - corner k) = A + t B, for plain numbers. A and B have degree 2; the
+ * sign of A + t B has degree 4. */
 static inline void narrow_linear(const sunder_i_carrier *line, const sunder_i_subsum *s, uint32_t k, sunder_i_i128 *a,
                                  sunder_i_i128 *b)
 {
@@ -111,16 +113,16 @@ int sunder_i_carrier_side(sunder_i_operands *operands, const sunder_i_carrier *l
     return sunder_i_orient_hpoint(l, subsum->corner[k], subsum->corner[k + 1 < subsum->sides ? k + 1 : 0], &x);
 }
 
-/* What side k says of the point in doubles: 1 left of it, -1 right, both for certain. */
+/* Compares the point with side k in doubles: 1 certainly on its left, -1 certainly on its right, 0 unknown. */
 static int side_says(const sunder_i_subsum *s, uint32_t k, double x, double y)
 {
     const double v = s->sx[k] * (y - s->cy[k]) - s->sy[k] * (x - s->cx[k]);
     return v > s->bound[k] ? 1 : v < -s->bound[k] ? -1 : 0;
 }
 
-/* The same for the diagonal from the lowest corner to corner k. Coordinates are within e, so the differences u, w are
- * within 2 e and an ulp, which e exceeds by far: their cross product is within 2 e (|u| + |w|) + 8 e^2, in sums of
- * absolute coordinates, plus its own rounding, which is below e |u|. */
+/* Compares the point with the diagonal from vertex 0 to vertex k in the same way. Coordinates have an error of at most
+ * e, so the differences u and w have one of 2 e and an ulp, which is far less than e: their cross product has an error
+ * of 2 e (|u| + |w|) + 8 e^2, with sums of absolute coordinates, plus its own rounding, which is below e |u|. */
 static int diagonal_says(const sunder_i_subsum *s, uint32_t k, double x, double y, double e)
 {
     const double u[2] = {s->cx[k] - s->cx[0], s->cy[k] - s->cy[0]}, w[2] = {x - s->cx[0], y - s->cy[0]};
@@ -148,7 +150,7 @@ static bool inside_one_by_one(sunder_i_operands *g, const sunder_i_carrier *line
     return true;
 }
 
-/* Is the point in the interior of the subsum? Doubles where they suffice. */
+/* Returns whether the point is in the interior of the subsum. Exact; doubles are used where they suffice. */
 static inline bool inside(sunder_i_operands *g, const sunder_i_carrier *line, const sunder_i_fraction *t, double x,
                           double y, const sunder_i_subsum *s)
 {
@@ -165,7 +167,7 @@ static inline bool inside(sunder_i_operands *g, const sunder_i_carrier *line, co
     return true;
 }
 
-/* Does subsum k, whose box is near the point, cover it? False too if memory is out. */
+/* Returns whether subsum k, whose box is near the point, covers it; false also if out of memory. */
 static inline bool covers_near(sunder_i_operands *g, const sunder_i_carrier *line, const sunder_i_fraction *t, double x,
                                double y, size_t k)
 {
@@ -175,17 +177,17 @@ static inline bool covers_near(sunder_i_operands *g, const sunder_i_carrier *lin
     return inside(g, line, t, x, y, s);
 }
 
-/* Does any subsum k? */
+/* Returns whether subsum k covers the point. */
 static inline bool covers(sunder_i_operands *g, const sunder_i_carrier *line, const sunder_i_fraction *t, double x,
                           double y, size_t k)
 {
     return sunder_i_box_near_point(g->subsum[k].box, x, y, g->error) && covers_near(g, line, t, x, y, k);
 }
 
-/* So few subsums are the bits of a word. */
+/* A set of up to this number of subsums is stored in a word. */
 #define FEW 64
 
-/* Those whose boxes are near the point. All at once: which are is anyone's guess. */
+/* Returns the set of subsums whose boxes are near the point. All are tested, since branches could not be predicted. */
 static uint64_t few_near(const sunder_i_operands *g, double x, double y)
 {
     uint64_t near = 0;
@@ -194,7 +196,8 @@ static uint64_t few_near(const sunder_i_operands *g, double x, double y)
     return near;
 }
 
-/* Few subsums: subsum `first`, and then the others whose boxes are near, from there on and round. */
+/* For few subsums: tests subsum `first`, and then the others whose boxes are near the point, cyclically from there.
+ * Returns the one that covers the point; -1: none. */
 static long cover_of_few(sunder_i_operands *g, const sunder_i_carrier *line, const sunder_i_fraction *t, double x,
                          double y, size_t first)
 {
@@ -209,7 +212,8 @@ static long cover_of_few(sunder_i_operands *g, const sunder_i_carrier *line, con
     return -1;
 }
 
-/* With a board of squares: the last subsum first, then those near the square. */
+/* For a board: tests subsum `first`, then those listed for the square. Returns the one that covers the point; -1:
+ * none. */
 static long cover_on_board(sunder_i_operands *g, const sunder_i_carrier *line, const sunder_i_fraction *t, double x,
                            double y, uint32_t square, size_t first)
 {
@@ -250,9 +254,9 @@ long sunder_i_carrier_cover(sunder_i_operands *operands, const sunder_i_carrier 
     return -1;
 }
 
-/* ---- Exits ---- */
+/* ---- The point where a line leaves a subsum ---- */
 
-/* Sides first .. first + n - 1, cyclically. */
+/* The sides first .. first + n - 1, cyclically. */
 typedef struct stretch {
     uint32_t first, n;
 } stretch;
@@ -272,23 +276,24 @@ uint32_t sunder_i_subsum_lowest(const sunder_i_subsum *subsum, double dx, double
     return low % subsum->sides;
 }
 
-/* How far the corner is to the left of the line, times its length. */
+/* Returns the signed distance of vertex k from the line, times its length, positive on the left. */
 static double height(const sunder_i_carrier *line, const sunder_i_subsum *s, uint32_t k)
 {
     if (k >= s->sides) k -= s->sides;
     return line->dx * (s->cy[k] - line->ay) - line->dy * (s->cx[k] - line->ax);
 }
 
-/* Counter-clockwise round a convex polygon whose interior a line meets, there is one run of corners to its right and
- * one to its left. So between any corner that is certainly to its right and one that is certainly to its left there is
- * one side through which it leaves, found by bisection. That leaves only corners that doubles cannot place, and the
- * sides at them. Backwards it is the other way round. */
+/* Returns the sides through which the line may leave the subsum. Counterclockwise around a convex polygon whose
+ * interior a line meets, there is one sequence of vertices on its right and one on its left. Hence between any vertex
+ * that is certainly on its right and one that is certainly on its left there is one side through which it leaves, and
+ * bisection finds it, except for vertices that doubles cannot decide, and the sides at them. Backwards, left and right
+ * are exchanged. */
 static stretch leaving(const sunder_i_operands *g, const sunder_i_carrier *line, const sunder_i_subsum *s,
                        bool forwards)
 {
     const stretch all = {0, s->sides};
     if (s->sides < SUNDER_I_SIDES_MANY) return all;
-    /* The corners farthest to the right and to the left, about; the bound is derived as that of a side. */
+    /* the vertices approximately farthest on the right and on the left; the bound is derived as that of a side */
     const uint32_t lowest = sunder_i_subsum_lowest(s, line->dx, line->dy);
     const uint32_t highest = sunder_i_subsum_lowest(s, -line->dx, -line->dy);
     const double sign = forwards ? 1 : -1;
@@ -296,14 +301,14 @@ static stretch leaving(const sunder_i_operands *g, const sunder_i_carrier *line,
     const uint32_t from = forwards ? lowest : highest, to = forwards ? highest : lowest;
     uint32_t low = from, high = to > from ? to : to + s->sides;
     if (sign * height(line, s, from) >= -bound || sign * height(line, s, to) <= bound) return all;
-    for (uint32_t end = high; end - low > 1;) { /* the last one that is certainly before */
+    for (uint32_t end = high; end - low > 1;) { /* the last vertex that is certainly before the exit */
         const uint32_t k = low + (end - low) / 2;
         if (sign * height(line, s, k) < -bound)
             low = k;
         else
             end = k;
     }
-    for (uint32_t start = low; high - start > 1;) { /* the first one that is certainly past */
+    for (uint32_t start = low; high - start > 1;) { /* the first vertex that is certainly beyond it */
         const uint32_t k = start + (high - start) / 2;
         if (sign * height(line, s, k) > bound)
             high = k;
@@ -321,16 +326,17 @@ static void take_first(sunder_i_operands *g, const sunder_i_fraction *t, bool fo
     *any = true;
 }
 
-/* How far the corner is to the left of the line, of plain numbers, times its length: exactly. */
+/* Returns the exact signed distance of vertex k from the line, times its length, positive on the left; for plain
+ * numbers. */
 static inline sunder_i_i128 narrow_height(const sunder_i_carrier *line, const sunder_i_subsum *s, uint32_t k)
 {
     return sunder_i_narrow_cross(line->d, sunder_i_narrow_sub(s->corner[k], line->a));
 }
 
-/* In plain integers. A line that meets the interior of a bounded convex set leaves it through one side, or through one
- * corner, which counts as the end of the side that comes first: forwards that side begins on the right of the line and
- * ends on its left or on it, backwards the other way round. So each corner takes one orientation test, and the answer
- * one fraction. */
+/* Returns the exit for plain integers. A line that meets the interior of a bounded convex set leaves it through one
+ * side, or through a vertex, which counts as the end of the side before it: forwards, that side begins on the right of
+ * the line and ends on its left or on it, backwards the reverse. So each vertex needs one orientation test, and the
+ * result one fraction. */
 static sunder_i_fraction narrow_exit(const sunder_i_carrier *line, const sunder_i_subsum *s, stretch near,
                                      bool forwards)
 {
@@ -348,7 +354,7 @@ static sunder_i_fraction narrow_exit(const sunder_i_carrier *line, const sunder_
     return b < 0 ? narrow_fraction(a, -b) : narrow_fraction(-a, b);
 }
 
-/* The same of brief numbers. */
+/* Does the same for brief numbers. */
 static sunder_i_fraction brief_exit(const sunder_i_carrier *line, const sunder_i_subsum *s, stretch near, bool forwards)
 {
     const sunder_i_point d = forwards ? line->d : (sunder_i_point){-line->d.x, -line->d.y};

@@ -1,29 +1,32 @@
-/* Edges meet a vertex if their directions lie between those of its two edges. Directions become numbers, a vertex a
- * range of numbers, and an edge meets it if its number is in the range. With many vertices, numbers are put into
- * sectors first, and an edge is tested against those vertices only that meet its sector: one or two for a round
- * outline. */
+/* cones.c: see cones.h. An edge meets a vertex if its direction lies between those of the vertex's two edges.
+ * Directions are converted to integers and a vertex to a range of them, and an edge meets the vertex if its number is
+ * in the range. With many vertices, directions are divided into sectors, and an edge is tested only against the
+ * vertices that meet its sector: one or two for a round outline. */
 #include "separation/obstacle/cones.h"
 
 #include <math.h>
 #include <string.h>
 
-#define SECTORS_FROM 64 /* fewer are tested one by one */
+#define SECTORS_FROM 64 /* fewer vertices are tested one by one */
 #define SECTORS_MOST 65536
-#define LISTED_MOST 4 /* times, on average, one may be listed */
+#define LISTED_MOST 4 /* the number of sectors that a vertex may be listed in, on average */
 #define HALF_TURN 0x80000000u
-/* Numbers are cut off below one, and what doubles get wrong is far less than another. */
+/* The error of a direction: numbers are truncated, which is an error below 1, and the errors of doubles are far less
+ * than another 1. */
 #define CUT_OFF 2
-/* The direction of a difference of coordinates that are not exact is off by this at most, or vague. */
+/* The largest error of the direction of a difference of inexact coordinates; if it may be larger the direction is
+ * vague. */
 #define COARSE_SLACK 1024
 
-/* How much the direction of an edge may be off. */
+/* Returns the largest error of the direction of an edge. */
 static inline uint32_t slack_of(const sunder_i_operands *g)
 {
     return g->coarse == 0 ? CUT_OFF : COARSE_SLACK + CUT_OFF;
 }
 
-/* Without branches: which quadrant it is is anyone's guess. The quotient, in [-1, 1], grows with the angle on the right
- * half of the plane and falls on the left one (as in predicate/turn.h). */
+/* Converts a vector to the number of its direction, without branches, since the quadrant cannot be predicted. The
+ * quotient, in [-1, 1], increases with the angle in the right half-plane and decreases in the left one (as in
+ * predicate/turn.h). */
 static inline uint32_t direction_number(double dx, double dy, double size)
 {
     const uint32_t t = (uint32_t)(int32_t)(dy / size * 0x1p30), left = -(uint32_t)(dx < 0);
@@ -33,7 +36,7 @@ static inline uint32_t direction_number(double dx, double dy, double size)
 sunder_i_direction sunder_i_direction_of(const sunder_i_operands *operands, double dx, double dy)
 {
     const double size = fabs(dx) + fabs(dy);
-    /* A point has no direction, and of an edge whose ends may be as far off as it is long none is known. */
+    /* a point has no direction; that of an edge is unknown if the error of its ends may be as large as its length */
     if (!(size > 0) || (operands->coarse > 0 && !(4 * operands->coarse * 0x1p30 < COARSE_SLACK * size)))
         return (sunder_i_direction){0, true};
     return (sunder_i_direction){direction_number(dx, dy, size), false};
@@ -46,10 +49,11 @@ static sunder_i_direction edge_direction(const sunder_i_operands *g, int side, u
     return sunder_i_direction_of(g, b[0] - a[0], b[1] - a[1]);
 }
 
-/* Between the edges that arrive and leave, neither vague; false if that is more than half a turn for certain. */
+/* Computes the cone between the edges that arrive at a vertex and leave it, neither vague. Returns false if it is
+ * certainly more than half a turn. */
 static inline bool cone_between(uint32_t in, uint32_t out, uint32_t slack, sunder_i_cone *cone)
 {
-    const uint32_t turn = out - in + 2 * slack; /* at a straight corner it may come out negative */
+    const uint32_t turn = out - in + 2 * slack; /* at a straight angle the difference may be negative */
     *cone = (sunder_i_cone){in - 2 * slack, turn + 2 * slack};
     return turn <= HALF_TURN + 4 * slack;
 }
@@ -79,7 +83,7 @@ static inline sunder_i_cone cone_at(const sunder_i_cones *c, uint32_t k)
     return (sunder_i_cone){c->at[k], c->width[k]};
 }
 
-/* Cone number c->n, which stays if `has`, and else is written over by the next. */
+/* Stores cone number c->n; unless `has` is true the next one replaces it. */
 static inline void put_cone(sunder_i_cones *c, uint32_t v, sunder_i_cone cone, bool has)
 {
     c->vertex[c->n] = v;
@@ -90,7 +94,7 @@ static inline void put_cone(sunder_i_cones *c, uint32_t v, sunder_i_cone cone, b
 
 /* ---- Sectors ---- */
 
-/* The sectors that the cone belongs to: *n from the one returned on, cyclically. */
+/* Returns the first of the *n sectors that the cone meets, cyclically. */
 static uint32_t sectors_of(sunder_i_cone cone, int shift, uint32_t *n)
 {
     const uint32_t first = cone.at >> shift, all = (uint32_t)1 << (32 - shift);
@@ -99,8 +103,8 @@ static uint32_t sectors_of(sunder_i_cone cone, int shift, uint32_t *n)
     return first;
 }
 
-/* Chooses the number of sectors, a power of two, such that a cone lies in at most LISTED_MOST sectors on average.
- * Returns the shift that turns a direction into its sector, or 0 if sectors do not pay. */
+/* Chooses the number of sectors, a power of two, such that a cone meets at most LISTED_MOST sectors on average. Returns
+ * the shift that converts a direction to its sector, or 0 if sectors are not worth their cost. */
 static int choose_sectors(const sunder_i_cones *c)
 {
     if (c->n < SECTORS_FROM) return 0;
@@ -137,13 +141,14 @@ static bool list_sectors(sunder_i_operands *g, sunder_i_cones *c)
         uint32_t n, at = sectors_of(cone_at(c, k), shift, &n);
         for (; n > 0; n--, at = (at + 1) % sectors) c->sector[end[at]++] = k;
     }
-    c->sector_end = end; /* end[i] has become the end of sector i */
+    c->sector_end = end; /* here end[i] is the end of sector i */
     c->sectors = sectors;
     c->shift = shift;
     return true;
 }
 
-/* Of edges of a length that doubles know exactly, as on most lattices. */
+/* Computes all cones if the coordinates of the operand are exact in doubles, as on most lattices. Returns false if an
+ * edge has no length. */
 static bool find_exact(sunder_i_operands *g, int side, sunder_i_cones *c)
 {
     const sunder_shape *s = g->shape[side];
@@ -189,12 +194,12 @@ bool sunder_i_cones_find(sunder_i_operands *operands, int side, sunder_i_cones *
     return list_sectors(operands, cones);
 }
 
-/* ---- Asking ---- */
+/* ---- Queries ---- */
 
 uint32_t sunder_i_cones_met(const sunder_i_cones *cones, sunder_i_direction edge, uint32_t *met, uint32_t *looked_at)
 {
     uint32_t n = 0;
-    /* Without branches, since it cannot be predicted which corners pass. */
+    /* without branches, since it cannot be predicted which vertices are met */
     if (cones->sectors && !edge.vague) {
         const uint32_t at = edge.at >> cones->shift;
         const uint32_t first = at ? cones->sector_end[at - 1] : 0, last = cones->sector_end[at];

@@ -1,11 +1,12 @@
-/* Which edges meet which vertices [BL11]. An edge e of one operand at a vertex v of the other can carry boundary only
- * if v is convex and the directions of its two edges enclose that of e: otherwise, near v, the interior at v reaches
- * across e and covers the whole segment. The range is taken closed; with it the ends of the segments are all vertices
- * that can be free: two disjoint cones at a pair of vertices are parted by the line of an edge of one of them.
+/* pair_convolution.c: finds which edges meet which vertices [BL11]. An edge e of one operand at a vertex v of the other
+ * can belong to the boundary only if v is convex and the direction of e lies between those of the two edges at v:
+ * otherwise, near v, the interior at v extends across e and covers the whole segment. The range of directions is
+ * closed, so that the ends of the segments include all vertices that can be free: two disjoint cones at a pair of
+ * vertices are separated by the line of an edge of one of them.
  *
- * Where several vertices stand at one place each has a sector of the interior of its own (shape.h), and what one of
- * them covers is covered: each is asked for itself. Diagonals of the decomposition lie inside an operand, so what they
- * would carry is covered. */
+ * Where several vertices have one position, each has its own sector of the interior (shape.h), and what one of them
+ * covers is covered; each is treated separately. Diagonals of the decomposition lie inside an operand, so that their
+ * segments are covered. */
 #include "separation/obstacle/pair_convolution.h"
 #include "base/heap.h"
 #include "base/watch.h"
@@ -14,7 +15,7 @@
 
 #include <math.h>
 
-/* Room for n more. */
+/* Makes room for n more candidates. Returns false if out of memory. */
 static bool make_room(sunder_i_operands *g, sunder_i_candidates *h, uint32_t n)
 {
     return h->n + n <= h->capacity ||
@@ -28,7 +29,8 @@ bool sunder_i_candidates_push(sunder_i_operands *operands, sunder_i_candidates *
     return true;
 }
 
-/* Is the edge a..b, moved over the box of the other operand, out of reach of the origin? */
+/* Returns whether the edge ab, moved over the box of the other operand, stays farther than `limit` from the origin in
+ * one coordinate. */
 static bool out_of_reach(const double *a, const double *b, const double box[4], double limit)
 {
     for (int k = 0; k < 2; k++) {
@@ -38,13 +40,14 @@ static bool out_of_reach(const double *a, const double *b, const double box[4], 
     return false;
 }
 
-/* An edge of operand `side`, at the corners of the other; no segment is to be farther off than `reach`. */
+/* An edge of operand `side`, which is combined with vertices of the other operand; segments farther than `reach` are
+ * not needed. */
 typedef struct edge {
     int side;
     uint32_t tail;
-    sunder_i_doubles from, d; /* its tail, and its vector */
+    sunder_i_doubles from, d; /* its first vertex, and its vector */
     double inverse, reach, reach_square;
-    const double *other; /* coordinates of the other operand */
+    const double *other; /* the coordinates of the other operand */
 } edge;
 
 static edge edge_of(const sunder_i_operands *g, int side, double limit)
@@ -53,7 +56,7 @@ static edge edge_of(const sunder_i_operands *g, int side, double limit)
     return (edge){.side = side, .reach = reach, .reach_square = reach * reach, .other = g->xy[!side]};
 }
 
-/* That from p to q. */
+/* Sets e to the edge from p to q. */
 static inline void take_edge(edge *e, uint32_t tail, const double *p, const double *q)
 {
     e->tail = tail;
@@ -63,9 +66,9 @@ static inline void take_edge(edge *e, uint32_t tail, const double *p, const doub
     e->inverse = 1 / (square[0] + square[1]);
 }
 
-/* Writes to `at` the candidate for the edge at vertex v. Returns 1 if it comes near enough to be kept, else 0.
- * Branches are avoided, since they would wait for a long chain of doubles. The formula is that of
- * sunder_i_segment_square(), for both coordinates at a time. */
+/* Writes the candidate for the edge at vertex v to `at`. Returns 1 if it is near enough to be kept, else 0. There are
+ * no branches, since they would wait for a long chain of operations. The formula is that of sunder_i_segment_square(),
+ * for both coordinates at a time. */
 static inline size_t put(const sunder_i_operands *g, const edge *e, uint32_t v, sunder_i_candidate *at)
 {
     const sunder_i_doubles a = e->from + sunder_i_doubles_at(e->other + 2 * (size_t)v), along = a * e->d;
@@ -77,11 +80,11 @@ static inline size_t put(const sunder_i_operands *g, const edge *e, uint32_t v, 
     return near;
 }
 
-/* Edges handled between two checks of whether the work may go on. */
+/* The number of edges processed between two checks whether the computation may continue. */
 #define EDGES_AT_ONCE 32
 
-/* Pairs the edges of operand `side` with the corners of the other operand, which has few. Pairs whose directions are
- * in doubt are included, since a superset of the boundary serves as well. */
+/* Combines the edges of operand `side` with the vertices of the other operand, which has few. Uncertain pairs are
+ * included, since a superset of the boundary is sufficient. */
 static bool pair_edges_with_few(sunder_i_operands *g, int side, const sunder_i_cones *own, const sunder_i_cones *c,
                                 double limit, sunder_i_candidates *h)
 {
@@ -96,7 +99,7 @@ static bool pair_edges_with_few(sunder_i_operands *g, int side, const sunder_i_c
         sunder_i_cones_met_few(c, own, v, n, all);
         for (uint32_t k = 0; k < n; k++) {
             const uint32_t tail = v + k, head = next[tail];
-            if (all[k] == 0 || head == tail) continue; /* it meets none; or a point, which has no edge */
+            if (all[k] == 0 || head == tail) continue; /* it meets none, or it is a point, which has no edge */
             if (!make_room(g, h, c->n)) return false;
             take_edge(&e, tail, xy + 2 * (size_t)tail, xy + 2 * (size_t)head);
             size_t have = h->n;

@@ -1,22 +1,23 @@
-/* Pieces with very many corners, as of round outlines, in parts with few: what is asked of two pieces takes their
- * corners times each other, and of the sides of a great one hardly any come near a square.
+/* cut_pieces.c: divides pieces with very many vertices, such as those of round outlines, into parts with few: the cost
+ * of a test of two pieces is the product of their numbers of vertices, and hardly any side of a large piece is near a
+ * given square.
  *
- * A core with corners evenly spaced along the piece keeps most of it together; what is left beyond each of its sides is
- * a cap, which is cut likewise. The parts are convex and make up the piece, so with them for pieces all that is said of
- * subsums holds as before: it does so for any pieces that make up an operand. */
+ * A core with vertices evenly spaced along the piece contains most of it; the remainder beyond each side of the core is
+ * divided in the same way. The parts are convex and their union is the piece, so that everything about subsums holds
+ * with the parts as pieces: it holds for any pieces whose union is the operand. */
 #include "separation/operands/pair_operands.h"
 
 #include <string.h>
 
-#define MOST 16 /* corners of a part; by measurement on discs and stars */
+#define MOST 16 /* the most vertices of a part; measured on discs and stars */
 
 typedef struct cutting {
-    const uint32_t *corner;  /* of the piece */
-    uint32_t *end, *vertex;  /* of the parts */
-    uint32_t parts, corners; /* so far */
+    const uint32_t *corner;  /* the vertices of the piece */
+    uint32_t *end, *vertex;  /* the ends of the parts, and their vertices */
+    uint32_t parts, corners; /* the numbers of parts and of their vertices so far */
 } cutting;
 
-/* Corners first to last of a piece, which is closed by the side back. */
+/* Divides the polygon of the vertices first to last of a piece. */
 static void cut(cutting *c, uint32_t first, uint32_t last)
 {
     const uint32_t span = last - first, n = span < MOST ? span + 1 : MOST;
@@ -29,7 +30,8 @@ static void cut(cutting *c, uint32_t first, uint32_t last)
     }
 }
 
-/* Each part beyond the core has at least one corner of its own, and two that were there before. */
+/* Divides the pieces of one operand; returns false if out of memory. Each part beyond a core has at least one new
+ * vertex, and two that other parts have, too, which bounds the memory. */
 static bool cut_operand(sunder_i_operands *g, int side)
 {
     const sunder_shape *s = g->shape[side];
@@ -46,7 +48,7 @@ static bool cut_operand(sunder_i_operands *g, int side)
         c.corner = sunder_i_piece_vertices(s) + first;
         cut(&c, 0, s->piece_end[i] - first - 1);
     }
-    memmove(end + c.parts, c.vertex, c.corners * sizeof *end); /* corners come right behind the ends */
+    memmove(end + c.parts, c.vertex, c.corners * sizeof *end); /* the vertices follow directly after the ends */
     out->pieces = c.parts;
     g->shape[side] = out;
     g->piece_box[side] = sunder_i_arena_alloc(arena, 4 * (size_t)out->pieces, sizeof(double));

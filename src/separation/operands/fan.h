@@ -1,22 +1,22 @@
-/* A convex polygon of many sides, tested by a few of them.
+/* fan.h: tests a point against a convex polygon with many sides by few of them.
  *
- * Corner 0 and the others make a fan of triangles. Bisection finds the triangle that holds the point, or over whose
- * outer side the point stands; a point certainly in a triangle is inside, and a point certainly on the right of a side
- * is outside. All in doubles; the caller decides what they leave in doubt. */
+ * Vertex 0 and the others form a fan of triangles. Bisection finds the triangle that contains the point, or beyond
+ * whose outer side the point lies; a point certainly in a triangle is inside, and a point certainly on the right of a
+ * side is outside. All is in doubles; the caller decides what they leave open. */
 #ifndef SUNDER_I_FAN_H
 #define SUNDER_I_FAN_H
 
 #include <stdbool.h>
 #include <stdint.h>
 
-/* Polygons with more sides than this are tested by bisection, others side by side: about where both are equally
- * fast. */
+/* Polygons with at least this number of sides are tested by bisection, others side by side; both take about the same
+ * time here. */
 #define SUNDER_I_SIDES_MANY 24
 
-/* The triangle of corners 0, low and low + 1. */
+/* The triangle of the vertices 0, low and low + 1. */
 typedef struct sunder_i_fan {
     uint32_t low;
-    bool first, last; /* the diagonal to corner low is side 0; that to low + 1 is the last side */
+    bool first, last; /* the diagonal to vertex low is side 0; the diagonal to low + 1 is the last side */
 } sunder_i_fan;
 
 static inline sunder_i_fan sunder_i_fan_at(uint32_t sides, const double *cx, const double *cy, double x, double y)
@@ -34,9 +34,9 @@ static inline sunder_i_fan sunder_i_fan_at(uint32_t sides, const double *cx, con
 
 typedef enum sunder_i_fan_answer { SUNDER_I_FAN_INSIDE, SUNDER_I_FAN_OUTSIDE, SUNDER_I_FAN_DOUBT } sunder_i_fan_answer;
 
-/* out: how far the point stands out over side low, over the diagonal to corner low and over that to low + 1, which
- * count as sides where they are. Inside: by more than `deep` behind all three; outside: by more than `far` over a
- * side. */
+/* out[] is the signed distance of the point, positive outside, from side low, from the diagonal to vertex low and from
+ * that to low + 1. The point is inside if all are below -deep, and outside if the distance from one that is a side
+ * exceeds `far`. */
 static inline sunder_i_fan_answer sunder_i_fan_says(const sunder_i_fan *fan, const double out[3], double deep,
                                                     double far)
 {

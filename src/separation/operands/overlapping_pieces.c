@@ -1,10 +1,12 @@
-/* Do the interiors of two sets meet? They do if those of two pieces do, and two convex pieces have disjoint interiors
- * exactly if a side of one of them has all of the other on its right, or on it: the separating axis theorem, in the
- * plane and for closed sets that may touch. One of the pieces may be a segment, with two sides, there and back, or a
- * point, which has none: then the question is whether the other's interior meets it. */
+/* overlapping_pieces.c: tests whether the interiors of two sets meet. They do if those of two pieces do, and two convex
+ * pieces have disjoint interiors exactly if a side of one of them has all of the other on its right or on its line: the
+ * separating axis theorem, in the plane and for closed sets that may touch. One of the pieces may be a segment, which
+ * has two sides in opposite directions, or a point, which has none: then the test is whether the interior of the other
+ * piece meets it. */
 #include "separation/operands/pair_operands.h"
 
-/* Does a side of piece i of operand `side` have all of piece j of the other one on its right, or on it? */
+/* Returns whether a side of piece i of operand `side` has all of piece j of the other operand on its right or on its
+ * line. */
 static bool side_parts(sunder_i_operands *g, int side, uint32_t i, uint32_t j)
 {
     const sunder_i_operand_piece p = sunder_i_operands_piece(g, side, i), q = sunder_i_operands_piece(g, !side, j);
@@ -33,7 +35,8 @@ bool sunder_i_pieces_overlap(sunder_i_operands *operands, uint32_t i, uint32_t j
     return !side_parts(operands, 0, i, j) && !side_parts(operands, 1, j, i);
 }
 
-/* The pieces of one operand whose boxes come within `reach` of the other operand's box. */
+/* Returns the *n pieces of one operand whose boxes are within `reach` of the box of the other operand; NULL if out of
+ * memory. */
 static uint32_t *pieces_near(sunder_i_operands *g, int side, double reach, uint32_t *n)
 {
     const uint32_t all = g->shape[side]->pieces;

@@ -1,8 +1,8 @@
-/* Two operands on one lattice, and doubles for everything on it.
+/* pair_operands.c: places two operands on one lattice, with all their coordinates in doubles, too.
  *
  * Usually the coordinates of both, and their translations, are integers below 2^62 in one unit, a power of two, and
- * near each other: then no general lattice has to be chosen, and setting up a pair of buildings takes no longer than
- * testing it. Other operands go the general way (shape/shape_on_lattice.c). */
+ * close to each other: then no general lattice is needed, and setting up a pair of buildings takes no longer than
+ * testing it. Other operands are placed in the general way (shape/shape_on_lattice.c). */
 #include "separation/operands/pair_operands.h"
 
 #include "spatial/box.h"
@@ -12,9 +12,9 @@
 #include <math.h>
 #include <string.h>
 
-/* Doubles of coordinates are within 2^-53 of the magnitude M; a sum of two adds as much again and its own rounding. A
- * point a + t d with t from an exact fraction (its value within 2^-50 of max(1, |t|), t taken in [0, 1]) and |d| <= 4 M
- * is within 2^-47 M; the rest is slack, which costs nothing but a few exact evaluations. */
+/* Coordinates in doubles have an error of 2^-53 of the magnitude M; a sum of two adds as much and its own rounding. A
+ * point a + t d, with t from an exact fraction (an error of 2^-50 of max(1, |t|), t in [0, 1]) and |d| <= 4 M, has an
+ * error of at most 2^-47 M. The constant is larger, which costs only a few exact evaluations. */
 #define COORDINATE_ERROR 0x1p-45
 
 void sunder_i_operands_fill_boxes(sunder_i_operands *operands, int side)
@@ -47,7 +47,8 @@ static void fill_doubles(sunder_i_operands *g, int side)
     }
 }
 
-/* All arrays in one block of the lattice's arena; `points`: room for the vertices on the lattice too. */
+/* Allocates all arrays as one block of the lattice's arena; with `points` also room for the vertices on the lattice.
+ * Returns false if out of memory. */
 static bool make_room(sunder_i_operands *g, sunder_i_point **points)
 {
     const size_t pn = g->shape[0]->vertices, qn = g->shape[1]->vertices;
@@ -67,12 +68,12 @@ static bool make_room(sunder_i_operands *g, sunder_i_point **points)
     return true;
 }
 
-/* ---- The common case, without detours: doubles that are all below 2^62 units in magnitude ---- */
+/* ---- The usual case: all doubles are below 2^62 units in magnitude ---- */
 
 typedef struct plain {
     int bit;            /* the unit is 2^bit */
     double scale, back; /* 2^-bit, 2^bit */
-    double shift[2][2]; /* of the operands, in units */
+    double shift[2][2]; /* the translations of the operands, in units */
     double origin[2];   /* in units */
 } plain;
 
@@ -85,7 +86,7 @@ static void hold(plain *u, const double *v, size_t n, double *most)
     }
 }
 
-/* Is coordinate k of every vertex of the shifted operand less than 2^58 units from the origin? */
+/* Returns whether coordinate k of every vertex of the translated operand is less than 2^58 units from the origin. */
 static bool is_near(const sunder_shape *s, int k, const plain *u, const double *shift)
 {
     const double by = shift ? shift[k] : 0;
@@ -93,7 +94,7 @@ static bool is_near(const sunder_shape *s, int k, const plain *u, const double *
            fabs((s->box[k + 2] + by) * u->scale - u->origin[k]) < 0x1p58;
 }
 
-/* The origin of numbers that are too long for doubles: the same as the general way takes. */
+/* Returns the origin of coordinates that have too many digits for doubles; the general way chooses the same. */
 static double shared_origin(const sunder_shape *p, const sunder_shape *q, int k, int bit,
                             const sunder_i_operands_options *o)
 {
@@ -107,8 +108,8 @@ static double shared_origin(const sunder_shape *p, const sunder_shape *q, int k,
     return sunder_i_lattice_origin(sunder_i_min(low[0], low[1]), sunder_i_max(high[0], high[1]), bit);
 }
 
-/* The unit, if everything is an integer below 2^62 in it, and the operands are below 2^58 less the origin, which keeps
- * their sums on a narrow lattice; false if not. */
+/* Finds the unit in which everything is an integer below 2^62 and the operands, relative to the origin, are below 2^58,
+ * so that their sums fit a narrow lattice. Returns false if there is none. */
 static bool plain_unit(const sunder_shape *p, const sunder_shape *q, const sunder_i_operands_options *o, plain *u)
 {
     if (p->rational || q->rational || o->force_wide) return false;
@@ -134,8 +135,8 @@ static bool plain_unit(const sunder_shape *p, const sunder_shape *q, const sunde
     return true;
 }
 
-/* Integers below 2^62 each, so their differences are exact; as doubles these are exact, too, unless the magnitude says
- * that they are not. */
+/* Converts the vertices of an operand. All numbers are integers below 2^62, so that their differences are exact; they
+ * are also exact in doubles unless the magnitude is too large. */
 static void plain_operand(sunder_i_operands *g, int side, const plain *u, bool reflect, sunder_i_point *out)
 {
     const sunder_shape *s = g->shape[side];
@@ -171,8 +172,9 @@ static bool place_plain(sunder_i_operands *g, const sunder_i_operands_options *o
     return true;
 }
 
-/* Only the difference of the translations matters. Where it is a double it is given to Q alone, which keeps the numbers
- * short; that the subtraction is exact is seen from its rounding error (Knuth's two-sum). */
+/* Returns the difference of the translations if it is exact in doubles; only the difference matters, and applying it to
+ * Q alone keeps the numbers short. NULL: it is not exact, which is decided by the rounding error of the subtraction
+ * (Knuth's two-sum), or tp is NULL. */
 static const double *reduced(const double *tp, const double *tq, double difference[2])
 {
     if (!tp) return NULL;
@@ -242,7 +244,8 @@ sunder_status sunder_i_operands_init(sunder_i_operands *operands, const sunder_s
     sunder_i_operands_fill_boxes(operands, 1);
     operands->brief = l->narrow && operands->magnitude < 0x1p28;
     sunder_i_operands_admit(operands, 0);
-    /* Doubles of differences are the nearest ones, but for what a scaled lattice loses below all doubles. */
+    /* differences in doubles are correctly rounded, except for what a scaled lattice loses below the range of
+     * doubles */
     operands->rough = l->approx_shift == 0 ? 0 : 0x1p-1000;
     operands->coarse = l->narrow && operands->magnitude < 0x1p52 ? 0 : operands->error;
     operands->unit = sunder_i_power_of_two(l->exponent + l->approx_shift);
@@ -268,7 +271,8 @@ double sunder_i_operands_way_out(const sunder_i_operands *operands)
     return d;
 }
 
-/* Is a + s + gap <= b + t for certain? Each double sum is off by at most an ulp of its larger operand. */
+/* Returns whether a + s + gap <= b + t certainly. Each sum of doubles has an error of at most one ulp of its larger
+ * operand. */
 static bool certainly_below(double a, double s, double b, double t, double gap)
 {
     const double left = a + s + gap, right = b + t;

@@ -1,5 +1,5 @@
-/* Convex subsums: which of them matter, and their corners. The sum of two convex polygons has the sides of both, merged
- * by direction. */
+/* subsum.c: lists the convex subsums that matter, and computes their vertices. The sum of two convex polygons has the
+ * sides of both, merged by direction. */
 #include "separation/operands/pair_operands.h"
 
 #include "base/extremes.h"
@@ -12,7 +12,8 @@
 #include <math.h>
 #include <string.h>
 
-/* Does a box at offsets x and y come within the radius? Without branches, since the outcome cannot be predicted. */
+/* Returns whether a box at the distances d[0] and d[1] along the axes comes within the radius, without branches, since
+ * the outcome cannot be predicted. */
 static inline uint32_t touches_disc(const double d[2], double radius)
 {
     const double x = d[0], y = d[1];
@@ -20,7 +21,7 @@ static inline uint32_t touches_disc(const double d[2], double radius)
            ((uint32_t)(x + y <= radius) | (uint32_t)(x * x + y * y <= radius * radius * (1 + 0x1p-50)));
 }
 
-/* The pairs of pieces, row by row. */
+/* An iterator over the pairs of pieces, row by row. */
 typedef struct pair_walk {
     const sunder_i_operands *g;
     uint32_t i, j;
@@ -32,12 +33,12 @@ static pair_walk all_pairs(const sunder_i_operands *g)
     return (pair_walk){g, 0, 0, (size_t)g->shape[0]->pieces * g->shape[1]->pieces};
 }
 
-/* Subsums looked at between two checks of whether the work may go on. */
+/* The number of subsums tested between two checks whether the computation may continue. */
 #define PAIRS_AT_ONCE 64
 
 static size_t next_pairs(const pair_walk *w) { return w->left < PAIRS_AT_ONCE ? w->left : PAIRS_AT_ONCE; }
 
-/* Does the sum of the next two pieces come within reach, and (*near) may it cover the origin? */
+/* Returns whether the sum of the next two pieces is within reach; *near becomes whether it may cover the origin. */
 static inline uint32_t look_at_pair(pair_walk *w, double reach, uint64_t *pair, uint32_t *near)
 {
     const sunder_i_operands *g = w->g;
@@ -53,7 +54,8 @@ static inline uint32_t look_at_pair(pair_walk *w, double reach, uint64_t *pair, 
     return *near | touches_disc(d, reach);
 }
 
-/* Among many, the fat ones come first: they cover the most, and the search asks in this order. */
+/* Sorts the subsums by the smaller side of their boxes, largest first: large ones cover more, and the search tests them
+ * in this order. Returns false if out of memory. */
 static bool sort_by_size(sunder_i_operands *g)
 {
     sunder_i_arena *arena = &g->placed.lattice.arena;
@@ -65,7 +67,7 @@ static bool sort_by_size(sunder_i_operands *g)
         const double *b = g->subsum[k].box;
         const float size = (float)(sunder_i_min(b[2] - b[0], b[3] - b[1]) / g->magnitude);
         uint32_t bits;
-        memcpy(&bits, &size, sizeof bits); /* ordered like the numbers, which are not negative */
+        memcpy(&bits, &size, sizeof bits); /* the bits of numbers that are not negative have the order of the numbers */
         key[k] = (uint64_t)~bits << 32 | k;
     }
     if (!sunder_i_sort_keys(key, n)) return false;
@@ -74,7 +76,7 @@ static bool sort_by_size(sunder_i_operands *g)
     return true;
 }
 
-/* How many pairs come within reach; false if the work is to stop. */
+/* Counts the pairs within reach. Returns false if the computation must stop. */
 static bool count_near(const sunder_i_operands *g, double reach, size_t *count)
 {
     *count = 0;
@@ -89,7 +91,8 @@ static bool count_near(const sunder_i_operands *g, double reach, size_t *count)
     return true;
 }
 
-/* Those pairs, those that may cover the origin first: these change places with the first of the others. */
+/* Lists these pairs; those that may cover the origin come first: each of them is exchanged with the first of the
+ * others. Returns false if the computation must stop. */
 static bool list_near(const sunder_i_operands *g, double reach, uint64_t *pair, size_t *count)
 {
     size_t all = 0, first = 0;
@@ -118,7 +121,7 @@ bool sunder_i_operands_reach(sunder_i_operands *operands, double radius)
     const bool many = room > PAIRS_AT_ONCE;
     if (many && !count_near(operands, reach, &room)) return false;
     operands->subsum = sunder_i_arena_alloc(arena, room + 1, sizeof *operands->subsum);
-    uint64_t *pair = sunder_i_arena_alloc(arena, room + 1, sizeof *pair); /* one is written past the last */
+    uint64_t *pair = sunder_i_arena_alloc(arena, room + 1, sizeof *pair); /* one element more may be written */
     if (!operands->subsum || !pair || !list_near(operands, reach, pair, &operands->subsums)) return false;
     for (size_t k = 0; k < operands->subsums; k++) {
         sunder_i_subsum *s = operands->subsum + k;
@@ -130,7 +133,7 @@ bool sunder_i_operands_reach(sunder_i_operands *operands, double radius)
     return !many || sort_by_size(operands);
 }
 
-/* ---- Pieces turned so that they start at their lowest corner (of those the leftmost) ---- */
+/* ---- Pieces as cycles that begin at their lowest vertex (of several the leftmost) ---- */
 
 static uint32_t lowest(sunder_i_lattice *l, const sunder_i_point *at, const uint32_t *c, uint32_t n)
 {
@@ -143,8 +146,9 @@ static uint32_t lowest(sunder_i_lattice *l, const sunder_i_point *at, const uint
     return best;
 }
 
-/* Corners and sides of a piece of native integers. The corners are written down twice, one round after the other, so
- * that a whole round begins at the lowest one; which it is is anyone's guess, and so there are no branches. */
+/* Computes the vertices and sides of a piece of native integers. The vertices are stored twice in succession, so that a
+ * complete cycle begins at the lowest one. There are no branches, since it cannot be predicted which vertex is the
+ * lowest. */
 static void narrow_turn(const sunder_i_point *at, const uint32_t *c, uint32_t n, sunder_i_point *round,
                         sunder_i_turned_piece *r)
 {
@@ -162,7 +166,7 @@ static void narrow_turn(const sunder_i_point *at, const uint32_t *c, uint32_t n,
     for (uint32_t i = 0; i < n; i++) side[i] = sunder_i_narrow_sub(round[i + 1], round[i]);
 }
 
-/* The same on any lattice. */
+/* Does the same on any lattice. */
 static void turn(sunder_i_lattice *l, const sunder_i_point *at, const uint32_t *c, uint32_t n, sunder_i_point *block,
                  sunder_i_turned_piece *r)
 {
@@ -177,7 +181,7 @@ static void turn(sunder_i_lattice *l, const sunder_i_point *at, const uint32_t *
     }
 }
 
-/* The piece's corners and sides, one more corner than sides; NULL if memory is out. A point has no sides. */
+/* Returns the cycle of a piece, with one vertex more than sides; NULL if out of memory. A point has no sides. */
 static const sunder_i_turned_piece *turn_piece(sunder_i_operands *g, int side, uint32_t piece)
 {
     sunder_i_turned_piece *r = g->turned[side] + piece;
@@ -190,7 +194,7 @@ static const sunder_i_turned_piece *turn_piece(sunder_i_operands *g, int side, u
         narrow_turn(g->at[side], p.corner, p.n, block, r);
     else
         turn(l, g->at[side], p.corner, p.n, block, r);
-    if (p.n >= 2) r->n = p.n; /* else as if it were not made yet: that is no work */
+    if (p.n >= 2) r->n = p.n; /* a point is computed each time, which takes no time */
     return r;
 }
 
@@ -204,8 +208,9 @@ bool sunder_i_operands_turn(sunder_i_operands *operands)
 
 /* ---- The merge ---- */
 
-/* Both start at their lowest corners, so their sides are sorted by angle in [0, 2 pi), and the two current sides are
- * never pi or more apart: the side before the farther one came before the other, and turns by less than pi. */
+/* Merges the sides of two pieces. Both cycles begin at their lowest vertices, so that their sides are sorted by angle
+ * in [0, 2 pi), and the angle between the two current sides is always less than pi: the side before the farther one
+ * came before the other, and turns by less than pi. */
 static uint32_t merge(sunder_i_operands *g, const sunder_i_turned_piece *a, const sunder_i_turned_piece *b,
                       sunder_i_point *corner, sunder_i_point *side)
 {
@@ -219,8 +224,8 @@ static uint32_t merge(sunder_i_operands *g, const sunder_i_turned_piece *a, cons
     return n;
 }
 
-/* The merge (merge.h) of native integers: corners follow from sides, so only sides are merged. Without branches: whose
- * side comes next is anyone's guess. */
+/* Merges the sides of pieces of native integers (merge.h); vertices follow from sides. There are no branches, since it
+ * cannot be predicted which side comes next. */
 static inline __attribute__((always_inline)) uint32_t narrow_merge(const sunder_i_turned_piece *a,
                                                                    const sunder_i_turned_piece *b, bool brief,
                                                                    sunder_i_point *corner, sunder_i_point *side)
@@ -230,7 +235,8 @@ static inline __attribute__((always_inline)) uint32_t narrow_merge(const sunder_
     uint32_t n = 0;
     while (u < u_end && v < v_end) {
         const int64_t turn = brief ? sunder_i_brief_cross(*u, *v) : sunder_i_i128_sign(sunder_i_narrow_cross(*u, *v));
-        const int64_t of_a = ~(turn >> 63), of_b = (turn - 1) >> 63; /* -1: turn >= 0, turn <= 0; else 0 */
+        /* of_a is -1 if turn >= 0, of_b is -1 if turn <= 0; else they are 0 */
+        const int64_t of_a = ~(turn >> 63), of_b = (turn - 1) >> 63;
         const sunder_i_point d = {(u->x & of_a) + (v->x & of_b), (u->y & of_a) + (v->y & of_b)};
         u -= of_a;
         v -= of_b;
@@ -239,7 +245,7 @@ static inline __attribute__((always_inline)) uint32_t narrow_merge(const sunder_
         at = (sunder_i_point){at.x + d.x, at.y + d.y};
     }
     const sunder_i_point *left = u < u_end ? u : v, *const end = u < u_end ? u_end : v_end;
-    for (; left < end; left++) { /* of one of them */
+    for (; left < end; left++) { /* the rest belongs to one of the pieces */
         corner[n] = at;
         side[n++] = *left;
         at = (sunder_i_point){at.x + left->x, at.y + left->y};
@@ -248,7 +254,7 @@ static inline __attribute__((always_inline)) uint32_t narrow_merge(const sunder_
 }
 
 #ifndef NDEBUG
-/* NULL, or what is wrong: a subsum is strictly convex, closed, and begins at its lowest corner. */
+/* Returns NULL, or what is wrong: a subsum is strictly convex and closed, and begins at its lowest vertex. */
 static const char *check(sunder_i_operands *g, const sunder_i_subsum *s)
 {
     const char *wrong = s->sides < 3 ? "a subsum has fewer than three sides" : NULL;
@@ -263,7 +269,7 @@ static const char *check(sunder_i_operands *g, const sunder_i_subsum *s)
 }
 #endif
 
-/* What a side says counts beyond its length times per_length, and fixed. */
+/* A side is decisive if its cross product exceeds its length times per_length, plus fixed. */
 typedef struct bounds {
     double per_length, fixed;
 } bounds;
@@ -325,7 +331,8 @@ bool sunder_i_subsum_make(sunder_i_operands *operands, sunder_i_subsum *subsum)
         narrow_doubles(operands, subsum, n);
     else
         fill_doubles(operands, subsum, n);
-    if (n % SUNDER_I_DOUBLES) { /* most of these is a corner far below of a side to the right */
+    if (n % SUNDER_I_DOUBLES) { /* the additional side is far below and points to the right, so that every point is on
+                                 * its left */
         subsum->cx[n] = subsum->sy[n] = subsum->bound[n] = 0;
         subsum->cy[n] = -DBL_MAX;
         subsum->sx[n] = 1;

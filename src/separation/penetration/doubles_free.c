@@ -1,5 +1,5 @@
-/* Are the nearest doubles of a translation free as well? A double is an integer over a power of two on the lattice;
- * where both fit 128 bits the sides of the subsums are asked in these, else in big integers, and doubles first. */
+/* doubles_free.c: tests whether the doubles nearest to a translation are free, too. A double is an integer divided by a
+ * power of two on the lattice; doubles are tried first, then 128-bit integers if the numbers fit, else big integers. */
 #include "separation/penetration/penetration_search.h"
 
 #include "predicate/rational_point.h"
@@ -10,13 +10,13 @@
 
 typedef struct dyadic {
     double ax, ay; /* in units */
-    bool native;   /* the integers below hold it */
+    bool native;   /* the integers x, y and bits represent the point; else `big` does */
     sunder_i_i128 x, y;
     unsigned bits;               /* x / 2^bits, y / 2^bits */
-    sunder_i_rational_point big; /* else */
+    sunder_i_rational_point big; /* used unless native */
 } dyadic;
 
-/* Native: v = m 2^f lattice units with |m| < 2^53. */
+/* Represents v as m 2^f lattice units with |m| < 2^53. Returns false if v is subnormal or f is out of range. */
 static bool native_units(double v, long exponent, int64_t *m, long *f)
 {
     uint64_t bits;
@@ -25,7 +25,7 @@ static bool native_units(double v, long exponent, int64_t *m, long *f)
     *m = 0;
     *f = 0;
     if (v == 0) return true;
-    if (field == 0) return false; /* below all doubles of full length */
+    if (field == 0) return false; /* subnormal numbers have fewer digits */
     const uint64_t magnitude = (bits & (((uint64_t)1 << 52) - 1)) | (uint64_t)1 << 52;
     const int z = __builtin_ctzll(magnitude);
     *m = (int64_t)(magnitude >> z);
@@ -59,18 +59,19 @@ static dyadic dyadic_of(sunder_i_operands *g, double dx, double dy)
     return d;
 }
 
-/* Side of the point to side k of the subsum. Exact. */
+/* Compares the point with side k of the subsum: +1 on its left, 0 on its line, -1 on its right. Exact. */
 static int dyadic_side(sunder_i_operands *g, const dyadic *d, const sunder_i_subsum *s, uint32_t k)
 {
     sunder_i_lattice *l = &g->placed.lattice;
     l->counts.orientation_tests++;
     l->counts.exact_fallbacks++;
     if (d->native && sunder_i_point_is_plain(s->corner[k]) && sunder_i_point_is_plain(s->side[k])) {
-        /* |corner| < 2^61 and bits < 64, so differences stay below 2^126. */
+        /* |corner| < 2^61 and bits < 64, so that differences are below 2^126 */
         const sunder_i_i128 one = (sunder_i_i128)1 << d->bits;
         const sunder_i_i128 x = d->x - s->corner[k].x * one, y = d->y - s->corner[k].y * one;
         const sunder_i_i128 most = (sunder_i_i128)1 << 94;
-        if (g->brief && x < most && x > -most && y < most && y > -most) /* times a side, below 2^30, 2^124 */
+        /* times a side, which is below 2^30, this is below 2^124 */
+        if (g->brief && x < most && x > -most && y < most && y > -most)
             return sunder_i_i128_sign(s->side[k].x * y - s->side[k].y * x);
         return sunder_i_cmp_products(s->side[k].x, y, s->side[k].y, x);
     }
@@ -108,8 +109,8 @@ bool sunder_i_doubles_free(sunder_i_operands *operands, const sunder_i_free_poin
 {
     if (!isfinite(dx) || !isfinite(dy)) return false;
     const dyadic d = dyadic_of(operands, dx, dy);
-    /* As near to the point as the point is known, which doubles that are not at the end of their range are, and so off
-     * all that the point is off. */
+    /* As close to the exact point as its error, which holds unless doubles are at the end of their range: it is clear
+     * of all subsums that the exact point is clear of. */
     if (fabs(d.ax - nearest->x) <= operands->error / 2 && fabs(d.ay - nearest->y) <= operands->error / 2) {
         for (size_t n = 0; n < near->n; n++)
             if (is_inside(operands, &d, operands->subsum + near->subsum[n])) return false;

@@ -1,13 +1,14 @@
-/* What kind of place a free point is: from the cones that the subsums leave around it.
+/* free_point_kind.c: classifies a free point by the cones that the subsums cover around it.
  *
- * Every subsum with the point on its boundary covers an open cone there, at most a half-plane. Where their closures
- * leave an angle open, the point is on the boundary of the regularised obstacle: an edge if the open cones make up
- * exactly one open half-plane, else a vertex. Where they leave none, it is degenerate: a point if the open cones cover
- * every direction, a segment if some direction is left. */
+ * Each subsum with the point on its boundary covers an open cone there, at most a half-plane. If the closures of all
+ * cones leave an angle open, the point is on the boundary of the regularised obstacle: on an edge if the union of the
+ * open cones is exactly one open half-plane, else it is a vertex. If they leave none, the point is degenerate: a
+ * degenerate point if the open cones cover every direction, a point of a degenerate segment if some direction is
+ * left. */
 #include "separation/penetration/penetration_search.h"
 
 typedef struct cone {
-    sunder_i_point from, to; /* counter-clockwise, at most pi */
+    sunder_i_point from, to; /* counterclockwise; at most pi */
 } cone;
 
 static int opposite_or_same(sunder_i_operands *g, sunder_i_point u, sunder_i_point v)
@@ -25,10 +26,11 @@ static sunder_i_point negative(sunder_i_operands *g, sunder_i_point u)
     return g->placed.lattice.narrow ? (sunder_i_point){-u.x, -u.y} : sunder_i_point_neg(&g->placed.lattice, u);
 }
 
-typedef enum where { OFF, BESIDE, ON } where; /* OFF: by more than twice the error of doubles */
+typedef enum where { OFF, BESIDE, ON } where; /* OFF: farther away than twice the error of doubles */
 
-/* Where is the point relative to the subsum? ON its boundary: then *out is the cone that the subsum covers there.
- * BESIDE: not on it, but too near for doubles to tell. OFF: farther away. */
+/* Returns the position of the point relative to the subsum. ON: it is on the boundary, and *out becomes the cone that
+ * the subsum covers there. BESIDE: it is not on the boundary but too near for doubles to decide. OFF: it is farther
+ * away. */
 static where cone_of(sunder_i_operands *g, const sunder_i_free_point *f, sunder_i_subsum *s, cone *out)
 {
     if (!sunder_i_box_near_point(s->box, f->x, f->y, 4 * g->error)) return OFF;
@@ -51,7 +53,7 @@ static where cone_of(sunder_i_operands *g, const sunder_i_free_point *f, sunder_
         if (side == 0 && n < 2) on[n++] = k;
     }
     if (beside || n == 0) return BESIDE;
-    /* Two sides meet in the corner between them: `last` arrives and `first` leaves. */
+    /* if two sides contain the point it is their common vertex: `last` arrives there and `first` leaves */
     const uint32_t first = n == 2 ? (on[0] + 1 == on[1] ? on[1] : on[0]) : on[0];
     const uint32_t last = n == 2 ? (first == on[1] ? on[0] : on[1]) : on[0];
     out->from = s->side[first];
@@ -77,8 +79,8 @@ static sunder_i_point *sorted_rays(sunder_i_operands *g, const cone *cones, size
 }
 
 typedef struct around {
-    size_t open_arcs, open_rays; /* those that no cone covers */
-    size_t start;                /* the ray that begins the covered part after an open arc, if `starts` is 1 */
+    size_t open_arcs, open_rays; /* the numbers of arcs and of rays that no cone covers */
+    size_t start;                /* the ray at which the covered part after an open arc begins, if `starts` is 1 */
     size_t starts;
 } around;
 
@@ -92,7 +94,7 @@ static around look_around(sunder_i_operands *g, const cone *cones, size_t n, con
             inside = strictly_inside(g, cones + i, ray[k]);
             begins |= opposite_or_same(g, cones[i].from, ray[k]) > 0;
         }
-        arc_covered[k] = inside || begins; /* the arc from this ray to the next */
+        arc_covered[k] = inside || begins; /* the arc from this ray to the next one */
         a.open_rays += !inside;
         a.open_arcs += !arc_covered[k];
     }
@@ -113,7 +115,7 @@ static sunder_contact classify(sunder_i_operands *g, const cone *cones, size_t n
     if (!ray || !arc_covered) return SUNDER_CONTACT_VERTEX;
     const around a = look_around(g, cones, n, ray, rays, arc_covered);
     if (a.open_arcs == 0) return a.open_rays ? SUNDER_CONTACT_DEGENERATE_SEGMENT : SUNDER_CONTACT_DEGENERATE_POINT;
-    /* One covered stretch whose inner rays are covered too: only its two ends are left open. */
+    /* one covered arc whose inner rays are covered, too: only its two ends are open */
     if (a.starts == 1) {
         size_t end = a.start, arcs = 0;
         while (arc_covered[end]) {

@@ -1,17 +1,17 @@
-/* How deep are two sets in each other? The nearest point that no subsum covers is looked for (penetration_search.c),
- * classified (free_point_kind.c), asked again of every pair of pieces (verify_penetration.c), and written down. Only
- * then is anything given. */
+/* least_without_gap.c: computes the least separating translation without a gap. The nearest point that no subsum covers
+ * is found (penetration_search.c), classified (free_point_kind.c), verified against every pair of pieces
+ * (verify_penetration.c), and converted to the caller's form. */
 #include "separation/penetration/penetration.h"
 
 #include "separation/penetration/penetration_search.h"
 
 #include <math.h>
 
-/* Two buildings, their subsums and candidates fit in this: no allocation then but for the answer. */
+/* The memory for two buildings with their subsums and candidates; then only the answer is allocated. */
 #define SMALL_BYTES 24576
 
-/* Reduces num / den and the vector d, first by the common divisors of num and den, then by those of d and den: the
- * point's numbers become as short as possible without looking at where the line begins. */
+/* Returns the point with num / den and the vector d reduced, first by the common divisors of num and den, then by those
+ * of d and den. The point's numbers become as short as possible without regard to the line's first point. */
 static sunder_i_hpoint reduced_point(sunder_i_lattice *l, const sunder_i_free_point *f)
 {
     const sunder_i_point a = f->line.a, d = f->line.d;
@@ -28,15 +28,15 @@ static sunder_i_hpoint reduced_point(sunder_i_lattice *l, const sunder_i_free_po
     return sunder_i_hpoint_at(l, a, (sunder_i_point){a.x + d.x / by, a.y + d.y / by}, &t);
 }
 
-/* Are they more than doubles hold exactly, so that to round them takes long? */
+/* Returns whether a number of the point is not exact as a double, so that rounding it takes long. */
 static bool is_long(const sunder_i_hpoint *p)
 {
     const uint64_t most = (uint64_t)1 << 53;
     return !sunder_i_hpoint_is_short(p) || p->x.limb[0] > most || p->y.limb[0] > most || p->w > (sunder_i_i128)most;
 }
 
-/* The point found as a vector. Where its numbers are long they are shortened: exact fits are mostly at sums of corners,
- * which are short. */
+/* Returns the found point as a vector, reduced if its numbers are long. Points that fit exactly are mostly sums of
+ * vertices, which are short. */
 static sunder_i_exact_translation translation_of(sunder_i_operands *g, const sunder_i_free_point *f)
 {
     sunder_i_lattice *l = &g->placed.lattice;

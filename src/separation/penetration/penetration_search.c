@@ -1,6 +1,7 @@
-/* Best first. Each segment of the reduced convolution starts at its point nearest to the origin; while a subsum covers
- * the point, it moves to where the line leaves that subsum, on either side. What is left uncovered is free. Segments
- * come in the order of their distances, and the search ends when the next one is farther than the best free point. */
+/* penetration_search.c: a best-first search. Each segment of the reduced convolution begins at its point nearest to the
+ * origin; while a subsum covers the point, the search moves to where the line leaves that subsum, in both directions. A
+ * point that remains uncovered is free. Segments come in the order of their distances, and the search ends when the
+ * next one is farther than the best free point. */
 #include "separation/penetration/penetration_search.h"
 #include "base/extremes.h"
 #include "base/invariant.h"
@@ -16,22 +17,22 @@ typedef struct search {
     sunder_i_free_point best;
     sunder_i_hpoint best_point;
     bool best_point_known;
-    size_t found; /* how often a better one was */
+    size_t found; /* the number of times a better point was found */
     double limit;
-    size_t first; /* the subsum that covered the last foot: often it covers the next one too */
+    size_t first; /* the subsum that covered the previous foot; often it covers the next one, too */
     sunder_i_fraction zero, one;
-    const double *square; /* the square searched, or NULL: everything */
-    double from, to;      /* the part of the line at hand that is in the square, or all of it */
+    const double *square; /* the square that is searched; NULL: the whole plane */
+    double from, to;      /* the part of the current line in that square, as parameters */
 } search;
 
-/* x^2 + y^2 of a short point, below 2^127. */
+/* Returns x^2 + y^2 of a short point, which is below 2^127. */
 static sunder_i_i128 short_norm(const sunder_i_hpoint *p)
 {
     const sunder_i_u128 x = p->x.limb[0], y = p->y.limb[0];
     return (sunder_i_i128)(x * x + y * y);
 }
 
-/* Order of the distances of two points from the origin. Degree 10 over 8. */
+/* Compares the distances of two points from the origin. Degree 10 over 8. */
 static int norm_cmp(sunder_i_lattice *l, const sunder_i_hpoint *a, const sunder_i_hpoint *b)
 {
     l->counts.exact_fallbacks++;
@@ -46,14 +47,15 @@ static int norm_cmp(sunder_i_lattice *l, const sunder_i_hpoint *a, const sunder_
     return c;
 }
 
-/* Is t 0 or 1? And the end of a line of native integers that it is then. */
+/* Returns whether t is 0 or 1. end_at() returns the end of a line of native integers for such a t. */
 static inline bool is_end(const sunder_i_fraction *t) { return t->num == 0 || t->num == t->den; }
 static inline sunder_i_point end_at(const sunder_i_carrier *line, const sunder_i_fraction *t)
 {
     return t->num == 0 ? line->a : line->b;
 }
 
-/* Is a nearer to the origin than b, or as near and lexicographically smaller? Native integers, below 2^61. */
+/* Returns whether a is nearer to the origin than b, or equally near and lexicographically smaller. Native integers
+ * below 2^61. */
 static bool end_is_better(sunder_i_point a, sunder_i_point b)
 {
     const sunder_i_i128 p = sunder_i_narrow_dot(a, a), q = sunder_i_narrow_dot(b, b);
@@ -69,7 +71,7 @@ static bool better(search *s, const sunder_i_carrier *line, const sunder_i_fract
     if (distance > s->best.distance + slack) return false;
     if (distance < s->best.distance - slack) return true;
     sunder_i_lattice *l = &s->g->placed.lattice;
-    /* Often it is one sum of corners, at which two segments end. */
+    /* often both are the same sum of vertices, at which two segments end */
     if (l->narrow && is_end(t) && is_end(&s->best.t)) {
         l->counts.comparisons++;
         return end_is_better(end_at(line, t), end_at(&s->best.line, &s->best.t));
@@ -97,7 +99,8 @@ static void offer(search *s, const sunder_i_carrier *line, const sunder_i_fracti
     if (distance + 8 * s->g->error < s->limit) s->limit = distance + 8 * s->g->error;
 }
 
-/* Does the subsum hold the end of the segment, for certain? Then, being convex, all up to there. */
+/* Returns whether the subsum certainly contains the end of the segment; since it is convex it then covers everything up
+ * to there. */
 static bool holds_end(const sunder_i_carrier *line, const sunder_i_subsum *subsum, bool forwards)
 {
     const double x = forwards ? line->ax + line->dx : line->ax, y = forwards ? line->ay + line->dy : line->ay;
@@ -105,7 +108,8 @@ static bool holds_end(const sunder_i_carrier *line, const sunder_i_subsum *subsu
     return subsum->sides <= SUNDER_I_SIDES_IN_A_WORD && sunder_i_subsum_may_hold(subsum, x, y, 1, &doubt) && doubt == 0;
 }
 
-/* From t, which subsum `cover` has in its interior, along the line to the first free point; none beyond the limit. */
+/* Follows the line from a point that is in the interior of subsum `cover` to the first free point, and offers that
+ * point unless it is beyond the limit. */
 static void walk(search *s, const sunder_i_carrier *line, long cover, bool forwards)
 {
     sunder_i_operands *g = s->g;
@@ -128,7 +132,7 @@ static void walk(search *s, const sunder_i_carrier *line, long cover, bool forwa
     }
 }
 
-/* The part of the line in the square, with room for what points may be off by; false if there is none. */
+/* Computes the part of the line in the square, enlarged by the error of points. Returns false if it is empty. */
 static bool enter_square(search *s, const sunder_i_carrier *line)
 {
     const double e = 32 * s->g->error, a[2] = {line->ax, line->ay}, d[2] = {line->dx, line->dy};
@@ -146,8 +150,8 @@ static bool enter_square(search *s, const sunder_i_carrier *line)
     return s->from <= s->to;
 }
 
-/* The point of the square nearest to the foot, if the foot is not in it. It is none of the points where anything begins
- * or ends on the line, and if it is free a nearer one is, in another square. */
+/* Returns the point of the line's part in the square nearest to the foot. If the foot is outside the square, this point
+ * is no end of any covered interval, and if it is free, then a nearer point in another square is free, too. */
 static sunder_i_fraction foot_in_square(const search *s, sunder_i_fraction foot)
 {
     if (!s->square || (foot.value >= s->from && foot.value <= s->to)) return foot;
@@ -175,7 +179,7 @@ static void try_candidate(search *s, const sunder_i_carrier *line)
     if (foot.value > 0.5 || sunder_i_carrier_cmp(g, &foot, &s->zero) > 0) walk(s, line, cover, false);
 }
 
-/* Does a subsum cover the origin? The overlap test, asked of the subsums at hand. */
+/* Returns whether a subsum covers the origin, that is, whether the operands overlap. */
 static bool origin_covered(sunder_i_operands *g, const sunder_i_fraction *zero)
 {
     const sunder_i_carrier axis = sunder_i_carrier_make(g, (sunder_i_point){0, 0}, (sunder_i_point){1, 0});
@@ -187,7 +191,7 @@ static void try_all(search *s, sunder_i_candidates *heap)
     sunder_i_operands *g = s->g;
     while (heap->n && !g->placed.lattice.arena.failed) {
         const sunder_i_candidate c = sunder_i_candidates_pop(heap);
-        if (sqrt(c.square) - 4 * g->error > s->limit) break; /* like all others: the nearest comes first */
+        if (sqrt(c.square) - 4 * g->error > s->limit) break; /* all others are farther, too */
         SUNDER_I_ASSERT(heap->n == 0 || c.square <= heap->item[0].square);
         const sunder_i_carrier line = sunder_i_candidate_carrier(g, &c);
         try_candidate(s, &line);
@@ -202,7 +206,7 @@ static bool search_all(search *s)
     return true;
 }
 
-/* The nearest free point within s->limit, if there is one; false if memory is out. */
+/* Finds the nearest free point within s->limit, if there is one. Returns false if out of memory. */
 static bool nearest_within(search *s)
 {
     sunder_i_operands *g = s->g;
@@ -217,7 +221,7 @@ static bool nearest_within(search *s)
     return ok;
 }
 
-/* The candidates of one square. Its subsums are forgotten again, but where they hold the answer. */
+/* Tries the candidates of one square. Its subsums are released afterwards unless the best point was found in it. */
 static void search_square(search *s, sunder_i_candidates *heap, sunder_i_mark mark, sunder_i_subsum **list, size_t *n)
 {
     sunder_i_operands *g = s->g;
@@ -230,7 +234,8 @@ static void search_square(search *s, sunder_i_candidates *heap, sunder_i_mark ma
     } else if (!g->placed.lattice.arena.failed) {
         sunder_i_arena_release(&g->placed.lattice.arena, mark);
         g->placed.lattice.pool_n = pooled;
-        s->best_point_known = s->best_point_known && g->placed.lattice.narrow; /* it may share those numbers */
+        /* the best point may use numbers that were released */
+        s->best_point_known = s->best_point_known && g->placed.lattice.narrow;
     }
 }
 
@@ -254,12 +259,12 @@ static sunder_i_squares_next search_squares(search *s, sunder_i_squares *squares
     while ((next = sunder_i_squares_pop(squares, s->limit, box, &mark, &heap)) == SUNDER_I_SQUARES_OPEN)
         search_square(s, &heap, mark, &list, &n);
     s->square = NULL;
-    g->subsum = list; /* near the answer: they tell how it touches */
+    g->subsum = list; /* the subsums near the answer, which determine its kind of contact */
     g->subsums = n;
     return next;
 }
 
-/* *done: it is searched; else it has to be done otherwise. False if memory is out. */
+/* *done becomes whether the search is complete; else another method must be used. Returns false if out of memory. */
 static bool by_squares(search *s, bool *done)
 {
     const double limit = s->limit;
@@ -294,17 +299,18 @@ sunder_status sunder_i_nearest_by_squares(sunder_i_operands *operands, double li
     return SUNDER_OK;
 }
 
-/* Operands with at least this many pairs of pieces, those with many corners cut up, are searched square by square; with
- * fewer, their pairs are listed before the trees for squares are made. */
+/* Operands with at least this number of pairs of pieces, after pieces with many vertices are divided, are searched by
+ * squares; for fewer, listing the pairs takes less time than building the trees for squares. */
 #define SQUARES_FROM 16384
-/* Where squares are not suited, most of the pairs may still be far off, as with neighbouring countries, and listing
- * them would fill the memory. So the search begins in a small disc, and continues in one WIDEN_BY times as wide where
- * that holds no free point, up to WIDEN_TIMES times. Countries that overlap by a sliver separate in the first disc, at
- * 8^-4 of the way out. */
+/* If squares do not suit the operands, most pairs of pieces may still be far away, as with neighbouring countries, and
+ * listing them would exhaust the memory. So the search begins in a small disc, and continues in one that is WIDEN_BY
+ * times as wide if the disc contains no free point, up to WIDEN_TIMES times. Countries with a narrow overlap separate
+ * in the first disc, at 8^-4 of the radius that certainly suffices. */
 #define WIDEN_BY 8
 #define WIDEN_TIMES 4
 
-/* By squares, with pieces of few corners; where that leads nowhere the operands are as they were. */
+/* Searches by squares, with pieces of few vertices. If that does not suit the operands, *done is false and the pieces
+ * are restored. */
 static sunder_status by_parts(sunder_i_operands *g, double limit, bool *done, sunder_i_free_point *out,
                               sunder_error *err)
 {
@@ -334,7 +340,7 @@ sunder_status sunder_i_nearest_free_point(sunder_i_operands *operands, double li
         s.limit = disc;
         s.first = 0;
         if (!nearest_within(&s) || l->arena.failed) return sunder_i_no_memory(err);
-        /* So close to the rim, a nearer point may have been taken for one outside. */
+        /* near the boundary of the disc a nearer point may have been taken to be outside */
         if (times && !s.best.origin && s.best.distance + 16 * operands->error > disc)
             s.best = (sunder_i_free_point){.found = false};
         s.best_point_known = s.best_point_known && s.best.found;

@@ -1,5 +1,5 @@
-/* The exact check of a result: asked of the pieces themselves, by separating sides; it shares only the arithmetic with
- * the search. */
+/* verify_penetration.c: the exact verification of a result. It tests the pieces by separating sides and shares only the
+ * arithmetic with the search. */
 #include "separation/penetration/penetration_search.h"
 
 #include "base/extremes.h"
@@ -8,7 +8,8 @@
 
 #include <math.h>
 
-/* Sign of cross(b - a, x - c - a), x the point found: on which side of ab the corner x - c of Q + x is. Exact. */
+/* Returns the sign of cross(b - a, x - c - a), x the found point: on which side of ab the vertex x - c of x - Q is.
+ * Exact. */
 static int exact_side(sunder_i_operands *g, const sunder_i_free_point *f, sunder_i_point a, sunder_i_point b,
                       sunder_i_point c)
 {
@@ -29,14 +30,15 @@ static int exact_side(sunder_i_operands *g, const sunder_i_free_point *f, sunder
 typedef struct side_line {
     uint32_t a, b;
     double ux, uy, x, y; /* b - a, and x - a, x the point found */
-    double bound;        /* a corner farther from the line than that, times its length, is certainly on its side */
+    double bound;        /* a vertex whose distance from the line, times the length of the side, exceeds this is
+                          * certainly on one side */
 } side_line;
 
 static inline side_line line_of(const sunder_i_operands *g, const sunder_i_free_point *f, int side, uint32_t a,
                                 uint32_t b)
 {
     const double *xy = g->xy[side];
-    /* The ends are each off by 2^-53 of the magnitude: the error of u counts like a rough one. */
+    /* Each end has an error of 2^-53 of the magnitude, so that the error of u is absolute. */
     const double per_length = 4 * g->error;
     const double fixed = 32 * g->magnitude * g->rough + g->magnitude * g->magnitude * 0x1p-47;
     const double ux = xy[2 * b] - xy[2 * a], uy = xy[2 * b + 1] - xy[2 * a + 1];
@@ -49,11 +51,13 @@ static inline side_line line_of(const sunder_i_operands *g, const sunder_i_free_
                        .bound = (fabs(ux) + fabs(uy)) * per_length + fixed};
 }
 
-/* Corners compared with a side before the results are looked at: it cannot be predicted which corner is to its left. */
+/* The number of vertices compared with a side before the results are examined, since it cannot be predicted which
+ * vertex is on its left. */
 #define CORNERS_AT_ONCE 8
 
-/* Which corners c = corner[0] .. corner[n - 1] leave it open whether x - c is left of the side, as a set, the last one
- * perhaps twice; *left: one is so for certain. Two at a time. */
+/* Returns the set of those vertices c = corner[0] .. corner[n - 1] for which it is uncertain whether x - c is on the
+ * left of the side; the last one may be included twice. *left becomes whether one is certainly on the left. Two at a
+ * time. */
 static inline uint32_t compare_corners(const side_line *s, const double *xy, const uint32_t *corner, uint32_t n,
                                        bool *left)
 {
@@ -70,7 +74,7 @@ static inline uint32_t compare_corners(const side_line *s, const double *xy, con
     return doubt;
 }
 
-/* Is all of x - q on the right of a side of p, or on it? */
+/* Returns whether all of x - q is on the right of the side s of p, or on its line. */
 static bool has_on_right(sunder_i_operands *g, const sunder_i_free_point *f, const side_line *s,
                          const sunder_i_operand_piece *p, const sunder_i_operand_piece *q)
 {
@@ -87,7 +91,8 @@ static bool has_on_right(sunder_i_operands *g, const sunder_i_free_point *f, con
     return true;
 }
 
-/* Does a side of p have all of x - q on its right or on it? Symmetric in p and q up to the reflection at x / 2. */
+/* Returns whether a side of p has all of x - q on its right or on its line. p and q may be exchanged, up to the
+ * reflection at x / 2. */
 static bool side_parts(sunder_i_operands *g, const sunder_i_free_point *f, const sunder_i_operand_piece *p,
                        const sunder_i_operand_piece *q)
 {
@@ -101,8 +106,8 @@ static bool side_parts(sunder_i_operands *g, const sunder_i_free_point *f, const
     return false;
 }
 
-/* The side of p that looks most into a direction: by the corner that it ends at. *most: how much, times its length; no
- * less than it was, else p has none. */
+/* Returns the side of p whose normal has the largest product with (x, y), as the vertex at its end. The product, with
+ * the normal not normalised, must exceed *most, which is raised to it; else UINT32_MAX is returned. */
 static inline uint32_t side_towards(const sunder_i_operands *g, const sunder_i_operand_piece *p, double x, double y,
                                     double *most)
 {
@@ -117,7 +122,8 @@ static inline uint32_t side_towards(const sunder_i_operands *g, const sunder_i_o
     return best;
 }
 
-/* A guess at which side it is: that which looks most from the middle of the sum of p and q to the point. */
+/* Tests the side that probably separates p and q: the one whose normal points most in the direction from the centre of
+ * their sum to the point. */
 static bool likely_side_parts(sunder_i_operands *g, const sunder_i_free_point *f, const sunder_i_operand_piece *p,
                               const sunder_i_operand_piece *q, const double sum[4])
 {
@@ -133,7 +139,7 @@ static bool likely_side_parts(sunder_i_operands *g, const sunder_i_free_point *f
     return has_on_right(g, f, &s, p, q);
 }
 
-/* Does the point lie off the subsum of these pieces by its box, or by a side of one of them? */
+/* Returns whether the point is outside the subsum of these pieces, by its box or by a side of one of them. */
 static bool parted(sunder_i_operands *g, const sunder_i_free_point *f, uint32_t i, uint32_t j)
 {
     double sum[4];
@@ -146,8 +152,8 @@ static bool parted(sunder_i_operands *g, const sunder_i_free_point *f, uint32_t 
 /* ---- Many pieces ---- */
 
 typedef struct row {
-    const double *box; /* of all pieces */
-    uint32_t *piece;   /* those that the other operand can reach, by their low x */
+    const double *box; /* the boxes of all pieces */
+    uint32_t *piece;   /* the pieces that can reach the point with the other operand, sorted by minimum x */
     uint32_t n;
     double widest;
 } row;
@@ -172,7 +178,7 @@ static bool line_up(const sunder_i_operands *g, const sunder_i_free_point *f, in
     return sunder_i_sort_indices(r->piece, r->n, by_low_x, (void *)r->box);
 }
 
-/* The first whose low x is not below that. */
+/* Returns the first piece whose minimum x is not less than x. */
 static uint32_t first_from(const row *r, double x)
 {
     uint32_t low = 0, high = r->n;
@@ -186,7 +192,8 @@ static uint32_t first_from(const row *r, double x)
     return low;
 }
 
-/* For each piece of Q the pieces of P that can have the point between them in x. Doubles, with room for rounding. */
+/* Tests each piece of Q with the pieces of P whose range of x can contain the point together with it. In doubles, with
+ * an allowance for rounding. */
 static bool verify_many(sunder_i_operands *g, const sunder_i_free_point *f)
 {
     const double *b = g->piece_box[1], e = 4 * g->error;
@@ -205,7 +212,7 @@ static bool verify_many(sunder_i_operands *g, const sunder_i_free_point *f)
     return ok;
 }
 
-#define MANY 4096 /* pairs, from which on sorting pays */
+#define MANY 4096 /* the number of pairs from which sorting is worth its cost */
 
 bool sunder_i_free_point_verify(sunder_i_operands *operands, const sunder_i_free_point *nearest)
 {

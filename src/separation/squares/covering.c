@@ -1,14 +1,13 @@
-/* What covers a square entirely: a box inside P and one inside -Q whose sum, a box, has the square in its interior, so
- * that any placement from the square makes the two overlap; or a subsum. If nothing covers it: the pairs of pieces that
- * come near it.
+/* covering.c: tests whether something covers a square completely: a box inside P and one inside -Q whose sum, a box,
+ * contains the square in its interior, so that any translation from the square makes the operands overlap; or a subsum.
  *
- * Where the operands overlap deeply a few large boxes cover large squares. Spikes have no boxes inside, but the sum of
- * two spikes that cross is a parallelogram that covers many squares. Among millions of pairs such a sum is found in the
- * two trees of convex sets, the most promising nodes first: the sum of their chiefs is tested, and bounds how deep the
- * square can be in any sum below them. If that does not succeed soon, many sums nearly cover the square and its
- * quarters are tested instead; the pairs near it are then not listed.
+ * If the operands overlap deeply, few large boxes cover large squares. Spikes have no boxes inside, but the sum of two
+ * crossing spikes is a parallelogram that covers many squares. Among millions of pairs such a sum is found in the two
+ * trees of convex sets, the most promising nodes first: the sum of their chiefs (inner_convex.h) is tested, and bounds
+ * how deep the square can be in any sum below the nodes. If this does not succeed soon, many sums nearly cover the
+ * square, and its quarters are tested instead; the pairs near it are then not listed.
  *
- * All in doubles or floats and one-sided: "covered" is certain, and a pair that is not listed stays away by more than
+ * All is in doubles or floats and one-sided: "covered" is certain, and a pair that is not listed is farther away than
  * the error. */
 #include "separation/squares/squares_inner.h"
 
@@ -21,8 +20,8 @@
 
 /* ---- Boxes ---- */
 
-/* The nodes a and b of the two quarterings, with their boxes. Parts of a box whose sum does not cover the square do not
- * either. */
+/* Tests the nodes a and b of the two quadtrees, with their boxes. If the sum of two boxes does not cover the square,
+ * the sums of their parts do not either. */
 static bool boxes_cover(sunder_i_squares *q, const double at[4], int32_t a, const double abox[4], int32_t b,
                         const double bbox[4])
 {
@@ -51,8 +50,8 @@ bool sunder_i_squares_boxes_cover(sunder_i_squares *squares, const double square
 
 /* ---- Sums of convex sets ---- */
 
-/* A sum grown by a disc of radius g covers a square if one grown by a square of half the width g / sqrt(2) does, i.e.
- * if the sum itself covers the square shrunk by that; somewhat less than that, for rounding. */
+/* A sum grown by a disc of radius g covers a square if the sum covers the square shrunk by g / sqrt(2) on each side;
+ * the factor is somewhat smaller, for rounding. */
 #define SQUARE_IN_DISC 0.70
 
 void sunder_i_squares_query(sunder_i_squares *squares, const double square[4], double less[4])
@@ -63,7 +62,8 @@ void sunder_i_squares_query(sunder_i_squares *squares, const double square[4], d
     squares->at = less;
 }
 
-/* Does the sum of the chiefs of two nodes cover the square? It is remembered whose does, or most nearly does. */
+/* Returns whether the sum of the chiefs of two nodes covers the square; *in becomes its depth. The pair with the
+ * greatest depth is kept in q->best. */
 static bool sum_covers(sunder_i_squares *q, const uint32_t node[2], float *in)
 {
     const uint32_t i = q->inner[0].node[node[0]].chief, j = q->inner[1].node[node[1]].chief;
@@ -85,13 +85,14 @@ static bool before(const void *a, const void *b)
 static bool push_node(sunder_i_squares *q, sunder_i_node_pair v)
 {
     if (!sunder_i_reserve(&q->node, &q->nodes_capacity, q->nodes + 1, sizeof *q->node)) return false;
-    if (v.node[0] >= q->inner[0].all.leaves && v.node[1] >= q->inner[1].all.leaves) return true; /* none below */
+    /* there are no nodes below */
+    if (v.node[0] >= q->inner[0].all.leaves && v.node[1] >= q->inner[1].all.leaves) return true;
     sunder_i_heap_push(q->node, &q->nodes, sizeof v, &v, before);
     return true;
 }
 
-/* Opens the node whose members stand out of its chief by more. Its children are tested by their chiefs, and dropped if
- * no sum of theirs can cover the square. */
+/* Replaces the node whose sets extend farther beyond its chief by its children. These are tested by their chiefs, and
+ * discarded if none of their sums can cover the square. */
 static sunder_i_covering open_pair(sunder_i_squares *q, const sunder_i_node_pair *v)
 {
     const sunder_i_inner_convex *b = q->inner;
@@ -117,7 +118,7 @@ static sunder_i_covering open_pair(sunder_i_squares *q, const sunder_i_node_pair
     return SUNDER_I_COVERING_NONE;
 }
 
-/* The pair of nodes that covered the last square about there, if any did. */
+/* Returns the pair of nodes that covered the previous square near this one, or the roots. */
 static uint32_t *remembered(sunder_i_squares *q)
 {
     const float per_unit = SUNDER_I_SQUARES_MEMORY / (2 * q->reach);

@@ -1,5 +1,5 @@
-/* The tree is split at the median of whatever the pieces of a node differ most in: one of their sixteen bounds. So long
- * pieces are parted from short ones, and those of one direction from those of another. */
+/* dop_tree.c: see dop_tree.h. A node is divided at the median of that one of the sixteen bounds in which its pieces
+ * differ most. This separates long pieces from short ones, and pieces of different directions. */
 #include "separation/squares/dop_tree.h"
 
 #include "base/invariant.h"
@@ -20,9 +20,10 @@ static const double WAY[SUNDER_I_DOP_WAYS][2] = {{1, 0},
 
 double sunder_i_float_scale(const sunder_i_operands *operands) { return ldexp(1, -ilogb(operands->magnitude)); }
 
-/* With coordinates up to M, themselves floats, a bound of a set is below 1.42 M and off by 2^-24 of 2.9 M; so is that
- * of the other, and their sum by 2^-24 of 2.9 M. Squares reach to 2 M, so their bounds to 2.9 M, with the same error
- * again; doubles and the rounding of the ways are nothing beside this. Together that is less than 2^-24 * 12 M. */
+/* With coordinates up to M, which are floats, a bound of a set is below 1.42 M and has an error of 2^-24 of 2.9 M, and
+ * so has the bound of the other set; their sum adds 2^-24 of 2.9 M. Squares extend to 2 M, so that their bounds are
+ * below 2.9 M, with the same error; the errors of doubles and of the directions are negligible. The sum is less than
+ * 2^-24 * 12 M. */
 #define FLOAT_ERROR 0x1p-20
 
 sunder_i_dop sunder_i_dop_query(const sunder_i_operands *operands, const double square[4], double by)
@@ -63,7 +64,7 @@ void sunder_i_dop_add(sunder_i_dop *extents, float x, float y)
 
 typedef struct planter {
     sunder_i_dop_tree *tree;
-    const sunder_i_dop *extent; /* of each piece */
+    const sunder_i_dop *extent; /* the extents of each piece */
     uint32_t *list;
     uint64_t *key;
 } planter;
@@ -73,7 +74,7 @@ static float bound_of(const sunder_i_dop *e, int k)
     return k < SUNDER_I_DOP_WAYS ? e->low[k] : e->high[k - SUNDER_I_DOP_WAYS];
 }
 
-/* The bound in which the pieces of list[from] ... differ most. */
+/* Returns the bound in which the n pieces from list[from] on differ most. */
 static int widest(const planter *p, size_t from, size_t n)
 {
     sunder_i_dop least = p->extent[p->list[from]], most = least;
@@ -92,7 +93,7 @@ static int widest(const planter *p, size_t from, size_t n)
     return best;
 }
 
-/* A float as an integer of the same order. */
+/* Converts a float to an integer with the same order. */
 static uint32_t ordered(float v)
 {
     uint32_t bits;
@@ -100,11 +101,11 @@ static uint32_t ordered(float v)
     return bits & 0x80000000u ? ~bits : bits | 0x80000000u;
 }
 
-/* Brings the m least of n keys to the front; no two are equal. Expected linear time [Hoa61]. */
+/* Moves the m least of n keys, no two of which are equal, to the front. Expected linear time [Hoa61]. */
 static void select_least(uint64_t *key, size_t n, size_t m)
 {
     uint64_t seed = n;
-    size_t low = 0, high = n; /* items before `low` are among the least, items from `high` on are not */
+    size_t low = 0, high = n; /* keys before `low` are among the least, keys from `high` on are not */
     while (high - low > 1) {
         const uint64_t pivot = key[low + sunder_i_draw(&seed) % (high - low)];
         size_t i = low, j = high;
@@ -117,7 +118,7 @@ static void select_least(uint64_t *key, size_t n, size_t m)
             key[i++] = key[j];
             key[j] = swap;
         }
-        if (i == low) i++; /* the pivot is the least of them */
+        if (i == low) i++; /* the pivot is the least of the keys */
         if (m < i)
             high = i;
         else
@@ -126,7 +127,7 @@ static void select_least(uint64_t *key, size_t n, size_t m)
     }
 }
 
-/* The lesser half of list[from] ... by a bound comes first. */
+/* Divides the n pieces from list[from] on by the median of a bound, the lesser half first. */
 static void halve_by(planter *p, size_t from, size_t n, int bound)
 {
     for (size_t i = 0; i < n; i++) {
@@ -137,7 +138,8 @@ static void halve_by(planter *p, size_t from, size_t n, int bound)
     for (size_t i = 0; i < n; i++) p->list[from + i] = (uint32_t)p->key[i];
 }
 
-/* The pieces of list[from] ... below a node; as many to the left as to the right, or one more. */
+/* Builds the subtree of `node` for the n pieces from list[from] on; the left half has as many as the right one, or one
+ * more. Returns false if the computation must stop. */
 static bool plant(planter *p, uint32_t node, size_t from, size_t n)
 {
     sunder_i_dop_tree *t = p->tree;
@@ -162,7 +164,7 @@ static bool has(const sunder_i_dop *all, const sunder_i_dop *one)
     return true;
 }
 
-/* NULL, or what is wrong. */
+/* Returns NULL, or what is wrong. */
 static const char *check(const sunder_i_dop_tree *t, const sunder_i_dop *extent, uint32_t n)
 {
     uint32_t pieces = 0;

@@ -1,8 +1,8 @@
-/* The convex pieces of an operand, by position: a tree with their extents in eight directions (discrete oriented
- * polytopes of sixteen sides [KHMSZ98]), so that long thin pieces at an angle are separated too. Two such trees, one of
- * P and one of -Q, tell which subsums come near a square of the plane, and which may cover it.
+/* dop_tree.h: the convex pieces of an operand by position: a tree with their extents in eight directions (discrete
+ * oriented polytopes with sixteen sides [KHMSZ98]), so that long thin pieces at an angle are separated, too. With two
+ * such trees, of P and of -Q, the subsums near a square of the plane are found, and those that may cover it.
  *
- * Extents are single floats, rounded to nearest; the square is widened instead, by more than all rounding
+ * Extents are floats rounded to nearest; instead, the square is enlarged by more than all rounding errors
  * (sunder_i_dop_query()). */
 #ifndef SUNDER_I_DOP_TREE_H
 #define SUNDER_I_DOP_TREE_H
@@ -15,7 +15,7 @@
 #include <xmmintrin.h>
 #endif
 
-#define SUNDER_I_DOP_WAYS 8 /* multiples of pi / 8; the first is along x, the middle one along y */
+#define SUNDER_I_DOP_WAYS 8 /* directions at multiples of pi / 8; the first is along x, the fifth along y */
 
 typedef struct sunder_i_dop {
     float low[SUNDER_I_DOP_WAYS], high[SUNDER_I_DOP_WAYS];
@@ -24,26 +24,27 @@ typedef struct sunder_i_dop {
 /* A perfect binary tree: node k has the children 2k and 2k + 1, node 1 is the root, node leaves + i has piece[i]. */
 typedef struct sunder_i_dop_tree {
     uint32_t leaves;
-    uint32_t *piece;      /* [leaves] UINT32_MAX: none */
-    sunder_i_dop *extent; /* [2 * leaves] infinite, low above high, for leaves without a piece */
+    uint32_t *piece;      /* [leaves] the number of the piece; UINT32_MAX: none */
+    sunder_i_dop *extent; /* [2 * leaves] for leaves without a piece the bounds are infinite, low above high */
 } sunder_i_dop_tree;
 
-/* Floats are of coordinates times this power of two, so that they are below 2 whatever the units. */
+/* Returns the power of two by which coordinates are multiplied before they become floats, so that they are below 2 in
+ * any unit. */
 double sunder_i_float_scale(const sunder_i_operands *operands);
 
-/* Those of nothing, and with one point more. */
+/* Returns the extents of the empty set; the second function adds a point to extents. */
 sunder_i_dop sunder_i_dop_nowhere(void);
 void sunder_i_dop_add(sunder_i_dop *extents, float x, float y);
 
-/* Builds *tree over n convex sets with the extents extent[n]. Returns false if memory is out; the caller frees the
- * tree in any case. */
+/* Builds *tree over n convex sets with the extents extent[n]. Returns false if out of memory; the caller frees the tree
+ * in any case. */
 bool sunder_i_dop_tree_build(sunder_i_dop_tree *tree, const sunder_i_dop *extent, uint32_t n);
 void sunder_i_dop_tree_free(sunder_i_dop_tree *tree);
 
-/* The extents of a square, widened by the error of doubles and floats, and by `by` units. */
+/* Returns the extents of a square, enlarged by the error of doubles and floats, and by `by` units. */
 sunder_i_dop sunder_i_dop_query(const sunder_i_operands *operands, const double square[4], double by);
 
-/* Four floats at a time, as vector types that compilers map to the machine. */
+/* Vectors of four floats or masks, which compilers map to the machine's vector instructions. */
 typedef float sunder_i_floats __attribute__((vector_size(16)));
 typedef int32_t sunder_i_masks __attribute__((vector_size(16)));
 typedef int64_t sunder_i_halves __attribute__((vector_size(16)));
@@ -55,7 +56,7 @@ static inline sunder_i_floats sunder_i_floats_at(const float *v)
     return f;
 }
 
-/* Of each two the second where one is no number. */
+/* Returns the lesser element of each pair; the second one if one of them is NaN. */
 static inline sunder_i_floats sunder_i_floats_min(sunder_i_floats a, sunder_i_floats b)
 {
 #ifdef __SSE__
@@ -81,7 +82,7 @@ static inline float sunder_i_floats_least(sunder_i_floats v)
     return a < b ? a : b;
 }
 
-/* May a subsum of convex sets with the extents u and v come near the square that is asked about? */
+/* Returns whether a subsum of convex sets with the extents u and v may come near the square of the query. */
 static inline bool sunder_i_dop_near(const sunder_i_dop *u, const sunder_i_dop *v, const sunder_i_dop *query)
 {
     sunder_i_masks off = {0, 0, 0, 0};
@@ -94,7 +95,8 @@ static inline bool sunder_i_dop_near(const sunder_i_dop *u, const sunder_i_dop *
     return (any[0] | any[1]) == 0;
 }
 
-/* How far inside such a subsum all of the square may be at most; it is not covered where that is not positive. */
+/* Returns an upper bound of the depth of the whole square inside such a subsum; if it is not positive the subsum does
+ * not cover the square. */
 static inline float sunder_i_dop_depth(const sunder_i_dop *u, const sunder_i_dop *v, const sunder_i_dop *query)
 {
     sunder_i_floats least = {INFINITY, INFINITY, INFINITY, INFINITY};

@@ -1,5 +1,5 @@
-/* Convex sets inside an operand, in floats, which is half as much to be fetched from memory: they are asked by the
- * million. What they cover they cover for certain. */
+/* inner_convex.c: convex sets inside an operand, in floats, which need half the memory traffic of doubles: millions of
+ * queries are made. If a set is found to cover a square, this is certain. */
 #include "separation/squares/inner_convex.h"
 
 #include "base/watch.h"
@@ -8,14 +8,14 @@
 #include <math.h>
 #include <string.h>
 
-/* ---- Corners ---- */
+/* ---- Vertices ---- */
 
 static double length_of(double x, double y) { return sqrt(x * x + y * y); }
 
 static float length_f(float x, float y) { return sqrtf(x * x + y * y); }
 
-/* A convex set with n corners, at xy or at those of its places that are named. Where the difference of corners is
- * rounded the directions of short sides are off by more than floats are. */
+/* Adds a convex set with n vertices, from xy in order or as listed in `vertex`. If differences of coordinates are
+ * rounded, the directions of short sides have a larger error than that of floats (vague). */
 static void add_set(sunder_i_inner_convex *b, const sunder_i_operands *g, const double *xy, const uint32_t *vertex,
                     uint32_t n)
 {
@@ -48,7 +48,8 @@ static void add_pieces(sunder_i_inner_convex *b, const sunder_i_operands *g, int
         add_set(b, g, g->xy[side], sunder_i_piece_vertices(s) + k, s->piece_end[i] - k);
 }
 
-/* On a narrow lattice its corners become points of that, inward; false if nothing is left. */
+/* Adds a box. On a narrow lattice its corners are rounded inwards to lattice points. Returns false if nothing is
+ * left. */
 static bool add_box(sunder_i_inner_convex *b, const sunder_i_operands *g, const double box[4])
 {
     double at[4] = {box[0], box[1], box[2], box[3]};
@@ -60,13 +61,13 @@ static bool add_box(sunder_i_inner_convex *b, const sunder_i_operands *g, const 
     return true;
 }
 
-/* A node of the quartering and its box. */
+/* A node of the quadtree and its box. */
 typedef struct place {
     int32_t node;
     double box[4];
 } place;
 
-/* The full boxes, level by level, so the largest first, until there are `most` more; false if memory is out. */
+/* Adds up to `most` full boxes, level by level, so that the largest come first. Returns false if out of memory. */
 static bool add_boxes(sunder_i_inner_convex *b, const sunder_i_operands *g, const sunder_i_quadtree *quadtree,
                       uint32_t most)
 {
@@ -90,7 +91,7 @@ static bool add_boxes(sunder_i_inner_convex *b, const sunder_i_operands *g, cons
 
 /* ---- Chiefs ---- */
 
-/* Of a point that is outside of side m of a block, which ends at (ex, ey). */
+/* Returns the distance of a point that is outside of side m of a block; the side ends at (ex, ey). */
 static float distance_from_side(const sunder_i_inner_convex_block *c, int m, float ex, float ey, float x, float y)
 {
     const float tx = -c->ny[m], ty = c->nx[m], along = tx * (x - c->x[m]) + ty * (y - c->y[m]);
@@ -116,7 +117,7 @@ static float distance_from_set(const sunder_i_inner_convex *b, uint32_t set, flo
     return inside ? 0 : least;
 }
 
-/* How much deeper convex set i can cover a square than convex set k is seen to cover it. */
+/* Returns a bound of how much deeper set i can cover a square than set k is found to cover it. */
 static float stands_out(const sunder_i_inner_convex *b, uint32_t i, uint32_t k)
 {
     float most = 0;
@@ -128,7 +129,7 @@ static float stands_out(const sunder_i_inner_convex *b, uint32_t i, uint32_t k)
     return most + SUNDER_I_INNER_CONVEX_ERROR + 2 * b->vague[k];
 }
 
-/* Its extents in all ways together. */
+/* Returns the sum of the extents in all directions. */
 static float size_of(const sunder_i_dop *extent)
 {
     float size = 0;
@@ -136,7 +137,7 @@ static float size_of(const sunder_i_dop *extent)
     return size;
 }
 
-/* The largest convex set of each node, by what is known of its children. */
+/* Chooses the chief of each node, the largest of its convex sets, from its children. Returns false if out of memory. */
 static bool name_chiefs(sunder_i_inner_convex *b, const sunder_i_dop *extent)
 {
     const uint32_t leaves = b->all.leaves;
@@ -162,7 +163,7 @@ static bool name_chiefs(sunder_i_inner_convex *b, const sunder_i_dop *extent)
     return true;
 }
 
-/* ---- All together ---- */
+/* ---- Building and queries ---- */
 
 static bool plant(sunder_i_inner_convex *b, uint32_t pieces)
 {
@@ -216,7 +217,8 @@ sunder_i_square_query sunder_i_inner_convex_query(const sunder_i_operands *opera
         (float)(scale * (square[2] / 2 - square[0] / 2)), (float)(scale * (square[3] / 2 - square[1] / 2))};
 }
 
-/* The sides of one set, each at the corner of the other that is farthest out. Four at a time, without branches. */
+/* Tests the square against the sides of one set, each translated by the farthest vertex of the other set in its
+ * direction. Four at a time, without branches. */
 static inline void below_sides(const sunder_i_inner_convex *b, uint32_t i, const sunder_i_inner_convex *o, uint32_t j,
                                const sunder_i_square_query *query, sunder_i_floats *in, sunder_i_floats *touch)
 {
@@ -235,7 +237,7 @@ static inline void below_sides(const sunder_i_inner_convex *b, uint32_t i, const
     }
 }
 
-/* How far a convex set reaches to the right, up, to the left and down. */
+/* Returns how far a convex set extends to the right, up, left and down. */
 static sunder_i_floats reach_of(const sunder_i_inner_convex *b, uint32_t i)
 {
     sunder_i_floats r = {-INFINITY, -INFINITY, -INFINITY, -INFINITY};
@@ -253,7 +255,7 @@ sunder_i_square_depth sunder_i_inner_convex_depth(const sunder_i_inner_convex in
     sunder_i_floats in = {INFINITY, INFINITY, INFINITY, INFINITY}, touch = in;
     below_sides(inner, i, inner + 1, j, query, &in, &touch);
     below_sides(inner + 1, j, inner, i, query, &in, &touch);
-    if (query->hx < 0) { /* the square's sides are sides of the sum, too */
+    if (query->hx < 0) { /* the sides of the square are also sides of the sum */
         const sunder_i_floats at = {query->x + query->hx, query->y + query->hy, query->hx - query->x,
                                     query->hy - query->y};
         in = sunder_i_floats_min(in, reach_of(inner, i) + reach_of(inner + 1, j) - at);

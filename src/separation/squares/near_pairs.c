@@ -1,11 +1,12 @@
-/* Which pairs of pieces come near a square: both trees are descended together, as long as the extents of two nodes do
- * not keep them off. A pair that is not listed stays off by more than the error; one that covers the square ends it. */
+/* near_pairs.c: lists the pairs of pieces near a square. Both trees are traversed together, as long as the extents of
+ * two nodes do not exclude the square. A pair that is not listed is farther away than the error; a pair that covers the
+ * square ends the traversal. */
 #include "separation/squares/squares_inner.h"
 
 #include "base/watch.h"
 
-/* With a gap, pairs slightly farther than the gap are listed too, since the search with a gap tests places beside its
- * points. */
+/* Returns the position of the square relative to the subsum of the pieces i and j. With a gap, pairs slightly farther
+ * than the gap are listed, too, since the search with a gap tests positions beside its points. */
 static sunder_i_square_position position_to_subsum(const sunder_i_squares *q, uint32_t i, uint32_t j)
 {
     const sunder_i_square_depth d = sunder_i_inner_convex_depth(q->inner, i, j, &q->query);
@@ -21,7 +22,7 @@ static sunder_i_square_position position_to_subsum(const sunder_i_squares *q, ui
     return d.touch > e && d.in < -e ? SUNDER_I_POSITION_ACROSS : sunder_i_squares_position(q, q->at, i, j);
 }
 
-/* The halves of one of two nodes, the one that stands higher in its tree, each with the other. */
+/* Replaces one of two nodes, the one that is higher in its tree, by its children, each combined with the other node. */
 static void open_nodes(const sunder_i_squares *q, uint32_t a, uint32_t b, uint32_t part[2][2])
 {
     const bool first = b >= q->inner[1].pieces.leaves || (a < q->inner[0].pieces.leaves && a <= b);
@@ -31,8 +32,8 @@ static void open_nodes(const sunder_i_squares *q, uint32_t a, uint32_t b, uint32
     }
 }
 
-/* Adds the pairs below two nodes; false once there are more than `most`, or if one of them covers the square
- * (q->covered), or if memory is out. */
+/* Adds the pairs below two nodes. Returns false if there are more than `most`, if one of them covers the square
+ * (q->covered), or if out of memory. */
 static bool gather(sunder_i_squares *q, uint32_t a, uint32_t b, size_t most)
 {
     const sunder_i_dop_tree *p = &q->inner[0].pieces, *r = &q->inner[1].pieces;

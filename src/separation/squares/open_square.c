@@ -1,4 +1,4 @@
-/* The subsums of an open square, and the segments of the reduced convolution that come near it. */
+/* open_square.c: the subsums of an open square, and the segments of the reduced convolution near it. */
 #include "separation/squares/squares_inner.h"
 
 #include "base/extremes.h"
@@ -13,15 +13,15 @@ static const sunder_i_cone *corner_of(sunder_i_squares *q, int side, uint32_t v)
     return q->state[side][v] == CORNER ? &q->corner[side][v] : NULL;
 }
 
-/* Does the box of the segment from (x, y) to (x + dx, y + dy) come within e of square `at`? */
+/* Returns whether the box of the segment from (x, y) to (x + dx, y + dy) is within e of square `at`. */
 static bool comes_near(const double at[4], double e, double x, double y, double dx, double dy)
 {
     return sunder_i_min(x, x + dx) <= at[2] + e && sunder_i_max(x, x + dx) >= at[0] - e &&
            sunder_i_min(y, y + dy) <= at[3] + e && sunder_i_max(y, y + dy) >= at[1] - e;
 }
 
-/* The edge from vertex u, a side of piece i of operand `side`, at the corners of piece j of the other; those that are
- * corners of several pieces with the first of them only. Tests as in reduced_convolution.c. */
+/* Adds the edge from vertex u of operand `side` at the vertices of piece j of the other operand; a vertex of several
+ * pieces counts with the first of them only. The tests are those of pair_convolution.c. */
 static bool add_edge(sunder_i_squares *q, const double at[4], double reach, int side, uint32_t u, uint32_t j,
                      sunder_i_candidates *out)
 {
@@ -44,7 +44,7 @@ static bool add_edge(sunder_i_squares *q, const double at[4], double reach, int 
     return true;
 }
 
-/* A boundary edge is a side of one piece, so nothing comes twice. */
+/* Adds the boundary edges of piece i. A boundary edge is a side of one piece only, so that nothing is added twice. */
 static bool add_edges(sunder_i_squares *q, const double at[4], double reach, int side, uint32_t i, uint32_t j,
                       sunder_i_candidates *out)
 {

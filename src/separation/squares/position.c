@@ -1,15 +1,18 @@
-/* A square and the sum of two pieces, in doubles: what floats leave in doubt (inner_convex.h). */
+/* position.c: the position of a square relative to the sum of two pieces, in doubles, for what floats leave uncertain
+ * (inner_convex.h). */
 #include "separation/squares/squares_inner.h"
 
 #include <math.h>
 
-/* For the sides that come from piece i of operand `side`, each at the corner of piece j that is farthest out. */
+/* Tests the square against the sides of piece i of operand `side`, each translated by the farthest vertex of piece j in
+ * its direction. */
 static sunder_i_square_position position_to_sides(const sunder_i_operands *g, const double at[4], int side, uint32_t i,
                                                   uint32_t j)
 {
     const sunder_i_operand_piece p = sunder_i_operands_piece(g, side, i), q = sunder_i_operands_piece(g, !side, j);
     const double *xy = g->xy[side], *uv = g->xy[!side];
-    const double e = 128 * g->error, fixed = 32 * g->magnitude * g->coarse; /* where ends are rounded, sides are too */
+    /* if coordinates are rounded, sides are, too */
+    const double e = 128 * g->error, fixed = 32 * g->magnitude * g->coarse;
     const double cx = at[0] / 2 + at[2] / 2, cy = at[1] / 2 + at[3] / 2;
     const double hx = at[2] / 2 - at[0] / 2 + e, hy = at[3] / 2 - at[1] / 2 + e;
     sunder_i_square_position where = SUNDER_I_POSITION_WITHIN;

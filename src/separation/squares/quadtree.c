@@ -1,6 +1,6 @@
-/* The operand's box is quartered as long as boundary passes through the parts. A box that none passes through is inside
- * if one of its points is, and then all of it is, with room to spare: edges are widened by the error. Lists of the
- * edges and pieces that come near go down with the boxes, so that each box asks only those of its parent. */
+/* quadtree.c: see quadtree.h. The operand's box is divided into quarters as long as boundary passes through them. A box
+ * without boundary is inside if one of its points is, with a margin, since edges are enlarged by the error. Lists of
+ * the edges and pieces near a box are passed on, so that a box tests only those of its parent. */
 #include "separation/squares/quadtree.h"
 
 #include "base/extremes.h"
@@ -21,13 +21,14 @@ typedef struct builder {
     sunder_i_quadtree *out;
     const sunder_i_operands *g;
     int side, deepest;
-    uint32_t *edges, *pieces; /* lists of the boxes on the stack, one after the other */
+    uint32_t *edges, *pieces; /* the lists of the boxes on the stack, one after the other */
     size_t edges_n, edges_capacity, pieces_n, pieces_capacity;
     item stack[3 * DEEPEST_BOX + 4];
     int stack_n;
 } builder;
 
-/* May the edge from vertex v pass through the box? Doubles; false only if it stays off by more than the error. */
+/* Returns whether the edge from vertex v may pass through the box, in doubles; false only if it is farther away than
+ * the error. */
 static bool passes(const builder *b, uint32_t v, const double box[4])
 {
     const double *xy = b->g->xy[b->side], *p = xy + 2 * (size_t)v,
@@ -47,7 +48,7 @@ static bool meets(const builder *b, uint32_t piece, const double box[4])
     return sunder_i_box_meet(b->g->piece_box[b->side] + 4 * (size_t)piece, box);
 }
 
-/* Is a certain point of the box in the piece for certain? */
+/* Returns whether a fixed point of the box is certainly in the piece. */
 static bool has_point(const builder *b, uint32_t piece, const double box[4])
 {
     const sunder_i_operand_piece c = sunder_i_operands_piece(b->g, b->side, piece);
@@ -61,7 +62,8 @@ static bool has_point(const builder *b, uint32_t piece, const double box[4])
     return true;
 }
 
-/* The lists of a box out of those of its parent; what it is, or true in *quarter. */
+/* Computes the lists of a box from those of its parent, and its value; *quarter becomes whether it must be divided.
+ * Returns false if out of memory. */
 static bool look_at(builder *b, const item *parent, item *it, bool *quarter)
 {
     if (!sunder_i_reserve(&b->edges, &b->edges_capacity, b->edges_n + (parent->edge_to - parent->edge_from),
@@ -129,15 +131,15 @@ static bool quarter_all(builder *b)
     b->stack[b->stack_n++] = root;
     while (b->stack_n) {
         const item it = b->stack[--b->stack_n];
-        b->edges_n = it.edge_to; /* lists above belong to boxes already done */
+        b->edges_n = it.edge_to; /* lists beyond these belong to boxes that are done */
         b->pieces_n = it.piece_to;
         if (!quarter(b, &it)) return false;
     }
     return true;
 }
 
-/* Marks nodes with no full node below them, so that queries do not descend into them. The loop runs backwards
- * because children come after their parents. */
+/* Marks nodes without a full node below them, so that queries do not enter them. The loop runs backwards because
+ * children follow their parents. */
 static void drop_rest(sunder_i_quadtree *o)
 {
     for (size_t k = o->nodes; k-- > 0;) {
@@ -149,7 +151,7 @@ static void drop_rest(sunder_i_quadtree *o)
     }
 }
 
-/* Boundary of length l passes through some l / w boxes of width w. */
+/* Returns the depth of the quadtree. A boundary of length l passes through about l / w boxes of width w. */
 static int depth_for(const sunder_i_operands *g, int side)
 {
     const sunder_shape *s = g->shape[side];
@@ -159,7 +161,8 @@ static int depth_for(const sunder_i_operands *g, int side)
         const double *a = xy + 2 * (size_t)v, *b = xy + 2 * (size_t)s->form->cleaned.next[v];
         length += fabs(b[0] - a[0]) + fabs(b[1] - a[1]);
     }
-    const double boxes = length / sunder_i_max(all[2] - all[0], all[3] - all[1]); /* that are as large as the operand */
+    /* the number of boxes as large as the operand */
+    const double boxes = length / sunder_i_max(all[2] - all[0], all[3] - all[1]);
     int depth = 3;
     while (depth < DEEPEST_BOX && ldexp(boxes, depth + 1) <= BOXES_EACH * (double)s->vertices) depth++;
     return depth;

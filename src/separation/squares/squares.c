@@ -1,6 +1,7 @@
-/* Squares that something covers whole (covering.c) are closed; those that few pairs of pieces come near are open,
- * and searched; the others are cut in four. Squares become small towards the boundary of the obstacle only, and there
- * few pieces touch. So what is looked at follows the boundary within reach, not the number of pairs of pieces. */
+/* squares.c: see squares.h. Squares that something covers completely (covering.c) are closed; those with few pairs of
+ * pieces near them are open, and searched; the others are divided into quarters. Squares become small only near the
+ * boundary of the obstacle, where few pieces meet. So the number of squares depends on the length of the boundary
+ * within reach, not on the number of pairs of pieces. */
 #include "base/invariant.h"
 #include "separation/squares/squares_inner.h"
 #include "separation/squares/tuning.h"
@@ -53,7 +54,7 @@ bool sunder_i_squares_take_origin(sunder_i_squares *squares, bool *covered)
     return *covered || (all && sunder_i_squares_take_subsums(squares));
 }
 
-/* ---- In order ---- */
+/* ---- The order of the squares ---- */
 
 bool sunder_i_squares_cut(sunder_i_squares *squares, const sunder_i_square *square)
 {
@@ -78,7 +79,7 @@ static uint32_t tries_to_cover(int depth)
 sunder_i_square_state sunder_i_squares_look(sunder_i_squares *squares, const sunder_i_square *square)
 {
     const int patience = square->depth > PATIENT ? square->depth - PATIENT : 0;
-    /* with a gap: the caller asks what covers it */
+    /* with a gap the caller needs the sets that cover the square */
     squares->covered = squares->gap == 0 && sunder_i_squares_boxes_cover(squares, square->box);
     squares->pairs = 0;
     if (!sunder_i_step()) return SUNDER_I_SQUARE_NO_MEMORY;
