@@ -1,13 +1,13 @@
-/* The anchor of a shape: a point of its interior that depends on the point set only. The interior is that of the union
- * of all members, so walls that members share are inside it. The rule:
+/* anchor.c: the anchor of a shape, a point of its interior that depends on the point set only. The interior is that of
+ * the union of all polygons, so that common walls of polygons are inside it. The rule:
  *
- *   take the open intervals of the interior on the horizontal line at half its height; the anchor is the middle of the
- *   widest one, the leftmost of equal ones, rounded to the nearest doubles;
- *   if there are none on that line (the interior is in several parts), apply the rule to the part of it below the line.
+ * take the open intervals of the interior on the horizontal line at half its height; the anchor is the midpoint of the
+ * widest one, the leftmost of equal ones, rounded to the nearest doubles; if there are none on that line (the interior
+ * is in several parts), apply the rule to the part of it below the line.
  *
- * Finding an anchor cannot fail, so it allocates nothing: for few corners all numbers stand on the stack, and the range
- * of doubles bounds their size; for many, and for corners that are not doubles, the anchor is computed when the shape
- * is made (measure_rational.c). */
+ * sunder_shape_anchor() cannot fail, so it allocates nothing: for few vertices all numbers are on the stack, and the
+ * range of doubles bounds their size; for many vertices, and for vertices that are not doubles, the anchor is computed
+ * when the shape is made (measure_rational.c). */
 #include "shape/shape.h"
 #include "shape/widest_interval.h"
 

@@ -1,9 +1,9 @@
-/* The arrangement of the edges of a polygon, as arcs between its points.
+/* arcs.c: the arrangement of the edges of a polygon, as arcs between its points.
  *
- * Where two edges meet is found by all candidate pairs of the tree of boxes. The points (vertices and crossings) are
- * sorted exactly and numbered lexicographically, equal ones the same, and from then on the order along an edge is the
- * order of numbers. Coincident arcs cancel in pairs: a place is inside by the even-odd rule as often as arcs are
- * crossed on the way to it. */
+ * The candidate pairs of the tree of boxes give all points where two edges meet. The points (vertices and crossings)
+ * are sorted exactly and numbered lexicographically, equal ones alike; after that, the order along an edge is the order
+ * of the numbers. Coincident arcs cancel in pairs, since by the even-odd rule only the parity of the arcs crossed
+ * matters. */
 #include "shape/even_odd.h"
 
 #include "base/sort.h"
@@ -11,16 +11,16 @@
 #include <string.h>
 
 typedef struct meet {
-    uint32_t edge, node; /* a node: vertex, or vertices + number of a made point */
+    uint32_t edge, node; /* a node is a vertex, or vertices + the number of a made point (a crossing) */
 } meet;
 
 typedef struct finder {
     const sunder_i_rings *r;
     meet *meets;
     size_t meet_n, meet_capacity;
-    sunder_i_hpoint *made; /* grows; moved to the arena at the end */
+    sunder_i_hpoint *made; /* [made_n] the crossings; copied to the arena at the end */
     size_t made_n, made_capacity;
-    sunder_i_hpoint *place; /* of all nodes, once they are known */
+    sunder_i_hpoint *place; /* the exact positions of all nodes, when they are known */
     bool failed;
 } finder;
 
@@ -34,7 +34,7 @@ static bool add_meet(finder *f, uint32_t edge, uint32_t node)
     return true;
 }
 
-/* A vertex that lies on the line of an edge: if it lies inside the edge, the edge is cut there. */
+/* Adds vertex v, which is on the line of an edge, if it is inside the edge. Returns false if out of memory. */
 static bool add_collinear(finder *f, uint32_t edge, uint32_t v)
 {
     const int from = sunder_i_rings_cmp(f->r, v, edge), to = sunder_i_rings_cmp(f->r, v, f->r->next[edge]);
@@ -66,8 +66,8 @@ static bool visit(void *user, uint32_t e, uint32_t g)
     const int oa = sunder_i_rings_orient(r, c, d, a), ob = sunder_i_rings_orient(r, c, d, b);
     if (oa * ob > 0) return true;
     if (oc && od && oa && ob) return add_crossing(f, e, g);
-    /* Ends on lines: whether they are inside the edge is a matter of order. All four in turn cover touches, shared
-     * ends, and edges on one line. */
+    /* an end of one edge is on the line of the other; the four tests cover contacts, common ends, and collinear
+     * edges */
     return (oc || add_collinear(f, e, c)) && (od || add_collinear(f, e, d)) && (oa || add_collinear(f, g, a)) &&
            (ob || add_collinear(f, g, b));
 }
@@ -79,7 +79,8 @@ static int node_order(void *context, uint32_t i, uint32_t j)
     return sunder_i_hpoint_cmp(f->r->lattice, &f->place[i], &f->place[j]);
 }
 
-/* Point numbers of the nodes, and for each point its first node, a vertex if there is one. */
+/* Sets number[] to the point of each node, and out->node[] to the first node of each point, a vertex if there is one.
+ * Returns false if out of memory. */
 static bool number_nodes(finder *f, sunder_i_arena *arena, uint32_t *number, sunder_i_arcs *out)
 {
     const uint32_t n = f->r->vertices + (uint32_t)f->made_n;
@@ -107,7 +108,7 @@ typedef struct arc_context {
     const sunder_i_arc *arc;
 } arc_context;
 
-/* The parent's direction, from its lexicographically smaller end. */
+/* Returns the vector of the parent edge from its lexicographically smaller end. */
 static sunder_i_point direction(const sunder_i_rings *r, uint32_t parent)
 {
     const uint32_t end = r->next[parent];
@@ -132,7 +133,7 @@ static int arc_slope(void *context, uint32_t i, uint32_t j)
     return -sunder_i_cross_sign(c->r->lattice, direction(c->r, s->parent), direction(c->r, t->parent));
 }
 
-/* Cuts each edge at its points. */
+/* Divides each edge at its points, and returns the *n arcs; NULL if out of memory. */
 static sunder_i_arc *cut_edges(finder *f, sunder_i_arena *arena, const uint32_t *number, size_t *n)
 {
     const sunder_i_rings *r = f->r;
@@ -154,7 +155,7 @@ static sunder_i_arc *cut_edges(finder *f, sunder_i_arena *arena, const uint32_t 
     return arc;
 }
 
-/* Keeps one arc of each odd number of coincident ones, in their final order. */
+/* Keeps one arc of each odd number of coincident ones, in their final order. Returns false if out of memory. */
 static bool keep_odd(const sunder_i_rings *r, sunder_i_arena *arena, const sunder_i_arc *arc, size_t n,
                      sunder_i_arcs *out)
 {

@@ -1,16 +1,16 @@
-/* Holes joined to the outer ring by bridges, so that a polygon becomes one closed walk.
+/* bridge.c: joins holes to the outer ring by bridges, so that a polygon becomes one closed walk.
  *
- *        f                  h is the lexicographically smallest corner of a hole, e and f the edges of the polygon
- *    ---------------        just below and above it. Of the corners between them, left of h, and the left ends of
- *       u .   /\            e and f, the lexicographically greatest, u, is joined to h: nothing can stand between
- *           ' h \           them, for it would have a corner that is greater. These are the diagonals that a sweep
- *    --------\__/---        puts in at split vertices [BKOS08, section 3.2]: each lies in one trapezoid of the
- *        e                  vertical decomposition, so no two of them cross, and u < h makes them a tree rooted at
- *                           the outer ring.
+ *   f                  h is the lexicographically smallest vertex of a hole, e and f the edges of the polygon
+ *  ---------------        directly below and above it. Among the vertices between them, left of h, and the left ends
+ *   u .   /\            of e and f, the lexicographically greatest one, u, is joined to h: nothing can be between
+ *    ' h \           them, since it would have a greater vertex. These are the diagonals that a sweep
+ *  --------\__/---        adds at split vertices [BKOS08, section 3.2]: each is in one trapezoid of the
+ *   e                  vertical decomposition, so that no two of them cross, and u < h makes them a tree with
+ *        the outer ring as its root.
  *
- * All bridges are found from the edges of the rings alone and then put in one by one. At the places of u and h several
- * corners may stand (rings that touch; bridges put in before): the one whose sector of the interior the bridge
- * runs through is meant. */
+ * All bridges are found from the edges of the rings alone and then inserted one after the other. Several nodes may be
+ * at the positions of u and h (rings that touch; bridges inserted before): the bridge connects those nodes whose
+ * sectors of the interior it runs through. */
 #include "shape/build.h"
 
 #include "base/extremes.h"
@@ -30,7 +30,7 @@ static span span_of(const sunder_i_rings *r, uint32_t e)
     return sunder_i_rings_cmp(r, e, f) < 0 ? (span){e, f} : (span){f, e};
 }
 
-/* Of two edges that share an abscissa and do not cross: is s above t? They may touch. */
+/* Returns whether s is above t, for two edges whose ranges of x overlap and that do not cross; they may touch. */
 static bool is_above(const sunder_i_rings *r, span s, span t)
 {
     int side = 0;
@@ -52,12 +52,12 @@ static uint32_t smallest_corner(const sunder_i_rings *r, uint32_t ring)
     return v;
 }
 
-/* Looking from h: the nearest edges below and above, then the corner u. reach is the box in which something better may
- * still be found; it shrinks. */
+/* The search from h: the nearest edges below and above, then the vertex u. `reach` is the box in which a better result
+ * may still be found; it shrinks. */
 typedef struct view {
     const sunder_i_rings *r;
     uint32_t h, u;
-    span below, above; /* left is NONE until one is known */
+    span below, above; /* left is NONE until an edge is found */
     double reach[4];
 } view;
 
@@ -112,7 +112,7 @@ static void look(view *w, sunder_i_edge_visitor see, const sunder_i_edge_tree *t
         for (uint32_t e = lo; e < hi; e++) see(w, e);
 }
 
-/* The corner to join h to, among the vertices lo .. hi of the polygon. NONE only where memory is out. */
+/* Returns the vertex to which h is joined, among the vertices lo .. hi of the polygon; NONE only if out of memory. */
 static uint32_t visible_left(const sunder_i_rings *r, const sunder_i_edge_tree *tree, uint32_t lo, uint32_t hi,
                              uint32_t h)
 {
@@ -126,14 +126,14 @@ static uint32_t visible_left(const sunder_i_rings *r, const sunder_i_edge_tree *
     return w.u;
 }
 
-/* Does the direction to vertex d run through the sector of this node? */
+/* Returns whether the direction to vertex d is in the sector of the node. */
 static bool faces(const sunder_i_rings *r, const sunder_i_walk *walk, uint32_t node, uint32_t d)
 {
     return sunder_i_in_wedge(r, walk->vertex[node], walk->vertex[walk->next[node]], walk->vertex[walk->prev[node]], d);
 }
 
-/* The node at the place of vertex v whose sector the direction to vertex d runs through. Nearly always it is the
- * vertex's own first node; else another at the place. lo: the vertex of node 0. */
+/* Returns the node at the position of vertex v whose sector contains the direction to vertex d; lo is the vertex of
+ * node 0. Usually it is the vertex's own first node. */
 static uint32_t facing_node(const sunder_i_rings *r, const sunder_i_walk *walk, uint32_t lo, uint32_t v, uint32_t d)
 {
     if (faces(r, walk, v - lo, d)) return v - lo;
@@ -155,7 +155,8 @@ static void link_nodes(sunder_i_walk *walk, uint32_t a, uint32_t b)
     walk->prev[b] = a;
 }
 
-/* ... u -> h ... (once round the hole) ... h' -> u' ... */
+/* Joins the nodes u and h: the walk becomes ... u -> h ... (around the hole) ... h' -> u' ..., with copies h' and
+ * u'. */
 static void join(sunder_i_walk *walk, uint32_t u, uint32_t h, uint32_t number)
 {
     const uint32_t u2 = copy_node(walk, u), h2 = copy_node(walk, h);
@@ -183,7 +184,7 @@ void sunder_i_bridge_holes(const sunder_i_rings *r, uint32_t ring_lo, uint32_t r
             to = facing_node(r, walk, lo, h, u);
         }
         if (from == SUNDER_I_NONE || to == SUNDER_I_NONE) {
-            /* Sound rings have a bridge; only predicates that ran out of memory answer otherwise. */
+            /* valid rings have a bridge; only predicates that ran out of memory give another answer */
             arena->failed = true;
             return;
         }

@@ -1,9 +1,9 @@
-/* The order in which the cleaned rings of a shape stand, whatever the order in which they were written: each ring
- * begins at its smallest corner (by x, then y), holes and polygons ascend by their corners. So the same rings give the
- * same pieces, numbers and moves, wherever a ring begins and whichever way it runs in a file.
+/* canonical_rings.c: the order of the cleaned rings of a shape, independent of the order in the input: each ring begins
+ * at its lexicographically smallest vertex, and holes and polygons are sorted by their vertices. So equal rings result
+ * in equal pieces, numbers and moves, wherever a ring begins and whichever direction it has in a file.
  *
- * A ring may pass its smallest place more than once, and rings may have it in common: then the corners that follow
- * decide. Rings that are alike in all corners are alike. */
+ * If a ring passes its smallest position more than once, or rings have it in common, the following vertices decide.
+ * Rings that are equal in all vertices are equal. */
 #include "shape/build.h"
 
 #include "base/sort.h"
@@ -12,7 +12,7 @@
 
 static uint32_t begin_of(const uint32_t *end, uint32_t k) { return k ? end[k - 1] : 0; }
 
-/* The order of two rings read from corners a and b on, n and m corners of them. */
+/* Compares two rings from the vertices a and b on; they have n and m vertices. */
 static int compare_from(const sunder_i_rings *r, uint32_t a, uint32_t n, uint32_t b, uint32_t m)
 {
     for (uint32_t k = 0; k < n && k < m; k++, a = r->next[a], b = r->next[b]) {
@@ -22,7 +22,7 @@ static int compare_from(const sunder_i_rings *r, uint32_t a, uint32_t n, uint32_
     return (n > m) - (n < m);
 }
 
-/* ---- Where a ring begins ---- */
+/* ---- The first vertex of a ring ---- */
 
 static uint32_t first_corner(const sunder_i_rings *r, uint32_t lo, uint32_t hi)
 {
@@ -34,9 +34,9 @@ static uint32_t first_corner(const sunder_i_rings *r, uint32_t lo, uint32_t hi)
     return first;
 }
 
-/* ---- In which order rings stand ---- */
+/* ---- The order of rings ---- */
 
-/* Rings, and the numbers of each polygon's rings in their new order: the outer one, then its holes. */
+/* The rings, and the numbers of each polygon's rings in their new order: the outer one, then its holes. */
 typedef struct ordering {
     const sunder_i_rings *r;
     uint32_t *ring;
@@ -61,7 +61,7 @@ static int by_rings(void *context, uint32_t a, uint32_t b)
     return (i < end[a]) - (j < end[b]);
 }
 
-/* The numbers of n items from `first` on, sorted. */
+/* Sets number[] to first .. first + n - 1, sorted by `compare`. Returns false if the computation must stop. */
 static bool sort_from(ordering *o, uint32_t first, uint32_t n, int (*compare)(void *, uint32_t, uint32_t),
                       uint32_t *number)
 {
@@ -69,9 +69,9 @@ static bool sort_from(ordering *o, uint32_t first, uint32_t n, int (*compare)(vo
     return sunder_i_sort_indices(number, n, compare, o);
 }
 
-/* ---- All of it ---- */
+/* ---- All steps ---- */
 
-/* Corner `from` of the old rings becomes corner `to`; links are made afterwards. */
+/* Copies vertex `from` of the old rings to vertex `to`; links are set later. */
 static void move_corner(const sunder_i_rings *old, uint32_t from, sunder_i_rings *r, uint32_t to)
 {
     r->at[to] = old->at[from];
@@ -107,7 +107,7 @@ static bool start_rings(sunder_i_rings *r, sunder_i_arena *arena)
     return true;
 }
 
-/* Holes and polygons; each ring begins where it should. */
+/* Sorts holes and polygons; each ring already begins at its first vertex. Returns false if out of memory. */
 static bool sort_rings(sunder_i_rings *r, sunder_i_arena *arena)
 {
     uint32_t *number = sunder_i_arena_alloc(arena, (size_t)r->rings + r->polygons, sizeof *number);

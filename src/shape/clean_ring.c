@@ -1,5 +1,5 @@
-/* One raw ring -> its corners. Repeated vertices (the closing one too) and vertices on the straight line between their
- * neighbours carry no shape and go; an edge that runs back along the one before it is a spike, and an error. */
+/* clean_ring.c: finds the corners of a raw ring. Repeated vertices (also the closing one) and vertices on the straight
+ * line between their neighbours are removed; an edge that runs back along the previous one is a spike, and an error. */
 #include "shape/build.h"
 
 static bool same(const double *xy, uint32_t i, uint32_t j)
@@ -14,10 +14,10 @@ static int order(const double *xy, uint32_t i, uint32_t j)
     return (a[1] > b[1]) - (a[1] < b[1]);
 }
 
-/* Of a collinear triple a, b, c with a != b != c: does the path go on beyond b? */
+/* Returns whether the path continues beyond b, for collinear a, b, c with a != b != c. */
 static bool goes_on(const double *xy, uint32_t a, uint32_t b, uint32_t c) { return order(xy, a, b) == order(xy, b, c); }
 
-/* Why there is no proper ring: too few places, or all on one line. Rarely asked. */
+/* Returns why there is no ring: fewer than three positions, all on one line, or `otherwise`. Rarely called. */
 static sunder_i_fault why_degenerate(sunder_i_lattice *lattice, const double *xy, const sunder_i_point *at, uint32_t lo,
                                      uint32_t hi, sunder_i_fault otherwise)
 {
@@ -41,8 +41,8 @@ uint32_t sunder_i_clean_ring(sunder_i_lattice *lattice, const double *xy, const 
     uint32_t m = 0, first = 0, spike = SUNDER_I_NONE;
     for (uint32_t i = lo; i < hi && spike == SUNDER_I_NONE; i++) {
         if (m && same(xy, keep[m - 1], i)) continue;
-        /* The last corner may turn out to be on a straight line; then the one before it may not, so once is enough:
-         * with b gone the edge a -> i has the direction of a -> b. */
+        /* The previous corner may turn out to be on a straight line; then the one before it is not, so that one test
+         * suffices: without b, the edge a -> i has the direction of a -> b. */
         if (m >= 2 && sunder_i_orient_inline(lattice, at[keep[m - 2]], at[keep[m - 1]], at[i]) == 0) {
             if (!goes_on(xy, keep[m - 2], keep[m - 1], i))
                 spike = keep[m - 1];
@@ -52,7 +52,7 @@ uint32_t sunder_i_clean_ring(sunder_i_lattice *lattice, const double *xy, const 
         keep[m++] = i;
     }
     while (m > 1 && same(xy, keep[m - 1], keep[0])) m--;
-    /* The seam: the last and the first corner, in turn. */
+    /* the seam: the last and the first corner, alternately */
     while (m - first >= 3 && spike == SUNDER_I_NONE) {
         if (sunder_i_orient_inline(lattice, at[keep[m - 2]], at[keep[m - 1]], at[keep[first]]) == 0) {
             if (!goes_on(xy, keep[m - 2], keep[m - 1], keep[first])) spike = keep[m - 1];

@@ -1,24 +1,23 @@
-/* Ears cut off a closed walk until nothing is left.
+/* ears.c: cuts ears off a closed walk until nothing is left.
  *
- * What makes the ear test exact on rings that touch. Each vertex of the cleaned form stands for one sector of the
- * interior; several may stand at one place, their sectors disjoint. A vertex touches the inside of an edge only if it
- * is an end of it. Then a corner b between a and c is an ear exactly when a, b, c turn left and no corner that is not
- * strictly convex lies in the open triangle or inside the side ca:
- *   - a boundary edge that reaches into the open triangle has an end there, since it cannot cross ab or bc, and of the
- *     corners in the triangle the one farthest from the line ca has all its edges on the side of ca: it is not convex;
- *   - other corners at the places of a, b, c have sectors of their own, so an edge of theirs that enters the triangle
- *     is of that kind, and the corners themselves need no look;
- *   - a corner inside ca would touch the new edge from inside, so it forbids the cut; if its sector does not face the
- *     triangle, the triangle is not interior there and another corner forbids it;
- *   - corners on ab or bc touch from outside and do not matter.
- * Cutting keeps all this true of what remains, and a polygon with more than three corners has an ear [Mei75]. Corners
- * may become straight; they are no ears, but block others, until they become convex.
+ * The test of an ear is exact for rings that touch, for the following reasons. Each vertex of the cleaned form
+ * represents one sector of the interior; several may have one position, and their sectors are disjoint. A vertex
+ * touches the inner side of an edge only if it is an end of it. Then a vertex b between a and c is an ear exactly if a,
+ * b, c turn left and no vertex that is not strictly convex is in the open triangle or inside the side ca: - a boundary
+ * edge that enters the open triangle has an end there, since it cannot cross ab or bc, and of the vertices in the
+ * triangle the one farthest from the line ca has all its edges on the side of ca: it is not convex; - other vertices at
+ * the positions of a, b, c have sectors of their own, so that an edge of theirs that enters the triangle is of that
+ * kind, and these vertices need no test; - a vertex inside ca would touch the new edge from inside, so that the cut is
+ * not allowed; if its sector does not face the triangle, the triangle is not interior there and another vertex excludes
+ * the cut; - vertices on ab or bc touch from outside and do not matter. Cutting keeps all this true of the rest, and a
+ * polygon with more than three vertices has an ear [Mei75]. Vertices may become straight; these are no ears, but
+ * exclude others, until they become convex.
  *
- * Convex corners take turns in rounds; in one round no two neighbours are cut, so that triangles do not fan out from
- * one vertex. Corners that are not convex cost nothing until they become so, and never come back. While they last they
- * stand in a list, or for many in a tree of boxes, built anew whenever half of them have gone. A triangle is compared
- * with boxes by its own box and by the lines of its sides, so that long thin triangles find their few candidates
- * too. */
+ * Convex vertices are processed in rounds; in one round no two neighbours are cut, so that triangles do not form fans
+ * about one vertex. Vertices that are not convex cost nothing until they become convex, and then stay convex. Until
+ * then they are in a list or, if there are many, in a tree of boxes, which is rebuilt whenever half of them are gone. A
+ * triangle is compared with boxes by its own box and by the lines of its sides, so that long thin triangles have few
+ * candidates, too. */
 #include "shape/ears.h"
 
 #include "base/watch.h"
@@ -27,11 +26,12 @@
 #include <float.h>
 #include <math.h>
 
-/* A list up to here, a tree from here on; by measurement on random and coast-like rings. */
+/* The number of non-convex vertices from which a tree is used instead of a list; measured on random and coast-like
+ * rings. */
 #define TREE_FROM 24
-/* Corners in a block of the tree: to ask whether one forbids a cut takes longer than to look at a box. */
+/* The number of vertices in a leaf of the tree: testing a vertex takes longer than testing a box. */
 #define LEAF 4
-/* Up to this many bridges the corners still come in roughly the order of one ring. */
+/* With up to this number of bridges the vertices are approximately in the order of one ring. */
 #define FEW_BRIDGES 8
 
 enum { CONVEX, BLUNT, CUT };
@@ -40,14 +40,14 @@ typedef struct cutter {
     const sunder_i_rings *r;
     sunder_i_walk *walk;
     sunder_i_mesh *mesh;
-    uint32_t *bridge_half; /* [bridges] the half-edge that met the bridge first, or NONE */
+    uint32_t *bridge_half; /* [bridges] the half-edge that reached the bridge first, or NONE */
     uint8_t *state;        /* [nodes] CONVEX, BLUNT or CUT */
     uint32_t *stamp;       /* [nodes] the round in which a neighbour was cut */
-    uint32_t *turn[2];     /* convex nodes of this round and of the next */
+    uint32_t *turn[2];     /* the convex nodes of this round and of the next one */
     uint32_t turn_n, round;
-    uint32_t *list;         /* the nodes that are or were blunt, in order */
-    uint32_t listed, live;  /* in the list; of these still blunt */
-    sunder_i_box_tree tree; /* over the list; without boxes: no tree */
+    uint32_t *list;         /* the nodes that are or were blunt (not convex), in order */
+    uint32_t listed, live;  /* the length of the list; the number of nodes in it that are still blunt */
+    sunder_i_box_tree tree; /* the tree over the list; tree.box is NULL if there is none */
 } cutter;
 
 static const double *place(const cutter *c, uint32_t node) { return c->r->xy + 2 * (size_t)c->walk->vertex[node]; }
@@ -63,7 +63,7 @@ static void add_node(const void *of, size_t i, double box[4])
     sunder_i_box_include(box, place(c, c->list[i]));
 }
 
-/* Drops the nodes that are no longer blunt and puts the rest into a tree, LEAF to a leaf. */
+/* Removes the nodes that are no longer blunt from the list and builds a tree of the rest, LEAF nodes in a leaf. */
 static void build_tree(cutter *c)
 {
     uint32_t n = 0;
@@ -76,7 +76,8 @@ static void build_tree(cutter *c)
     sunder_i_box_tree_fill(&c->tree, add_node, c);
 }
 
-/* A side of a triangle, and which coordinates of a box are of its corner that is farthest to the left of it. */
+/* A side of a triangle; at_x and at_y are the indices in a box of the corner that is farthest on the left of the
+ * side. */
 typedef struct side {
     double x, y, dx, dy;
     int at_x, at_y;
@@ -84,13 +85,13 @@ typedef struct side {
 
 typedef struct triangle {
     uint32_t a, b, c;
-    bool sided; /* the sides are known; they are not needed where nothing comes near */
+    bool sided; /* whether `side` is computed; this is postponed, since it is not needed if nothing is near */
     side side[3];
     double box[4];
 } triangle;
 
-/* Is a box certainly on the right of the side? The determinant of doubles is wrong by at most (3 + 16 e) e of its two
- * products, e = 2^-53 [She96]; DBL_MIN stands in for what underflows. */
+/* Returns whether a box is certainly on the right of the side. The determinant of doubles has an error of at most (3 +
+ * 16 e) e times its two products, e = 2^-53 [She96]; DBL_MIN allows for underflow. */
 static inline bool right_of(const double box[4], const side *s)
 {
     const double l = s->dx * (box[s->at_y] - s->y), r = s->dy * (box[s->at_x] - s->x);
@@ -107,7 +108,8 @@ static void find_sides(const cutter *c, triangle *t)
     t->sided = true;
 }
 
-/* Is it certainly outside one of the triangle's sides? The lines of rounded corners prove nothing. */
+/* Returns whether the box is certainly outside one of the triangle's sides; false for rounded vertices, whose lines
+ * prove nothing. */
 static inline bool is_beside(const cutter *c, triangle *t, const double box[4])
 {
     if (c->r->rounded) return false;
@@ -122,13 +124,13 @@ static bool misses(const cutter *c, triangle *t, const double box[4])
     return !sunder_i_box_meet(box, t->box) || is_beside(c, t, box);
 }
 
-/* Does this blunt node forbid the cut? */
+/* Returns whether this node, if blunt, excludes the cut. */
 static bool blocks(const cutter *c, triangle *t, uint32_t node)
 {
     if (node == t->a || node == t->b || node == t->c || c->state[node] != BLUNT) return false;
     const double *p = place(c, node);
     if (p[0] < t->box[0] || p[0] > t->box[2] || p[1] < t->box[1] || p[1] > t->box[3]) return false;
-    /* In native integers the turns themselves cost no more. */
+    /* with native integers the exact tests are as fast as those in doubles */
     if (!c->r->lattice->narrow && is_beside(c, t, (const double[4]){p[0], p[1], p[0], p[1]})) return false;
     if (turn(c, t->a, t->b, node) <= 0 || turn(c, t->b, t->c, node) <= 0) return false;
     return turn(c, t->c, t->a, node) >= 0;
@@ -168,7 +170,7 @@ static bool is_ear(const cutter *c, uint32_t b)
     return true;
 }
 
-/* Joins side h of a new triangle to what lies beyond the edge that starts at this node. */
+/* Links side h of a new triangle to what is beyond the edge that begins at the node. */
 static void link_side(cutter *c, uint32_t h, uint32_t node)
 {
     uint32_t beyond = c->walk->beyond[node];
@@ -186,7 +188,7 @@ static void link_side(cutter *c, uint32_t h, uint32_t node)
     c->mesh->twin[beyond] = h;
 }
 
-/* The triangle prev(b), b, next(b) into the mesh; returns its first half-edge. */
+/* Adds the triangle prev(b), b, next(b) to the mesh; returns its first half-edge. */
 static uint32_t add_triangle(cutter *c, uint32_t b)
 {
     const uint32_t a = c->walk->prev[b], d = c->walk->next[b], h = c->mesh->halves;
@@ -202,7 +204,7 @@ static uint32_t add_triangle(cutter *c, uint32_t b)
     return h;
 }
 
-/* A neighbour of a cut corner: it may have become convex, and is left alone for the rest of the round. */
+/* Updates a neighbour of a cut vertex: it may have become convex, and is not cut in this round. */
 static void refresh(cutter *c, uint32_t node)
 {
     c->stamp[node] = c->round;
@@ -249,18 +251,19 @@ static void cut_all(cutter *c)
                 c->turn[1][c->turn_n++] = node;
             }
         }
-        /* A round without an ear: memory has run out, and the predicates answer nothing. */
+        /* a round without an ear: out of memory, so that the predicates are invalid */
         if (left == before) return;
         if (c->tree.box && c->live < c->listed / 2) build_tree(c);
     }
-    /* The last triangle has three sides that are all known. */
+    /* the last triangle; all its three sides have neighbours */
     const uint32_t b = c->walk->next[last], h = add_triangle(c, b);
     link_side(c, h + 2, c->walk->next[b]);
 }
 
-/* One ring mostly runs through the plane in good order by itself; many holes come in any order, and the corners between
- * spikes lie now near, now far. Are the boxes of the leaves more than twice as large as those of points along a curve
- * that fills the plane, which are as wide as cells of a grid of as many? */
+/* Returns whether the vertices are in a bad order for a tree. One ring usually runs through the plane in a good order;
+ * many holes may come in any order, and the vertices of spikes alternate between near and far. The test compares the
+ * boxes of the leaves with those of points along a space-filling curve, which are as wide as the cells of a grid with
+ * the same number of cells; more than twice that is bad. */
 static bool strays(const cutter *c)
 {
     double all[4], sum = 0;

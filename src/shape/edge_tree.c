@@ -1,20 +1,20 @@
-/* Candidate pairs of edges by a tree of boxes over the edges in ring order.
+/* edge_tree.c: finds candidate pairs of edges by a tree of boxes over the edges in the order of the rings.
  *
- * The tree of boxes (spatial/box_tree.h) is joined with itself from the top. Consecutive edges are near each other, so
- * on coasts, outlines and combs the boxes of distant nodes rarely meet, and nothing needs sorting; many small rings
- * come in any order, so they are first sorted along a space-filling curve. That order, like all of this, decides what
- * is looked at first and nothing else: boxes are closed and their coordinates monotone images of the exact ones, so
- * edges that meet are always candidates. */
+ * The tree of boxes (spatial/box_tree.h) is joined with itself from the root. Consecutive edges are near each other, so
+ * that on coasts, outlines and combs the boxes of distant nodes rarely meet, and no sorting is needed; many small rings
+ * come in any order, so they are first sorted along a space-filling curve. All this only decides which pairs are tested
+ * first: boxes are closed and their coordinates are monotone images of the exact ones, so that edges that meet are
+ * always candidates. */
 #include "shape/build.h"
 
 #include "spatial/curve.h"
 
-/* Edges in a block: more make the tree smaller and have more pairs of edges compared one by one. */
+/* The number of edges in a leaf: more edges make the tree smaller but cause more pairs to be compared one by one. */
 #define LEAF_EDGES 8
-/* Rings are few up to here: each is in good order by itself, and sorting so few would not bring others together. */
+/* Up to this number of rings no sorting is done: each ring is in a good order by itself. */
 #define FEW_RINGS 8
 
-/* Tails of the edges, rings in the curve's order of their first vertices. */
+/* Lists the edges, with the rings in the curve's order of their first vertices. */
 static void sort_rings(sunder_i_edge_tree *tree, const sunder_i_rings *r, uint32_t ring_lo, uint32_t ring_hi,
                        sunder_i_arena *arena)
 {
@@ -69,7 +69,7 @@ void sunder_i_edge_tree_build(sunder_i_edge_tree *tree, const sunder_i_rings *r,
     if (!arena->failed) sunder_i_box_tree_fill(&tree->boxes, add_edge, &(edges){tree, r});
 }
 
-/* Pairs between two leaves, or within one. */
+/* Visits the pairs of edges between two leaves, or within one. */
 static bool join_leaves(const sunder_i_edge_tree *tree, const sunder_i_rings *r, size_t b, size_t c,
                         sunder_i_pair_visitor visit, void *user)
 {
@@ -89,7 +89,7 @@ static bool join_leaves(const sunder_i_edge_tree *tree, const sunder_i_rings *r,
 bool sunder_i_edge_tree_pairs(const sunder_i_edge_tree *tree, const sunder_i_rings *r, sunder_i_pair_visitor visit,
                               void *user)
 {
-    /* Depth at most 28 levels, and each level leaves at most three pairs waiting. */
+    /* the depth is at most 28, and each level leaves at most three pairs on the stack */
     size_t stack[128][2];
     int n = 0;
     const double(*box)[4] = (const double(*)[4])tree->boxes.box;

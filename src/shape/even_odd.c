@@ -1,17 +1,17 @@
-/* The even-odd set of a polygon's rings.
+/* even_odd.c: the even-odd set of a polygon's rings.
  *
- * arcs.c turns the edges into arcs that meet in their ends only, each with odd multiplicity: so exactly one side of
- * each is inside. A sweep over the points, lexicographically, keeps the arcs that it crosses in order from bottom to
- * top; the number below an arc tells its inner side. Arcs are then directed with the inside on the left. Around a point
- * inside and outside alternate,
+ * arcs.c converts the edges to arcs that meet at their ends only, each with odd multiplicity: so exactly one side of
+ * each arc is inside. A sweep over the points in lexicographic order keeps the arcs that it crosses sorted from bottom
+ * to top; the number of arcs below an arc determines its inner side. Arcs are then directed with the inside on the
+ * left. Around a point inside and outside alternate:
  *
- *        \ in      / out        an arc that comes in has the inside clockwise next to it, and the next arc
- *      o  \   i   /  o          clockwise goes out: the two bound one sector of the interior, and the boundary goes on
- *           \   /               from one to the other. So rings touch in points only, and a vertex stands for one
- *             p                 sector.
+ *   \ in      / out        an arc that comes in has the inside next to it in clockwise direction, and the next arc
+ *   o  \   i   /  o          clockwise goes out: the two bound one sector of the interior, and the boundary continues
+ *    \   /               from one to the other. So rings touch in points only, and a vertex represents one
+ *    p                 sector.
  *
- * The first arc of a ring, in the order by lo and then from the bottom, starts at the ring's smallest point. The ring
- * is an outer one if the inside is above it, else a hole, and belongs to the polygon whose ring is next below. */
+ * The first arc of a ring, in the order by lo and then from the bottom, begins at the ring's smallest point. The ring
+ * is an outer one if the inside is above this arc; else it is a hole of the polygon whose ring is next below. */
 #include "shape/even_odd.h"
 
 #include <string.h>
@@ -19,14 +19,14 @@
 typedef struct sweep {
     const sunder_i_rings *r;
     const sunder_i_arcs *in;
-    uint32_t *status, active; /* arcs that cross the sweep line, bottom to top */
-    uint32_t *under;          /* of each arc: the one just below where it starts, or NONE */
-    uint32_t *follow;         /* of each directed arc: the next on its ring */
-    uint32_t *around;         /* scratch: the arcs at a point, counter-clockwise */
-    bool *up;                 /* the inside is above: directed from lo to hi */
+    uint32_t *status, active; /* the arcs that cross the sweep line, from bottom to top */
+    uint32_t *under;          /* for each arc the one directly below its beginning, or NONE */
+    uint32_t *follow;         /* for each directed arc the next one on its ring */
+    uint32_t *around;         /* temporary: the arcs at a point, counterclockwise */
+    bool *up;                 /* whether the inside is above the arc, so that it is directed from lo to hi */
 } sweep;
 
-/* Is point p above the line of the arc (+1), below (-1), or its right end (0)? */
+/* Returns whether point p is above the line of the arc (+1), below it (-1), or its right end (0). */
 static int side(const sweep *s, uint32_t arc, uint32_t p)
 {
     const sunder_i_arc *a = &s->in->arc[arc];
@@ -43,7 +43,7 @@ static int side(const sweep *s, uint32_t arc, uint32_t p)
     return sunder_i_rings_orient(r, left, right, node);
 }
 
-/* How many active arcs are below p. */
+/* Returns the number of active arcs below p. */
 static uint32_t rank(const sweep *s, uint32_t p)
 {
     uint32_t lo = 0, hi = s->active;
@@ -57,7 +57,7 @@ static uint32_t rank(const sweep *s, uint32_t p)
     return lo;
 }
 
-/* Point p: the arcs that end there leave, those first .. last that start there enter. */
+/* Processes point p: removes the arcs that end there, and inserts the arcs first .. last that begin there. */
 static void pass(sweep *s, uint32_t p, uint32_t first, uint32_t last)
 {
     const uint32_t at = rank(s, p), starts = last - first;
@@ -80,7 +80,7 @@ static void pass(sweep *s, uint32_t p, uint32_t first, uint32_t last)
     }
 }
 
-/* Points in order; only those where arcs of odd multiplicity meet matter. */
+/* Processes the points in order; only those with arcs of odd multiplicity matter. Returns false if out of memory. */
 static bool run(sweep *s, sunder_i_arena *arena)
 {
     const uint32_t n = s->in->arcs;
@@ -104,12 +104,12 @@ static bool run(sweep *s, sunder_i_arena *arena)
 /* ---- Rings from the directed arcs ---- */
 
 typedef struct ring {
-    uint32_t first, owner; /* the first arc; the ring of the polygon's outer boundary, itself if it is that */
+    uint32_t first, owner; /* its first arc; the outer ring of its polygon, which may be this ring itself */
     uint32_t next_hole;
 } ring;
 
-/* Do two arcs that follow each other lie on one line? Then there is no corner between them: they do not run back along
- * each other, for no two arcs coincide. */
+/* Returns whether two consecutive arcs are collinear, so that there is no corner between them; they do not run back
+ * along each other, since no two arcs coincide. */
 static bool is_straight(const sweep *s, uint32_t arc, uint32_t then)
 {
     const sunder_i_rings *r = s->r;
@@ -119,7 +119,7 @@ static bool is_straight(const sweep *s, uint32_t arc, uint32_t then)
                                sunder_i_point_sub(r->lattice, r->at[r->next[f]], r->at[f])) == 0;
 }
 
-/* Corners of the ring through an arc: the tails of arcs, but for straight ones. */
+/* Appends the corners of the ring through arc `first`: the beginnings of arcs, without straight ones. */
 static void write_ring(const sweep *s, uint32_t first, sunder_i_even_odd *out)
 {
     uint32_t arc = first;
@@ -155,7 +155,7 @@ static bool collect(const sweep *s, sunder_i_arena *arena, sunder_i_even_odd *ou
         *g = (ring){first, count, SUNDER_I_NONE};
         last_hole[count] = count;
         if (!s->up[first]) {
-            /* The arc below starts farther left, so its ring is known. */
+            /* the arc below begins farther left, so that its ring is known */
             g->owner = rings[of[s->under[first]]].owner;
             rings[last_hole[g->owner]].next_hole = count;
             last_hole[g->owner] = count;

@@ -1,4 +1,4 @@
-/* The set that the rings of a polygon enclose by the even-odd rule, taken exactly. */
+/* even_odd.h: the set that the rings of a polygon enclose by the even-odd rule, exactly. */
 #ifndef SUNDER_I_EVEN_ODD_H
 #define SUNDER_I_EVEN_ODD_H
 
@@ -7,28 +7,28 @@
 /* The closure of the set, as polygons in the cleaned form of shape.h: one polygon for each component of the interior,
  * its outer ring first. */
 typedef struct sunder_i_even_odd {
-    uint32_t points; /* corners of the rings, one after the other */
-    uint32_t *point; /* a vertex of the rings given, or SUNDER_I_MADE + the number of a crossing point */
+    uint32_t points; /* the number of vertices of all rings */
+    uint32_t *point; /* each is a vertex of the given rings, or SUNDER_I_MADE + the number of a crossing point */
     uint32_t rings, polygons;
     uint32_t *ring_end, *poly_end;
-    sunder_i_hpoint *made; /* the crossing points, in the order of their numbers */
+    sunder_i_hpoint *made; /* [makes] the crossing points */
     uint32_t makes;
 } sunder_i_even_odd;
 
-/* r holds the rings of one polygon, in any state but without repeated vertices in a row and of at least two vertices
- * each. Everything goes to the arena. False if memory is out. */
+/* Computes the set, in the arena. r contains the rings of one polygon, in any state except that consecutive vertices
+ * differ and each ring has at least two. Returns false if out of memory. */
 bool sunder_i_even_odd_find(const sunder_i_rings *r, sunder_i_arena *arena, sunder_i_even_odd *out);
 
-/* The parts, in the order of work; see even_odd.c. An arc is a piece of edge between neighbouring points of the
- * arrangement, by point numbers lo < hi; points are numbered lexicographically. */
+/* The arrangement, an intermediate result (see even_odd.c). An arc is a part of an edge between neighbouring points of
+ * the arrangement, with point numbers lo < hi; points are numbered lexicographically. */
 typedef struct sunder_i_arc {
-    uint32_t lo, hi, parent; /* parent: the edge whose line it lies on */
+    uint32_t lo, hi, parent; /* parent: the edge that contains the arc */
 } sunder_i_arc;
 
 typedef struct sunder_i_arcs {
     uint32_t points, arcs;
-    uint32_t *node;    /* of each point: a vertex of r, or SUNDER_I_MADE + number */
-    sunder_i_arc *arc; /* those with odd multiplicity, by lo, then bottom to top */
+    uint32_t *node;    /* [points] for each point a vertex of r, or SUNDER_I_MADE + the number of a crossing */
+    sunder_i_arc *arc; /* the arcs with odd multiplicity, sorted by lo, then from bottom to top */
     sunder_i_hpoint *made;
     uint32_t makes;
 } sunder_i_arcs;

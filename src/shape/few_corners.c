@@ -1,8 +1,8 @@
-/* The numbers of a ring of few corners: see few_corners.h. */
+/* few_corners.c: see few_corners.h. */
 #include "shape/few_corners.h"
 
-/* For each n: the last corner, all corners, the first corner again. So row n, read from its first number on, gives the
- * predecessor of each corner; read from its third number on, the successor. */
+/* For each n: the last vertex, all vertices, the first vertex again. So row n, read from its first number on, is the
+ * predecessor of each vertex; read from its third number on, the successor. */
 static const uint32_t round_about[] = {
     2,  0, 1, 2, 0,                                             /* 3 */
     3,  0, 1, 2, 3, 0,                                          /* 4 */
@@ -20,7 +20,7 @@ static const uint32_t round_about[] = {
     15, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 0 /* 16 */
 };
 
-/* For each n: the number itself, and all corners. */
+/* For each n: the number n, and all vertices. */
 static const uint32_t whole[] = {
     3,  0, 1, 2,                                             /* 3 */
     4,  0, 1, 2, 3,                                          /* 4 */
@@ -42,7 +42,7 @@ static const uint32_t count[] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 1
 static const size_t long_count[] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17};
 static const bool none[SUNDER_I_FEW_CORNERS];
 
-/* Where those of n begin: the sum of k + 2 for k from 3 to n - 1, and that of k + 1. */
+/* The beginnings of row n in the two tables: the sum of k + 2 for k from 3 to n - 1, and that of k + 1. */
 #define ROUND(n) ((n) * ((n)-1) / 2 - 3 + 2 * ((n)-3))
 #define WHOLE(n) ((n) * ((n) + 1) / 2 - 6)
 
@@ -56,7 +56,7 @@ static const bool none[SUNDER_I_FEW_CORNERS];
     }
 #define FORM(n, given_n) [given_n] = {GIVEN(given_n), CLEANED(n), NULL}
 
-/* For n corners of any number of vertices as given. */
+/* The forms of n vertices, for any number of raw vertices. */
 #define FORMS(n)                                                                                                       \
     [n] = {FORM(n, 3),  FORM(n, 4),  FORM(n, 5),  FORM(n, 6),  FORM(n, 7),  FORM(n, 8),  FORM(n, 9), FORM(n, 10),      \
            FORM(n, 11), FORM(n, 12), FORM(n, 13), FORM(n, 14), FORM(n, 15), FORM(n, 16), FORM(n, 17)}

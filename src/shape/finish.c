@@ -1,12 +1,12 @@
-/* A finished shape in one block of memory: the struct and its arrays behind it, those of wider types first; but for
- * those that all rings of few corners have in common. */
+/* finish.c: a finished shape in one block of memory: the struct, followed by its arrays, those with larger elements
+ * first, except those that all rings with few vertices share. */
 #include "shape/build.h"
 
 #include "shape/few_corners.h"
 
 #include <string.h>
 
-/* Takes n elements off the block; with block NULL it only counts. */
+/* Takes n elements from the block and returns their address; with block NULL it only counts. */
 static void *carve(unsigned char *block, size_t *used, size_t n, size_t size)
 {
     void *at = block ? block + *used : NULL;
@@ -14,15 +14,15 @@ static void *carve(unsigned char *block, size_t *used, size_t n, size_t size)
     return at;
 }
 
-/* Which arrays a shape has of its own. */
+/* Which arrays a shape needs for itself. */
 typedef struct layout {
     size_t raw_vertices, raw_rings;
     uint32_t raw_polygons;
-    uint32_t corners; /* of pieces */
-    bool numbers;     /* some corner may be no pair of doubles, or there are many */
-    bool few;         /* its rings are one of few corners, which stand in different places: it is as all such */
-    bool whole;       /* and it is its only piece, from its first corner on */
-    bool clean;       /* and the ring as given begins with its corners */
+    uint32_t corners; /* the number of vertices of all pieces */
+    bool numbers;     /* some vertex may not be a pair of doubles, or there are many vertices */
+    bool few;         /* one ring with few vertices in different positions, so that its form is shared */
+    bool whole;       /* ... and it is one convex piece that begins at its first vertex */
+    bool clean;       /* ... and the raw ring begins with its vertices */
 } layout;
 
 static bool have_places_of_their_own(const sunder_i_rings *r)
@@ -57,14 +57,14 @@ static layout plan(const double *xy, const size_t *ring_end, const size_t *poly_
     return l;
 }
 
-/* Arrays to be filled. */
+/* The arrays to be filled. */
 typedef struct arrays {
     size_t *given_ring_end, *given_poly_end;
     uint32_t *ring_end, *poly_end, *next, *prev, *piece_end;
     bool *shared;
 } arrays;
 
-/* The rings of the shape, the one way and the other; heads: where they are described, counts filled in. */
+/* Lays out the arrays that describe the rings, raw and cleaned; `head` has the numbers of rings and polygons. */
 static void lay_out_rings(sunder_shape *s, unsigned char *block, size_t *used, const layout *l,
                           const sunder_i_cleaned *head, arrays *to)
 {
@@ -85,10 +85,10 @@ static void lay_out_rings(sunder_shape *s, unsigned char *block, size_t *used, c
     s->form = form;
 }
 
-/* The places of a shape's marks, some of which are shared. */
+/* Sets the marks of vertices with a common position. */
 static void set_shared(sunder_shape *s, const bool *shared) { ((sunder_i_form *)s->form)->cleaned.shared = shared; }
 
-/* With block NULL it only counts. */
+/* Lays out the block and returns its size; with block NULL it only counts. */
 static size_t lay_out(sunder_shape *s, unsigned char *block, const layout *l, const sunder_i_cleaned *head, arrays *to)
 {
     size_t used = sizeof *s + 2 * l->raw_vertices * sizeof *s->raw_xy;
@@ -113,7 +113,7 @@ static void copy(void *to, const void *from, size_t n, size_t size)
     if (n) memcpy(to, from, n * size);
 }
 
-/* The shape with its arrays, which are to be filled; NULL if memory is out. */
+/* Allocates the shape with its arrays and copies the pieces; NULL if out of memory. */
 static sunder_shape *allocate(uint32_t vertices, const sunder_i_pieces *pieces, const layout *l,
                               const sunder_i_cleaned *head, arrays *to)
 {
@@ -172,7 +172,7 @@ sunder_shape *sunder_i_shape_assemble_small(const double *xy, size_t raw, uint32
     return s;
 }
 
-/* The marks of a shape some of whose corners may share a place; NULL where none do, which is known if even the nearest
+/* Returns the shape's own marks of vertices with a common position; NULL for a shared form, in which even the nearest
  * doubles differ. */
 static bool *own_marks(sunder_shape *s)
 {
@@ -211,13 +211,13 @@ static bool same_place(const sunder_shape *s, uint32_t i, uint32_t j)
     if (s->xy[2 * (size_t)i] != s->xy[2 * (size_t)j] || s->xy[2 * (size_t)i + 1] != s->xy[2 * (size_t)j + 1])
         return false;
     if (!s->rational) return true;
-    /* In lowest terms one place has one set of numbers. */
+    /* in lowest terms a position has one representation */
     const sunder_i_exact *a = &s->form->numbers->exact[i], *b = &s->form->numbers->exact[j];
     return a->exponent == b->exponent && sunder_i_big_cmp(a->den, b->den) == 0 &&
            sunder_i_big_cmp(a->num[0], b->num[0]) == 0 && sunder_i_big_cmp(a->num[1], b->num[1]) == 0;
 }
 
-/* Equal for equal places; both zeros are one place. */
+/* Returns a hash of a position; both zeros have the same one. */
 static uint32_t place_hash(const double *xy)
 {
     const double at[2] = {xy[0] + 0.0, xy[1] + 0.0};
@@ -239,7 +239,7 @@ bool sunder_i_shape_mark_shared(sunder_shape *shape, sunder_i_arena *arena)
                 if (same_place(shape, i, j)) shared[i] = shared[j] = true;
         return true;
     }
-    /* Open addressing, at most half full; the first vertex of each place stands in the table. */
+    /* a hash table with open addressing, at most half full; it contains the first vertex of each position */
     size_t slots = 32;
     while (slots < 2 * (size_t)shape->vertices) slots *= 2;
     uint32_t *table = sunder_i_arena_alloc(arena, slots, sizeof *table);

@@ -1,8 +1,9 @@
-/* sunder_shape_from_rings(): raw coordinates -> a shape. Rings are cleaned, turned, and checked exactly, polygon by
- * polygon; then come the convex pieces, and all of it moves into one block of memory.
+/* from_rings.c: sunder_shape_from_rings() makes a shape from raw coordinates. Rings are cleaned, oriented and checked
+ * exactly, polygon by polygon; then the convex pieces are found, and everything is copied to one block of memory.
  *
- * Most input is tiny and there is much of it: a sound polygon of few corners has a way of its own (small_polygon.c),
- * and else the plain path allocates twice, one arena for the work, one block for the shape. */
+ * Most shapes are tiny, and there are many of them: a valid polygon with few vertices has a path of its own
+ * (small_polygon.c), and the usual path allocates twice otherwise, an arena for the computation and a block for the
+ * shape. */
 #include "shape/from_rings.h"
 
 #include "base/invariant.h"
@@ -16,7 +17,7 @@
 static bool finite_all(const sunder_i_input *in, sunder_error *err)
 {
     const size_t n = in->vertices;
-    /* One pass that a compiler can vectorise: a value that is not finite makes the sum of x - x a NaN. */
+    /* One loop that a compiler can vectorise: a value that is not finite makes the sum of x - x NaN. */
     double sum = 0;
     for (size_t i = 0; i < 2 * n; i++) sum += in->xy[i] - in->xy[i];
     if (sum == 0) return true;
@@ -52,7 +53,7 @@ sunder_status sunder_i_fail_problem(const sunder_i_input *in, const sunder_i_pro
                                        [SUNDER_I_OUTSIDE] = "the hole lies outside",
                                        [SUNDER_I_NESTED] = "the hole lies inside"};
     if (problem->fault == SUNDER_I_EMPTY) {
-        /* vertex is the number of the raw ring here: it has no vertex to point at. */
+        /* here `vertex` is the number of the raw ring, which has no vertex */
         size_t polygon = 0;
         while (in->poly_end[polygon] <= problem->vertex) polygon++;
         const size_t ring = problem->vertex - (polygon ? in->poly_end[polygon - 1] : 0);
@@ -78,7 +79,7 @@ sunder_status sunder_i_fail_problem(const sunder_i_input *in, const sunder_i_pro
                             what[problem->fault], rest);
 }
 
-/* Does no end come before the one that it follows? */
+/* Returns whether no end is less than the previous one. */
 static bool ascending(const size_t *end, size_t n)
 {
     for (size_t i = 1; i < n; i++)
@@ -86,7 +87,8 @@ static bool ascending(const size_t *end, size_t n)
     return true;
 }
 
-/* Arrays that describe rings, and counts that fit our 32-bit vertex numbers, with room for bridges and half-edges. */
+/* Checks that the arrays describe rings, and that the numbers fit 32-bit vertex numbers with room for bridges and
+ * half-edges; sets in->rings and in->vertices. */
 static sunder_status read_input(sunder_i_input *in, sunder_error *err)
 {
     const size_t rings = in->polygons ? in->poly_end[in->polygons - 1] : 0;
@@ -100,7 +102,7 @@ static sunder_status read_input(sunder_i_input *in, sunder_error *err)
     return finite_all(in, err) ? SUNDER_OK : SUNDER_EINVALID;
 }
 
-/* Cleaned rings of polygon p appended to r. False if memory is out. */
+/* Appends the cleaned rings of polygon p to r. Returns false if out of memory. */
 static bool append_polygon(sunder_i_rings *r, const sunder_i_input *in, const sunder_i_point *at, size_t p,
                            sunder_i_problem *problem, sunder_i_arena *arena)
 {
@@ -132,8 +134,8 @@ static bool append_polygon(sunder_i_rings *r, const sunder_i_input *in, const su
     return true;
 }
 
-/* Is the polygon of the last rings, from ring_lo on, as it should be? Crossings first, while the rings still run as
- * they were given, so that the tail of an edge names its segment; then they are turned. */
+/* Checks the polygon of the last rings, from ring_lo on, and orients its rings. Crossings are checked first, while the
+ * rings have their given direction, so that the first vertex of an edge identifies its segment in messages. */
 static void check_polygon(sunder_i_rings *r, uint32_t ring_lo, sunder_i_arena *arena, sunder_i_problem *problem,
                           bool *touches)
 {
@@ -157,7 +159,7 @@ static void check_polygon(sunder_i_rings *r, uint32_t ring_lo, sunder_i_arena *a
     sunder_i_arena_release(arena, mark);
 }
 
-/* A shape in the making. */
+/* A shape under construction. */
 typedef struct builder {
     const sunder_i_input *in;
     sunder_validity validity;
@@ -171,7 +173,7 @@ typedef struct builder {
     bool repaired, touches;
 } builder;
 
-#define SMALL_BYTES 8192 /* of memory that needs no allocation */
+#define SMALL_BYTES 8192 /* bytes of memory on the stack */
 
 static bool place_input(builder *b)
 {
@@ -185,7 +187,7 @@ static bool place_input(builder *b)
     return !b->lattice.arena.failed;
 }
 
-/* Polygon p as it is, or the even-odd set of its rings. */
+/* Appends polygon p as it is, or the even-odd set of its rings. */
 static sunder_status add_polygon(builder *b, size_t p, sunder_error *err)
 {
     sunder_i_rings *r = &b->r;
@@ -197,7 +199,7 @@ static sunder_status add_polygon(builder *b, size_t p, sunder_error *err)
     if (!problem.fault) check_polygon(r, rings, &b->arena, &problem, &touches);
     if (b->arena.failed || b->lattice.arena.failed) return sunder_i_no_memory(err);
     if (problem.fault && b->validity == SUNDER_VALIDITY_STRICT) return sunder_i_fail_problem(b->in, &problem, err);
-    b->touches |= touches || problem.fault; /* after a fault the rest was not looked at */
+    b->touches |= touches || problem.fault; /* after a fault the rest was not checked */
     if (problem.fault || touches) {
         b->repaired |= problem.fault != SUNDER_I_SOUND;
         r->vertices = vertices;
@@ -209,7 +211,7 @@ static sunder_status add_polygon(builder *b, size_t p, sunder_error *err)
     return SUNDER_OK;
 }
 
-/* Corners that are no doubles keep their numbers. */
+/* Stores the exact numbers of vertices that are not doubles. Returns false if out of memory. */
 static bool set_exact(builder *b, sunder_shape *s)
 {
     sunder_i_exact *exact = sunder_i_arena_alloc(&b->arena, s->vertices, sizeof *exact);
@@ -224,7 +226,7 @@ static bool set_exact(builder *b, sunder_shape *s)
     return sunder_i_shape_set_rational(s, exact);
 }
 
-/* Have all raw vertices become corners but those that close their rings? */
+/* Returns whether all raw vertices are corners, except those that close rings. */
 static bool all_kept(const builder *b)
 {
     size_t closings = 0;
@@ -236,7 +238,7 @@ static bool all_kept(const builder *b)
     return b->r.vertices + closings == b->in->vertices;
 }
 
-/* Coordinates, box and marks of the assembled shape. False if memory is out. */
+/* Sets coordinates, box and marks of the assembled shape. Returns false if out of memory. */
 static bool complete(builder *b, sunder_shape *s)
 {
     s->repaired = b->repaired;
@@ -247,7 +249,7 @@ static bool complete(builder *b, sunder_shape *s)
         sunder_i_shape_measure(s, all_kept(b) ? &b->extent : NULL);
         if (!sunder_i_shape_measure_anchor(s)) return false;
     }
-    /* Within a polygon corners that share a place touch, and that was looked for. */
+    /* vertices of one polygon with a common position touch, which was checked */
     if (b->in->polygons == 1 && !b->repaired && !b->touches) {
         sunder_i_shape_mark_none_shared(s);
         return true;
@@ -293,7 +295,7 @@ sunder_status sunder_shape_from_rings(const double *xy, const size_t *ring_end, 
         *out = small;
         return SUNDER_OK;
     }
-    _Alignas(16) unsigned char memory[SMALL_BYTES]; /* enough for a building */
+    _Alignas(16) unsigned char memory[SMALL_BYTES]; /* sufficient for a building */
     builder b = {.in = &in, .validity = validity};
     sunder_i_arena_init_on(&b.arena, memory, sizeof memory);
     status = build(&b, out, err);

@@ -1,4 +1,4 @@
-/* The raw input of a shape, and how its errors name places in it. */
+/* from_rings.h: the raw input of a shape, and positions in it for error messages. */
 #ifndef SUNDER_I_FROM_RINGS_H
 #define SUNDER_I_FROM_RINGS_H
 
@@ -10,13 +10,13 @@ typedef struct sunder_i_input {
     size_t polygons, rings, vertices;
 } sunder_i_input;
 
-/* Zero-based numbers: of the polygon, of the ring in it, of the vertex in that. */
+/* Numbers from 0 on: of the polygon, of the ring in it, and of the vertex in the ring. */
 typedef struct sunder_i_place_name {
     size_t polygon, ring, vertex;
 } sunder_i_place_name;
 
 sunder_i_place_name sunder_i_name_vertex(const sunder_i_input *in, uint32_t vertex);
-/* The sentence for a problem; vertices are raw numbers. */
+/* Sets *err to the message for a problem whose vertices are raw numbers; returns its status. */
 sunder_status sunder_i_fail_problem(const sunder_i_input *in, const sunder_i_problem *problem, sunder_error *err);
 
 #endif

@@ -1,10 +1,10 @@
-/* Where the rings of one polygon meet each other and themselves.
+/* intersections.c: finds where the rings of one polygon meet each other and themselves.
  *
- * Two edges that follow each other meet in their common corner and nowhere else (clean_ring.c has seen to spikes). Any
- * others may be apart, cross (an error), share a piece (an error), or touch: an end of one on the other. A touch is
- * fine if the two passages through the point stay on their sides of each other, and an error if they change sides; that
- * is decided locally, from the four directions at the point. Each touch is looked at where the tail of one edge takes
- * part in it, so that all are seen and few are seen twice. */
+ * Consecutive edges meet at their common end only (clean_ring.c has removed spikes). Any other two may be disjoint,
+ * cross (an error), share a segment (an error), or touch: an end of one is on the other. A contact is valid if the two
+ * paths through the point stay on their sides of each other, and an error if they change sides; this is decided
+ * locally, by the four directions at the point. Each contact is tested where the first vertex of one of the edges takes
+ * part in it, so that all are found and few are tested twice. */
 #include "shape/build.h"
 
 bool sunder_i_in_wedge(const sunder_i_rings *r, uint32_t p, uint32_t u, uint32_t w, uint32_t d)
@@ -15,8 +15,9 @@ bool sunder_i_in_wedge(const sunder_i_rings *r, uint32_t p, uint32_t u, uint32_t
     const sunder_i_point to_u = sunder_i_point_sub(r->lattice, r->at[u], r->at[p]);
     const sunder_i_point to_w = sunder_i_point_sub(r->lattice, r->at[w], r->at[p]);
     const int side = sunder_i_rings_orient(r, p, u, d);
-    if (sunder_i_dot_sign(r->lattice, to_u, to_w) < 0) return side > 0; /* opposite: a half-plane */
-    if (side != 0) return true;                                         /* equal: all but that one direction */
+    if (sunder_i_dot_sign(r->lattice, to_u, to_w) < 0) return side > 0; /* opposite directions: a half-plane */
+    /* equal directions: everything except that direction */
+    if (side != 0) return true;
     return sunder_i_dot_sign(r->lattice, to_u, sunder_i_point_sub(r->lattice, r->at[d], r->at[p])) < 0;
 }
 
@@ -24,19 +25,19 @@ typedef struct finder {
     const sunder_i_rings *r;
     sunder_i_problem *problem;
     bool touches;
-    size_t left; /* pairs that may still be looked at */
+    size_t left; /* the number of pairs that may still be tested */
 } finder;
 
 static bool report(finder *c, sunder_i_fault fault, uint32_t e, uint32_t f)
 {
-    /* The later edge is named first: "crosses segment 4" then speaks of one already seen. */
+    /* the later edge is named first, so that "crosses segment 4" refers to an earlier one */
     c->problem->fault = fault;
     c->problem->vertex = e > f ? e : f;
     c->problem->other = e > f ? f : e;
     return false;
 }
 
-/* Do u and w lie in one direction from p? */
+/* Returns whether u and w are in the same direction from p. */
 static bool same_direction(const sunder_i_rings *r, uint32_t p, uint32_t u, uint32_t w)
 {
     return sunder_i_rings_orient(r, p, u, w) == 0 &&
@@ -44,7 +45,8 @@ static bool same_direction(const sunder_i_rings *r, uint32_t p, uint32_t u, uint
                              sunder_i_point_sub(r->lattice, r->at[w], r->at[p])) > 0;
 }
 
-/* Two passages through the place of p, u1 -> p -> w1 and u2 -> p -> w2: does the second change sides of the first? */
+/* Tests two paths through the position of p, u1 -> p -> w1 and u2 -> p -> w2. If the second one changes sides of the
+ * first it sets the problem and returns false. */
 static bool touch(finder *c, uint32_t e, uint32_t f, uint32_t p, uint32_t u1, uint32_t w1, uint32_t u2, uint32_t w2)
 {
     c->touches = true;
@@ -54,7 +56,7 @@ static bool touch(finder *c, uint32_t e, uint32_t f, uint32_t p, uint32_t u1, ui
     return report(c, overlap ? SUNDER_I_OVERLAPS : SUNDER_I_CROSSES, e, f);
 }
 
-/* Edges on one line. */
+/* Tests two collinear edges. */
 static bool collinear(finder *c, uint32_t e, uint32_t f)
 {
     const sunder_i_rings *r = c->r;
@@ -83,8 +85,8 @@ static bool pair(void *user, uint32_t e, uint32_t f)
     const int oa = sunder_i_rings_orient(r, g, h, a), ob = sunder_i_rings_orient(r, g, h, b);
     if (oa * ob > 0) return true;
     if (og && oh && oa && ob) return report(c, SUNDER_I_CROSSES, e, f);
-    /* The lines cross in one point and an end is there. Tails take part in three ways; touches of heads alone are seen
-     * at the edges that start there. */
+    /* The lines cross in one point, which is an end of an edge. First vertices of edges take part in three ways;
+     * contacts of second vertices only are found at the edges that begin there. */
     if (og == 0 && oa == 0) return touch(c, e, f, a, r->prev[a], b, r->prev[g], h);
     if (og == 0 && ob != 0) return touch(c, e, f, g, r->prev[g], h, a, b);
     if (oa == 0 && oh != 0) return touch(c, e, f, a, r->prev[a], b, g, h);
@@ -92,11 +94,11 @@ static bool pair(void *user, uint32_t e, uint32_t f)
     return true;
 }
 
-/* With more pairs than this for each edge, boxes do not separate edges, e.g. those of long thin spikes: a sweep is
+/* With more pairs than this for each edge, boxes do not separate the edges, as with long thin spikes, and a sweep is
  * used. Measured: coasts, pixels and combs have one to four. */
 #define PAIRS_EACH 24
 
-/* By the tree; where that has too many pairs, only if something does meet. */
+/* Tests the pairs of the tree; if there are too many, only if a sweep finds that some edges meet. */
 static void find_by_tree(finder *c, uint32_t ring_lo, uint32_t ring_hi, const sunder_i_edge_tree *tree,
                          sunder_i_arena *arena)
 {
@@ -116,7 +118,7 @@ void sunder_i_intersections_find(const sunder_i_rings *r, uint32_t ring_lo, uint
     if (tree) {
         find_by_tree(&c, ring_lo, ring_hi, tree, arena);
     } else {
-        /* Few edges: all pairs, by boxes first. */
+        /* few edges: all pairs, boxes first */
         for (uint32_t e = lo; e < hi; e++) {
             const double *a = r->xy + 2 * (size_t)e, *b = r->xy + 2 * (size_t)r->next[e];
             const double x0 = a[0] < b[0] ? a[0] : b[0], x1 = a[0] < b[0] ? b[0] : a[0];

@@ -1,7 +1,7 @@
-/* What a shape says of itself: counts, box, area; its anchor stands in anchor.c.
+/* measure.c: counts, box and area of a shape; its anchor is in anchor.c.
  *
- * The area has no way to fail, so nothing is allocated for it: where coordinates are doubles it is a sum of products of
- * doubles in fixed memory. That of a rational shape, whose numbers nothing bounds, is worked out when it is made
+ * sunder_shape_area() cannot fail, so it allocates nothing: if coordinates are doubles, the area is a sum of products
+ * of doubles in fixed memory. That of a rational shape, whose numbers have no bound, is computed when it is made
  * (measure_rational.c). */
 #include "shape/shape.h"
 
@@ -18,7 +18,7 @@ bool sunder_shape_repaired(const sunder_shape *shape) { return shape->repaired; 
 bool sunder_shape_touches(const sunder_shape *shape) { return shape->touches; }
 void sunder_shape_box(const sunder_shape *shape, double box[4]) { memcpy(box, shape->box, sizeof shape->box); }
 
-/* Rings run with the interior on their left, so their signed areas add up to that of the members. */
+/* Rings have the interior on their left, so that the sum of their signed areas is that of the polygons. */
 double sunder_shape_area(const sunder_shape *shape)
 {
     if (shape->rational) return shape->form->numbers->area;

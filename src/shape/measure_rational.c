@@ -1,4 +1,4 @@
-/* Area and anchor of a shape with corners that are no doubles. */
+/* measure_rational.c: area and anchor of a shape with vertices that are not doubles. */
 #include "predicate/narrow.h"
 #include "predicate/rational_point.h"
 #include "shape/shape.h"
@@ -6,7 +6,7 @@
 
 /* ---- Area ---- */
 
-/* The cross product of the ends of an edge, in units of 2^-bits and rounded down; *lost counts those that were. */
+/* Returns the cross product of the ends of an edge in units of 2^-bits, rounded down; *lost counts the rounded ones. */
 static sunder_i_big edge_area(sunder_i_arena *arena, const sunder_i_lattice *l, sunder_i_point a, sunder_i_point b,
                               unsigned long bits, int64_t *lost)
 {
@@ -18,9 +18,9 @@ static sunder_i_big edge_area(sunder_i_arena *arena, const sunder_i_lattice *l, 
     return sunder_i_big_div_floor(arena, term, den);
 }
 
-/* Twice the area, the sum over all edges (rings run with the interior on their left), with `bits` bits behind the
- * point; exact, or too small by less than *lost units of the last bit. Most corners of most shapes are plain numbers,
- * whose products, below 2^124, are summed separately until they overflow. */
+/* Returns twice the area, the sum over all edges (the interior is on their left), with `bits` bits after the point;
+ * exact, or too small by less than *lost units of the last bit. Most vertices of most shapes are plain numbers, whose
+ * products, below 2^124, are summed separately until they overflow. */
 static sunder_i_big sum_edges(sunder_i_arena *arena, const sunder_shape *shape, const sunder_i_placed *placed,
                               unsigned long bits, int64_t *lost)
 {
@@ -40,7 +40,8 @@ static sunder_i_big sum_edges(sunder_i_arena *arena, const sunder_shape *shape, 
         }
         const sunder_i_mark mark = sunder_i_arena_mark(&scratch);
         const sunder_i_big term = edge_area(&scratch, &placed->lattice, a, b, bits, lost);
-        sum = sunder_i_big_add(arena, sum, sunder_i_big_copy(arena, term)); /* a sum with zero is its other term */
+        /* copied, since a sum with zero is its other operand */
+        sum = sunder_i_big_add(arena, sum, sunder_i_big_copy(arena, term));
         arena->failed |= scratch.failed;
         if (!scratch.failed) sunder_i_arena_release(&scratch, mark);
     }
@@ -49,7 +50,7 @@ static sunder_i_big sum_edges(sunder_i_arena *arena, const sunder_shape *shape, 
     return sunder_i_big_add(arena, sum, sunder_i_big_shl(arena, plain, bits));
 }
 
-/* Numerators of points over one denominator. */
+/* The numerators of points with a common denominator. */
 typedef struct common {
     sunder_i_big (*xy)[2], den;
 } common;
@@ -73,7 +74,7 @@ static common over_one(sunder_i_arena *arena, const sunder_i_lattice *l, const s
     return c;
 }
 
-/* Twice the area, exactly; over the square of *den. */
+/* Returns twice the area, exactly, as a numerator over the square of *den. */
 static sunder_i_big whole_area(sunder_i_arena *arena, const sunder_shape *shape, const sunder_i_placed *placed,
                                sunder_i_big *den)
 {
@@ -91,8 +92,8 @@ static sunder_i_big whole_area(sunder_i_arena *arena, const sunder_shape *shape,
     return sum;
 }
 
-/* To the nearest double. Corners with denominators of their own would need one of all of them: a sum that is rounded
- * below settles it unless the area is the very middle of two doubles, or too near to that. */
+/* Returns the area, rounded to the nearest double. An exact sum needs a common denominator of all vertices: a sum that
+ * is rounded down suffices unless the area is the midpoint of two doubles, or too close to it. */
 static double area_of(sunder_i_arena *arena, const sunder_shape *shape, const sunder_i_placed *placed)
 {
     const long e = 2 * placed->lattice.exponent - 1;
@@ -111,7 +112,7 @@ static double area_of(sunder_i_arena *arena, const sunder_shape *shape, const su
 
 /* ---- Anchor ---- */
 
-/* (num / den) * 2^exponent + origin, to the nearest double. */
+/* Returns (num / den) * 2^exponent + origin, rounded to the nearest double. */
 static double near_value(sunder_i_arena *arena, sunder_i_big num, sunder_i_big den, long exponent, double origin)
 {
     int e;

@@ -1,4 +1,4 @@
-/* Reflected and translated copies. Both keep the cleaned form and the pieces where every coordinate stays exact:
+/* move.c: reflected and translated copies. Both keep the cleaned form and the pieces if every coordinate stays exact:
  * nothing is validated or decomposed again. */
 #include "shape/build.h"
 
@@ -7,10 +7,10 @@
 #include <math.h>
 #include <string.h>
 
-/* An exact copy, but for the rational numbers. */
+/* Returns an exact copy, without the rational numbers; NULL if out of memory. */
 static sunder_shape *copy_shape(const sunder_shape *s)
 {
-    /* Which is only read. */
+    /* r is only read */
     const sunder_i_rings r = {.vertices = s->vertices,
                               .rings = s->form->cleaned.rings,
                               .polygons = s->form->cleaned.polygons,
@@ -35,7 +35,7 @@ sunder_status sunder_shape_reflect(const sunder_shape *shape, sunder_shape **out
 {
     sunder_shape *c = copy_shape(shape);
     if (!c) return sunder_i_no_memory(err);
-    /* Half a turn: orientations stay. 0 - v has no negative zero. */
+    /* a rotation by half a turn: orientations are kept; 0 - v is never a negative zero */
     for (size_t i = 0; i < 2 * sunder_i_shape_raw_vertices(c); i++) c->raw_xy[i] = 0 - c->raw_xy[i];
     bool good = true;
     for (size_t i = 0; c->xy != c->raw_xy && i < 2 * (size_t)c->vertices; i++) c->xy[i] = 0 - c->xy[i];
@@ -57,7 +57,8 @@ sunder_status sunder_shape_reflect(const sunder_shape *shape, sunder_shape **out
     return SUNDER_OK;
 }
 
-/* Is x + d a double? The rounding error of the sum is a double itself (Knuth, two-sum) and found exactly. */
+/* Returns whether x + d is a double. The rounding error of the sum is a double, too, and computed exactly (Knuth's
+ * two-sum). */
 static bool sum_is_exact(double x, double d)
 {
     const double s = x + d, back = s - x;
@@ -69,7 +70,7 @@ static sunder_i_rational_point point_of(const sunder_i_exact *at)
     return (sunder_i_rational_point){at->num[0], at->num[1], at->den};
 }
 
-/* A corner that is a pair of doubles, moved to where there is none. */
+/* Returns the exact position of a vertex of doubles, translated by d to a position that is not a pair of doubles. */
 static sunder_i_exact exact_of_doubles(sunder_i_arena *arena, const double xy[2], const double d[2])
 {
     const sunder_i_rational_point origin = {{NULL, 0}, {NULL, 0}, sunder_i_big_i64(arena, 1)};
@@ -77,7 +78,8 @@ static sunder_i_exact exact_of_doubles(sunder_i_arena *arena, const double xy[2]
     return sunder_i_exact_make(arena, point_of(&at), at.exponent, d);
 }
 
-/* A rational shape's numbers moved by d into the copy c. Corners as given stay doubles, crossings need not. */
+/* Sets the numbers of the copy c to those of a rational shape, translated by d. Given vertices stay doubles; crossings
+ * may not. Returns false if out of memory. */
 static bool move_rational(const sunder_shape *shape, const double d[2], sunder_shape *c)
 {
     sunder_i_arena arena;
@@ -99,7 +101,7 @@ static bool move_rational(const sunder_shape *shape, const double d[2], sunder_s
     return good;
 }
 
-/* All raw coordinates stay exact: the copy is moved as it is. */
+/* Translates a copy; all raw coordinates stay exact. */
 static sunder_status move_exactly(const sunder_shape *shape, const double d[2], sunder_shape **out, sunder_error *err)
 {
     sunder_shape *c = copy_shape(shape);
@@ -121,7 +123,7 @@ static sunder_status move_exactly(const sunder_shape *shape, const double d[2], 
     return SUNDER_OK;
 }
 
-/* Some coordinate is rounded, so the set changes a little, and its rings may no longer be sound. */
+/* Makes a new shape from rounded coordinates: the set changes slightly, and its rings may have become invalid. */
 static sunder_status move_rounded(const sunder_shape *shape, const double d[2], sunder_shape **out, sunder_error *err)
 {
     const size_t n = sunder_i_shape_raw_vertices(shape);
@@ -150,7 +152,8 @@ sunder_status sunder_shape_translate(const sunder_shape *shape, double dx, doubl
     bool all = true;
     for (size_t i = 0; i < 2 * sunder_i_shape_raw_vertices(shape) && all; i++)
         all = sum_is_exact(shape->raw_xy[i], d[i & 1]);
-    /* A corner made by a repair may be a double and its translate none, though all raw coordinates stay exact. */
+    /* a vertex made by a repair may be a double although its translate is not, even if all raw coordinates stay
+     * exact */
     for (size_t i = 0; i < 2 * (size_t)shape->vertices && all && !shape->rational; i++)
         if (!sum_is_exact(shape->xy[i], d[i & 1])) {
             const sunder_status status = move_rounded(shape, d, out, err);

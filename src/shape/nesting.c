@@ -1,22 +1,22 @@
-/* Orientation of rings, and whether the holes lie where holes may.
+/* nesting.c: the orientation of rings, and whether the holes are valid.
  *
- * The rings neither cross nor overlap, so each ring by itself has winding number 0 or +-1 everywhere. Take the lowest
- * place of a ring (of several the leftmost) and there the direction d that comes first counter-clockwise from the
- * positive x axis. The point q just left of d, infinitely near the place, is inside the ring. So the ring is
- * counter-clockwise exactly when d leaves the place. With outer ring and holes turned the right way, the polygon is
- * sound exactly when the winding number of all rings together at q is 1 for the outer ring and 0 for each hole: it is
- * [q in the outer ring] - (holes that contain q), and a hole contains its own q.
+ * The rings neither cross nor overlap, so that each ring by itself has the winding number 0 or +-1 everywhere. Take the
+ * lowest position of a ring (of several the leftmost), and there the first direction d counterclockwise from the
+ * positive x axis. The point q directly on the left of d, infinitely near the position, is inside the ring. So the ring
+ * is counterclockwise exactly if d leaves the position. If outer ring and holes are correctly oriented, the polygon is
+ * valid exactly if the winding number of all rings together at q is 1 for the outer ring and 0 for each hole: it is [q
+ * in the outer ring] - (the number of holes that contain q), and a hole contains its own q.
  *
- * q is counted by a ray to the right at the height just above the place, which no vertex has; edges through the place
- * itself are on the right of q when they lie clockwise of d, or are d. */
+ * The winding number of q is counted by a ray to the right at a height just above the position, which no vertex has;
+ * edges through the position itself are on the right of q if they are clockwise of d, or are d. */
 #include "shape/build.h"
 
 #include <math.h>
 
 typedef struct probe {
     const sunder_i_rings *r;
-    uint32_t v, d; /* the lowest place, and the far end of the first direction there */
-    bool leaves;   /* the first direction is the edge v -> d (else d -> v) */
+    uint32_t v, d; /* the lowest position, and the other end of the first direction there */
+    bool leaves;   /* the first direction is the edge v -> d (else the edge d -> v) */
     int winding;
 } probe;
 
@@ -40,7 +40,7 @@ static probe probe_ring(const sunder_i_rings *r, uint32_t lo, uint32_t hi)
         p.d = r->prev[v];
         p.leaves = false;
     }
-    /* The ring may pass its lowest place several times. */
+    /* the ring may pass its lowest position several times */
     for (uint32_t i = v + 1; equals > 1 && i < hi; i++) {
         if (sunder_i_rings_cmp(r, i, v) != 0) continue;
         equals--;
@@ -101,7 +101,7 @@ void sunder_i_orient_rings(sunder_i_rings *r, uint32_t ring_lo, uint32_t ring_hi
     }
 }
 
-/* Which rule is broken, for the message: by looking at the rings one by one. */
+/* Sets *problem to the rule that is broken, by testing the rings one by one. */
 static void explain(const sunder_i_rings *r, uint32_t ring_lo, uint32_t ring_hi, uint32_t ring,
                     sunder_i_problem *problem)
 {

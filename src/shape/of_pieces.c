@@ -1,9 +1,9 @@
-/* A shape each of whose members is one convex piece.
+/* of_pieces.c: a shape with one polygon for each of a list of convex pieces.
  *
- * Members may touch and overlap, so some pieces of a polygonal set are a polygonal set; what parts them lies inside it,
- * or on the boundary that they get where others are left out. Beyond that pieces may have no area: a segment is a ring
- * of two corners, there and back, a point a ring of one, which is its own neighbour; then the shape is flat. Corners
- * that are no doubles keep their numbers, which stay where they are. */
+ * Polygons of a shape may touch and overlap, so that some pieces of a polygonal set are a polygonal set; the sides
+ * between them are inside it, or on the boundary that results from omitting others. Pieces may also have no area: a
+ * segment is a ring of two vertices, a point a ring of one, which is its own neighbour; the shape is then flat.
+ * Vertices that are not doubles keep their numbers, which are borrowed. */
 #include "shape/of_pieces.h"
 
 #include "base/error.h"
@@ -18,7 +18,7 @@ static uint32_t corners_of(const sunder_i_piece_of *p)
     return p->shape ? p->shape->piece_end[p->piece] - first_corner(p) : p->n;
 }
 
-/* The k-th corner in doubles; *exact: its numbers, if it is no pair of these. */
+/* Returns vertex k in doubles; *exact becomes its exact numbers, or NULL if it is a pair of doubles. */
 static const double *corner_of(const sunder_i_piece_of *p, uint32_t k, const sunder_i_exact **exact)
 {
     *exact = NULL;
@@ -38,13 +38,13 @@ void sunder_i_piece_box(const sunder_i_piece_of *piece, double box[4])
     if (piece->shape && piece->shape->rational) sunder_i_box_grow(box, 0, box);
 }
 
-/* The arrays that are filled here. */
+/* The arrays to be filled. */
 typedef struct arrays {
     uint32_t *ring_end, *poly_end, *next, *prev, *corner;
     bool *shared;
 } arrays;
 
-/* Room for all arrays, in the shape's arena. */
+/* Allocates all arrays in the shape's arena. Returns false if out of memory. */
 static bool make_room(sunder_shape *s, sunder_i_form *form, arrays *to)
 {
     sunder_i_arena *a = &form->numbers->arena;
@@ -80,7 +80,7 @@ static void fill(sunder_shape *s, const arrays *to, const sunder_i_piece_of *pie
     }
 }
 
-/* The box, and bits low enough for all corners: of crossings those of what they were crossings of. */
+/* Sets the box, and a lowest bit for all vertices: for crossings that of the shape they come from. */
 static void measure(sunder_shape *s, const sunder_i_piece_of *piece)
 {
     sunder_i_extent extent = {0};
@@ -90,7 +90,8 @@ static void measure(sunder_shape *s, const sunder_i_piece_of *piece)
         if (of && of->rational && of->low_bit < extent.low_bit) extent.low_bit = of->low_bit;
     }
     s->low_bit = extent.low_bit;
-    if (s->vertices) memcpy(s->form->numbers->anchor, s->xy, sizeof s->form->numbers->anchor); /* any point of it */
+    /* any point of the shape */
+    if (s->vertices) memcpy(s->form->numbers->anchor, s->xy, sizeof s->form->numbers->anchor);
     for (int k = 0; k < 2; k++) {
         s->box[k] = extent.low[k];
         s->box[k + 2] = extent.high[k];

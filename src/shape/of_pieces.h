@@ -1,21 +1,22 @@
-/* Convex pieces as a shape of their own: some of another shape's, segments, points. */
+/* of_pieces.h: convex pieces as a shape: some pieces of another shape, segments, points. */
 #ifndef SUNDER_I_OF_PIECES_H
 #define SUNDER_I_OF_PIECES_H
 
 #include "shape/shape.h"
 
-/* A convex piece: one of a shape, or n points, one after the other, counter-clockwise and strictly convex: of two a
- * segment, of one a point. */
+/* A convex piece: one of a shape, or n points, counterclockwise and strictly convex: two are a segment, one is a
+ * point. */
 typedef struct sunder_i_piece_of {
-    const sunder_shape *shape; /* NULL: points */
+    const sunder_shape *shape; /* NULL: n points xy */
     uint32_t piece;
     uint32_t n;
     const double *xy;
 } sunder_i_piece_of;
 
-/* The union of n pieces, which are borrowed as long as it lives. It is for separation/ alone: it has no raw rings. */
+/* *out becomes the union of n pieces, which are borrowed as long as it exists. It has no raw rings, and is for
+ * separation/ only. */
 sunder_status sunder_i_shape_of_pieces(const sunder_i_piece_of *piece, size_t n, sunder_shape **out, sunder_error *err);
-/* Has one an area? Its box. */
+/* Returns whether a piece has an area; the second function computes its box. */
 bool sunder_i_piece_has_area(const sunder_i_piece_of *piece);
 void sunder_i_piece_box(const sunder_i_piece_of *piece, double box[4]);
 

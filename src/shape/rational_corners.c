@@ -1,9 +1,10 @@
-/* Corners that are no doubles: made, reduced, rounded; the box and the extent of a shape that has some. */
+/* rational_corners.c: vertices that are not doubles: making, reducing and rounding them; box and lowest bit of a shape
+ * that has some. */
 #include "shape/rational_corners.h"
 
 #include <limits.h>
 
-/* The numbers in units of 2^*exponent, made finer where v needs it, and v times den added to the first. */
+/* Adds v times den to num[k], which is in units of 2^*exponent; the unit becomes finer if v requires it. */
 static void add_double(sunder_i_arena *arena, sunder_i_big num[2], int k, sunder_i_big den, double v, long *exponent)
 {
     int e;
@@ -16,7 +17,7 @@ static void add_double(sunder_i_arena *arena, sunder_i_big num[2], int k, sunder
     num[k] = sunder_i_big_add(arena, num[k], sunder_i_big_shl(arena, part, (unsigned long)(e - *exponent)));
 }
 
-/* Factors of two that all of them have, counted in one step. */
+/* Returns the exponent of the largest power of two that divides both numbers. */
 static unsigned long common_twos(const sunder_i_big num[2])
 {
     const unsigned long a = num[0].size ? sunder_i_big_twos(num[0]) : ULONG_MAX;
@@ -67,7 +68,7 @@ bool sunder_i_shape_set_rational(sunder_shape *s, const sunder_i_exact *exact)
     return !arena->failed;
 }
 
-/* The coordinates of vertex v: to nearest, down and up. */
+/* Sets the coordinates of vertex v to the nearest doubles, and down[] and up[] to them rounded down and up. */
 static void round_vertex(sunder_i_arena *arena, sunder_shape *s, uint32_t v, double down[2], double up[2])
 {
     const sunder_i_exact *from = &s->form->numbers->exact[v];
@@ -97,7 +98,7 @@ bool sunder_i_shape_measure_rational(sunder_shape *s)
             if (v == 0 || up[k] > s->box[k + 2]) s->box[k + 2] = up[k];
         }
     }
-    /* Crossings do not make the unit finer unless they are doubles: they have denominators. */
+    /* crossings make the unit finer only if they are doubles; else they have denominators */
     sunder_i_extent extent = {0};
     sunder_i_extent_add(&extent, s->raw_xy, sunder_i_shape_raw_vertices(s));
     for (uint32_t v = 0; v < s->vertices; v++)

@@ -1,6 +1,6 @@
-/* An invalid polygon gives way to the even-odd set of its rings. So does a valid one whose rings touch, which changes
- * its rings but not the set: they are traced anew so that each vertex stands for one sector of the interior, and an
- * edge that a vertex touches from inside is split there. */
+/* repair.c: replaces an invalid polygon by the even-odd set of its rings. A valid polygon whose rings touch is
+ * replaced, too, which changes its rings but not the set: they are traced so that each vertex represents one sector of
+ * the interior, and an edge that a vertex touches from inside is divided there. */
 #include "shape/repair.h"
 
 #include "shape/even_odd.h"
@@ -8,7 +8,8 @@
 
 #include <string.h>
 
-/* The raw rings of one polygon without repeated vertices; rings of one place vanish. */
+/* Copies the raw rings of one polygon without repeated vertices; rings with one position are omitted. Returns false if
+ * out of memory. */
 static bool raw_rings(const sunder_i_input *in, const sunder_i_point *at, size_t p, sunder_i_rings *raw,
                       sunder_i_arena *arena)
 {
@@ -42,7 +43,8 @@ static bool raw_rings(const sunder_i_input *in, const sunder_i_point *at, size_t
     return true;
 }
 
-/* A crossing point of the arrangement as a made point; its nearest doubles into xy. */
+/* Adds a crossing of the arrangement as a made point and sets xy to its nearest doubles. Returns false if out of
+ * memory. */
 static bool make_point(sunder_i_lattice *l, const sunder_i_hpoint *h, const double origin[2],
                        sunder_i_made_points *made, double xy[2], sunder_i_arena *arena)
 {
@@ -62,7 +64,7 @@ bool sunder_i_repair_polygon(sunder_i_rings *r, const sunder_i_input *in, const 
     sunder_i_even_odd set;
     if (!raw_rings(in, at, p, &raw, arena) || !sunder_i_even_odd_find(&raw, arena, &set)) return false;
     if (!sunder_i_rings_grow(r, arena, set.points, set.rings, set.polygons)) return false;
-    /* Numbers of the made points that are corners; the others were passed straight through. */
+    /* the numbers of those made points that are corners; the rings pass straight through the others */
     uint32_t *number = sunder_i_arena_alloc(arena, set.makes, sizeof *number);
     if (!number) return false;
     memset(number, 0xff, set.makes * sizeof *number);
@@ -103,7 +105,7 @@ bool sunder_i_repair_polygon(sunder_i_rings *r, const sunder_i_input *in, const 
 bool sunder_i_repair_place(sunder_i_rings *r, const sunder_i_made_points *made, const double origin[2],
                            sunder_i_arena *arena)
 {
-    /* Sectors at one place share its number. */
+    /* sectors at one position share its number */
     sunder_i_point *at = sunder_i_arena_alloc(arena, made->n, sizeof *at);
     if (!at) return false;
     sunder_i_lattice_admit_ratios(r->lattice);

@@ -1,4 +1,5 @@
-/* The rings of a shape: memory for them while it is made, its corners for drawing, and its rings as given. */
+/* rings.c: memory for the rings of a shape under construction, and access to the rings of a shape, cleaned and as
+ * given. */
 #include "shape/build.h"
 
 #include <string.h>

@@ -1,5 +1,5 @@
-/* sunder_i_shape_check(): every invariant of shape.h, from the definitions and by looking at all pairs. Slow on
- * purpose: it shares the predicates with the code that it checks, and nothing else. */
+/* shape_invariants.c: sunder_i_shape_check() tests every invariant of shape.h from the definitions, with all pairs. It
+ * is slow on purpose: it shares only the predicates with the code that it checks. */
 #include "shape/shape.h"
 
 #include "predicate/predicate.h"
@@ -15,7 +15,7 @@ typedef struct checker {
     sunder_i_lattice *l;
     const sunder_i_point *at;
     sunder_i_arena arena;
-    uint32_t *polygon; /* of each vertex */
+    uint32_t *polygon; /* the polygon of each vertex */
 } checker;
 
 static int turn(const checker *c, uint32_t a, uint32_t b, uint32_t d)
@@ -60,7 +60,7 @@ static bool boxes_apart(const sunder_shape *s, uint32_t a, uint32_t b, uint32_t 
     return false;
 }
 
-/* Is the direction v -> d in the closed sector of the interior at v? */
+/* Returns whether the direction v -> d is in the closed sector of the interior at v. */
 static bool in_sector(const checker *c, uint32_t v, uint32_t d)
 {
     const uint32_t u = c->s->form->cleaned.next[v], w = c->s->form->cleaned.prev[v];
@@ -77,7 +77,7 @@ static const char *check_edge_pair(const checker *c, uint32_t e, uint32_t f)
     case SUNDER_I_CROSS: return "edges cross";
     case SUNDER_I_OVERLAP: return "edges share a piece";
     case SUNDER_I_END_INSIDE:
-        /* Only from outside: the vertex's edges lie on the right. */
+        /* allowed only from outside: the edges of the vertex are on the right */
         if (turn(c, a, b, g) == 0 && !same(c, g, a) && !same(c, g, b) && turn(c, a, b, h) > 0)
             return "a vertex touches an edge from inside";
         if (turn(c, g, h, a) == 0 && !same(c, a, g) && !same(c, a, h) && turn(c, g, h, b) > 0)
@@ -115,7 +115,7 @@ static const char *check_shared(checker *c)
     return NULL;
 }
 
-/* Sums of cross products, each over a denominator of its own. */
+/* A sum of cross products, each with a denominator of its own. */
 typedef struct sum {
     sunder_i_big num, den;
 } sum;
@@ -130,7 +130,7 @@ static void add_term(sunder_i_arena *arena, sum *s, sunder_i_big num, sunder_i_b
     s->den = sunder_i_big_mul(arena, s->den, more);
 }
 
-/* Twice the signed area of a cycle of vertices, times a factor, added to s. */
+/* Adds twice the signed area of a cycle of vertices, times `factor`, to s. */
 static void add_area(checker *c, const uint32_t *list, uint32_t first, uint32_t n, int factor, sum *s)
 {
     sunder_i_arena *arena = &c->arena;
@@ -143,7 +143,7 @@ static void add_area(checker *c, const uint32_t *list, uint32_t first, uint32_t 
     }
 }
 
-/* Convex, going round once. */
+/* Returns whether the cycle is strictly convex and turns once. */
 static bool is_convex(const checker *c, const uint32_t *list, uint32_t n)
 {
     uint32_t peaks = 0;
@@ -155,7 +155,8 @@ static bool is_convex(const checker *c, const uint32_t *list, uint32_t n)
     return peaks == 1;
 }
 
-/* Two convex polygons have disjoint interiors exactly when the line of a side of one has the other on its right. */
+/* Returns whether a side of p has all of q on its right or on its line. Two convex polygons have disjoint interiors
+ * exactly if this holds for one of them. */
 static bool side_separates(const checker *c, const uint32_t *p, uint32_t n, const uint32_t *q, uint32_t m)
 {
     for (uint32_t i = 0; i < n; i++) {
@@ -166,7 +167,7 @@ static bool side_separates(const checker *c, const uint32_t *p, uint32_t n, cons
     return false;
 }
 
-/* How often a -> b is a side of a piece. */
+/* Returns how many pieces have the side a -> b. */
 static uint32_t count_side(const sunder_shape *s, uint32_t a, uint32_t b)
 {
     uint32_t count = 0;
@@ -194,7 +195,7 @@ static const char *check_sides(const checker *c)
     return NULL;
 }
 
-/* Nothing is asked of a corner that is no vertex. */
+/* Checks that the corners of pieces are vertices, before anything else about pieces is checked. */
 static const char *check_corners(const sunder_shape *s)
 {
     for (uint32_t i = 0, lo = 0; i < s->pieces; lo = s->piece_end[i++]) {
@@ -222,7 +223,8 @@ static const char *check_pieces(checker *c)
     return check_sides(c);
 }
 
-/* Outer rings turn left, holes right, and the pieces of a polygon make up its area. */
+/* Checks that outer rings are counterclockwise and holes clockwise, and that the areas of a polygon's pieces add up to
+ * its area. */
 static const char *check_areas(checker *c)
 {
     const sunder_shape *s = c->s;

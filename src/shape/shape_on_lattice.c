@@ -1,9 +1,9 @@
-/* Shapes on a lattice.
+/* shape_on_lattice.c: places shapes on a lattice.
  *
- * A point of an operand with exact shift s stands at x + s - o for the origin o. On a small lattice o - s is split into
- * a double c and an exact remainder d (two-sum), so that x - c is small and all integers fit. The remainder's size is
- * part of what the lattice is asked to hold. Elsewhere the three are simply added. Corners that are no doubles
- * (crossings of a repaired shape) keep a denominator each. */
+ * A vertex x of a shape with the exact translation s is placed at x + s - o, o being the origin. On a small lattice, o
+ * - s is split into a double c and an exact remainder d (two-sum), so that x - c is small and all integers fit. The
+ * size of the remainder is part of the extent that the lattice must contain. On other lattices the three are simply
+ * added. Vertices that are not doubles (crossings of a repaired shape) keep their denominators. */
 #include "shape/shape.h"
 
 #include "predicate/predicate.h"
@@ -16,7 +16,7 @@
 #include <math.h>
 #include <string.h>
 
-/* Extent of the shape moved by s; bounds stay bounds. */
+/* Returns the extent of the shape translated by s, rounded outwards. */
 static sunder_i_extent shifted_extent(const sunder_shape *shape, const double *s)
 {
     sunder_i_extent e = sunder_i_shape_extent(shape);
@@ -31,7 +31,7 @@ static sunder_i_extent shifted_extent(const sunder_shape *shape, const double *s
     return e;
 }
 
-/* Bounds past the range of doubles are brought back to its ends; false if there were any. The lattice is wide then. */
+/* Limits bounds to the range of doubles. Returns false if one was beyond it; the lattice must then be wide. */
 static bool clamp_extent(sunder_i_extent *e)
 {
     bool inside = true;
@@ -57,8 +57,8 @@ static sunder_i_extent extent_union(const sunder_i_extent *a, const sunder_i_ext
     return u;
 }
 
-/* What the remainder of o - s may be: at most an ulp of what lies between. Symmetric, so that its own origin is
- * zero. */
+/* Adds the extent of the remainder of o - s, at most an ulp of the numbers in between. It is symmetric, so that its
+ * origin is zero. */
 static void remainder_extent(const sunder_i_extent *shifted, const double *s, sunder_i_extent *extra)
 {
     for (int k = 0; k < 2; k++) {
@@ -73,7 +73,7 @@ static void remainder_extent(const sunder_i_extent *shifted, const double *s, su
 
 static bool is_zero(const double *s) { return !s || (s[0] == 0 && s[1] == 0); }
 
-/* One coordinate's part that is the same for all vertices: x + s - o = int(x, *from) + *add. */
+/* Computes the part of one coordinate that is the same for all vertices: x + s - o = int(x, *from) + the result. */
 static int64_t common_part(sunder_i_lattice *l, double s, double o, double *from)
 {
     if (s == 0) {
@@ -89,9 +89,9 @@ static int64_t common_part(sunder_i_lattice *l, double s, double o, double *from
     return sunder_i_lattice_int(l, -rest, 0);
 }
 
-/* ---- Corners that are no doubles ---- */
+/* ---- Vertices that are not doubles ---- */
 
-/* v as an integer times 2^unit, unit not above its lowest bit. */
+/* Returns v in units of 2^unit; unit is not above v's lowest bit. */
 static sunder_i_big units_of(sunder_i_arena *arena, double v, long unit)
 {
     int e;
@@ -105,8 +105,8 @@ sunder_i_point sunder_i_place_exact(sunder_i_lattice *lattice, const sunder_i_ex
     if (lattice->arena.failed) return (sunder_i_point){0, 0};
     const sunder_i_mark mark = sunder_i_lattice_begin(lattice);
     sunder_i_arena *m = &lattice->scratch;
-    /* Origin and shift are multiples of the lattice's unit, and a crossing of its lines has no lower bits but in its
-     * denominator: if it has (from another lattice), that takes them. */
+    /* Origin and translation are multiples of the lattice's unit, and the numerators of a crossing of its lines have no
+     * lower bits; those of one from another lattice may, and its denominator is then scaled. */
     const long unit = corner->exponent < lattice->exponent ? corner->exponent : lattice->exponent;
     const sunder_i_big den = sunder_i_big_shl(m, corner->den, (unsigned long)(lattice->exponent - unit));
     sunder_i_big at[2];
@@ -159,7 +159,7 @@ static sunder_status finish(sunder_i_placed *out, sunder_error *err)
     return sunder_i_no_memory(err);
 }
 
-/* -Q, origin and all. */
+/* Reflects q and its origin. */
 static void reflect(sunder_i_placed *placed, uint32_t n)
 {
     for (uint32_t i = 0; i < n; i++) placed->q[i] = sunder_i_point_neg(&placed->lattice, placed->q[i]);
@@ -193,7 +193,7 @@ sunder_status sunder_i_place(const sunder_shape *p, const sunder_shape *q, const
     extent[2].low_bit = INT_MAX;
     for (int i = 0; i < 2; i++)
         if (shape[i] && extent[i].any) remainder_extent(&extent[i], shift[i], &extent[2]);
-    /* The further doubles, symmetric about zero, in both coordinates. */
+    /* further doubles, as an extent symmetric about zero in both coordinates */
     for (size_t i = 0; i < o->extra_n; i++) {
         const double v = fabs(o->extra[i]), corner[4] = {-v, -v, v, v};
         sunder_i_extent_add(&extent[3], corner, 2);

@@ -1,14 +1,14 @@
-/* Convex pieces of polygons with holes, without added vertices: holes are joined to their outer ring by bridges
- * (bridge.c), ears are cut off until nothing is left (ears.c), and diagonals are taken away again while the pieces stay
- * strictly convex (merge_triangles.c). */
+/* shape_pieces.c: convex pieces of polygons with holes, without added vertices: holes are joined to their outer ring by
+ * bridges (bridge.c), ears are cut off until nothing is left (ears.c), and diagonals are removed as long as the pieces
+ * stay strictly convex (merge_triangles.c). */
 #include "shape/ears.h"
 
 static uint32_t ring_begin(const sunder_i_rings *r, uint32_t ring) { return ring ? r->ring_end[ring - 1] : 0; }
 
-/* The vertices lo .. hi of a ring are a piece by themselves. */
+/* Returns whether the vertices lo .. hi of a ring are a convex piece. */
 static bool is_convex(const sunder_i_rings *r, uint32_t lo, uint32_t hi)
 {
-    /* All turns left, and just one turn in all: the y direction changes sign twice. */
+    /* all turns are to the left, and the ring turns once: the direction in lexicographic order changes twice */
     int falls = 0;
     for (uint32_t i = lo; i < hi; i++) {
         if (sunder_i_rings_orient(r, r->prev[i], i, r->next[i]) <= 0) return false;
@@ -17,7 +17,7 @@ static bool is_convex(const sunder_i_rings *r, uint32_t lo, uint32_t hi)
     return falls == 1;
 }
 
-/* The pieces of a mesh as vertex lists. */
+/* Converts the pieces of a mesh to lists of vertices. */
 static void collect(sunder_i_mesh *mesh, sunder_i_pieces *out)
 {
     for (uint32_t h = 0; h < mesh->halves; h++) {
@@ -55,7 +55,7 @@ bool sunder_i_triangulate(const sunder_i_rings *r, uint32_t ring_lo, uint32_t ri
     return !arena->failed && !r->lattice->arena.failed;
 }
 
-/* One polygon: rings ring_lo .. ring_hi. */
+/* Decomposes one polygon: the rings ring_lo .. ring_hi. */
 static void decompose(const sunder_i_rings *r, uint32_t ring_lo, uint32_t ring_hi, sunder_i_arena *arena,
                       sunder_i_pieces *out)
 {
@@ -75,7 +75,7 @@ static void decompose(const sunder_i_rings *r, uint32_t ring_lo, uint32_t ring_h
 
 bool sunder_i_pieces_find(const sunder_i_rings *r, sunder_i_arena *arena, sunder_i_pieces *out)
 {
-    /* A polygon of n vertices and h holes has at most n + 2 h - 2 triangles. */
+    /* a polygon with n vertices and h holes has at most n + 2 h - 2 triangles */
     const size_t most = r->vertices + 2 * (size_t)r->rings;
     out->pieces = out->corners = 0;
     out->piece_end = sunder_i_arena_alloc(arena, most, sizeof *out->piece_end);

@@ -1,12 +1,12 @@
-/* A sweep over the edges of a polygon: do any two meet but in the corner that they share [SH76]? It takes n log n
- * whatever the boxes of the edges, where those of long thin spikes all meet each other; but it only tells that nothing
- * meets, and where something does the pairs have to be looked at.
+/* simple.c: a sweep over the edges of a polygon that tests whether any two meet except at a common vertex [SH76]. It
+ * takes time n log n whatever the boxes of the edges, even if all of them meet, as with long thin spikes; but it only
+ * proves that nothing meets: if something does, the pairs must be tested.
  *
- * Corners are taken in lexicographic order, which is that of a sweeping line turned by less than anything, so upright
- * edges need no care. The edges that the line crosses stand in order from below, in a tree whose shape is random (a
- * treap [SA96]) and threaded along that order. Edges that become neighbours are compared. Were there edges that meet,
- * those through the first point where some do would be neighbours just before it, or a corner would be found on an edge
- * as its place is sought. Nothing has gone wrong in the order before that. */
+ * Vertices are processed in lexicographic order, which is that of a sweep line turned by an infinitely small angle, so
+ * that vertical edges are no special case. The edges that the line crosses are sorted from bottom to top, in a
+ * randomised search tree (a treap [SA96]) that is also a linked list in that order. Edges that become neighbours are
+ * compared. If some edges meet, those through the first point where some do are neighbours just before it, or a vertex
+ * is found on an edge when its position is searched; the order is correct until then. */
 #include "shape/build.h"
 
 #include "base/random.h"
@@ -14,18 +14,18 @@
 #include "base/watch.h"
 
 typedef struct node {
-    uint32_t edge, up, low, high; /* of the tree; NONE */
-    uint32_t below, above;        /* neighbours in order */
-    uint32_t rank;                /* none has a lower rank than those under it */
+    uint32_t edge, up, low, high; /* links of the tree; NONE: none */
+    uint32_t below, above;        /* the neighbours in the order */
+    uint32_t rank;                /* the priority: not greater than those of the nodes below it */
 } node;
 
 typedef struct sweep {
     const sunder_i_rings *r;
-    uint32_t first;   /* vertex */
-    uint32_t *order;  /* the corners as they come */
-    uint32_t *turn;   /* [vertices, from the first] when each comes */
-    node *node;       /* [edges] by the number that its first edge had */
-    uint32_t *holder; /* [edges] the node that an edge is in now */
+    uint32_t first;   /* the first vertex */
+    uint32_t *order;  /* the vertices in the order of the sweep */
+    uint32_t *turn;   /* [vertices, relative to the first one] the position of each in that order */
+    node *node;       /* [edges] indexed by the number of the first edge that a node had */
+    uint32_t *holder; /* [edges] the node that contains an edge now */
     uint32_t root;
 } sweep;
 
@@ -35,7 +35,7 @@ static int by_place(void *context, uint32_t a, uint32_t b)
     return sunder_i_rings_cmp(s->r, s->first + a, s->first + b);
 }
 
-/* The ends of an edge, the one that comes first as *a. */
+/* Sets *a and *b to the ends of an edge, *a being the first one in the sweep. */
 static void ends(const sweep *s, uint32_t edge, uint32_t *a, uint32_t *b)
 {
     const uint32_t next = s->r->next[edge];
@@ -44,7 +44,7 @@ static void ends(const sweep *s, uint32_t edge, uint32_t *a, uint32_t *b)
     *b = forwards ? next : edge;
 }
 
-/* Do they meet, as far as that is not in a corner of both? Of edges on one line that is not asked: yes. */
+/* Returns whether two edges meet except at a common vertex; true for all collinear edges. */
 static bool meet(const sweep *s, uint32_t e, uint32_t f)
 {
     const sunder_i_rings *r = s->r;
@@ -74,7 +74,7 @@ static void hang(sweep *s, uint32_t up, uint32_t old, uint32_t n)
     if (n != SUNDER_I_NONE) s->node[n].up = up;
 }
 
-/* Node n changes places with the one above it. */
+/* Rotates node n above its parent. */
 static void rise(sweep *s, uint32_t n)
 {
     node *x = s->node + n;
@@ -94,7 +94,7 @@ static void rise(sweep *s, uint32_t n)
         s->node[over].high = n;
 }
 
-/* A node for the edge, between two that are neighbours. */
+/* Inserts a node for the edge between two neighbours. */
 static uint32_t insert(sweep *s, uint32_t edge, uint32_t below, uint32_t above)
 {
     const uint32_t n = edge - s->first;
@@ -104,7 +104,7 @@ static uint32_t insert(sweep *s, uint32_t edge, uint32_t below, uint32_t above)
     s->holder[n] = n;
     if (below != SUNDER_I_NONE) s->node[below].above = n;
     if (above != SUNDER_I_NONE) s->node[above].below = n;
-    /* Of two neighbours one is under the other, which has its place there free. */
+    /* of two neighbours one is below the other in the tree and has a free place for the node */
     if (below != SUNDER_I_NONE && s->node[below].high == SUNDER_I_NONE) {
         s->node[below].high = n;
         x->up = below;
@@ -127,7 +127,7 @@ static void take_out(sweep *s, uint32_t n)
     if (x->above != SUNDER_I_NONE) s->node[x->above].below = x->below;
 }
 
-/* The neighbours of a corner that no edge has ended in; false if it is on an edge. */
+/* Finds the neighbours of a vertex at which no edge has ended. Returns false if the vertex is on an edge. */
 static bool locate(const sweep *s, uint32_t v, uint32_t *below, uint32_t *above)
 {
     *below = *above = SUNDER_I_NONE;
@@ -142,9 +142,9 @@ static bool locate(const sweep *s, uint32_t v, uint32_t *below, uint32_t *above)
     return true;
 }
 
-/* ---- Corners: false if anything meets there ---- */
+/* ---- Vertices: each function returns false if edges meet ---- */
 
-/* Both edges begin. */
+/* Both edges of the vertex begin. */
 static bool open_corner(sweep *s, uint32_t v)
 {
     uint32_t below, above;
@@ -155,7 +155,7 @@ static bool open_corner(sweep *s, uint32_t v)
     return !neighbours_meet(s, below, low) && !neighbours_meet(s, high, above);
 }
 
-/* Both end. */
+/* Both edges of the vertex end. */
 static bool close_corner(sweep *s, uint32_t v)
 {
     uint32_t low = s->holder[s->r->prev[v] - s->first], high = s->holder[v - s->first];
@@ -171,7 +171,7 @@ static bool close_corner(sweep *s, uint32_t v)
     return !neighbours_meet(s, below, above);
 }
 
-/* One edge goes on as the other. */
+/* One edge ends and the other continues from it. */
 static bool pass_corner(sweep *s, uint32_t old, uint32_t edge)
 {
     const uint32_t n = s->holder[old - s->first];
@@ -207,7 +207,7 @@ bool sunder_i_rings_simple(const sunder_i_rings *r, uint32_t ring_lo, uint32_t r
     bool simple = true;
     for (uint32_t i = 0; simple && i < n; i++) {
         s.turn[s.order[i]] = i;
-        simple = i == 0 || by_place(&s, s.order[i - 1], s.order[i]) != 0; /* corners in one place */
+        simple = i == 0 || by_place(&s, s.order[i - 1], s.order[i]) != 0; /* two vertices at one position */
     }
     for (uint32_t i = 0; simple && i < n; i++) {
         simple = sweep_corner(&s, s.first + s.order[i]);

@@ -1,5 +1,5 @@
-/* A small walk cut into ears, as in ears.c, that are merged again, as in merge_triangles.c. The pieces are the same in
- * the same order, since the same is asked in the same order. */
+/* small_pieces.c: triangulates a small walk by ears, as ears.c does, and merges the triangles, as merge_triangles.c
+ * does. Pieces and their order are the same, since the same tests are made in the same order. */
 #include "shape/small_walk.h"
 
 #define NONE SUNDER_I_SMALL_NONE
@@ -7,21 +7,22 @@
 
 typedef struct mesh {
     uint32_t halves;
-    uint8_t origin[SUNDER_I_SMALL_HALVES], next[SUNDER_I_SMALL_HALVES], prev[SUNDER_I_SMALL_HALVES]; /* of nodes */
-    uint8_t twin[NONE + 1]; /* that of NONE may be written */
+    /* as in sunder_i_mesh; `origin` are nodes */
+    uint8_t origin[SUNDER_I_SMALL_HALVES], next[SUNDER_I_SMALL_HALVES], prev[SUNDER_I_SMALL_HALVES];
+    uint8_t twin[NONE + 1]; /* twin[NONE] may be written */
 } mesh;
 
 typedef struct cutter {
     sunder_i_small_walk *w;
     mesh *m;
-    uint32_t blunt, stamped; /* sets of nodes: not convex; a neighbour was cut in this round */
+    uint32_t blunt, stamped; /* sets of nodes: those that are not convex; those whose neighbour was cut in this round */
     uint8_t turn[2][2 * SUNDER_I_SMALL_NODES];
     uint32_t turn_n;
     uint8_t *now, *later;
-    uint8_t bridge_half[SUNDER_I_SMALL_BRIDGES]; /* the half-edge that met the bridge first, or NONE */
+    uint8_t bridge_half[SUNDER_I_SMALL_BRIDGES]; /* the half-edge that reached the bridge first, or NONE */
 } cutter;
 
-/* Does no blunt node lie in the open triangle, or inside its side ca? */
+/* Returns whether no blunt node is in the open triangle of b and its neighbours, or inside its third side. */
 static bool is_ear(const cutter *c, uint32_t b)
 {
     const sunder_i_small_walk *w = c->w;
@@ -40,7 +41,7 @@ static bool is_ear(const cutter *c, uint32_t b)
     return true;
 }
 
-/* Joins side h of a new triangle to what lies beyond the edge that starts at this node. */
+/* Links side h of a new triangle to what is beyond the edge that begins at the node. */
 static inline void link_side(cutter *c, uint32_t h, uint32_t node)
 {
     uint8_t beyond = c->w->beyond[node];
@@ -70,7 +71,7 @@ static inline uint32_t add_triangle(cutter *c, uint32_t b)
     return h;
 }
 
-/* A neighbour of a cut corner: it may have become convex, and is left alone for the rest of the round. */
+/* Updates a neighbour of a cut vertex: it may have become convex, and is not cut in this round. */
 static inline void refresh(cutter *c, uint32_t node)
 {
     c->stamped |= 1u << node;
@@ -111,7 +112,7 @@ static void cut_all(cutter *c)
             }
         }
     }
-    /* The last triangle has three sides that are all known. */
+    /* the last triangle; all its three sides have neighbours */
     const uint32_t b = c->w->next[last], h = add_triangle(c, b);
     link_side(c, h + 2, c->w->next[b]);
 }
@@ -131,13 +132,13 @@ static void triangulate(sunder_i_small_walk *w, mesh *m)
     cut_all(&c);
 }
 
-/* Would the corner at the origin of h be strictly convex without the edge h? g is its twin. */
+/* Returns whether the vertex at the origin of h would be strictly convex without the edge h; g is its twin. */
 static inline bool convex_without(const sunder_i_small_walk *w, const mesh *m, uint32_t h, uint32_t g)
 {
     return sunder_i_small_turns_left(w, m->origin[m->prev[h]], m->origin[h], m->origin[m->next[m->next[g]]]);
 }
 
-/* Of an edge the half that was made first is asked: of a diagonal that is the third side of a triangle. */
+/* Removes diagonals. Each is tested at the half-edge made first; a diagonal is the third side of a triangle. */
 static void merge(const sunder_i_small_walk *w, mesh *m)
 {
     const uint32_t first = w->bridges ? 0 : 2, step = w->bridges ? 1 : 3;

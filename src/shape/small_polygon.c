@@ -1,14 +1,13 @@
-/* The usual building: one polygon of few corners that is sound as it was given. What the other files of this folder do
- * in general is done here on arrays of fixed size: cleaned (clean_ring.c), looked over for crossings (intersections.c),
- * turned and nested (nesting.c), joined to its holes (bridge.c) and cut into pieces (small_pieces.c). The shape is the
- * same; only, nothing is repaired or explained here. A polygon in which a corner repeats or is straight, or two edges
- * meet, or a hole is not where holes may be or not in order, or whose coordinates are too long for native integers,
- * goes the general way.
+/* small_polygon.c: the path for the usual building: one polygon with few vertices, valid as given. What the other files
+ * of this folder do in general is done here on arrays of fixed size: cleaning (clean_ring.c), testing for crossings
+ * (intersections.c), orienting and nesting (nesting.c), joining holes (bridge.c) and decomposing (small_pieces.c). The
+ * resulting shape is the same, but nothing is repaired or explained here. A polygon with a repeated or straight vertex,
+ * or with two edges that meet, or with a hole in an invalid position or not in order, or whose coordinates are too long
+ * for native integers, takes the general path.
  *
- * A turn that is not zero at every corner tells that nothing is to be cleaned. If the edges of a ring meet nowhere
- * else, the turn at its smallest corner tells its orientation, and the ring is convex if all turns are to the left. So
- * each ring is read from that corner on (canonical_rings.c) and as its turn says; whether it was sound is asked
- * afterwards. */
+ * If no vertex has a turn of zero, nothing needs cleaning. If the edges of a ring meet nowhere else, the turn at its
+ * smallest vertex is its orientation, and the ring is convex if all turns are to the left. So each ring is read from
+ * that vertex on (canonical_rings.c), in the direction that the turn requires; its validity is tested afterwards. */
 #include "shape/small_polygon.h"
 
 #include "shape/few_corners.h"
@@ -23,14 +22,15 @@
 typedef struct polygon {
     const sunder_i_input *in;
     sunder_i_extent extent; /* of the raw vertices */
-    double scale;           /* the unit is that of the lowest bit */
+    double scale;           /* the unit is the lowest bit of the coordinates */
     uint32_t rings;
     uint32_t ring_end[MOST_RINGS];
-    sunder_i_small_ring ring[MOST_RINGS]; /* how its corners stand among those that were given */
-    sunder_i_small_walk w;                /* nodes: the corners; then, with holes, the second ends of bridges too */
+    sunder_i_small_ring ring[MOST_RINGS]; /* the position of each canonical ring among the given vertices */
+    sunder_i_small_walk w;                /* its nodes are the vertices; with holes, the second ends of bridges
+                                           * follow */
 } polygon;
 
-/* How many vertices of the raw ring lo .. hi are corners, if all are but one that closes it. */
+/* Returns the number of corners of the raw ring lo .. hi if all its vertices are corners except a closing one. */
 static size_t corners_of(const double *xy, size_t lo, size_t hi)
 {
     const double *first = xy + 2 * lo, *last = xy + 2 * (hi - 1);
@@ -39,8 +39,8 @@ static size_t corners_of(const double *xy, size_t lo, size_t hi)
 
 /* ---- Reading ---- */
 
-/* Are there few enough corners, all of them integers below 2^60 in a unit, so that a turn is a matter of native
- * integers? Each hole takes two nodes more. */
+/* Returns whether there are few enough vertices, all of them integers below 2^60 in one unit, so that turns are
+ * computed in native integers. Each hole needs two more nodes. */
 static bool measure(polygon *p)
 {
     const sunder_i_input *in = p->in;
@@ -70,7 +70,7 @@ static inline sunder_i_point point_at(const polygon *p, size_t raw)
     return (sunder_i_point){(int64_t)(xy[0] * p->scale), (int64_t)(xy[1] * p->scale)};
 }
 
-/* The turns at nodes first .. end of a ring; false if one of them is straight. */
+/* Adds the left turns of the nodes first .. end of a ring to w->convex. Returns false if a node is straight. */
 static bool find_turns(sunder_i_small_walk *w, uint32_t first, uint32_t end)
 {
     sunder_i_point before = sunder_i_narrow_sub(w->at[first], w->at[end - 1]);
@@ -85,7 +85,7 @@ static bool find_turns(sunder_i_small_walk *w, uint32_t first, uint32_t end)
     return (left | right) == (uint32_t)(((uint64_t)1 << end) - ((uint64_t)1 << first));
 }
 
-/* Of any node those that come after and before it along a ring, but for its ends. */
+/* For any node the next and the previous one along a ring, except at the ring's ends; and the node itself. */
 static const uint8_t after[MOST] = {1,  2,  3,  4,  5,  6,  7,  8,  9,  10, 11, 12, 13, 14, 15, 16,
                                     17, 18, 19, 20, 21, 22, 23, 24, 25, 26, 27, 28, 29, 30, 31, 32};
 static const uint8_t before[MOST] = {0,  0,  1,  2,  3,  4,  5,  6,  7,  8,  9,  10, 11, 12, 13, 14,
@@ -93,13 +93,13 @@ static const uint8_t before[MOST] = {0,  0,  1,  2,  3,  4,  5,  6,  7,  8,  9, 
 static const uint8_t itself[MOST] = {0,  1,  2,  3,  4,  5,  6,  7,  8,  9,  10, 11, 12, 13, 14, 15,
                                      16, 17, 18, 19, 20, 21, 22, 23, 24, 25, 26, 27, 28, 29, 30, 31};
 
-/* The ring of n corners from raw vertex lo on into nodes first and so on, the outer one counter-clockwise, holes
- * clockwise, each from its smallest corner. False if a corner is straight. */
+/* Reads the ring of n vertices from raw vertex lo on into the nodes from `first` on: the outer one counterclockwise,
+ * holes clockwise, each from its smallest vertex. Returns false if a vertex is straight. */
 static bool read_ring(polygon *p, size_t ring, size_t lo, uint32_t first, uint32_t n)
 {
     sunder_i_small_walk *w = &p->w;
     sunder_i_point *at = w->at + first;
-    uint32_t least = 0; /* of several in one place any: such a ring is not sound */
+    uint32_t least = 0; /* any of several at one position: such a ring is not valid */
     for (uint32_t i = 0; i < n; i++) {
         at[i] = point_at(p, lo + i);
         least = at[i].x < at[least].x || (at[i].x == at[least].x && at[i].y < at[least].y) ? i : least;
@@ -114,7 +114,7 @@ static bool read_ring(polygon *p, size_t ring, size_t lo, uint32_t first, uint32
     return find_turns(w, first, first + n);
 }
 
-/* Do the holes stand in the order of their first corners? */
+/* Returns whether the holes are sorted by their first vertices. */
 static bool holes_ascend(const polygon *p)
 {
     for (uint32_t hole = 2; hole < p->rings; hole++) {
@@ -142,12 +142,12 @@ static bool read_rings(polygon *p)
     return holes_ascend(p);
 }
 
-/* ---- Is it sound? ---- */
+/* ---- Validity ---- */
 
-/* At all nodes? */
+/* Returns whether all nodes turn left. */
 static bool turns_left(const sunder_i_small_walk *w) { return w->convex == (uint32_t)(((uint64_t)1 << w->nodes) - 1); }
 
-/* Are both ends of edge f, u and v from its ends, strictly on one side of edge e? */
+/* Returns whether both ends of an edge, which are at u and v from the ends of edge e, are strictly on one side of e. */
 static inline bool on_one_side(bool brief, sunder_i_point e, sunder_i_point u, sunder_i_point v)
 {
     if (brief) {
@@ -158,8 +158,8 @@ static inline bool on_one_side(bool brief, sunder_i_point e, sunder_i_point u, s
     return ((s > 0) & (t > 0)) | ((s < 0) & (t < 0));
 }
 
-/* Do edges e and f, which do not follow each other, certainly have nothing in common? Edges on one line count as
- * meeting, too: if they are apart their boxes are, and they are not asked for. */
+/* Returns whether the edges e and f, which are not consecutive, certainly have no common point. Collinear edges count
+ * as meeting: if they are disjoint their boxes are, too, and they are not tested. */
 static bool apart(const sunder_i_small_walk *w, uint32_t e, uint32_t f)
 {
     const sunder_i_point a = w->at[e], b = w->at[w->next[e]], g = w->at[f], h = w->at[w->next[f]];
@@ -169,8 +169,8 @@ static bool apart(const sunder_i_small_walk *w, uint32_t e, uint32_t f)
     return on_one_side(w->brief, ab, ag, ah) || on_one_side(w->brief, gh, ga, gb);
 }
 
-/* Boxes of edges, in 31 bits from the lowest corner on: numbers that are longer are cut off, which keeps their order
- * but may make them equal. Past the last edge stand some that meet none. */
+/* The boxes of edges, in 31 bits relative to the lowest corner: longer numbers are truncated, which keeps their order
+ * but may make them equal. The boxes after the last edge meet none. */
 typedef struct boxes {
     int32_t low_x[MOST + SUNDER_I_LANES], low_y[MOST + SUNDER_I_LANES], high_x[MOST + SUNDER_I_LANES],
         high_y[MOST + SUNDER_I_LANES];
@@ -213,7 +213,7 @@ static void find_boxes(const polygon *p, boxes *b)
     }
 }
 
-/* The set of edges after e, of n, whose boxes meet that of e. */
+/* Returns the set of edges f > e, f < n, whose boxes meet that of e. */
 static inline uint32_t near_edges(const boxes *b, uint32_t e, uint32_t n)
 {
     const int32_t x0 = b->low_x[e], y0 = b->low_y[e], x1 = b->high_x[e], y1 = b->high_y[e];
@@ -230,7 +230,7 @@ static inline uint32_t near_edges(const boxes *b, uint32_t e, uint32_t n)
 static bool is_simple(const polygon *p)
 {
     const sunder_i_small_walk *w = &p->w;
-    /* Three or four turns to the left, each of less than half a turn, make up one whole turn: a convex ring. */
+    /* three or four left turns, each of less than half a turn, are one full turn: a convex ring */
     if (w->nodes <= 4 && turns_left(w)) return true;
     boxes b;
     find_boxes(p, &b);
@@ -242,7 +242,8 @@ static bool is_simple(const polygon *p)
     return true;
 }
 
-/* Is the node, which is on no edge of the ring lo .. hi, inside it? A ray to the right, in a height just above. */
+/* Returns whether the node, which is on no edge of the ring lo .. hi, is inside it, by a ray to the right at a height
+ * just above the node. */
 static bool is_inside(const sunder_i_small_walk *w, uint32_t lo, uint32_t hi, uint32_t node)
 {
     const int64_t y = w->at[node].y;
@@ -256,7 +257,8 @@ static bool is_inside(const sunder_i_small_walk *w, uint32_t lo, uint32_t hi, ui
     return inside;
 }
 
-/* Are the holes in the outer ring, and not in each other? No edges meet, so one corner tells it of all. */
+/* Returns whether the holes are in the outer ring and not in each other. No edges meet, so that one vertex decides for
+ * a ring. */
 static bool is_nested(const polygon *p)
 {
     for (uint32_t hole = 1; hole < p->rings; hole++)
@@ -270,14 +272,15 @@ static bool is_nested(const polygon *p)
 
 /* ---- Pieces ---- */
 
-/* The results that other stages need of rings (build.h): with holes, or too many corners to share their numbers. */
+/* The rings in the form of build.h, which other stages need if there are holes, or too many vertices for a shared
+ * form. */
 typedef struct made_rings {
     sunder_i_rings r;
     sunder_i_lattice lattice;
     sunder_i_point at[MOST];
     double xy[2 * MOST];
     uint32_t next[MOST], prev[MOST], poly_end[1];
-    uint8_t vertex[MOST]; /* of the nodes, with holes */
+    uint8_t vertex[MOST]; /* of the nodes, if there are holes */
 } made_rings;
 
 static void make_rings(polygon *p, made_rings *m)
@@ -309,13 +312,13 @@ static void make_rings(polygon *p, made_rings *m)
     }
 }
 
-/* Joins the holes to the outer ring; false if that failed, which it does not on sound rings. */
+/* Joins the holes to the outer ring. Returns false if that failed, which does not happen for valid rings. */
 static bool bridge(polygon *p, made_rings *m)
 {
     sunder_i_small_walk *w = &p->w;
     uint32_t vertex[MOST], next[MOST], prev[MOST], beyond[MOST];
     sunder_i_walk walk = {w->nodes, vertex, next, prev, beyond};
-    sunder_i_arena none = {NULL, false}; /* so few corners need no memory */
+    sunder_i_arena none = {NULL, false}; /* so few vertices need no memory */
     for (uint32_t i = 0; i < w->nodes; i++) {
         vertex[i] = i;
         next[i] = w->next[i];
@@ -352,7 +355,7 @@ static void find_pieces(sunder_i_small_walk *w, sunder_i_pieces *out)
     out->pieces = 1;
 }
 
-/* ---- All of it ---- */
+/* ---- All steps ---- */
 
 static sunder_shape *assemble(polygon *p, made_rings *m)
 {

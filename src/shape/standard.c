@@ -1,14 +1,13 @@
-/* Standard shapes: discs and rectangles about the origin.
+/* standard.c: standard shapes: discs and rectangles about the origin.
  *
- * A disc's polygon is made from doubles near the ideal ones and then proved exactly, which needs no rational
- * directions: the corners of an inside disc must lie in the disc, and the lines of all edges of an outside one at least
- * the radius away from the origin, by integer arithmetic. An outside disc that fails is made larger by a growing number
- * of ulps; of an inside one each corner that fails is moved in by itself, so that corners on the axes are at the radius
- * exactly: what is just as wide as the disc has room for it, and for no larger one.
- * Corners of discs with few segments are multiples of a coarse unit, 2^-26 of the radius or so: sums with map
- * coordinates then fit the narrow lattice, which is several times as fast, and the disc is off by some 10^-8 more at
- * most. Corners are mirrored from as few computed ones as the number of segments allows, so that the polygon is
- * symmetric exactly. */
+ * A disc's polygon is made from doubles near the ideal ones and then verified exactly, which needs no rational
+ * directions: by integer arithmetic, the vertices of an inside disc must be in the disc, and the lines of all edges of
+ * an outside one at least the radius away from the origin. If an outside disc fails it is enlarged by a growing number
+ * of ulps; of an inside one each vertex that fails is moved inwards by itself, so that vertices on the axes are exactly
+ * at the radius: a space exactly as wide as the disc admits the polygon, and no larger one. Vertices of discs with few
+ * segments are multiples of a coarse unit, about 2^-26 of the radius: sums with map coordinates then fit the narrow
+ * lattice, which is several times as fast, and the additional deviation is about 10^-8 of the radius. Vertices are
+ * mirrored from as few computed ones as the number of segments allows, so that the polygon is exactly symmetric. */
 #include "shape/shape.h"
 
 #include "predicate/predicate.h"
@@ -25,17 +24,17 @@ static sunder_status from_ring(const double *xy, size_t n, sunder_shape **out, s
     return sunder_shape_from_rings(xy, ring_end, poly_end, 1, SUNDER_VALIDITY_STRICT, out, err);
 }
 
-/* Corner i of n on the circle of radius one, the first on the x axis. The angle i / n of a turn is reduced to the first
- * octant in integers, so that corners that are mirror images have the same digits. */
+/* Computes vertex i of n on the unit circle, the first one on the x axis. The angle i / n of a turn is reduced to the
+ * first octant in integers, so that mirror images have the same digits. */
 static void unit_corner(unsigned i, unsigned n, double xy[2])
 {
-    const uint64_t turns = 8 * (uint64_t)i; /* in 1 / (8 n) of a turn; an octant is n of them */
+    const uint64_t turns = 8 * (uint64_t)i; /* in units of 1 / (8 n) of a turn; an octant has n of them */
     const unsigned octant = (unsigned)(turns / n);
     uint64_t rest = turns % n;
     if (octant & 1) rest = n - rest;
     const double angle = PI / 4 * (double)rest / (double)n;
     const double c = cos(angle), s = rest == n ? c : sin(angle);
-    /* Octants 0, 3, 4, 7 have the larger part along x. */
+    /* in the octants 0, 3, 4 and 7 the x coordinate is the larger one */
     const bool along_x = octant == 0 || octant == 3 || octant == 4 || octant == 7;
     xy[0] = along_x ? c : s;
     xy[1] = along_x ? s : c;
@@ -48,14 +47,14 @@ typedef struct disc {
     unsigned n;
     bool inside;
     double *xy;
-    bool *proved; /* [n] inside: corners that stay as they are */
+    bool *proved; /* [n] inside: the vertices that are verified and kept */
 } disc;
 
-/* With more segments than this the polygon is so near the circle that the coarse unit would show. */
+/* With more segments than this the polygon is so close to the circle that the coarse unit would matter. */
 static const unsigned coarse_segments = 256;
-static const double coarse_give = 0x1p24; /* in ulps: less would not make up for the rounding */
+static const double coarse_give = 0x1p24; /* in ulps: fewer would not compensate for the rounding */
 
-/* The unit that corners are multiples of; 0: any double. At the ends of the range doubles are left alone. */
+/* Returns the unit of which vertices are multiples; 0: any double, also near the ends of the range of doubles. */
 static double unit_of(const disc *d)
 {
     if (d->n > coarse_segments || d->radius < 0x1p-900 || d->radius > 0x1p900) return 0;
@@ -64,18 +63,19 @@ static double unit_of(const disc *d)
     return ldexp(1, exponent - 26);
 }
 
-/* A corner at radius * factor. */
+/* Computes vertex i at the distance radius * factor. */
 static void make_corner(const disc *d, unsigned i, double factor, double unit, double p[2])
 {
     unit_corner(i, d->n, p);
     const bool on_circle = d->inside && (p[0] == 0 || p[1] == 0);
     for (int k = 0; k < 2; k++) {
         p[k] = (on_circle ? d->radius : d->radius * factor) * p[k] + 0.0;
-        if (unit > 0 && !on_circle) p[k] = round(p[k] / unit) * unit + 0.0; /* odd: mirror images stay such */
+        /* round() is odd, so that mirror images remain so */
+        if (unit > 0 && !on_circle) p[k] = round(p[k] / unit) * unit + 0.0;
     }
 }
 
-/* Those corners that are not proved. False if one leaves the range of doubles. */
+/* Computes the vertices that are not verified. Returns false if one exceeds the range of doubles. */
 static bool make_corners(const disc *d, double factor)
 {
     const double unit = unit_of(d);
@@ -88,7 +88,7 @@ static bool make_corners(const disc *d, double factor)
     return true;
 }
 
-/* A corner as integers. */
+/* A vertex as integers. */
 typedef struct lattice_corner {
     sunder_i_big x, y;
 } lattice_corner;
@@ -100,7 +100,8 @@ static lattice_corner corner_at(const disc *d, sunder_i_lattice *l, unsigned i)
                             sunder_i_lattice_get(l, sunder_i_lattice_int(l, p[1], 0))};
 }
 
-/* Outside: cross(a, b)^2 >= r^2 |b - a|^2 for the edge ab, and cross > 0. rr: r^2. */
+/* Returns whether the edge pq of an outside disc keeps the radius: cross(p, q)^2 >= r^2 |q - p|^2 and cross > 0; rr is
+ * r^2. */
 static bool is_edge_outside(sunder_i_arena *a, lattice_corner p, lattice_corner q, sunder_i_big rr)
 {
     const sunder_i_big cross = sunder_i_big_sub(a, sunder_i_big_mul(a, p.x, q.y), sunder_i_big_mul(a, p.y, q.x));
@@ -110,7 +111,7 @@ static bool is_edge_outside(sunder_i_arena *a, lattice_corner p, lattice_corner 
            sunder_i_big_cmp(sunder_i_big_mul(a, cross, cross), sunder_i_big_mul(a, rr, length)) >= 0;
 }
 
-/* The proof. Inside: |a|^2 <= r^2 for each corner, which then is proved; outside: all edges are. */
+/* Verifies the polygon. Inside: |a|^2 <= r^2 for each vertex, which is then marked; outside: all edges. */
 static bool is_proved(const disc *d, sunder_i_arena *arena)
 {
     sunder_i_extent extent = {0};
@@ -139,7 +140,7 @@ static bool is_proved(const disc *d, sunder_i_arena *arena)
     return good;
 }
 
-/* Corners that are proved: each try gives way by twice as many ulps. */
+/* Computes vertices until they are verified: each attempt allows twice as many ulps as the previous one. */
 static sunder_status prove_corners(const disc *d, sunder_i_arena *arena, sunder_error *err)
 {
     const double ideal = d->inside ? 1 : 1 / cos(PI / d->n);
@@ -152,7 +153,7 @@ static sunder_status prove_corners(const disc *d, sunder_i_arena *arena, sunder_
         if (arena->failed) return sunder_i_no_memory(err);
         if (good) return SUNDER_OK;
     }
-    /* Only where doubles are too coarse, at the very bottom of their range. */
+    /* only if doubles are too coarse, at the lower end of their range */
     return sunder_i_fail(err, SUNDER_ERANGE, "a disc of radius %.17g with %u segments is too small for doubles",
                          d->radius, d->n);
 }
@@ -172,7 +173,7 @@ sunder_status sunder_shape_disc(double radius, unsigned segments, bool inside, s
     if (!status) status = from_ring(d.xy, segments, out, err);
     sunder_i_free(d.xy);
     sunder_i_free(d.proved);
-    /* Doubles at the very bottom of their range may fall together. */
+    /* doubles at the lower end of their range may coincide */
     if (status != SUNDER_EINVALID) return status;
     return sunder_i_fail(err, SUNDER_ERANGE, "a disc of radius %.17g with %u segments is too small for doubles", radius,
                          segments);
@@ -184,7 +185,7 @@ sunder_status sunder_shape_rectangle(double width, double height, sunder_shape *
         return sunder_i_fail(err, SUNDER_EARG,
                              "the sides of a rectangle must be positive and finite, not %.17g x %.17g", width, height);
     const double x = width / 2, y = height / 2;
-    /* Halves of the least doubles are not doubles. */
+    /* halves of the least doubles are not doubles */
     if (x + x != width || y + y != height)
         return sunder_i_fail(err, SUNDER_ERANGE, "a rectangle of %.17g x %.17g is too small for doubles", width,
                              height);

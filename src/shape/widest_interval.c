@@ -1,18 +1,18 @@
-/* Where is a set widest, at the middle of its height? The line through the middle meets the interior in open intervals,
- * and the widest of them is asked for, the first from the left of equal ones. Where it has none there the set is in
- * several parts, and what lies below the line is asked in its place: the height is halved at least each time.
+/* widest_interval.c: finds the widest interval of a set on the horizontal line at half its height. The line meets the
+ * interior in open intervals; the widest is returned, of equal ones the leftmost. If there is none, the set is in
+ * several parts, and the part below the line is used instead: the height is at least halved each time.
  *
- * A point of the line is inside the set if what is just above and what is just below it is. So the edges that reach
- * above the line are sorted along it, by x and then by direction, and between the first that opens and the one that
- * closes last the set is covered. The same is done below it, and the intervals are what is covered on both sides. Edges
- * in one place that run against each other are the wall of two members that touch, and no gap. Corners on the line and
- * level edges need no care.
+ * A point of the line is inside the set if the points just above and just below it are. So the edges that extend above
+ * the line are sorted along it, by x and then by direction; between the first one that opens and the one that closes
+ * last the set is covered. The same is done below the line, and the intervals are what is covered on both sides.
+ * Opposite edges at one position are the common wall of two polygons that touch, and no gap. Vertices on the line and
+ * horizontal edges are no special cases.
  *
- * Everything is decided exactly, and in doubles first. With eps = 2^-53 and the middle m of low and high, the side of a
- * corner is the sign of 2 y - (low + high): that of 2 y less the rounded sum, or of the rounding error. On an edge from
- * a to b with p = a.y - m, which is off by 3 eps (high - low) at most, x is a.x + (b.x - a.x) p / (a.y - b.y). So less
- * an origin it is off by some 8 eps of |a.x - origin| + |b.x - a.x| (1 + (high - low) / |a.y - b.y|), and 16 eps of
- * what is computed for that are beyond it. Numbers are kept off the ends of the range of doubles. */
+ * Everything is decided exactly, doubles first. With eps = 2^-53 and the mean m of low and high, the side of a vertex
+ * is the sign of 2 y - (low + high): that of 2 y minus the rounded sum, or of the rounding error. On an edge from a to
+ * b with p = a.y - m, which has an error of at most 3 eps (high - low), x is a.x + (b.x - a.x) p / (a.y - b.y).
+ * Relative to an origin it has an error of about 8 eps (|a.x - origin| + |b.x - a.x| (1 + (high - low) / |a.y - b.y|)),
+ * and 16 eps times the computed value is more than that. Numbers near the ends of the range of doubles are excluded. */
 #include "shape/widest_interval.h"
 
 #include "base/extremes.h"
@@ -24,8 +24,8 @@
 typedef struct search {
     const sunder_i_boundary *b;
     sunder_i_arena *arena;
-    sunder_i_widest_interval *out; /* has the height */
-    int8_t *side;                  /* [n] of each corner: above the line 1, below -1, on it 0 */
+    sunder_i_widest_interval *out; /* contains the height of the line */
+    int8_t *side;                  /* [n] the side of each vertex: above the line 1, below it -1, on it 0 */
 } search;
 
 /* ---- Numbers ----------------------------------------------------------------------------------------------------- */
@@ -53,8 +53,8 @@ static sunder_i_ratio height_of(const sunder_i_boundary *b, const sunder_i_wides
         sunder_i_big_i64(arena, 2)};
 }
 
-/* With the corners' heights p and q above the line, times the denominators of both, x is (b.x p - a.x q) / (p b.w -
- * q a.w). */
+/* Returns x of the crossing. With the heights p and q of the ends above the line, times the denominators of both, it is
+ * (b.x p - a.x q) / (p b.w - q a.w). */
 static sunder_i_ratio x_of(const sunder_i_boundary *b, const sunder_i_widest_interval *i, uint32_t edge,
                            sunder_i_arena *arena)
 {
@@ -70,7 +70,7 @@ static sunder_i_ratio x_of(const sunder_i_boundary *b, const sunder_i_widest_int
     return x;
 }
 
-/* b - a. */
+/* Returns b - a. */
 static sunder_i_ratio width_of(sunder_i_ratio a, sunder_i_ratio b, sunder_i_arena *arena)
 {
     return (sunder_i_ratio){
@@ -78,9 +78,9 @@ static sunder_i_ratio width_of(sunder_i_ratio a, sunder_i_ratio b, sunder_i_aren
         sunder_i_big_mul(arena, a.den, b.den)};
 }
 
-/* ---- Sides of corners -------------------------------------------------------------------------------------------- */
+/* ---- Sides of vertices ------------------------------------------------------------------------------------------- */
 
-/* The sign of 2 y - (low + high), exact also near the ends of the range of doubles. */
+/* Returns the sign of 2 y - (low + high), exact also near the ends of the range of doubles. */
 static int side_of_extreme(double y, double low, double high)
 {
     sunder_i_accumulator exact = {{0}};
@@ -90,8 +90,8 @@ static int side_of_extreme(double y, double low, double high)
     return sunder_i_accumulator_sign(&exact);
 }
 
-/* The sides of all corners. Doubling is exact, or infinite on the right side; where 2 y equals the rounded sum, its
- * rounding error decides. */
+/* Sets the sides of all vertices. Doubling is exact, or infinite with the correct sign; if 2 y equals the rounded sum,
+ * its rounding error decides. */
 static void set_sides(search *s, double low, double high)
 {
     const sunder_i_boundary *b = s->b;
@@ -128,7 +128,7 @@ static int compare_heights(search *s, uint32_t v, uint32_t w)
     return order;
 }
 
-/* The middle of the heights of these corners, and on which side of it the others are. */
+/* Sets the height to the mean of the heights of two vertices, and the sides of all vertices. */
 static void set_height(search *s, uint32_t lowest, uint32_t highest)
 {
     const sunder_i_boundary *b = s->b;
@@ -169,7 +169,7 @@ static void locate(const search *s, uint32_t edge, sunder_i_level_crossing *c)
     if (height < 0x1p400 && height > 0x1p-400 && steep < 0x1p200 && off < 0x1p400) c->off = off;
 }
 
-/* Those of edges that reach above the line (up = 1), or below (-1). */
+/* Lists the crossings of edges that extend above the line (up = 1), or below it (-1). */
 static uint32_t gather(const search *s, int up, sunder_i_level_crossing *list)
 {
     uint32_t n = 0;
@@ -195,7 +195,8 @@ static int compare_x(const search *s, const sunder_i_level_crossing *a, const su
     return order;
 }
 
-/* The order of two edges just beyond the line, which meet on it: by the cross product of their directions away. */
+/* Compares two edges that meet on the line by their positions just beyond it: by the cross product of their directions
+ * away from the line. */
 static int compare_directions(const search *s, uint32_t a, uint32_t b, int up)
 {
     const sunder_i_mark mark = sunder_i_arena_mark(s->arena);
@@ -218,7 +219,7 @@ static int compare(const search *s, const sunder_i_level_crossing *a, const sund
     return order ? order : b->opens - a->opens;
 }
 
-/* Shell's sort needs no memory. */
+/* Shell's sort, which needs no memory. */
 static void sort(const search *s, sunder_i_level_crossing *list, uint32_t n, int up)
 {
     uint32_t gap = 1;
@@ -234,7 +235,8 @@ static void sort(const search *s, sunder_i_level_crossing *list, uint32_t n, int
 
 /* ---- Intervals --------------------------------------------------------------------------------------------------- */
 
-/* Leaves the two ends of each interval that is covered on that side of the line; returns how many ends. */
+/* Reduces the list to the two ends of each interval that is covered on one side of the line; returns the number of
+ * ends. */
 static uint32_t find_covered(const search *s, int up, sunder_i_level_crossing *list)
 {
     const uint32_t n = gather(s, up, list);
@@ -249,7 +251,7 @@ static uint32_t find_covered(const search *s, int up, sunder_i_level_crossing *l
     return ends;
 }
 
-/* The order of the widths of two intervals. */
+/* Compares the widths of two intervals. */
 static int compare_widths(const search *s, const sunder_i_level_crossing *const a[2],
                           const sunder_i_level_crossing *const b[2])
 {
@@ -269,7 +271,7 @@ static int compare_widths(const search *s, const sunder_i_level_crossing *const 
     return order;
 }
 
-/* What both lists cover; false if that is nothing. */
+/* Sets the result to the widest interval that both lists cover. Returns false if there is none. */
 static bool take_widest(const search *s, const sunder_i_level_crossing *above, uint32_t m,
                         const sunder_i_level_crossing *below, uint32_t n)
 {
@@ -293,7 +295,7 @@ static bool take_widest(const search *s, const sunder_i_level_crossing *above, u
     return true;
 }
 
-/* Is no corner on the line? Then what is above is what is below. */
+/* Returns whether no vertex is on the line; then both sides of the line are equal. */
 static bool is_plain(const search *s)
 {
     bool plain = true;
@@ -309,7 +311,7 @@ static bool look(const search *s, sunder_i_level_crossing *list)
     return take_widest(s, list, m, list + s->b->n, n);
 }
 
-/* The highest corner of what lies below the line. */
+/* Returns the highest vertex of the part below the line. */
 static uint32_t top_below(search *s)
 {
     uint32_t top = s->b->n;
@@ -322,7 +324,7 @@ static uint32_t top_below(search *s)
     return top;
 }
 
-/* A lowest and a highest corner. */
+/* Finds a lowest and a highest vertex. */
 static void find_extremes(search *s, uint32_t *low, uint32_t *high)
 {
     const double *xy = s->b->xy;
@@ -343,7 +345,7 @@ void sunder_i_widest_interval_find(const sunder_i_boundary *boundary, int8_t *si
     while (!arena->failed && !look(&s, crossing)) set_height(&s, low, top_below(&s));
 }
 
-/* ---- The middle -------------------------------------------------------------------------------------------------- */
+/* ---- The midpoint ------------------------------------------------------------------------------------------------ */
 
 sunder_i_rational_point sunder_i_widest_interval_middle(const sunder_i_boundary *boundary,
                                                         const sunder_i_widest_interval *interval, sunder_i_arena *arena)
@@ -358,7 +360,7 @@ sunder_i_rational_point sunder_i_widest_interval_middle(const sunder_i_boundary 
                                      sunder_i_big_mul(arena, sum.den, y.den)};
 }
 
-/* The middle of two doubles, to the nearest; false where halving may round, too, or the sum is too large. */
+/* Sets *out to the mean of two doubles. Returns false if halving may round, too, or the sum is too large. */
 static bool middle_of(double a, double b, double *out)
 {
     const double sum = a + b;
