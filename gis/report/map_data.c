@@ -5,17 +5,17 @@
  * bit of the number is its sign. A vertex takes about six bytes, and no letter has a meaning in HTML. The JSON object
  * has the members
  *
- *  box            the bounding box of all that is drawn; a coordinate is its minimum plus a multiple of the step
- *  step, unit     the length of a step; the unit of the layer
- *  label          the names of the drawn features, in the order of the features
- *  status         a digit for each feature, a sunder_feature_status
- *  move           dx, dy of each feature
- *  anchor         x, y of each feature whose move is not 0, as the difference from the previous one
- *  shape          the rings of each feature: the number of vertices, then each vertex as the difference from the
- *      previous one, also across features; 0 ends a feature
- *  barrier        of each barrier its width, its lines in the form of shape, and its rings in the same form
- *  conflict       of each listed conflict: 1 if it is proved, else 0; then the two ends of its link, each as the
- *      difference from the previous point */
+ *   box            the bounding box of all that is drawn; a coordinate is its minimum plus a multiple of the step
+ *   step, unit     the length of a step; the unit of the layer
+ *   label          the names of the drawn features, in the order of the features
+ *   status         a digit for each feature, a sunder_feature_status
+ *   move           dx, dy of each feature
+ *   anchor         x, y of each feature whose move is not 0, as the difference from the previous one
+ *   shape          the rings of each feature: the number of vertices, then each vertex as the difference from the
+ *                  previous one, also across features; 0 ends a feature
+ *   barrier        of each barrier its width, its lines in the form of shape, and its rings in the same form
+ *   conflict       of each listed conflict: 1 if it is proved, else 0; then the two ends of its link, each as the
+ *                  difference from the previous point */
 #include "report/map_data.h"
 
 #include "base/interrupt.h"

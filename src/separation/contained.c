@@ -18,8 +18,8 @@ typedef struct interval {
 /* Computes the part of the segment ab (t in [0, 1]) in piece i of operand `side`; returns false if it has no length. If
  * the segment runs along a side of the piece, it counts only if `right` is true and the interior of the piece is on the
  * right of ab. */
-static bool clip(sunder_i_operands *g, sunder_i_point a, sunder_i_point b, int side, uint32_t i, bool right,
-                 interval *out)
+static bool clip_segment(sunder_i_operands *g, sunder_i_point a, sunder_i_point b, int side, uint32_t i, bool right,
+                         interval *out)
 {
     sunder_i_lattice *l = &g->placed.lattice;
     const sunder_i_point d = sunder_i_point_sub(l, b, a), *at = g->at[side];
@@ -74,11 +74,13 @@ static bool edge_harmless(sunder_i_operands *g, uint32_t i, uint32_t e, interval
     sunder_i_box_of_segment(g->xy[1] + 2 * e, g->xy[1] + 2 * next, box);
     const sunder_i_point a = g->at[1][e], b = g->at[1][next];
     interval want;
-    if (!sunder_i_box_near(g->piece_box[0] + 4 * (size_t)i, box, g->error) || !clip(g, a, b, 0, i, false, &want))
+    if (!sunder_i_box_near(g->piece_box[0] + 4 * (size_t)i, box, g->error) ||
+        !clip_segment(g, a, b, 0, i, false, &want))
         return true;
     uint32_t n = 0;
     for (uint32_t j = 0; j < q->pieces; j++)
-        if (sunder_i_box_near(g->piece_box[1] + 4 * (size_t)j, box, g->error) && clip(g, a, b, 1, j, true, buffer + n))
+        if (sunder_i_box_near(g->piece_box[1] + 4 * (size_t)j, box, g->error) &&
+            clip_segment(g, a, b, 1, j, true, buffer + n))
             n++;
     return intervals_cover(&g->placed.lattice, buffer, n, &want);
 }

@@ -15,7 +15,7 @@ typedef struct vector {
 } vector;
 
 /* Returns to - from. The difference is computed on the lattice without cancellation and then rounded. */
-static vector between(sunder_i_operands *g, sunder_i_point to, sunder_i_point from)
+static vector vector_between(sunder_i_operands *g, sunder_i_point to, sunder_i_point from)
 {
     sunder_i_lattice *l = &g->placed.lattice;
     if (l->narrow) {
@@ -32,7 +32,7 @@ static vector between(sunder_i_operands *g, sunder_i_point to, sunder_i_point fr
 static double to_segment(sunder_i_operands *g, sunder_i_point p, sunder_i_point a, sunder_i_point b, double *t)
 {
     sunder_i_lattice *l = &g->placed.lattice;
-    const vector u = between(g, b, a), v = between(g, p, a), w = between(g, p, b);
+    const vector u = vector_between(g, b, a), v = vector_between(g, p, a), w = vector_between(g, p, b);
     const double along = v.x * u.x + v.y * u.y, square = u.x * u.x + u.y * u.y;
     *t = 0;
     if (!(along > 0)) return v.x * v.x + v.y * v.y;
@@ -78,7 +78,7 @@ static double box_square(const double *a, const double *b, const double *c, cons
 
 /* Replaces *best if the edges i and j are closer, or equally close and first in order, so that the answer does not
  * depend on the order of the search. */
-static void offer(sunder_i_operands *g, uint32_t i, uint32_t j, link *best)
+static void offer_link(sunder_i_operands *g, uint32_t i, uint32_t j, link *best)
 {
     int which;
     double t;
@@ -100,7 +100,7 @@ static void compare_edges(sunder_i_operands *g, uint32_t from, uint32_t to, uint
         for (uint32_t j = first; j < last; j++) {
             const double now = sqrt(best->square) + 4 * g->error;
             if (box_square(a, b, g->xy[1] + 2 * j, g->xy[1] + 2 * q->form->cleaned.next[j]) <= now * now)
-                offer(g, i, j, best);
+                offer_link(g, i, j, best);
         }
     }
 }
@@ -185,7 +185,7 @@ static link nearest_edges(sunder_i_operands *g)
 }
 
 /* Converts a point from lattice units to the caller's units. */
-static vector outside(sunder_i_operands *g, vector v)
+static vector in_caller_units(sunder_i_operands *g, vector v)
 {
     return (vector){v.x * g->unit + g->placed.origin_p[0] + g->base[0],
                     v.y * g->unit + g->placed.origin_p[1] + g->base[1]};
@@ -194,7 +194,7 @@ static vector outside(sunder_i_operands *g, vector v)
 static vector link_point(sunder_i_operands *g, int side, uint32_t edge, double t)
 {
     const double *a = g->xy[side] + 2 * edge, *b = g->xy[side] + 2 * g->shape[side]->form->cleaned.next[edge];
-    return outside(g, (vector){a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])});
+    return in_caller_units(g, (vector){a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])});
 }
 
 static void link_ends(sunder_i_operands *g, const link *k, double on_p[2], double on_q[2])
@@ -238,10 +238,10 @@ static vector common_point(sunder_i_operands *g, uint32_t i, uint32_t j, vector 
     }
     vector sum = {0, 0};
     for (uint32_t k = 0; k < n; k++) sum = (vector){sum.x + now[k].x / n, sum.y + now[k].y / n};
-    return outside(g, sum);
+    return in_caller_units(g, sum);
 }
 
-static bool common(sunder_i_operands *g, double on[2])
+static bool find_common_point(sunder_i_operands *g, double on[2])
 {
     for (uint32_t i = 0; i < g->shape[0]->pieces; i++) {
         if (!sunder_i_box_near(g->piece_box[0] + 4 * (size_t)i, g->box[1], g->error)) continue;
@@ -272,7 +272,7 @@ sunder_status sunder_i_distance(const sunder_shape *p, const double tp[2], const
     sunder_status status = sunder_i_operands_init(&g, p, q, &options, err);
     if (status) return status;
     double d = 0, ends[4] = {0, 0, 0, 0};
-    if (common(&g, ends)) {
+    if (find_common_point(&g, ends)) {
         ends[2] = ends[0];
         ends[3] = ends[1];
     } else {

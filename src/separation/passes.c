@@ -13,7 +13,7 @@
 
 #include <limits.h>
 
-static const double *corner(const sunder_shape *p, uint32_t v) { return p->xy + 2 * (size_t)v; }
+static const double *corner_of(const sunder_shape *p, uint32_t v) { return p->xy + 2 * (size_t)v; }
 
 static sunder_point point_of(const double xy[2]) { return (sunder_point){xy[0], xy[1]}; }
 
@@ -32,8 +32,8 @@ static bool holds_doubles(const sunder_shape *p, const double at[2])
         bool in = true;
         for (uint32_t k = from; k < p->piece_end[i] && in; k++) {
             const uint32_t next = k + 1 < p->piece_end[i] ? k + 1 : from;
-            const sunder_point a = point_of(corner(p, sunder_i_piece_vertices(p)[k])),
-                               b = point_of(corner(p, sunder_i_piece_vertices(p)[next]));
+            const sunder_point a = point_of(corner_of(p, sunder_i_piece_vertices(p)[k])),
+                               b = point_of(corner_of(p, sunder_i_piece_vertices(p)[next]));
             in = sunder_orient(&a, &b, &c) >= 0;
         }
         if (in) return true;
@@ -44,7 +44,7 @@ static bool holds_doubles(const sunder_shape *p, const double at[2])
 static bool meets_doubles(const sunder_i_passage *way, const double way_box[4], const sunder_shape *p)
 {
     for (uint32_t v = 0; v < p->vertices; v++) {
-        const double *c = corner(p, v), *d = corner(p, p->form->cleaned.next[v]);
+        const double *c = corner_of(p, v), *d = corner_of(p, p->form->cleaned.next[v]);
         double box[4];
         sunder_i_box_of_segment(c, d, box);
         if (sunder_i_box_meet(way_box, box) && sunder_i_passage_meets(way, c, d)) return true;
@@ -76,7 +76,7 @@ static sunder_i_rational_point put_double(sunder_i_arena *arena, const double xy
 static sunder_i_rational_point put_corner(sunder_i_arena *arena, const sunder_shape *p, uint32_t v, long unit)
 {
     const sunder_i_exact *e = &p->form->numbers->exact[v];
-    if (e->den.size == 0) return put_double(arena, corner(p, v), unit);
+    if (e->den.size == 0) return put_double(arena, corner_of(p, v), unit);
     const unsigned long up = (unsigned long)(e->exponent - unit);
     return (sunder_i_rational_point){sunder_i_big_shl(arena, e->num[0], up), sunder_i_big_shl(arena, e->num[1], up),
                                      e->den};
@@ -88,25 +88,27 @@ static long lower_unit(const sunder_shape *p, uint32_t v, long unit)
     if (p->form->numbers->exact[v].den.size)
         return p->form->numbers->exact[v].exponent < unit ? p->form->numbers->exact[v].exponent : unit;
     for (int c = 0; c < 2; c++) {
-        const int bit = sunder_i_low_bit(corner(p, v)[c]);
+        const int bit = sunder_i_low_bit(corner_of(p, v)[c]);
         if (bit < unit) unit = bit;
     }
     return unit;
 }
 
 /* Returns vertex i of those listed in `which`; NULL: of all vertices. */
-static uint32_t asked(const uint32_t *which, uint32_t i) { return which ? which[i] : i; }
+static uint32_t asked_vertex(const uint32_t *which, uint32_t i) { return which ? which[i] : i; }
 
-static bool put(rationals *r, const sunder_i_passage *way, const sunder_shape *p, const uint32_t *which, uint32_t n)
+static bool put_rationals(rationals *r, const sunder_i_passage *way, const sunder_shape *p, const uint32_t *which,
+                          uint32_t n)
 {
     const double given[6] = {way->from[0], way->from[1], way->t[0], way->t[1], way->s[0], way->s[1]};
     long unit = p->low_bit;
-    for (uint32_t i = 0; i < n; i++) unit = lower_unit(p, asked(which, i), unit);
+    for (uint32_t i = 0; i < n; i++) unit = lower_unit(p, asked_vertex(which, i), unit);
     for (size_t k = 0; k < 6; k++)
         if (sunder_i_low_bit(given[k]) < unit) unit = sunder_i_low_bit(given[k]);
     sunder_i_arena_init(&r->arena);
     r->corner = sunder_i_arena_alloc(&r->arena, n, sizeof *r->corner);
-    for (uint32_t i = 0; i < n && !r->arena.failed; i++) r->corner[i] = put_corner(&r->arena, p, asked(which, i), unit);
+    for (uint32_t i = 0; i < n && !r->arena.failed; i++)
+        r->corner[i] = put_corner(&r->arena, p, asked_vertex(which, i), unit);
     r->from = put_double(&r->arena, way->from, unit);
     r->to = sunder_i_rational_add(&r->arena, r->from, put_double(&r->arena, way->t, unit));
     r->to = sunder_i_rational_sub(&r->arena, r->to, put_double(&r->arena, way->s, unit));
@@ -177,7 +179,7 @@ static sunder_status ask_rational(const sunder_i_passage *way, const sunder_shap
 {
     rationals r;
     bool answer = false;
-    if (put(&r, way, p, NULL, p->vertices))
+    if (put_rationals(&r, way, p, NULL, p->vertices))
         answer = holds ? holds_rational(&r, p) : meets_rational(&r, p) && !holds_rational(&r, p);
     const bool failed = r.arena.failed;
     sunder_i_arena_free(&r.arena);
@@ -216,15 +218,15 @@ sunder_status sunder_i_enters_by_edge(const sunder_i_passage *passage, const sun
     const uint32_t end[2] = {v, p->form->cleaned.next[v]};
     if (!p->rational ||
         (p->form->numbers->exact[end[0]].den.size == 0 && p->form->numbers->exact[end[1]].den.size == 0)) {
-        const sunder_point c = point_of(corner(p, end[0])), d = point_of(corner(p, end[1])),
+        const sunder_point c = point_of(corner_of(p, end[0])), d = point_of(corner_of(p, end[1])),
                            at = point_of(passage->from);
-        *enters =
-            sunder_orient(&c, &d, &at) < 0 && sunder_i_passage_meets(passage, corner(p, end[0]), corner(p, end[1]));
+        *enters = sunder_orient(&c, &d, &at) < 0 &&
+                  sunder_i_passage_meets(passage, corner_of(p, end[0]), corner_of(p, end[1]));
         return SUNDER_OK;
     }
     rationals r;
     bool answer = false;
-    if (put(&r, passage, p, end, 2))
+    if (put_rationals(&r, passage, p, end, 2))
         answer = sunder_i_rational_orient(&r.arena, r.corner[0], r.corner[1], r.from) < 0 && meets_edge(&r, 0, 1);
     const bool failed = r.arena.failed;
     sunder_i_arena_free(&r.arena);

@@ -22,7 +22,7 @@ typedef struct corners {
     uint32_t n;
 } corners;
 
-static double place(const sunder_shape *s, const double t[2], const double origin[2], corners *out)
+static double place_corners(const sunder_shape *s, const double t[2], const double origin[2], corners *out)
 {
     double size = 0;
     out->n = s->vertices;
@@ -37,7 +37,7 @@ static double place(const sunder_shape *s, const double t[2], const double origi
 
 /* Returns how far Q lies beyond P in direction n, of any length: the least product of n with Q's vertices, less the
  * largest with P's. */
-static double beyond(const corners *p, const corners *q, const double n[2])
+static double distance_beyond(const corners *p, const corners *q, const double n[2])
 {
     double most = -INFINITY, least = INFINITY;
     for (uint32_t v = 0; v < p->n; v++) {
@@ -67,7 +67,7 @@ static bool parts_along(const sunder_shape *s, const corners *at, const corners 
         }
         const double length = fabs(n[0]) + fabs(n[1]), doubt = length * size * 0x1p-48;
         if (!(length > SHORTEST)) continue;
-        if (beyond(p, q, n) > far * sqrt(n[0] * n[0] + n[1] * n[1]) * (1 + 0x1p-48) + doubt) return true;
+        if (distance_beyond(p, q, n) > far * sqrt(n[0] * n[0] + n[1] * n[1]) * (1 + 0x1p-48) + doubt) return true;
     }
     return false;
 }
@@ -78,7 +78,8 @@ bool sunder_i_surely_apart(const sunder_shape *p, const double tp[2], const sund
     const double none[2] = {0, 0}, *origin = p->box, *s = tp ? tp : none, *t = tq ? tq : none;
     if (p->rational || q->rational || p->vertices > MOST_CORNERS || q->vertices > MOST_CORNERS) return false;
     corners at_p, at_q;
-    const double of_p = place(p, s, origin, &at_p), of_q = place(q, t, origin, &at_q), size = sunder_i_max(of_p, of_q);
+    const double of_p = place_corners(p, s, origin, &at_p), of_q = place_corners(q, t, origin, &at_q),
+                 size = sunder_i_max(of_p, of_q);
     /* no product comes near the greatest double; underflow is negligible compared with the doubt */
     if (!(size < 0x1p400 && size > 0x1p-400 && far < 0x1p400)) return false;
     const double way[2] = {(q->box[0] - p->box[0]) + (q->box[2] - p->box[2]) + 2 * (t[0] - s[0]),

@@ -133,7 +133,7 @@ static sunder_status compare_texts(const char *was, const char *is, bool *worse,
     return failed ? sunder_i_no_memory(err) : SUNDER_OK;
 }
 
-static double at(const double *t, int c) { return t ? t[c] : 0; }
+static double translation_at(const double *t, int c) { return t ? t[c] : 0; }
 
 /* Returns whether the least translation is certainly not longer than before. The translation that separated the pair
  * then, minus the change of position since, separates it now; if it is shorter by more than the error of these sums of
@@ -143,9 +143,10 @@ static bool is_surely_no_deeper(const sunder_i_depth *d, const sunder_i_pair *wa
     double left[2], size = 0;
     if (was->p != is->p || was->q != is->q) return false;
     for (int c = 0; c < 2; c++) {
-        left[c] = d->away[c] - ((at(is->tq, c) - at(is->tp, c)) - (at(was->tq, c) - at(was->tp, c)));
-        size +=
-            fabs(d->away[c]) + fabs(at(is->tq, c)) + fabs(at(is->tp, c)) + fabs(at(was->tq, c)) + fabs(at(was->tp, c));
+        left[c] = d->away[c] - ((translation_at(is->tq, c) - translation_at(is->tp, c)) -
+                                (translation_at(was->tq, c) - translation_at(was->tp, c)));
+        size += fabs(d->away[c]) + fabs(translation_at(is->tq, c)) + fabs(translation_at(is->tp, c)) +
+                fabs(translation_at(was->tq, c)) + fabs(translation_at(was->tp, c));
     }
     return hypot(left[0], left[1]) + 0x1p-47 * size < d->least;
 }

@@ -1,9 +1,9 @@
 /* anchor.c: the anchor of a shape, a point of its interior that depends on the point set only. The interior is that of
  * the union of all polygons, so that common walls of polygons are inside it. The rule:
  *
- * take the open intervals of the interior on the horizontal line at half its height; the anchor is the midpoint of the
- * widest one, the leftmost of equal ones, rounded to the nearest doubles; if there are none on that line (the interior
- * is in several parts), apply the rule to the part of it below the line.
+ *   take the open intervals of the interior on the horizontal line at half its height; the anchor is the midpoint of
+ *   the widest one, the leftmost of equal ones, rounded to the nearest doubles;
+ *   if there are none on that line (the interior is in several parts), apply the rule to the part of it below the line.
  *
  * sunder_shape_anchor() cannot fail, so it allocates nothing: for few vertices all numbers are on the stack, and the
  * range of doubles bounds their size; for many vertices, and for vertices that are not doubles, the anchor is computed

@@ -56,7 +56,7 @@ static bool add_crossing(finder *f, uint32_t e, uint32_t g)
     return add_meet(f, e, node) && add_meet(f, g, node);
 }
 
-static bool visit(void *user, uint32_t e, uint32_t g)
+static bool visit_pair(void *user, uint32_t e, uint32_t g)
 {
     finder *f = user;
     const sunder_i_rings *r = f->r;
@@ -109,7 +109,7 @@ typedef struct arc_context {
 } arc_context;
 
 /* Returns the vector of the parent edge from its lexicographically smaller end. */
-static sunder_i_point direction(const sunder_i_rings *r, uint32_t parent)
+static sunder_i_point edge_direction(const sunder_i_rings *r, uint32_t parent)
 {
     const uint32_t end = r->next[parent];
     const sunder_i_point a = r->at[parent], b = r->at[end];
@@ -130,7 +130,7 @@ static int arc_slope(void *context, uint32_t i, uint32_t j)
     const arc_context *c = context;
     const sunder_i_arc *s = &c->arc[i], *t = &c->arc[j];
     if (s->lo != t->lo) return s->lo < t->lo ? -1 : 1;
-    return -sunder_i_cross_sign(c->r->lattice, direction(c->r, s->parent), direction(c->r, t->parent));
+    return -sunder_i_cross_sign(c->r->lattice, edge_direction(c->r, s->parent), edge_direction(c->r, t->parent));
 }
 
 /* Divides each edge at its points, and returns the *n arcs; NULL if out of memory. */
@@ -176,12 +176,12 @@ static bool keep_odd(const sunder_i_rings *r, sunder_i_arena *arena, const sunde
     return true;
 }
 
-static bool find(finder *f, sunder_i_arena *arena, sunder_i_arcs *out)
+static bool find_arcs(finder *f, sunder_i_arena *arena, sunder_i_arcs *out)
 {
     sunder_i_edge_tree tree;
     sunder_i_edge_tree_build(&tree, f->r, 0, f->r->rings, arena);
     if (arena->failed) return false;
-    sunder_i_edge_tree_pairs(&tree, f->r, visit, f);
+    sunder_i_edge_tree_pairs(&tree, f->r, visit_pair, f);
     if (f->failed) return false;
     uint32_t *number = sunder_i_arena_alloc(arena, f->r->vertices + f->made_n, sizeof *number);
     if (!number || !number_nodes(f, arena, number, out)) return false;
@@ -199,7 +199,7 @@ bool sunder_i_arcs_find(const sunder_i_rings *r, sunder_i_arena *arena, sunder_i
 {
     finder f = {.r = r};
     memset(out, 0, sizeof *out);
-    const bool found = find(&f, arena, out);
+    const bool found = find_arcs(&f, arena, out);
     sunder_i_free(f.meets);
     sunder_i_free(f.made);
     return found;

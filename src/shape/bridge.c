@@ -1,12 +1,12 @@
 /* bridge.c: joins holes to the outer ring by bridges, so that a polygon becomes one closed walk.
  *
- *   f                  h is the lexicographically smallest vertex of a hole, e and f the edges of the polygon
- *  ---------------        directly below and above it. Among the vertices between them, left of h, and the left ends
- *   u .   /\            of e and f, the lexicographically greatest one, u, is joined to h: nothing can be between
- *    ' h \           them, since it would have a greater vertex. These are the diagonals that a sweep
- *  --------\__/---        adds at split vertices [BKOS08, section 3.2]: each is in one trapezoid of the
- *   e                  vertical decomposition, so that no two of them cross, and u < h makes them a tree with
- *        the outer ring as its root.
+ *        f                  h is the lexicographically smallest vertex of a hole, e and f the edges of the polygon
+ *    ---------------        directly below and above it. Among the vertices between them, left of h, and the left ends
+ *       u .   /\            of e and f, the lexicographically greatest one, u, is joined to h: nothing can be between
+ *           ' h \           them, since it would have a greater vertex. These are the diagonals that a sweep adds at
+ *    --------\__/---        split vertices [BKOS08, section 3.2]: each is in one trapezoid of the vertical
+ *        e                  decomposition, so that no two of them cross, and u < h makes them a tree with the outer
+ *                           ring as its root.
  *
  * All bridges are found from the edges of the rings alone and then inserted one after the other. Several nodes may be
  * at the positions of u and h (rings that touch; bridges inserted before): the bridge connects those nodes whose
@@ -104,7 +104,7 @@ static void see_corner(void *user, uint32_t v)
     w->reach[0] = x;
 }
 
-static void look(view *w, sunder_i_edge_visitor see, const sunder_i_edge_tree *tree, uint32_t lo, uint32_t hi)
+static void look_at_edges(view *w, sunder_i_edge_visitor see, const sunder_i_edge_tree *tree, uint32_t lo, uint32_t hi)
 {
     if (tree)
         sunder_i_edge_tree_query(tree, w->reach, see, w);
@@ -118,16 +118,16 @@ static uint32_t visible_left(const sunder_i_rings *r, const sunder_i_edge_tree *
 {
     const double x = r->xy[2 * (size_t)h];
     view w = {r, h, SUNDER_I_NONE, {SUNDER_I_NONE, 0}, {SUNDER_I_NONE, 0}, {x, -INFINITY, x, INFINITY}};
-    look(&w, see_edge, tree, lo, hi);
+    look_at_edges(&w, see_edge, tree, lo, hi);
     if (w.below.left == SUNDER_I_NONE || w.above.left == SUNDER_I_NONE) return SUNDER_I_NONE;
     w.u = sunder_i_rings_cmp(r, w.below.left, w.above.left) > 0 ? w.below.left : w.above.left;
     w.reach[0] = r->xy[2 * (size_t)w.u];
-    look(&w, see_corner, tree, lo, hi);
+    look_at_edges(&w, see_corner, tree, lo, hi);
     return w.u;
 }
 
 /* Returns whether the direction to vertex d is in the sector of the node. */
-static bool faces(const sunder_i_rings *r, const sunder_i_walk *walk, uint32_t node, uint32_t d)
+static bool faces_vertex(const sunder_i_rings *r, const sunder_i_walk *walk, uint32_t node, uint32_t d)
 {
     return sunder_i_in_wedge(r, walk->vertex[node], walk->vertex[walk->next[node]], walk->vertex[walk->prev[node]], d);
 }
@@ -136,9 +136,9 @@ static bool faces(const sunder_i_rings *r, const sunder_i_walk *walk, uint32_t n
  * node 0. Usually it is the vertex's own first node. */
 static uint32_t facing_node(const sunder_i_rings *r, const sunder_i_walk *walk, uint32_t lo, uint32_t v, uint32_t d)
 {
-    if (faces(r, walk, v - lo, d)) return v - lo;
+    if (faces_vertex(r, walk, v - lo, d)) return v - lo;
     for (uint32_t node = walk->nodes; node-- > 0;)
-        if (sunder_i_rings_cmp(r, walk->vertex[node], v) == 0 && faces(r, walk, node, d)) return node;
+        if (sunder_i_rings_cmp(r, walk->vertex[node], v) == 0 && faces_vertex(r, walk, node, d)) return node;
     return SUNDER_I_NONE;
 }
 
@@ -157,7 +157,7 @@ static void link_nodes(sunder_i_walk *walk, uint32_t a, uint32_t b)
 
 /* Joins the nodes u and h: the walk becomes ... u -> h ... (around the hole) ... h' -> u' ..., with copies h' and
  * u'. */
-static void join(sunder_i_walk *walk, uint32_t u, uint32_t h, uint32_t number)
+static void join_nodes(sunder_i_walk *walk, uint32_t u, uint32_t h, uint32_t number)
 {
     const uint32_t u2 = copy_node(walk, u), h2 = copy_node(walk, h);
     const uint32_t after = walk->next[u], before = walk->prev[h];
@@ -188,6 +188,6 @@ void sunder_i_bridge_holes(const sunder_i_rings *r, uint32_t ring_lo, uint32_t r
             arena->failed = true;
             return;
         }
-        join(walk, from, to, ring - ring_lo - 1);
+        join_nodes(walk, from, to, ring - ring_lo - 1);
     }
 }

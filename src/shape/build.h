@@ -1,17 +1,17 @@
 /* build.h: a shape under construction: what the stages of sunder_shape_from_rings() pass to each other.
  *
- * 	rings.c            memory for rings
- * 	clean_ring.c       the vertices of a raw ring that are corners
- * 	edge_tree.c        candidate pairs of edges, and edges above a point, without testing all of them
- * 	intersections.c    where rings cross (an error) or touch
- * 	simple.c           a sweep that proves that no edges meet, if boxes do not separate them
- * 	nesting.c          orientation; holes inside outer rings, and not inside each other
- * 	canonical_rings.c  a canonical order of rings, holes and polygons
- * 	repair.c           replaces a polygon by its even-odd set, from the arrangement of arcs.c and even_odd.c
- * 	shape_pieces.c     holes are bridged (bridge.c), ears cut off (ears.c), triangles merged (merge_triangles.c)
- * 	finish.c           copies everything to one block of memory
- * 	small_polygon.c    does all of this for one small valid polygon; small_pieces.c makes its pieces
- * 	few_corners.c      constants that all rings with few vertices share */
+ *   rings.c            memory for rings
+ *   clean_ring.c       the vertices of a raw ring that are corners
+ *   edge_tree.c        candidate pairs of edges, and edges above a point, without testing all of them
+ *   intersections.c    where rings cross (an error) or touch
+ *   simple.c           a sweep that proves that no edges meet, if boxes do not separate them
+ *   nesting.c          orientation; holes inside outer rings, and not inside each other
+ *   canonical_rings.c  a canonical order of rings, holes and polygons
+ *   repair.c           replaces a polygon by its even-odd set, from the arrangement of arcs.c and even_odd.c
+ *   shape_pieces.c     holes are bridged (bridge.c), ears cut off (ears.c), triangles merged (merge_triangles.c)
+ *   finish.c           copies everything to one block of memory
+ *   small_polygon.c    does all of this for one small valid polygon; small_pieces.c makes its pieces
+ *   few_corners.c      constants that all rings with few vertices share */
 #ifndef SUNDER_I_BUILD_H
 #define SUNDER_I_BUILD_H
 

@@ -2,12 +2,12 @@
  * line between their neighbours are removed; an edge that runs back along the previous one is a spike, and an error. */
 #include "shape/build.h"
 
-static bool same(const double *xy, uint32_t i, uint32_t j)
+static bool same_place(const double *xy, uint32_t i, uint32_t j)
 {
     return xy[2 * (size_t)i] == xy[2 * (size_t)j] && xy[2 * (size_t)i + 1] == xy[2 * (size_t)j + 1];
 }
 
-static int order(const double *xy, uint32_t i, uint32_t j)
+static int vertex_order(const double *xy, uint32_t i, uint32_t j)
 {
     const double *a = xy + 2 * (size_t)i, *b = xy + 2 * (size_t)j;
     if (a[0] != b[0]) return a[0] < b[0] ? -1 : 1;
@@ -15,7 +15,10 @@ static int order(const double *xy, uint32_t i, uint32_t j)
 }
 
 /* Returns whether the path continues beyond b, for collinear a, b, c with a != b != c. */
-static bool goes_on(const double *xy, uint32_t a, uint32_t b, uint32_t c) { return order(xy, a, b) == order(xy, b, c); }
+static bool goes_on(const double *xy, uint32_t a, uint32_t b, uint32_t c)
+{
+    return vertex_order(xy, a, b) == vertex_order(xy, b, c);
+}
 
 /* Returns why there is no ring: fewer than three positions, all on one line, or `otherwise`. Rarely called. */
 static sunder_i_fault why_degenerate(sunder_i_lattice *lattice, const double *xy, const sunder_i_point *at, uint32_t lo,
@@ -25,10 +28,10 @@ static sunder_i_fault why_degenerate(sunder_i_lattice *lattice, const double *xy
     bool spread = false;
     for (uint32_t i = lo; i < hi; i++) {
         if (second == lo) {
-            if (!same(xy, i, lo)) second = i;
+            if (!same_place(xy, i, lo)) second = i;
             continue;
         }
-        if (!same(xy, i, lo) && !same(xy, i, second)) third = i;
+        if (!same_place(xy, i, lo) && !same_place(xy, i, second)) third = i;
         if (sunder_i_orient(lattice, at[lo], at[second], at[i]) != 0) spread = true;
     }
     if (third == lo) return SUNDER_I_FEW;
@@ -40,7 +43,7 @@ uint32_t sunder_i_clean_ring(sunder_i_lattice *lattice, const double *xy, const 
 {
     uint32_t m = 0, first = 0, spike = SUNDER_I_NONE;
     for (uint32_t i = lo; i < hi && spike == SUNDER_I_NONE; i++) {
-        if (m && same(xy, keep[m - 1], i)) continue;
+        if (m && same_place(xy, keep[m - 1], i)) continue;
         /* The previous corner may turn out to be on a straight line; then the one before it is not, so that one test
          * suffices: without b, the edge a -> i has the direction of a -> b. */
         if (m >= 2 && sunder_i_orient_inline(lattice, at[keep[m - 2]], at[keep[m - 1]], at[i]) == 0) {
@@ -51,7 +54,7 @@ uint32_t sunder_i_clean_ring(sunder_i_lattice *lattice, const double *xy, const 
         }
         keep[m++] = i;
     }
-    while (m > 1 && same(xy, keep[m - 1], keep[0])) m--;
+    while (m > 1 && same_place(xy, keep[m - 1], keep[0])) m--;
     /* the seam: the last and the first corner, alternately */
     while (m - first >= 3 && spike == SUNDER_I_NONE) {
         if (sunder_i_orient_inline(lattice, at[keep[m - 2]], at[keep[m - 1]], at[keep[first]]) == 0) {

@@ -3,15 +3,16 @@
  * The test of an ear is exact for rings that touch, for the following reasons. Each vertex of the cleaned form
  * represents one sector of the interior; several may have one position, and their sectors are disjoint. A vertex
  * touches the inner side of an edge only if it is an end of it. Then a vertex b between a and c is an ear exactly if a,
- * b, c turn left and no vertex that is not strictly convex is in the open triangle or inside the side ca: - a boundary
- * edge that enters the open triangle has an end there, since it cannot cross ab or bc, and of the vertices in the
- * triangle the one farthest from the line ca has all its edges on the side of ca: it is not convex; - other vertices at
- * the positions of a, b, c have sectors of their own, so that an edge of theirs that enters the triangle is of that
- * kind, and these vertices need no test; - a vertex inside ca would touch the new edge from inside, so that the cut is
- * not allowed; if its sector does not face the triangle, the triangle is not interior there and another vertex excludes
- * the cut; - vertices on ab or bc touch from outside and do not matter. Cutting keeps all this true of the rest, and a
- * polygon with more than three vertices has an ear [Mei75]. Vertices may become straight; these are no ears, but
- * exclude others, until they become convex.
+ * b, c turn left and no vertex that is not strictly convex is in the open triangle or inside the side ca:
+ *   - a boundary edge that enters the open triangle has an end there, since it cannot cross ab or bc, and of the
+ *     vertices in the triangle the one farthest from the line ca has all its edges on the side of ca: it is not convex;
+ *   - other vertices at the positions of a, b, c have sectors of their own, so that an edge of theirs that enters the
+ *     triangle is an edge as in the first case, and these vertices need no test;
+ *   - a vertex inside ca would touch the new edge from inside, so that the cut is not allowed; if its sector does not
+ *     face the triangle, the triangle is not interior there and another vertex excludes the cut;
+ *   - vertices on ab or bc touch from outside and do not matter.
+ * Cutting keeps all this true of the rest, and a polygon with more than three vertices has an ear [Mei75]. Vertices may
+ * become straight; these are no ears, but exclude others, until they become convex.
  *
  * Convex vertices are processed in rounds; in one round no two neighbours are cut, so that triangles do not form fans
  * about one vertex. Vertices that are not convex cost nothing until they become convex, and then stay convex. Until
@@ -50,9 +51,9 @@ typedef struct cutter {
     sunder_i_box_tree tree; /* the tree over the list; tree.box is NULL if there is none */
 } cutter;
 
-static const double *place(const cutter *c, uint32_t node) { return c->r->xy + 2 * (size_t)c->walk->vertex[node]; }
+static const double *place_of(const cutter *c, uint32_t node) { return c->r->xy + 2 * (size_t)c->walk->vertex[node]; }
 
-static int turn(const cutter *c, uint32_t a, uint32_t b, uint32_t d)
+static int node_turn(const cutter *c, uint32_t a, uint32_t b, uint32_t d)
 {
     return sunder_i_rings_orient(c->r, c->walk->vertex[a], c->walk->vertex[b], c->walk->vertex[d]);
 }
@@ -60,7 +61,7 @@ static int turn(const cutter *c, uint32_t a, uint32_t b, uint32_t d)
 static void add_node(const void *of, size_t i, double box[4])
 {
     const cutter *c = of;
-    sunder_i_box_include(box, place(c, c->list[i]));
+    sunder_i_box_include(box, place_of(c, c->list[i]));
 }
 
 /* Removes the nodes that are no longer blunt from the list and builds a tree of the rest, LEAF nodes in a leaf. */
@@ -100,7 +101,7 @@ static inline bool right_of(const double box[4], const side *s)
 
 static void find_sides(const cutter *c, triangle *t)
 {
-    const double *corner[3] = {place(c, t->a), place(c, t->b), place(c, t->c)};
+    const double *corner[3] = {place_of(c, t->a), place_of(c, t->b), place_of(c, t->c)};
     for (int k = 0; k < 3; k++) {
         const double *p = corner[k], *q = corner[(k + 1) % 3], dx = q[0] - p[0], dy = q[1] - p[1];
         t->side[k] = (side){p[0], p[1], dx, dy, dy > 0 ? 0 : 2, dx > 0 ? 3 : 1};
@@ -119,21 +120,21 @@ static inline bool is_beside(const cutter *c, triangle *t, const double box[4])
     return false;
 }
 
-static bool misses(const cutter *c, triangle *t, const double box[4])
+static bool misses_box(const cutter *c, triangle *t, const double box[4])
 {
     return !sunder_i_box_meet(box, t->box) || is_beside(c, t, box);
 }
 
 /* Returns whether this node, if blunt, excludes the cut. */
-static bool blocks(const cutter *c, triangle *t, uint32_t node)
+static bool blocks_ear(const cutter *c, triangle *t, uint32_t node)
 {
     if (node == t->a || node == t->b || node == t->c || c->state[node] != BLUNT) return false;
-    const double *p = place(c, node);
+    const double *p = place_of(c, node);
     if (p[0] < t->box[0] || p[0] > t->box[2] || p[1] < t->box[1] || p[1] > t->box[3]) return false;
     /* with native integers the exact tests are as fast as those in doubles */
     if (!c->r->lattice->narrow && is_beside(c, t, (const double[4]){p[0], p[1], p[0], p[1]})) return false;
-    if (turn(c, t->a, t->b, node) <= 0 || turn(c, t->b, t->c, node) <= 0) return false;
-    return turn(c, t->c, t->a, node) >= 0;
+    if (node_turn(c, t->a, t->b, node) <= 0 || node_turn(c, t->b, t->c, node) <= 0) return false;
+    return node_turn(c, t->c, t->a, node) >= 0;
 }
 
 static bool is_free(const cutter *c, triangle *t)
@@ -141,14 +142,14 @@ static bool is_free(const cutter *c, triangle *t)
     sunder_i_box_walk walk;
     sunder_i_box_walk_start(&walk, &c->tree);
     for (size_t b; sunder_i_box_walk_next(&walk, &b);) {
-        if (misses(c, t, c->tree.box[b])) continue;
+        if (misses_box(c, t, c->tree.box[b])) continue;
         if (b < c->tree.leaves) {
             sunder_i_box_walk_open(&walk, 2 * b + 1, 2 * b);
             continue;
         }
         const size_t end = sunder_i_box_tree_end(&c->tree, b);
         for (size_t i = sunder_i_box_tree_first(&c->tree, b); i < end; i++)
-            if (blocks(c, t, c->list[i])) return false;
+            if (blocks_ear(c, t, c->list[i])) return false;
     }
     return true;
 }
@@ -161,12 +162,12 @@ static bool is_ear(const cutter *c, uint32_t b)
     t.c = c->walk->next[b];
     t.sided = false;
     sunder_i_box_clear(t.box);
-    sunder_i_box_include(t.box, place(c, t.a));
-    sunder_i_box_include(t.box, place(c, t.b));
-    sunder_i_box_include(t.box, place(c, t.c));
+    sunder_i_box_include(t.box, place_of(c, t.a));
+    sunder_i_box_include(t.box, place_of(c, t.b));
+    sunder_i_box_include(t.box, place_of(c, t.c));
     if (c->tree.box) return is_free(c, &t);
     for (uint32_t i = 0; i < c->listed; i++)
-        if (blocks(c, &t, c->list[i])) return false;
+        if (blocks_ear(c, &t, c->list[i])) return false;
     return true;
 }
 
@@ -205,16 +206,16 @@ static uint32_t add_triangle(cutter *c, uint32_t b)
 }
 
 /* Updates a neighbour of a cut vertex: it may have become convex, and is not cut in this round. */
-static void refresh(cutter *c, uint32_t node)
+static void refresh_neighbour(cutter *c, uint32_t node)
 {
     c->stamp[node] = c->round;
-    if (c->state[node] != BLUNT || turn(c, c->walk->prev[node], node, c->walk->next[node]) <= 0) return;
+    if (c->state[node] != BLUNT || node_turn(c, c->walk->prev[node], node, c->walk->next[node]) <= 0) return;
     c->state[node] = CONVEX;
     c->live--;
     c->turn[1][c->turn_n++] = node;
 }
 
-static void cut(cutter *c, uint32_t b)
+static void cut_ear(cutter *c, uint32_t b)
 {
     const uint32_t a = c->walk->prev[b], d = c->walk->next[b], h = add_triangle(c, b);
     c->walk->beyond[a] = h + 2;
@@ -222,8 +223,8 @@ static void cut(cutter *c, uint32_t b)
     c->walk->next[a] = d;
     c->walk->prev[d] = a;
     c->state[b] = CUT;
-    refresh(c, a);
-    refresh(c, d);
+    refresh_neighbour(c, a);
+    refresh_neighbour(c, d);
 }
 
 static void cut_all(cutter *c)
@@ -245,7 +246,7 @@ static void cut_all(cutter *c)
             }
             if (left > 3 && c->stamp[node] != c->round && is_ear(c, node)) {
                 last = c->walk->prev[node];
-                cut(c, node);
+                cut_ear(c, node);
                 left--;
             } else {
                 c->turn[1][c->turn_n++] = node;
@@ -264,7 +265,7 @@ static void cut_all(cutter *c)
  * many holes may come in any order, and the vertices of spikes alternate between near and far. The test compares the
  * boxes of the leaves with those of points along a space-filling curve, which are as wide as the cells of a grid with
  * the same number of cells; more than twice that is bad. */
-static bool strays(const cutter *c)
+static bool order_strays(const cutter *c)
 {
     double all[4], sum = 0;
     sunder_i_box_clear(all);
@@ -291,7 +292,7 @@ void sunder_i_ears_cut(const sunder_i_rings *r, sunder_i_walk *walk, uint32_t *b
     c.turn[0] = block + 2 * n;
     c.turn[1] = block + 3 * n;
     for (uint32_t i = 0; i < n; i++) {
-        c.state[i] = turn(&c, walk->prev[i], i, walk->next[i]) > 0 ? CONVEX : BLUNT;
+        c.state[i] = node_turn(&c, walk->prev[i], i, walk->next[i]) > 0 ? CONVEX : BLUNT;
         c.stamp[i] = 0;
         if (c.state[i] == BLUNT)
             c.list[c.listed++] = i;
@@ -303,7 +304,8 @@ void sunder_i_ears_cut(const sunder_i_rings *r, sunder_i_walk *walk, uint32_t *b
         c.tree = sunder_i_box_tree_of(c.listed, LEAF);
         c.tree.box = sunder_i_arena_alloc(arena, 2 * c.tree.leaves, sizeof *c.tree.box);
         if (!c.tree.box) return;
-        if (bridges > FEW_BRIDGES || strays(&c)) sunder_i_curve_sort(r->xy, walk->vertex, c.list, c.listed, arena);
+        if (bridges > FEW_BRIDGES || order_strays(&c))
+            sunder_i_curve_sort(r->xy, walk->vertex, c.list, c.listed, arena);
         if (arena->failed) return;
     }
     cut_all(&c);

@@ -5,10 +5,10 @@
  * to top; the number of arcs below an arc determines its inner side. Arcs are then directed with the inside on the
  * left. Around a point inside and outside alternate:
  *
- *   \ in      / out        an arc that comes in has the inside next to it in clockwise direction, and the next arc
- *   o  \   i   /  o          clockwise goes out: the two bound one sector of the interior, and the boundary continues
- *    \   /               from one to the other. So rings touch in points only, and a vertex represents one
- *    p                 sector.
+ *        \ in      / out        an arc that comes in has the inside next to it in clockwise direction, and the next
+ *      o  \   i   /  o          arc clockwise goes out: the two bound one sector of the interior, and the boundary
+ *           \   /               continues from one to the other. So rings touch in points only, and a vertex
+ *             p                 represents one sector.
  *
  * The first arc of a ring, in the order by lo and then from the bottom, begins at the ring's smallest point. The ring
  * is an outer one if the inside is above this arc; else it is a hole of the polygon whose ring is next below. */
@@ -27,7 +27,7 @@ typedef struct sweep {
 } sweep;
 
 /* Returns whether point p is above the line of the arc (+1), below it (-1), or its right end (0). */
-static int side(const sweep *s, uint32_t arc, uint32_t p)
+static int side_of_arc(const sweep *s, uint32_t arc, uint32_t p)
 {
     const sunder_i_arc *a = &s->in->arc[arc];
     if (a->hi == p) return 0;
@@ -44,12 +44,12 @@ static int side(const sweep *s, uint32_t arc, uint32_t p)
 }
 
 /* Returns the number of active arcs below p. */
-static uint32_t rank(const sweep *s, uint32_t p)
+static uint32_t rank_of_point(const sweep *s, uint32_t p)
 {
     uint32_t lo = 0, hi = s->active;
     while (lo < hi) {
         const uint32_t mid = lo + (hi - lo) / 2;
-        if (side(s, s->status[mid], p) > 0)
+        if (side_of_arc(s, s->status[mid], p) > 0)
             lo = mid + 1;
         else
             hi = mid;
@@ -58,9 +58,9 @@ static uint32_t rank(const sweep *s, uint32_t p)
 }
 
 /* Processes point p: removes the arcs that end there, and inserts the arcs first .. last that begin there. */
-static void pass(sweep *s, uint32_t p, uint32_t first, uint32_t last)
+static void pass_point(sweep *s, uint32_t p, uint32_t first, uint32_t last)
 {
-    const uint32_t at = rank(s, p), starts = last - first;
+    const uint32_t at = rank_of_point(s, p), starts = last - first;
     uint32_t ends = 0;
     while (at + ends < s->active && s->in->arc[s->status[at + ends]].hi == p) ends++;
     uint32_t n = 0;
@@ -81,7 +81,7 @@ static void pass(sweep *s, uint32_t p, uint32_t first, uint32_t last)
 }
 
 /* Processes the points in order; only those with arcs of odd multiplicity matter. Returns false if out of memory. */
-static bool run(sweep *s, sunder_i_arena *arena)
+static bool run_sweep(sweep *s, sunder_i_arena *arena)
 {
     const uint32_t n = s->in->arcs;
     uint32_t *block = sunder_i_arena_alloc(arena, 4 * (size_t)n, sizeof *block);
@@ -96,7 +96,7 @@ static bool run(sweep *s, sunder_i_arena *arena)
     for (uint32_t i = 0; i < n; i++) meets[s->in->arc[i].lo] = meets[s->in->arc[i].hi] = true;
     for (uint32_t p = 0, first = 0, last = 0; p < s->in->points; p++, first = last) {
         while (last < n && s->in->arc[last].lo == p) last++;
-        if (meets[p]) pass(s, p, first, last);
+        if (meets[p]) pass_point(s, p, first, last);
     }
     return !s->r->lattice->arena.failed;
 }
@@ -132,7 +132,7 @@ static void write_ring(const sweep *s, uint32_t first, sunder_i_even_odd *out)
     out->ring_end[out->rings++] = out->points;
 }
 
-static bool collect(const sweep *s, sunder_i_arena *arena, sunder_i_even_odd *out)
+static bool collect_rings(const sweep *s, sunder_i_arena *arena, sunder_i_even_odd *out)
 {
     const uint32_t n = s->in->arcs;
     uint32_t *of = sunder_i_arena_alloc(arena, n, sizeof *of); /* the ring of each arc */
@@ -177,7 +177,7 @@ bool sunder_i_even_odd_find(const sunder_i_rings *r, sunder_i_arena *arena, sund
     sunder_i_arcs arcs;
     if (!sunder_i_arcs_find(r, arena, &arcs)) return false;
     sweep s = {.r = r, .in = &arcs};
-    if (!run(&s, arena) || !collect(&s, arena, out)) return false;
+    if (!run_sweep(&s, arena) || !collect_rings(&s, arena, out)) return false;
     out->made = arcs.made;
     out->makes = arcs.makes;
     return !r->lattice->arena.failed;

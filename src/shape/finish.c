@@ -7,7 +7,7 @@
 #include <string.h>
 
 /* Takes n elements from the block and returns their address; with block NULL it only counts. */
-static void *carve(unsigned char *block, size_t *used, size_t n, size_t size)
+static void *carve_array(unsigned char *block, size_t *used, size_t n, size_t size)
 {
     void *at = block ? block + *used : NULL;
     *used += n * size;
@@ -40,8 +40,8 @@ static bool is_identity(const uint32_t *number, uint32_t n)
     return true;
 }
 
-static layout plan(const double *xy, const size_t *ring_end, const size_t *poly_end, size_t polygons,
-                   const sunder_i_rings *r, const sunder_i_pieces *pieces)
+static layout plan_layout(const double *xy, const size_t *ring_end, const size_t *poly_end, size_t polygons,
+                          const sunder_i_rings *r, const sunder_i_pieces *pieces)
 {
     layout l = {.raw_rings = polygons ? poly_end[polygons - 1] : 0,
                 .raw_polygons = (uint32_t)polygons,
@@ -68,14 +68,14 @@ typedef struct arrays {
 static void lay_out_rings(sunder_shape *s, unsigned char *block, size_t *used, const layout *l,
                           const sunder_i_cleaned *head, arrays *to)
 {
-    sunder_i_numbers *numbers = l->numbers ? carve(block, used, 1, sizeof *numbers) : NULL;
-    sunder_i_form *form = carve(block, used, 1, sizeof *form);
-    to->given_ring_end = carve(block, used, l->raw_rings, sizeof *to->given_ring_end);
-    to->given_poly_end = carve(block, used, l->raw_polygons, sizeof *to->given_poly_end);
-    to->ring_end = carve(block, used, head->rings, sizeof *to->ring_end);
-    to->poly_end = carve(block, used, head->polygons, sizeof *to->poly_end);
-    to->next = carve(block, used, s->vertices, sizeof *to->next);
-    to->prev = carve(block, used, s->vertices, sizeof *to->prev);
+    sunder_i_numbers *numbers = l->numbers ? carve_array(block, used, 1, sizeof *numbers) : NULL;
+    sunder_i_form *form = carve_array(block, used, 1, sizeof *form);
+    to->given_ring_end = carve_array(block, used, l->raw_rings, sizeof *to->given_ring_end);
+    to->given_poly_end = carve_array(block, used, l->raw_polygons, sizeof *to->given_poly_end);
+    to->ring_end = carve_array(block, used, head->rings, sizeof *to->ring_end);
+    to->poly_end = carve_array(block, used, head->polygons, sizeof *to->poly_end);
+    to->next = carve_array(block, used, s->vertices, sizeof *to->next);
+    to->prev = carve_array(block, used, s->vertices, sizeof *to->prev);
     if (!block) return;
     if (numbers) *numbers = (sunder_i_numbers){0};
     *form =
@@ -93,10 +93,10 @@ static size_t lay_out(sunder_shape *s, unsigned char *block, const layout *l, co
 {
     size_t used = sizeof *s + 2 * l->raw_vertices * sizeof *s->raw_xy;
     *to = (arrays){0};
-    double *xy = l->clean ? NULL : carve(block, &used, 2 * (size_t)s->vertices, sizeof *s->xy);
+    double *xy = l->clean ? NULL : carve_array(block, &used, 2 * (size_t)s->vertices, sizeof *s->xy);
     if (!l->few) lay_out_rings(s, block, &used, l, head, to);
-    if (!l->whole) to->piece_end = carve(block, &used, (size_t)s->pieces + l->corners, sizeof *to->piece_end);
-    if (!l->few) to->shared = carve(block, &used, s->vertices, sizeof *to->shared);
+    if (!l->whole) to->piece_end = carve_array(block, &used, (size_t)s->pieces + l->corners, sizeof *to->piece_end);
+    if (!l->few) to->shared = carve_array(block, &used, s->vertices, sizeof *to->shared);
     if (!block) return used;
     s->xy = l->clean ? s->raw_xy : xy;
     s->piece_end = l->whole ? sunder_i_few_whole(s->vertices) : to->piece_end;
@@ -108,14 +108,14 @@ static size_t lay_out(sunder_shape *s, unsigned char *block, const layout *l, co
     return used;
 }
 
-static void copy(void *to, const void *from, size_t n, size_t size)
+static void copy_array(void *to, const void *from, size_t n, size_t size)
 {
     if (n) memcpy(to, from, n * size);
 }
 
 /* Allocates the shape with its arrays and copies the pieces; NULL if out of memory. */
-static sunder_shape *allocate(uint32_t vertices, const sunder_i_pieces *pieces, const layout *l,
-                              const sunder_i_cleaned *head, arrays *to)
+static sunder_shape *allocate_shape(uint32_t vertices, const sunder_i_pieces *pieces, const layout *l,
+                                    const sunder_i_cleaned *head, arrays *to)
 {
     sunder_shape counted = {.vertices = vertices, .pieces = pieces->pieces};
     sunder_shape *s = sunder_i_alloc(lay_out(&counted, NULL, l, head, to), 1);
@@ -123,28 +123,28 @@ static sunder_shape *allocate(uint32_t vertices, const sunder_i_pieces *pieces, 
     *s = counted;
     lay_out(s, (unsigned char *)s, l, head, to);
     if (l->whole) return s;
-    copy(to->piece_end, pieces->piece_end, pieces->pieces, sizeof *pieces->piece_end);
-    copy(to->piece_end + pieces->pieces, pieces->piece_vertex, pieces->corners, sizeof *pieces->piece_vertex);
+    copy_array(to->piece_end, pieces->piece_end, pieces->pieces, sizeof *pieces->piece_end);
+    copy_array(to->piece_end + pieces->pieces, pieces->piece_vertex, pieces->corners, sizeof *pieces->piece_vertex);
     return s;
 }
 
 sunder_shape *sunder_i_shape_assemble(const double *xy, const size_t *ring_end, const size_t *poly_end, size_t polygons,
                                       const sunder_i_rings *r, const sunder_i_pieces *pieces)
 {
-    const layout l = plan(xy, ring_end, poly_end, polygons, r, pieces);
+    const layout l = plan_layout(xy, ring_end, poly_end, polygons, r, pieces);
     const sunder_i_cleaned head = {.rings = r->rings, .polygons = r->polygons};
     arrays to;
-    sunder_shape *s = allocate(r->vertices, pieces, &l, &head, &to);
+    sunder_shape *s = allocate_shape(r->vertices, pieces, &l, &head, &to);
     if (!s) return NULL;
-    copy(s->raw_xy, xy, 2 * l.raw_vertices, sizeof *xy);
-    if (!l.clean) copy(s->xy, r->xy, 2 * (size_t)r->vertices, sizeof *r->xy);
+    copy_array(s->raw_xy, xy, 2 * l.raw_vertices, sizeof *xy);
+    if (!l.clean) copy_array(s->xy, r->xy, 2 * (size_t)r->vertices, sizeof *r->xy);
     if (l.few) return s;
-    copy(to.given_ring_end, ring_end, l.raw_rings, sizeof *ring_end);
-    copy(to.given_poly_end, poly_end, polygons, sizeof *poly_end);
-    copy(to.ring_end, r->ring_end, r->rings, sizeof *r->ring_end);
-    copy(to.poly_end, r->poly_end, r->polygons, sizeof *r->poly_end);
-    copy(to.next, r->next, r->vertices, sizeof *r->next);
-    copy(to.prev, r->prev, r->vertices, sizeof *r->prev);
+    copy_array(to.given_ring_end, ring_end, l.raw_rings, sizeof *ring_end);
+    copy_array(to.given_poly_end, poly_end, polygons, sizeof *poly_end);
+    copy_array(to.ring_end, r->ring_end, r->rings, sizeof *r->ring_end);
+    copy_array(to.poly_end, r->poly_end, r->polygons, sizeof *r->poly_end);
+    copy_array(to.next, r->next, r->vertices, sizeof *r->next);
+    copy_array(to.prev, r->prev, r->vertices, sizeof *r->prev);
     return s;
 }
 
@@ -182,7 +182,7 @@ static bool *own_marks(sunder_shape *s)
 void sunder_i_shape_copy_shared(sunder_shape *shape, const bool *shared)
 {
     bool *own = own_marks(shape);
-    if (own) copy(own, shared, shape->vertices, sizeof *own);
+    if (own) copy_array(own, shared, shape->vertices, sizeof *own);
 }
 
 void sunder_i_shape_mark_none_shared(sunder_shape *shape)

@@ -80,7 +80,7 @@ sunder_status sunder_i_fail_problem(const sunder_i_input *in, const sunder_i_pro
 }
 
 /* Returns whether no end is less than the previous one. */
-static bool ascending(const size_t *end, size_t n)
+static bool is_ascending(const size_t *end, size_t n)
 {
     for (size_t i = 1; i < n; i++)
         if (end[i] < end[i - 1]) return false;
@@ -92,7 +92,7 @@ static bool ascending(const size_t *end, size_t n)
 static sunder_status read_input(sunder_i_input *in, sunder_error *err)
 {
     const size_t rings = in->polygons ? in->poly_end[in->polygons - 1] : 0;
-    if (!ascending(in->poly_end, in->polygons) || !ascending(in->ring_end, rings))
+    if (!is_ascending(in->poly_end, in->polygons) || !is_ascending(in->ring_end, rings))
         return sunder_i_fail(err, SUNDER_EARG, "a ring or polygon ends before the one that it follows");
     in->vertices = rings ? in->ring_end[rings - 1] : 0;
     in->rings = rings;
@@ -239,7 +239,7 @@ static bool all_kept(const builder *b)
 }
 
 /* Sets coordinates, box and marks of the assembled shape. Returns false if out of memory. */
-static bool complete(builder *b, sunder_shape *s)
+static bool complete_shape(builder *b, sunder_shape *s)
 {
     s->repaired = b->repaired;
     s->touches = b->touches;
@@ -257,7 +257,7 @@ static bool complete(builder *b, sunder_shape *s)
     return sunder_i_shape_mark_shared(s, &b->arena);
 }
 
-static sunder_status build(builder *b, sunder_shape **out, sunder_error *err)
+static sunder_status build_shape(builder *b, sunder_shape **out, sunder_error *err)
 {
     const sunder_i_input *in = b->in;
     if (!place_input(b)) return sunder_i_no_memory(err);
@@ -271,7 +271,7 @@ static sunder_status build(builder *b, sunder_shape **out, sunder_error *err)
     if (!sunder_i_pieces_find(&b->r, &b->arena, &pieces)) return sunder_i_no_memory(err);
     sunder_shape *s = sunder_i_shape_assemble(in->xy, in->ring_end, in->poly_end, in->polygons, &b->r, &pieces);
     if (!s) return sunder_i_no_memory(err);
-    if (!complete(b, s)) {
+    if (!complete_shape(b, s)) {
         sunder_shape_free(s);
         return sunder_i_no_memory(err);
     }
@@ -298,7 +298,7 @@ sunder_status sunder_shape_from_rings(const double *xy, const size_t *ring_end, 
     _Alignas(16) unsigned char memory[SMALL_BYTES]; /* sufficient for a building */
     builder b = {.in = &in, .validity = validity};
     sunder_i_arena_init_on(&b.arena, memory, sizeof memory);
-    status = build(&b, out, err);
+    status = build_shape(&b, out, err);
     sunder_i_lattice_free(&b.lattice);
     sunder_i_free(b.made.point);
     sunder_i_arena_free(&b.arena);

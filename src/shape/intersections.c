@@ -28,7 +28,7 @@ typedef struct finder {
     size_t left; /* the number of pairs that may still be tested */
 } finder;
 
-static bool report(finder *c, sunder_i_fault fault, uint32_t e, uint32_t f)
+static bool report_fault(finder *c, sunder_i_fault fault, uint32_t e, uint32_t f)
 {
     /* the later edge is named first, so that "crosses segment 4" refers to an earlier one */
     c->problem->fault = fault;
@@ -47,17 +47,18 @@ static bool same_direction(const sunder_i_rings *r, uint32_t p, uint32_t u, uint
 
 /* Tests two paths through the position of p, u1 -> p -> w1 and u2 -> p -> w2. If the second one changes sides of the
  * first it sets the problem and returns false. */
-static bool touch(finder *c, uint32_t e, uint32_t f, uint32_t p, uint32_t u1, uint32_t w1, uint32_t u2, uint32_t w2)
+static bool visit_touch(finder *c, uint32_t e, uint32_t f, uint32_t p, uint32_t u1, uint32_t w1, uint32_t u2,
+                        uint32_t w2)
 {
     c->touches = true;
     if (sunder_i_in_wedge(c->r, p, u1, w1, u2) == sunder_i_in_wedge(c->r, p, u1, w1, w2)) return true;
     const bool overlap = same_direction(c->r, p, u1, u2) || same_direction(c->r, p, u1, w2) ||
                          same_direction(c->r, p, w1, u2) || same_direction(c->r, p, w1, w2);
-    return report(c, overlap ? SUNDER_I_OVERLAPS : SUNDER_I_CROSSES, e, f);
+    return report_fault(c, overlap ? SUNDER_I_OVERLAPS : SUNDER_I_CROSSES, e, f);
 }
 
 /* Tests two collinear edges. */
-static bool collinear(finder *c, uint32_t e, uint32_t f)
+static bool visit_collinear(finder *c, uint32_t e, uint32_t f)
 {
     const sunder_i_rings *r = c->r;
     uint32_t a = e, b = r->next[e], g = f, h = r->next[f];
@@ -66,13 +67,13 @@ static bool collinear(finder *c, uint32_t e, uint32_t f)
     if (sunder_i_rings_cmp(r, g, h) > 0) swap = g, g = h, h = swap;
     const uint32_t low = sunder_i_rings_cmp(r, a, g) > 0 ? a : g, high = sunder_i_rings_cmp(r, b, h) < 0 ? b : h;
     const int order = sunder_i_rings_cmp(r, low, high);
-    if (order < 0) return report(c, SUNDER_I_OVERLAPS, e, f);
+    if (order < 0) return report_fault(c, SUNDER_I_OVERLAPS, e, f);
     if (order == 0 && ((low == e && high == f) || (low == f && high == e)))
-        return touch(c, e, f, e, r->prev[e], r->next[e], r->prev[f], r->next[f]);
+        return visit_touch(c, e, f, e, r->prev[e], r->next[e], r->prev[f], r->next[f]);
     return true;
 }
 
-static bool pair(void *user, uint32_t e, uint32_t f)
+static bool visit_pair(void *user, uint32_t e, uint32_t f)
 {
     finder *c = user;
     const sunder_i_rings *r = c->r;
@@ -81,15 +82,15 @@ static bool pair(void *user, uint32_t e, uint32_t f)
     if (b == g || h == a) return true;
     const int og = sunder_i_rings_orient(r, a, b, g), oh = sunder_i_rings_orient(r, a, b, h);
     if (og * oh > 0) return true;
-    if (og == 0 && oh == 0) return collinear(c, e, f);
+    if (og == 0 && oh == 0) return visit_collinear(c, e, f);
     const int oa = sunder_i_rings_orient(r, g, h, a), ob = sunder_i_rings_orient(r, g, h, b);
     if (oa * ob > 0) return true;
-    if (og && oh && oa && ob) return report(c, SUNDER_I_CROSSES, e, f);
+    if (og && oh && oa && ob) return report_fault(c, SUNDER_I_CROSSES, e, f);
     /* The lines cross in one point, which is an end of an edge. First vertices of edges take part in three ways;
      * contacts of second vertices only are found at the edges that begin there. */
-    if (og == 0 && oa == 0) return touch(c, e, f, a, r->prev[a], b, r->prev[g], h);
-    if (og == 0 && ob != 0) return touch(c, e, f, g, r->prev[g], h, a, b);
-    if (oa == 0 && oh != 0) return touch(c, e, f, a, r->prev[a], b, g, h);
+    if (og == 0 && oa == 0) return visit_touch(c, e, f, a, r->prev[a], b, r->prev[g], h);
+    if (og == 0 && ob != 0) return visit_touch(c, e, f, g, r->prev[g], h, a, b);
+    if (oa == 0 && oh != 0) return visit_touch(c, e, f, a, r->prev[a], b, g, h);
     c->touches = true;
     return true;
 }
@@ -103,10 +104,10 @@ static void find_by_tree(finder *c, uint32_t ring_lo, uint32_t ring_hi, const su
                          sunder_i_arena *arena)
 {
     c->left = PAIRS_EACH * tree->boxes.n;
-    if (sunder_i_edge_tree_pairs(tree, c->r, pair, c) || c->problem->fault) return;
+    if (sunder_i_edge_tree_pairs(tree, c->r, visit_pair, c) || c->problem->fault) return;
     if (!c->touches && (sunder_i_rings_simple(c->r, ring_lo, ring_hi, arena) || arena->failed)) return;
     c->left = SIZE_MAX;
-    sunder_i_edge_tree_pairs(tree, c->r, pair, c);
+    sunder_i_edge_tree_pairs(tree, c->r, visit_pair, c);
 }
 
 void sunder_i_intersections_find(const sunder_i_rings *r, uint32_t ring_lo, uint32_t ring_hi,
@@ -128,7 +129,7 @@ void sunder_i_intersections_find(const sunder_i_rings *r, uint32_t ring_lo, uint
                 if ((g[0] > x1 && h[0] > x1) || (g[0] < x0 && h[0] < x0) || (g[1] > y1 && h[1] > y1) ||
                     (g[1] < y0 && h[1] < y0))
                     continue;
-                if (!pair(&c, e, f)) goto done;
+                if (!visit_pair(&c, e, f)) goto done;
             }
         }
     }

@@ -63,7 +63,7 @@ static void count_edge(void *user, uint32_t e)
     if (side > 0) p->winding += e_below ? 1 : -1;
 }
 
-static int winding(probe *p, uint32_t lo, uint32_t hi, const sunder_i_edge_tree *tree)
+static int winding_number(probe *p, uint32_t lo, uint32_t hi, const sunder_i_edge_tree *tree)
 {
     p->winding = 0;
     if (tree) {
@@ -76,7 +76,7 @@ static int winding(probe *p, uint32_t lo, uint32_t hi, const sunder_i_edge_tree 
 
 static uint32_t ring_begin(const sunder_i_rings *r, uint32_t ring) { return ring ? r->ring_end[ring - 1] : 0; }
 
-static void reverse(sunder_i_rings *r, uint32_t lo, uint32_t hi)
+static void reverse_ring(sunder_i_rings *r, uint32_t lo, uint32_t hi)
 {
     for (uint32_t i = lo, j = hi - 1; i < j; i++, j--) {
         const sunder_i_point at = r->at[i];
@@ -97,13 +97,13 @@ void sunder_i_orient_rings(sunder_i_rings *r, uint32_t ring_lo, uint32_t ring_hi
 {
     for (uint32_t ring = ring_lo; ring < ring_hi; ring++) {
         const uint32_t lo = ring_begin(r, ring), hi = r->ring_end[ring];
-        if (probe_ring(r, lo, hi).leaves != (ring == ring_lo)) reverse(r, lo, hi);
+        if (probe_ring(r, lo, hi).leaves != (ring == ring_lo)) reverse_ring(r, lo, hi);
     }
 }
 
 /* Sets *problem to the rule that is broken, by testing the rings one by one. */
-static void explain(const sunder_i_rings *r, uint32_t ring_lo, uint32_t ring_hi, uint32_t ring,
-                    sunder_i_problem *problem)
+static void explain_fault(const sunder_i_rings *r, uint32_t ring_lo, uint32_t ring_hi, uint32_t ring,
+                          sunder_i_problem *problem)
 {
     const uint32_t outer = ring_begin(r, ring_lo);
     for (uint32_t hole = ring == ring_lo ? ring_lo + 1 : ring; hole < ring_hi; hole++) {
@@ -111,10 +111,10 @@ static void explain(const sunder_i_rings *r, uint32_t ring_lo, uint32_t ring_hi,
         problem->vertex = p.v;
         problem->other = outer;
         problem->fault = SUNDER_I_OUTSIDE;
-        if (winding(&p, outer, r->ring_end[ring_lo], NULL) == 0) return;
+        if (winding_number(&p, outer, r->ring_end[ring_lo], NULL) == 0) return;
         problem->fault = SUNDER_I_NESTED;
         for (uint32_t other = ring_lo + 1; other < ring_hi; other++) {
-            if (other == hole || winding(&p, ring_begin(r, other), r->ring_end[other], NULL) == 0) continue;
+            if (other == hole || winding_number(&p, ring_begin(r, other), r->ring_end[other], NULL) == 0) continue;
             problem->other = ring_begin(r, other);
             return;
         }
@@ -126,8 +126,8 @@ void sunder_i_nesting_check(const sunder_i_rings *r, uint32_t ring_lo, uint32_t 
 {
     for (uint32_t ring = ring_lo; ring < ring_hi && ring_hi - ring_lo > 1; ring++) {
         probe p = probe_ring(r, ring_begin(r, ring), r->ring_end[ring]);
-        if (winding(&p, ring_begin(r, ring_lo), r->ring_end[ring_hi - 1], tree) != (ring == ring_lo)) {
-            explain(r, ring_lo, ring_hi, ring, problem);
+        if (winding_number(&p, ring_begin(r, ring_lo), r->ring_end[ring_hi - 1], tree) != (ring == ring_lo)) {
+            explain_fault(r, ring_lo, ring_hi, ring, problem);
             return;
         }
     }

@@ -61,7 +61,7 @@ static bool make_room(sunder_shape *s, sunder_i_form *form, arrays *to)
     return !a->failed;
 }
 
-static void fill(sunder_shape *s, const arrays *to, const sunder_i_piece_of *piece)
+static void fill_arrays(sunder_shape *s, const arrays *to, const sunder_i_piece_of *piece)
 {
     uint32_t at = 0;
     for (uint32_t i = 0; i < s->pieces; i++) {
@@ -81,7 +81,7 @@ static void fill(sunder_shape *s, const arrays *to, const sunder_i_piece_of *pie
 }
 
 /* Sets the box, and a lowest bit for all vertices: for crossings that of the shape they come from. */
-static void measure(sunder_shape *s, const sunder_i_piece_of *piece)
+static void measure_shape(sunder_shape *s, const sunder_i_piece_of *piece)
 {
     sunder_i_extent extent = {0};
     sunder_i_extent_add(&extent, s->xy, s->vertices);
@@ -121,8 +121,8 @@ sunder_status sunder_i_shape_of_pieces(const sunder_i_piece_of *piece, size_t n,
         sunder_shape_free(s);
         return sunder_i_no_memory(err);
     }
-    fill(s, &to, piece);
-    measure(s, piece);
+    fill_arrays(s, &to, piece);
+    measure_shape(s, piece);
     *out = s;
     return SUNDER_OK;
 }

@@ -18,12 +18,15 @@ typedef struct checker {
     uint32_t *polygon; /* the polygon of each vertex */
 } checker;
 
-static int turn(const checker *c, uint32_t a, uint32_t b, uint32_t d)
+static int vertex_turn(const checker *c, uint32_t a, uint32_t b, uint32_t d)
 {
     return sunder_i_orient(c->l, c->at[a], c->at[b], c->at[d]);
 }
 
-static bool same(const checker *c, uint32_t a, uint32_t b) { return sunder_i_point_equal(c->l, c->at[a], c->at[b]); }
+static bool same_place(const checker *c, uint32_t a, uint32_t b)
+{
+    return sunder_i_point_equal(c->l, c->at[a], c->at[b]);
+}
 
 static uint32_t ring_begin(const sunder_shape *s, uint32_t ring)
 {
@@ -64,8 +67,8 @@ static bool boxes_apart(const sunder_shape *s, uint32_t a, uint32_t b, uint32_t 
 static bool in_sector(const checker *c, uint32_t v, uint32_t d)
 {
     const uint32_t u = c->s->form->cleaned.next[v], w = c->s->form->cleaned.prev[v];
-    const bool left = turn(c, v, u, d) >= 0, right = turn(c, v, d, w) >= 0;
-    return turn(c, v, u, w) > 0 ? left && right : left || right;
+    const bool left = vertex_turn(c, v, u, d) >= 0, right = vertex_turn(c, v, d, w) >= 0;
+    return vertex_turn(c, v, u, w) > 0 ? left && right : left || right;
 }
 
 static const char *check_edge_pair(const checker *c, uint32_t e, uint32_t f)
@@ -78,13 +81,14 @@ static const char *check_edge_pair(const checker *c, uint32_t e, uint32_t f)
     case SUNDER_I_OVERLAP: return "edges share a piece";
     case SUNDER_I_END_INSIDE:
         /* allowed only from outside: the edges of the vertex are on the right */
-        if (turn(c, a, b, g) == 0 && !same(c, g, a) && !same(c, g, b) && turn(c, a, b, h) > 0)
+        if (vertex_turn(c, a, b, g) == 0 && !same_place(c, g, a) && !same_place(c, g, b) && vertex_turn(c, a, b, h) > 0)
             return "a vertex touches an edge from inside";
-        if (turn(c, g, h, a) == 0 && !same(c, a, g) && !same(c, a, h) && turn(c, g, h, b) > 0)
+        if (vertex_turn(c, g, h, a) == 0 && !same_place(c, a, g) && !same_place(c, a, h) && vertex_turn(c, g, h, b) > 0)
             return "a vertex touches an edge from inside";
         return NULL;
     default:
-        if (same(c, a, g) && (in_sector(c, a, h) || in_sector(c, a, s->form->cleaned.prev[g]) || in_sector(c, g, b)))
+        if (same_place(c, a, g) &&
+            (in_sector(c, a, h) || in_sector(c, a, s->form->cleaned.prev[g]) || in_sector(c, g, b)))
             return "sectors at one place overlap";
         return NULL;
     }
@@ -94,7 +98,7 @@ static const char *check_edges(checker *c)
 {
     const sunder_shape *s = c->s;
     for (uint32_t e = 0; e < s->vertices; e++) {
-        if (turn(c, s->form->cleaned.prev[e], e, s->form->cleaned.next[e]) == 0) return "a collinear vertex";
+        if (vertex_turn(c, s->form->cleaned.prev[e], e, s->form->cleaned.next[e]) == 0) return "a collinear vertex";
         for (uint32_t f = e + 1; f < s->vertices && c->polygon[f] == c->polygon[e]; f++) {
             if (s->form->cleaned.next[e] == f || s->form->cleaned.next[f] == e) continue;
             const char *fault = check_edge_pair(c, e, f);
@@ -109,7 +113,7 @@ static const char *check_shared(checker *c)
     const sunder_shape *s = c->s;
     for (uint32_t v = 0; v < s->vertices; v++) {
         bool found = false;
-        for (uint32_t w = 0; w < s->vertices && !found; w++) found = w != v && same(c, v, w);
+        for (uint32_t w = 0; w < s->vertices && !found; w++) found = w != v && same_place(c, v, w);
         if (found != s->form->cleaned.shared[v]) return "shared is wrong";
     }
     return NULL;
@@ -149,7 +153,7 @@ static bool is_convex(const checker *c, const uint32_t *list, uint32_t n)
     uint32_t peaks = 0;
     for (uint32_t i = 0; i < n; i++) {
         const uint32_t a = list[i], b = list[(i + 1) % n], d = list[(i + 2) % n];
-        if (turn(c, a, b, d) <= 0) return false;
+        if (vertex_turn(c, a, b, d) <= 0) return false;
         peaks += sunder_i_point_cmp(c->l, c->at[a], c->at[b]) < 0 && sunder_i_point_cmp(c->l, c->at[b], c->at[d]) > 0;
     }
     return peaks == 1;
@@ -161,7 +165,7 @@ static bool side_separates(const checker *c, const uint32_t *p, uint32_t n, cons
 {
     for (uint32_t i = 0; i < n; i++) {
         uint32_t k = 0;
-        while (k < m && turn(c, p[i], p[(i + 1) % n], q[k]) <= 0) k++;
+        while (k < m && vertex_turn(c, p[i], p[(i + 1) % n], q[k]) <= 0) k++;
         if (k == m) return true;
     }
     return false;

@@ -152,7 +152,7 @@ static void place_doubles(sunder_i_lattice *l, const sunder_shape *shape, const 
     if (shape->rational) place_corners(l, shape, shift, origin, out);
 }
 
-static sunder_status finish(sunder_i_placed *out, sunder_error *err)
+static sunder_status finish_placing(sunder_i_placed *out, sunder_error *err)
 {
     if (!out->lattice.arena.failed) return SUNDER_OK;
     sunder_i_placed_free(out);
@@ -160,7 +160,7 @@ static sunder_status finish(sunder_i_placed *out, sunder_error *err)
 }
 
 /* Reflects q and its origin. */
-static void reflect(sunder_i_placed *placed, uint32_t n)
+static void reflect_operand(sunder_i_placed *placed, uint32_t n)
 {
     for (uint32_t i = 0; i < n; i++) placed->q[i] = sunder_i_point_neg(&placed->lattice, placed->q[i]);
     for (int k = 0; k < 2; k++) placed->origin_q[k] = placed->origin_q[k] == 0 ? 0 : -placed->origin_q[k];
@@ -207,8 +207,8 @@ sunder_status sunder_i_place(const sunder_shape *p, const sunder_shape *q, const
     memcpy(out->origin_q, origin[1], sizeof origin[1]);
     place_doubles(&out->lattice, p, shift[0], out->origin_p, out->p);
     if (q) place_doubles(&out->lattice, q, shift[1], out->origin_q, out->q);
-    if (q && o->reflect_q) reflect(out, q->vertices);
-    status = finish(out, err);
+    if (q && o->reflect_q) reflect_operand(out, q->vertices);
+    status = finish_placing(out, err);
     if (status) return status;
     *result = placed;
     return SUNDER_OK;

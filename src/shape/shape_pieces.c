@@ -18,7 +18,7 @@ static bool is_convex(const sunder_i_rings *r, uint32_t lo, uint32_t hi)
 }
 
 /* Converts the pieces of a mesh to lists of vertices. */
-static void collect(sunder_i_mesh *mesh, sunder_i_pieces *out)
+static void collect_pieces(sunder_i_mesh *mesh, sunder_i_pieces *out)
 {
     for (uint32_t h = 0; h < mesh->halves; h++) {
         if (mesh->origin[h] == SUNDER_I_NONE) continue;
@@ -56,8 +56,8 @@ bool sunder_i_triangulate(const sunder_i_rings *r, uint32_t ring_lo, uint32_t ri
 }
 
 /* Decomposes one polygon: the rings ring_lo .. ring_hi. */
-static void decompose(const sunder_i_rings *r, uint32_t ring_lo, uint32_t ring_hi, sunder_i_arena *arena,
-                      sunder_i_pieces *out)
+static void decompose_polygon(const sunder_i_rings *r, uint32_t ring_lo, uint32_t ring_hi, sunder_i_arena *arena,
+                              sunder_i_pieces *out)
 {
     const uint32_t lo = ring_begin(r, ring_lo), hi = r->ring_end[ring_hi - 1];
     if (ring_hi - ring_lo == 1 && is_convex(r, lo, hi)) {
@@ -69,7 +69,7 @@ static void decompose(const sunder_i_rings *r, uint32_t ring_lo, uint32_t ring_h
     sunder_i_mesh mesh;
     if (!sunder_i_triangulate(r, ring_lo, ring_hi, arena, &mesh)) return;
     sunder_i_mesh_merge(r, &mesh);
-    collect(&mesh, out);
+    collect_pieces(&mesh, out);
     sunder_i_arena_release(arena, mark);
 }
 
@@ -81,6 +81,7 @@ bool sunder_i_pieces_find(const sunder_i_rings *r, sunder_i_arena *arena, sunder
     out->piece_end = sunder_i_arena_alloc(arena, most, sizeof *out->piece_end);
     out->piece_vertex = sunder_i_arena_alloc(arena, 3 * most, sizeof *out->piece_vertex);
     if (arena->failed) return false;
-    for (uint32_t p = 0; p < r->polygons; p++) decompose(r, p ? r->poly_end[p - 1] : 0, r->poly_end[p], arena, out);
+    for (uint32_t p = 0; p < r->polygons; p++)
+        decompose_polygon(r, p ? r->poly_end[p - 1] : 0, r->poly_end[p], arena, out);
     return !arena->failed && !r->lattice->arena.failed;
 }

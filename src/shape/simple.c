@@ -36,7 +36,7 @@ static int by_place(void *context, uint32_t a, uint32_t b)
 }
 
 /* Sets *a and *b to the ends of an edge, *a being the first one in the sweep. */
-static void ends(const sweep *s, uint32_t edge, uint32_t *a, uint32_t *b)
+static void edge_ends(const sweep *s, uint32_t edge, uint32_t *a, uint32_t *b)
 {
     const uint32_t next = s->r->next[edge];
     const bool forwards = s->turn[edge - s->first] < s->turn[next - s->first];
@@ -45,7 +45,7 @@ static void ends(const sweep *s, uint32_t edge, uint32_t *a, uint32_t *b)
 }
 
 /* Returns whether two edges meet except at a common vertex; true for all collinear edges. */
-static bool meet(const sweep *s, uint32_t e, uint32_t f)
+static bool edges_meet(const sweep *s, uint32_t e, uint32_t f)
 {
     const sunder_i_rings *r = s->r;
     const uint32_t a = e, b = r->next[e], g = f, h = r->next[f];
@@ -58,12 +58,12 @@ static bool meet(const sweep *s, uint32_t e, uint32_t f)
 
 static bool neighbours_meet(const sweep *s, uint32_t below, uint32_t above)
 {
-    return below != SUNDER_I_NONE && above != SUNDER_I_NONE && meet(s, s->node[below].edge, s->node[above].edge);
+    return below != SUNDER_I_NONE && above != SUNDER_I_NONE && edges_meet(s, s->node[below].edge, s->node[above].edge);
 }
 
 /* ---- The tree ---- */
 
-static void hang(sweep *s, uint32_t up, uint32_t old, uint32_t n)
+static void hang_node(sweep *s, uint32_t up, uint32_t old, uint32_t n)
 {
     if (up == SUNDER_I_NONE)
         s->root = n;
@@ -75,7 +75,7 @@ static void hang(sweep *s, uint32_t up, uint32_t old, uint32_t n)
 }
 
 /* Rotates node n above its parent. */
-static void rise(sweep *s, uint32_t n)
+static void rotate_up(sweep *s, uint32_t n)
 {
     node *x = s->node + n;
     const uint32_t up = x->up, over = s->node[up].up;
@@ -95,7 +95,7 @@ static void rise(sweep *s, uint32_t n)
 }
 
 /* Inserts a node for the edge between two neighbours. */
-static uint32_t insert(sweep *s, uint32_t edge, uint32_t below, uint32_t above)
+static uint32_t insert_edge(sweep *s, uint32_t edge, uint32_t below, uint32_t above)
 {
     const uint32_t n = edge - s->first;
     node *x = s->node + n;
@@ -113,7 +113,7 @@ static uint32_t insert(sweep *s, uint32_t edge, uint32_t below, uint32_t above)
         x->up = above;
     } else
         s->root = n;
-    while (x->up != SUNDER_I_NONE && s->node[x->up].rank > x->rank) rise(s, n);
+    while (x->up != SUNDER_I_NONE && s->node[x->up].rank > x->rank) rotate_up(s, n);
     return n;
 }
 
@@ -121,19 +121,19 @@ static void take_out(sweep *s, uint32_t n)
 {
     node *x = s->node + n;
     while (x->low != SUNDER_I_NONE && x->high != SUNDER_I_NONE)
-        rise(s, s->node[x->low].rank < s->node[x->high].rank ? x->low : x->high);
-    hang(s, x->up, n, x->low != SUNDER_I_NONE ? x->low : x->high);
+        rotate_up(s, s->node[x->low].rank < s->node[x->high].rank ? x->low : x->high);
+    hang_node(s, x->up, n, x->low != SUNDER_I_NONE ? x->low : x->high);
     if (x->below != SUNDER_I_NONE) s->node[x->below].above = x->above;
     if (x->above != SUNDER_I_NONE) s->node[x->above].below = x->below;
 }
 
 /* Finds the neighbours of a vertex at which no edge has ended. Returns false if the vertex is on an edge. */
-static bool locate(const sweep *s, uint32_t v, uint32_t *below, uint32_t *above)
+static bool locate_vertex(const sweep *s, uint32_t v, uint32_t *below, uint32_t *above)
 {
     *below = *above = SUNDER_I_NONE;
     for (uint32_t n = s->root; n != SUNDER_I_NONE;) {
         uint32_t a, b;
-        ends(s, s->node[n].edge, &a, &b);
+        edge_ends(s, s->node[n].edge, &a, &b);
         const int side = sunder_i_rings_orient(s->r, a, b, v);
         if (side == 0) return false;
         *(side > 0 ? below : above) = n;
@@ -149,9 +149,9 @@ static bool open_corner(sweep *s, uint32_t v)
 {
     uint32_t below, above;
     const int turn = sunder_i_rings_orient(s->r, v, s->r->prev[v], s->r->next[v]);
-    if (turn == 0 || !locate(s, v, &below, &above)) return false;
-    const uint32_t low = insert(s, turn > 0 ? s->r->prev[v] : v, below, above);
-    const uint32_t high = insert(s, turn > 0 ? v : s->r->prev[v], low, above);
+    if (turn == 0 || !locate_vertex(s, v, &below, &above)) return false;
+    const uint32_t low = insert_edge(s, turn > 0 ? s->r->prev[v] : v, below, above);
+    const uint32_t high = insert_edge(s, turn > 0 ? v : s->r->prev[v], low, above);
     return !neighbours_meet(s, below, low) && !neighbours_meet(s, high, above);
 }
 

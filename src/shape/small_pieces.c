@@ -72,7 +72,7 @@ static inline uint32_t add_triangle(cutter *c, uint32_t b)
 }
 
 /* Updates a neighbour of a cut vertex: it may have become convex, and is not cut in this round. */
-static inline void refresh(cutter *c, uint32_t node)
+static inline void refresh_neighbour(cutter *c, uint32_t node)
 {
     c->stamped |= 1u << node;
     if (!(c->blunt >> node & 1) || !sunder_i_small_turns_left(c->w, c->w->prev[node], node, c->w->next[node])) return;
@@ -80,7 +80,7 @@ static inline void refresh(cutter *c, uint32_t node)
     c->later[c->turn_n++] = (uint8_t)node;
 }
 
-static void cut(cutter *c, uint32_t b)
+static void cut_ear(cutter *c, uint32_t b)
 {
     const uint8_t a = c->w->prev[b], d = c->w->next[b];
     const uint32_t h = add_triangle(c, b);
@@ -88,8 +88,8 @@ static void cut(cutter *c, uint32_t b)
     c->m->twin[h + 2] = NONE;
     c->w->next[a] = d;
     c->w->prev[d] = a;
-    refresh(c, a);
-    refresh(c, d);
+    refresh_neighbour(c, a);
+    refresh_neighbour(c, d);
 }
 
 static void cut_all(cutter *c)
@@ -105,7 +105,7 @@ static void cut_all(cutter *c)
             const uint8_t node = now[i];
             if (left > 3 && !(c->stamped >> node & 1) && is_ear(c, node)) {
                 last = c->w->prev[node];
-                cut(c, node);
+                cut_ear(c, node);
                 left--;
             } else {
                 c->later[c->turn_n++] = node;
@@ -117,7 +117,7 @@ static void cut_all(cutter *c)
     link_side(c, h + 2, c->w->next[b]);
 }
 
-static void triangulate(sunder_i_small_walk *w, mesh *m)
+static void triangulate_walk(sunder_i_small_walk *w, mesh *m)
 {
     cutter c;
     c.w = w;
@@ -139,7 +139,7 @@ static inline bool convex_without(const sunder_i_small_walk *w, const mesh *m, u
 }
 
 /* Removes diagonals. Each is tested at the half-edge made first; a diagonal is the third side of a triangle. */
-static void merge(const sunder_i_small_walk *w, mesh *m)
+static void merge_triangles(const sunder_i_small_walk *w, mesh *m)
 {
     const uint32_t first = w->bridges ? 0 : 2, step = w->bridges ? 1 : 3;
     for (uint32_t h = first; h < m->halves; h += step) {
@@ -155,7 +155,7 @@ static void merge(const sunder_i_small_walk *w, mesh *m)
     }
 }
 
-static void collect(const sunder_i_small_walk *w, mesh *m, sunder_i_pieces *out)
+static void collect_pieces(const sunder_i_small_walk *w, mesh *m, sunder_i_pieces *out)
 {
     uint32_t corners = 0, pieces = 0;
     for (uint32_t h = 0; h < m->halves; h++) {
@@ -173,7 +173,7 @@ static void collect(const sunder_i_small_walk *w, mesh *m, sunder_i_pieces *out)
 void sunder_i_small_pieces(sunder_i_small_walk *walk, sunder_i_pieces *out)
 {
     mesh m;
-    triangulate(walk, &m);
-    merge(walk, &m);
-    collect(walk, &m, out);
+    triangulate_walk(walk, &m);
+    merge_triangles(walk, &m);
+    collect_pieces(walk, &m, out);
 }

@@ -41,7 +41,7 @@ static size_t corners_of(const double *xy, size_t lo, size_t hi)
 
 /* Returns whether there are few enough vertices, all of them integers below 2^60 in one unit, so that turns are
  * computed in native integers. Each hole needs two more nodes. */
-static bool measure(polygon *p)
+static bool measure_input(polygon *p)
 {
     const sunder_i_input *in = p->in;
     if (in->polygons != 1 || in->rings < 1 || in->rings > MOST_RINGS || in->vertices > MOST + MOST_RINGS) return false;
@@ -160,7 +160,7 @@ static inline bool on_one_side(bool brief, sunder_i_point e, sunder_i_point u, s
 
 /* Returns whether the edges e and f, which are not consecutive, certainly have no common point. Collinear edges count
  * as meeting: if they are disjoint their boxes are, too, and they are not tested. */
-static bool apart(const sunder_i_small_walk *w, uint32_t e, uint32_t f)
+static bool edges_apart(const sunder_i_small_walk *w, uint32_t e, uint32_t f)
 {
     const sunder_i_point a = w->at[e], b = w->at[w->next[e]], g = w->at[f], h = w->at[w->next[f]];
     const sunder_i_point ab = sunder_i_narrow_sub(b, a), gh = sunder_i_narrow_sub(h, g);
@@ -237,7 +237,7 @@ static bool is_simple(const polygon *p)
     for (uint32_t e = 0; e + 1 < w->nodes; e++) {
         uint32_t near = near_edges(&b, e, w->nodes) & ~(1u << w->next[e] | 1u << w->prev[e]);
         for (; near; near &= near - 1)
-            if (!apart(w, e, (uint32_t)__builtin_ctz(near))) return false;
+            if (!edges_apart(w, e, (uint32_t)__builtin_ctz(near))) return false;
     }
     return true;
 }
@@ -313,7 +313,7 @@ static void make_rings(polygon *p, made_rings *m)
 }
 
 /* Joins the holes to the outer ring. Returns false if that failed, which does not happen for valid rings. */
-static bool bridge(polygon *p, made_rings *m)
+static bool bridge_holes(polygon *p, made_rings *m)
 {
     sunder_i_small_walk *w = &p->w;
     uint32_t vertex[MOST], next[MOST], prev[MOST], beyond[MOST];
@@ -357,7 +357,7 @@ static void find_pieces(sunder_i_small_walk *w, sunder_i_pieces *out)
 
 /* ---- All steps ---- */
 
-static sunder_shape *assemble(polygon *p, made_rings *m)
+static sunder_shape *assemble_shape(polygon *p, made_rings *m)
 {
     uint32_t piece_end[MOST - 2], piece_vertex[SUNDER_I_SMALL_HALVES];
     sunder_i_pieces pieces = {.piece_end = piece_end, .piece_vertex = piece_vertex};
@@ -375,14 +375,14 @@ bool sunder_i_small_polygon(const sunder_i_input *in, sunder_shape **out)
 {
     polygon p;
     p.in = in;
-    if (!measure(&p) || !read_rings(&p) || !is_simple(&p)) return false;
+    if (!measure_input(&p) || !read_rings(&p) || !is_simple(&p)) return false;
     if (p.rings == 1 && p.w.nodes <= SUNDER_I_FEW_CORNERS) {
-        *out = assemble(&p, NULL);
+        *out = assemble_shape(&p, NULL);
         return true;
     }
     made_rings m;
     make_rings(&p, &m);
-    if (p.rings > 1 && (!is_nested(&p) || !bridge(&p, &m))) return false;
-    *out = assemble(&p, &m);
+    if (p.rings > 1 && (!is_nested(&p) || !bridge_holes(&p, &m))) return false;
+    *out = assemble_shape(&p, &m);
     return true;
 }

@@ -147,7 +147,7 @@ static void set_height(search *s, uint32_t lowest, uint32_t highest)
 
 /* ---- Crossings --------------------------------------------------------------------------------------------------- */
 
-static void locate(const search *s, uint32_t edge, sunder_i_level_crossing *c)
+static void locate_crossing(const search *s, uint32_t edge, sunder_i_level_crossing *c)
 {
     const sunder_i_boundary *b = s->b;
     const uint32_t next = b->next[edge];
@@ -170,13 +170,13 @@ static void locate(const search *s, uint32_t edge, sunder_i_level_crossing *c)
 }
 
 /* Lists the crossings of edges that extend above the line (up = 1), or below it (-1). */
-static uint32_t gather(const search *s, int up, sunder_i_level_crossing *list)
+static uint32_t gather_crossings(const search *s, int up, sunder_i_level_crossing *list)
 {
     uint32_t n = 0;
     for (uint32_t v = 0; v < s->b->n; v++) {
         const int a = up * s->side[v], b = up * s->side[s->b->next[v]];
         if (a * b > 0 || a + b < (a * b < 0 ? 0 : 1)) continue;
-        locate(s, v, &list[n++]);
+        locate_crossing(s, v, &list[n++]);
     }
     return n;
 }
@@ -212,7 +212,8 @@ static int compare_directions(const search *s, uint32_t a, uint32_t b, int up)
     return up * turn;
 }
 
-static int compare(const search *s, const sunder_i_level_crossing *a, const sunder_i_level_crossing *b, int up)
+static int compare_crossings(const search *s, const sunder_i_level_crossing *a, const sunder_i_level_crossing *b,
+                             int up)
 {
     int order = compare_x(s, a, b);
     if (order == 0) order = compare_directions(s, a->edge, b->edge, up);
@@ -220,7 +221,7 @@ static int compare(const search *s, const sunder_i_level_crossing *a, const sund
 }
 
 /* Shell's sort, which needs no memory. */
-static void sort(const search *s, sunder_i_level_crossing *list, uint32_t n, int up)
+static void sort_crossings(const search *s, sunder_i_level_crossing *list, uint32_t n, int up)
 {
     uint32_t gap = 1;
     while (gap < n / 3) gap = 3 * gap + 1;
@@ -228,7 +229,8 @@ static void sort(const search *s, sunder_i_level_crossing *list, uint32_t n, int
         for (uint32_t k = gap; k < n && !s->arena->failed; k++) {
             const sunder_i_level_crossing held = list[k];
             uint32_t at = k;
-            for (; at >= gap && compare(s, &list[at - gap], &held, up) > 0; at -= gap) list[at] = list[at - gap];
+            for (; at >= gap && compare_crossings(s, &list[at - gap], &held, up) > 0; at -= gap)
+                list[at] = list[at - gap];
             list[at] = held;
         }
 }
@@ -239,10 +241,10 @@ static void sort(const search *s, sunder_i_level_crossing *list, uint32_t n, int
  * ends. */
 static uint32_t find_covered(const search *s, int up, sunder_i_level_crossing *list)
 {
-    const uint32_t n = gather(s, up, list);
+    const uint32_t n = gather_crossings(s, up, list);
     uint32_t ends = 0;
     int covered = 0;
-    sort(s, list, n, up);
+    sort_crossings(s, list, n, up);
     for (uint32_t k = 0; k < n; k++) {
         if (covered == 0) list[ends++] = list[k];
         covered += list[k].opens ? 1 : -1;
@@ -303,7 +305,7 @@ static bool is_plain(const search *s)
     return plain;
 }
 
-static bool look(const search *s, sunder_i_level_crossing *list)
+static bool look_at_height(const search *s, sunder_i_level_crossing *list)
 {
     const uint32_t m = find_covered(s, 1, list);
     if (is_plain(s)) return take_widest(s, list, m, list, m);
@@ -342,7 +344,7 @@ void sunder_i_widest_interval_find(const sunder_i_boundary *boundary, int8_t *si
     uint32_t low, high;
     find_extremes(&s, &low, &high);
     set_height(&s, low, high);
-    while (!arena->failed && !look(&s, crossing)) set_height(&s, low, top_below(&s));
+    while (!arena->failed && !look_at_height(&s, crossing)) set_height(&s, low, top_below(&s));
 }
 
 /* ---- The midpoint ------------------------------------------------------------------------------------------------ */

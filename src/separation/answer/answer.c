@@ -9,11 +9,14 @@
 #include <math.h>
 #include <string.h>
 
-static bool fits(const sunder_i_i256 *v) { return !(v->limb[1] | v->limb[2] | v->limb[3]) && v->limb[0] >> 63 == 0; }
+static bool fits_63_bits(const sunder_i_i256 *v)
+{
+    return !(v->limb[1] | v->limb[2] | v->limb[3]) && v->limb[0] >> 63 == 0;
+}
 
 bool sunder_i_hpoint_is_short(const sunder_i_hpoint *point)
 {
-    return point->w != 0 && fits(&point->x) && fits(&point->y) && point->w >> 63 == 0;
+    return point->w != 0 && fits_63_bits(&point->x) && fits_63_bits(&point->y) && point->w >> 63 == 0;
 }
 
 sunder_i_exact_translation sunder_i_exact_translation_of(sunder_i_operands *operands, const sunder_i_hpoint *point)

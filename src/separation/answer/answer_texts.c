@@ -5,9 +5,8 @@
 
 #include <string.h>
 
-#define LONGEST                                                                                                        \
-    (2 * 39 + 3 + 7) /* a sign, two numbers below 2^127, a slash and NUL; up to 7 bytes before the text are
-                                  * overwritten */
+/* The size of a text: a sign, two numbers below 2^127, a slash and NUL; up to 7 bytes before it are overwritten. */
+#define LONGEST (2 * 39 + 3 + 7)
 
 /* ---- Short fractions, written from the end backwards ---- */
 
@@ -83,7 +82,7 @@ static long take_twos(sunder_i_u128 *v)
 }
 
 /* Divides two odd numbers by their greatest common divisor. */
-static void reduce(sunder_i_u128 *num, sunder_i_u128 *den)
+static void reduce_fraction(sunder_i_u128 *num, sunder_i_u128 *den)
 {
     if (*den == 1) return;
     const sunder_i_u128 common = sunder_i_u128_odd_gcd(*num, *den);
@@ -97,7 +96,7 @@ static char *put_coordinate(char *end, sunder_i_i128 c, sunder_i_i128 w, long ex
     sunder_i_u128 num = sunder_i_i128_abs(c), den = (sunder_i_u128)w;
     if (num == 0) return put_fraction(end, false, 0, 1, 0);
     exponent += take_twos(&num) - take_twos(&den);
-    reduce(&num, &den);
+    reduce_fraction(&num, &den);
     return put_fraction(end, c < 0, num, den, exponent);
 }
 
@@ -110,8 +109,8 @@ static char *put_norm(char *end, sunder_i_i128 x, sunder_i_i128 y, sunder_i_i128
     if (num == 0) return put_fraction(end, false, 0, 1, 0);
     exponent = 2 * exponent + take_twos(&num) - 2 * take_twos(&den[0]);
     den[1] = den[0];
-    reduce(&num, &den[0]);
-    reduce(&num, &den[1]);
+    reduce_fraction(&num, &den[0]);
+    reduce_fraction(&num, &den[1]);
     return put_fraction(end, false, num, den[0] * den[1], exponent);
 }
 
@@ -145,7 +144,7 @@ static bool short_texts(sunder_i_operands *g, const sunder_i_exact_translation *
 }
 
 /* Copies the three texts to one block. */
-static void join(char *text[3], sunder_separation *out)
+static void join_texts(char *text[3], sunder_separation *out)
 {
     size_t bytes[3];
     for (int k = 0; k < 3; k++) bytes[k] = strlen(text[k]) + 1;
@@ -166,7 +165,7 @@ static void long_texts(sunder_i_operands *g, const sunder_i_exact_translation *v
     for (int k = 0; k < 2; k++) text[k] = sunder_i_big_ratio_text(a, sunder_i_rational_axis(&p, k), p.w, l->exponent);
     text[2] =
         sunder_i_big_ratio_text(a, sunder_i_rational_dot(a, p, p), sunder_i_big_mul(a, p.w, p.w), 2 * l->exponent);
-    if (text[0] && text[1] && text[2]) join(text, out);
+    if (text[0] && text[1] && text[2]) join_texts(text, out);
     for (int k = 0; k < 3; k++) sunder_i_free(text[k]);
 }
 

@@ -31,7 +31,7 @@ static sunder_i_gap_problem over_one(const sunder_i_gap_problem *p, const sunder
     return q;
 }
 
-static vec get(const sunder_i_gap_problem *p, sunder_i_point a)
+static vec get_point(const sunder_i_gap_problem *p, sunder_i_point a)
 {
     sunder_i_arena *m = arena_of(p);
     if (m->failed) return (vec){{NULL, 0}, {NULL, 0}};
@@ -56,39 +56,42 @@ static sunder_i_gap_problem over_curve(const sunder_i_gap_problem *p, const sund
 }
 
 /* Returns v * N. */
-static sunder_i_big scaled(const sunder_i_gap_problem *p, sunder_i_big v)
+static sunder_i_big scaled_by_n(const sunder_i_gap_problem *p, sunder_i_big v)
 {
     return p->gap_bits ? sunder_i_big_shl(arena_of(p), v, p->gap_bits) : v;
 }
 
-static sunder_i_big add(const sunder_i_gap_problem *p, sunder_i_big a, sunder_i_big b)
+static sunder_i_big big_add(const sunder_i_gap_problem *p, sunder_i_big a, sunder_i_big b)
 {
     return sunder_i_big_add(arena_of(p), a, b);
 }
 
-static sunder_i_big sub(const sunder_i_gap_problem *p, sunder_i_big a, sunder_i_big b)
+static sunder_i_big big_sub(const sunder_i_gap_problem *p, sunder_i_big a, sunder_i_big b)
 {
     return sunder_i_big_sub(arena_of(p), a, b);
 }
 
-static sunder_i_big mul(const sunder_i_gap_problem *p, sunder_i_big a, sunder_i_big b)
+static sunder_i_big big_mul(const sunder_i_gap_problem *p, sunder_i_big a, sunder_i_big b)
 {
     return sunder_i_big_mul(arena_of(p), a, b);
 }
 
-static sunder_i_big cross(const sunder_i_gap_problem *p, vec u, vec v)
+static sunder_i_big big_cross(const sunder_i_gap_problem *p, vec u, vec v)
 {
-    return sub(p, mul(p, u.x, v.y), mul(p, u.y, v.x));
+    return big_sub(p, big_mul(p, u.x, v.y), big_mul(p, u.y, v.x));
 }
 
-static sunder_i_big dot(const sunder_i_gap_problem *p, vec u, vec v)
+static sunder_i_big big_dot(const sunder_i_gap_problem *p, vec u, vec v)
 {
-    return add(p, mul(p, u.x, v.x), mul(p, u.y, v.y));
+    return big_add(p, big_mul(p, u.x, v.x), big_mul(p, u.y, v.y));
 }
 
-static sunder_i_surd surd(const sunder_i_gap_problem *p, sunder_i_big v) { return sunder_i_surd_big(arena_of(p), v); }
+static sunder_i_surd surd_of(const sunder_i_gap_problem *p, sunder_i_big v)
+{
+    return sunder_i_surd_big(arena_of(p), v);
+}
 
-static sunder_i_surd scale(const sunder_i_gap_problem *p, sunder_i_surd a, sunder_i_big f)
+static sunder_i_surd scale_surd(const sunder_i_gap_problem *p, sunder_i_surd a, sunder_i_big f)
 {
     return sunder_i_surd_scale(arena_of(p), a, f);
 }
@@ -96,15 +99,15 @@ static sunder_i_surd scale(const sunder_i_gap_problem *p, sunder_i_surd a, sunde
 /* Converts a coordinate from lattice units to the units of the problem. */
 static sunder_i_surd in_units(const sunder_i_gap_problem *p, sunder_i_surd a)
 {
-    return sunder_i_big_is_one(p->over) ? a : scale(p, a, p->over);
+    return sunder_i_big_is_one(p->over) ? a : scale_surd(p, a, p->over);
 }
 
-static sunder_i_surd sum(const sunder_i_gap_problem *p, sunder_i_surd a, sunder_i_surd b)
+static sunder_i_surd surd_sum(const sunder_i_gap_problem *p, sunder_i_surd a, sunder_i_surd b)
 {
     return sunder_i_surd_add(arena_of(p), a, b);
 }
 
-static sunder_i_surd difference(const sunder_i_gap_problem *p, sunder_i_surd a, sunder_i_surd b)
+static sunder_i_surd surd_difference(const sunder_i_gap_problem *p, sunder_i_surd a, sunder_i_surd b)
 {
     return sunder_i_surd_sub(arena_of(p), a, b);
 }
@@ -120,38 +123,40 @@ typedef struct line {
 
 static line moved_line(const sunder_i_gap_problem *p, const sunder_i_gap_curve *curve, sunder_i_roots *roots)
 {
-    line l = {.d = get(p, curve->d)};
+    line l = {.d = get_point(p, curve->d)};
     l.n = (vec){l.d.y, sunder_i_big_neg(l.d.x)};
-    l.square = dot(p, l.d, l.d);
-    sunder_i_surd_root(arena_of(p), roots, surd(p, l.square), &l.length);
-    l.c = sum(p, surd(p, scaled(p, dot(p, l.n, get(p, curve->a)))), scale(p, l.length, p->gap));
+    l.square = big_dot(p, l.d, l.d);
+    sunder_i_surd_root(arena_of(p), roots, surd_of(p, l.square), &l.length);
+    l.c = surd_sum(p, surd_of(p, scaled_by_n(p, big_dot(p, l.n, get_point(p, curve->a)))),
+                   scale_surd(p, l.length, p->gap));
     return l;
 }
 
-static void finish(sunder_i_surd_point *out, const sunder_i_gap_problem *p, sunder_i_surd x, sunder_i_surd y,
-                   sunder_i_big w)
+static void finish_point(sunder_i_surd_point *out, const sunder_i_gap_problem *p, sunder_i_surd x, sunder_i_surd y,
+                         sunder_i_big w)
 {
     w = sunder_i_times(arena_of(p), w, p->over);
     const bool negative = sunder_i_big_sign(w) < 0;
     const sunder_i_big minus = sunder_i_big_i64(arena_of(p), -1);
-    out->x = negative ? scale(p, x, minus) : x;
-    out->y = negative ? scale(p, y, minus) : y;
+    out->x = negative ? scale_surd(p, x, minus) : x;
+    out->y = negative ? scale_surd(p, y, minus) : y;
     out->w = negative ? sunder_i_big_neg(w) : w;
 }
 
 /* The point c (1 - g / |c|) of the circle of radius g about c that is nearest to the origin. */
 static void arc_foot(const sunder_i_gap_problem *p, const sunder_i_gap_curve *curve, sunder_i_surd_point *out)
 {
-    const vec c = get(p, curve->a);
-    const sunder_i_big square = dot(p, c, c);
+    const vec c = get_point(p, curve->a);
+    const sunder_i_big square = big_dot(p, c, c);
     if (sunder_i_big_sign(square) == 0) {
-        finish(out, p, surd(p, sunder_i_big_neg(p->gap)), surd(p, square), scaled(p, sunder_i_big_i64(arena_of(p), 1)));
+        finish_point(out, p, surd_of(p, sunder_i_big_neg(p->gap)), surd_of(p, square),
+                     scaled_by_n(p, sunder_i_big_i64(arena_of(p), 1)));
         return;
     }
     sunder_i_surd length;
-    sunder_i_surd_root(arena_of(p), &out->roots, surd(p, square), &length);
-    const sunder_i_surd k = difference(p, surd(p, scaled(p, square)), scale(p, length, p->gap));
-    finish(out, p, scale(p, k, c.x), scale(p, k, c.y), scaled(p, square));
+    sunder_i_surd_root(arena_of(p), &out->roots, surd_of(p, square), &length);
+    const sunder_i_surd k = surd_difference(p, surd_of(p, scaled_by_n(p, square)), scale_surd(p, length, p->gap));
+    finish_point(out, p, scale_surd(p, k, c.x), scale_surd(p, k, c.y), scaled_by_n(p, square));
 }
 
 void sunder_i_gap_foot(const sunder_i_gap_problem *problem, const sunder_i_gap_curve *curve, sunder_i_surd_point *out)
@@ -163,7 +168,7 @@ void sunder_i_gap_foot(const sunder_i_gap_problem *problem, const sunder_i_gap_c
         return;
     }
     const line l = moved_line(p, curve, &out->roots);
-    finish(out, p, scale(p, l.c, l.n.x), scale(p, l.c, l.n.y), scaled(p, l.square));
+    finish_point(out, p, scale_surd(p, l.c, l.n.x), scale_surd(p, l.c, l.n.y), scaled_by_n(p, l.square));
 }
 
 /* The crossing c + (n k + sign d s) / (q N) of an offset line and a circle about c, with k = C - N n.c and s = sqrt(G^2
@@ -173,16 +178,18 @@ static bool line_arc(const sunder_i_gap_problem *p, const sunder_i_gap_curve *si
 {
     sunder_i_arena *a = arena_of(p);
     const line l = moved_line(p, side, &out->roots);
-    const vec c = get(p, arc->a);
-    const sunder_i_surd k = difference(p, l.c, surd(p, scaled(p, dot(p, l.n, c))));
-    const sunder_i_surd square = surd(p, mul(p, mul(p, p->gap, p->gap), l.square));
+    const vec c = get_point(p, arc->a);
+    const sunder_i_surd k = surd_difference(p, l.c, surd_of(p, scaled_by_n(p, big_dot(p, l.n, c))));
+    const sunder_i_surd square = surd_of(p, big_mul(p, big_mul(p, p->gap, p->gap), l.square));
     sunder_i_surd s;
-    if (!sunder_i_surd_root(a, &out->roots, difference(p, square, sunder_i_surd_mul(a, &out->roots, k, k)), &s))
+    if (!sunder_i_surd_root(a, &out->roots, surd_difference(p, square, sunder_i_surd_mul(a, &out->roots, k, k)), &s))
         return false;
-    if (sign < 0) s = scale(p, s, sunder_i_big_i64(a, -1));
-    const sunder_i_big w = scaled(p, l.square);
-    finish(out, p, sum(p, surd(p, mul(p, w, c.x)), sum(p, scale(p, k, l.n.x), scale(p, s, l.d.x))),
-           sum(p, surd(p, mul(p, w, c.y)), sum(p, scale(p, k, l.n.y), scale(p, s, l.d.y))), w);
+    if (sign < 0) s = scale_surd(p, s, sunder_i_big_i64(a, -1));
+    const sunder_i_big w = scaled_by_n(p, l.square);
+    finish_point(
+        out, p,
+        surd_sum(p, surd_of(p, big_mul(p, w, c.x)), surd_sum(p, scale_surd(p, k, l.n.x), scale_surd(p, s, l.d.x))),
+        surd_sum(p, surd_of(p, big_mul(p, w, c.y)), surd_sum(p, scale_surd(p, k, l.n.y), scale_surd(p, s, l.d.y))), w);
     return true;
 }
 
@@ -192,16 +199,17 @@ static bool arc_arc(const sunder_i_gap_problem *p, const sunder_i_gap_curve *c, 
                     sunder_i_surd_point *out)
 {
     sunder_i_arena *arena = arena_of(p);
-    const vec a = get(p, c->a), b = get(p, d->a), v = {sub(p, b.x, a.x), sub(p, b.y, a.y)};
-    const sunder_i_big q = dot(p, v, v), wide = scaled(p, q);
-    const sunder_i_big four = sunder_i_big_shl(arena, mul(p, p->gap, p->gap), 2);
+    const vec a = get_point(p, c->a), b = get_point(p, d->a), v = {big_sub(p, b.x, a.x), big_sub(p, b.y, a.y)};
+    const sunder_i_big q = big_dot(p, v, v), wide = scaled_by_n(p, q);
+    const sunder_i_big four = sunder_i_big_shl(arena, big_mul(p, p->gap, p->gap), 2);
     sunder_i_surd s;
     if (sunder_i_big_sign(q) == 0 ||
-        !sunder_i_surd_root(arena, &out->roots, surd(p, mul(p, sub(p, four, scaled(p, wide)), q)), &s))
+        !sunder_i_surd_root(arena, &out->roots, surd_of(p, big_mul(p, big_sub(p, four, scaled_by_n(p, wide)), q)), &s))
         return false;
-    if (sign < 0) s = scale(p, s, sunder_i_big_i64(arena, -1));
-    finish(out, p, difference(p, surd(p, mul(p, add(p, a.x, b.x), wide)), scale(p, s, v.y)),
-           sum(p, surd(p, mul(p, add(p, a.y, b.y), wide)), scale(p, s, v.x)), sunder_i_big_shl(arena, wide, 1));
+    if (sign < 0) s = scale_surd(p, s, sunder_i_big_i64(arena, -1));
+    finish_point(out, p, surd_difference(p, surd_of(p, big_mul(p, big_add(p, a.x, b.x), wide)), scale_surd(p, s, v.y)),
+                 surd_sum(p, surd_of(p, big_mul(p, big_add(p, a.y, b.y), wide)), scale_surd(p, s, v.x)),
+                 sunder_i_big_shl(arena, wide, 1));
     return true;
 }
 
@@ -215,10 +223,10 @@ bool sunder_i_gap_crossing(const sunder_i_gap_problem *problem, const sunder_i_g
     out->roots.n = 0;
     if (d->arc) return c->arc ? arc_arc(p, c, d, sign, out) : line_arc(p, c, d, sign, out);
     const line l = moved_line(p, c, &out->roots), m = moved_line(p, d, &out->roots);
-    const sunder_i_big w = scaled(p, cross(p, l.n, m.n));
+    const sunder_i_big w = scaled_by_n(p, big_cross(p, l.n, m.n));
     if (sunder_i_big_sign(w) == 0) return false;
-    finish(out, p, difference(p, scale(p, l.c, m.n.y), scale(p, m.c, l.n.y)),
-           difference(p, scale(p, m.c, l.n.x), scale(p, l.c, m.n.x)), w);
+    finish_point(out, p, surd_difference(p, scale_surd(p, l.c, m.n.y), scale_surd(p, m.c, l.n.y)),
+                 surd_difference(p, scale_surd(p, m.c, l.n.x), scale_surd(p, l.c, m.n.x)), w);
     return true;
 }
 
@@ -234,9 +242,11 @@ bool sunder_i_gap_along(const sunder_i_gap_problem *problem, const sunder_i_gap_
     if (out->roots.n) return false;
     /* the point n C / (q N) + d along / (L 2^bits), with the denominator q N 2^bits */
     sunder_i_arena *a = arena_of(p);
-    const sunder_i_big k = scaled(p, mul(p, along, l.length.part[0])), c = sunder_i_big_shl(a, l.c.part[0], bits);
-    finish(out, p, surd(p, add(p, mul(p, l.n.x, c), mul(p, l.d.x, k))),
-           surd(p, add(p, mul(p, l.n.y, c), mul(p, l.d.y, k))), sunder_i_big_shl(a, scaled(p, l.square), bits));
+    const sunder_i_big k = scaled_by_n(p, big_mul(p, along, l.length.part[0])),
+                       c = sunder_i_big_shl(a, l.c.part[0], bits);
+    finish_point(out, p, surd_of(p, big_add(p, big_mul(p, l.n.x, c), big_mul(p, l.d.x, k))),
+                 surd_of(p, big_add(p, big_mul(p, l.n.y, c), big_mul(p, l.d.y, k))),
+                 sunder_i_big_shl(a, scaled_by_n(p, l.square), bits));
     return true;
 }
 
@@ -249,8 +259,9 @@ bool sunder_i_gap_position(const sunder_i_gap_problem *problem, const sunder_i_g
     sunder_i_roots roots = {.n = 0};
     const line l = moved_line(p, side, &roots);
     if (roots.n) return false;
-    const sunder_i_surd s = sum(p, scale(p, at->x, l.d.x), scale(p, at->y, l.d.y));
-    *along = sunder_i_big_div_floor(a, sunder_i_surd_scaled(a, &at->roots, s, bits), mul(p, at->w, l.length.part[0]));
+    const sunder_i_surd s = surd_sum(p, scale_surd(p, at->x, l.d.x), scale_surd(p, at->y, l.d.y));
+    *along =
+        sunder_i_big_div_floor(a, sunder_i_surd_scaled(a, &at->roots, s, bits), big_mul(p, at->w, l.length.part[0]));
     return true;
 }
 
@@ -269,22 +280,23 @@ int sunder_i_gap_cmp_side(const sunder_i_gap_problem *problem, const sunder_i_su
     const sunder_i_point point[2] = {subsum->corner[k], subsum->side[k]};
     const sunder_i_gap_problem q = over_one(problem, point, 2), *const p = &q;
     const sunder_i_roots *roots = &at->roots;
-    const vec c = get(p, subsum->corner[k]), d = get(p, subsum->side[k]);
-    const sunder_i_surd vx = difference(p, in_units(p, at->x), surd(p, mul(p, c.x, at->w)));
-    const sunder_i_surd vy = difference(p, in_units(p, at->y), surd(p, mul(p, c.y, at->w)));
-    const sunder_i_surd turn = difference(p, scale(p, vy, d.x), scale(p, vx, d.y));
-    const sunder_i_surd along = sum(p, scale(p, vx, d.x), scale(p, vy, d.y));
-    const sunder_i_big gw = mul(p, p->gap, at->w), limit = mul(p, gw, gw), square = dot(p, d, d);
+    const vec c = get_point(p, subsum->corner[k]), d = get_point(p, subsum->side[k]);
+    const sunder_i_surd vx = surd_difference(p, in_units(p, at->x), surd_of(p, big_mul(p, c.x, at->w)));
+    const sunder_i_surd vy = surd_difference(p, in_units(p, at->y), surd_of(p, big_mul(p, c.y, at->w)));
+    const sunder_i_surd turn = surd_difference(p, scale_surd(p, vy, d.x), scale_surd(p, vx, d.y));
+    const sunder_i_surd along = surd_sum(p, scale_surd(p, vx, d.x), scale_surd(p, vy, d.y));
+    const sunder_i_big gw = big_mul(p, p->gap, at->w), limit = big_mul(p, gw, gw), square = big_dot(p, d, d);
     order = 1;
     *inward = sunder_i_surd_sign(a, roots, turn) > 0;
     *flat = false;
     if (sunder_i_surd_sign(a, roots, along) <= 0) { /* the first vertex of the side is nearest */
-        const sunder_i_surd norm = sum(p, sunder_i_surd_mul(a, roots, vx, vx), sunder_i_surd_mul(a, roots, vy, vy));
+        const sunder_i_surd norm =
+            surd_sum(p, sunder_i_surd_mul(a, roots, vx, vx), sunder_i_surd_mul(a, roots, vy, vy));
         const sunder_i_surd wide = sunder_i_surd_shl(a, norm, 2 * p->gap_bits);
-        order = sunder_i_surd_sign(a, roots, difference(p, wide, surd(p, limit)));
-    } else if (sunder_i_surd_sign(a, roots, difference(p, along, surd(p, mul(p, square, at->w)))) < 0) {
+        order = sunder_i_surd_sign(a, roots, surd_difference(p, wide, surd_of(p, limit)));
+    } else if (sunder_i_surd_sign(a, roots, surd_difference(p, along, surd_of(p, big_mul(p, square, at->w)))) < 0) {
         const sunder_i_surd wide = sunder_i_surd_shl(a, sunder_i_surd_mul(a, roots, turn, turn), 2 * p->gap_bits);
-        order = sunder_i_surd_sign(a, roots, difference(p, wide, surd(p, mul(p, limit, square))));
+        order = sunder_i_surd_sign(a, roots, surd_difference(p, wide, surd_of(p, big_mul(p, limit, square))));
         *flat = true;
     }
     sunder_i_arena_release(a, mark);

@@ -86,7 +86,7 @@ static void lower_limit(gathering *c, double x, double y)
     if (d < c->p->limit) c->p->limit = d;
 }
 
-static bool settle(gathering *c, const sunder_i_square *s, sunder_i_square_state what)
+static bool settle_square(gathering *c, const sunder_i_square *s, sunder_i_square_state what)
 {
     sunder_i_squares *q = c->q;
     sunder_i_gap_node *at = c->to->node + s->place;
@@ -116,7 +116,7 @@ static bool look_at_all(gathering *c, bool *done)
         const sunder_i_square s = sunder_i_squares_first(q);
         if (sunder_i_squares_too_many(q, &s)) return true;
         const sunder_i_square_state what = sunder_i_squares_look(q, &s);
-        if (what == SUNDER_I_SQUARE_NO_MEMORY || !settle(c, &s, what)) return false;
+        if (what == SUNDER_I_SQUARE_NO_MEMORY || !settle_square(c, &s, what)) return false;
     }
     *done = true;
     return true;

@@ -5,7 +5,7 @@
 #include "base/heap.h"
 
 /* Compares keys only; the heap itself orders equal keys (base/heap.h). */
-static bool before(const void *a, const void *b)
+static bool key_before(const void *a, const void *b)
 {
     return ((const sunder_i_gap_item *)a)->key < ((const sunder_i_gap_item *)b)->key;
 }
@@ -16,13 +16,13 @@ void sunder_i_gap_push_item(sunder_i_gap_state *s, sunder_i_gap_item item)
     if (!sunder_i_arena_reserve(&s->g->placed.lattice.arena, &s->heap, &s->heap_capacity, s->heap_n + 1, sizeof item))
         s->failed = true;
     else
-        sunder_i_heap_push(s->heap, &s->heap_n, sizeof item, &item, before);
+        sunder_i_heap_push(s->heap, &s->heap_n, sizeof item, &item, key_before);
 }
 
 sunder_i_gap_item sunder_i_gap_pop_item(sunder_i_gap_state *s)
 {
     sunder_i_gap_item top;
-    sunder_i_heap_pop(s->heap, &s->heap_n, sizeof top, &top, before);
+    sunder_i_heap_pop(s->heap, &s->heap_n, sizeof top, &top, key_before);
     return top;
 }
 

@@ -79,7 +79,7 @@ static sunder_contact kind_of(const sunder_i_gap_free_point *f, sunder_i_gap_roo
 }
 
 /* Converts the found point to the answer, and its length to the bound. */
-static sunder_status conclude(sunder_i_gap_state *s, sunder_i_gap_answer *out, sunder_error *err)
+static sunder_status conclude_search(sunder_i_gap_state *s, sunder_i_gap_answer *out, sunder_error *err)
 {
     const sunder_i_gap_free_point *f = &s->found;
     *out = (sunder_i_gap_answer){.found = f->any};
@@ -116,6 +116,6 @@ sunder_status sunder_i_gap_search(const sunder_i_gap_problem *problem, sunder_i_
         else
             sunder_i_gap_take_point(&s, i.index);
     }
-    const sunder_status status = s.failed || l->arena.failed ? SUNDER_OK : conclude(&s, out, err);
+    const sunder_status status = s.failed || l->arena.failed ? SUNDER_OK : conclude_search(&s, out, err);
     return s.failed || l->arena.failed ? sunder_i_no_memory(err) : status;
 }

@@ -5,17 +5,17 @@
  * subsum to a point within 2 g of its box. u is the unit roundoff. Only terms of first order are listed; the rest is
  * far less than what the bounds allow.
  *
- *  corner   an integer is rounded once, three limbs of a wide lattice 5 times: 8 u M. Sides are computed from exact
- * 	  differences and have an error of 4 u of their length; lengths have one of 6 u, the gap one of 4 u.
- *  point    a + gap n / |d| + t d, 0 <= t <= 1: vertex 8 u M, normal 4 + 4 + 6 + 2 = 16 u g, t d 5 u * 3 M, sums
- * 	  2 u * 4 S: below 32 u S in each coordinate, 48 u S in all. Feet, ends and the points of circles nearest to
- * 	  the origin need no more operations. A point computed by a division that loses digits has its own error.
- *  height   of a point over a side, cross(side, v) / length: v has an error of 8 u M + 6 u S in each coordinate, which
- * 	  causes 20 u S; each product adds (4 + 1) u |side| |v|, their difference one u more: 36 u S; length and
- * 	  division add 7 u of at most 6 S: 42 u S. Below 100 u S in all.
- *  distance from a side: as its height; from a vertex: 20 u S + 2 u * 6 S. Whether the vertex or the side is nearer is
- * 	  decided by a product with the error of a height; if it is decided wrongly, the two distances differ by at
- * 	  most that: below 200 u S.
+ *   corner   an integer is rounded once, three limbs of a wide lattice 5 times: 8 u M. Sides are computed from exact
+ *            differences and have an error of 4 u of their length; lengths have one of 6 u, the gap one of 4 u.
+ *   point    a + gap n / |d| + t d, 0 <= t <= 1: vertex 8 u M, normal 4 + 4 + 6 + 2 = 16 u g, t d 5 u * 3 M, sums
+ *            2 u * 4 S: below 32 u S in each coordinate, 48 u S in all. Feet, ends and the points of circles nearest to
+ *            the origin need no more operations. A point computed by a division that loses digits has its own error.
+ *   height   of a point over a side, cross(side, v) / length: v has an error of 8 u M + 6 u S in each coordinate, which
+ *            causes 20 u S; each product adds (4 + 1) u |side| |v|, their difference one u more: 36 u S; length and
+ *            division add 7 u of at most 6 S: 42 u S. Below 100 u S in all.
+ *   distance from a side: as its height; from a vertex: 20 u S + 2 u * 6 S. Whether the vertex or the side is nearer is
+ *            decided by a product with the error of a height; if it is decided wrongly, the two distances differ by at
+ *            most that: below 200 u S.
  *
  * `error` = 128 u S bounds the error of a point, and `margin` = 2 error that of a distance from a computed point (48 +
  * 200 u S). Sides shorter than SUNDER_I_SHORTEST are excluded from all this. */

@@ -79,7 +79,7 @@ static bool origin_free(const sunder_i_gap_problem *p, bool *memory)
     return true;
 }
 
-static sunder_status run(sunder_i_gap_problem *p, sunder_i_gap_answer *answer, sunder_error *err)
+static sunder_status run_search(sunder_i_gap_problem *p, sunder_i_gap_answer *answer, sunder_error *err)
 {
     sunder_i_candidates heap;
     if (!p->quadtree) {
@@ -99,8 +99,8 @@ static bool doubles_free(const sunder_i_gap_problem *p, double dx, double dy)
     return !g->placed.lattice.arena.failed && sunder_i_gap_verify(p, &at);
 }
 
-static sunder_status fill(sunder_i_gap_problem *p, const sunder_i_gap_answer *a, bool texts, sunder_separation *out,
-                          sunder_error *err)
+static sunder_status fill_answer(sunder_i_gap_problem *p, const sunder_i_gap_answer *a, bool texts,
+                                 sunder_separation *out, sunder_error *err)
 {
     sunder_i_operands *g = p->operands;
     if (p->bound_only) {
@@ -149,8 +149,9 @@ static bool are_many(const sunder_i_gap_problem *p, const sunder_i_least_options
     return o->force_squares || sunder_i_squares_worth(g, SQUARES_FROM);
 }
 
-static sunder_status solve(sunder_i_gap_problem *p, const sunder_i_least_options *o, sunder_i_gap_quadtree *quadtree,
-                           sunder_separation *out, bool *beyond, sunder_error *err)
+static sunder_status solve_problem(sunder_i_gap_problem *p, const sunder_i_least_options *o,
+                                   sunder_i_gap_quadtree *quadtree, sunder_separation *out, bool *beyond,
+                                   sunder_error *err)
 {
     sunder_i_operands *g = p->operands;
     const double upper = o->upper / g->unit;
@@ -164,9 +165,9 @@ static sunder_status solve(sunder_i_gap_problem *p, const sunder_i_least_options
     if (origin_free(p, &memory)) return memory ? sunder_i_stay(o->texts, out, err) : sunder_i_no_memory(err);
     if (!memory || g->placed.lattice.arena.failed) return sunder_i_no_memory(err);
     sunder_i_gap_answer answer;
-    const sunder_status status = run(p, &answer, err);
+    const sunder_status status = run_search(p, &answer, err);
     if (status) return status;
-    if (answer.found && !(answer.bound * g->unit > o->upper)) return fill(p, &answer, o->texts, out, err);
+    if (answer.found && !(answer.bound * g->unit > o->upper)) return fill_answer(p, &answer, o->texts, out, err);
     if (!(o->upper < INFINITY)) /* there is always a translation that separates two sets */
         return sunder_i_fail(err, SUNDER_EFAULT, "internal fault: no free translation was found");
     sunder_i_too_far(o->upper, out, beyond);
@@ -211,8 +212,8 @@ sunder_status sunder_i_least_with_gap(const sunder_shape *p, const sunder_shape 
     }
     sunder_i_operands_admit(&g, problem.gap_units);
     sunder_i_gap_quadtree quadtree = {.node = NULL};
-    status =
-        g.placed.lattice.arena.failed ? sunder_i_no_memory(err) : solve(&problem, options, &quadtree, out, beyond, err);
+    status = g.placed.lattice.arena.failed ? sunder_i_no_memory(err)
+                                           : solve_problem(&problem, options, &quadtree, out, beyond, err);
     sunder_i_gap_quadtree_free(&quadtree);
     out->counts = g.placed.lattice.counts;
     sunder_i_operands_free(&g);

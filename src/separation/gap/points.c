@@ -9,7 +9,7 @@
  * one. */
 #define LOSS_MAX 4096
 
-static bool solve(sunder_i_gap_state *s, sunder_i_gap_point *p)
+static bool solve_point(sunder_i_gap_state *s, sunder_i_gap_point *p)
 {
     const sunder_i_surd_point *exact = sunder_i_gap_solve(s, p);
     if (!exact) return false;
@@ -71,7 +71,7 @@ static int compare_side(sunder_i_gap_state *s, const sunder_i_subsum *m, const s
 
 /* Returns -1 if the point is closer to the subsum than the gap, 1 if it is farther, and 0 if its distance is the gap,
  * at vertex or side *k. Sides that are certainly farther are not tested exactly. */
-static int compare(sunder_i_gap_state *s, size_t of, const question *q, uint32_t *k, bool *flat)
+static int compare_subsum(sunder_i_gap_state *s, size_t of, const question *q, uint32_t *k, bool *flat)
 {
     const sunder_i_subsum *m = s->g->subsum + of;
     const sunder_i_gap_subsum *r = sunder_i_gap_load(s, of);
@@ -106,7 +106,7 @@ static long too_near(sunder_i_gap_state *s, const question *q, sunder_i_gap_cont
         if (!sunder_i_gap_near_box(s, of, q->x, q->y, s->gap + q->doubt)) continue;
         uint32_t k = 0;
         bool flat = false;
-        const int order = compare(s, of, q, &k, &flat);
+        const int order = compare_subsum(s, of, q, &k, &flat);
         if (s->failed) break;
         if (order < 0) return (long)of;
         if (order > 0 || !contact) continue;
@@ -128,16 +128,16 @@ bool sunder_i_gap_is_free(sunder_i_gap_state *s, const sunder_i_surd_point *at)
 /* ---- Free points ---- */
 
 /* Compares two free points; doubles decide all but ties. */
-static int order(sunder_i_gap_state *s, const sunder_i_gap_free_point *a, const sunder_i_gap_free_point *b)
+static int point_order(sunder_i_gap_state *s, const sunder_i_gap_free_point *a, const sunder_i_gap_free_point *b)
 {
     const double u = sunder_i_gap_length(a->x, a->y), v = sunder_i_gap_length(b->x, b->y);
     if (fabs(u - v) > a->error + b->error + s->error) return u < v ? -1 : 1;
     return sunder_i_surd_point_cmp(s->g, &a->exact, &b->exact);
 }
 
-static void offer(sunder_i_gap_state *s, const sunder_i_gap_free_point *f)
+static void offer_point(sunder_i_gap_state *s, const sunder_i_gap_free_point *f)
 {
-    if (s->found.any && order(s, f, &s->found) >= 0) return;
+    if (s->found.any && point_order(s, f, &s->found) >= 0) return;
     s->found = *f;
     const double most = sunder_i_gap_length(f->x, f->y) + f->error + s->error;
     if (most < s->best) s->best = most;
@@ -159,7 +159,7 @@ static bool is_exit(sunder_i_gap_state *s, const question *q, const sunder_i_gap
     }
     uint32_t k;
     bool flat;
-    return near != p->cover && compare(s, (size_t)p->cover, q, &k, &flat) == 0;
+    return near != p->cover && compare_subsum(s, (size_t)p->cover, q, &k, &flat) == 0;
 }
 
 void sunder_i_gap_take_point(sunder_i_gap_state *s, size_t index)
@@ -168,7 +168,7 @@ void sunder_i_gap_take_point(sunder_i_gap_state *s, size_t index)
     sunder_i_gap_free_point f = {.any = true};
     question q = {.of = &p};
     long near = p.cover;
-    const bool solved = solve(s, &p);
+    const bool solved = solve_point(s, &p);
     if (solved) {
         f = (sunder_i_gap_free_point){.any = true, .exact = *p.exact, .x = p.x, .y = p.y, .error = p.error};
         size_t most;
@@ -185,5 +185,5 @@ void sunder_i_gap_take_point(sunder_i_gap_state *s, size_t index)
         if (p.forwards) sunder_i_gap_pass(s, &p, (size_t)near, true);
         if (p.backwards) sunder_i_gap_pass(s, &p, (size_t)near, false);
     } else if (solved)
-        offer(s, &f);
+        offer_point(s, &f);
 }

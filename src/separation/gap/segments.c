@@ -73,7 +73,8 @@ static void leave_side(const sunder_i_gap_state *s, const moved *m, const sunder
 
 /* Returns the signed distance from the line, times |d|, of the point where the disc about vertex i touches the offset
  * of side k, of which i is an end; positive on the left. */
-static double lean(const sunder_i_gap_state *s, const moved *m, const sunder_i_gap_subsum *r, uint32_t i, uint32_t k)
+static double lean_of_disc(const sunder_i_gap_state *s, const moved *m, const sunder_i_gap_subsum *r, uint32_t i,
+                           uint32_t k)
 {
     const double x = r->cx[i] + s->gap * r->sy[k] * r->inverse[k], y = r->cy[i] - s->gap * r->sx[k] * r->inverse[k];
     return m->dx * (y - m->ay) - m->dy * (x - m->ax);
@@ -93,7 +94,7 @@ static way_out leave_by_halving(sunder_i_gap_state *s, const moved *m, const sun
     uint32_t low = first, high = last > first ? last : last + n;
     while (low < high) {
         const uint32_t i = low + (high - low) / 2;
-        if (turn * lean(s, m, r, (i + 1) % n, i % n) >= 0)
+        if (turn * lean_of_disc(s, m, r, (i + 1) % n, i % n) >= 0)
             high = i;
         else
             low = i + 1;
@@ -111,7 +112,7 @@ static way_out leave_by_halving(sunder_i_gap_state *s, const moved *m, const sun
 /* Returns an estimate of where the offset line leaves the grown subsum k; the caller verifies it. A disc is not left
  * beyond its end in the direction of the line, and a side not later than the discs at its ends; this excludes most of
  * them. */
-static way_out leave(sunder_i_gap_state *s, const moved *m, size_t k, bool forwards)
+static way_out leave_subsum(sunder_i_gap_state *s, const moved *m, size_t k, bool forwards)
 {
     way_out w = {.any = false};
     const sunder_i_gap_subsum *r = sunder_i_gap_load(s, k);
@@ -170,7 +171,7 @@ void sunder_i_gap_pass(sunder_i_gap_state *s, const sunder_i_gap_point *from, si
     const moved m = moved_side(s, from->segment);
     const sunder_i_gap_subsum *r = sunder_i_gap_load(s, k);
     if (!r) return;
-    const way_out guess = leave(s, &m, k, forwards);
+    const way_out guess = leave_subsum(s, &m, k, forwards);
     sunder_i_gap_point p = {.crossing = false};
     bool known = false;
     if (guess.any) {
@@ -222,7 +223,7 @@ static long farthest_cover(sunder_i_gap_state *s, const moved *m, double t, bool
     for (size_t i = 0; i < n && !s->failed; i++) {
         const size_t k = near ? near[i] : i;
         if (!sunder_i_gap_covers(s, k, x, y, 0)) continue;
-        const way_out w = leave(s, m, k, forwards);
+        const way_out w = leave_subsum(s, m, k, forwards);
         if (!w.any || (best >= 0 && (forwards ? w.t <= out->t : w.t >= out->t))) continue;
         best = (long)k;
         *out = w;
@@ -232,7 +233,7 @@ static long farthest_cover(sunder_i_gap_state *s, const moved *m, double t, bool
 
 /* Walks from t, where subsum `cover` certainly covers the line, to a point that no subsum is known to cover; pushes
  * that point. */
-static void walk(sunder_i_gap_state *s, size_t segment, const moved *m, double t, bool forwards)
+static void walk_line(sunder_i_gap_state *s, size_t segment, const moved *m, double t, bool forwards)
 {
     way_out out = {.any = false};
     long cover = -1;
@@ -240,7 +241,7 @@ static void walk(sunder_i_gap_state *s, size_t segment, const moved *m, double t
         /* any covering subsum is used if it leads farther; else the one whose exit is farthest */
         long k = sunder_i_gap_other_cover(s, m->ax + t * m->dx, m->ay + t * m->dy, cover);
         if (k < 0) break;
-        way_out w = leave(s, m, (size_t)k, forwards);
+        way_out w = leave_subsum(s, m, (size_t)k, forwards);
         bool further = w.any && covered_until(s, m, (size_t)k, forwards, w.t, &t);
         if (!further) {
             k = farthest_cover(s, m, t, forwards, &w);
@@ -275,8 +276,8 @@ void sunder_i_gap_take_segment(sunder_i_gap_state *s, size_t segment)
     const double key = tiny ? 0 : sunder_i_gap_length(x, y) - s->error;
     if (key > s->best) return;
     if (!tiny && sunder_i_gap_cover(s, x, y, 0) >= 0) {
-        if (!past) walk(s, segment, &m, t, true);
-        if (!before) walk(s, segment, &m, t, false);
+        if (!past) walk_line(s, segment, &m, t, true);
+        if (!before) walk_line(s, segment, &m, t, false);
         return;
     }
     /* an end of the offset side is the point where its line touches the circle about the vertex */

@@ -13,17 +13,19 @@
  *
  * A point where every direction is blocked has two opposite pairs among its contacts (it is on two rational lines,
  * hence rational), or three contacts with normals n1, n2, n3 and l1 n1 + l2 n2 + l3 n3 = 0, all l > 0, no two parallel:
- * - three sides: the l are rational, and so is l1 L1 + l2 L2 + l3 L3. Roots of integers with positive factors do not
- * cancel: all L are rational. - three vertices: the circle through them has a rational centre. - a side and two
- * vertices: p = m + t v, m the midpoint of the vertices, v their difference turned by a right angle, and t^2 rational.
- * Suppose that t is irrational. If n.v = 0, the direction +-v is free. Else t = (c - n.m + g L) / n.v, and since its
- * square is rational but t is not, L is irrational and c = n.m; then g L = t n.v <= |t v| L < g L. - two sides and a
- * vertex: w = (p - a) / g has |w| = 1 and n_i.w = r_i + L_i, r_i rational. Let e_1, e_2 be the basis with n_i.e_j = 0
- * or 1, so that w = sum (r_i + L_i) e_i, and s the angle of the normals: |L_i e_i| = 1 / sin s. Suppose that some L is
- * irrational; the coefficient of each root in |w|^2 is zero. If both are, with the same root: 1 = |r_1 e_1 + r_2 e_2|^2
- * + |z|^2 with z.n_i = L_i, so |z| = 1 / cos(s / 2) > 1. With two roots: r = 0 and e_1.e_2 = 0, so |w|^2 = 2. If L_2
- * alone is: 1 = (r_1 + L_1)^2 / L_1^2 + 1 / sin(s)^2, so n_1.w = 0 and w is the unit normal of side 2, not opposite to
- * it. */
+ *   - three sides: the l are rational, and so is l1 L1 + l2 L2 + l3 L3. Roots of integers with positive factors do not
+ *     cancel: all L are rational.
+ *   - three vertices: the circle through them has a rational centre.
+ *   - a side and two vertices: p = m + t v, m the midpoint of the vertices, v their difference turned by a right angle,
+ *     and t^2 rational. Suppose that t is irrational. If n.v = 0, the direction +-v is free. Else t = (c - n.m + g L) /
+ *     n.v, and since its square is rational but t is not, L is irrational and c = n.m; then g L = t n.v <= |t v| L <
+ *     g L.
+ *   - two sides and a vertex: w = (p - a) / g has |w| = 1 and n_i.w = r_i + L_i, r_i rational. Let e_1, e_2 be the
+ *     basis with n_i.e_j = 0 or 1, so that w = sum (r_i + L_i) e_i, and s the angle of the normals: |L_i e_i| = 1 / sin
+ *     s. Suppose that some L is irrational; the coefficient of each root in |w|^2 is zero. If both are, with the same
+ *     root: 1 = |r_1 e_1 + r_2 e_2|^2 + |z|^2 with z.n_i = L_i, so |z| = 1 / cos(s / 2) > 1. With two roots: r = 0 and
+ *     e_1.e_2 = 0, so |w|^2 = 2. If L_2 alone is: 1 = (r_1 + L_1)^2 / L_1^2 + 1 / sin(s)^2, so n_1.w = 0 and w is the
+ *     unit normal of side 2, not opposite to it. */
 #include "separation/gap/gap_search.h"
 
 #include "predicate/rational_point.h"

@@ -20,7 +20,7 @@ bool sunder_i_surd_point_is_rational(const sunder_i_surd_point *exact) { return 
 
 /* ---- Order, and digits ---- */
 
-static sunder_i_surd norm(sunder_i_arena *a, const sunder_i_roots *roots, sunder_i_surd x, sunder_i_surd y)
+static sunder_i_surd surd_norm(sunder_i_arena *a, const sunder_i_roots *roots, sunder_i_surd x, sunder_i_surd y)
 {
     return sunder_i_surd_add(a, sunder_i_surd_mul(a, roots, x, x), sunder_i_surd_mul(a, roots, y, y));
 }
@@ -46,7 +46,8 @@ int sunder_i_surd_point_cmp(sunder_i_operands *operands, const sunder_i_surd_poi
     const sunder_i_surd ux = sunder_i_surd_scale(a, u->x, v->w), uy = sunder_i_surd_scale(a, u->y, v->w);
     const sunder_i_surd vx = sunder_i_surd_scale(a, sunder_i_surd_lift(a, v->x, place), u->w);
     const sunder_i_surd vy = sunder_i_surd_scale(a, sunder_i_surd_lift(a, v->y, place), u->w);
-    int c = sunder_i_surd_sign(a, &roots, sunder_i_surd_sub(a, norm(a, &roots, ux, uy), norm(a, &roots, vx, vy)));
+    int c =
+        sunder_i_surd_sign(a, &roots, sunder_i_surd_sub(a, surd_norm(a, &roots, ux, uy), surd_norm(a, &roots, vx, vy)));
     if (!c) c = sunder_i_surd_sign(a, &roots, sunder_i_surd_sub(a, ux, vx));
     if (!c) c = sunder_i_surd_sign(a, &roots, sunder_i_surd_sub(a, uy, vy));
     sunder_i_arena_release(a, mark);

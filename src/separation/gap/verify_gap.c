@@ -38,7 +38,7 @@ static side side_of(const checking *c, const sunder_i_operand_piece *p, uint32_t
 }
 
 /* Returns the signed distance of vertex m of q from the line of side s, positive on the outer (right) side. */
-static double height(const checking *c, const side *s, const sunder_i_operand_piece *q, uint32_t m)
+static double height_over(const checking *c, const side *s, const sunder_i_operand_piece *q, uint32_t m)
 {
     const double *b = c->g->xy[q->side] + 2 * q->corner[m];
     return (s->dy * (s->x - b[0]) - s->dx * (s->y - b[1])) / s->length;
@@ -47,7 +47,7 @@ static double height(const checking *c, const side *s, const sunder_i_operand_pi
 /* Returns whether the distance of the vertex from the side certainly exceeds the gap. */
 static bool certainly_off(const checking *c, const side *s, const sunder_i_operand_piece *q, uint32_t m)
 {
-    const double h = height(c, s, q, m), reach = c->gap + c->doubt;
+    const double h = height_over(c, s, q, m), reach = c->gap + c->doubt;
     if (fabs(h) > reach) return true;
     const double *b = c->g->xy[q->side] + 2 * q->corner[m], x = s->x - b[0], y = s->y - b[1];
     const double along = (s->dx * x + s->dy * y) / s->length, past = along < 0 ? -along : along - s->length;
@@ -61,7 +61,7 @@ typedef struct exact {
     sunder_i_big over;                      /* the factor by which all these are scaled from lattice units */
 } exact;
 
-static exact exactly(const checking *c, const side *s, const sunder_i_operand_piece *q, uint32_t m)
+static exact exact_of(const checking *c, const side *s, const sunder_i_operand_piece *q, uint32_t m)
 {
     sunder_i_lattice *l = &c->g->placed.lattice;
     sunder_i_arena *a = &l->arena;
@@ -85,7 +85,7 @@ static bool keeps_off(const checking *c, const side *s, const sunder_i_operand_p
     if (certainly_off(c, s, q, m)) return true;
     sunder_i_arena *a = &c->g->placed.lattice.arena;
     const sunder_i_mark mark = sunder_i_arena_mark(a);
-    const exact e = exactly(c, s, q, m);
+    const exact e = exact_of(c, s, q, m);
     const sunder_i_big gw = sunder_i_times(a, sunder_i_big_mul(a, c->p->gap, c->t.w), e.over);
     const sunder_i_big limit = sunder_i_big_mul(a, gw, gw);
     bool off = true;
@@ -101,12 +101,12 @@ static bool keeps_off(const checking *c, const side *s, const sunder_i_operand_p
 /* Returns whether the vertex is on the right of the side's line, or on it. */
 static bool is_outside(const checking *c, const side *s, const sunder_i_operand_piece *q, uint32_t m)
 {
-    const double h = height(c, s, q, m);
+    const double h = height_over(c, s, q, m);
     if (h > c->doubt) return true;
     if (h < -c->doubt) return false;
     sunder_i_arena *a = &c->g->placed.lattice.arena;
     const sunder_i_mark mark = sunder_i_arena_mark(a);
-    const bool outside = sunder_i_big_sign(exactly(c, s, q, m).turn) <= 0;
+    const bool outside = sunder_i_big_sign(exact_of(c, s, q, m).turn) <= 0;
     sunder_i_arena_release(a, mark);
     return outside;
 }
@@ -122,7 +122,7 @@ static parting side_parts(const checking *c, const sunder_i_operand_piece *p, co
     for (uint32_t k = 0; k < p->n; k++) {
         const side s = side_of(c, p, k);
         uint32_t m = 0;
-        while (m < q->n && height(c, &s, q, m) > c->gap + c->doubt) m++;
+        while (m < q->n && height_over(c, &s, q, m) > c->gap + c->doubt) m++;
         if (m == q->n) return PARTED_FAR;
         while (!parts && m < q->n && is_outside(c, &s, q, m)) m++;
         if (parts || m < q->n) continue;
@@ -146,7 +146,7 @@ static close_by find_close(const checking *c, const sunder_i_operand_piece *p, c
     b.q = b.p + p->n;
     const double most = c->gap + c->doubt;
     for (uint32_t m = 0; m < q->n; m++)
-        if (!(height(c, by, q, m) > most)) b.q[b.qn++] = m;
+        if (!(height_over(c, by, q, m) > most)) b.q[b.qn++] = m;
     for (uint32_t m = 0; m < p->n; m++) {
         const double *at = c->g->xy[p->side] + 2 * p->corner[m];
         /* the vector from the vertex to the first end of the side */

@@ -44,7 +44,7 @@ static void part_box(const sunder_i_board *h, const part *p, double box[4])
 }
 
 /* Returns whether the interior of the subsum contains the box, enlarged by the error. */
-static bool holds(sunder_i_operands *g, sunder_i_subsum *s, const double box[4])
+static bool holds_box(sunder_i_operands *g, sunder_i_subsum *s, const double box[4])
 {
     const double e = 4 * g->error;
     for (int k = 0; k < 2; k++)
@@ -65,7 +65,8 @@ static void close_part(sunder_i_board *h, const part *p, uint32_t holder)
         for (uint32_t x = p->x0; x < p->x1; x++) h->holder[(size_t)y * h->n + x] = holder + 1;
 }
 
-/* Appends the list of an open square. Lists are in the order in which squares are processed; arrange() sorts them. */
+/* Appends the list of an open square. Lists have the order in which squares are processed;
+ * arrange_lists() sorts them. */
 static bool keep_list(board *b, const part *p, uint32_t *start)
 {
     sunder_i_board *h = b->h;
@@ -81,7 +82,7 @@ static bool keep_list(board *b, const part *p, uint32_t *start)
 
 /* Examines one part with the list of its parent: closes it, stores its list if it is one square, or pushes it on the
  * stack. */
-static bool settle(board *b, const part *parent, part p, uint32_t *start)
+static bool settle_part(board *b, const part *parent, part p, uint32_t *start)
 {
     double box[4];
     part_box(b->h, &p, box);
@@ -96,7 +97,7 @@ static bool settle(board *b, const part *parent, part p, uint32_t *start)
         if (!sunder_i_box_near(s->box, box, 4 * b->g->error)) continue;
         if (tries < TRIES && s->box[0] < box[0] && s->box[1] < box[1] && s->box[2] > box[2] && s->box[3] > box[3]) {
             tries++;
-            if (holds(b->g, s, box)) {
+            if (holds_box(b->g, s, box)) {
                 close_part(b->h, &p, number);
                 b->near_n = p.from;
                 return true;
@@ -114,7 +115,7 @@ static bool settle(board *b, const part *parent, part p, uint32_t *start)
     return ok;
 }
 
-static bool descend(board *b, uint32_t *start)
+static bool divide_board(board *b, uint32_t *start)
 {
     const uint32_t n = b->h->n;
     const size_t subsums = b->g->subsums;
@@ -130,13 +131,13 @@ static bool descend(board *b, uint32_t *start)
         else
             low.y1 = high.y0 = p.y0 + (p.y1 - p.y0) / 2;
         b->near_n = p.to; /* lists beyond this belong to parts that are done */
-        if (!settle(b, &p, low, start) || !settle(b, &p, high, start)) return false;
+        if (!settle_part(b, &p, low, start) || !settle_part(b, &p, high, start)) return false;
     }
     return !b->g->placed.lattice.arena.failed;
 }
 
 /* Sorts the lists by square, so that list_end suffices, and sums up the numbers of open squares. */
-static bool arrange(sunder_i_board *h, const uint32_t *start)
+static bool arrange_lists(sunder_i_board *h, const uint32_t *start)
 {
     const size_t n = h->n;
     uint32_t *list = sunder_i_alloc(h->list_n, sizeof *list);
@@ -175,7 +176,8 @@ bool sunder_i_board_build(sunder_i_operands *operands, double reach)
     h->list_end = sunder_i_calloc(squares, sizeof *h->list_end);
     uint32_t *start = sunder_i_calloc(squares, sizeof *start);
     board b = {.g = operands, .h = h};
-    const bool ok = h->holder && h->open_below && h->list_end && start && descend(&b, start) && arrange(h, start);
+    const bool ok =
+        h->holder && h->open_below && h->list_end && start && divide_board(&b, start) && arrange_lists(h, start);
     sunder_i_free(b.near);
     sunder_i_free(start);
     if (!ok) sunder_i_board_free(operands);
@@ -195,7 +197,7 @@ void sunder_i_board_free(sunder_i_operands *operands)
 }
 
 /* Returns the column or row of a coordinate; coordinates beyond the board get its first or last one. */
-static uint32_t clamped(const sunder_i_board *h, double v)
+static uint32_t clamped_cell(const sunder_i_board *h, double v)
 {
     const double at = (v + h->reach) * h->per_unit;
     return at > 0 ? at < h->n ? (uint32_t)at : h->n - 1 : 0;
@@ -204,8 +206,10 @@ static uint32_t clamped(const sunder_i_board *h, double v)
 bool sunder_i_board_segment(const sunder_i_board *held, double error, double ax, double ay, double dx, double dy)
 {
     const double e = 2 * error, bx = ax + dx, by = ay + dy;
-    const uint32_t x0 = clamped(held, (ax < bx ? ax : bx) - e), x1 = clamped(held, (ax < bx ? bx : ax) + e) + 1;
-    const uint32_t y0 = clamped(held, (ay < by ? ay : by) - e), y1 = clamped(held, (ay < by ? by : ay) + e) + 1;
+    const uint32_t x0 = clamped_cell(held, (ax < bx ? ax : bx) - e),
+                   x1 = clamped_cell(held, (ax < bx ? bx : ax) + e) + 1;
+    const uint32_t y0 = clamped_cell(held, (ay < by ? ay : by) - e),
+                   y1 = clamped_cell(held, (ay < by ? by : ay) + e) + 1;
     const size_t row = (size_t)held->n + 1;
     const uint32_t *s = held->open_below;
     return s[y1 * row + x1] - s[y0 * row + x1] - s[y1 * row + x0] + s[y0 * row + x0] == 0;

@@ -151,8 +151,8 @@ static bool inside_one_by_one(sunder_i_operands *g, const sunder_i_carrier *line
 }
 
 /* Returns whether the point is in the interior of the subsum. Exact; doubles are used where they suffice. */
-static inline bool inside(sunder_i_operands *g, const sunder_i_carrier *line, const sunder_i_fraction *t, double x,
-                          double y, const sunder_i_subsum *s)
+static inline bool inside_subsum(sunder_i_operands *g, const sunder_i_carrier *line, const sunder_i_fraction *t,
+                                 double x, double y, const sunder_i_subsum *s)
 {
     if (s->sides >= SUNDER_I_SIDES_MANY) {
         const sunder_i_fan_answer where = inside_fan(s, x, y, g->error);
@@ -174,12 +174,12 @@ static inline bool covers_near(sunder_i_operands *g, const sunder_i_carrier *lin
     sunder_i_subsum *s = g->subsum + k;
     if (!s->sides && !sunder_i_subsum_make(g, s)) return false;
     g->placed.lattice.counts.orientation_tests++;
-    return inside(g, line, t, x, y, s);
+    return inside_subsum(g, line, t, x, y, s);
 }
 
 /* Returns whether subsum k covers the point. */
-static inline bool covers(sunder_i_operands *g, const sunder_i_carrier *line, const sunder_i_fraction *t, double x,
-                          double y, size_t k)
+static inline bool covers_point(sunder_i_operands *g, const sunder_i_carrier *line, const sunder_i_fraction *t,
+                                double x, double y, size_t k)
 {
     return sunder_i_box_near_point(g->subsum[k].box, x, y, g->error) && covers_near(g, line, t, x, y, k);
 }
@@ -201,7 +201,7 @@ static uint64_t few_near(const sunder_i_operands *g, double x, double y)
 static long cover_of_few(sunder_i_operands *g, const sunder_i_carrier *line, const sunder_i_fraction *t, double x,
                          double y, size_t first)
 {
-    if (covers(g, line, t, x, y, first)) return (long)first;
+    if (covers_point(g, line, t, x, y, first)) return (long)first;
     uint64_t near = few_near(g, x, y) & ~((uint64_t)1 << first);
     uint64_t later = near >> first << first;
     for (; near && !g->placed.lattice.arena.failed; near &= ~(later & -later), later &= later - 1) {
@@ -219,9 +219,9 @@ static long cover_on_board(sunder_i_operands *g, const sunder_i_carrier *line, c
 {
     const sunder_i_board *h = g->board;
     if (h->holder[square]) return (long)h->holder[square] - 1;
-    if (first < g->subsums && covers(g, line, t, x, y, first)) return (long)first;
+    if (first < g->subsums && covers_point(g, line, t, x, y, first)) return (long)first;
     for (uint32_t i = square ? h->list_end[square - 1] : 0; i < h->list_end[square]; i++) {
-        if (covers(g, line, t, x, y, h->list[i])) return (long)h->list[i];
+        if (covers_point(g, line, t, x, y, h->list[i])) return (long)h->list[i];
         if (g->placed.lattice.arena.failed) return -1;
     }
     return -1;
@@ -245,7 +245,7 @@ long sunder_i_carrier_cover(sunder_i_operands *operands, const sunder_i_carrier 
         return found;
     }
     for (size_t n = 0; n < operands->subsums; n++, k = k + 1 < operands->subsums ? k + 1 : 0) {
-        if (covers(operands, line, t, x, y, k)) {
+        if (covers_point(operands, line, t, x, y, k)) {
             if (first) *first = k;
             return (long)k;
         }
@@ -277,7 +277,7 @@ uint32_t sunder_i_subsum_lowest(const sunder_i_subsum *subsum, double dx, double
 }
 
 /* Returns the signed distance of vertex k from the line, times its length, positive on the left. */
-static double height(const sunder_i_carrier *line, const sunder_i_subsum *s, uint32_t k)
+static double height_over(const sunder_i_carrier *line, const sunder_i_subsum *s, uint32_t k)
 {
     if (k >= s->sides) k -= s->sides;
     return line->dx * (s->cy[k] - line->ay) - line->dy * (s->cx[k] - line->ax);
@@ -288,8 +288,8 @@ static double height(const sunder_i_carrier *line, const sunder_i_subsum *s, uin
  * that is certainly on its right and one that is certainly on its left there is one side through which it leaves, and
  * bisection finds it, except for vertices that doubles cannot decide, and the sides at them. Backwards, left and right
  * are exchanged. */
-static stretch leaving(const sunder_i_operands *g, const sunder_i_carrier *line, const sunder_i_subsum *s,
-                       bool forwards)
+static stretch leaving_sides(const sunder_i_operands *g, const sunder_i_carrier *line, const sunder_i_subsum *s,
+                             bool forwards)
 {
     const stretch all = {0, s->sides};
     if (s->sides < SUNDER_I_SIDES_MANY) return all;
@@ -300,17 +300,17 @@ static stretch leaving(const sunder_i_operands *g, const sunder_i_carrier *line,
     const double bound = (fabs(line->dx) + fabs(line->dy)) * 2 * g->error + 16 * g->magnitude * g->rough;
     const uint32_t from = forwards ? lowest : highest, to = forwards ? highest : lowest;
     uint32_t low = from, high = to > from ? to : to + s->sides;
-    if (sign * height(line, s, from) >= -bound || sign * height(line, s, to) <= bound) return all;
+    if (sign * height_over(line, s, from) >= -bound || sign * height_over(line, s, to) <= bound) return all;
     for (uint32_t end = high; end - low > 1;) { /* the last vertex that is certainly before the exit */
         const uint32_t k = low + (end - low) / 2;
-        if (sign * height(line, s, k) < -bound)
+        if (sign * height_over(line, s, k) < -bound)
             low = k;
         else
             end = k;
     }
     for (uint32_t start = low; high - start > 1;) { /* the first vertex that is certainly beyond it */
         const uint32_t k = start + (high - start) / 2;
-        if (sign * height(line, s, k) > bound)
+        if (sign * height_over(line, s, k) > bound)
             high = k;
         else
             start = k;
@@ -379,7 +379,7 @@ sunder_i_fraction sunder_i_carrier_exit(sunder_i_operands *operands, const sunde
     sunder_i_lattice *l = &operands->placed.lattice;
     sunder_i_fraction best = {0, 1, 0};
     bool any = false;
-    const stretch near = leaving(operands, line, subsum, forwards);
+    const stretch near = leaving_sides(operands, line, subsum, forwards);
     l->counts.segment_intersections++;
     if (operands->brief) return brief_exit(line, subsum, near, forwards);
     if (line->plain && subsum->plain) return narrow_exit(line, subsum, near, forwards);

@@ -69,7 +69,7 @@ static inline void take_edge(edge *e, uint32_t tail, const double *p, const doub
 /* Writes the candidate for the edge at vertex v to `at`. Returns 1 if it is near enough to be kept, else 0. There are
  * no branches, since they would wait for a long chain of operations. The formula is that of sunder_i_segment_square(),
  * for both coordinates at a time. */
-static inline size_t put(const sunder_i_operands *g, const edge *e, uint32_t v, sunder_i_candidate *at)
+static inline size_t put_candidate(const sunder_i_operands *g, const edge *e, uint32_t v, sunder_i_candidate *at)
 {
     const sunder_i_doubles a = e->from + sunder_i_doubles_at(e->other + 2 * (size_t)v), along = a * e->d;
     const sunder_i_doubles p = a + sunder_i_clamped(-(along[0] + along[1]) * e->inverse) * e->d, squares = p * p;
@@ -104,7 +104,7 @@ static bool pair_edges_with_few(sunder_i_operands *g, int side, const sunder_i_c
             take_edge(&e, tail, xy + 2 * (size_t)tail, xy + 2 * (size_t)head);
             size_t have = h->n;
             for (uint32_t met = all[k]; met; met &= met - 1)
-                have += put(g, &e, c->vertex[__builtin_ctz(met)], h->item + have);
+                have += put_candidate(g, &e, c->vertex[__builtin_ctz(met)], h->item + have);
             h->n = have;
         }
     }
@@ -132,7 +132,7 @@ static bool pair_edges_with_many(sunder_i_operands *g, int side, const sunder_i_
         if (n == 0) continue;
         if (!make_room(g, h, n)) return false;
         take_edge(&e, v, p, q);
-        for (uint32_t m = 0; m < n; m++) h->n += put(g, &e, c->vertex[met[m]], h->item + h->n);
+        for (uint32_t m = 0; m < n; m++) h->n += put_candidate(g, &e, c->vertex[met[m]], h->item + h->n);
     }
     g->placed.lattice.counts.orientation_tests += 2 * asked;
     return true;
@@ -145,7 +145,7 @@ static bool pair_edges(sunder_i_operands *g, int side, const sunder_i_cones *own
                                       : pair_edges_with_many(g, side, own, c, limit, h);
 }
 
-static bool before(const void *a, const void *b)
+static bool square_before(const void *a, const void *b)
 {
     return ((const sunder_i_candidate *)a)->square < ((const sunder_i_candidate *)b)->square;
 }
@@ -153,7 +153,7 @@ static bool before(const void *a, const void *b)
 void sunder_i_candidates_order(sunder_i_candidates *heap)
 {
     sunder_i_candidate scratch;
-    sunder_i_heap_make(heap->item, heap->n, sizeof scratch, &scratch, before);
+    sunder_i_heap_make(heap->item, heap->n, sizeof scratch, &scratch, square_before);
 }
 
 bool sunder_i_candidates_find(sunder_i_operands *operands, double limit, sunder_i_candidates *out)
@@ -169,7 +169,7 @@ bool sunder_i_candidates_find(sunder_i_operands *operands, double limit, sunder_
 sunder_i_candidate sunder_i_candidates_pop(sunder_i_candidates *heap)
 {
     sunder_i_candidate top;
-    sunder_i_heap_pop(heap->item, &heap->n, sizeof top, &top, before);
+    sunder_i_heap_pop(heap->item, &heap->n, sizeof top, &top, square_before);
     return top;
 }
 

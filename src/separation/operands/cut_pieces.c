@@ -18,7 +18,7 @@ typedef struct cutting {
 } cutting;
 
 /* Divides the polygon of the vertices first to last of a piece. */
-static void cut(cutting *c, uint32_t first, uint32_t last)
+static void cut_piece(cutting *c, uint32_t first, uint32_t last)
 {
     const uint32_t span = last - first, n = span < MOST ? span + 1 : MOST;
     for (uint32_t k = 0; k < n; k++) c->vertex[c->corners++] = c->corner[first + (uint64_t)k * span / (n - 1)];
@@ -26,7 +26,7 @@ static void cut(cutting *c, uint32_t first, uint32_t last)
     for (uint32_t k = 0; k + 1 < n; k++) {
         const uint32_t from = first + (uint32_t)((uint64_t)k * span / (n - 1));
         const uint32_t to = first + (uint32_t)((uint64_t)(k + 1) * span / (n - 1));
-        if (to - from > 1) cut(c, from, to);
+        if (to - from > 1) cut_piece(c, from, to);
     }
 }
 
@@ -46,7 +46,7 @@ static bool cut_operand(sunder_i_operands *g, int side)
     for (uint32_t i = 0, first = 0; i < s->pieces; first = s->piece_end[i++]) {
         if (!sunder_i_steps(s->piece_end[i] - first)) return false;
         c.corner = sunder_i_piece_vertices(s) + first;
-        cut(&c, 0, s->piece_end[i] - first - 1);
+        cut_piece(&c, 0, s->piece_end[i] - first - 1);
     }
     memmove(end + c.parts, c.vertex, c.corners * sizeof *end); /* the vertices follow directly after the ends */
     out->pieces = c.parts;

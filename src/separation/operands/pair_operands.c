@@ -77,7 +77,7 @@ typedef struct plain {
     double origin[2];   /* in units */
 } plain;
 
-static void hold(plain *u, const double *v, size_t n, double *most)
+static void hold_doubles(plain *u, const double *v, size_t n, double *most)
 {
     for (size_t i = 0; i < n; i++) {
         const int b = sunder_i_low_bit(v[i]);
@@ -116,9 +116,9 @@ static bool plain_unit(const sunder_shape *p, const sunder_shape *q, const sunde
     double most = 0, added = 0;
     u->bit = p->low_bit < q->low_bit ? p->low_bit : q->low_bit;
     for (int k = 0; k < 4; k++) most = sunder_i_max(most, sunder_i_max(fabs(p->box[k]), fabs(q->box[k])));
-    hold(u, o->extra, o->extra_n, &added);
-    if (o->tp) hold(u, o->tp, 2, &added);
-    if (o->tq) hold(u, o->tq, 2, &added);
+    hold_doubles(u, o->extra, o->extra_n, &added);
+    if (o->tp) hold_doubles(u, o->tp, 2, &added);
+    if (o->tq) hold_doubles(u, o->tq, 2, &added);
     if (u->bit <= -900 || u->bit >= 900 || most >= sunder_i_power_of_two(u->bit + 62) ||
         added >= sunder_i_power_of_two(u->bit + 58))
         return false;
@@ -175,7 +175,7 @@ static bool place_plain(sunder_i_operands *g, const sunder_i_operands_options *o
 /* Returns the difference of the translations if it is exact in doubles; only the difference matters, and applying it to
  * Q alone keeps the numbers short. NULL: it is not exact, which is decided by the rounding error of the subtraction
  * (Knuth's two-sum), or tp is NULL. */
-static const double *reduced(const double *tp, const double *tq, double difference[2])
+static const double *reduced_translation(const double *tp, const double *tq, double difference[2])
 {
     if (!tp) return NULL;
     for (int k = 0; k < 2; k++) {
@@ -186,13 +186,13 @@ static const double *reduced(const double *tp, const double *tq, double differen
     return difference;
 }
 
-static sunder_status place(sunder_i_operands *g, const sunder_i_operands_options *given, sunder_error *err)
+static sunder_status place_operands(sunder_i_operands *g, const sunder_i_operands_options *given, sunder_error *err)
 {
     plain u;
     double difference[2];
     sunder_i_operands_options reduced_options = *given;
     const sunder_i_operands_options *o = given;
-    if (reduced(given->tp, given->tq, difference)) {
+    if (reduced_translation(given->tp, given->tq, difference)) {
         g->base[0] = given->tp[0];
         g->base[1] = given->tp[1];
         reduced_options.tp = NULL;
@@ -237,7 +237,7 @@ sunder_status sunder_i_operands_init(sunder_i_operands *operands, const sunder_s
     memset(operands, 0, sizeof *operands);
     operands->shape[0] = p;
     operands->shape[1] = q;
-    const sunder_status status = place(operands, options, err);
+    const sunder_status status = place_operands(operands, options, err);
     if (status) return status;
     sunder_i_lattice *l = &operands->placed.lattice;
     sunder_i_operands_fill_boxes(operands, 0);

@@ -135,7 +135,7 @@ bool sunder_i_operands_reach(sunder_i_operands *operands, double radius)
 
 /* ---- Pieces as cycles that begin at their lowest vertex (of several the leftmost) ---- */
 
-static uint32_t lowest(sunder_i_lattice *l, const sunder_i_point *at, const uint32_t *c, uint32_t n)
+static uint32_t lowest_corner(sunder_i_lattice *l, const sunder_i_point *at, const uint32_t *c, uint32_t n)
 {
     uint32_t best = 0;
     for (uint32_t k = 1; k < n; k++) {
@@ -167,10 +167,10 @@ static void narrow_turn(const sunder_i_point *at, const uint32_t *c, uint32_t n,
 }
 
 /* Does the same on any lattice. */
-static void turn(sunder_i_lattice *l, const sunder_i_point *at, const uint32_t *c, uint32_t n, sunder_i_point *block,
-                 sunder_i_turned_piece *r)
+static void turn_corners(sunder_i_lattice *l, const sunder_i_point *at, const uint32_t *c, uint32_t n,
+                         sunder_i_point *block, sunder_i_turned_piece *r)
 {
-    uint32_t k = lowest(l, at, c, n);
+    uint32_t k = lowest_corner(l, at, c, n);
     r->corner = block;
     r->side = block + n + 1;
     block[0] = at[c[k]];
@@ -193,7 +193,7 @@ static const sunder_i_turned_piece *turn_piece(sunder_i_operands *g, int side, u
     if (l->narrow)
         narrow_turn(g->at[side], p.corner, p.n, block, r);
     else
-        turn(l, g->at[side], p.corner, p.n, block, r);
+        turn_corners(l, g->at[side], p.corner, p.n, block, r);
     if (p.n >= 2) r->n = p.n; /* a point is computed each time, which takes no time */
     return r;
 }
@@ -211,8 +211,8 @@ bool sunder_i_operands_turn(sunder_i_operands *operands)
 /* Merges the sides of two pieces. Both cycles begin at their lowest vertices, so that their sides are sorted by angle
  * in [0, 2 pi), and the angle between the two current sides is always less than pi: the side before the farther one
  * came before the other, and turns by less than pi. */
-static uint32_t merge(sunder_i_operands *g, const sunder_i_turned_piece *a, const sunder_i_turned_piece *b,
-                      sunder_i_point *corner, sunder_i_point *side)
+static uint32_t merge_sides(sunder_i_operands *g, const sunder_i_turned_piece *a, const sunder_i_turned_piece *b,
+                            sunder_i_point *corner, sunder_i_point *side)
 {
     uint32_t n = 0;
     sunder_i_merge m = sunder_i_merge_of(a->n, b->n);
@@ -255,7 +255,7 @@ static inline __attribute__((always_inline)) uint32_t narrow_merge(const sunder_
 
 #ifndef NDEBUG
 /* Returns NULL, or what is wrong: a subsum is strictly convex and closed, and begins at its lowest vertex. */
-static const char *check(sunder_i_operands *g, const sunder_i_subsum *s)
+static const char *check_subsum(sunder_i_operands *g, const sunder_i_subsum *s)
 {
     const char *wrong = s->sides < 3 ? "a subsum has fewer than three sides" : NULL;
     for (uint32_t k = 0; k < s->sides; k++) {
@@ -326,7 +326,7 @@ bool sunder_i_subsum_make(sunder_i_operands *operands, sunder_i_subsum *subsum)
     subsum->bound = subsum->sy + most;
     const uint32_t n = operands->brief ? narrow_merge(a, b, true, subsum->corner, subsum->side)
                        : l->narrow     ? narrow_merge(a, b, false, subsum->corner, subsum->side)
-                                       : merge(operands, a, b, subsum->corner, subsum->side);
+                                       : merge_sides(operands, a, b, subsum->corner, subsum->side);
     if (l->narrow)
         narrow_doubles(operands, subsum, n);
     else
@@ -338,6 +338,6 @@ bool sunder_i_subsum_make(sunder_i_operands *operands, sunder_i_subsum *subsum)
         subsum->sx[n] = 1;
     }
     subsum->sides = n;
-    SUNDER_I_CHECK(check(operands, subsum), n);
+    SUNDER_I_CHECK(check_subsum(operands, subsum), n);
     return !l->arena.failed;
 }

@@ -21,7 +21,7 @@ static bool strictly_inside(sunder_i_operands *g, const cone *c, sunder_i_point 
     return sunder_i_operands_cross(g, c->from, r) > 0 && sunder_i_operands_cross(g, r, c->to) > 0;
 }
 
-static sunder_i_point negative(sunder_i_operands *g, sunder_i_point u)
+static sunder_i_point negative_point(sunder_i_operands *g, sunder_i_point u)
 {
     return g->placed.lattice.narrow ? (sunder_i_point){-u.x, -u.y} : sunder_i_point_neg(&g->placed.lattice, u);
 }
@@ -57,7 +57,7 @@ static where cone_of(sunder_i_operands *g, const sunder_i_free_point *f, sunder_
     const uint32_t first = n == 2 ? (on[0] + 1 == on[1] ? on[1] : on[0]) : on[0];
     const uint32_t last = n == 2 ? (first == on[1] ? on[0] : on[1]) : on[0];
     out->from = s->side[first];
-    out->to = negative(g, s->side[last]);
+    out->to = negative_point(g, s->side[last]);
     return ON;
 }
 
@@ -106,7 +106,7 @@ static around look_around(sunder_i_operands *g, const cone *cones, size_t n, con
     return a;
 }
 
-static sunder_contact classify(sunder_i_operands *g, const cone *cones, size_t n)
+static sunder_contact classify_cones(sunder_i_operands *g, const cone *cones, size_t n)
 {
     size_t rays;
     sunder_i_lattice *l = &g->placed.lattice;
@@ -148,5 +148,5 @@ sunder_contact sunder_i_free_point_contact(sunder_i_operands *operands, const su
         n++;
     }
     if (flat && n > 0) return SUNDER_CONTACT_EDGE;
-    return classify(operands, cones, n);
+    return classify_cones(operands, cones, n);
 }

@@ -62,8 +62,8 @@ static bool end_is_better(sunder_i_point a, sunder_i_point b)
     return p < q || (p == q && (a.x < b.x || (a.x == b.x && a.y < b.y)));
 }
 
-static bool better(search *s, const sunder_i_carrier *line, const sunder_i_fraction *t, double distance,
-                   sunder_i_hpoint *point, bool *known)
+static bool better_point(search *s, const sunder_i_carrier *line, const sunder_i_fraction *t, double distance,
+                         sunder_i_hpoint *point, bool *known)
 {
     *known = false;
     if (!s->best.found) return true;
@@ -86,12 +86,12 @@ static bool better(search *s, const sunder_i_carrier *line, const sunder_i_fract
     return c < 0 || (c == 0 && order < 0);
 }
 
-static void offer(search *s, const sunder_i_carrier *line, const sunder_i_fraction *t, double x, double y,
-                  double distance)
+static void offer_point(search *s, const sunder_i_carrier *line, const sunder_i_fraction *t, double x, double y,
+                        double distance)
 {
     sunder_i_hpoint point;
     bool known;
-    if (!better(s, line, t, distance, &point, &known)) return;
+    if (!better_point(s, line, t, distance, &point, &known)) return;
     s->best = (sunder_i_free_point){true, false, *line, *t, x, y, distance};
     s->found++;
     s->best_point_known = known;
@@ -110,7 +110,7 @@ static bool holds_end(const sunder_i_carrier *line, const sunder_i_subsum *subsu
 
 /* Follows the line from a point that is in the interior of subsum `cover` to the first free point, and offers that
  * point unless it is beyond the limit. */
-static void walk(search *s, const sunder_i_carrier *line, long cover, bool forwards)
+static void walk_line(search *s, const sunder_i_carrier *line, long cover, bool forwards)
 {
     sunder_i_operands *g = s->g;
     for (;;) {
@@ -126,7 +126,7 @@ static void walk(search *s, const sunder_i_carrier *line, long cover, bool forwa
         cover = sunder_i_carrier_cover(g, line, &t, x, y, &first);
         if (g->placed.lattice.arena.failed) return;
         if (cover < 0) {
-            offer(s, line, &t, x, y, distance);
+            offer_point(s, line, &t, x, y, distance);
             return;
         }
     }
@@ -172,11 +172,11 @@ static void try_candidate(search *s, const sunder_i_carrier *line)
     const long cover = sunder_i_carrier_cover(g, line, &foot, x, y, &s->first);
     if (g->placed.lattice.arena.failed) return;
     if (cover < 0) {
-        offer(s, line, &foot, x, y, distance);
+        offer_point(s, line, &foot, x, y, distance);
         return;
     }
-    if (foot.value < 0.5 || sunder_i_carrier_cmp(g, &foot, &s->one) < 0) walk(s, line, cover, true);
-    if (foot.value > 0.5 || sunder_i_carrier_cmp(g, &foot, &s->zero) > 0) walk(s, line, cover, false);
+    if (foot.value < 0.5 || sunder_i_carrier_cmp(g, &foot, &s->one) < 0) walk_line(s, line, cover, true);
+    if (foot.value > 0.5 || sunder_i_carrier_cmp(g, &foot, &s->zero) > 0) walk_line(s, line, cover, false);
 }
 
 /* Returns whether a subsum covers the origin, that is, whether the operands overlap. */
@@ -281,7 +281,7 @@ static bool by_squares(search *s, bool *done)
     return end != SUNDER_I_SQUARES_NO_MEMORY && !s->g->placed.lattice.arena.failed;
 }
 
-static search begin(sunder_i_operands *g, double limit)
+static search begin_search(sunder_i_operands *g, double limit)
 {
     return (search){.g = g,
                     .limit = sunder_i_min(sunder_i_operands_way_out(g), limit) + 8 * g->error,
@@ -292,7 +292,7 @@ static search begin(sunder_i_operands *g, double limit)
 sunder_status sunder_i_nearest_by_squares(sunder_i_operands *operands, double limit, bool *done,
                                           sunder_i_free_point *out, sunder_error *err)
 {
-    search s = begin(operands, limit);
+    search s = begin_search(operands, limit);
     *done = false;
     if (!by_squares(&s, done)) return sunder_i_no_memory(err);
     *out = s.best;
@@ -332,7 +332,7 @@ sunder_status sunder_i_nearest_free_point(sunder_i_operands *operands, double li
         const sunder_status status = by_parts(operands, limit, &done, out, err);
         if (status || done) return status;
     }
-    search s = begin(operands, limit);
+    search s = begin_search(operands, limit);
     const double whole = s.limit;
     for (int times = many ? WIDEN_TIMES : 0; times >= 0 && !s.best.found; times--) {
         double disc = whole;

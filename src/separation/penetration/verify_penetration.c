@@ -140,7 +140,7 @@ static bool likely_side_parts(sunder_i_operands *g, const sunder_i_free_point *f
 }
 
 /* Returns whether the point is outside the subsum of these pieces, by its box or by a side of one of them. */
-static bool parted(sunder_i_operands *g, const sunder_i_free_point *f, uint32_t i, uint32_t j)
+static bool parted_pieces(sunder_i_operands *g, const sunder_i_free_point *f, uint32_t i, uint32_t j)
 {
     double sum[4];
     sunder_i_box_sum(g->piece_box[0] + 4 * (size_t)i, g->piece_box[1] + 4 * (size_t)j, sum);
@@ -204,7 +204,7 @@ static bool verify_many(sunder_i_operands *g, const sunder_i_free_point *f)
         const double low = f->x - b[4 * (size_t)j + 2] - p.widest - e, high = f->x - b[4 * (size_t)j] + e;
         const uint32_t first = first_from(&p, low);
         uint32_t k = first;
-        while (ok && k < p.n && p.box[4 * (size_t)p.piece[k]] <= high) ok = parted(g, f, p.piece[k++], j);
+        while (ok && k < p.n && p.box[4 * (size_t)p.piece[k]] <= high) ok = parted_pieces(g, f, p.piece[k++], j);
         if (!sunder_i_steps((k - first) / 8 + 1)) g->placed.lattice.arena.failed = true;
         ok = ok && !g->placed.lattice.arena.failed;
     }
@@ -220,6 +220,6 @@ bool sunder_i_free_point_verify(sunder_i_operands *operands, const sunder_i_free
     if ((uint64_t)m * n > MANY) return verify_many(operands, nearest);
     for (uint32_t i = 0; i < m; i++)
         for (uint32_t j = 0; j < n; j++)
-            if (!parted(operands, nearest, i, j)) return false;
+            if (!parted_pieces(operands, nearest, i, j)) return false;
     return true;
 }

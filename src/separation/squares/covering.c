@@ -77,7 +77,7 @@ static bool sum_covers(sunder_i_squares *q, const uint32_t node[2], float *in)
     return pieces && q->query.hx > 0 && sunder_i_squares_position(q, q->at, i, j) == SUNDER_I_POSITION_WITHIN;
 }
 
-static bool before(const void *a, const void *b)
+static bool key_before(const void *a, const void *b)
 {
     return ((const sunder_i_node_pair *)a)->key > ((const sunder_i_node_pair *)b)->key;
 }
@@ -87,7 +87,7 @@ static bool push_node(sunder_i_squares *q, sunder_i_node_pair v)
     if (!sunder_i_reserve(&q->node, &q->nodes_capacity, q->nodes + 1, sizeof *q->node)) return false;
     /* there are no nodes below */
     if (v.node[0] >= q->inner[0].all.leaves && v.node[1] >= q->inner[1].all.leaves) return true;
-    sunder_i_heap_push(q->node, &q->nodes, sizeof v, &v, before);
+    sunder_i_heap_push(q->node, &q->nodes, sizeof v, &v, key_before);
     return true;
 }
 
@@ -119,7 +119,7 @@ static sunder_i_covering open_pair(sunder_i_squares *q, const sunder_i_node_pair
 }
 
 /* Returns the pair of nodes that covered the previous square near this one, or the roots. */
-static uint32_t *remembered(sunder_i_squares *q)
+static uint32_t *remembered_pair(sunder_i_squares *q)
 {
     const float per_unit = SUNDER_I_SQUARES_MEMORY / (2 * q->reach);
     const int x = (int)((q->query.x + q->reach) * per_unit), y = (int)((q->query.y + q->reach) * per_unit);
@@ -131,7 +131,8 @@ static sunder_i_covering search_nodes(sunder_i_squares *q, const uint32_t first[
 {
     sunder_i_node_pair near = {.node = {first[0], first[1]}}, all = {.node = {1, 1}};
     q->nodes = 0;
-    if (sum_covers(q, first, &near.in) || sum_covers(q, remembered(q), &all.in) || sum_covers(q, all.node, &all.in))
+    if (sum_covers(q, first, &near.in) || sum_covers(q, remembered_pair(q), &all.in) ||
+        sum_covers(q, all.node, &all.in))
         return SUNDER_I_COVERING_FOUND;
     for (int k = 0; k < 2; k++) near.node[k] = q->best[k] >> LEVELS_UP ? q->best[k] >> LEVELS_UP : 1;
     if ((near.node[0] > 1 || near.node[1] > 1) && sum_covers(q, near.node, &near.in)) return SUNDER_I_COVERING_FOUND;
@@ -141,7 +142,7 @@ static sunder_i_covering search_nodes(sunder_i_squares *q, const uint32_t first[
     if (!push_node(q, all)) return SUNDER_I_COVERING_NO_MEMORY;
     while (q->nodes) {
         sunder_i_node_pair top;
-        sunder_i_heap_pop(q->node, &q->nodes, sizeof top, &top, before);
+        sunder_i_heap_pop(q->node, &q->nodes, sizeof top, &top, key_before);
         const sunder_i_covering how = open_pair(q, &top);
         if (how != SUNDER_I_COVERING_NONE) return how;
         if (!sunder_i_step()) return SUNDER_I_COVERING_NO_MEMORY;
@@ -161,7 +162,7 @@ sunder_i_covering sunder_i_squares_one_covers(sunder_i_squares *squares, const d
     const sunder_i_covering how = search_nodes(squares, first);
     squares->covered = how == SUNDER_I_COVERING_FOUND;
     if (!squares->covered) return how;
-    memcpy(remembered(squares), squares->best, sizeof squares->best);
+    memcpy(remembered_pair(squares), squares->best, sizeof squares->best);
     for (int k = 0; k < 2; k++) squares->covering[k] = squares->inner[k].node[squares->best[k]].chief;
     return how;
 }

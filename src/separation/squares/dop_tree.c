@@ -45,7 +45,7 @@ static const sunder_i_dop NOWHERE = {
     {INFINITY, INFINITY, INFINITY, INFINITY, INFINITY, INFINITY, INFINITY, INFINITY},
     {-INFINITY, -INFINITY, -INFINITY, -INFINITY, -INFINITY, -INFINITY, -INFINITY, -INFINITY}};
 
-static void include(sunder_i_dop *all, const sunder_i_dop *one)
+static void include_extent(sunder_i_dop *all, const sunder_i_dop *one)
 {
     for (int k = 0; k < SUNDER_I_DOP_WAYS; k++) {
         all->low[k] = one->low[k] < all->low[k] ? one->low[k] : all->low[k];
@@ -59,7 +59,7 @@ void sunder_i_dop_add(sunder_i_dop *extents, float x, float y)
 {
     sunder_i_dop at;
     for (int k = 0; k < SUNDER_I_DOP_WAYS; k++) at.low[k] = at.high[k] = (float)(x * WAY[k][0] + y * WAY[k][1]);
-    include(extents, &at);
+    include_extent(extents, &at);
 }
 
 typedef struct planter {
@@ -75,7 +75,7 @@ static float bound_of(const sunder_i_dop *e, int k)
 }
 
 /* Returns the bound in which the n pieces from list[from] on differ most. */
-static int widest(const planter *p, size_t from, size_t n)
+static int widest_bound(const planter *p, size_t from, size_t n)
 {
     sunder_i_dop least = p->extent[p->list[from]], most = least;
     for (size_t i = from + 1; i < from + n; i++) {
@@ -94,7 +94,7 @@ static int widest(const planter *p, size_t from, size_t n)
 }
 
 /* Converts a float to an integer with the same order. */
-static uint32_t ordered(float v)
+static uint32_t ordered_bits(float v)
 {
     uint32_t bits;
     memcpy(&bits, &v, sizeof bits);
@@ -132,7 +132,7 @@ static void halve_by(planter *p, size_t from, size_t n, int bound)
 {
     for (size_t i = 0; i < n; i++) {
         const uint32_t piece = p->list[from + i];
-        p->key[i] = (uint64_t)ordered(bound_of(p->extent + piece, bound)) << 32 | piece;
+        p->key[i] = (uint64_t)ordered_bits(bound_of(p->extent + piece, bound)) << 32 | piece;
     }
     select_least(p->key, n, n - n / 2);
     for (size_t i = 0; i < n; i++) p->list[from + i] = (uint32_t)p->key[i];
@@ -140,7 +140,7 @@ static void halve_by(planter *p, size_t from, size_t n, int bound)
 
 /* Builds the subtree of `node` for the n pieces from list[from] on; the left half has as many as the right one, or one
  * more. Returns false if the computation must stop. */
-static bool plant(planter *p, uint32_t node, size_t from, size_t n)
+static bool plant_node(planter *p, uint32_t node, size_t from, size_t n)
 {
     sunder_i_dop_tree *t = p->tree;
     if (node >= t->leaves) {
@@ -149,15 +149,16 @@ static bool plant(planter *p, uint32_t node, size_t from, size_t n)
         return true;
     }
     if (!sunder_i_steps(n)) return false;
-    if (n > 1) halve_by(p, from, n, widest(p, from, n));
-    if (!plant(p, 2 * node, from, n - n / 2) || !plant(p, 2 * node + 1, from + n - n / 2, n / 2)) return false;
+    if (n > 1) halve_by(p, from, n, widest_bound(p, from, n));
+    if (!plant_node(p, 2 * node, from, n - n / 2) || !plant_node(p, 2 * node + 1, from + n - n / 2, n / 2))
+        return false;
     t->extent[node] = t->extent[2 * node];
-    include(&t->extent[node], &t->extent[2 * node + 1]);
+    include_extent(&t->extent[node], &t->extent[2 * node + 1]);
     return true;
 }
 
 #ifndef NDEBUG
-static bool has(const sunder_i_dop *all, const sunder_i_dop *one)
+static bool has_extent(const sunder_i_dop *all, const sunder_i_dop *one)
 {
     for (int k = 0; k < SUNDER_I_DOP_WAYS; k++)
         if (one->low[k] < all->low[k] || one->high[k] > all->high[k]) return false;
@@ -165,15 +166,15 @@ static bool has(const sunder_i_dop *all, const sunder_i_dop *one)
 }
 
 /* Returns NULL, or what is wrong. */
-static const char *check(const sunder_i_dop_tree *t, const sunder_i_dop *extent, uint32_t n)
+static const char *check_tree(const sunder_i_dop_tree *t, const sunder_i_dop *extent, uint32_t n)
 {
     uint32_t pieces = 0;
     for (uint32_t k = 1; k < t->leaves; k++)
-        if (!has(&t->extent[k], &t->extent[2 * k]) || !has(&t->extent[k], &t->extent[2 * k + 1]))
+        if (!has_extent(&t->extent[k], &t->extent[2 * k]) || !has_extent(&t->extent[k], &t->extent[2 * k + 1]))
             return "a node does not hold its children";
     for (uint32_t i = 0; i < t->leaves; i++) {
         if (t->piece[i] == UINT32_MAX) continue;
-        if (!has(&t->extent[t->leaves + i], &extent[t->piece[i]])) return "a leaf does not hold its piece";
+        if (!has_extent(&t->extent[t->leaves + i], &extent[t->piece[i]])) return "a leaf does not hold its piece";
         pieces++;
     }
     return pieces == n ? NULL : "pieces are missing";
@@ -189,8 +190,8 @@ bool sunder_i_dop_tree_build(sunder_i_dop_tree *tree, const sunder_i_dop *extent
     planter p = {tree, extent, sunder_i_alloc(n, sizeof *p.list), sunder_i_alloc(n, sizeof *p.key)};
     bool ok = tree->piece && tree->extent && p.list && p.key;
     for (uint32_t i = 0; ok && i < n; i++) p.list[i] = i;
-    ok = ok && plant(&p, 1, 0, n);
-    SUNDER_I_CHECK(ok ? check(tree, extent, n) : NULL, n);
+    ok = ok && plant_node(&p, 1, 0, n);
+    SUNDER_I_CHECK(ok ? check_tree(tree, extent, n) : NULL, n);
     sunder_i_free(p.list);
     sunder_i_free(p.key);
     return ok;

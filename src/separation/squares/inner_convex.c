@@ -165,7 +165,7 @@ static bool name_chiefs(sunder_i_inner_convex *b, const sunder_i_dop *extent)
 
 /* ---- Building and queries ---- */
 
-static bool plant(sunder_i_inner_convex *b, uint32_t pieces)
+static bool plant_trees(sunder_i_inner_convex *b, uint32_t pieces)
 {
     sunder_i_dop *extent = sunder_i_alloc(b->n, sizeof *extent);
     if (!extent) return false;
@@ -192,7 +192,7 @@ bool sunder_i_inner_convex_build(sunder_i_inner_convex *inner, const sunder_i_op
                                      .box = sunder_i_alloc(boxes, 4 * sizeof *inner->box)};
     if (!inner->end || !inner->block || !inner->vague || !inner->box) return false;
     add_pieces(inner, operands, side);
-    return add_boxes(inner, operands, quadtree, boxes) && plant(inner, s->pieces);
+    return add_boxes(inner, operands, quadtree, boxes) && plant_trees(inner, s->pieces);
 }
 
 void sunder_i_inner_convex_free(sunder_i_inner_convex *inner)

@@ -34,7 +34,7 @@ static void open_nodes(const sunder_i_squares *q, uint32_t a, uint32_t b, uint32
 
 /* Adds the pairs below two nodes. Returns false if there are more than `most`, if one of them covers the square
  * (q->covered), or if out of memory. */
-static bool gather(sunder_i_squares *q, uint32_t a, uint32_t b, size_t most)
+static bool gather_pairs(sunder_i_squares *q, uint32_t a, uint32_t b, size_t most)
 {
     const sunder_i_dop_tree *p = &q->inner[0].pieces, *r = &q->inner[1].pieces;
     if (!sunder_i_dop_near(p->extent + a, r->extent + b, &q->dop)) return true;
@@ -55,7 +55,7 @@ static bool gather(sunder_i_squares *q, uint32_t a, uint32_t b, size_t most)
     }
     uint32_t part[2][2];
     open_nodes(q, a, b, part);
-    return gather(q, part[0][0], part[0][1], most) && gather(q, part[1][0], part[1][1], most);
+    return gather_pairs(q, part[0][0], part[0][1], most) && gather_pairs(q, part[1][0], part[1][1], most);
 }
 
 bool sunder_i_squares_gather(sunder_i_squares *squares, const double square[4], size_t most)
@@ -65,5 +65,5 @@ bool sunder_i_squares_gather(sunder_i_squares *squares, const double square[4], 
     squares->dop = sunder_i_dop_query(squares->g, square, squares->gap);
     squares->pairs = 0;
     squares->covered = false;
-    return gather(squares, 1, 1, most);
+    return gather_pairs(squares, 1, 1, most);
 }

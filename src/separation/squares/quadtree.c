@@ -29,7 +29,7 @@ typedef struct builder {
 
 /* Returns whether the edge from vertex v may pass through the box, in doubles; false only if it is farther away than
  * the error. */
-static bool passes(const builder *b, uint32_t v, const double box[4])
+static bool edge_passes(const builder *b, uint32_t v, const double box[4])
 {
     const double *xy = b->g->xy[b->side], *p = xy + 2 * (size_t)v,
                  *q = xy + 2 * (size_t)b->g->shape[b->side]->form->cleaned.next[v];
@@ -43,7 +43,7 @@ static bool passes(const builder *b, uint32_t v, const double box[4])
     return fabs(c) <= hx * fabs(dy) + hy * fabs(dx) + e * (fabs(dx) + fabs(dy)) + 8 * b->g->magnitude * b->g->coarse;
 }
 
-static bool meets(const builder *b, uint32_t piece, const double box[4])
+static bool meets_box(const builder *b, uint32_t piece, const double box[4])
 {
     return sunder_i_box_meet(b->g->piece_box[b->side] + 4 * (size_t)piece, box);
 }
@@ -74,11 +74,11 @@ static bool look_at(builder *b, const item *parent, item *it, bool *quarter)
     if (!sunder_i_steps(parent->edge_to - parent->edge_from + (parent->piece_to - parent->piece_from))) return false;
     it->edge_from = b->edges_n;
     for (size_t i = parent->edge_from; i < parent->edge_to; i++)
-        if (passes(b, b->edges[i], it->box)) b->edges[b->edges_n++] = b->edges[i];
+        if (edge_passes(b, b->edges[i], it->box)) b->edges[b->edges_n++] = b->edges[i];
     it->edge_to = b->edges_n;
     it->piece_from = b->pieces_n;
     for (size_t i = parent->piece_from; i < parent->piece_to; i++)
-        if (meets(b, b->pieces[i], it->box)) b->pieces[b->pieces_n++] = b->pieces[i];
+        if (meets_box(b, b->pieces[i], it->box)) b->pieces[b->pieces_n++] = b->pieces[i];
     it->piece_to = b->pieces_n;
     const bool crossed = it->edge_to > it->edge_from;
     *quarter = crossed && it->depth < b->deepest;
@@ -92,7 +92,7 @@ static bool look_at(builder *b, const item *parent, item *it, bool *quarter)
     return true;
 }
 
-static bool quarter(builder *b, const item *parent)
+static bool quarter_box(builder *b, const item *parent)
 {
     sunder_i_quadtree *o = b->out;
     if (!sunder_i_reserve(&o->child, &o->nodes_capacity, o->nodes + 4, sizeof *o->child)) return false;
@@ -133,7 +133,7 @@ static bool quarter_all(builder *b)
         const item it = b->stack[--b->stack_n];
         b->edges_n = it.edge_to; /* lists beyond these belong to boxes that are done */
         b->pieces_n = it.piece_to;
-        if (!quarter(b, &it)) return false;
+        if (!quarter_box(b, &it)) return false;
     }
     return true;
 }

@@ -14,15 +14,15 @@
 
 /* ---- The heap ---- */
 
-static bool before(const void *a, const void *b)
+static bool square_before(const void *a, const void *b)
 {
     return ((const sunder_i_square *)a)->distance < ((const sunder_i_square *)b)->distance;
 }
 
-static bool push(sunder_i_squares *q, sunder_i_square s)
+static bool push_square(sunder_i_squares *q, sunder_i_square s)
 {
     if (!sunder_i_reserve(&q->heap, &q->capacity, q->n + 1, sizeof *q->heap)) return false;
-    sunder_i_heap_push(q->heap, &q->n, sizeof s, &s, before);
+    sunder_i_heap_push(q->heap, &q->n, sizeof s, &s, square_before);
     return true;
 }
 
@@ -30,7 +30,7 @@ sunder_i_square sunder_i_squares_first(sunder_i_squares *squares)
 {
     sunder_i_square top;
     squares->seen++;
-    sunder_i_heap_pop(squares->heap, &squares->n, sizeof top, &top, before);
+    sunder_i_heap_pop(squares->heap, &squares->n, sizeof top, &top, square_before);
     return top;
 }
 
@@ -65,7 +65,7 @@ bool sunder_i_squares_cut(sunder_i_squares *squares, const sunder_i_square *squa
         sunder_i_quadtree_quarter(square->box, k, part.box);
         part.distance = distance_of(part.box);
         SUNDER_I_ASSERT(part.distance >= square->distance); /* so that squares come nearest first */
-        if (!push(squares, part)) return false;
+        if (!push_square(squares, part)) return false;
     }
     return true;
 }
@@ -157,7 +157,7 @@ sunder_i_squares *sunder_i_squares_new(sunder_i_operands *operands, double reach
                     sunder_i_quadtree_build(&q->quadtree[1], operands, 1) &&
                     sunder_i_inner_convex_build(&q->inner[0], operands, 0, &q->quadtree[0]) &&
                     sunder_i_inner_convex_build(&q->inner[1], operands, 1, &q->quadtree[1]) && make_tables(q, 0) &&
-                    make_tables(q, 1) && push(q, (sunder_i_square){.box = {-r, -r, r, r}, .best = {1, 1}});
+                    make_tables(q, 1) && push_square(q, (sunder_i_square){.box = {-r, -r, r, r}, .best = {1, 1}});
     if (ok) return q;
     sunder_i_squares_free(q);
     return NULL;
