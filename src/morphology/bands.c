@@ -1,10 +1,11 @@
-/* A band: a segment plus a convex piece, as a convex polygon of at most two corners more than the piece. */
+/* bands.c: a band, the sum of a segment and a convex piece, as a convex polygon with at most two corners more than the
+ * piece. */
 #include "morphology/morphology.h"
 
 #include "predicate/rational_point.h"
 
-/* Which way a vector goes: as a plain vector where it is a positive multiple of one, which crossings of lattice lines
- * are apart by wherever they stand on one of these. */
+/* A direction: a vector, and if possible a plain vector (integers of few bits) of which it is a positive multiple.
+ * Crossings of lattice lines on one of these lines differ by such vectors. */
 typedef struct heading {
     sunder_i_rational_point vector;
     sunder_i_point along;
@@ -30,7 +31,8 @@ bool sunder_i_heading(sunder_i_arena *arena, sunder_i_rational_point u, sunder_i
     return ok;
 }
 
-/* Does the side turn left from the direction u, or run along it? The half-open half-circle counter-clockwise from u. */
+/* Returns whether the side turns left from the direction u or has this direction: the half-open half-circle
+ * counterclockwise from u. */
 static bool is_far(sunder_i_arena *arena, const heading *u, const sunder_i_structuring_element *p, size_t i)
 {
     if (u->plain) {
@@ -42,9 +44,9 @@ static bool is_far(sunder_i_arena *arena, const heading *u, const sunder_i_struc
     return turn ? turn > 0 : sunder_i_big_sign(sunder_i_rational_dot(arena, u->vector, p->side[i])) > 0;
 }
 
-/* Sides that turn left from ab are moved to b, the others stay at a. A side parallel to ab and what joins both places
- * make one straight side with a corner inside, which the map allows. Where a is b no side turns left, and the band is
- * the piece at a. */
+/* Sides that turn left from ab are translated by b, the others by a. A side parallel to ab and the segment that joins
+ * both positions form one straight side with a vertex inside, which the map allows. If a equals b no side turns left,
+ * and the band is the piece at a. */
 size_t sunder_i_band(sunder_i_arena *arena, const sunder_i_structuring_element *element, size_t first, size_t end,
                      sunder_i_rational_point a, sunder_i_rational_point b, sunder_i_rational_point *out,
                      sunder_i_point *along, bool *known)

@@ -1,20 +1,20 @@
-/* Does a convex shape D fit into what P and Q have in common? That is: has the erosion of the two's intersection by D a
- * point, be it of its interior, of a slide or of an exact fit?
+/* convex_fit.c: tests whether a convex shape D fits into the intersection of P and Q, that is, whether the erosion of
+ * the intersection by D has a point, be it of its interior, of a slide or of an exact fit.
  *
- *     E = { x : D + x in P and D + x in Q } = complement of ((P^c + int(-D)) u (Q^c + int(-D)))
+ *   E = { x : D + x in P and D + x in Q } = complement of ((P^c + int(-D)) u (Q^c + int(-D)))
  *
- * As of an erosion (dilate_erode.c), P^c + int(-D) is P^c (the origin being inside D) and the bands: every side of P
- * plus int(-D). All bands, of both, are united in one planar map. E is closed and bounded, and what bounds it is bands:
- * so if there is an E, a vertex of the map is in it. A vertex that no band covers is on no boundary of P or Q, and it
- * is in E exactly if it lies in both, which is asked of a map of each.
+ * As for an erosion (dilate_erode.c), P^c + int(-D) is P^c (the origin is inside D) and the bands: every side of P plus
+ * int(-D). All bands, of both, are united in one planar map. E is closed and bounded, and its boundary consists of
+ * bands' boundaries: so if E is not empty, a vertex of the map is in it. A vertex that no band covers is on no boundary
+ * of P or Q, and it is in E exactly if it is in both, which a map of each decides.
  *
- * Only what is near counts. The boxes of P and Q leave a *window* for x: nothing outside it is in E. So of P and Q only
- * convex pieces are drawn that come near the window grown by D, and only bands that come near the window. What a
- * dropped piece has in common with a drawn one looks like boundary, but lies in the dropped piece's box, and its band
- * does not reach the window.
+ * Only the neighbourhood matters. The boxes of P and Q define a *window* for x: nothing outside it is in E. So of P and
+ * Q only convex pieces near the window grown by D are drawn, and only bands near the window. The common boundary of an
+ * omitted piece and a drawn one looks like boundary, but is in the omitted piece's box, and its band does not reach the
+ * window.
  *
- * Members may overlap and share walls: the map of a shape is that of its open convex pieces, all members', and its
- * sides are the edges with covered places on one side only. Diagonals and shared walls have them on both. */
+ * Polygons may overlap and share walls: the map of a shape is that of its open convex pieces, of all polygons, and its
+ * sides are the edges with a covered face on one side only. Diagonals and shared walls have them on both. */
 #include "morphology/morphology.h"
 
 #include "base/extremes.h"
@@ -25,9 +25,9 @@
 
 typedef struct fit {
     sunder_i_lattice *lattice;
-    double origin[2]; /* of what stands on it */
-    double window[4]; /* x lies in it, if there is any; up to rounding, which `slack` is far above */
-    double reach[4];  /* D's box */
+    double origin[2]; /* the origin of positions on the lattice */
+    double window[4]; /* the box that contains all possible x, up to rounding errors, which are far below `slack` */
+    double reach[4];  /* the box of D */
     double slack;
     sunder_i_structuring_element element; /* -D */
     sunder_i_planar_map *region[2], *bands;
@@ -35,7 +35,7 @@ typedef struct fit {
     uint64_t random;
 } fit;
 
-/* A side, between two vertices of a region. */
+/* A side between two vertices of a region. */
 typedef struct side {
     uint32_t region, half_edge;
 } side;
@@ -45,8 +45,9 @@ static bool boxes_meet(const double a[4], const double b[4], double slack)
     return a[0] <= b[2] + slack && b[0] <= a[2] + slack && a[1] <= b[3] + slack && b[1] <= a[3] + slack;
 }
 
-/* Magnitudes of at most M come from fewer than eight roundings each, of at most 2^-53 M; 2^-46 M is far above. Whatever
- * is left out is farther than several times that from where it would count. False: the window is empty, for certain. */
+/* Computes window and slack. Numbers of magnitude at most M result from fewer than eight roundings each, of at most
+ * 2^-53 M; 2^-46 M is far more. Whatever is omitted is farther than several times that from where it would matter.
+ * Returns false if the window is certainly empty. */
 static bool look_through_window(fit *f, const sunder_shape *const shape[2], const double *const t[2],
                                 const sunder_shape *d)
 {
@@ -84,7 +85,7 @@ static bool piece_is_near(const fit *f, const sunder_shape *shape, const double 
     return boxes_meet(box, near, 16 * f->slack);
 }
 
-/* The near pieces of a shape as open regions of a map, and how many places each cell is covered by. */
+/* Draws the near pieces of a shape as open regions of a map, and counts how many cover each cell. */
 static sunder_status draw_region(fit *f, int i, const sunder_shape *shape, const sunder_i_point *at, const double *t,
                                  sunder_error *err)
 {
@@ -103,13 +104,13 @@ static sunder_status draw_region(fit *f, int i, const sunder_shape *shape, const
     return status == SUNDER_OK ? sunder_i_planar_map_mark(f->region[i], err) : status;
 }
 
-/* Does the region hold the place, which is not on its boundary? */
+/* Sets *in to whether the region contains the point, which is not on its boundary. */
 static sunder_status holds(sunder_i_planar_map *region, sunder_i_rational_point at, bool *in, sunder_error *err)
 {
     sunder_i_location where;
     const sunder_status status = sunder_i_planar_map_locate(region, at, &where, err);
     if (status != SUNDER_OK) return status;
-    uint32_t beside = SUNDER_I_NOWHERE; /* on a diagonal or a shared wall: what is beside it is as well */
+    uint32_t beside = SUNDER_I_NOWHERE; /* on a diagonal or a shared wall the faces beside it are covered, too */
     if (where.place == SUNDER_I_ON_EDGE) beside = 2 * where.id;
     if (where.place == SUNDER_I_AT_VERTEX) beside = sunder_i_planar_map_vertex_out(region, where.id);
     *in = beside == SUNDER_I_NOWHERE ? where.covered != 0 : sunder_i_planar_map_left_covered(region, beside) != 0;
@@ -125,7 +126,7 @@ static const sunder_i_rational_point *end_of(const fit *f, const side *s, bool s
     return sunder_i_planar_map_vertex_point(map, sunder_i_planar_map_origin(map, h));
 }
 
-/* About where it is, in the units of the caller. */
+/* Computes the approximate position in the caller's units. */
 static void place_of(fit *f, const sunder_i_rational_point *at, double xy[2])
 {
     sunder_i_rational_doubles(&f->scratch, *at, f->lattice->exponent, &xy[0], &xy[1]);
@@ -146,7 +147,7 @@ static bool band_is_near(fit *f, const side *s)
     return boxes_meet(box, f->window, 8 * f->slack);
 }
 
-/* The sides of both regions whose bands count, in random order. */
+/* Lists the sides of both regions whose bands matter, in random order. */
 static sunder_status find_sides(fit *f, side **sides, size_t *n, sunder_error *err)
 {
     size_t most = 0;
@@ -186,7 +187,7 @@ static sunder_status unite_bands(fit *f, const side *sides, size_t n, sunder_err
     return status;
 }
 
-/* Vertices of a united map are covered by nothing. */
+/* Tests the vertices of the united bands, which no band covers. */
 static sunder_status look_at_vertices(fit *f, bool *fits, sunder_error *err)
 {
     sunder_status status = SUNDER_OK;
@@ -208,7 +209,7 @@ static sunder_status look_at_vertices(fit *f, bool *fits, sunder_error *err)
     return f->scratch.failed ? sunder_i_no_memory(err) : status;
 }
 
-/* ---- All of it --------------------------------------------------------------------------------------------------- */
+/* ---- All steps --------------------------------------------------------------------------------------------------- */
 
 static sunder_status find_fit(fit *f, bool *fits, sunder_error *err)
 {
@@ -221,7 +222,7 @@ static sunder_status find_fit(fit *f, bool *fits, sunder_error *err)
     return status;
 }
 
-/* D on the lattice, whose numbers for it have no origin. */
+/* Places D on the lattice, with the origin zero. */
 static sunder_status place_element(fit *f, const sunder_shape *d, sunder_error *err)
 {
     sunder_i_point *at = sunder_i_alloc(d->vertices, sizeof *at);

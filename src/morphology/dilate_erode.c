@@ -1,30 +1,30 @@
-/* F + B and F^c + (-B), where the corners of F are rational.
+/* dilate_erode.c: F + B and F^c + (-B), where the vertices of F are rational.
  *
- * Let C be a convex piece of what is added, c a point inside it, and X a set of which the boundary is known. Then
+ * Let C be a convex piece of the added shape, c a point inside it, and X a set with a known boundary. Then
  *
- *     X + int C  =  (X + c)  u  (boundary of X + int C)           for X open or closed
+ *   X + int C  =  (X + c)  u  (boundary of X + int C)           for X open or closed
  *
- * For let x = y + b with y in X, b in int C. If x - c is not in X, then on the way from b to c, which stays inside C, x
- * minus the way leaves X, and where it does it is on the boundary. The boundary is sides, so the second set is a union
- * of *bands*: a side s gives the open convex polygon s + int C. (A degenerate segment or point of X is boundary, too.)
- * Uniting over the pieces of B gives all but what only the diagonals between pieces reach: with X open nothing, since a
- * bit of y can be traded for a bit of b; with X closed only seams without area, which the closure has.
+ * Proof: let x = y + b with y in X, b in int C. If x - c is not in X, then on the segment from b to c, which is inside
+ * C, the point x minus the moving point leaves X, and there it is on the boundary. The boundary consists of sides, so
+ * that the second set is a union of *bands*: a side s results in the open convex polygon s + int C. (A degenerate
+ * segment or point of X is boundary, too.) The union over the pieces of B contains everything except what only the
+ * diagonals between pieces reach: for open X nothing, since y and b can be changed slightly in opposite directions; for
+ * closed X only seams without area, which the closure contains.
  *
- * So the bands are united in a planar map (../planar_map/), one after the other in biased random order, what lies
- * inside being forgotten. No band reaches a cell of the map that none covers, be it a face, an edge or a vertex: so the
- * boundary of X + c does not either, and the cell lies in X + c as a whole or not at all. One of its corners is enough
- * to ask.
- * (Where X + c is drawn as a region beside the bands, its complement needs a frame, and counts of vertices where rings
- * touch; asking costs one location a cell, and few cells are left.)
+ * So the bands are united in a planar map (../planar_map/), one after the other in biased random order, and everything
+ * inside the union is removed. No band meets a cell of the map (face, edge or vertex) that none covers: so neither does
+ * the boundary of X + c, and the cell is in X + c completely or not at all. Testing one of its vertices suffices. (If X
+ * + c were drawn as a region beside the bands, its complement would need a frame, and vertices where rings touch would
+ * need counts; a test costs one location for each cell, and few cells are left.)
  *
- *     dilation: a cell is in   if covered, or in F + c for some piece;
- *     erosion:  a cell is in   if not covered, and in F + c for every piece: in no F^c + c.
+ *   dilation: a cell is inside   if it is covered, or in F + c for some piece;
+ *   erosion:  a cell is inside   if it is not covered, and in F + c for every piece: in no F^c + c.
  *
- * Every corner that is compared is on the lines of two sides: of F, of B moved to a corner of F, or of F moved by a
- * corner of B. All have lattice directions, and none is made from more than one corner of F: so numbers do not grow
- * with the figure, only with what its own corners were made from.
+ * Every vertex that is compared is on the lines of two sides: of F, of B translated by a vertex of F, or of F
+ * translated by a vertex of B. All have lattice directions, and none is computed from more than one vertex of F: so the
+ * size of numbers does not depend on the size of the figure, only on how its own vertices were computed.
  *
- * Cost: expected O(b log b + k), b sides of bands, k crossings drawn, of which those inside the union go at once. */
+ * Cost: expected O(b log b + k), b sides of bands, k crossings drawn; those inside the union are removed at once. */
 #include "morphology/morphology.h"
 
 #include "base/extremes.h"
@@ -39,11 +39,11 @@
 #include <math.h>
 #include <string.h>
 
-/* The figure, to be asked where places are. */
+/* The figure, prepared for point location. */
 typedef struct solid {
     const sunder_i_figure *figure;
-    uint32_t *next;        /* [sides] */
-    double (*xy)[2], most; /* [sides] where each begins, times 2^shift; the largest of these */
+    uint32_t *next;        /* [sides] the next side of the ring */
+    double (*xy)[2], most; /* [sides] the start of each side, times 2^shift; the largest absolute coordinate */
     long shift;
     sunder_i_strips strips;
 } solid;
@@ -59,7 +59,7 @@ typedef struct stage {
     bool erode;
 } stage;
 
-/* The share of a stage's work that the current part has: from and to are fractions of the stage. */
+/* The part of a stage's work that the current step takes: from and to are fractions of the stage. */
 typedef struct share {
     double from, to;
 } share;
@@ -74,7 +74,8 @@ static bool go_on(const sunder_sum_options *options, const share *s, uint64_t do
 
 enum { ROUNDS = 64 };
 
-/* In which round of how many does a thing go in? In the last one half of the things, in the one before a quarter. */
+/* Returns the round in which an item is added: the last one has half of the items, the previous one a quarter, and so
+ * on. */
 static unsigned round_of(uint64_t *random)
 {
     unsigned heads = 0;
@@ -82,10 +83,10 @@ static unsigned round_of(uint64_t *random)
     return ROUNDS - 1 - heads;
 }
 
-/* An order of n things that follow each other along rings; NULL if memory is out. Rounds of twice as many things each
- * time, drawn at random, keep the expected costs of a random order within a factor. Within a round things stand in
- * their own order, so that the next one goes in near the last, where the map is at hand already [ACR03]. Half the time
- * of a random order on coasts of a hundred thousand vertices. */
+/* Returns an order of n items that follow each other along rings; NULL if out of memory. In rounds of twice as many
+ * items each time, drawn at random, the expected cost is that of a random order up to a factor. Within a round items
+ * keep their order, so that each one is added near the previous one, where the map is in the cache [ACR03]. This takes
+ * half the time of a random order on coasts of a hundred thousand vertices. */
 static uint64_t *biased_order(uint64_t *random, uint64_t n)
 {
     uint64_t *order = sunder_i_alloc(n, sizeof *order);
@@ -102,7 +103,8 @@ static uint64_t *biased_order(uint64_t *random, uint64_t n)
     return order;
 }
 
-/* The two ends of what band i is made from: of a side, over all rings, then of a segment, then twice a point. */
+/* Sets ends[] to the two ends of the generator of band i: of the sides of all rings, then of the segments, then of the
+ * points (twice the point). */
 static void ends_of(const sunder_i_figure *f, const uint32_t *next, uint64_t i, uint32_t ends[2])
 {
     if (i < f->sides) {
@@ -114,7 +116,7 @@ static void ends_of(const sunder_i_figure *f, const uint32_t *next, uint64_t i, 
         ends[0] = ends[1] = f->point[i - f->sides - f->segments];
 }
 
-/* Where each side's successor stands. */
+/* Returns the next side of each side; NULL if out of memory. */
 static uint32_t *successors(const sunder_i_figure *f)
 {
     uint32_t *next = sunder_i_alloc(f->sides, sizeof *next);
@@ -125,12 +127,13 @@ static uint32_t *successors(const sunder_i_figure *f)
     return next;
 }
 
-/* ---- The figure itself ---- */
+/* ---- Point location in the figure ---- */
 
-/* Coordinates of the figure and of a place are at most this far from their doubles. */
+/* Returns a bound of the error of coordinates in doubles, if `most` is the largest one. */
 static double margin(double most) { return most * 0x1p-50 + 0x1p-900; }
 
-/* The figure's sides by height, corners as doubles in a power of two that all fit. */
+/* Sorts the figure's sides by height, with vertices as doubles, scaled by a power of two so that all fit. Returns false
+ * if out of memory. */
 static bool solid_init(solid *s, const sunder_i_figure *f, const sunder_i_lattice *lattice)
 {
     *s = (solid){.figure = f, .shift = -(long)lattice->approx_shift};
@@ -163,7 +166,7 @@ static void solid_free(solid *s)
     sunder_i_free(s->next);
 }
 
-/* Is corner i of the rings above the place? */
+/* Returns whether vertex i of the rings is above the point. */
 static bool is_above(const solid *s, sunder_i_arena *scratch, size_t i, const sunder_i_rational_point *at, double y)
 {
     const double gap = s->xy[i][1] - y;
@@ -171,8 +174,8 @@ static bool is_above(const solid *s, sunder_i_arena *scratch, size_t i, const su
     return sunder_i_rational_cmp(scratch, &s->figure->at[s->figure->ring[i]], at, 1) > 0;
 }
 
-/* Is a place inside the figure, off its boundary? A ray to the left crosses the sides that begin to its left and have
- * exactly one end above it. */
+/* Returns whether a point is inside the figure; it is not on the boundary. A ray to the left crosses the sides that
+ * pass on its left and have exactly one end above it. */
 static bool is_in_figure(const solid *s, sunder_i_arena *scratch, sunder_i_rational_point at)
 {
     bool odd = false;
@@ -202,7 +205,7 @@ static bool is_in_figure(const solid *s, sunder_i_arena *scratch, sunder_i_ratio
 
 /* ---- Bands ---- */
 
-/* Band number k: of the sides, then the segments, then the points, each with all pieces. */
+/* Adds band number k: of the sides, then the segments, then the points, each with all pieces. */
 static sunder_status add_band(stage *g, const uint32_t *next, uint64_t k, sunder_error *err)
 {
     const sunder_i_figure *f = g->figure;
@@ -237,10 +240,10 @@ static sunder_status unite_bands(stage *g, sunder_error *err)
     return status;
 }
 
-/* ---- Cells between the bands ---- */
+/* ---- Cells that no band covers ---- */
 
-/* Does a vertex that no band covers lie in F + c, for the inner point c of some piece (dilation) or of all (erosion)?
- * It is not on the boundary of any. */
+/* Sets *in to whether a vertex that no band covers is in F + c, for the inner point c of some piece (dilation) or of
+ * all pieces (erosion). It is not on the boundary of any of them. */
 static sunder_status is_inside(stage *g, uint32_t vertex, bool *in, sunder_error *err)
 {
     const bool any = g->figure->rings > 0;
@@ -271,7 +274,7 @@ static sunder_status sort_faces(stage *g, bool *face, sunder_error *err)
     return status;
 }
 
-/* Parts without area: edges and vertices between covered faces. Others belong to a face, and are asked in vain. */
+/* Classifies parts without area: edges and vertices between covered faces. Others belong to a face. */
 static sunder_status sort_rest(stage *g, bool *edge, bool *vertex, sunder_error *err)
 {
     const sunder_i_planar_map *map = g->bands;

@@ -1,19 +1,19 @@
-/* An erosion by the stages of ../outline/, where all corners are integers that fit a narrow lattice.
+/* erode_outline.c: an erosion by the stages of ../outline/, if all vertices are integers that fit a narrow lattice.
  *
- * Let P be the figure, C the convex piece of what is added to its complement (-B, if B is what P is eroded by). The
- * bands (dilate_erode.c) are the sums of P's sides and C: convex parts, of which the outline is found line by line. Of
- * their sides the candidates are those of the reduced convolution of P's complement and C: each side of P moved by the
- * corner of C that reaches farthest into P, and at each vertex v where P has more than half a turn those sides of v + C
- * that the complement's angle holds (closed intervals, as in ../convex/subsums.c).
+ * Let P be the figure, and C the convex piece that is added to its complement (-B, if P is eroded by B). The bands
+ * (dilate_erode.c) are the sums of P's sides and C: convex parts, whose outline is computed line by line. Among their
+ * sides the candidates are those of the reduced convolution of P's complement and C: each side of P translated by the
+ * vertex of C that is extreme towards P, and at each reflex vertex v of P those sides of v + C whose directions are
+ * within the complement's angle (closed intervals, as in ../convex/subsums.c).
  *
- * Let x be a place of a candidate that no band covers. x - int C is connected and meets no side of P, so it lies inside
- * P, and x in the erosion, or outside. Which of the two does not change from x to the next such place, so one question
- * is enough for all stretches that hang together. Mostly it is inside, for near what x - C touches P is on its side.
- * But the end of a moved side may touch a corner of P from outside, and so may more where a corner stands on a side.
- * The erosion is on the side of each stretch that no band covers.
+ * Let x be a point of a candidate that no band covers. x - int C is connected and meets no side of P, so that it is
+ * either inside P, and x in the erosion, or outside. This does not change from x to the next such point, so that one
+ * test suffices for all stretches that are connected. Usually it is inside, since near a point of P that x - C touches,
+ * it is on P's side. But the end of a translated side may touch a vertex of P from outside, and more points may if a
+ * vertex is on a side. The erosion is on that side of each stretch that no band covers.
  *
- * Nothing is missed: a place on the boundary of the complement's sum is on a candidate, since that is what the reduced
- * convolution is, and no band covers it. (Where two chains of P meet in a vertex of both, the complement's angles are
+ * Nothing is missed: a point on the boundary of the complement's sum is on a candidate, by the definition of the
+ * reduced convolution, and no band covers it. (If two chains of P have a vertex in common, the complement's angles are
  * not those of one chain: such figures are left to the map.) */
 #include "morphology/morphology.h"
 
@@ -29,14 +29,14 @@
 
 #include <math.h>
 
-/* Sums of two coordinates of fewer bits are below what a narrow lattice holds. */
+/* Sums of two coordinates with at most this number of bits fit a narrow lattice. */
 enum { MOST_BITS = SUNDER_I_NARROW_BITS - 2 };
 
 typedef struct eroder {
     const sunder_i_figure *figure;
     const sunder_i_structuring_element *element;
-    sunder_i_convex_pieces side, piece; /* of the figure, each a segment; of the element, the only one */
-    uint32_t *before;                   /* [sides] the side that ends where each begins */
+    sunder_i_convex_pieces side, piece; /* the sides of the figure, each as a segment; the only piece of the element */
+    uint32_t *before;                   /* [sides] the side that ends where each side begins */
 } eroder;
 
 static bool as_integers(sunder_i_rational_point u, sunder_i_point *out)
@@ -45,7 +45,7 @@ static bool as_integers(sunder_i_rational_point u, sunder_i_point *out)
            sunder_i_big_fits_i64(u.x, &out->x) && sunder_i_big_fits_i64(u.y, &out->y);
 }
 
-/* False where a corner is no such integer. */
+/* Lists the sides of the figure. Returns false if a vertex has no such integer coordinates. */
 static bool list_sides(eroder *e)
 {
     const sunder_i_figure *f = e->figure;
@@ -76,8 +76,8 @@ static bool list_piece(eroder *e)
 
 /* ---- Bands ---- */
 
-/* The rank of a side of the figure along its ring: a ranked segment starts with its lesser rank, and its corners are
- * turned with it. */
+/* Returns the rank of a side of the figure in the direction of its ring: a ranked segment begins with its lesser rank,
+ * and its corners are reversed accordingly. */
 static uint32_t rank_along(const eroder *e, const uint32_t *start, uint32_t i)
 {
     return e->side.rank[2 * i + start[i]];
@@ -85,8 +85,8 @@ static uint32_t rank_along(const eroder *e, const uint32_t *start, uint32_t i)
 
 static uint32_t opposite(uint32_t rank, uint32_t classes) { return rank < classes ? rank + classes : rank - classes; }
 
-/* Does the complement's exterior angle where side `in` ends and side `out` begins hold the rank r? Its own sides run
- * the other way. */
+/* Returns whether the complement's exterior angle, at the end of side `in` and the beginning of side `out`, contains
+ * the rank r. The complement's own sides have the opposite direction. */
 static bool holds(uint32_t in, uint32_t out, uint32_t r, uint32_t classes)
 {
     const uint32_t full = 2 * classes, from = opposite(out, classes), to = opposite(in, classes);
@@ -95,7 +95,8 @@ static bool holds(uint32_t in, uint32_t out, uint32_t r, uint32_t classes)
     return turn < classes && step <= turn;
 }
 
-/* Which of the two corners of each listed segment is where its side begins: ranking may have turned it. */
+/* Sets start[] to which of the two corners of each listed segment is the beginning of its side, since ranking may have
+ * reversed it. */
 static bool find_starts(const eroder *e, const sunder_i_point *begin, uint32_t *start)
 {
     for (uint32_t i = 0; i < e->side.n; i++) {
@@ -139,14 +140,14 @@ static bool add_bands(const eroder *e, const sunder_i_point *begin, sunder_i_con
 
 /* ---- Inside or outside ---- */
 
-/* The sides of the figure by height, to decide whether a place is inside. */
+/* The sides of the figure by height, for point location. */
 typedef struct locator {
     const eroder *e;
     sunder_i_lattice *lattice;
     sunder_i_strips strips;
 } locator;
 
-/* Heights of points that are no integers are off by some ulps. */
+/* Returns a bound of the error of heights; those of points that are not integers have an error of some ulps. */
 static double margin(double y) { return fabs(y) * 0x1p-47 + 1; }
 
 static bool locator_init(locator *l, const eroder *e, sunder_i_lattice *lattice)
@@ -163,7 +164,8 @@ static bool locator_init(locator *l, const eroder *e, sunder_i_lattice *lattice)
     return ok;
 }
 
-/* Is the point p inside the figure? It is on no side. A ray to the left crosses the sides that it ends right of. */
+/* Returns whether the point p, which is on no side, is inside the figure. A ray to the left crosses the sides on its
+ * left that have exactly one end above it. */
 static bool is_inside(locator *l, const sunder_i_hpoint *p)
 {
     bool odd = false;
@@ -180,7 +182,8 @@ static bool is_inside(locator *l, const sunder_i_hpoint *p)
     return odd;
 }
 
-/* Is the element, turned by half a turn and put at x, inside the figure? Its interior meets no side. */
+/* Returns whether the element, rotated by half a turn and translated by x, is inside the figure; its interior meets no
+ * side. */
 static bool fits_at(locator *l, const sunder_i_hpoint *x)
 {
     const sunder_i_mark mark = sunder_i_lattice_begin(l->lattice);
@@ -189,10 +192,10 @@ static bool fits_at(locator *l, const sunder_i_hpoint *x)
         sunder_i_rational_sub(scratch, sunder_i_hpoint_read(scratch, l->lattice, x), l->e->element->inner[0]);
     const sunder_i_hpoint p = sunder_i_hpoint_make(l->lattice, at);
     sunder_i_lattice_end(l->lattice, mark);
-    return !l->lattice->arena.failed && is_inside(l, &p); /* where memory is out, the place is none */
+    return !l->lattice->arena.failed && is_inside(l, &p); /* if out of memory the point is invalid */
 }
 
-/* Which vertices hang together by stretches. NULL if memory is out. */
+/* Returns a union-find structure of the vertices, joined by stretches; NULL if out of memory. */
 static uint32_t *join_stretches(const sunder_i_coverage *c)
 {
     uint32_t *parent = sunder_i_alloc(c->vertices.n, sizeof *parent);
@@ -202,8 +205,8 @@ static uint32_t *join_stretches(const sunder_i_coverage *c)
     return parent;
 }
 
-/* Keeps what of the uncovered places is inside, in place; number[v] is 0 where vertex v is not, else one more than its
- * number among those kept. */
+/* Keeps the uncovered vertices and stretches that are inside; number[v] becomes 0 for a vertex that is not kept, else
+ * one more than its new number. */
 static void keep_inside(sunder_i_coverage *c, uint32_t *parent, const uint8_t *inside, uint32_t *number)
 {
     uint32_t n = 0;
@@ -224,7 +227,8 @@ static void keep_inside(sunder_i_coverage *c, uint32_t *parent, const uint8_t *i
     c->vertices.n = n;
 }
 
-/* Drops what is outside: one place is tested for each connected group of stretches. */
+/* Removes everything outside: one point is tested for each connected group of stretches. Returns false if out of
+ * memory. */
 static bool drop_outside(const eroder *e, sunder_i_coverage *c)
 {
     locator l;
@@ -246,7 +250,8 @@ static bool drop_outside(const eroder *e, sunder_i_coverage *c)
 
 /* ---- The outline ---- */
 
-/* From the side of the bands to that of the erosion. */
+/* Exchanges the covered side of each stretch, from that of the bands to that of the erosion, and removes what is
+ * outside the figure. */
 static sunder_status turn_over(sunder_i_coverage *coverage, void *user, sunder_error *err)
 {
     const uint8_t both = SUNDER_I_BANK_LEFT | SUNDER_I_BANK_RIGHT;

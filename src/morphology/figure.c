@@ -1,4 +1,5 @@
-/* Shapes and sums as figures, and shapes as structuring elements: the same numbers, taken off their lattice. */
+/* figure.c: converts shapes and sums to figures, and shapes to structuring elements: the same numbers, without their
+ * lattice. */
 #include "morphology/morphology.h"
 
 #include "base/sort.h"
@@ -20,7 +21,7 @@ static bool make_room(sunder_i_figure *f, size_t corners, size_t sides, size_t r
     return !f->arena.failed;
 }
 
-/* A lattice point, in the arena of the figure. */
+/* Returns a lattice point as rational numbers in the figure's arena. */
 static sunder_i_rational_point read_point(sunder_i_arena *arena, const sunder_i_lattice *lattice, sunder_i_point at)
 {
     if (lattice->arena.failed) return (sunder_i_rational_point){{NULL, 0}, {NULL, 0}, {NULL, 0}};
@@ -47,14 +48,14 @@ bool sunder_i_figure_of_shape(sunder_i_lattice *lattice, const sunder_shape *sha
     return ok;
 }
 
-/* Vertices of the sum, one after the other, as corners from number `corner` on. */
+/* Reads n vertices of the sum as vertices of the figure from number `corner` on. */
 static void read_corners(sunder_i_figure *f, size_t corner, const sunder_sum *sum, const uint32_t *vertex, size_t n)
 {
     for (size_t i = 0; i < n; i++)
         f->at[corner + i] = sunder_i_hpoint_read(&f->arena, &sum->lattice, &sum->vertex[vertex[i]]);
 }
 
-/* Numbers first, first + 1, ... in the arena. */
+/* Returns an array with the numbers first, first + 1, ... in the arena; NULL if out of memory. */
 static const uint32_t *count_from(sunder_i_arena *arena, size_t first, size_t n)
 {
     uint32_t *number = sunder_i_arena_alloc(arena, n + 1, sizeof *number);
@@ -62,7 +63,7 @@ static const uint32_t *count_from(sunder_i_arena *arena, size_t first, size_t n)
     return number;
 }
 
-/* Does a ring, or do two, come through one vertex twice? */
+/* Sets *repeated to whether a vertex occurs twice, in one ring or in two. Returns false if out of memory. */
 static bool is_repeated(const uint32_t *vertex, size_t n, bool *repeated)
 {
     uint64_t *sorted = sunder_i_alloc(n, sizeof *sorted);
@@ -104,7 +105,7 @@ void sunder_i_structuring_element_free(sunder_i_structuring_element *element)
     *element = (sunder_i_structuring_element){0};
 }
 
-/* The middle of the triangle of its first three corners, which are not collinear: a point inside the piece. */
+/* Returns a point inside the piece: the centroid of its first three vertices, which are not collinear. */
 static sunder_i_rational_point inner_point(sunder_i_arena *m, const sunder_i_rational_point *corner)
 {
     sunder_i_rational_point sum = sunder_i_rational_add(m, sunder_i_rational_add(m, corner[0], corner[1]), corner[2]);
@@ -126,7 +127,8 @@ bool sunder_i_structuring_element_of_shape(sunder_i_lattice *lattice, const sund
     p.inner = sunder_i_arena_alloc(arena, p.pieces + 1u, sizeof *p.inner);
     for (size_t i = 0; i < corners && !arena->failed; i++) {
         p.corner[i] = read_point(arena, lattice, at[sunder_i_piece_vertices(shape)[i]]);
-        if (reflected) p.corner[i] = sunder_i_rational_neg(p.corner[i]); /* a half turn: still counter-clockwise */
+        /* a rotation by half a turn: still counterclockwise */
+        if (reflected) p.corner[i] = sunder_i_rational_neg(p.corner[i]);
     }
     for (uint32_t j = 0; j < p.pieces && !arena->failed; j++) {
         const size_t first = j ? p.end[j - 1] : 0, end = p.end[j] = shape->piece_end[j];

@@ -1,28 +1,29 @@
-/* F + C, or the erosion of F, which is the complement of F^c + C, for a convex C, where the corners of F are rational:
- * one walk along the convolution [GRS83], as ../minkowski/convolution.c has it for integers. Let X be F or its
- * complement.
+/* figure_convolution.c: F + C, or the erosion of F, which is the complement of F^c + C, for a convex C, where the
+ * vertices of F are rational: by following the convolution [GRS83], as ../minkowski/convolution.c does for integers.
+ * Let X be F or its complement.
  *
- * There is one band (dilate_erode.c) for each side of F, with the corners of C. After a dilation by an n-gon most sides
- * of F are those of arcs, some n for each corner of the set that was dilated, so an erosion by bands costs n^2. Along
- * the complement's convolution by -C, the moved sides of such an arc run back to the corner that the arc was made
- * around. What remains are the sides of the set that was dilated, and, at each corner where two arcs or sides of F
- * meet, the part of -C between them: about as many links as the result has sides.
+ * A band (dilate_erode.c) for each side of F has the vertices of C. After a dilation by an n-gon most sides of F are
+ * those of arcs, about n for each vertex of the set that was dilated, so that an erosion by bands costs n^2. Along the
+ * complement's convolution by -C, the translated sides of such an arc shrink to the vertex about which the arc was
+ * made. What remains are the sides of the set that was dilated, and, at each vertex where two arcs or sides of F meet,
+ * the part of -C between them: about as many links as the result has sides.
  *
- * ../minkowski/convolution.c tells why the winding numbers prove the result, and when the curve is *tame*. The
+ * ../minkowski/convolution.c explains why the winding numbers prove the result, and when the curve is *tame*. The
  * differences here:
  *
- *  - The complement is not bounded: far away the number is 1, and it still counts the components of X in x - C.
- *    Components have holes only where a part of F lies inside x - C; by the boxes of F's outer rings either none
- *    does, or nothing of F is left and its ring is left out.
- *  - A side with nothing left is a corner v, and so is a whole arc of such sides: the boundary of v - C lies along
- *    it. The sides there and those before and behind turn by less than half a turn together, else the curve is
- *    declined: so x - C moves off all of them for x beside v on the free side. That contact creates no component then,
- *    and a component that is there at x and vanishes at v does so in another contact, whose link passes v, or which is
- *    a corner at v.
- *  - Corners of several parts of the curve often share one place (figure_convolution_places.c). They are accepted where
- *    exactly one sector of the place is free, so that the place is a corner of the result, and no degenerate hole.
+ *   - The complement is not bounded: far away the winding number is 1, and it still counts the components of X in x -
+ *     C. Components have holes only if a part of F is inside x - C; by the boxes of F's outer rings either none is, or
+ *     nothing of F remains and its ring is omitted.
+ *   - A side of which nothing remains is one vertex v, and so is a whole arc of such sides: the boundary of v - C is
+ *     along it. The sides there and those before and after turn by less than half a turn together, else the curve is
+ *     declined: so x - C moves away from all of them for x beside v on the free side. That contact creates no component
+ *     then, and a component that exists at x and vanishes at v does so in another contact, whose link passes v, or
+ *     which is a vertex at v.
+ *   - Vertices of several parts of the curve often have one position (figure_convolution_places.c). They are accepted
+ *     if exactly one sector of the position is free, so that the position is a vertex of the result, and no degenerate
+ *     hole.
  *
- * All corners are those of F plus those of C, and crossings of two links: no numbers grow longer than with bands. */
+ * All vertices are those of F plus those of C, and crossings of two links: no numbers become longer than with bands. */
 #include "morphology/figure_convolution.h"
 
 #include "base/extremes.h"
@@ -35,22 +36,23 @@
 #include <math.h>
 #include <string.h>
 
-/* A corner of the result, and the link on which its ring goes on along the curve. */
+/* A vertex of the result, and the link on which its ring continues along the curve. */
 typedef struct bend {
     sunder_i_curve_corner at;
     uint32_t leaves;
 } bend;
 
-/* A piece of a link is what lies between two stops, or a stop and an end. Link i has its pieces from
- * stop_begin(i) + i on, one more than it has stops. */
+/* A piece of a link is between two stops, or between a stop and an end. Link i has its pieces from stop_begin(i) + i
+ * on, one more than it has stops. */
 typedef struct walker {
     sunder_i_figure_convolution *curve;
-    int32_t *right; /* [pieces] the winding number on the right hand */
-    bool *done;     /* [pieces] */
-    bool tame;      /* nothing was found that cannot be */
-    bend *bend;     /* of all rings of the result */
+    int32_t *right; /* [pieces] the winding number on the right side */
+    bool *done;     /* [pieces] whether the piece is part of a ring already */
+    bool tame;      /* nothing contradicts that the curve is tame */
+    bend *bend;     /* the vertices of all rings of the result */
     uint32_t bends;
-    sunder_i_found_ring *ring; /* start, end: bends; each in the order of the curve, from anywhere */
+    sunder_i_found_ring *ring; /* start and end are numbers of bends; each ring in the order of the curve, from any bend
+                                * on */
     uint32_t *least;           /* [rings] the smallest bend */
     size_t rings, rings_capacity, least_capacity;
     uint32_t components;
@@ -61,9 +63,9 @@ static uint32_t stop_begin(const sunder_i_figure_convolution *c, uint32_t link)
     return link ? c->stop_end[link - 1] : 0;
 }
 
-/* ---- Places to the left ---- */
+/* ---- Segments on the left of a point ---- */
 
-/* Segments by height, to find those that pass to the left of a place. */
+/* Sorts segments by height, to find those that pass on the left of a point. Returns false if out of memory. */
 static bool build_strips(sunder_i_strips *strips, double (*span)[2], size_t n, double error)
 {
     for (size_t i = 0; i < n; i++) {
@@ -74,8 +76,8 @@ static bool build_strips(sunder_i_strips *strips, double (*span)[2], size_t n, d
     return sunder_i_strips_build(strips, (const double(*)[2])span, n, n);
 }
 
-/* Does the segment from a to b cross the ray from a place to the left? +1 upwards, -1 downwards, 0 not at all. The
- * place is not on the line of the link, or not between a and b. */
+/* Returns whether the segment from a to b crosses the ray from a point to the left: +1 upwards, -1 downwards, 0 not at
+ * all. The point is not on the segment. */
 static int passes_left(sunder_i_figure_convolution *c, const sunder_i_curve_corner *a, const sunder_i_curve_corner *b,
                        const sunder_i_curve_corner *at)
 {
@@ -90,7 +92,7 @@ static int passes_left(sunder_i_figure_convolution *c, const sunder_i_curve_corn
 
 /* ---- Winding numbers ---- */
 
-/* How often all rings but one wind around a place that none of them touches. */
+/* Returns the winding number of all rings except one about a point that none of them touches. */
 static int32_t winding_of_others(sunder_i_figure_convolution *c, const sunder_i_strips *strips,
                                  const sunder_i_curve_corner *at, uint32_t ring)
 {
@@ -112,7 +114,8 @@ static uint32_t smallest_corner(sunder_i_figure_convolution *c, uint32_t ring)
     return least;
 }
 
-/* The link that starts at a corner, or the one before it, among the rays of the place where the corner stands. */
+/* Returns the ray of the link that begins at a corner (leaves), or of the link before it, among the rays of the
+ * corner's place. */
 static const sunder_i_curve_ray *find_ray(const sunder_i_figure_convolution *c, uint32_t corner, bool leaves)
 {
     const sunder_i_curve_ray *ray = c->ray + sunder_i_place_first(c, c->link[corner].place - 1);
@@ -120,17 +123,18 @@ static const sunder_i_curve_ray *find_ray(const sunder_i_figure_convolution *c, 
     return ray;
 }
 
-/* How the number on the right hand changes at a corner: where others stand there, too, their links may pass on the
- * right of the bend. That is behind the ray of a link that arrives, and before that of one that leaves. */
+/* Returns the change of the winding number on the right side at a corner: if other corners have the same position,
+ * their links may pass on the right of the bend. That side follows the ray of an arriving link, and precedes that of a
+ * leaving one. */
 static int32_t number_change(const sunder_i_figure_convolution *c, uint32_t corner)
 {
     if (!c->link[corner].place) return 0;
     return find_ray(c, corner, true)->number - 1 - find_ray(c, corner, false)->number;
 }
 
-/* At a ring's smallest corner the outside of the ring is to the west: a left turn has it on the right hand, a right
- * turn on the left, and there the ring itself counts -1 on the right. Where rings stand there together none of their
- * links passes to the west of it, a little above. */
+/* Computes the winding numbers on the right of all pieces of a ring. At the ring's smallest corner the outside of the
+ * ring is in the west: at a left turn it is on the right side, at a right turn on the left, and there the ring itself
+ * counts -1 on the right. Rings with a common smallest corner have no links west of it, slightly above. */
 static void number_ring(walker *w, const sunder_i_strips *strips, uint32_t ring)
 {
     sunder_i_figure_convolution *c = w->curve;
@@ -158,8 +162,8 @@ static void number_ring(walker *w, const sunder_i_strips *strips, uint32_t ring)
     if (right != start) w->tame = false;
 }
 
-/* Where corners stand together: is one sector free, and has no other less than one piece? Then the place is a plain
- * corner of the result. With several free ones, it would be more than one corner; with none, maybe a degenerate
+/* Returns whether exactly one sector of a place is free, and no sector has a negative winding number. Then the place is
+ * one vertex of the result; with several free sectors it would be more than one, with none perhaps a degenerate
  * hole. */
 static bool is_plain_place(const walker *w, uint32_t place)
 {
@@ -177,7 +181,7 @@ static bool is_plain_place(const walker *w, uint32_t place)
     return free_sectors == 1;
 }
 
-/* False if memory is out. */
+/* Computes all winding numbers. Returns false if out of memory. */
 static bool number_all(walker *w)
 {
     sunder_i_figure_convolution *c = w->curve;
@@ -203,8 +207,8 @@ static bool number_all(walker *w)
 
 /* ---- Rings ---- */
 
-/* The link on which the boundary goes on from the end of link i: the first one behind it, counter-clockwise across
- * what is free. */
+/* Returns the link on which the boundary continues at the end of link i: the first one after it, counterclockwise
+ * across the free sector. */
 static uint32_t onward(walker *w, uint32_t i)
 {
     const sunder_i_figure_convolution *c = w->curve;
@@ -216,7 +220,7 @@ static uint32_t onward(walker *w, uint32_t i)
     return ray->corner;
 }
 
-/* Follows the boundary from piece k of link i until it closes: at a crossing it goes on on the link that comes from
+/* Follows the boundary from piece k of link i until it closes: at a crossing it continues on the link that comes from
  * the left, which has the free side on its right as well. */
 static void follow(walker *w, uint32_t i, uint32_t k)
 {
@@ -241,8 +245,8 @@ static void follow(walker *w, uint32_t i, uint32_t k)
     }
 }
 
-/* Takes the bends from `start` on as a ring, which has the set on its left, or (erosion) on its right. False if memory
- * is out. */
+/* Takes the bends from `start` on as a ring, which has the set on its left or, for an erosion, on its right. Returns
+ * false if out of memory. */
 static bool add_ring(walker *w, uint32_t start)
 {
     sunder_i_figure_convolution *c = w->curve;
@@ -274,14 +278,14 @@ static bool follow_all(walker *w)
     return true;
 }
 
-/* ---- Which holes are in which component ---- */
+/* ---- Holes and components ---- */
 
 typedef struct holder {
     walker *w;
-    sunder_i_strips strips; /* of the sides that leave each bend, all rings' */
-    uint32_t *ring_of;      /* [bends] */
-    bool *odd;              /* [rings] an odd number of its sides is to the left of the place */
-    uint32_t *met;          /* rings with a side to the left of the place */
+    sunder_i_strips strips; /* the sides that leave each bend, of all rings */
+    uint32_t *ring_of;      /* [bends] the ring of each bend */
+    bool *odd;              /* [rings] whether an odd number of its sides is on the left of the point */
+    uint32_t *met;          /* the rings with a side on the left of the point */
     size_t n;
 } holder;
 
@@ -290,7 +294,7 @@ static uint32_t next_bend(const sunder_i_found_ring *r, uint32_t v)
     return v + 1 < r->end ? v + 1 : (uint32_t)r->start;
 }
 
-/* Toggles all rings around, an outer one among them, once for each side to the left. */
+/* Counts the parity of the sides of each outer ring on the left of the point. */
 static void look_left(holder *h, const sunder_i_curve_corner *at)
 {
     walker *w = h->w;
@@ -306,8 +310,8 @@ static void look_left(holder *h, const sunder_i_curve_corner *at)
     }
 }
 
-/* A hole is in the component of the innermost outer ring around it, which of those around it has the greatest smallest
- * corner. */
+/* Assigns a hole to the component of the innermost outer ring around it: that of the rings around it with the greatest
+ * smallest vertex. */
 static void place_hole(holder *h, size_t hole)
 {
     walker *w = h->w;
@@ -348,7 +352,7 @@ static bool holder_init(holder *h)
     return ok;
 }
 
-/* False if memory is out. */
+/* Assigns all rings to components. Returns false if out of memory. */
 static bool find_components(walker *w)
 {
     holder h = {.w = w};
@@ -367,7 +371,8 @@ static bool find_components(walker *w)
 
 /* ---- All of it ---- */
 
-/* The rings, from the smallest corner on and with the set on the left, as a sum. */
+/* Copies the rings, from the smallest vertex on and with the set on the left, to the sum. Returns false if out of
+ * memory. */
 static bool fill_sum(const walker *w, sunder_sum *sum)
 {
     uint32_t *order = sunder_i_alloc(w->bends, sizeof *order);

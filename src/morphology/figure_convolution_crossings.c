@@ -1,5 +1,6 @@
-/* Where the curve crosses itself: links by a tree over their boxes, which follow each other along the rings; each pair
- * whose boxes meet by the sides of their ends, in doubles with a bound and exactly where these leave it open. */
+/* figure_convolution_crossings.c: the crossings of the curve with itself. Candidate pairs of links are found by a tree
+ * over their boxes, in the order of the rings; each pair whose boxes meet is decided by the sides of their ends, in
+ * doubles with an error bound, and exactly if these do not suffice. */
 #include "morphology/figure_convolution.h"
 
 #include "base/sort.h"
@@ -12,17 +13,17 @@
 #include <string.h>
 
 enum {
-    BLOCK = 8,     /* links in a leaf of the tree */
-    PATIENCE = 256 /* pairs of links to look at, a link on the average; a curve that meets itself more often than that
+    BLOCK = 8,     /* the number of links in a leaf of the tree */
+    PATIENCE = 256 /* the average number of pairs of links tested for each link; a curve that meets itself more often
                     * has little of it on the boundary */
 };
 
-/* ---- Questions ---- */
+/* ---- Predicates ---- */
 
-/* With e the error of a coordinate and M the largest of these, e >= 2^-51 M: a difference of two is off by 2 e, and by
- * 2^-52 M <= e / 2 for rounding, so by less than 3 e. Let S be the sum of the magnitudes of the four differences:
- * their two products are off by 3 e S + 18 e^2 together, and by 2^-51 of the products, whose sum is at most S^2 / 4,
- * for rounding. */
+/* With e the error of a coordinate and M the largest of them, e >= 2^-51 M: a difference of two has an error of 2 e,
+ * plus 2^-52 M <= e / 2 for rounding, hence less than 3 e. Let S be the sum of the absolute values of the four
+ * differences: their two products have a total error of 3 e S + 18 e^2, plus 2^-51 of the products, whose sum is at
+ * most S^2 / 4, for rounding. */
 int sunder_i_curve_side(sunder_i_figure_convolution *curve, const sunder_i_curve_corner *a,
                         const sunder_i_curve_corner *b, const sunder_i_curve_corner *c)
 {
@@ -57,27 +58,28 @@ typedef struct crosser {
     sunder_i_figure_convolution *curve;
     double (*box)[4]; /* [links] */
     sunder_i_box_tree tree;
-    size_t pairs; /* that may still be looked at */
+    size_t pairs; /* the number of pairs that may still be tested */
     size_t stops_capacity, crossings_capacity, touches_capacity;
     bool fits, no_memory;
 } crosser;
 
-/* cross(d, X - p) is 0 on the line through p along d; this is cross(d, p) times p's denominator. */
+/* Returns cross(d, p) times p's denominator, for the line through p with the direction d: cross(d, X - p) is 0 on that
+ * line. */
 static sunder_i_big offset(sunder_i_arena *s, const sunder_i_curve_link *l)
 {
     return sunder_i_big_sub(s, sunder_i_big_mul(s, sunder_i_big_i64(s, l->along.x), l->from.at.y),
                             sunder_i_big_mul(s, sunder_i_big_i64(s, l->along.y), l->from.at.x));
 }
 
-/* (k m - l n) of coordinates k and l, which are plain. */
+/* Returns k m - l n, where m and n are coordinates of plain vectors. */
 static sunder_i_big difference(sunder_i_arena *s, sunder_i_big k, int64_t m, sunder_i_big l, int64_t n)
 {
     return sunder_i_big_sub(s, sunder_i_big_mul(s, k, sunder_i_big_i64(s, m)),
                             sunder_i_big_mul(s, l, sunder_i_big_i64(s, n)));
 }
 
-/* Where two lines along d and e meet that are not parallel: cross(d, X) = k / v and cross(e, X) = l / w give
- * X = (k w e - l v d) / (v w cross(d, e)). */
+/* Returns the intersection of two lines with the directions d and e that are not parallel: cross(d, X) = k / v and
+ * cross(e, X) = l / w result in X = (k w e - l v d) / (v w cross(d, e)). */
 static sunder_i_rational_point meeting(sunder_i_arena *s, const sunder_i_curve_link *a, const sunder_i_curve_link *b)
 {
     const sunder_i_point d = a->along, e = b->along;
@@ -124,9 +126,9 @@ static void add_touch(crosser *x, uint32_t corner, uint32_t other)
         x->no_memory = true;
 }
 
-/* Two links whose boxes meet. Those that follow each other share an end and nothing else, unless they are on one line.
- * Where an end of each is on the line of the other and the other ends are not, the lines meet in one point, and both
- * ends are there. One link that goes into the inside of another, or lies along it, is not for this road. */
+/* Tests two links whose boxes meet. Consecutive links share an end and nothing else, unless they are collinear. If one
+ * end of each is on the line of the other and the other ends are not, the lines meet in one point, and both ends are
+ * there. A link that ends inside another one, or is along it, makes the curve unsuitable. */
 static void cross_links(crosser *x, uint32_t i, uint32_t j)
 {
     sunder_i_figure_convolution *c = x->curve;
@@ -148,7 +150,7 @@ static void cross_links(crosser *x, uint32_t i, uint32_t j)
         x->fits = false;
 }
 
-/* The links of two leaves, or of one with each other. */
+/* Tests the links of two leaves, or those of one leaf with each other. */
 static void cross_leaves(crosser *x, size_t leaf, size_t other)
 {
     const size_t end = sunder_i_box_tree_end(&x->tree, leaf), last = sunder_i_box_tree_end(&x->tree, other);
@@ -202,9 +204,9 @@ static bool make_tree(crosser *x)
     return sunder_i_steps(c->links);
 }
 
-/* ---- Stops in the order of their links ---- */
+/* ---- Sorting stops along their links ---- */
 
-/* Of stops on one link: as their places stand, or the other way round where the link comes down that order. */
+/* Compares stops on one link by their positions, in the reverse order if the link's direction is descending. */
 static int compare_stops(void *context, uint32_t a, uint32_t b)
 {
     sunder_i_figure_convolution *c = context;
@@ -213,7 +215,7 @@ static int compare_stops(void *context, uint32_t a, uint32_t b)
     return (d.x ? d.x > 0 : d.y > 0) ? order : -order;
 }
 
-/* The numbers of all stops, link by link; and where those of each link end. */
+/* Lists the numbers of all stops, link by link, and sets the end of each link's stops. */
 static void group_stops(sunder_i_figure_convolution *c, uint32_t *order)
 {
     uint32_t *end = c->stop_end, before = 0;
@@ -221,13 +223,14 @@ static void group_stops(sunder_i_figure_convolution *c, uint32_t *order)
     for (size_t i = 0; i < c->stops; i++) end[c->stop[i].link]++;
     for (uint32_t k = 0; k < c->links; k++) {
         const uint32_t own = end[k];
-        end[k] = before; /* where the next goes; in the end the end */
+        end[k] = before; /* the position of the next one; finally the end */
         before += own;
     }
     for (uint32_t i = 0; i < c->stops; i++) order[end[c->stop[i].link]++] = i;
 }
 
-/* Puts the stops in order, partners with them. Two stops at one place of a link are three links that cross there. */
+/* Sorts the stops and updates their partners. Two stops at one position of a link mean that three links cross there,
+ * which is unsuitable. */
 static bool order_stops(crosser *x)
 {
     sunder_i_figure_convolution *c = x->curve;

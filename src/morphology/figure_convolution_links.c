@@ -1,11 +1,10 @@
-/* The curve of a figure: its sides, each moved by the corner of the element C that is extreme in its outward
- * direction, and what joins them. The figure, or its complement, is on the left of the sides.
+/* figure_convolution_links.c: the curve of a figure: its sides, each translated by the corner of the element C that is
+ * extreme in its outward direction, and what joins them. The figure, or its complement, is on the left of the sides.
  *
- * Where C has a side of the same direction the two are joined to one; but at a reflex end that would be run back at
- * once, and is left out. So a side between two such ends is shortened by C's, and where that is the longer one what is
- * left is run backwards. After a dilation by -C most sides of the complement are of this kind, and just as long as
- * that of C: nothing is left of them then, and the curve of a whole arc is one corner, which the arc was made
- * around. */
+ * If C has a side with the same direction the two are joined; but at a reflex end that part would be traversed back at
+ * once, and is omitted. So a side between two such ends is shortened by C's, and if that one is longer the remainder is
+ * traversed backwards. After a dilation by -C most sides of the complement are of this kind, and exactly as long as
+ * that of C: nothing of them remains then, and the curve of a whole arc is one corner, the centre of the arc. */
 #include "morphology/figure_convolution.h"
 
 #include "base/extremes.h"
@@ -14,25 +13,25 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* What moving leaves of a side: some of it; some that is run backwards; nothing. */
+/* What remains of a translated side: a part of it; a part that is traversed backwards; nothing. */
 typedef enum what_is_left { SOME, BACKWARDS, NOTHING } what_is_left;
 
-/* Numbers k of corners are along the rings as they are walked, ring by ring; those of the figure run the other way
- * where the complement is meant. */
+/* Numbers k of corners are in the order of the curve, ring by ring; those of the figure are reversed for a
+ * complement. */
 typedef struct mover {
     sunder_i_figure_convolution *curve;
     const sunder_i_figure *figure;
     const sunder_i_structuring_element *c;
-    uint32_t m;             /* C's corners */
-    size_t begin, end;      /* the ring at hand */
+    uint32_t m;             /* the number of corners of C */
+    size_t begin, end;      /* the current ring */
     sunder_i_point *d;      /* [sides] the direction of the side that leaves each corner */
     double (*xy)[2];        /* [sides] */
     double (*c_xy)[2];      /* [m] */
     bool *reflex;           /* [sides] */
-    uint32_t *first, *last; /* [sides] the corners of C extreme for that side; they differ where C has a side of that
-                               direction, from first to last */
+    uint32_t *first, *last; /* [sides] the corners of C that are extreme for that side; they differ if C has a side with
+                             * that direction, from first to last */
     uint8_t *left;          /* [sides] a what_is_left */
-    bool *left_out;         /* [rings] of the figure */
+    bool *left_out;         /* [rings] whether the ring of the figure is omitted */
 } mover;
 
 static size_t next_of(const mover *t, size_t k) { return k + 1 < t->end ? k + 1 : t->begin; }
@@ -68,8 +67,8 @@ static void round_corner(const mover *t, sunder_i_rational_point at, double xy[2
     sunder_i_arena_release(s, mark);
 }
 
-/* A corner of the curve is the sum of two of these, each rounded, and the sum once more: by 2^-52 of the two
- * greatest. */
+/* A corner of the curve is the sum of two of these, each rounded, and the sum is rounded once more: an error of 2^-52
+ * of the sum of the two largest. */
 static bool round_corners(mover *t)
 {
     for (size_t r = 0; r < t->figure->rings; r++) {
@@ -91,7 +90,7 @@ static bool is_small(sunder_i_rational_point u, sunder_i_point *out)
            llabs(out->y) < (int64_t)1 << (SUNDER_I_PLAIN_BITS - 1);
 }
 
-/* False where the side has no direction that is plain. */
+/* Sets *out to the direction of side k. Returns false if it is not plain. */
 static bool find_direction(const mover *t, size_t k, sunder_i_point *out)
 {
     sunder_i_arena *s = &t->curve->scratch;
@@ -107,15 +106,15 @@ static bool find_direction(const mover *t, size_t k, sunder_i_point *out)
     return plain;
 }
 
-/* The sign of the turn from d to the side of C that ends in corner j. */
+/* Returns the sign of the turn from d to the side of C that ends in corner j. */
 static int turn_to(const mover *t, sunder_i_point d, uint32_t j)
 {
     const sunder_i_i128 turn = sunder_i_plain_cross(d, t->c->along[before(t, j)]);
     return (turn > 0) - (turn < 0);
 }
 
-/* From corner j, the last extreme one of the side before, to the last for d: forwards at a left turn, backwards at a
- * right one. */
+/* Returns the last corner that is extreme for d, searching from corner j, the last one for the previous side: forwards
+ * at a left turn, backwards at a right turn. */
 static uint32_t walk_to(const mover *t, uint32_t j, sunder_i_point d, bool backwards)
 {
     if (backwards)
@@ -125,7 +124,7 @@ static uint32_t walk_to(const mover *t, uint32_t j, sunder_i_point d, bool backw
     return j;
 }
 
-/* The last of the corners that are extreme for d: C's sides that go down across it end there. */
+/* Returns the last corner that is extreme for d, where those sides of C end that descend across it. */
 static uint32_t find_corner(const mover *t, sunder_i_point d)
 {
     uint32_t j = 0;
@@ -133,8 +132,8 @@ static uint32_t find_corner(const mover *t, sunder_i_point d)
     return walk_to(t, j, d, false);
 }
 
-/* Which corners are extreme for the sides of the ring at hand. False where it has a straight corner, or a side whose
- * direction is not plain. */
+/* Finds the extreme corners for the sides of the current ring. Returns false if it has a straight corner, or a side
+ * whose direction is not plain. */
 static bool find_corners(mover *t)
 {
     for (size_t k = t->begin; k < t->end; k++)
@@ -165,7 +164,7 @@ static void size_of(double (*xy)[2], size_t n, double size[2])
     for (int a = 0; a < 2; a++) size[a] = high[a] - low[a];
 }
 
-/* Does the ring run clockwise? It turns right at its smallest corner then. */
+/* Returns whether the ring is clockwise, that is, whether it turns right at its smallest corner. */
 static bool is_hole(const mover *t)
 {
     size_t least = t->begin;
@@ -177,9 +176,10 @@ static bool is_hole(const mover *t)
     return t->reflex[least];
 }
 
-/* A hole that is narrower than C one way or the other is of no consequence and left out, as in ../minkowski/: where x
- * - C has no point in common with the set it lies in one hole and does not fit into this one. No other has a box that
- * fits into C's, so that winding numbers count pieces; where doubles do not tell, *fits is false. */
+/* Decides about a hole. A hole that is narrower than C in one direction has no effect and is omitted, as in
+ * ../minkowski/: if x - C has no point in common with the set it is inside one hole, and does not fit into this one. No
+ * other hole has a box that fits into C's, so that winding numbers count pieces; *fits becomes false if doubles do not
+ * decide this. */
 static void look_at_hole(mover *t, size_t ring, bool *fits)
 {
     double size[2], own[2];
@@ -205,7 +205,7 @@ static size_t count_links(const mover *t)
     return n;
 }
 
-/* Corner k and corner j of C, added. */
+/* Returns the sum of corner k and corner j of C. */
 static sunder_i_curve_corner moved(const mover *t, size_t k, uint32_t j)
 {
     sunder_i_arena *s = &t->curve->scratch;
@@ -224,7 +224,7 @@ static void add_link(mover *t, size_t k, uint32_t j, sunder_i_point along, bool 
     c->links++;
 }
 
-/* Where corner k of the figure stands the joint begins, and ends, at these corners of C. */
+/* The joint at corner k of the figure begins and ends at these corners of C. */
 static uint32_t joint_begin(const mover *t, size_t k)
 {
     const size_t before_k = prev_of(t, k);
@@ -232,8 +232,8 @@ static uint32_t joint_begin(const mover *t, size_t k)
 }
 static uint32_t joint_end(const mover *t, size_t k) { return t->reflex[k] ? t->last[k] : t->first[k]; }
 
-/* From where the side before corner k ends to where the side that leaves it starts. False where a chord's direction is
- * not plain. */
+/* Adds the links from the end of the side before corner k to the beginning of the side that leaves it. Returns false if
+ * a chord's direction is not plain. */
 static bool add_joint(mover *t, size_t k)
 {
     const uint32_t from = joint_begin(t, k), to = joint_end(t, k);
@@ -251,7 +251,7 @@ static bool add_joint(mover *t, size_t k)
     return plain;
 }
 
-/* Adds a side between two reflex ends, shortened. */
+/* Adds what remains of a side between two reflex ends. */
 static what_is_left add_shortened(mover *t, size_t k)
 {
     const sunder_i_curve_corner from = moved(t, k, t->last[k]), to = moved(t, next_of(t, k), t->first[k]);
@@ -263,9 +263,10 @@ static what_is_left add_shortened(mover *t, size_t k)
     return backwards ? BACKWARDS : SOME;
 }
 
-/* Where nothing is left of side k and those that follow, all of them stand in one corner, and -C there touches all of
- * them. It can move away from them at once, so that what is free there has area, if all turn right by less than half a
- * turn from the side before to the side behind. Else it may be an exact fit. */
+/* Returns whether the contact at side k can be left. If nothing of side k and the following ones remains, all of them
+ * are at one corner, and -C there touches all of them. It can move away from all of them, so that the free set has area
+ * there, if all turn right by less than half a turn from the side before to the side after. Else it may be an exact
+ * fit. */
 static bool can_leave(const mover *t, size_t k)
 {
     const size_t before_k = prev_of(t, k);
@@ -315,7 +316,7 @@ static bool make_room(mover *t)
     return !a->failed;
 }
 
-/* Which rings take part, and how many links there will be at most. */
+/* Decides which rings take part, and returns an upper bound of the number of links. */
 static size_t survey(mover *t, bool *fits)
 {
     size_t links = 0;

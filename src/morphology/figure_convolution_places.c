@@ -1,9 +1,8 @@
-/* Places where several corners of the curve stand. After a dilation that is common: where the arc around a corner v of
- * what was dilated is cut in two by another body, both halves run back to v.
+/* figure_convolution_places.c: positions that several corners of the curve share. After a dilation they are common: if
+ * another body divides the arc about a vertex v of the dilated set, both halves shrink to v.
  *
- * Around such a place the links that arrive and leave are sorted by their directions. From one sector to the next,
- * counter-clockwise, the winding number rises by one at a link that leaves, and falls by one at a link that
- * arrives. */
+ * Around such a position the arriving and leaving links are sorted by direction. From one sector to the next,
+ * counterclockwise, the winding number increases by one at a leaving link, and decreases by one at an arriving link. */
 #include "morphology/figure_convolution.h"
 
 #include "base/sort.h"
@@ -12,10 +11,10 @@
 
 #include <string.h>
 
-/* Half-circles from the west on, which is in the first. */
+/* Divides the directions into half-circles from the west on; west is in the first one. */
 static bool is_upper(sunder_i_point u) { return u.y > 0 || (u.y == 0 && u.x > 0); }
 
-/* By direction, counter-clockwise from the west. */
+/* Compares directions counterclockwise from the west. */
 static int compare_rays(void *context, uint32_t a, uint32_t b)
 {
     const sunder_i_curve_ray *ray = context;
@@ -25,7 +24,8 @@ static int compare_rays(void *context, uint32_t a, uint32_t b)
     return (turn < 0) - (turn > 0);
 }
 
-/* The rays of one place, in order, each with what its sector has more than the one to the west. */
+/* Sorts the rays of one place and sets the winding number of each one's sector relative to the west. Returns false if
+ * out of memory; *fits becomes false if two directions are equal. */
 static bool sort_rays(sunder_i_figure_convolution *c, sunder_i_curve_ray *ray, uint32_t n, bool *fits)
 {
     const sunder_i_mark mark = sunder_i_arena_mark(&c->scratch);
@@ -45,7 +45,7 @@ static bool sort_rays(sunder_i_figure_convolution *c, sunder_i_curve_ray *ray, u
     return true;
 }
 
-/* Numbers the places: each link whose corner was touched has one. */
+/* Numbers the places: each link whose corner was touched has one. Returns false if out of memory. */
 static bool number_places(sunder_i_figure_convolution *c, uint32_t *parent)
 {
     uint32_t *size = sunder_i_arena_alloc(&c->memory, c->links, sizeof *size);
@@ -64,13 +64,14 @@ static bool number_places(sunder_i_figure_convolution *c, uint32_t *parent)
     return sunder_i_steps(c->links);
 }
 
-/* The link before each corner that stands at a place arrives there, the one that starts leaves. */
+/* Lists the rays: at a place, the link before each of its corners arrives, and the link that begins there leaves.
+ * Returns false if out of memory. */
 static bool list_rays(sunder_i_figure_convolution *c)
 {
     uint32_t before = 0;
     for (size_t p = 0; p < c->places; p++) {
         const uint32_t own = c->place_end[p];
-        c->place_end[p] = before; /* where the next goes; in the end the end */
+        c->place_end[p] = before; /* the position of the next one; finally the end */
         before += own;
     }
     c->ray = sunder_i_arena_alloc(&c->memory, before, sizeof *c->ray);

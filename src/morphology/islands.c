@@ -1,12 +1,13 @@
-/* An erosion, or an opening, polygon by polygon.
+/* islands.c: an erosion, or an opening, polygon by polygon.
  *
  * The polygons of a set in canonical form have disjoint interiors and touch in points at most. Let the interior of B be
- * connected. Where B + x lies in the set, its interior lies in the interior of the set, of which the components are the
- * interiors of the polygons: so it lies in one of them, and the closed B + x in that polygon. The erosion is the union
- * of the erosions of the polygons, each a closed set, and no two have a point in common. What B reaches in them, the
- * opening, stays in its polygon, too.
+ * connected. If B + x is a subset of the set, its interior is in the interior of the set, whose components are the
+ * interiors of the polygons: so it is in one of them, and the closed B + x in that polygon. The erosion is the union of
+ * the erosions of the polygons, which are closed and disjoint. The union of the translates of B in them, the opening,
+ * is also in one polygon each.
  *
- * So a layer of a hundred thousand blocks takes the memory of its largest one beside the result, and all threads. */
+ * So a layer of a hundred thousand blocks needs the memory of its largest one besides the result, and uses all
+ * threads. */
 #include "base/extremes.h"
 #include "base/parallel.h"
 #include "morphology/morphology.h"
@@ -19,19 +20,20 @@ typedef struct islands {
     const sunder_sum *whole;
     const sunder_sum_options *asked;
     bool connected, open, dilated;
-    sunder_sum **part;    /* [n] */
-    size_t n, sides;      /* of all */
-    pthread_mutex_t lock; /* of the caller's progress, and what follows */
-    size_t done;          /* sides of islands that are ready */
+    sunder_sum **part;    /* [n] the results of the islands */
+    size_t n, sides;      /* the number of sides of all islands */
+    pthread_mutex_t lock; /* protects the caller's progress and the members below */
+    size_t done;          /* the number of sides of finished islands */
     double told;
     bool stopped;
 } islands;
 
-/* One island's progress as the whole's. Reported fractions never fall, whichever thread reports them. */
+/* Converts the progress of one island to that of the whole. Reported fractions never decrease, whichever thread reports
+ * them. */
 typedef struct teller {
     islands *all;
     size_t sides;
-    double from, to; /* of the island: the stage at hand */
+    double from, to; /* the interval of the island's progress that the current stage takes */
 } teller;
 
 static bool tell(double fraction, void *user)
@@ -69,7 +71,8 @@ static sunder_status dilate_again(const islands *all, const sunder_sum_options *
     return status;
 }
 
-/* The cheapest road first: after a dilation most of the boundary is arcs, which vanish along the convolution. */
+/* Erodes one island, trying the fastest method first: after a dilation most of the boundary is arcs, which vanish along
+ * the convolution. */
 static sunder_status erode(const islands *all, const sunder_i_figure *figure, const sunder_sum_options *options,
                            sunder_sum *eroded, sunder_error *err)
 {
@@ -130,7 +133,7 @@ static sunder_status work(void *context, size_t begin, size_t end, sunder_error 
 static sunder_status run(islands *all, sunder_sum **out, sunder_error *err)
 {
     all->part = sunder_i_calloc(all->n + 1, sizeof *all->part);
-    /* In a closing, the dilation has added B's origin already. */
+    /* in a closing the dilation has added B's origin already */
     sunder_sum *sum = sunder_i_morphology_operands_sum(all->operands, all->open || all->dilated ? 0 : -1);
     sunder_status status = all->part && sum ? SUNDER_OK : sunder_i_no_memory(err);
     if (status == SUNDER_OK) {

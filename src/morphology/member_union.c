@@ -1,9 +1,9 @@
-/* The union of the members of a shape, by the stages that find a sum's outline: the shape's convex pieces are the
- * parts.
+/* member_union.c: the union of the polygons of a shape, by the stages that compute a sum's outline: the shape's convex
+ * pieces are the parts.
  *
- * The open pieces leave out the diagonals between them and walls that members share. Both have cover on both sides, so
- * neither is boundary; they would come out as degenerate segments and points, which the union of closed members has
- * none of. */
+ * The open pieces do not contain the diagonals between them and walls that polygons share. Both are covered on both
+ * sides, so that neither is boundary; they would become degenerate segments and points, which the union of closed
+ * polygons does not have. */
 #include "morphology/morphology.h"
 
 #include "base/invariant.h"
@@ -18,7 +18,7 @@
 
 #include <string.h>
 
-/* Forgets segments and points, and the vertices that only they have. */
+/* Removes segments and points, and the vertices that only they have. Returns false if out of memory. */
 static bool drop_degenerate(sunder_sum *sum)
 {
     const size_t sides = sum->rings ? sum->ring_end[sum->rings - 1] : 0;
@@ -73,7 +73,7 @@ sunder_status sunder_i_union_of_members(const sunder_shape *shape, const sunder_
     sunder_i_placed placed;
     sunder_status status = sunder_i_sum_place(sum, shape, b, false, &placed, err);
     if (status == SUNDER_OK) {
-        memset(sum->origin[1], 0, sizeof sum->origin[1]); /* of b there is nothing but the lattice */
+        memset(sum->origin[1], 0, sizeof sum->origin[1]); /* only the lattice depends on b */
         sum->method.algorithm = SUNDER_ALGORITHM_CONVOLUTION;
         status = unite_pieces(shape, placed.p, options, sum, err);
         sunder_i_placed_free(&placed);

@@ -1,21 +1,21 @@
-/* Dilate, erode, open, close, as stages that are exact sums:
+/* morphology.c: dilation, erosion, opening and closing, as stages that are exact sums:
  *
- *     dilate   P + B                                     the convolution (../minkowski/)
- *     erode    { x : B + x in P }                        the complement of P^c + int(-B)
- *     open     the erosion, degenerate parts and all, + B
- *     close    the erosion of the closed P + B
+ *   dilate   P + B                                     the convolution (../minkowski/)
+ *   erode    { x : B + x in P }                        the complement of P^c + int(-B)
+ *   open     the erosion, with its degenerate parts, + B
+ *   close    the erosion of the closed P + B
  *
- * All sets here are closed. Each stage reads the corners of the one before as they are, as rationals; nothing is
- * rounded in between. P's members may overlap: an erosion takes their union first. */
+ * All sets here are closed. Each stage reads the vertices of the previous one as rational numbers; nothing is rounded
+ * in between. P's polygons may overlap: an erosion computes their union first. */
 #include "morphology/morphology.h"
 #include "base/sized_struct.h"
 #include "base/watch.h"
 #include "minkowski/minkowski.h"
 
-/* A stage of several, as the caller's options see it. */
+/* One of several stages, in relation to the caller's options. */
 typedef struct stage {
     const sunder_sum_options *asked;
-    double from, to; /* the part of the whole that the stage is */
+    double from, to; /* the interval of the whole progress that the stage takes */
     sunder_sum_options options;
 } stage;
 
@@ -35,7 +35,7 @@ static const sunder_sum_options *begin(stage *s, const sunder_sum_options *asked
     return &s->options;
 }
 
-/* What is shrunk: NULL for P itself, if it has one member. */
+/* Computes the set that is eroded: *out becomes NULL for P itself, if it has one polygon. */
 static sunder_status first_stage(const sunder_shape *p, const sunder_shape *b, bool close,
                                  const sunder_sum_options *options, sunder_sum **out, sunder_error *err)
 {
@@ -44,7 +44,7 @@ static sunder_status first_stage(const sunder_shape *p, const sunder_shape *b, b
     return p->form->cleaned.polygons > 1 ? sunder_i_union_of_members(p, b, options, out, err) : SUNDER_OK;
 }
 
-/* Erode, open and close. */
+/* Performs an erosion, opening or closing. */
 static sunder_status shrink(const sunder_shape *p, const sunder_shape *b, sunder_operation operation,
                             const sunder_sum_options *asked, sunder_sum **out, sunder_error *err)
 {

@@ -1,9 +1,9 @@
-/* P and B on one lattice, once for all stages of an operation. */
+/* morphology_operands.c: places P and B on one lattice, once for all stages of an operation. */
 #include "morphology/morphology.h"
 
 #include <string.h>
 
-/* The unit and nothing else: placing left all corners of P in the pool. */
+/* Returns a lattice with the same unit only: placing has left all vertices of P in the pool. */
 static sunder_i_lattice empty_like(const sunder_i_lattice *from)
 {
     return (sunder_i_lattice){.exponent = from->exponent, .scale = from->scale, .approx_shift = from->approx_shift};

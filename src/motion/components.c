@@ -1,9 +1,11 @@
-/* Components: stretches of the outline join the vertices at their ends, since the outline belongs to free space. That
- * gives curves; two curves belong together when they bound one face of free space. From the smallest vertex of each
- * curve, which has nothing of its curve to its left, a ray goes left to the first stretch that it meets: if the way
- * there is free the two belong together, else the curve lies in a component of O. A ray that meets nothing has come
- * outside. Start and goal ask in the same way. Doubles find the few stretches that may be the first; which of them can
- * be reached is decided exactly, and reaching a farther one would not be wrong. */
+/* components.c: the connected components of free space. The stretches of the outline belong to free space, so each
+ * joins the vertices at its ends. The vertices that are joined in this way form a curve; two curves are in the same
+ * component if they bound the same face of free space. From the smallest vertex of each curve (no vertex of the curve
+ * is to its left) a ray goes to the left up to the first stretch that it meets: if the segment up to there is free, the
+ * curve of that stretch is in the same component; otherwise the curve is inside a component of O. A ray that meets
+ * nothing ends in the outer face. Start and goal are joined by rays, too. Doubles select the few stretches that may be
+ * the first on the ray; whether the segment to one of them is free is decided exactly, and to join a farther one that
+ * is reached would be correct, too. */
 #include "motion/corners.h"
 
 #include "base/extremes.h"
@@ -13,7 +15,8 @@
 #include <math.h>
 #include <string.h>
 
-/* Where the horizontal through v meets the line of a stretch ab that reaches its height and is not horizontal. */
+/* Returns the intersection of the horizontal line through v with the line ab. The segment ab must reach the height of v
+ * and not be horizontal. */
 static sunder_i_filtered_point meeting(sunder_i_lattice *l, const sunder_i_filtered_point *v,
                                        const sunder_i_filtered_point *a, const sunder_i_filtered_point *b)
 {
@@ -21,13 +24,14 @@ static sunder_i_filtered_point meeting(sunder_i_lattice *l, const sunder_i_filte
     const sunder_i_rational_point rise = sunder_i_rational_sub(m, v->at, a->at);
     sunder_i_rational_point d = sunder_i_rational_sub(m, b->at, a->at);
     if (sunder_i_big_sign(d.y) < 0) d = sunder_i_rational_neg(d);
-    /* a + (rise.y / d.y) d; d's own denominator drops out. */
+    /* The intersection is a + (rise.y / d.y) d; the denominator of d cancels. */
     const sunder_i_rational_point along = {sunder_i_big_mul(m, rise.y, d.x), sunder_i_big_mul(m, rise.y, d.y),
                                            sunder_i_big_mul(m, rise.w, d.y)};
     return sunder_i_filtered_make(l, sunder_i_rational_add(m, a->at, along));
 }
 
-/* Between which x the stretch meets the horizontal through v, in doubles; false if it does not reach its height. */
+/* Stores in x[0] and x[1] bounds, in doubles, of the x coordinates at which the stretch ab meets the horizontal line
+ * through v. Returns false if the stretch does not reach the height of v. */
 static bool range_at(const sunder_i_free_space *s, const sunder_i_filtered_point *v, const sunder_i_filtered_point *a,
                      const sunder_i_filtered_point *b, double x[2])
 {
@@ -40,7 +44,7 @@ static bool range_at(const sunder_i_free_space *s, const sunder_i_filtered_point
     x[0] = low;
     x[1] = high;
     if (fabs(dy) <= 4 * e) return true;
-    /* Height is off by e, so x by e times the slope; and what rounds. */
+    /* The height has an error of e, so x has one of e times the slope, plus the rounding errors. */
     const double at = a->ax + dx * ((v->ay - a->ay) / dy);
     const double off = 4 * e * (1 + fabs(dx / dy)) + 0x1p-48 * fabs(dx);
     x[0] = sunder_i_max(low, at - off);
@@ -48,7 +52,8 @@ static bool range_at(const sunder_i_free_space *s, const sunder_i_filtered_point
     return true;
 }
 
-/* The place on the stretch, at the height of v and not right of it; false if there is none. */
+/* *hit becomes the point of the stretch ab that has the height of v and is not right of v (for a horizontal stretch:
+ * the rightmost one). Returns false if there is none. */
 static bool meet_left(const sunder_i_free_space *s, const sunder_i_filtered_point *v, const sunder_i_filtered_point *a,
                       const sunder_i_filtered_point *b, sunder_i_filtered_point *hit)
 {
@@ -57,14 +62,15 @@ static bool meet_left(const sunder_i_free_space *s, const sunder_i_filtered_poin
         const bool a_first = sunder_i_filtered_cmp_x(g, a, b) < 0;
         const sunder_i_filtered_point *right = a_first ? b : a, *left = a_first ? a : b;
         if (sunder_i_filtered_cmp_x(g, left, v) > 0) return false;
-        *hit = sunder_i_filtered_cmp_x(g, right, v) > 0 ? *v : *right; /* v itself lies on it */
+        *hit = sunder_i_filtered_cmp_x(g, right, v) > 0 ? *v : *right; /* v itself is on the stretch */
         return true;
     }
     *hit = meeting(g->lattice, v, a, b);
     return sunder_i_filtered_cmp_x(g, hit, v) <= 0;
 }
 
-/* Stretches by height, with room for the error of theirs and of the height that is asked for. */
+/* Sorts the stretches into strips by height, for queries with one height. The intervals are widened by the errors of
+ * their coordinates and of the height in the query. */
 static bool make_strips(const sunder_i_free_space *s, const sunder_i_corners *c, sunder_i_strips *out)
 {
     double(*span)[2] = sunder_i_alloc(s->stretches, sizeof *span);
@@ -81,7 +87,8 @@ static bool make_strips(const sunder_i_free_space *s, const sunder_i_corners *c,
     return ok;
 }
 
-/* Joins v with what it reaches on its left. Stretches whose vertices have the root `own` are not looked at. */
+/* Shoots a ray from v to the left and joins v with the stretch that it reaches. The stretches of the curve with the
+ * root `own` are not tested. */
 static void shoot(const sunder_i_free_space *s, sunder_i_corners *c, const sunder_i_strips *t, uint32_t v,
                   const uint32_t *curve, uint32_t own)
 {
@@ -118,11 +125,11 @@ bool sunder_i_components_find(const sunder_i_free_space *space, sunder_i_corners
         sunder_i_union_join(corners->parent, space->stretch[i].from, space->stretch[i].to);
     for (uint32_t v = 0; ok && v < corners->vertices; v++) {
         const uint32_t r = curve[v] = sunder_i_union_find(corners->parent, v);
-        /* A root has the least number in its tree, so the loop meets it first there. */
+        /* The root of a tree has the least vertex number in it, so that the loop reaches the root first. */
         if (r == v || sunder_i_filtered_cmp(&space->filter, &corners->place[v], &corners->place[least[r]]) < 0)
             least[r] = v;
     }
-    /* Points without stretches are degenerate: no way leads there, and a ray from them goes nowhere. */
+    /* Vertices without stretches are degenerate points: no path leads there, so a ray from them has no effect. */
     for (uint32_t v = 0; ok && v < corners->vertices; v++)
         if (curve[v] == v) shoot(space, corners, &t, least[v], curve, v);
     for (uint32_t v = corners->vertices; ok && v < corners->vertices + 2; v++)

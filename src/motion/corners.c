@@ -1,6 +1,7 @@
-/* Nodes: vertices of the outline at which a shortest path can bend. In a plain corner two stretches meet, with O on one
- * side, and a path bends there only round O: so it is one if O is convex there. Where several stretches meet, where a
- * degenerate one ends or joins others, paths may bend in any way; along a degenerate line they bend where it does. */
+/* corners.c: the nodes, the vertices of the outline at which a shortest path can bend. At a plain corner two stretches
+ * meet and O is on one side of them; a path bends there only around O, so that the corner is a node if O is convex
+ * there. A vertex at which more than two stretches meet, or at which a degenerate stretch ends or joins others, is
+ * always a node; where two degenerate stretches meet it is one if they are not collinear. */
 #include "motion/corners.h"
 
 #include "outline/coverage.h"
@@ -16,7 +17,7 @@ void sunder_i_corners_free(sunder_i_corners *corners)
     memset(corners, 0, sizeof *corners);
 }
 
-/* How many stretches end at a vertex, and how many of them have O on both banks. */
+/* The number of stretches that end at a vertex, and the number of those that have O on both sides. */
 typedef struct degree {
     uint32_t all, degenerate;
 } degree;
@@ -31,7 +32,7 @@ static void count_degrees(const sunder_i_free_space *s, sunder_i_corners *c, deg
             d[end[k]].all++;
             d[end[k]].degenerate += e->banks == both;
         }
-        /* With O on the left; degenerate stretches fill whichever place is empty. */
+        /* `u` to `v` has O on its left; a degenerate stretch takes whichever entry of `beside` is still empty. */
         const bool turned = e->banks == SUNDER_I_BANK_RIGHT;
         const uint32_t u = end[turned], v = end[!turned];
         c->beside[u][e->banks == both && c->beside[u][1] != SUNDER_I_NO_PLACE ? 0 : 1] = v;
@@ -41,7 +42,7 @@ static void count_degrees(const sunder_i_free_space *s, sunder_i_corners *c, deg
 
 static bool is_node(const sunder_i_free_space *s, const sunder_i_corners *c, uint32_t v, const degree *d)
 {
-    if (d->all == 0) return false; /* a degenerate point: no way leads there */
+    if (d->all == 0) return false; /* a degenerate point: no path leads there */
     if (d->all != 2 || d->degenerate == 1) return true;
     const int turn =
         sunder_i_filtered_orient(&s->filter, &c->place[c->beside[v][0]], &c->place[v], &c->place[c->beside[v][1]]);
@@ -59,7 +60,7 @@ static bool find_nodes(const sunder_i_free_space *s, sunder_i_corners *c)
     if (!d) return false;
     count_degrees(s, c, d);
     for (uint32_t v = 0; v < c->vertices; v++) {
-        /* A vertex where the path starts or ends would only repeat it. */
+        /* A vertex at the start or goal is no node: it would only repeat that end of the path. */
         if (is_node(s, c, v, &d[v]) && !is_same(s, c, v, c->vertices) && !is_same(s, c, v, c->vertices + 1))
             c->node[c->nodes++] = v;
         if (d[v].all != 2 || d[v].degenerate) c->beside[v][0] = c->beside[v][1] = SUNDER_I_NO_PLACE;
@@ -70,7 +71,7 @@ static bool find_nodes(const sunder_i_free_space *s, sunder_i_corners *c)
     return true;
 }
 
-/* Nodes that no way leads to from the start are none. */
+/* Removes the nodes that are not in the component of the start. */
 static void keep_reachable(sunder_i_corners *c)
 {
     uint32_t n = 0;

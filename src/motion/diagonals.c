@@ -1,6 +1,7 @@
-/* A diagonal is a side of two pieces that is no edge of the shape. Sides are sorted by their two ends, and equal ones
- * stand together; the corner after each side shows on which side of the diagonal its piece lies. How much finer the
- * lattice must be is seen from the lengths: p = m + (w - m) / 2^j is near enough if |w - m| / 2^j <= |uv| / 4. */
+/* diagonals.c: finds the diagonals of a shape, and their quadrilaterals. A diagonal is a side of two pieces that is not
+ * an edge of the shape. The sides are sorted by their two ends, so that the two sides of a diagonal are adjacent; the
+ * vertex after each side shows on which side of the diagonal its piece is. The number of additional bits of the lattice
+ * follows from the lengths: p = m + (w - m) / 2^j is near enough if |w - m| / 2^j <= |uv| / 4. */
 #include "motion/diagonals.h"
 
 #include "base/sort.h"
@@ -10,9 +11,9 @@
 #include <math.h>
 #include <string.h>
 
-/* ---- Which ---- */
+/* ---- Diagonals ---- */
 
-/* The sides of pieces that are no edges of the shape: from u to v, then w. */
+/* A side of a piece that is not an edge of the shape: it goes from u to v, and w is the next vertex of the piece. */
 typedef struct side {
     uint32_t u, v, w;
 } side;
@@ -40,9 +41,10 @@ static size_t inner_sides(const sunder_shape *shape, side *out)
     return n;
 }
 
-/* ---- How fine ---- */
+/* ---- Additional bits ---- */
 
-/* The exponent e of |b - a| < 2^e, and >= 2^(e - 1) but for rounding; doubles of any size, overflow kept off. */
+/* Returns an exponent e with |b - a| < 2^e, and with |b - a| >= 2^(e - 1) up to rounding. The doubles may have any
+ * size: intermediate results do not overflow. */
 static int size_of(const double *a, const double *b)
 {
     int e;
@@ -51,7 +53,8 @@ static int size_of(const double *a, const double *b)
     return e + 2;
 }
 
-/* Enough for both corners that the diagonal adds: |w - m| <= |w - u| + |uv|. */
+/* The number of bits that suffice for both of the corners that the quadrilateral of the diagonal adds, since |w - m| <=
+ * |w - u| + |uv|. */
 static unsigned bits_of(const double *xy, const uint32_t corner[4])
 {
     const double *u = xy + 2 * (size_t)corner[0], *v = xy + 2 * (size_t)corner[2];
@@ -64,7 +67,7 @@ static unsigned bits_of(const double *xy, const uint32_t corner[4])
     return (unsigned)(most - least) + 6;
 }
 
-/* Is one of the corners no pair of doubles? */
+/* Returns true if one of the four vertices has an exact rational position that doubles cannot represent. */
 static bool has_exact(const sunder_shape *shape, const uint32_t corner[4])
 {
     bool any = false;
@@ -83,7 +86,7 @@ bool sunder_i_diagonals_find(const sunder_shape *shape, sunder_i_diagonals *out)
     const size_t n = ok ? inner_sides(shape, sides) : 0;
     for (size_t i = 0; i < n; i++) order[i] = (uint32_t)i;
     ok = ok && sunder_i_sort_indices(order, n, compare_sides, sides);
-    for (size_t i = 0; ok && i + 1 < n; i += 2) { /* each diagonal is a side of two pieces */
+    for (size_t i = 0; ok && i + 1 < n; i += 2) { /* each diagonal is a side of exactly two pieces */
         const side *left = &sides[order[i]], *right = &sides[order[i + 1]];
         const uint32_t corner[4] = {left->u, right->w, left->v, left->w};
         memcpy(out->corner[out->n++], corner, sizeof corner);
@@ -104,8 +107,8 @@ void sunder_i_diagonals_free(sunder_i_diagonals *diagonals)
 
 /* ---- The quadrilaterals ---- */
 
-/* u + uv / 2 + (w - m) / 2^j, where w - m = (2 uw - uv) / 2: (u + v) / 2 + (2 w - u - v) / 2^(j + 1). On the lattice
- * where its unit is fine enough. */
+/* Returns u + uv / 2 + (w - m) / 2^j with w - m = (2 uw - uv) / 2, that is (u + v) / 2 + (2 w - u - v) / 2^(j + 1). The
+ * point is on the lattice if the lattice's unit is fine enough. */
 static sunder_i_point towards(sunder_i_lattice *l, sunder_i_point u, sunder_i_point v, sunder_i_point w, unsigned j)
 {
     if (l->arena.failed) return u;
@@ -114,7 +117,7 @@ static sunder_i_point towards(sunder_i_lattice *l, sunder_i_point u, sunder_i_po
     const sunder_i_rational_point a = sunder_i_rational_get(m, l, u);
     const sunder_i_rational_point uv = sunder_i_rational_sub(m, sunder_i_rational_get(m, l, v), a);
     const sunder_i_rational_point uw = sunder_i_rational_sub(m, sunder_i_rational_get(m, l, w), a);
-    /* From u: (uv (2^j - 1) + 2 uw) / 2^(j + 1), over the denominators of both. */
+    /* The difference to u is (uv (2^j - 1) + 2 uw) / 2^(j + 1), over the product of the denominators of uv and uw. */
     const sunder_i_big part = sunder_i_big_sub(m, sunder_i_big_shl(m, uw.w, j), uw.w);
     const sunder_i_big twice = sunder_i_big_shl(m, uv.w, 1);
     const sunder_i_big x = sunder_i_big_add(m, sunder_i_big_mul(m, uv.x, part), sunder_i_big_mul(m, uw.x, twice));
@@ -126,7 +129,8 @@ static sunder_i_point towards(sunder_i_lattice *l, sunder_i_point u, sunder_i_po
     return at;
 }
 
-/* Is the quadrilateral strictly convex where the diagonal ends? Elsewhere it is: its other corners are beside it. */
+/* Returns true if the quadrilateral q is strictly convex at both ends of the diagonal. It always is at its other two
+ * corners, which are on either side of the diagonal. */
 static bool is_convex(sunder_i_lattice *l, const sunder_i_point q[4])
 {
     return sunder_i_orient(l, q[3], q[0], q[1]) > 0 && sunder_i_orient(l, q[1], q[2], q[3]) > 0;
@@ -139,7 +143,7 @@ void sunder_i_diagonals_add(const sunder_i_diagonals *diagonals, sunder_i_lattic
         const uint32_t *corner = diagonals->corner[i];
         const sunder_i_point u = at[corner[0]], v = at[corner[2]];
         sunder_i_point quad[4] = {u, u, v, u};
-        /* Near enough to the diagonal it always is. */
+        /* The loop ends: near enough to the diagonal the quadrilateral is convex. */
         for (unsigned j = 1; !lattice->arena.failed; j++) {
             for (int k = 1; k < 4; k += 2) quad[k] = towards(lattice, u, v, at[corner[k]], j);
             if (is_convex(lattice, quad)) break;

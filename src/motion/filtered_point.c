@@ -1,12 +1,12 @@
-/* Places: made of what users and sums name, compared and asked for sides. Doubles that are off by a known error decide
- * first, by their difference or by a 2 x 2 determinant with a bound; what they leave open is decided in big integers,
- * of which the points are made. */
+/* filtered_point.c: makes exact points with approximate doubles, compares them and computes orientations. A test is
+ * decided first by the doubles, whose error is bounded: by a difference, or by a 2 x 2 determinant with an error bound.
+ * If they do not decide it, the exact coordinates, which are big integers, do. */
 #include "motion/filtered_point.h"
 
 #include <float.h>
 #include <math.h>
 
-/* ---- Making places ---- */
+/* ---- Construction ---- */
 
 sunder_i_filtered_point sunder_i_filtered_make(sunder_i_lattice *lattice, sunder_i_rational_point at)
 {
@@ -29,7 +29,7 @@ static sunder_i_big two_to(sunder_i_arena *arena, sunder_i_big a, long e)
     return sunder_i_big_shl(arena, a, (unsigned long)e);
 }
 
-/* v less both origins, in lattice units. */
+/* Returns the coordinate v minus both origins of the sum, in lattice units. */
 static sunder_i_ratio on_lattice(const sunder_sum *sum, sunder_i_arena *arena, int axis, sunder_i_ratio v)
 {
     const sunder_i_lattice *l = &sum->lattice;
@@ -109,11 +109,12 @@ int sunder_i_filtered_cmp(const sunder_i_filter *g, const sunder_i_filtered_poin
     return c ? c : sunder_i_filtered_cmp_y(g, a, b);
 }
 
-/* ---- Sides ---- */
+/* ---- Orientation ---- */
 
-/* Sign of cross(b - a, c - a) where doubles settle it, else 0. Each coordinate is off by at most e, so a difference by
- * at most 2 e + u |difference|, u = DBL_EPSILON / 2. With f = 2 e + 2 u |.| for both that and the roundings behind it,
- * the two products are off by at most f (|p| + |q|) + f^2 and a rounding each. */
+/* Returns the sign of cross(b - a, c - a) if doubles decide it, else 0. Each coordinate has an error of at most e, so
+ * that a difference has one of at most 2 e + u |difference|, u = DBL_EPSILON / 2. With f = 2 e + 2 u |.|, which bounds
+ * this and the rounding errors that follow, the two products have errors of at most f (|p| + |q|) + f^2 and one
+ * rounding each. */
 static int filter_orient(const sunder_i_filter *g, const double a[2], const double b[2], const double c[2])
 {
     const double px = b[0] - a[0], py = b[1] - a[1], qx = c[0] - a[0], qy = c[1] - a[1];

@@ -1,13 +1,13 @@
-/* Free space is what the parts leave over.
+/* free_space.c: free space is the complement of the union of the parts.
  *
- * Obstacles, the robot turned by half a turn, and a disc if there is a gap, all become lists of convex pieces on one
- * lattice that holds the sums of all three. Directions are ranked once, so that pieces are summed by merging. The sums
- * of obstacle pieces and robot pieces are the parts. Their outline is found by the stages of outline/, all at once, and
- * its stretches are kept: their ends are where shortest paths can bend.
+ * The obstacles, the robot rotated by half a turn, and a disc if there is a gap, are converted to lists of convex
+ * pieces on one lattice that can represent the sums of all three. Directions are ranked once, so that pieces are summed
+ * by merging. The sums of obstacle pieces and robot pieces are the parts. Their outline is computed by the stages of
+ * outline/ in one run, and its stretches are kept: shortest paths can bend at their ends.
  *
  *   an obstacle without area   a line gives pieces of two corners, a point one of one corner: see diagonals.h
  *   no obstacles               no parts and no outline; every leg is free
- *   repaired shapes            corners may have denominators: the lattice admits them */
+ *   repaired shapes            corners may have denominators: the lattice can represent them */
 #include "motion/free_space.h"
 
 #include "morphology/morphology.h"
@@ -23,18 +23,18 @@
 #include <math.h>
 #include <string.h>
 
-/* The disc that a gap grows the robot by: 64 sides, as the interface says. */
+/* The number of sides of the disc by which a gap grows the robot; the public interface states it. */
 #define GAP_SEGMENTS 64
 
 typedef struct maker {
     const sunder_obstacle *obstacle;
     size_t n;
-    const sunder_shape *robot, *disc; /* disc: NULL without a gap */
+    const sunder_shape *robot, *disc; /* disc is NULL without a gap */
     const sunder_sum_options *options;
     sunder_i_lattice *lattice;
     sunder_i_free_space *out;
     sunder_i_convex_pieces obstacles, robots, discs;
-    sunder_i_diagonals diagonals; /* none where they make no difference */
+    sunder_i_diagonals diagonals; /* empty if diagonals make no difference */
 } maker;
 
 /* ---- The lattice ---- */
@@ -53,7 +53,8 @@ static void join_extent(sunder_i_extent *all, const sunder_i_extent *e)
     if (e->low_bit < all->low_bit) all->low_bit = e->low_bit;
 }
 
-/* Room for what the disc adds, so that sums of two operands are sums of all three. */
+/* Widens *e by the extent of the disc, `by`, so that sums of two operands with extent *e represent the sums of all
+ * three. */
 static void grow_extent(sunder_i_extent *e, const sunder_i_extent *by)
 {
     for (int k = 0; k < 2; k++) {
@@ -74,7 +75,8 @@ static bool clamp(sunder_i_extent *e)
     return inside;
 }
 
-/* Doubles taken exactly; corners of repaired shapes may have denominators. */
+/* Chooses a lattice that represents all coordinates exactly, also those of repaired shapes, which may have
+ * denominators. */
 static void choose_lattice(maker *m)
 {
     sunder_i_extent extent[3] = {{0}, {0}, {0}};
@@ -118,7 +120,8 @@ static sunder_i_point put_vertex(sunder_i_lattice *l, const sunder_shape *shape,
 
 /* ---- Pieces ---- */
 
-/* All vertices of a shape on the lattice, turned by half a turn if asked; to be freed. NULL if memory is out. */
+/* Returns the lattice points of all vertices of a shape, rotated by half a turn if `reflect`. The caller frees the
+ * array. Returns NULL if out of memory. */
 static sunder_i_point *put_vertices(sunder_i_lattice *l, const sunder_shape *shape, const double origin[2],
                                     bool reflect)
 {
@@ -139,7 +142,8 @@ static bool add_shape(sunder_i_lattice *l, const sunder_shape *shape, const doub
     return at != NULL;
 }
 
-/* A line of obstacle: its segments, repeated points once; a point alone is a piece of its own. */
+/* Appends the pieces of a line of an obstacle: its segments without those of length 0, or, if there are no others, its
+ * point. */
 static void add_line(sunder_i_lattice *l, const double *xy, size_t n, const double origin[2],
                      sunder_i_convex_pieces *list)
 {
@@ -156,7 +160,7 @@ static void add_line(sunder_i_lattice *l, const double *xy, size_t n, const doub
     list->end[list->n++] = list->corners;
 }
 
-/* The robot turned by half a turn, and what its pieces leave out. */
+/* Adds the pieces of the robot rotated by half a turn, and the quadrilaterals of its diagonals. */
 static bool add_robot(maker *m)
 {
     const double origin[2] = {-m->out->sum->origin[1][0], -m->out->sum->origin[1][1]};
@@ -218,7 +222,8 @@ static bool make_parts(maker *m)
     return sunder_i_convex_pieces_sum(&m->obstacles, &m->robots, &m->out->part);
 }
 
-/* Doubles that stand for corners, and bounds for all that stand for places. False if memory is out. */
+/* Sets the approximate doubles of the corners of parts, and the error bound of the filter. Returns false if out of
+ * memory. */
 static bool measure(maker *m)
 {
     sunder_i_lattice *l = m->lattice;
@@ -232,8 +237,8 @@ static bool measure(maker *m)
         at[1] = sunder_i_approx(l, part->corner[i].y);
         most = sunder_i_max(most, sunder_i_max(fabs(at[0]), fabs(at[1])));
     }
-    /* Corners of the outline lie between those of parts; a vertex's double is within 2^-49 of its size
-     * (predicate/hpoint.c), a lattice point's within 2^-53. */
+    /* The vertices of the outline are in the convex hull of the corners of parts; the double of a vertex has an error
+     * of at most 2^-49 of its size (predicate/hpoint.c), that of a lattice point one of 2^-53. */
     m->out->filter = (sunder_i_filter){l, 0x1p-48 * most};
     return true;
 }
@@ -283,8 +288,8 @@ static sunder_status build(maker *m, sunder_error *err)
     return status;
 }
 
-/* What the interiors of the robot's pieces leave out of its own makes a difference to obstacles without area, unless a
- * disc covers it. */
+/* Builds free space for obstacles without area. For these the diagonals make a difference, and so do common boundaries
+ * of the robot's polygons. (With a disc they make none, and this function is not called.) */
 static sunder_status build_with_lines(maker *m, sunder_error *err)
 {
     sunder_shape *whole;

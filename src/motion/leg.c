@@ -1,8 +1,9 @@
-/* Which parts a segment meets: a tree of boxes finds the few to ask, and the separating axis theorem asks them exactly.
+/* leg.c: which parts a segment meets. A tree of boxes selects the few parts to test, and the separating axis theorem
+ * decides the test exactly.
  *
- * A closed segment pq and an open convex polygon are disjoint exactly when a line through a side of the polygon, or
- * the line pq, weakly separates them: the Minkowski difference of the two is a convex polygon whose sides are parallel
- * to these, and the origin is not in its interior exactly when it lies on or beyond one of them. */
+ * A closed segment pq and an open convex polygon are disjoint exactly if the line through a side of the polygon, or the
+ * line pq, weakly separates them: the Minkowski difference of the two is a convex polygon whose sides are parallel to
+ * these, and the origin is not in its interior exactly if it is on or beyond one of them. */
 #include "motion/free_space.h"
 
 #include "spatial/curve.h"
@@ -63,7 +64,8 @@ bool sunder_i_part_tree_build(sunder_i_free_space *space)
 
 /* ---- One part ---- */
 
-/* Are both ends on or beyond one side of the part, or all of the part on one side of the line pq? */
+/* Returns true if the closed segment pq meets the part: unless both ends are on or beyond the line of one side of the
+ * part, or all of the part is on one side of the line pq. */
 static bool meets(const sunder_i_free_space *s, uint32_t part, const sunder_i_filtered_point *p,
                   const sunder_i_filtered_point *q)
 {
@@ -84,7 +86,7 @@ static bool meets(const sunder_i_free_space *s, uint32_t part, const sunder_i_fi
         left += side > 0;
         right += side < 0;
     }
-    /* p == q in place: the line is none, and the sides have told. */
+    /* If p and q are equal, there is no line pq, and the tests of the sides have decided. */
     return (left && right) || (!left && !right);
 }
 
@@ -97,7 +99,8 @@ typedef struct ray {
 static bool box_near(const double box[4], const ray *r)
 {
     if (box[0] > r->high[0] || box[2] < r->low[0] || box[1] > r->high[1] || box[3] < r->low[1]) return false;
-    /* The line passes it by: all corners clearly on one side. Products that are beyond all doubles leave it open. */
+    /* The line misses the box if all corners of the box are clearly on one side of it. A product that overflows decides
+     * nothing. */
     const double mx = box[0] / 2 + box[2] / 2 - r->x, my = box[1] / 2 + box[3] / 2 - r->y;
     const double hx = (box[2] - box[0]) / 2, hy = (box[3] - box[1]) / 2;
     const double off = fabs(r->dx * my - r->dy * mx), reach = fabs(r->dx) * hy + fabs(r->dy) * hx;
@@ -112,7 +115,7 @@ static ray ray_of(const sunder_i_free_space *s, const sunder_i_filtered_point *p
     ray r = {p->ax, p->ay, q->ax - p->ax, q->ay - p->ay, {0, 0}, {0, 0}, 0};
     r.low[0] = sunder_i_min(p->ax, q->ax) - e, r.high[0] = sunder_i_max(p->ax, q->ax) + e;
     r.low[1] = sunder_i_min(p->ay, q->ay) - e, r.high[1] = sunder_i_max(p->ay, q->ay) + e;
-    /* The ends are off by e each, and sums of boxes and ends round: generously. */
+    /* The ends have an error of e each, and sums of boxes and ends are rounded; this bound has ample margin. */
     r.slack = 16 * e + 4 * DBL_EPSILON * (fabs(r.dx) + fabs(r.dy));
     return r;
 }

@@ -1,16 +1,16 @@
-/* A leg's length is the root of a rational, floored to the bits asked for; a path's is the sum of these. With 256
- * significant bits and some for the sum of many legs, what is lost is far below half a unit in the last place of a
- * double: the sum is rounded to the nearest one, once. */
+/* path_length.c: the length of a leg is the square root of a rational number, rounded down to a given number of bits;
+ * that of a path is the sum of these. With LENGTH_BITS significant bits the error is far below half a unit in the last
+ * place of a double: the sum is rounded to the nearest double, once. */
 #include "motion/path_length.h"
 
 #include <limits.h>
 #include <math.h>
 
-/* Significant bits of a length: 256 asked for, and some for the sum of many legs. */
+/* The significant bits of a length: 256, and some more for the sum of many legs. */
 #define LENGTH_BITS 320
 
-/* floor(2^bits * |b - a|) on the lattice: sqrt(4^bits |b - a|^2 w^2) / w, each floored, and floor(floor(r) / w) =
- * floor(r / w) for an integer w. Memory in the arena. */
+/* Returns floor(2^bits * |b - a|) on the lattice: sqrt(4^bits |b - a|^2 w^2) / w, each rounded down; this is correct,
+ * since floor(floor(r) / w) = floor(r / w) for an integer w. Memory is from the arena. */
 static sunder_i_big leg_length(sunder_i_arena *m, const sunder_i_filtered_point *a, const sunder_i_filtered_point *b,
                                unsigned long bits)
 {
@@ -25,7 +25,7 @@ static const sunder_i_filtered_point *place_at(const sunder_i_path *path, size_t
     return &path->place[path->place_of ? path->place_of[path->node[i]] : path->node[i]];
 }
 
-/* In units of sunder_i_approx(). */
+/* Returns the approximate length of the path, in units of sunder_i_approx(). */
 static double length_in_doubles(const sunder_i_path *path)
 {
     double length = 0;
@@ -36,7 +36,7 @@ static double length_in_doubles(const sunder_i_path *path)
     return length;
 }
 
-/* About the binary logarithm of the longest leg on the lattice; 0 if all are nothing. */
+/* Returns an approximation of the binary logarithm of the longest leg on the lattice; 0 if all legs have length 0. */
 static long exponent_of(sunder_i_arena *m, const sunder_i_path *path)
 {
     long most = LONG_MIN;
@@ -51,7 +51,8 @@ static long exponent_of(sunder_i_arena *m, const sunder_i_path *path)
     return most == LONG_MIN ? 0 : most;
 }
 
-/* Places that are far from each other beside what lies between two of them may be one in doubles, or next to it. */
+/* If a path is short and far from the origin, its positions may be equal or adjacent in doubles: then the exponent is
+ * computed from the exact numbers. */
 unsigned long sunder_i_path_length_bits(const sunder_i_filter *filter, sunder_i_arena *arena, const sunder_i_path *path)
 {
     const double length = length_in_doubles(path);

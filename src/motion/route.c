@@ -1,4 +1,5 @@
-/* The public face of routes: arguments, the space, the search, the proof, and what a caller may ask of the result. */
+/* route.c: the public functions of routes: they check the arguments, make free space, search, prove the result and
+ * return its values. */
 #include "motion/path_length.h"
 #include "motion/shortest_path.h"
 
@@ -18,7 +19,7 @@ struct sunder_route {
     sunder_i_free_space space;
     sunder_route_status reason;
     size_t obstacle;
-    stop *stop; /* [n] */
+    stop *stop; /* [n] the vertices of the path */
     size_t n;
     double length;
     bool rounded_is_free;
@@ -26,7 +27,8 @@ struct sunder_route {
 
 /* ---- Arguments ---- */
 
-/* A place named by the caller; raises the error bound of the filter to what its doubles may be off by. */
+/* Converts a point of the caller to a point of the lattice, and raises the error bound of the filter to that of the
+ * point's doubles. `which` names the point in messages. */
 static sunder_status read_place(sunder_i_free_space *space, const sunder_place *place, const char *which,
                                 sunder_i_filtered_point *out, sunder_error *err)
 {
@@ -69,7 +71,8 @@ static sunder_status check_obstacles(const sunder_obstacle *obstacles, size_t n,
 
 /* ---- The result ---- */
 
-/* Does the robot at the place collide? Then the reason and the obstacle are noted. */
+/* Returns true if the robot at the point `at` collides with an obstacle; then `reason` and the number of the obstacle
+ * are stored in r. */
 static bool collides(sunder_route *r, const sunder_i_filtered_point *at, sunder_route_status reason)
 {
     uint32_t part;
@@ -93,7 +96,8 @@ static sunder_status take_stop(sunder_route *r, const sunder_i_filtered_point *a
     return status;
 }
 
-/* Every leg of the path as it is, which must be free, and of the path as doubles hold it. */
+/* Proves that every leg of the path is free, and tests whether the legs are free, too, if the vertices are rounded to
+ * doubles. Fails with SUNDER_EFAULT if a leg is not free. */
 static sunder_status prove(sunder_route *r, const sunder_i_filtered_point *place, const uint32_t *path,
                            sunder_error *err)
 {

@@ -1,6 +1,7 @@
-/* Depths over directions. Bins are looked through by the rays at their two sides; what a part hides of a bin begins at
- * the greater of the two depths at which it is entered (shadow.h). A ray is clipped by the part's sides, each moved
- * inward by a margin, so that it is inside for certain; margins cover the error of the corners and all rounding. */
+/* shadow.c: depths over directions. The rays at the two sides of a bin are tested; a part hides those points of a bin
+ * that are farther away than the greater of the two depths at which the rays enter it (shadow.h). A ray is clipped by
+ * the sides of the part, each moved inward by a margin, so that the result is inside for certain; the margins cover the
+ * errors of the corners and of rounding. */
 #include "motion/shadow.h"
 
 #include "base/extremes.h"
@@ -8,10 +9,10 @@
 #include <float.h>
 #include <math.h>
 
-/* Far more than what turns and rays are rounded by (a few 2^-52), far less than a bin. */
+/* Far more than the rounding error of turns and rays (a few 2^-52), far less than a bin. */
 #define TURN_ROUNDING 0x1p-44
-/* All round, which is looked at for one node in a thousand, a coarse map does; and the narrowest sector still has
- * enough bins to tell its nodes apart. */
+/* The number of bins for all directions, which is needed for one node of a thousand, so that a coarse map is
+ * sufficient; and the least number of bins, which still separate nodes in the narrowest sector. */
 #define BINS_ALL_ROUND 128
 #define BINS_LEAST 16
 
@@ -36,7 +37,7 @@ bool sunder_i_sector_of(const double (*point)[2], int n, double error, bool at_e
             return false;
         }
         const double t = sunder_i_turn(point[i][0], point[i][1]);
-        /* dy is off by `error`, the sum by twice that, and |dy| <= the sum. */
+        /* dy has an error of `error`, the sum |dx| + |dy| one of twice that, and |dy| <= the sum. */
         if (4 * error > (margin - TURN_ROUNDING) * size) margin = TURN_ROUNDING + 4 * error / size;
         if (isnan(first)) first = t;
         const double d = sunder_i_turn_between(first, t), off = d > 2 ? d - 4 : d;
@@ -59,7 +60,8 @@ void sunder_i_shadow_start(sunder_i_shadow *shadow, sunder_i_sector sector)
     for (int k = 0; k < shadow->bins; k++) shadow->depth[k] = INFINITY;
 }
 
-/* The parts of a sector within the shadow's, in bins from its start; how many, two at most. */
+/* Intersects `sector` with the sector of the shadow. Stores the intervals, as bin positions from the beginning of the
+ * shadow's sector, in `piece` and returns their number, 2 at most. */
 static int pieces_of(const sunder_i_shadow *s, sunder_i_sector sector, double piece[2][2])
 {
     const double at = sunder_i_turn_between(s->sector.low, sector.low);
@@ -75,14 +77,14 @@ static int pieces_of(const sunder_i_shadow *s, sunder_i_sector sector, double pi
 
 /* ---- Casting ---- */
 
-/* Lines of a part, from the eye: the place t along a ray u is clearly left of a side where height + t cross(side, u)
- * exceeds the margin. */
+/* The lines of the sides of a part, relative to the eye: the point at parameter t of a ray u is clearly left of side i
+ * if height[i] + t cross(side[i], u) > margin[i]. */
 typedef struct caster {
     int n;
     double side[SUNDER_I_CAST_CORNERS][2], height[SUNDER_I_CAST_CORNERS], margin[SUNDER_I_CAST_CORNERS];
 } caster;
 
-/* False where products might leave the range of doubles. */
+/* Sets *c from the corners of a part. Returns false if products might leave the range of doubles. */
 static bool prepare(caster *c, const double (*corner)[2], int n, double error)
 {
     double reach = 0;
@@ -95,14 +97,15 @@ static bool prepare(caster *c, const double (*corner)[2], int n, double error)
         c->side[i][0] = ex;
         c->side[i][1] = ey;
         c->height[i] = ey * a[0] - ex * a[1];
-        /* A side is off by 2 error, its start by one, and no ray is followed beyond the reach; errors are a few units
-         * in the last place of the coordinates at least, so this covers the roundings as well. */
+        /* A side has an error of 2 `error`, its beginning one of `error`, and no ray is followed beyond `reach`. Errors
+         * are at least a few units in the last place of the coordinates, so that this covers the rounding errors,
+         * too. */
         c->margin[i] = 16 * (error + DBL_EPSILON * reach) * (fabs(ex) + fabs(ey) + reach) + DBL_MIN;
     }
     return true;
 }
 
-/* The first place along the ray that is clearly inside; infinite if there is none. */
+/* Returns the parameter of the first point of the ray that is clearly inside the part; infinity if there is none. */
 static double entry(const caster *c, const double ray[2])
 {
     double low = 0, high = INFINITY;
@@ -120,7 +123,7 @@ static double entry(const caster *c, const double ray[2])
     return low * (1 + 0x1p-40) < high ? low * (1 + 0x1p-40) : (double)INFINITY;
 }
 
-/* No part of the hull of the corners is nearer to the eye. */
+/* Returns a lower bound of the distance (in |dx| + |dy|) of the hull of the corners from the eye. */
 static double nearest(const double (*corner)[2], int n, double error)
 {
     double gap = 0;
@@ -141,7 +144,7 @@ void sunder_i_shadow_cast(sunder_i_shadow *shadow, const double (*corner)[2], in
     caster c;
     sunder_i_sector sector;
     double piece[2][2];
-    /* Which rays to try; a part that has the eye as a corner is where the others are. */
+    /* The rays to test; if the eye is a corner of the part, only the rays to the other corners. */
     if (!sunder_i_sector_of(corner, n, error, true, &sector)) sector = shadow->sector;
     if (!sunder_i_shadow_takes(shadow, sector) || sunder_i_shadow_hides(shadow, sector, nearest(corner, n, error)))
         return;

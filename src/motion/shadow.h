@@ -1,10 +1,11 @@
-/* What convex parts hide from an eye: a map of depths over directions, in doubles, that never claims too much.
+/* shadow.h: what convex parts hide from an eye: a map of depths over directions in doubles, which never hides a point
+ * that is visible.
  *
- * Directions are *turns* in [0, 4), dy / (|dx| + |dy|) carried on round the circle, and distances are |dx| + |dy|: no
- * roots and no angles. The directions of interest are cut into bins. A ray at either side of a bin that is found
- * clearly inside a part, at depths r and s, hides what the bin has beyond max(r, s): the chord between the two places
- * lies inside the part, which is convex, no place of it is farther away than its ends, and whoever looks past it looks
- * through it. */
+ * Directions are *turns* in [0, 4): dy / (|dx| + |dy|), continued around the circle; distances are |dx| + |dy|. So
+ * neither roots nor angles are computed. The sector of directions that is asked for is divided into bins. If the two
+ * rays at the sides of a bin are clearly inside a part at the depths r and s, the part hides all points of the bin
+ * beyond max(r, s): the chord between the two points is inside the part, which is convex; no point of the chord is
+ * farther away than its ends; and every line of sight in the bin crosses it. */
 #ifndef SUNDER_I_SHADOW_H
 #define SUNDER_I_SHADOW_H
 
@@ -13,38 +14,41 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/* The largest number of bins, and the number in a turn of 1 where a sector is narrower: more of them hide more, and
- * cost more to fill for each part. */
+/* The largest number of bins, also the number in a turn of 1 in a narrow sector. More bins hide more, but take longer
+ * to fill for each part. */
 #define SUNDER_I_BINS 512
-/* Corners of a part that are used, at most: a hull of some of its corners hides no more than it does. */
+/* The largest number of corners of a part that are used: the hull of some of its corners hides at most what the part
+ * does. */
 #define SUNDER_I_CAST_CORNERS 16
 
-/* Directions from `low` on, anticlockwise, `width` wide. */
+/* The directions from `low` counterclockwise to `low` + `width`. */
 typedef struct sunder_i_sector {
     double low, width;
 } sunder_i_sector;
 
 typedef struct sunder_i_shadow {
     sunder_i_sector sector;
-    double per_turn; /* bins in a turn of 1 */
+    double per_turn; /* the number of bins in a turn of 1 */
     int bins;
-    double ray[SUNDER_I_BINS + 1][2]; /* at the sides of the bins, |x| + |y| = 1 */
+    double ray[SUNDER_I_BINS + 1][2]; /* the directions at the sides of the bins, with |x| + |y| = 1 */
     double depth[SUNDER_I_BINS];
 } sunder_i_shadow;
 
-/* From direction a on to b, anticlockwise, in [0, 4). */
+/* Returns the turn from direction a counterclockwise to direction b, in [0, 4). */
 double sunder_i_turn_between(double a, double b);
-/* The directions of n points around an eye at the origin, off by `error` each; false if they may be half of all, or
- * more. Points that may be at the eye: not counted with `at_eye`, else reason to say false. */
+/* *out becomes a sector that contains the directions of the n points around an eye at the origin; each coordinate has
+ * an error of at most `error`. Returns false if the directions may be half of all or more. Points that may be at the
+ * eye are skipped if `at_eye` is set; else the function returns false for these. */
 bool sunder_i_sector_of(const double (*point)[2], int n, double error, bool at_eye, sunder_i_sector *out);
 
-/* Nothing is hidden yet, but all that is outside the sector. */
+/* Sets *shadow to the directions of `sector`, none of which is hidden; all other directions count as hidden. */
 void sunder_i_shadow_start(sunder_i_shadow *shadow, sunder_i_sector sector);
-/* A part casts its shadow: 3 to SUNDER_I_CAST_CORNERS corners, counter-clockwise, from the eye, off by `error` each. */
+/* Adds what a part hides. corner: n corners (3 to SUNDER_I_CAST_CORNERS) in counterclockwise order, relative to the
+ * eye, with an error of at most `error` in each coordinate. */
 void sunder_i_shadow_cast(sunder_i_shadow *shadow, const double (*corner)[2], int n, double error);
-/* Can what lies in these directions cast a shadow? It has to reach over a bin. */
+/* Returns true if an object in the directions of `sector` covers a bin, as it must to hide anything. */
 bool sunder_i_shadow_takes(const sunder_i_shadow *shadow, sunder_i_sector sector);
-/* Is all that lies in these directions, `distance` away or more, hidden for certain? */
+/* Returns true if all points in the directions of `sector` at the given distance or more are certainly hidden. */
 bool sunder_i_shadow_hides(const sunder_i_shadow *shadow, sunder_i_sector sector, double distance);
 
 #endif

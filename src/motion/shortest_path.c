@@ -1,13 +1,15 @@
-/* A* over the visibility graph, which is never made: from a node that is reached, edges go to what visibility.c says
- * may be seen and come next; they are tried only when their turn comes.
+/* shortest_path.c: A* over the visibility graph, which is never constructed: when a node is reached, visibility.c lists
+ * the nodes that may be visible from it, and edges to these are queued; an edge is tested exactly only when it is taken
+ * from the queue.
  *
- * The queue holds edges (v, w) by the length of the path over them to the goal, as the crow flies from w on. An edge
- * that comes out is skipped if w has been reached by less; else the exact test is made, and w is reached. So only edges
- * that could belong to a shortest path are ever tried. A first search that overrates the distance left finds some path
- * quickly; its length keeps out of the second search all edges that cannot beat it.
+ * The queue holds edges (v, w), ordered by the length of the path through them, plus the straight distance from w to
+ * the goal. An edge from the queue is skipped if w has been reached by a shorter path; otherwise it is tested exactly,
+ * and w is reached. So only edges that could belong to a shortest path are tested. A first search that overestimates
+ * the remaining distance finds some path quickly; its length excludes from the second search all edges that cannot
+ * belong to a shorter path.
  *
- * Lengths are doubles until two of them are too close to tell apart; then they are taken to more than 256 significant
- * bits (path_length.c), and paths still equal are compared as sequences of places. */
+ * Lengths are doubles unless two of them are too close to decide; then they are computed with more than 256 significant
+ * bits (path_length.c), and paths that are still equally long are compared as sequences of positions. */
 #include "motion/shortest_path.h"
 
 #include "base/heap.h"
@@ -18,25 +20,26 @@
 #include <math.h>
 #include <string.h>
 
-/* How the first search overrates: three times gives paths a few percent too long in a few expansions. */
+/* The factor of the remaining distance in the first search: with 3 the path is a few percent too long and found after
+ * few expansions. */
 #define HASTE 3.0
 
 typedef struct edge {
     double key;
-    uint32_t from, to; /* nodes */
+    uint32_t from, to; /* node numbers */
 } edge;
 
 typedef struct reached {
     double length;
-    uint32_t before; /* node */
-    uint32_t news;   /* how often the way here has become shorter, */
-    uint32_t heard;  /* and what that of the node before was when this one was last told */
+    uint32_t before; /* the previous node of the path */
+    uint32_t news;   /* how often the path to this node has become shorter, */
+    uint32_t heard;  /* and the value of `news` of the node before when this node was last updated */
     bool known;
 } reached;
 
-/* A way to a node that is as long as the one known. */
+/* An edge that gives a path to node `to` as long as the known one. */
 typedef struct tie {
-    uint32_t from, to; /* nodes */
+    uint32_t from, to; /* node numbers */
 } tie;
 
 typedef struct search {
@@ -44,18 +47,18 @@ typedef struct search {
     const sunder_i_corners *corners;
     const sunder_sum_options *options;
     sunder_i_visibility view;
-    reached *at;      /* [nodes] */
-    uint32_t *way[2]; /* [nodes + 1] room for paths to compare */
-    uint64_t *mark;   /* [nodes] stamps of parting() */
+    reached *at;      /* [nodes] the path to each node */
+    uint32_t *way[2]; /* [nodes + 1] memory for two paths that are compared */
+    uint64_t *mark;   /* [nodes] stamps for the search of the last common node */
     uint64_t stamp;
     edge *heap;
     tie *tie;
     size_t ties, tie_capacity;
     size_t heap_n, heap_capacity;
     double haste, limit, slack;
-    uint32_t start, goal; /* nodes */
+    uint32_t start, goal; /* node numbers */
     unsigned tried;
-    bool all_round; /* edges go everywhere, not only where shortest paths can go on */
+    bool all_round; /* edges go in all directions, not only in those in which a shortest path can continue */
     bool no_memory, cancelled;
 } search;
 
@@ -66,7 +69,7 @@ static const sunder_i_filtered_point *place_of(const search *s, uint32_t node)
 
 /* ---- The queue ---- */
 
-/* A total order. */
+/* A total order of the edges. */
 static bool before(const void *x, const void *y)
 {
     const edge *a = x, *b = y;
@@ -91,8 +94,8 @@ static edge pop(search *s)
     return top;
 }
 
-/* Edges from v. The hasty search does not turn what it has reached into shortest paths, so that where they come from
- * does not tell where they go on. */
+/* Queues the edges from v. The first search does not reach nodes by shortest paths, so that in it the direction of the
+ * last leg does not restrict the next one if all_round is set. */
 static void expand(search *s, uint32_t v)
 {
     const double so_far = s->at[v].length;
@@ -108,7 +111,8 @@ static void expand(search *s, uint32_t v)
 
 /* ---- Comparing paths ---- */
 
-/* Nodes of the path to v, from one that it passes on, into room for all nodes; how many. */
+/* Writes the nodes of the path from `from`, which the path to v passes, to v into `out`, which has room for all nodes.
+ * Returns their number. */
 static size_t path_to(const search *s, uint32_t from, uint32_t v, uint32_t *out)
 {
     size_t n = 1;
@@ -117,7 +121,8 @@ static size_t path_to(const search *s, uint32_t from, uint32_t v, uint32_t *out)
     return n;
 }
 
-/* Where the paths to v and to w part. Both are walked back in turn, so that the cost is what they differ by. */
+/* Returns the last common node of the paths to v and to w. Both are followed back alternately, so that the time depends
+ * only on the parts in which they differ. */
 static uint32_t parting(search *s, uint32_t v, uint32_t w)
 {
     uint32_t at[2] = {v, w};
@@ -130,8 +135,8 @@ static uint32_t parting(search *s, uint32_t v, uint32_t w)
     }
 }
 
-/* Takes out the nodes at which a path goes straight on; how many are left. A path turns back nowhere, so collinear is
- * straight. */
+/* Removes the nodes at which the path does not bend, and returns the number of nodes left. A path never turns back, so
+ * that it does not bend at a node that is collinear with its neighbours. */
 static size_t straighten(const search *s, uint32_t *path, size_t n)
 {
     size_t m = 0;
@@ -149,12 +154,13 @@ static sunder_i_path path_of(const search *s, const uint32_t *node, size_t n)
     return (sunder_i_path){s->corners->place, s->corners->node, node, n};
 }
 
-/* 2 or -2 where lengths differ, else 1, 0 or -1. What the two begin with in common is left out of the comparison. */
+/* Compares the paths p and q: 2 or -2 if their lengths differ, else 1, 0 or -1 by their order. The common beginning of
+ * the two is not included in the lengths. */
 static int compare_paths(const search *s, const uint32_t *p, size_t m, const uint32_t *q, size_t n)
 {
     size_t same = 0;
     while (same < m && same < n && p[same] == q[same]) same++;
-    if (same == m && same == n) return 0; /* one path by two ways, along collinear corners */
+    if (same == m && same == n) return 0; /* one path represented in two ways, along collinear corners */
     sunder_i_arena *arena = &s->space->filter.lattice->arena;
     const sunder_i_mark mark = sunder_i_arena_mark(arena);
     const size_t from = same ? same - 1 : 0;
@@ -173,12 +179,13 @@ static int compare_paths(const search *s, const uint32_t *p, size_t m, const uin
     return c ? c : (m > n) - (m < n);
 }
 
-/* The path to v and on to w beside the one known to w: shorter (-2), as long and lexicographically smaller (-1), the
- * same (0), ... They are compared from one node before they part, since there the one may go straight on. */
+/* Compares the path to v and on to w with the known path to w: -2: shorter; -1: equally long and lexicographically
+ * smaller; 0: the same; 1, 2: the opposite. The comparison begins one node before the last common node, since there one
+ * of the two may not bend. */
 static int compare_ways(search *s, uint32_t v, uint32_t w)
 {
     uint32_t *p = s->way[0], *q = s->way[1], from = parting(s, v, w);
-    if (from == w) return 2; /* w lies on the way to v: no path */
+    if (from == w) return 2; /* w is on the path to v: no path */
     if (from != s->start) from = s->at[from].before;
     size_t m = path_to(s, from, v, p);
     size_t n = path_to(s, from, w, q);
@@ -195,8 +202,9 @@ static bool edge_is_free(const search *s, uint32_t v, uint32_t w)
     return sunder_i_leg_is_free(s->space, place_of(s, v), place_of(s, w), false, NULL);
 }
 
-/* The way to a node has become shorter, itself or that to the node before: what lost against it by less than can be
- * seen is asked again, and whoever is reached over it hears of it. */
+/* The path to e.to has become shorter, by its own last edge or by the path to the node before. The edges from e.to are
+ * queued again, so that edges which lost to it by less than the tolerance are compared again, and the nodes after it
+ * are updated. */
 static void shorten(search *s, edge e)
 {
     s->at[e.to].heard = s->at[e.from].news;
@@ -204,8 +212,8 @@ static void shorten(search *s, edge e)
     if (e.to != s->goal) expand(s, e.to);
 }
 
-/* Another way to a node that has been reached. If it is as long, which of the two goes is seen to in the end: what goes
- * on from there does not depend on it. */
+/* Takes another edge to a node that has been reached. If the path through it is shorter, it replaces the known one; if
+ * the two are equally long, the choice is made at the end of the search, since what follows does not depend on it. */
 static void take_again(search *s, edge e)
 {
     const int c = compare_ways(s, e.from, e.to);
@@ -258,7 +266,7 @@ static void run(search *s, double haste, double limit)
 
 /* ---- Ties ---- */
 
-/* Ties by the node that they lead to: those of w are [end[w - 1], end[w]) in `from`. */
+/* The ties sorted by their `to`: those of node w are from[end[w - 1]] .. from[end[w] - 1]. */
 typedef struct tie_lists {
     size_t *end;
     uint32_t *from;
@@ -276,7 +284,7 @@ static bool list_ties(const search *s, tie_lists *t)
     return true;
 }
 
-/* The best of the ways to w, when those to all nodes before it are settled: marked with `settled`. */
+/* Chooses the best of the paths to w among those whose previous node is settled, that is, mark[v] == settled. */
 static void choose_way(search *s, const tie_lists *t, uint32_t w, uint64_t settled, const uint64_t *mark)
 {
     for (size_t i = w ? t->end[w - 1] : 0; i < t->end[w]; i++) {
@@ -286,16 +294,18 @@ static void choose_way(search *s, const tie_lists *t, uint32_t w, uint64_t settl
     }
 }
 
-/* Of ways that are equally long the lexicographically smallest, node by node, each after all that may come before it:
- * in the order in which a search back from the goal leaves them. Ways lead from shorter to longer ones, so there are no
- * circles, but where lengths differ by less than can be seen; what would close one is left out. */
+/* Chooses the lexicographically smallest of equally long paths. The nodes are settled in the order in which a
+ * depth-first search from the goal back to the start leaves them, so that each is settled after all nodes that may
+ * precede it. Edges lead from shorter to longer paths, so that there are no cycles except where lengths differ by less
+ * than the tolerance; an edge that closes a cycle is skipped. */
 static void settle_ties(search *s)
 {
     enum { ENTERED = 1, SETTLED = 2 };
     tie_lists t = {0};
     const size_t nodes = s->corners->nodes;
     uint64_t *mark = sunder_i_calloc(nodes, sizeof *mark);
-    size_t *next = sunder_i_calloc(nodes, sizeof *next), n = 0; /* [nodes] how many ways back have been tried */
+    /* [nodes] the number of edges back that have been tried */
+    size_t *next = sunder_i_calloc(nodes, sizeof *next), n = 0;
     uint32_t *stack = sunder_i_alloc(nodes, sizeof *stack);
     if (!list_ties(s, &t) || !mark || !next || !stack) s->no_memory = true;
     if (!s->no_memory) {
@@ -321,7 +331,7 @@ static void settle_ties(search *s)
     sunder_i_free(stack);
 }
 
-/* Two runs, if memory allows. */
+/* Runs the fast search and then the exact one. Sets no_memory if out of memory. */
 static void find(search *s)
 {
     const size_t nodes = s->corners->nodes;
@@ -332,13 +342,15 @@ static void find(search *s)
         !sunder_i_visibility_init(&s->view, s->space, s->corners) || !s->at || !s->way[0] || !s->way[1] || !s->mark;
     if (s->no_memory) return;
     run(s, HASTE, INFINITY);
-    /* In haste nodes are not reached by shortest paths, and that these go on from there nowhere proves nothing. */
+    /* The first search does not reach nodes by shortest paths, so that if it finds no path with restricted directions,
+     * this does not prove that there is none. */
     s->all_round = !s->at[s->goal].known;
     if (s->all_round) run(s, HASTE, INFINITY);
     s->all_round = false;
-    /* Lengths are of places less the start. No place on a path of at most this length is farther from there. With two
-     * such coordinates a leg, each off by 2^-51 of itself or by what is too small for doubles, and roundings, lengths
-     * are off by less than this. Twice, for both of two that are compared. */
+    /* Lengths are computed from coordinates relative to the start. No position on a path of at most this length is
+     * farther from the start. Each leg has two such coordinates, each with an error of 2^-51 of its size or below the
+     * range of normal doubles, and rounding errors; the error of a length is below this bound. The bound is doubled,
+     * for the two lengths of a comparison. */
     const double some = s->at[s->goal].length;
     s->slack = (0x1p-46 * some + 0x1p-1060) * ((double)nodes + 4);
     if (!s->at[s->goal].known) return;

@@ -1,13 +1,14 @@
-/* The proof of a leg, along another road than the search's: no tree, no separating axes, no doubles but for boxes.
+/* verify_leg.c: the proof that a leg is free, by another method than that of the search: no tree, no separating axes,
+ * and doubles only for boxes.
  *
- * The point p + t (q - p) is in an open part exactly when it lies strictly left of each of its sides. Each side's cross
- * product is linear in t, f(t) = (1 - t) f(p) + t f(q), so the t in question are an open interval, cut to [0, 1]. The
- * leg is free of the part when no t is left. */
+ * The point p + t (q - p) is in an open part exactly if it is strictly left of each side of the part. The cross product
+ * with each side is linear in t, f(t) = (1 - t) f(p) + t f(q), so that the values of t inside are an open interval,
+ * intersected with [0, 1]. The leg does not meet the part if this set is empty. */
 #include "motion/free_space.h"
 
 #include "base/extremes.h"
 
-/* cross(b - a, c - a) times the positive w of c and a positive number of the side's own. */
+/* Returns cross(b - a, c - a) times the positive w of c and a positive number that depends only on the side ab. */
 static sunder_i_big height(sunder_i_lattice *l, sunder_i_point a, sunder_i_point b, const sunder_i_filtered_point *c)
 {
     sunder_i_arena *m = &l->arena;
@@ -26,7 +27,7 @@ typedef struct bound {
 
 static int bound_cmp(sunder_i_arena *m, const bound *a, const bound *b) { return sunder_i_ratio_cmp(m, a->at, b->at); }
 
-/* Is some point of the closed segment strictly left of every side? */
+/* Returns true if some point of the closed segment pq is strictly left of every side of the part. */
 static bool passes(const sunder_i_free_space *s, uint32_t part, const sunder_i_filtered_point *p,
                    const sunder_i_filtered_point *q)
 {
@@ -38,17 +39,17 @@ static bool passes(const sunder_i_free_space *s, uint32_t part, const sunder_i_f
     bound low = {{sunder_i_big_i64(m, 0), one}, false}, high = {{one, one}, false};
     for (uint32_t k = first; k < end; k++) {
         const sunder_i_point a = c->corner[k], b = c->corner[k + 1 < end ? k + 1 : first];
-        /* Over one denominator p.w q.w: f(p) and f(q). */
+        /* f(p) and f(q) over the common denominator p.w q.w. */
         const sunder_i_big fp = sunder_i_big_mul(m, height(l, a, b, p), q->at.w);
         const sunder_i_big fq = sunder_i_big_mul(m, height(l, a, b, q), p->at.w);
         const int sp = sunder_i_big_sign(fp), sq = sunder_i_big_sign(fq);
         if (sp <= 0 && sq <= 0) return false;
         if (sp > 0 && sq > 0) continue;
-        /* f(t) = 0 at t = fp / (fp - fq). One of the two is positive, the other is not. */
+        /* f(t) = 0 at t = fp / (fp - fq). One of fp and fq is positive, the other is not. */
         const sunder_i_big d = sunder_i_big_sub(m, fp, fq);
         const bound at = sunder_i_big_sign(d) > 0 ? (bound){{fp, d}, true}
                                                   : (bound){{sunder_i_big_neg(fp), sunder_i_big_neg(d)}, true};
-        if (sp > 0) { /* from p to the crossing */
+        if (sp > 0) { /* the positive part is from p to the intersection */
             if (bound_cmp(m, &at, &high) <= 0) high = at;
         } else if (bound_cmp(m, &at, &low) >= 0) {
             low = at;

@@ -1,11 +1,11 @@
-/* What may be seen from a node. The parts around it cast shadows over directions (shadow.h), near ones first; then the
- * nodes are looked at, and those that are certainly hidden, or farther than the room that is left, are passed over.
- * Both lie in trees of boxes along a space-filling curve, so that what is hidden or out of the way as a whole is
- * dismissed as a whole.
+/* visibility.c: which nodes may be visible from a node. The parts around the node hide directions (shadow.h), near
+ * parts first; then the nodes are tested, and those that are certainly hidden, or farther than the maximal length that
+ * is left, are skipped. Parts and nodes are in trees of boxes along a space-filling curve, so that whole boxes that are
+ * hidden or too far are skipped at once.
  *
- * A path that reaches a corner along a leg goes on between straight ahead and the side of the obstacle that it bends
- * round: elsewhere a shorter one would cut the corner short. That leaves a sector of directions to look at, mostly a
- * small one. Wherever doubles do not say, all round is looked at. */
+ * A shortest path that reaches a corner along a leg continues between the direction of that leg and the side of the
+ * obstacle around which it bends; in any other direction a shorter path would exist. So only a sector of directions,
+ * usually a small one, is tested. If doubles do not decide which sector, all directions are tested. */
 #include "motion/visibility.h"
 
 #include "base/extremes.h"
@@ -16,14 +16,14 @@
 #include <math.h>
 #include <string.h>
 
-/* Nodes in a leaf of their tree: more make it smaller, and have more nodes looked at one by one. */
+/* The number of nodes in a leaf of their tree: with more the tree is smaller, but more nodes are tested one by one. */
 #define LEAF_NODES 8
-/* A coordinate from the start is off by this much of itself at most: half a unit in the last place, and a division. */
+/* The largest relative error of a coordinate relative to the start: half a unit in the last place, and a division. */
 #define OFF 0x1p-51
 
-/* ---- Coordinates from the start ---- */
+/* ---- Coordinates relative to the start ---- */
 
-/* (x / w - origin) / 2^shift */
+/* Returns (x / w - origin) / 2^shift as a double, where shift is the lattice's approx_shift. */
 static double from_origin(sunder_i_lattice *l, sunder_i_big x, sunder_i_big w, sunder_i_big origin)
 {
     sunder_i_arena *m = &l->arena;
@@ -48,7 +48,7 @@ static void take_corners(sunder_i_visibility *view, const sunder_i_big origin[2]
     const sunder_i_convex_pieces *part = &view->space->part;
     sunder_i_lattice *l = view->space->filter.lattice;
     int64_t o[2];
-    /* Native where that cannot overflow: plain coordinates are below 2^61. */
+    /* Native integers are used if they cannot overflow: plain coordinates are below 2^61. */
     const bool native = l->approx_shift == 0 && sunder_i_big_fits_i64(origin[0], &o[0]) &&
                         sunder_i_big_fits_i64(origin[1], &o[1]) && sunder_i_big_bits(origin[0]) < 62 &&
                         sunder_i_big_bits(origin[1]) < 62;
@@ -134,14 +134,16 @@ double sunder_i_visibility_distance(const sunder_i_visibility *view, uint32_t a,
     return hypot(p[0] - q[0], p[1] - q[1]);
 }
 
-/* ---- Where to look ---- */
+/* ---- Directions to test ---- */
 
 static double size_of(const double p[2]) { return fabs(p[0]) + fabs(p[1]); }
 
-/* What the coordinates of such a place may be off by, differences rounded, numbers below the normal ones too. */
+/* Returns a bound of the error of the coordinates of a position of this size, including rounded differences and numbers
+ * below the normal range. */
 static double off_of(double size) { return 2 * OFF * size + DBL_MIN; }
 
-/* Side of c to the line ab where doubles settle it, else 0. The error is derived as in filtered_point.c. */
+/* Returns the side of c with respect to the line ab if doubles decide it, else 0. The error bound is derived as in
+ * filtered_point.c. */
 static int clear_side(const double a[2], const double b[2], const double c[2])
 {
     const double px = b[0] - a[0], py = b[1] - a[1], qx = c[0] - a[0], qy = c[1] - a[1];
@@ -152,15 +154,17 @@ static int clear_side(const double a[2], const double b[2], const double c[2])
     return det > bound ? 1 : det < -bound ? -1 : 0;
 }
 
-/* The direction of the leg pq as a sector that holds it for certain; false if nothing is certain. */
+/* *out becomes a sector that certainly contains the direction of the leg pq. Returns false if there is no certain
+ * one. */
 static bool leg_span(const double p[2], const double q[2], sunder_i_sector *out)
 {
     const double d[1][2] = {{q[0] - p[0], q[1] - p[1]}};
     return sunder_i_sector_of(d, 1, off_of(size_of(p)) + off_of(size_of(q)), false, out);
 }
 
-/* A path that comes to a plain corner along uv and bends there bends round it: with O on its left it goes on between
- * straight on and the side of O that leaves v, and with O on its right likewise. */
+/* Returns the directions in which a shortest path that reaches v from `before` can continue. At a plain corner a path
+ * bends only around O: with O on its left it continues between the direction of the last leg and the side of O that
+ * leaves v, and with O on its right likewise. Returns all directions if doubles do not decide. */
 static sunder_i_sector directions(const sunder_i_visibility *view, uint32_t v, uint32_t before)
 {
     const sunder_i_sector all = {0, 4};
@@ -174,22 +178,22 @@ static sunder_i_sector directions(const sunder_i_visibility *view, uint32_t v, u
     if (!leg_span(at, view->at[beside[left ? 1 : 0]], &along)) return all;
     const sunder_i_sector *low = left ? &on : &along, *high = left ? &along : &on;
     double width = sunder_i_turn_between(low->low, high->low + high->width);
-    /* The turn is at most half of all directions, so a value above 3 (of 4) stands for one just below 0: both are
-     * one direction. */
+    /* The sector is at most half of all directions, so that a value above 3 (of 4) is a negative one near 0: the two
+     * directions are equal up to errors. */
     if (width > 3) width = low->width + high->width;
     return width < 2.5 ? (sunder_i_sector){low->low, width} : all;
 }
 
-/* ---- Looking ---- */
+/* ---- Search ---- */
 
 typedef struct look {
     sunder_i_visibility *view;
     const double *eye, *goal;
-    double error; /* of the eye */
-    double room;  /* from the eye to the goal, rounded up */
+    double error; /* the error of the eye's coordinates */
+    double room;  /* the largest length of a path from the eye to the goal, rounded up */
 } look;
 
-/* How far away, at least, a box from the eye is, in |dx| + |dy|. */
+/* Returns a lower bound of the distance |dx| + |dy| of a box from the eye; the box is relative to the eye. */
 static double gap_of(const double box[4])
 {
     return sunder_i_max(0, sunder_i_max(box[0], -box[2])) + sunder_i_max(0, sunder_i_max(box[1], -box[3]));
@@ -201,7 +205,7 @@ static double box_distance(const double box[4], const double p[2])
                  sunder_i_max(0, sunder_i_max(box[1] - p[1], p[1] - box[3])));
 }
 
-/* A box from the start as one from the eye, which may be off. */
+/* *out becomes the box, which is relative to the start, relative to the eye, and widened by the error of the eye. */
 static void near_box(const look *k, const double box[4], double out[4])
 {
     for (int axis = 0; axis < 2; axis++) {
@@ -210,10 +214,11 @@ static void near_box(const look *k, const double box[4], double out[4])
     }
 }
 
-/* For casting shadows: is it too narrow to cast one? */
+/* Returns true if the content of a box need not be tested: it is empty, too far for a path of length `room`, hidden, or
+ * (`casts`: for parts that hide others) too narrow to hide anything. */
 static bool is_out(const look *k, const double box[4], bool casts)
 {
-    if (!(box[0] <= box[2])) return true; /* nothing in it */
+    if (!(box[0] <= box[2])) return true; /* the box is empty */
     if (isfinite(k->room) && box_distance(box, k->eye) + box_distance(box, k->goal) > k->room) return true;
     double near[4];
     near_box(k, box, near);
@@ -239,7 +244,7 @@ static void cast_part(look *k, uint32_t part)
     if (m >= 3) sunder_i_shadow_cast(&k->view->shadow, (const double(*)[2])corner, (int)m, off_of(size) + k->error);
 }
 
-/* The box of parts from the start, widened by what its doubles may be off. */
+/* *out becomes box i of the tree of parts relative to the start, widened by the error of its doubles. */
 static void part_box(const look *k, size_t i, double out[4])
 {
     const sunder_i_free_space *s = k->view->space;
@@ -250,7 +255,7 @@ static void part_box(const look *k, size_t i, double out[4])
     }
 }
 
-/* How far away, at least, a box of parts is. */
+/* Returns a lower bound of the distance of box i of the tree of parts from the eye. */
 static double part_gap(const look *k, size_t i)
 {
     double box[4], near[4];
@@ -259,7 +264,8 @@ static double part_gap(const look *k, size_t i)
     return gap_of(near);
 }
 
-/* Parts, near ones first as far as the tree tells: by the time that far ones are looked at, most are hidden. */
+/* Adds the shadows of all parts, near ones first as far as the tree allows: then most far parts are hidden when they
+ * are tested. */
 static void cast_shadows(look *k)
 {
     const sunder_i_part_tree *parts = &k->view->space->tree;
@@ -286,7 +292,7 @@ static void see_node(look *k, uint32_t v, uint32_t w)
     const double *at = node_at(view, w), d[1][2] = {{at[0] - k->eye[0], at[1] - k->eye[1]}};
     const double error = off_of(size_of(at)) + k->error;
     sunder_i_sector sector;
-    if (w == v || w == view->nodes - 2) return; /* itself, and the start */
+    if (w == v || w == view->nodes - 2) return; /* v itself, and the start */
     if (sunder_i_sector_of(d, 1, error, false, &sector) &&
         sunder_i_shadow_hides(&view->shadow, sector, size_of(d[0]) - 2 * error))
         return;
@@ -311,7 +317,8 @@ static void see_nodes(look *k, uint32_t v)
     }
 }
 
-/* Would a path along vw that bends at the plain corner w cut it short there? The line parts its two neighbours. */
+/* Returns true if a path along vw could be shortened at the plain corner w whatever its next leg is: the line vw
+ * separates the two neighbours of w. */
 static bool bends_in_vain(const sunder_i_visibility *view, uint32_t v, uint32_t w)
 {
     const uint32_t place = view->corners->node[w], *beside = view->corners->beside[place];
@@ -324,7 +331,7 @@ void sunder_i_visibility_look(sunder_i_visibility *view, uint32_t v, uint32_t be
 {
     const double *eye = node_at(view, v);
     look k = {view, eye, node_at(view, (uint32_t)view->nodes - 1), off_of(size_of(eye)), room};
-    /* Distances are off by some 2^-49 of their sum, which is no more than the room, and of the eye's coordinates. */
+    /* Distances have an error of about 2^-49 of their sum, which is at most `room`, and of the eye's coordinates. */
     k.room += 0x1p-46 * (room + size_of(eye) + size_of(k.goal));
     view->seen_n = 0;
     sunder_i_shadow_start(&view->shadow, directions(view, v, before));

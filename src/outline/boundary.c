@@ -1,15 +1,15 @@
-/* Rings off the graph of boundary edges, straight vertices left out; degenerate segments and points off what is covered
- * on both banks, or touched by no stretch. */
+/* boundary.c: see boundary.h. Rings are traced in the graph of boundary edges, without straight vertices; degenerate
+ * segments are stretches covered on both sides, and degenerate points are vertices that no stretch touches. */
 #include "outline/boundary.h"
 
 #include "outline/boundary_graph.h"
 #include "sum/canonical_sum.h"
 
-/* Rings and degenerate parts as traced, before they are put in order. */
+/* The rings and degenerate parts before they are sorted. */
 typedef struct tracer {
     const sunder_i_graph *g;
-    sunder_sum *out;  /* has its vertices already */
-    uint32_t *vertex; /* of all rings, one after the other, smallest vertex first */
+    sunder_sum *out;  /* its vertices are set already */
+    uint32_t *vertex; /* the vertices of all rings, one ring after the other, each from its smallest vertex on */
     sunder_i_found_ring *ring;
     size_t rings;
     bool *done; /* [edges] */
@@ -17,19 +17,20 @@ typedef struct tracer {
     size_t segments, points;
 } tracer;
 
-/* Does the boundary go straight on from edge e to edge f? */
+/* Returns whether edge f continues edge e in the same direction. */
 static bool straight(const sunder_i_graph *g, uint32_t e, uint32_t f)
 {
     return g->edge[e].line == g->edge[f].line && g->edge[e].rank == g->edge[f].rank;
 }
 
-/* The edge of the ring through `start` that leaves its smallest vertex; *outer tells the ring's orientation: at that
- * vertex both rays point right, and the leaving one is the lower of a counter-clockwise ring. */
+/* Returns the edge of the ring through `start` that leaves its smallest vertex. *outer becomes whether the ring is
+ * counterclockwise: at that vertex both edges point to the right, and the leaving one is the lower one exactly if the
+ * ring is counterclockwise. */
 static uint32_t first_edge(const sunder_i_graph *g, uint32_t start, bool *outer)
 {
     const uint32_t walk = g->walk[start];
     if (g->walk_plain[walk]) {
-        const uint32_t lowest = g->walk_start[walk]; /* of a hole it arrives there */
+        const uint32_t lowest = g->walk_start[walk]; /* of a hole it arrives at that vertex */
         *outer = g->walk_outer[walk];
         return *outer ? lowest : sunder_i_graph_next_free(g, lowest);
     }
@@ -82,7 +83,8 @@ static bool trace_rings(tracer *t)
 
 /* ---- Degenerate holes ---- */
 
-/* Stretches with both banks covered, joined where one goes on in the next on its line. */
+/* Joins consecutive stretches on one line with both sides covered to degenerate segments. Returns false if out of
+ * memory. */
 static bool gather_segments(tracer *t, const sunder_i_coverage *c)
 {
     const uint8_t both = SUNDER_I_BANK_LEFT | SUNDER_I_BANK_RIGHT;
@@ -103,7 +105,7 @@ static bool gather_segments(tracer *t, const sunder_i_coverage *c)
     return t->segment != NULL;
 }
 
-/* Vertices that no stretch touches. */
+/* Lists the vertices that no stretch touches. Returns false if out of memory. */
 static bool gather_points(tracer *t, const sunder_i_coverage *c)
 {
     bool *touched = sunder_i_calloc(t->g->vertices, sizeof *touched);

@@ -1,4 +1,5 @@
-/* Edges, and their ends sorted around each vertex by rank; then covered walks, by turning across covered wedges. */
+/* boundary_graph.c: see boundary_graph.h. Edges, their ends sorted around each vertex by rank, and then the covered
+ * walks, which turn across covered wedges. */
 #include "outline/boundary_graph.h"
 
 #include "base/invariant.h"
@@ -39,7 +40,7 @@ static bool make_rays(sunder_i_graph *g)
     uint32_t sum = 0;
     for (uint32_t v = 0; v < g->vertices; v++) {
         const uint32_t n = g->ray_end[v];
-        g->ray_end[v] = sum; /* where the next ray of v goes; in the end the end */
+        g->ray_end[v] = sum; /* the position of the next ray of v; finally the end of its rays */
         sum += n;
     }
     for (uint32_t e = 0; e < g->edges; e++) {
@@ -53,8 +54,8 @@ static bool make_rays(sunder_i_graph *g)
     return true;
 }
 
-/* The first outgoing ray from the arrival of `edge`, turning clockwise (across the covered wedge) or counter-clockwise
- * (across the free one); with same_component, among the edges of the edge's component. */
+/* Returns the first outgoing edge after the arrival of `edge`, turning clockwise (across the covered wedge) or
+ * counterclockwise (across the free one); with same_component, among the edges of that edge's component. */
 static uint32_t turn(const sunder_i_graph *g, uint32_t edge, bool clockwise, bool same_component)
 {
     const uint32_t v = g->edge[edge].to, first = sunder_i_first_ray(g, v), n = g->ray_end[v] - first;
@@ -77,7 +78,7 @@ uint32_t sunder_i_graph_next_covered(const sunder_i_graph *graph, uint32_t edge)
 
 uint32_t sunder_i_graph_next_free(const sunder_i_graph *graph, uint32_t edge) { return turn(graph, edge, false, true); }
 
-/* Numbers the edges of a walk from `start` on; its lexicographically smallest vertex. */
+/* Assigns the edges from `start` on to a walk; returns its lexicographically smallest vertex. */
 static uint32_t number_walk(sunder_i_graph *g, uint32_t walk, uint32_t start)
 {
     uint32_t least = g->edge[start].from, e = start;
@@ -93,9 +94,9 @@ static uint32_t number_walk(sunder_i_graph *g, uint32_t walk, uint32_t start)
     return least;
 }
 
-/* Decides whether the walk has its face inside. At `least`, its smallest vertex, all rays point into the right
- * half-plane, and the region below the lowest ray is outside the walk. If that ray leaves, the covered side (its
- * left) is above it, inside; if it arrives, the covered side is below it. */
+/* Determines whether the walk is the outer boundary of its face. At `least`, its smallest vertex, all rays point into
+ * the right half-plane, and the region below the lowest ray is outside the walk. If that ray leaves, the covered side
+ * (its left) is above it, inside; if it arrives, the covered side is below it. */
 static void judge_walk(sunder_i_graph *g, uint32_t walk, uint32_t least)
 {
     const uint32_t first = sunder_i_first_ray(g, least);

@@ -1,4 +1,5 @@
-/* The directed boundary edges and the order of their ends around each vertex. Internal to boundary*.c. */
+/* boundary_graph.h: the directed boundary edges and the order of their ends around each vertex. Used by boundary*.c
+ * only. */
 #ifndef SUNDER_I_BOUNDARY_GRAPH_H
 #define SUNDER_I_BOUNDARY_GRAPH_H
 
@@ -9,7 +10,7 @@ typedef struct sunder_i_boundary_edge {
     uint32_t rank, line;
 } sunder_i_boundary_edge;
 
-/* An end of an edge at a vertex: edge * 2, + 1 where the edge arrives. */
+/* An end of an edge at a vertex: 2 * edge, plus 1 if the edge arrives there. */
 typedef uint32_t sunder_i_ray;
 
 typedef struct sunder_i_graph {
@@ -17,17 +18,17 @@ typedef struct sunder_i_graph {
     const sunder_i_lines *lines;
     const sunder_i_hpoint *vertex;
     uint32_t classes, vertices;
-    bool sorted; /* vertices that edges have are numbered lexicographically */
+    bool sorted; /* vertices with edges are numbered lexicographically */
     sunder_i_boundary_edge *edge;
     uint32_t edges;
-    uint32_t *ray_end; /* [vertices] past its last ray */
-    sunder_i_ray *ray; /* counter-clockwise around each vertex, from the positive x axis */
-    uint32_t *walk;    /* [edges] which covered walk an edge belongs to */
+    uint32_t *ray_end; /* [vertices] the end of the rays of each vertex */
+    sunder_i_ray *ray; /* the rays, counterclockwise around each vertex from the positive x axis */
+    uint32_t *walk;    /* [edges] the covered walk of each edge */
     uint32_t walks;
     uint32_t *walk_start; /* [walks] an edge that leaves, or arrives at, the walk's lexicographically smallest vertex */
-    bool *walk_outer;     /* [walks] is the walk the outer boundary of its component? */
-    bool *walk_plain;     /* [walks] at no vertex of it are there other edges, so that it is a ring by itself */
-    uint32_t *component;  /* [walks] numbered from 0 */
+    bool *walk_outer;     /* [walks] whether the walk is the outer boundary of its component */
+    bool *walk_plain;     /* [walks] whether no other edges meet the walk's vertices, so that it is a ring by itself */
+    uint32_t *component;  /* [walks] the number of the component, from 0 on */
     uint32_t components;
 } sunder_i_graph;
 
@@ -40,28 +41,28 @@ static inline uint32_t sunder_i_ray_rank(const sunder_i_graph *g, sunder_i_ray r
     return rank < g->classes ? rank + g->classes : rank - g->classes;
 }
 
-/* The ray's place in the half-turn to the right of a lexicographically smallest vertex, lowest first: angles -pi/2 ..
- * pi/2. */
+/* Returns the position of the ray in the half-turn on the right of a lexicographically smallest vertex, from bottom to
+ * top: angles -pi/2 .. pi/2. */
 static inline uint32_t sunder_i_ray_height(const sunder_i_graph *g, sunder_i_ray r)
 {
     const uint32_t rank = sunder_i_ray_rank(g, r);
     return rank < g->classes ? rank + g->classes : rank - g->classes;
 }
 
-/* Is v lexicographically before w? */
+/* Returns whether v is lexicographically before w. */
 static inline bool sunder_i_is_before(const sunder_i_graph *g, uint32_t v, uint32_t w)
 {
     return g->sorted ? v < w : v != w && sunder_i_hpoint_cmp(g->lattice, &g->vertex[v], &g->vertex[w]) < 0;
 }
 
-/* Edges, rays, covered walks and components; false if memory is out. */
+/* Builds edges, rays, covered walks and components. Returns false if out of memory. */
 bool sunder_i_graph_build(sunder_i_graph *graph, const sunder_i_coverage *coverage);
-/* Numbers the components, one for each outer walk, and gives each hole walk that of the outer walk that it lies in
- * (boundary_holes.c). False if memory is out. */
+/* Numbers the components, one for each outer walk, and assigns each hole walk to the component of the outer walk that
+ * contains it (boundary_holes.c). Returns false if out of memory. */
 bool sunder_i_graph_assign_holes(sunder_i_graph *graph);
-/* The edge that follows `edge` on the ring of its component that has the same free face. */
+/* Returns the edge that follows `edge` on the ring of its component that has the same free face. */
 uint32_t sunder_i_graph_next_free(const sunder_i_graph *graph, uint32_t edge);
-/* The edge that follows on the covered walk. */
+/* Returns the edge that follows `edge` on its covered walk. */
 uint32_t sunder_i_graph_next_covered(const sunder_i_graph *graph, uint32_t edge);
 void sunder_i_graph_free(sunder_i_graph *graph);
 

@@ -1,21 +1,21 @@
-/* Which hole walks belong to which outer walk: of the outer walks that a ray from the hole crosses an odd number of
- * times the innermost. Each outer walk is a component of its own. */
+/* boundary_holes.c: assigns hole walks to outer walks: among the outer walks that a ray from the hole crosses an odd
+ * number of times, the innermost one contains the hole. Each outer walk is a component of its own. */
 #include "outline/boundary_graph.h"
 #include "spatial/strips.h"
 
 #include <math.h>
 
-/* Outer walks that may hold a place: which, and whether the ray from there crosses each an odd number of times. */
+/* Finds the outer walks that contain a point. */
 typedef struct finder {
     const sunder_i_graph *g;
-    const uint32_t *walk; /* [components] the outer walk of each */
-    uint32_t *edge;       /* edges of outer walks, by height in the strips */
+    const uint32_t *walk; /* [components] the outer walk of each component */
+    uint32_t *edge;       /* the edges of outer walks, numbered as in the strips */
     sunder_i_strips strips;
-    bool *odd;       /* [components] all false between questions */
-    uint32_t *holds; /* [edges] those that were crossed, with repeats */
+    bool *odd;       /* [components] whether the number of crossings is odd; all false between queries */
+    uint32_t *holds; /* [edges] the components that were crossed, with repetitions */
 } finder;
 
-/* Edges and places of height y are at most this far off, with y the largest there is. */
+/* Returns a bound of the error of heights, if y is the largest one. */
 static double margin(double y) { return y * 0x1p-47 + 0x1p-900; }
 
 static bool sort_edges(finder *f)
@@ -38,9 +38,9 @@ static bool sort_edges(finder *f)
     return ok;
 }
 
-/* The outer walks that hold the place just left of vertex v, in f->holds; how many. Counts the edges that a ray from
- * there to the left crosses. The wedge at v around the direction to the left holds no edge: v is the smallest vertex of
- * a hole walk, whose covered side is there. */
+/* Sets f->holds to the components of the outer walks that contain the point just left of vertex v; returns their
+ * number. It counts the edges that a ray from there to the left crosses. There is no edge in the wedge at v around the
+ * direction to the left: v is the smallest vertex of a hole walk, whose covered side is there. */
 static uint32_t find_holders(finder *f, uint32_t v)
 {
     const sunder_i_graph *g = f->g;
@@ -53,8 +53,7 @@ static uint32_t find_holders(finder *f, uint32_t v)
         const sunder_i_boundary_edge *edge = &g->edge[e];
         const bool from_above = sunder_i_hpoint_cmp_y(g->lattice, &g->vertex[edge->from], place) > 0;
         const bool to_above = sunder_i_hpoint_cmp_y(g->lattice, &g->vertex[edge->to], place) > 0;
-        /* Lines run with angles in [0, pi), so this one runs upwards: it is crossed to the left of v where v is right
-         * of it. */
+        /* Lines have angles in [0, pi), so this one points upwards: the ray crosses it if v is on its right. */
         if (from_above == to_above) continue;
         const sunder_i_supporting_line line = sunder_i_lines_get(g->lines, edge->line);
         if (sunder_i_orient_hpoint(g->lattice, line.a, line.b, place) >= 0) continue;
@@ -69,14 +68,16 @@ static uint32_t find_holders(finder *f, uint32_t v)
     return n;
 }
 
-/* Of two outer walks that hold one place, is a the inner one? Components are disjoint, so what the two enclose is
- * nested, and the inner walk has no vertex before the smallest one of the outer walk. Where both start in one vertex,
- * the outer walk's lowest ray is below everything that it encloses there; no two walks share an edge, so the two rays
- * differ. (Areas would need exact numbers: those of long slanted shapes are lost in doubles.) */
+/* Returns whether a is the inner one of two outer walks that contain one point. Components are disjoint, so that the
+ * regions that the two enclose are nested, and the inner walk has no vertex before the smallest one of the outer walk.
+ * If both have the same smallest vertex, the outer walk's lowest ray is below everything that it encloses there; no two
+ * walks share an edge, so that the two rays differ. (Comparing areas would need exact numbers: those of long slanted
+ * shapes are inexact in doubles.) */
 static bool inner_of(const finder *f, uint32_t a, uint32_t b)
 {
     const sunder_i_graph *g = f->g;
-    const uint32_t ea = g->walk_start[f->walk[a]], eb = g->walk_start[f->walk[b]]; /* of outer walks they leave */
+    /* these edges of outer walks leave their vertices */
+    const uint32_t ea = g->walk_start[f->walk[a]], eb = g->walk_start[f->walk[b]];
     const uint32_t va = g->edge[ea].from, vb = g->edge[eb].from;
     if (va != vb) return sunder_i_hpoint_cmp(g->lattice, &g->vertex[va], &g->vertex[vb]) > 0;
     return sunder_i_ray_height(g, 2 * ea) > sunder_i_ray_height(g, 2 * eb);
@@ -84,8 +85,8 @@ static bool inner_of(const finder *f, uint32_t a, uint32_t b)
 
 static uint32_t owner_of(finder *f, uint32_t walk)
 {
-    /* judge_walk() left the walk's start as the edge of the lowest ray at its smallest vertex; of a hole it arrives
-     * there. */
+    /* judge_walk() has set the start of the walk to the edge of the lowest ray at its smallest vertex; of a hole it
+     * arrives there */
     const uint32_t n = find_holders(f, f->g->edge[f->g->walk_start[walk]].to);
     uint32_t best = n ? f->holds[0] : 0;
     for (uint32_t i = 1; i < n; i++)

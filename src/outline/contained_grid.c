@@ -1,4 +1,5 @@
-/* Corners in units of the grid, boxes of parts, lists of the squares. */
+/* contained_grid.c: see contained_grid.h. Corners in units of the grid, boxes of parts, and the lists of the
+ * squares. */
 #include "outline/contained_grid.h"
 
 #include "base/extremes.h"
@@ -10,9 +11,9 @@
 typedef sunder_i_part_grid grid;
 typedef sunder_i_part_box box;
 
-/* sunder_i_approx() is off by half an ulp of the largest coordinate, i.e. 2^-53 of it, and the largest is below 2^60
- * units here: so it is off by 2^7 units, and by another half where that is rounded. False if memory is out, or if all
- * coordinates are so small that doubles underflow. */
+/* Sets the corners in units of the grid. sunder_i_approx() has an error of half an ulp of the largest coordinate, that
+ * is, 2^-53 of it; the largest one is below 2^60 units here, so that the error is 2^7 units, and rounding adds half a
+ * unit. Returns false if out of memory (*no_memory), or if all coordinates are so small that doubles underflow. */
 static bool take_corners(grid *g, bool *no_memory)
 {
     const sunder_i_convex_pieces *s = g->parts;
@@ -59,7 +60,7 @@ static void measure(grid *g)
     }
 }
 
-/* Boxes stand in for the parts: an error in the order by size costs time only. */
+/* Sorts the parts by size. Boxes are used instead of the parts: an error in the order costs time only. */
 static bool order_by_extent(grid *g)
 {
     const size_t n = g->parts->n;
@@ -74,7 +75,7 @@ static bool order_by_extent(grid *g)
     return ok;
 }
 
-/* Squares about as large as half a part, but no more than four for each. */
+/* Chooses squares about as large as half a part, but at most four for each part. */
 static void choose_squares(grid *g)
 {
     const size_t n = g->parts->n;
@@ -93,7 +94,7 @@ static void choose_squares(grid *g)
     }
 }
 
-/* Calls for each square of a box: counts it in end[], or with `fill` writes the part there. */
+/* Visits the squares of a part's box: counts it in end[] or, with `fill`, writes it to the list. */
 static void visit(grid *g, uint32_t part, bool fill)
 {
     const box *b = &g->reach[part];
@@ -106,8 +107,9 @@ static void visit(grid *g, uint32_t part, bool fill)
         }
 }
 
-/* In most layers a part has one or two entries for each square that it touches; where a few parts are far larger than
- * the others the lists would take too much memory. */
+/* Builds the lists of the squares. In most layers a part has one or two entries for each square that it touches; if a
+ * few parts are far larger than the others the lists would need too much memory, and are not built. Returns false if
+ * out of memory. */
 static bool make_lists(grid *g)
 {
     const uint32_t n = (uint32_t)g->parts->n;
@@ -127,7 +129,7 @@ static bool make_lists(grid *g)
     uint32_t sum = 0;
     for (size_t q = 0; q < squares; q++) {
         const uint32_t count = g->end[q];
-        g->end[q] = sum; /* where the next goes; in the end the end */
+        g->end[q] = sum; /* the position of the next entry; finally the end */
         sum += count;
     }
     if (!order_by_extent(g)) return false;

@@ -1,5 +1,5 @@
-/* A grid of squares, each with the parts whose boxes reach into it: which parts may hold a given point? Internal to
- * contained*.c. */
+/* contained_grid.h: a grid of squares, each with the parts whose boxes meet it, to find the parts that may contain a
+ * given point. Used by contained*.c only. */
 #ifndef SUNDER_I_CONTAINED_GRID_H
 #define SUNDER_I_CONTAINED_GRID_H
 
@@ -9,23 +9,23 @@ typedef struct sunder_i_part_box {
     int64_t low[2], high[2];
 } sunder_i_part_box;
 
-/* Squares of 2^shift units, each with the parts whose boxes reach into it. The units are those of a narrow lattice; on
- * a wide lattice coordinates are rounded to 60 bits of the largest, and may be off by `error` units. */
+/* Squares of 2^shift units, each with the parts whose boxes meet it. The units are those of a narrow lattice; on a wide
+ * lattice coordinates are rounded to 60 bits of the largest one, with an error of at most `error` units. */
 typedef struct sunder_i_part_grid {
     const sunder_i_convex_pieces *parts;
     const sunder_i_point *corner;
-    sunder_i_point *rounded; /* what they are on a wide lattice, else NULL */
+    sunder_i_point *rounded; /* the rounded corners on a wide lattice, else NULL */
     int64_t error;
-    sunder_i_part_box *reach; /* [parts] their boxes */
-    uint32_t *order;          /* [parts] the largest first */
+    sunder_i_part_box *reach; /* [parts] the boxes of the parts */
+    uint32_t *order;          /* [parts] the parts, the largest first */
     sunder_i_part_box all;
     int shift;
     uint32_t size[2];
-    uint32_t *end, *list; /* [squares] past its last entry in list */
+    uint32_t *end, *list; /* [squares] the end of each square's entries in `list` */
 } sunder_i_part_grid;
 
-/* `list` is NULL where the lists would take too much memory, or all coordinates are too small. False if memory is out;
- * the caller frees the grid in any case. */
+/* Builds the grid. `list` is NULL if the lists would need too much memory, or if all coordinates are too small. Returns
+ * false if out of memory; the caller frees the grid in any case. */
 bool sunder_i_part_grid_build(sunder_i_part_grid *g, const sunder_i_convex_pieces *parts);
 void sunder_i_part_grid_free(sunder_i_part_grid *g);
 
@@ -34,8 +34,8 @@ static inline uint32_t sunder_i_part_grid_column(const sunder_i_part_grid *grid,
     return (uint32_t)((at - grid->all.low[axis]) >> grid->shift);
 }
 
-/* How many parts are listed in the square that holds this point, initially in order of falling size; *from: where in
- * list. */
+/* Returns the number of parts listed in the square of this point, initially sorted by decreasing size; *from becomes
+ * their position in `list`. */
 static inline uint32_t sunder_i_part_grid_at(const sunder_i_part_grid *grid, sunder_i_point p, uint32_t *from)
 {
     const uint32_t x = sunder_i_part_grid_column(grid, 0, p.x), y = sunder_i_part_grid_column(grid, 1, p.y);
@@ -44,15 +44,15 @@ static inline uint32_t sunder_i_part_grid_at(const sunder_i_part_grid *grid, sun
     return grid->end[square] - *from;
 }
 
-/* Is p strictly inside the box of a part for certain? */
+/* Returns whether p is certainly strictly inside the box of a part. */
 static inline bool sunder_i_part_grid_reaches(const sunder_i_part_grid *grid, uint32_t part, sunder_i_point p)
 {
     const sunder_i_part_box *b = &grid->reach[part];
-    const int64_t e = 2 * grid->error; /* of the corner and of the box */
+    const int64_t e = 2 * grid->error; /* the errors of the point and of the box */
     return p.x > b->low[0] + e && p.x < b->high[0] - e && p.y > b->low[1] + e && p.y < b->high[1] - e;
 }
 
-/* The same for the box of another part. */
+/* Returns whether the box of `other` is certainly strictly inside that of `part`. */
 static inline bool sunder_i_part_grid_encloses(const sunder_i_part_grid *grid, uint32_t part, uint32_t other)
 {
     const sunder_i_part_box *a = &grid->reach[part], *b = &grid->reach[other];

@@ -1,8 +1,9 @@
-/* When many members are grown by one shape and overlap, most of their sides lie inside some other part, and the cells
- * (culling.h) would spend most of their time on those sides. When members nearly coincide, no cell separates them, and
- * all their sides would meet all parts along their lines. Among ragged operands, one in five subsums lies inside
- * another. An open convex set holds a side if it holds both its ends, and a part if it holds its corners; a grid tells
- * which parts may hold them. This is a filter: the cells find what it misses. */
+/* contained_parts.c: see contained_parts.h. If many polygons are grown by one shape and overlap, most of their sides
+ * are inside another part, and the cells (culling.h) would spend most of their time on those sides. If polygons nearly
+ * coincide, no cell separates them, and all their sides would meet all parts along their lines. Among ragged operands,
+ * one in five subsums is inside another. An open convex set contains a side if it contains both its ends, and a part if
+ * it contains its corners; a grid finds the parts that may contain them. This is a filter: the cells find what it
+ * misses. */
 #include "outline/contained_parts.h"
 
 #include "base/watch.h"
@@ -13,7 +14,7 @@
 
 #define NONE UINT32_MAX
 
-/* Number of parts looked at, and its limit. */
+/* The number of parts tested, and its limit. */
 typedef struct looks {
     size_t spent, allowed;
 } looks;
@@ -22,15 +23,15 @@ typedef struct dropper {
     sunder_i_convex_pieces *parts;
     sunder_i_part_grid grid;
     looks sides, whole;
-    bool *gone; /* [parts]; NULL: all parts stay */
+    bool *gone; /* [parts] the parts to remove; NULL: all parts are kept */
 } dropper;
 
-/* ---- Inside a part? ---- */
+/* ---- Points inside a part ---- */
 
-/* cross(b - a, p - a), or 0 where its sign is not certain. Differences are below 2^62 and round once each, products and
- * their difference once more: the error is below 4 ulps of the products' magnitudes. Where coordinates are off by e,
- * differences u, v are by 2 e, and the product by 2 e (|ux| + |uy| + |vx| + |vy|) + 8 e^2 at most; twice that is
- * asked. */
+/* Returns cross(b - a, p - a), or 0 if its sign is uncertain. Differences are below 2^62 and rounded once each,
+ * products and their difference once more: the error is below 4 ulps of the products' magnitudes. If coordinates have
+ * an error e, the differences u, v have one of 2 e, and the product one of at most 2 e (|ux| + |uy| + |vx| + |vy|) + 8
+ * e^2; the bound is twice that. */
 static double turn(const sunder_i_part_grid *g, sunder_i_point a, sunder_i_point b, sunder_i_point p)
 {
     const double ux = (double)(b.x - a.x), uy = (double)(b.y - a.y), vx = (double)(p.x - a.x), vy = (double)(p.y - a.y);
@@ -40,9 +41,9 @@ static double turn(const sunder_i_part_grid *g, sunder_i_point a, sunder_i_point
     return fabs(c) > bound ? c : 0;
 }
 
-/* Is p, which is inside the part's box, strictly inside the part for certain? The fan of triangles around the first
- * corner is searched for the one that holds p, or for the diagonal that it is on, or too near to be told on which side:
- * then for the two triangles beside that. */
+/* Returns whether p, which is inside the part's box, is certainly strictly inside the part. In the fan of triangles
+ * about the first corner, the triangle that contains p is found by bisection; if p is on a diagonal, or too close to it
+ * to decide, the two triangles beside it are tested. */
 static bool holds(const sunder_i_part_grid *g, uint32_t part, sunder_i_point p)
 {
     const sunder_i_convex_pieces *s = g->parts;
@@ -72,9 +73,9 @@ static bool holds_both(const sunder_i_part_grid *g, uint32_t part, sunder_i_poin
            holds(g, part, a);
 }
 
-/* A part that holds the segment ab; NONE if none is found. The part that held the previous side is tried first, then
- * the parts listed in the square of one end, the shorter list of the two. The part found moves to the front of its
- * list, since a part that holds one side tends to hold others. */
+/* Returns a part that contains the segment ab; NONE if none is found. The part that contained the previous side is
+ * tested first, then the parts listed in the square of one end, the one with the shorter list. The part found moves to
+ * the front of its list, since it probably contains other sides, too. */
 static uint32_t find_holder(dropper *d, sunder_i_point a, sunder_i_point b, uint32_t own, uint32_t hint)
 {
     sunder_i_part_grid *g = &d->grid;
@@ -121,8 +122,8 @@ static bool holds_part(const dropper *d, uint32_t part, uint32_t other)
     return true;
 }
 
-/* Does another part hold this one? Such a part is listed in the squares of all corners: the shortest of these lists is
- * searched, usually that of a corner near the outline. */
+/* Returns whether another part contains this one. Such a part is listed in the squares of all corners: the shortest of
+ * these lists is searched, usually that of a corner near the outline. */
 static bool is_contained(dropper *d, uint32_t part)
 {
     const sunder_i_part_grid *g = &d->grid;
@@ -143,10 +144,10 @@ static bool is_contained(dropper *d, uint32_t part)
     return false;
 }
 
-/* A part that is dropped earns further looks; sides held by several parts together, but by none alone, soon use the
- * looks up, and the rest is left to the cells. The smallest parts come first: among nested features only the outermost,
- * which nothing holds, is searched for in vain. Parts that are dropped still hold others: what lies inside one of them
- * also lies inside the part that holds it. */
+/* Drops parts and sides. A dropped part increases the limit of further tests; sides that several parts cover together,
+ * but none alone, soon exhaust it, and the rest is left to the cells. The smallest parts come first: among nested
+ * features only the outermost, which no part contains, is then searched in vain. Parts that are dropped may still
+ * contain others: what is inside one of them is also inside the part that contains it. */
 static void drop(dropper *d)
 {
     sunder_i_convex_pieces *s = d->parts;

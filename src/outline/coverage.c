@@ -1,9 +1,10 @@
-/* Coverage along one line after the other. A part is convex, so where it meets a line is found by bisection: of its
- * ranks for the corners that are lowest and highest across the line, then of the two chains between them for where each
- * comes through. Events are sorted by fractions along the line (degree 2, compared in degree 4), and counted.
+/* coverage.c: see coverage.h. Coverage is computed for one line after the other. A part is convex, so that its
+ * intersection with a line is found by bisection: among its ranks for the corners that are lowest and highest across
+ * the line, then in each of the two chains between them for the crossing. Events are sorted by fractions along the line
+ * (degree 2, compared in degree 4), and counted.
  *
- * Ends of intervals of cover are open and those of candidates closed, so at one place three states are told apart: just
- * before it, at it, just after it. */
+ * Intervals of cover are open and those of candidates closed, so that each position has three states: just before it,
+ * at it, and just after it. */
 #include "outline/coverage.h"
 
 #include "base/invariant.h"
@@ -23,8 +24,8 @@ typedef struct finder {
     const sunder_i_lines *lines;
     const uint8_t *fate;
     sunder_i_coverage *out;
-    sunder_i_supporting_line line; /* the one at hand */
-    sunder_i_events events;        /* of the line at hand */
+    sunder_i_supporting_line line; /* the current line */
+    sunder_i_events events;        /* the events of the current line */
     bool no_memory;
 } finder;
 
@@ -43,14 +44,14 @@ typedef struct polygon {
     uint32_t first, n;
 } polygon;
 
-/* i < 2 n, cyclically. */
+/* Returns corner i, cyclically; i < 2 n. */
 static sunder_i_point corner(const polygon *p, uint32_t i)
 {
     return p->s->corner[p->first + (i < p->n ? i : i - p->n)];
 }
 
-/* The first corner whose outgoing side has a rank above r, counted cyclically; n where the first side already is
- * past a full turn. Corners there are extreme in the direction normal to r. */
+/* Returns the first corner whose outgoing side has a rank above r, cyclically; n if the first side is already beyond a
+ * full turn. That corner is extreme in the direction normal to r. */
 static uint32_t first_above(const polygon *p, uint32_t r)
 {
     const uint32_t *rank = p->s->rank + p->first;
@@ -65,8 +66,8 @@ static uint32_t first_above(const polygon *p, uint32_t r)
     return low;
 }
 
-/* A corner and a line: its side, and on a narrow lattice how high it stands: the cross product of the line's direction
- * with its way from line->a. */
+/* The position of a corner relative to a line: its side, and on a narrow lattice its height: the cross product of the
+ * line's direction with the vector from line->a to the corner. */
 typedef struct stand {
     int side;
     sunder_i_det height;
@@ -82,7 +83,7 @@ static stand stand_of(const polygon *p, const sunder_i_supporting_line *line, ui
     return (stand){sunder_i_det_sign(height), height};
 }
 
-/* Where the line meets the side between two corners that stand at different heights. */
+/* Returns the crossing of the line with the side between two corners of different heights. */
 static sunder_i_fraction crossing(const polygon *p, const sunder_i_supporting_line *line, uint32_t i, stand at_i,
                                   uint32_t j, stand at_j)
 {
@@ -93,12 +94,12 @@ static sunder_i_fraction crossing(const polygon *p, const sunder_i_supporting_li
     return sunder_i_narrow_fraction(sunder_i_narrow_cross(c, d), at_j.height - at_i.height);
 }
 
-/* The chain of corners from..to, on another side of the line at its end, and at its start strictly on the other, comes
- * through: `change` is there. */
+/* Adds the event with the cover `change` where the chain of corners from .. to crosses the line. Its first corner is
+ * strictly on one side of the line, and its last one is not on that side. */
 static void cross_chain(finder *f, const polygon *p, const sunder_i_supporting_line *line, uint32_t from, stand at_from,
                         uint32_t to, stand at_to, int32_t change)
 {
-    uint32_t low = from, high = to; /* corner low is strictly on the side of the first; corner high is not */
+    uint32_t low = from, high = to; /* corner low is strictly on the side of the first corner; corner high is not */
     stand at_low = at_from, at_high = at_to;
     while (high - low > 1) {
         const uint32_t middle = (low + high) / 2;
@@ -114,7 +115,7 @@ static void cross_chain(finder *f, const polygon *p, const sunder_i_supporting_l
 
 static uint32_t side_before(const polygon *p, uint32_t k) { return k > p->first ? k - 1 : p->first + p->n - 1; }
 
-/* One side on the line, covering one bank of it. */
+/* Adds the events of one side on the line, which covers one side of it. */
 static void rest_side(finder *f, const polygon *p, const sunder_i_supporting_line *line, uint32_t side, bool left)
 {
     sunder_i_lattice *l = p->s->lattice;
@@ -131,8 +132,8 @@ static void rest_side(finder *f, const polygon *p, const sunder_i_supporting_lin
     }
 }
 
-/* The part rests on the line: sides of the wanted rank end in corner i (several where a piece has straight
- * corners); or it touches the line there. */
+/* Adds the events of a part that rests on the line: sides with the rank of the line end in corner i (several if a piece
+ * has straight corners); or the part touches the line there. */
 static void rest_on(finder *f, const polygon *p, const sunder_i_supporting_line *line, uint32_t i, uint32_t rank,
                     bool left)
 {
@@ -151,7 +152,7 @@ static void meet(finder *f, const sunder_i_supporting_line *line, uint32_t part)
     const sunder_i_convex_pieces *s = f->parts;
     const uint32_t first = sunder_i_convex_pieces_first(s, part), forward = line->class, back = forward + s->classes;
     const polygon p = {s, first, s->end[part] - first};
-    /* Sides with ranks between forward and back climb to the left of the line, the others fall. */
+    /* sides with ranks between forward and back rise to the left of the line, the others fall */
     const uint32_t lowest = first_above(&p, forward), highest = first_above(&p, back);
     const stand low = stand_of(&p, line, lowest), high = stand_of(&p, line, highest);
     if (low.side < 0 && high.side > 0) {
@@ -174,7 +175,7 @@ static uint8_t banks(const state *s)
     return (uint8_t)((s->left > 0 ? SUNDER_I_BANK_LEFT : 0) | (s->right > 0 ? SUNDER_I_BANK_RIGHT : 0));
 }
 
-/* Takes note of the line of a side that is not on lines->line. */
+/* Adds the line of a side to `lines`, unless it is parallel to the current line or known. */
 static void note_side(const finder *f, uint32_t side, sunder_i_vertex_lines *lines)
 {
     if (side == SUNDER_I_NO_SIDE || lines->others == 2) return;
@@ -185,8 +186,8 @@ static void note_side(const finder *f, uint32_t side, sunder_i_vertex_lines *lin
     lines->other[lines->others++] = other;
 }
 
-/* A vertex of the result. Most are known by the lines that meet there; where a corner is known to stand there it is a
- * lattice point, which is cheaper to compare. */
+/* Returns the vertex of the result at `at`, adding it if it is new. Most are identified by the lines that meet there; a
+ * known corner of a part is a lattice point, which is cheaper to compare. */
 static uint32_t add_vertex(finder *f, const sunder_i_fraction *at, uint32_t corner, const sunder_i_vertex_lines *lines)
 {
     sunder_i_lattice *l = f->parts->lattice;
@@ -217,15 +218,15 @@ static void add_stretch(finder *f, sunder_i_outline_stretch stretch)
     o->stretch[o->stretches++] = stretch;
 }
 
-/* What there is at one place of the line. */
+/* What happens at one position of the line. */
 typedef struct place {
-    size_t end; /* of its events, in order */
+    size_t end; /* the end of its events in the sorted list */
     int32_t cover_ends, domain_starts;
-    uint32_t corner; /* or NO_CORNER */
+    uint32_t corner; /* a corner of a part there, or NO_CORNER */
     sunder_i_vertex_lines lines;
 } place;
 
-/* Goes past the events of a place. */
+/* Reads the events of one position and updates the state. */
 static place pass_place(const finder *f, uint32_t line, size_t from, state *s)
 {
     const sunder_i_valued *order = f->events.order;
@@ -244,16 +245,16 @@ static place pass_place(const finder *f, uint32_t line, size_t from, state *s)
     return p;
 }
 
-/* Sweeps the events of one line, place by place. */
+/* Processes the events of one line, position by position. */
 static void sweep(finder *f, uint32_t number)
 {
     state s = {0, 0, 0, 0};
-    uint32_t last = 0; /* the vertex where the open stretch starts, while uncovered(&s) */
+    uint32_t last = 0; /* the vertex at which the open stretch begins, while uncovered(&s) */
     for (size_t i = 0; i < f->events.n;) {
         const sunder_i_event *here = &f->events.event[f->events.order[i].item];
         const state before = s;
         const place p = pass_place(f, number, i, &s);
-        /* The place itself: intervals of cover are open, candidates closed. */
+        /* at the position itself intervals of cover are open, and candidates closed */
         SUNDER_I_ASSERT(s.cover >= 0 && s.left >= 0 && s.right >= 0 && s.domain >= 0);
         const bool point_free = before.cover == p.cover_ends && before.domain + p.domain_starts > 0;
         if (point_free) {
@@ -276,13 +277,14 @@ static void sweep_line(finder *f, uint32_t number, const uint32_t *part, size_t 
         if (i == 0 || part[i] != part[i - 1]) meet(f, &f->line, part[i]);
     }
     if (!f->no_memory && !sunder_i_events_sort(&f->events, f->parts->lattice)) f->no_memory = true;
-    if (f->parts->lattice->arena.failed) f->no_memory = true; /* the events' order may be any */
+    if (f->parts->lattice->arena.failed) f->no_memory = true; /* the order of the events is then undefined */
     if (!f->no_memory) sweep(f, number);
 }
 
-/* ---- Sides that are boundary as they stand ---- */
+/* ---- Sides that are boundary completely ---- */
 
-/* The vertex at a corner of a part. Between two whole sides nothing else comes there. */
+/* Returns the vertex at a corner of a part. Between two whole sides nothing else meets the corner, so that the vertex
+ * is new. */
 static uint32_t corner_vertex(finder *f, uint32_t corner, bool between)
 {
     const sunder_i_hpoint p = sunder_i_hpoint_of(f->parts->lattice, f->parts->corner[corner]);
@@ -295,7 +297,7 @@ static uint32_t corner_vertex(finder *f, uint32_t corner, bool between)
 static void take_whole_sides(finder *f, uint32_t first, uint32_t end)
 {
     const sunder_i_convex_pieces *s = f->parts;
-    bool before = f->fate[end - 1] == SUNDER_I_WHOLE; /* the side before k */
+    bool before = f->fate[end - 1] == SUNDER_I_WHOLE; /* whether the side before k is whole */
     uint32_t first_vertex = SUNDER_I_NO_VERTEX, to = SUNDER_I_NO_VERTEX;
     for (uint32_t k = first; k < end; k++) {
         const bool whole = f->fate[k] == SUNDER_I_WHOLE;
@@ -315,8 +317,8 @@ static void take_whole_sides(finder *f, uint32_t first, uint32_t end)
     }
 }
 
-/* Reserves memory for what most lines yield, a stretch and one new vertex: growing step by step would touch several
- * times that. */
+/* Reserves memory for what most lines need, a stretch and one new vertex: growing step by step would need several times
+ * that. Returns false if out of memory. */
 static bool reserve_usual(finder *f, const sunder_i_culled *culled)
 {
     sunder_i_coverage *o = f->out;
@@ -327,7 +329,7 @@ static bool reserve_usual(finder *f, const sunder_i_culled *culled)
            sunder_i_reserve(&o->stretch, &o->stretches_capacity, usual + culled->whole + 1, sizeof *o->stretch);
 }
 
-/* Lines that pass through an open leaf: all others are covered throughout. */
+/* Processes the lines that pass through an open leaf; all others are covered completely. */
 static bool sweep_lines(finder *f, const sunder_i_line_parts *by_line)
 {
     size_t first = 0;

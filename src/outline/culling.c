@@ -1,6 +1,7 @@
-/* The hierarchy of cells, from the root down: a cell is halved; each part is tested against each half (is the half
- * outside it, inside it, or do sides of it pass?). Each half is closed, kept as a leaf, or pushed on the stack
- * (culling.h tells what becomes of it). tuning.h holds the numbers that decide when a cell is split further. */
+/* culling.c: see culling.h. The hierarchy of cells, from the root down: a cell is divided into halves; each part is
+ * tested against each half: the half is outside it, inside it, or sides of it pass through. Each half is closed, kept
+ * as a leaf, or pushed on the stack (culling.h). tuning.h contains the numbers that decide when a cell is divided
+ * further. */
 #include "outline/culling_inner.h"
 
 #include "base/watch.h"
@@ -8,12 +9,12 @@
 
 #include <string.h>
 
-/* With coordinates near 2^500 the directions of sides this short are not known in doubles. */
+/* With coordinates near 2^500 the directions of sides this short are inexact in doubles. */
 #define SHORT_SIDE 0x1p-500
 
-/* Do two half-planes cover the box? f and g are the cross products of filter_part(), positive inside; if f + r g
- * > 0 all over the box for some r >= 0, then g > 0 wherever f <= 0. The r that makes the slopes cancel where the
- * sides run against each other is tried. */
+/* Returns whether two half-planes together cover the box. f and g are the cross products of filter_part(), positive
+ * inside; if f + r g > 0 in the whole box for some r >= 0, then g > 0 wherever f <= 0. The r is tried for which the
+ * slopes cancel if the sides have opposite directions. */
 static bool both_hold(const builder *b, const approx_side *f, const approx_side *g, const box *c)
 {
     if (f->dx * g->dx + f->dy * g->dy >= 0) return false;
@@ -23,13 +24,13 @@ static bool both_hold(const builder *b, const approx_side *f, const approx_side 
     if (fs < SHORT_SIDE || gs < SHORT_SIDE) return false;
     const double fc = f->dx * (cy - f->ay) - f->dy * (cx - f->ax), gc = g->dx * (cy - g->ay) - g->dy * (cx - g->ax);
     const double reach = hx * fabs(f->dy + r * g->dy) + hy * fabs(f->dx + r * g->dx);
-    /* The errors of both, and those of the additions here, which are relative to terms below (hx + hy) * fs. */
+    /* the errors of both, and those of the additions here, which are relative to terms below (hx + hy) * fs */
     const double error = SUNDER_I_DOUBT(4 * b->error * fs + 0x1p-48 * (hx + hy) * fs + SUNDER_I_APPROX_UNDERFLOW);
     return fc + r * gc - reach > error;
 }
 
-/* Do two parts, each with a single side in the box, cover it together? This happens at seams between neighbouring
- * pieces. */
+/* Returns whether two parts, each with a single side in the box, cover it together, as at seams between neighbouring
+ * pieces; two[] becomes these parts. */
 static bool find_two(const builder *b, const cell *c, const box *where_to, uint32_t two[2])
 {
     uint32_t side[SINGLES], part[SINGLES], n = 0;
@@ -49,12 +50,12 @@ static bool find_two(const builder *b, const cell *c, const box *where_to, uint3
     return false;
 }
 
-/* Shrinks the cell to what its candidates in the box need, and chooses the axis to split across. Returns the number of
- * lines they are on. */
+/* Shrinks the cell to the box of its candidates, and chooses the axis across which it is divided. Returns the number of
+ * lines of the candidates. */
 static size_t shrink(builder *b, cell *c, const box *whole)
 {
     size_t lines = 0;
-    double span[2] = {0, 0}; /* of all candidates together, along each axis */
+    double span[2] = {0, 0}; /* the sum of the extents of all candidates along each axis */
     box need = nothing;
     b->cells++;
     sunder_i_cells_gather(b, c->run_from, c->run_to, whole);
@@ -67,8 +68,8 @@ static size_t shrink(builder *b, cell *c, const box *whole)
         b->stamp[x->line] = b->cells;
     }
     c->b = need;
-    /* Splits across the axis along which candidates are short in proportion to the cell, so that fewer of them fall
-     * into both halves; where both axes are nearly equal, across the longer side of the cell, since otherwise the ends
+    /* The cell is divided across the axis along which candidates are short in proportion to the cell, so that fewer of
+     * them are in both halves; if both axes are nearly equal, across the longer side of the cell, since else the ends
      * of sides along one line would shrink cells to that line. */
     const double w = need.high[0] - need.low[0], h = need.high[1] - need.low[1];
     const double across[2] = {span[0] * h, span[1] * w};
@@ -80,25 +81,26 @@ static size_t shrink(builder *b, cell *c, const box *whole)
 /* One half of a cell while its lists are made. */
 typedef struct half {
     box b;
-    double cx, cy; /* centre */
+    double cx, cy; /* the centre */
     entry *entries;
     run *runs;
     size_t entries_n, runs_n, sides;
     bool held;
-    uint32_t holder; /* the part that holds it */
-    uint32_t stamp;  /* of is_half_plane_known() */
+    uint32_t holder; /* the part that contains it, if `held` */
+    uint32_t stamp;  /* the stamp used by is_half_plane_known() */
 } half;
 
-/* In this half the part is one half-plane, about to be listed. Is a part listed that is the same half-plane, with the
- * same candidate along its border, or a parallel one that is certainly wider? Then, within the half, this part adds
- * nothing but its border, and in the second case that border is covered. If this part is the wider one, it replaces the
- * listed one. */
+/* Returns whether a part that is one half-plane in this half, with the given side, need not be listed: a listed part is
+ * the same half-plane, with the same candidate on its boundary, or a parallel one that is certainly wider. Then this
+ * part adds nothing within the half except its boundary, which in the second case is covered. If this part is the wider
+ * one, it replaces the listed one. */
 static bool is_half_plane_known(builder *b, half *h, uint32_t part, uint32_t side)
 {
     const approx_side *s = &b->side[side];
     const double length = fabs(s->dx) + fabs(s->dy);
     if (length < SHORT_SIDE) return false;
-    const double depth = (s->dx * (h->cy - s->ay) - s->dy * (h->cx - s->ax)) / length; /* of the centre in it */
+    /* the depth of the centre in it */
+    const double depth = (s->dx * (h->cy - s->ay) - s->dy * (h->cx - s->ax)) / length;
     half_plane *known = &b->widest[b->parts->rank[side]];
     if (known->stamp != h->stamp) {
         *known = (half_plane){h->stamp, side, depth, (uint32_t)h->entries_n, (uint32_t)h->runs_n};
@@ -109,7 +111,7 @@ static bool is_half_plane_known(builder *b, half *h, uint32_t part, uint32_t sid
         b->shared[line] = true;
         return true;
     }
-    /* Either is off by b->error, and the quotients by less. */
+    /* each has an error of b->error, and the quotients a smaller one */
     if (known->depth > depth + 4 * b->error) {
         sunder_i_cells_cover(b, side, h->entries[known->entry].part);
         return true;
@@ -123,8 +125,8 @@ static bool is_half_plane_known(builder *b, half *h, uint32_t part, uint32_t sid
     return true;
 }
 
-/* Records how part `part` meets half `h`: n runs with `sides` sides in total pass through the half, and they lie
- * behind the half's list of runs. */
+/* Records how a part meets half `h`: n runs with `sides` sides in total pass through the half; they were written after
+ * the half's list of runs. */
 static void settle_entry(builder *b, half *h, uint32_t part, uint32_t n, uint32_t sides)
 {
     if (n == 0) {
@@ -137,9 +139,15 @@ static void settle_entry(builder *b, half *h, uint32_t part, uint32_t n, uint32_
     }
 }
 
-enum { BEYOND, WITHIN, ACROSS }; /* of a box: outside a line for certain, inside for certain, or neither */
+enum {
+    BEYOND,
+    WITHIN,
+    ACROSS
+}; /* the position of a box relative to a side: certainly outside, certainly inside, or
+                                  * neither */
 
-/* The half and the line along s through the start of `at`; hx, hy: half the extent of the half. */
+/* Returns the position of the half relative to the line through the start of `at` in the direction of s; hx and hy are
+ * half the widths of the half. */
 static int side_of_half(const builder *b, const half *h, const approx_side *s, const approx_side *at, double hx,
                         double hy)
 {
@@ -151,19 +159,19 @@ static int side_of_half(const builder *b, const half *h, const approx_side *s, c
 
 /* What pass_run() keeps of a run in a half: n runs, with `sides` sides in total. */
 typedef struct passed {
-    bool beyond; /* all of the half is beyond the part */
+    bool beyond; /* the whole half is outside the part */
     uint32_t n, sides;
 } passed;
 
-/* Writes what of a run of several sides passes to `out`.
+/* Writes those parts of a run of several sides that pass through the half to `out`.
  *
- * The start of the run is inside all its sides, and their directions lie between those of the first and the last:
- * so what is inside the two lines along these through the start is inside all sides. */
+ * The start of the run is inside all its sides, and their directions are between those of the first and the last one: a
+ * region inside the two lines with these directions through the start is inside all sides. */
 static passed pass_run(const builder *b, const half *h, run r, double hx, double hy, run *out)
 {
     struct {
         uint32_t from, n;
-    } todo[8], at = {run_from(b, r), run_end(b, r) - run_from(b, r)}; /* at most 2^5 sides, halved again and again */
+    } todo[8], at = {run_from(b, r), run_end(b, r) - run_from(b, r)}; /* at most 2^5 sides, divided repeatedly */
     passed p = {false, 0, 0};
     for (uint32_t waiting = 0;;) {
         const approx_side *first = &b->side[at.from], *last = first + at.n - 1, *middle = first + at.n / 2;
@@ -185,7 +193,7 @@ static passed pass_run(const builder *b, const half *h, run r, double hx, double
     }
 }
 
-/* One part against one half, from run i on; n of the runs before i pass, with n + `more` sides. */
+/* Tests one part against one half, from run i on; n of the runs before i pass, with n + `more` sides. */
 static void filter_one(builder *b, half *h, const run *runs, const entry *source, uint32_t i, uint32_t n, uint32_t more,
                        double hx, double hy)
 {
@@ -205,14 +213,15 @@ static void filter_one(builder *b, half *h, const run *runs, const entry *source
         const double adx = fabs(s->dx), ady = fabs(s->dy), reach = hx * ady + hy * adx;
         const double error = SUNDER_I_DOUBT(b->error * (adx + ady) + SUNDER_I_APPROX_UNDERFLOW);
         const double c = s->dx * (h->cy - s->ay) - s->dy * (h->cx - s->ax);
-        if (c + reach < -error) return; /* all of the half is beyond this side */
+        if (c + reach < -error) return; /* the whole half is outside this side */
         out[n] = r;
-        n += !(c - reach > error); /* else all of it is on the inner side, and the side need not be kept */
+        n += !(c - reach > error); /* else the whole half is on the inner side, and the side is not kept */
     }
     settle_entry(b, h, source->part, n, n + more);
 }
 
-/* A part whose whole extent lies in one half: every side passes. Most parts of the upper cells are such. */
+/* Returns whether the part is completely in one half, and then lists it there with all its sides. This is the case for
+ * most parts of the upper cells. */
 static bool keep_whole(const builder *b, half h[2], const run *runs, const entry *source)
 {
     const box *reach = &b->reach[source->part];
@@ -230,7 +239,7 @@ static bool keep_whole(const builder *b, half h[2], const run *runs, const entry
     return true;
 }
 
-/* One part against both halves at once, for as long as it may reach into both; hx, hy: half the extent of each
+/* Tests one part against both halves at once, as long as it may reach both; hx and hy are half the widths of each
  * half. */
 static void filter_part(builder *b, half h[2], const run *runs, const entry *source, double hx, double hy)
 {
@@ -266,15 +275,16 @@ static void filter_part(builder *b, half h[2], const run *runs, const entry *sou
     if (!miss1) filter_one(b, &h[1], runs, source, i, n1, more1, hx, hy);
 }
 
-/* A cell with many sides that splits well is split on, across its longer axis, without looking at its candidates. */
+/* Chooses the longer axis for a cell with many sides that divides well, without examining its candidates. */
 static size_t halve(cell *c, const half *h)
 {
     c->axis = h->b.high[1] - h->b.low[1] > h->b.high[0] - h->b.low[0];
     return h->sides;
 }
 
-/* The axis along which a split can still separate anything: no cell becomes smaller than the error of the start points,
- * which matters where details are small beside their coordinates. False if neither axis can. */
+/* Chooses an axis along which a division can still separate sides: no cell becomes smaller than the error of the start
+ * points, which matters if details are small compared with their coordinates. Returns false if there is no such
+ * axis. */
 static bool choose_axis(const builder *b, cell *c)
 {
     const double room = 4 * b->error;
@@ -282,10 +292,10 @@ static bool choose_axis(const builder *b, cell *c)
     return c->b.high[c->axis] - c->b.low[c->axis] > room;
 }
 
-/* Pairs of a side and a part other than its own. */
+/* Returns the number of pairs of a side and a part other than its own. */
 static double pairs_of(size_t sides, size_t entries) { return entries > 1 ? (double)sides * (double)(entries - 1) : 0; }
 
-/* By what factor the pairs of all halves together have grown since they were fewest. */
+/* Returns the factor by which the pairs of all halves have increased since they were fewest. */
 static double growth_of(const cell *c, const half h[2])
 {
     const double before = pairs_of(c->sides, c->entry_to - c->entry_from);
@@ -294,7 +304,7 @@ static double growth_of(const cell *c, const half h[2])
     return before > 0 ? sunder_i_greater(1, c->growth * (after / before)) : 1;
 }
 
-/* What becomes of a half once its lists are made: a cell to split further, or settled. */
+/* Decides about a half whose lists are made: it becomes a cell to divide further, a leaf, or is closed. */
 static void settle_half(builder *b, const cell *parent, const half *h, double growth)
 {
     if (h->held) {
@@ -345,8 +355,8 @@ static void settle_half(builder *b, const cell *parent, const half *h, double gr
     b->done += c.share;
 }
 
-/* Room on the stack for the lists of both halves, the second behind the longest that the first can be; one more
- * side is written than kept. */
+/* Makes room on the stack for the lists of both halves, the second after the longest possible list of the first; one
+ * more side is written than kept. Sets b->no_memory and returns false if out of memory. */
 static bool reserve_halves(builder *b, const cell *c)
 {
     const size_t e = c->entry_to - c->entry_from, s = c->sides + 1;
@@ -358,8 +368,8 @@ static bool reserve_halves(builder *b, const cell *c)
     return false;
 }
 
-/* Halves on the stack overwrite their cell's lists, which are not needed again unless the cell is split on trial. So
- * all lists together are hardly longer than those of the root. */
+/* Moves the halves on the stack over their cell's lists, which are needed again only if the cell is divided on trial.
+ * So all lists together are hardly longer than those of the root. */
 static void take_place(builder *b, const cell *c, size_t waiting)
 {
     const size_t entries = c->entry_to - c->entry_from, runs = c->run_to - c->run_from;
@@ -392,7 +402,7 @@ static void split(builder *b, const cell *c)
         h[k].runs = b->runs + b->runs_n + (size_t)k * s;
         h[k].stamp = ++b->cells;
     }
-    /* The halves are of one size up to rounding; the larger stands for both. */
+    /* the halves are equal up to rounding; the larger one is used for both */
     const double hx = sunder_i_greater(h[0].b.high[0] - h[0].b.low[0], h[1].b.high[0] - h[1].b.low[0]) / 2;
     const double hy = sunder_i_greater(h[0].b.high[1] - h[0].b.low[1], h[1].b.high[1] - h[1].b.low[1]) / 2;
     size_t from = c->run_from;
@@ -419,9 +429,9 @@ static sunder_status descend(builder *b, sunder_error *err)
     split(b, &root);
     unsigned tick = 0;
     while (b->stack_n > 0 && !b->no_memory) {
-        if (b->stack_n == b->trial.stack_n) b->trial.on = false; /* it has paid */
+        if (b->stack_n == b->trial.stack_n) b->trial.on = false; /* the trial was successful */
         const cell c = b->stack[--b->stack_n];
-        b->entries_n = c.entry_to; /* lists above belong to cells already done */
+        b->entries_n = c.entry_to; /* lists beyond these belong to cells that are done */
         b->runs_n = c.run_to;
         if (b->options && b->options->progress && (++tick & 63) == 0 &&
             !b->options->progress(b->done, b->options->progress_user))

@@ -1,13 +1,14 @@
-/* Leaves: which pairs of a line and a part come from a cell that is not split further, and the verdicts on
- * candidates. */
+/* culling_close.c: leaves: the pairs of a line and a part that result from a cell that is not divided further, and the
+ * results for candidates. */
 #include "outline/culling_inner.h"
 
 #include "outline/tuning.h"
 
 #include <string.h>
 
-/* Neighbouring leaves share most of their pairs (with overlapping features nine of ten). A table recognises pairs that
- * were pushed recently; a pair that was evicted from it is pushed twice, which does no harm. */
+/* Returns whether the pair was pushed recently, and remembers it. Neighbouring leaves have most of their pairs in
+ * common (with overlapping features nine of ten). A pair that was overwritten in the table is pushed twice, which is
+ * harmless. */
 static bool is_known(builder *b, uint64_t pair)
 {
     uint64_t *slot = &b->recent[(pair * 0x9e3779b97f4a7c15u) >> (64 - b->recent_bits)];
@@ -61,7 +62,7 @@ void sunder_i_cells_cover(builder *b, uint32_t side, uint32_t part)
     push_pair(b, line, part);
 }
 
-/* Within this box the part covers the line of every candidate gathered. */
+/* Pushes a pair of the part and the line of every gathered candidate: within this box the part covers these lines. */
 static void cover_all(builder *b, uint32_t part)
 {
     b->cells++;
@@ -73,8 +74,8 @@ static void cover_all(builder *b, uint32_t part)
     }
 }
 
-/* The box is inside `one`, or inside `one` and `other` together: every candidate of the parent's lists that passes
- * through it is covered there. */
+/* Closes a box that is inside `one`, or inside `one` and `other` together: every candidate of the parent's lists that
+ * passes through it is covered there. */
 void sunder_i_cells_close(builder *b, const cell *parent, const box *c, uint32_t one, uint32_t other)
 {
     sunder_i_cells_gather(b, parent->run_from, parent->run_to, c);
@@ -83,18 +84,18 @@ void sunder_i_cells_close(builder *b, const cell *parent, const box *c, uint32_t
     if (other != one && !b->no_memory) cover_all(b, other);
 }
 
-/* A leaf that only one part reaches into. */
+/* Marks the candidates of a leaf that only one part meets. */
 void sunder_i_cells_lone_leaf(builder *b, const cell *c)
 {
     sunder_i_cells_gather(b, c->run_from, c->run_to, &c->b);
     for (size_t i = 0; i < b->crossing_n; i++) b->out->fate[b->crossing[i].side] |= ALONE;
 }
 
-/* Pushes all pairs of a leaf, except for parts that are certainly away from the only candidate of a line. The
- * candidates are gathered already. */
+/* Pushes all pairs of a leaf, except for parts that are certainly disjoint from the only candidate of a line. The
+ * candidates have been gathered. */
 void sunder_i_cells_open_leaf(builder *b, const cell *c)
 {
-    const uint32_t once = ++b->cells, again = ++b->cells; /* stamps of lines met once, and more often */
+    const uint32_t once = ++b->cells, again = ++b->cells; /* the stamps of lines met once, and more often */
     for (size_t i = 0; i < b->crossing_n; i++) {
         const uint32_t line = b->crossing[i].line;
         b->out->fate[b->crossing[i].side] |= PASSES;
@@ -114,8 +115,8 @@ void sunder_i_cells_open_leaf(builder *b, const cell *c)
     }
 }
 
-/* A trial may spend half of what it can save, and must leave at most half the pairs. Marks that it set on candidates
- * stay: they only make more candidates open. */
+/* Ends a trial that has cost too much. It may cost half of what it can save, and must leave at most half of the pairs.
+ * Marks that it set on candidates are kept: they only make more candidates open. */
 void sunder_i_cells_end_trial(builder *b)
 {
     trial *t = &b->trial;
@@ -131,7 +132,8 @@ void sunder_i_cells_end_trial(builder *b)
     b->done = t->done + t->of.share;
 }
 
-/* Turns marks into verdicts. An open candidate is paired with its own part where no leaf has done so. */
+/* Converts marks to results. An open candidate is paired with its own part if no leaf has done so. Returns false if out
+ * of memory. */
 bool sunder_i_cells_fates(builder *b)
 {
     const sunder_i_convex_pieces *s = b->parts;

@@ -1,4 +1,4 @@
-/* The beginning: sides as doubles, and the lists of the root cell. */
+/* culling_root.c: the start: sides as doubles, and the lists of the root cell. */
 #include "outline/culling_inner.h"
 
 #include "base/sort.h"
@@ -6,9 +6,9 @@
 #include "outline/tuning.h"
 #include "predicate/predicate.h"
 
-/* The large arrays, in one block with spare room that is never touched: glibc keeps up to twice the largest block freed
- * so far, and so keeps all memory of one sum for the next, instead of returning it and fetching it again page by
- * page. */
+/* Allocates the large arrays as one block with unused space: glibc keeps up to twice the largest block freed so far,
+ * and so keeps all memory of one sum for the next one, instead of returning it and fetching it again page by page.
+ * Returns false if out of memory. */
 static bool make_room(builder *b)
 {
     const sunder_i_convex_pieces *s = b->parts;
@@ -28,8 +28,8 @@ static bool make_room(builder *b)
     return true;
 }
 
-/* Doubles of all sides; false if memory is out. Vectors are taken from exact differences, so that their error is
- * relative to themselves. */
+/* Computes the doubles of all sides, the boxes of the parts, and the box of all. Returns false if out of memory.
+ * Vectors are computed from exact differences, so that their error is relative to their length. */
 static bool approximate(builder *b, box *all)
 {
     const sunder_i_convex_pieces *s = b->parts;
@@ -62,20 +62,20 @@ static bool approximate(builder *b, box *all)
         b->reach[i] = own;
         grow(all, &own);
     }
-    /* With u = 2^-53 and all coordinates and box corners within `most` (cells lie within the box of all): the start
-     * point is off by 2u * most (conversion), differences of coordinates by as much again, products and their
-     * difference by 3u of products up to 2 * most * |d|. Together below 16 u * most * (|dx| + |dy|); twice that is
-     * used. Subnormals: approx_shift keeps the largest coordinates near 2^500; what underflows beside
-     * them is SUNDER_I_APPROX_UNDERFLOW. */
+    /* With u = 2^-53 and all coordinates and box corners within `most` (cells are within the box of all): the start
+     * point has an error of 2u * most (conversion), differences of coordinates as much again, products and their
+     * difference 3u of products up to 2 * most * |d|. The sum is below 16 u * most * (|dx| + |dy|); the bound is twice
+     * that. Underflow: approx_shift keeps the largest coordinates near 2^500; SUNDER_I_APPROX_UNDERFLOW allows for what
+     * underflows beside them. */
     b->error = 0x1p-48 * most + 0x1p-900;
     b->out->most = most;
-    /* A candidate on the very border must not be missed. */
+    /* a candidate exactly on the boundary must not be missed */
     widen(all, b->error);
     for (size_t i = 0; i < s->n; i++) widen(&b->reach[i], b->error);
     return !l->arena.failed;
 }
 
-/* Twice the area of a part, nearly. */
+/* Returns approximately twice the area of a part. */
 static double extent_of(const builder *b, size_t part)
 {
     const uint32_t first = sunder_i_convex_pieces_first(b->parts, part);
@@ -94,8 +94,7 @@ static bool one_quadrant(const approx_side *s, const approx_side *t)
            (s->dy < 0) == (t->dy < 0);
 }
 
-/* Lists the sides of a part in runs; as single sides where it has few, which are then tested one by one at less
- * cost. */
+/* Lists the sides of a part as runs; as single sides if it has few, which takes less time. */
 static void add_runs(builder *b, uint32_t part)
 {
     const uint32_t first = sunder_i_convex_pieces_first(b->parts, part), end = b->parts->end[part];
@@ -110,13 +109,14 @@ static void add_runs(builder *b, uint32_t part)
     b->entries[b->entries_n++] = (entry){part, (uint32_t)(b->runs_n - before)};
 }
 
-/* The root holds every side of every part, the largest parts first: those are the ones that close cells. */
+/* Makes the root cell with every side of every part, the largest parts first, since these close cells. Returns false if
+ * out of memory. */
 static bool list_all(builder *b, const box *all, cell *root)
 {
     const sunder_i_convex_pieces *s = b->parts;
     double *extent = sunder_i_alloc(s->n, sizeof *extent);
     uint32_t *order = sunder_i_alloc(s->n, sizeof *order);
-    /* With both halves, which are written behind them (reserve_halves()). */
+    /* with room for both halves, which are written after them (reserve_halves()) */
     bool ok = extent && order && sunder_i_reserve(&b->entries, &b->entries_capacity, 3 * s->n, sizeof *b->entries) &&
               sunder_i_reserve(&b->runs, &b->runs_capacity, 3 * s->corners + 2, sizeof *b->runs);
     for (uint32_t i = 0; ok && i < s->n; i++) {

@@ -1,5 +1,6 @@
-/* Events are sorted by the doubles of their fractions, and exactly within each run of them whose doubles leave it
- * open: so an exact comparison is made of neighbours only, and of each two that are at one place once or twice. */
+/* events.c: see events.h. Events are sorted by the doubles of their fractions, and exactly within each sequence of them
+ * whose order doubles leave open: so exact comparisons are made of neighbours only, and those of two events at one
+ * position once or twice. */
 #include "outline/events.h"
 
 #include "base/sort.h"
@@ -8,7 +9,7 @@
 #include <math.h>
 #include <string.h>
 
-#define FEW 8 /* up to this many at one place need no memory */
+#define FEW 8 /* up to this number of events at one position need no memory */
 
 typedef struct context {
     const sunder_i_events *events;
@@ -21,7 +22,8 @@ static int compare(void *user, uint32_t a, uint32_t b)
     return sunder_i_fraction_cmp(c->lattice, &c->events->event[a].at, &c->events->event[b].at);
 }
 
-/* Puts keys in order whose doubles leave it open, and says which are at one place. */
+/* Sorts n keys whose order doubles leave open, and marks the first one at each position. Returns false if out of
+ * memory. */
 static bool settle(context *c, sunder_i_valued *k, size_t n)
 {
     if (n == 2) {
@@ -46,9 +48,9 @@ static bool settle(context *c, sunder_i_valued *k, size_t n)
     return ok;
 }
 
-/* May b, which is not below a as a double, be below or equal in truth? If not, no key after b is below one before a:
- * what their doubles may be off by more they are farther apart. Ratios may be beyond all doubles: infinite ones are
- * open, too. */
+/* Returns whether b, which is not less than a as a double, may be less or equal exactly. If not, no key after b is less
+ * than one before a: their distance exceeds the possible errors. Ratios may exceed the range of doubles: infinite ones
+ * are open, too. */
 static bool is_open(double a, double b) { return !(b - a > SUNDER_I_FRACTION_ERROR * (1 + fabs(a) + fabs(b))); }
 
 bool sunder_i_events_sort(sunder_i_events *events, sunder_i_lattice *lattice)

@@ -1,5 +1,5 @@
-/* Lines by hashing: a side's line is its class and one number, its offset, which is the same for all points of the line
- * and exact: a plain integer, or a ratio in the pool where a corner has a denominator. */
+/* lines.c: groups sides by line with a hash table: the line of a side is its class and one number, its offset, which is
+ * equal for all points of the line and exact: a plain integer, or a ratio in the pool if a corner has a denominator. */
 #include "outline/lines.h"
 
 #include "base/watch.h"
@@ -8,17 +8,17 @@
 
 #include <string.h>
 
-/* A line is its class and the cross product of the class's direction with any of its points: equal exactly for
- * points of one line. */
+/* A line: its class and the cross product of the class's direction with any of its points; two points have equal keys
+ * exactly if they are on one line. */
 typedef struct key {
-    sunder_i_i128 offset; /* the number itself, or a handle */
+    sunder_i_i128 offset; /* the number itself, or a handle if `pooled` */
     bool pooled;
     uint32_t class, hash;
 } key;
 
 typedef struct table {
     const sunder_i_convex_pieces *parts;
-    uint32_t *slot; /* line number + 1, or 0 */
+    uint32_t *slot; /* the number of the line + 1, or 0 */
     size_t mask;
     key *keys; /* [lines] */
 } table;
@@ -35,8 +35,9 @@ static uint64_t mix_big(uint64_t h, sunder_i_big v)
     return h;
 }
 
-/* The offset of a corner with a denominator, in lowest terms; that of the direction is the same for all of a class. It
- * is an integer where the line runs through lattice points, and then the same as theirs. */
+/* Sets the offset of a line through a point with a denominator, in lowest terms; the denominator of the direction is
+ * the same for the whole class and omitted. The offset is an integer if the line passes through lattice points, and
+ * then equal to theirs. Returns the hash. */
 static uint64_t pooled_offset(sunder_i_lattice *l, sunder_i_point d, sunder_i_point a, uint64_t hash, key *k)
 {
     const sunder_i_mark mark = sunder_i_lattice_begin(l);
@@ -82,13 +83,13 @@ static bool same_line(const sunder_i_convex_pieces *s, const key *a, const key *
 {
     if (a->hash != b->hash || a->class != b->class || a->pooled != b->pooled) return false;
     if (!a->pooled) return a->offset == b->offset;
-    sunder_i_arena *m = &s->lattice->scratch; /* where nothing is made: these are no plain numbers */
+    sunder_i_arena *m = &s->lattice->scratch; /* nothing is allocated in it: the numbers are not plain */
     const sunder_i_ratio p = sunder_i_lattice_read(m, s->lattice, (int64_t)a->offset);
     const sunder_i_ratio q = sunder_i_lattice_read(m, s->lattice, (int64_t)b->offset);
     return sunder_i_big_cmp(p.num, q.num) == 0 && sunder_i_big_cmp(p.den, q.den) == 0;
 }
 
-/* The number of the line of a side, made if it is new. */
+/* Returns the number of the line of a side; a new line is added. */
 static uint32_t find_or_add(table *t, uint32_t side, sunder_i_lines *out)
 {
     const sunder_i_convex_pieces *s = t->parts;

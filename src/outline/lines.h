@@ -1,4 +1,4 @@
-/* The supporting lines of candidate sides, each once. */
+/* lines.h: the supporting lines of candidate sides, each once. */
 #ifndef SUNDER_I_LINES_H
 #define SUNDER_I_LINES_H
 
@@ -11,13 +11,14 @@ typedef struct sunder_i_supporting_line {
     uint32_t class;
 } sunder_i_supporting_line;
 
-/* There is a line for every few sides, and at first most of them inside the union: so what is kept of one is little. */
+/* There is a line for every few sides, and most of them are inside the union at first: so little is stored of each. */
 typedef struct sunder_i_lines {
-    uint32_t *side; /* [lines] one that is on each */
+    uint32_t *side; /* [lines] a side on each line */
     uint32_t n;
     uint32_t *of;           /* [sides] the line of each candidate; SUNDER_I_NO_LINE for the other sides */
-    sunder_i_point *second; /* [lines] on a wide lattice, where a point of its own takes room; else NULL */
-    /* Borrowed: [corners], [corners], [classes], as the parts have them. */
+    sunder_i_point *second; /* [lines] the second point of each line on a wide lattice, where computing it needs memory;
+                             * else NULL */
+    /* borrowed from the parts: [corners], [corners], [classes] */
     const sunder_i_point *corner;
     const uint32_t *rank;
     const sunder_i_point *direction;
@@ -39,7 +40,7 @@ static inline sunder_i_supporting_line sunder_i_lines_get(const sunder_i_lines *
     return (sunder_i_supporting_line){a, {a.x + d.x, a.y + d.y}, class};
 }
 
-/* Fails with SUNDER_ENOMEM. */
+/* Groups the candidates of the parts by line. Fails with SUNDER_ENOMEM. */
 sunder_status sunder_i_lines_group(const sunder_i_convex_pieces *parts, sunder_i_lines *out, sunder_error *err);
 void sunder_i_lines_free(sunder_i_lines *lines);
 

@@ -1,4 +1,5 @@
-/* Rows of pairs, and these sorted by lines and parts, by counting: twice, the least first. */
+/* pairs.c: see pairs.h. Rows of pairs, and their sorting by lines and parts: counting sort twice, the least significant
+ * key first. */
 #include "outline/pairs.h"
 
 #include <string.h>
@@ -7,7 +8,8 @@
 #define NUMBER(word) ((word) & ~MARK)
 #define LEAST_ROOM 256
 
-/* Room for two more words. It grows by an eighth: doubled, it would be the largest array of all just after. */
+/* Makes room for two more words. The capacity grows by an eighth: doubled, it would soon be the largest array of all.
+ * Returns false if out of memory. */
 static bool reserve(sunder_i_pairs *p)
 {
     const size_t need = p->n + 2;
@@ -20,8 +22,8 @@ static bool reserve(sunder_i_pairs *p)
     return true;
 }
 
-/* Does the pair continue the last row? As long as a row has one pair, its common member is undecided: if that turns out
- * to be the line, the row is turned round. */
+/* Returns whether the pair continues the last row. While a row has one pair, its common member is undecided: if it
+ * turns out to be the line, the row is reversed. */
 static bool goes_on(sunder_i_pairs *p, uint32_t line, uint32_t part)
 {
     if (p->row >= p->n) return false;
@@ -46,7 +48,7 @@ bool sunder_i_pairs_begin(sunder_i_pairs *pairs, uint32_t line, uint32_t part)
 
 sunder_i_pairs_mark sunder_i_pairs_mark_here(sunder_i_pairs *pairs)
 {
-    pairs->row = SIZE_MAX; /* no row that is there grows */
+    pairs->row = SIZE_MAX; /* no existing row is continued */
     return (sunder_i_pairs_mark){pairs->n, pairs->count};
 }
 
@@ -63,15 +65,15 @@ void sunder_i_pairs_free(sunder_i_pairs *pairs)
     memset(pairs, 0, sizeof *pairs);
 }
 
-/* ---- Line by line ---- */
+/* ---- Pairs sorted by line ---- */
 
-/* Numbers in lists. */
+/* Lists of numbers. */
 typedef struct lists {
-    size_t *end; /* [lists] past the last of each; while they are filled, where its next one goes */
+    size_t *end; /* [lists] the end of each list; while they are filled, the position of its next element */
     uint32_t *item;
 } lists;
 
-/* Turns the lengths of lists into the places where they begin; returns their sum. */
+/* Converts the lengths of lists to their beginnings; returns the sum of the lengths. */
 static size_t begin_lists(size_t *of, uint32_t n)
 {
     size_t sum = 0;
@@ -83,7 +85,7 @@ static size_t begin_lists(size_t *of, uint32_t n)
     return sum;
 }
 
-/* Over the pairs of wanted lines: counts the lines of each part, or writes them to `items` where that is given. */
+/* Counts the lines of each part over the pairs of wanted lines, or writes them to of_part->item unless that is NULL. */
 static void list_lines(const sunder_i_pairs *p, const bool *wanted, lists *of_part)
 {
     size_t *end = of_part->end;
@@ -101,7 +103,8 @@ static void list_lines(const sunder_i_pairs *p, const bool *wanted, lists *of_pa
     }
 }
 
-/* Lists by part are read in order, so each line's list comes out sorted. */
+/* Converts lists by part to lists by line; the parts are read in order, so that each line's list is sorted. Returns
+ * false if out of memory. */
 static bool turn_over(const lists *of_part, uint32_t parts, uint32_t lines, sunder_i_line_parts *out)
 {
     const size_t n = parts ? of_part->end[parts - 1] : 0;

@@ -1,11 +1,11 @@
-/* A hash table over a fine grid of the approximate coordinates. Two approximations of one point differ by far less than
- * a grid step, so they fall into one grid square, or both lie close to the border between two: looking into every
- * square that the error reaches finds the point. Equality itself is decided exactly: by the numbers of two lines that
- * meet there, which takes no coordinates, or by the coordinates.
+/* vertex_table.c: see vertex_table.h. A hash table over a fine grid of the approximate coordinates. Two approximations
+ * of one point differ by far less than a grid step, so that they are in one grid square or both close to the border
+ * between two: searching every square within the error finds the point. Equality itself is decided exactly: by the
+ * numbers of two lines that meet there, which needs no coordinates, or by the coordinates.
  *
- * Where the approximations cannot separate points (small detail far from the origin, in a sum that has a member farther
- * still) one square would come to hold all of them. Then the table is rebuilt with hashes of the exact coordinates,
- * which cost two divisions of big integers each. */
+ * If the approximations cannot separate points (small details far from the origin, in a sum with a polygon even farther
+ * away) one square would contain all of them. Then the table is rebuilt with hashes of the exact coordinates, which
+ * cost two divisions of big integers each. */
 #include "outline/vertex_table.h"
 
 #include "outline/tuning.h"
@@ -24,7 +24,7 @@ static uint32_t hash(square q)
     return (uint32_t)(h >> 32);
 }
 
-/* Squares are counted from far below the smallest coordinate, so that cutting off the fraction rounds down. */
+/* Squares are counted from far below the smallest coordinate, so that truncation rounds down. */
 static square square_of(const sunder_i_vertex_table *g, double x, double y)
 {
     return (square){(int64_t)(x * g->per_step + 0x1p42), (int64_t)(y * g->per_step + 0x1p42)};
@@ -69,7 +69,7 @@ static squares squares_near(const sunder_i_vertex_table *g, double x, double y)
     return (squares){square_of(g, x - g->error, y - g->error), square_of(g, x + g->error, y + g->error)};
 }
 
-/* The slot of p, if p is known; sets *crowded if finding it took a long run of taken slots. */
+/* Returns the number of p if it is known; *crowded is set if the search passed a long sequence of occupied slots. */
 static uint32_t find_near(const sunder_i_vertex_table *g, const sunder_i_hpoint *p, bool *crowded)
 {
     const squares s = squares_near(g, p->ax, p->ay);
@@ -107,8 +107,8 @@ static uint32_t hash_of(const sunder_i_vertex_table *g, const sunder_i_hpoint *p
     return g->exact ? (uint32_t)sunder_i_hpoint_hash(g->lattice, p) : hash(square_of(g, p->ax, p->ay));
 }
 
-/* A table with room for `places` vertices, at most half full; known vertices are entered again, by exact hashes if
- * asked. */
+/* Makes a table with room for `places` vertices, at most half full; known vertices are entered again, with exact hashes
+ * if other_hashes. Returns false if out of memory. */
 static bool make_table(sunder_i_vertex_table *g, size_t places, bool other_hashes)
 {
     size_t size = 16;
@@ -132,10 +132,10 @@ bool sunder_i_vertex_table_init(sunder_i_vertex_table *table, sunder_i_lattice *
 {
     memset(table, 0, sizeof *table);
     table->lattice = lattice;
-    /* A step that is no power of two, since lattice points stand on those; 2^-40 of the whole keeps different places of
-     * a map apart. */
+    /* The step is not a power of two, since lattice points are multiples of those; 2^-40 of the whole separates
+     * different points of a map. */
     table->per_step = 1 / (most * 0x1.23456p-40 + 0x1p-800);
-    /* Each approximation is within 2^-50 of its coordinate's size (predicate.h). */
+    /* each approximation has an error of at most 2^-50 of its coordinate (predicate.h) */
     table->error = most * 0x1p-48;
     return sunder_i_reserve(&table->point, &table->capacity, expected + appended + 1, sizeof *table->point) &&
            make_table(table, expected, false);
