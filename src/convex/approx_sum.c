@@ -1,9 +1,10 @@
-/* Two pieces merged by ranks, as merge.h has it; corners and sides are the trees' doubles.
+/* approx_sum.c: two pieces merged by ranks, as in merge.h; corners and sides are the doubles of the piece trees.
  *
- * With u = 2^-53 and all coordinates of the operands within `most` together: a corner of the sum is off by 2u * most
- * (conversion and addition), differences of coordinates by as much again, products and their difference by 3u of
- * products up to 2 * most * |d|. Together below 16 u * most * (|dx| + |dy|); twice that is used. Off narrow lattices
- * approx_shift keeps the largest coordinates near 2^500; what underflows beside them is SUNDER_I_APPROX_UNDERFLOW. */
+ * Errors. Let u = 2^-53, and let `most` bound the sum of the operands' coordinates. A corner of the sum has an error of
+ * 2u * most (conversion and addition), differences of coordinates have one of as much again, products and their
+ * difference have one of 3u of products up to 2 * most * |d|. The total is below 16 u * most * (|dx| + |dy|); twice
+ * that is used. On lattices that are not narrow approx_shift keeps the largest coordinates near 2^500;
+ * SUNDER_I_APPROX_UNDERFLOW bounds the error of numbers that underflow. */
 #include "convex/approx_sum.h"
 
 #include "convex/merge.h"
@@ -25,13 +26,13 @@ sunder_i_cell_window sunder_i_cell_window_of(const double box[4], double error)
                               .error = error};
     sunder_i_half_planes_of_box(box, w.low, w.high);
     for (int k = 0; k < SUNDER_I_WAYS; k++) {
-        w.low[k] -= 2 * error; /* x + y is off by what both are */
+        w.low[k] -= 2 * error; /* x + y has the errors of both */
         w.high[k] += 2 * error;
     }
     return w;
 }
 
-/* Two pieces, being merged. */
+/* Two pieces during their merge. */
 typedef struct circuit {
     const sunder_i_approx_side *a, *b; /* the first sides */
     const uint32_t *rank_a, *rank_b;

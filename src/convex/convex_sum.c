@@ -1,5 +1,5 @@
-/* The sum of two pieces whose corners may be Steiner points, (x / w, y / w): directions are still lattice vectors, so
- * only corners have wide numbers, and each is made once. */
+/* convex_sum.c: the sum of two pieces whose corners may be Steiner points, (x / w, y / w): directions are lattice
+ * vectors all the same, so that only corners need long numbers, and each corner is computed once. */
 #include "convex/convex_sum.h"
 
 #include "convex/merge.h"

@@ -1,5 +1,5 @@
-/* Directions ranked: vectors turned into one half-plane, sorted there, by doubles as far as these are certain and by
- * their cross products, and numbered; those that were turned come half a turn later. */
+/* directions.c: ranks directions. The vectors are rotated into one half-plane, sorted there, by doubles where these are
+ * certain and by cross products elsewhere, and numbered; a vector that was rotated has a rank half a turn higher. */
 #include "convex/directions.h"
 
 #include "base/sort.h"
@@ -10,13 +10,13 @@
 
 typedef struct keys {
     sunder_i_lattice *lattice;
-    const sunder_i_point *key; /* in [0, pi) */
+    const sunder_i_point *key; /* the vectors, with angles in [0, pi) */
 } keys;
 
 static int compare_keys(void *context, uint32_t a, uint32_t b)
 {
     const keys *k = context;
-    return -sunder_i_cross_sign(k->lattice, k->key[a], k->key[b]); /* both in one half-plane */
+    return -sunder_i_cross_sign(k->lattice, k->key[a], k->key[b]); /* correct, since both are in one half-plane */
 }
 
 static int compare_numbers(void *context, uint32_t a, uint32_t b)
@@ -25,11 +25,12 @@ static int compare_numbers(void *context, uint32_t a, uint32_t b)
     return (a > b) - (a < b);
 }
 
-/* Numbers that grow with the angle, of integers of a narrow lattice, are off by a few 2^-52 (turn.h). Such as are
- * farther apart are in order. */
+/* The turns (turn.h) of integer vectors of a narrow lattice have an error of a few 2^-52. Two turns that differ by more
+ * than this are in the right order. */
 #define CERTAIN 0x1p-48
 
-/* The same order as by comparing keys, equal ones as they were. */
+/* Sorts the keys of a narrow lattice. The order is that of compare_keys(), equal keys in the order of their indices.
+ * Returns false if out of memory. */
 static bool sort_narrow(keys *k, uint32_t *order, size_t n)
 {
     sunder_i_valued *v = sunder_i_alloc(2 * n, sizeof *v);
@@ -48,7 +49,8 @@ static bool sort_narrow(keys *k, uint32_t *order, size_t n)
     return ok;
 }
 
-/* Classes in the order of their angles, and which each key has. */
+/* Numbers the classes in the order of their angles: stores a vector of each class in `out` and the class of each key in
+ * `class`. */
 static void number_classes(const keys *k, const uint32_t *order, size_t n, uint32_t *class, sunder_i_directions *out)
 {
     uint32_t c = 0;
@@ -57,7 +59,7 @@ static void number_classes(const keys *k, const uint32_t *order, size_t n, uint3
         if (i == 0 || sunder_i_cross_sign(k->lattice, k->key[order[i - 1]], key) != 0)
             out->vector[c++] = key;
         else if (!sunder_i_point_is_plain(out->vector[c - 1]) && sunder_i_point_is_plain(key))
-            out->vector[c - 1] = key; /* any will do, and numbers stay short */
+            out->vector[c - 1] = key; /* any vector of the class will do, and numbers stay short */
         class[order[i]] = c - 1;
     }
     out->classes = c;
@@ -76,7 +78,7 @@ static bool sort(sunder_i_lattice *l, sunder_i_point *side, size_t n, uint32_t *
     number_classes(&k, order, n, rank, out);
     for (size_t i = 0; i < n; i++)
         if (turned[i]) rank[i] += out->classes;
-    return !l->arena.failed; /* else the ranks are not those of convex pieces */
+    return !l->arena.failed; /* on failure the ranks are not those of convex pieces */
 }
 
 bool sunder_i_directions_rank(sunder_i_lattice *lattice, sunder_i_point *side, size_t n, uint32_t *rank,

@@ -1,5 +1,6 @@
-/* Hertel and Mehlhorn's merging [HM83]: diagonals are taken out one after the other, each unless the corner at one of
- * its ends would become reflex. Each try costs O(1) by the half-edges beside it, so all is linear. */
+/* hertel_mehlhorn.c: the merging of Hertel and Mehlhorn [HM83]: diagonals are removed one after the other, each unless
+ * the corner at one of its ends would become reflex. Each test takes O(1) with the adjacent half-edges, so that the
+ * total time is linear. */
 #include "convex/hertel_mehlhorn.h"
 
 #include "predicate/predicate.h"
@@ -8,13 +9,13 @@
 
 #define NONE UINT32_MAX
 
-/* Half-edges along the pieces, in the order of the shape's corner list. */
+/* The half-edges of the pieces, in the order of the shape's corner list. */
 typedef struct mesh {
     sunder_i_lattice *lattice;
     const sunder_i_point *at;
     uint32_t n;
     uint32_t *origin, *next, *prev;
-    uint32_t *slot; /* half-edges by (origin, end); NONE where free */
+    uint32_t *slot; /* a hash table of half-edges by (origin, end); NONE: free */
     uint32_t mask;
 } mesh;
 
@@ -69,14 +70,15 @@ static void mesh_free(mesh *m)
     sunder_i_free(m->slot);
 }
 
-/* Would the corner at the origin of h be convex or straight without h and its twin g? */
+/* Returns true if the corner at the origin of half-edge h would be convex or straight without h and its twin g. */
 static bool good_without(const mesh *m, uint32_t h, uint32_t g)
 {
     const uint32_t before = m->origin[m->prev[h]], after = end_of(m, m->next[g]);
     return sunder_i_orient(m->lattice, m->at[before], m->at[m->origin[h]], m->at[after]) >= 0;
 }
 
-/* Removes a diagonal; its half-edges get the origin NONE, so that find() does not meet them again. */
+/* Removes the diagonal with the half-edges h and g; their origins become NONE, so that find_half_edge() does not find
+ * them again. */
 static void dissolve(mesh *m, uint32_t h, uint32_t g)
 {
     m->next[m->prev[h]] = m->next[g];
@@ -115,8 +117,8 @@ bool sunder_i_hertel_mehlhorn(sunder_i_lattice *lattice, const sunder_shape *sha
     for (uint32_t h = 0; ok && h < m.n; h++) {
         if (m.origin[h] == NONE || sunder_i_is_boundary(shape, m.origin[h], end_of(&m, h))) continue;
         const uint32_t g = find(&m, end_of(&m, h), m.origin[h]);
-        /* A diagonal inside one piece already joined round a vertex would cut it loose: next to each other
-         * they stay. */
+        /* A diagonal with the same piece on both sides must stay, since without it the boundary of the piece would have
+         * two components; this is the case if its half-edges are adjacent. */
         if (g == NONE || m.next[h] == g || m.next[g] == h) continue;
         if (good_without(&m, h, g) && good_without(&m, g, h)) dissolve(&m, h, g);
     }

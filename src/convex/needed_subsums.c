@@ -1,14 +1,14 @@
-/* Most subsums of ragged operands lie deep inside the sum, where a few large ones cover all the others. These few are
- * found without making the others.
+/* needed_subsums.c: most subsums of operands with irregular boundaries are deep inside the sum, where a few large ones
+ * cover all the others. These few are found without computing the others.
  *
- * The box of the whole sum is halved into cells. The subsums that may reach into a cell are kept as pairs of groups of
- * pieces (piece_tree.h), one group of each operand. A pair stands for all sums of pieces of the two, and is opened as
- * cells become small. A cell that lies inside one subsum is finished: that subsum is needed, and no other is needed for
- * this cell. In a cell that few subsums reach into, all of them are needed. So every subsum is covered, cell by cell,
- * by needed ones; and since cells are closed and their holders open, the union is the same set, degenerate holes
- * included.
+ * The bounding box of the whole sum is halved recursively into cells. The subsums that may meet a cell are kept as
+ * pairs of groups of pieces (piece_tree.h), one group of each operand. A pair represents all sums of a piece of one
+ * group and a piece of the other; it is replaced by pairs of subgroups when cells become small. If a cell is inside one
+ * subsum, the cell is finished: that subsum is needed, and no other is needed for this cell. If only few subsums meet a
+ * cell, all of them are needed. So every subsum is covered, cell by cell, by needed ones; and since cells are closed
+ * and the subsums that contain them open, the union is the same set, including degenerate holes.
  *
- * Floating point with one-sided error bounds: a wrong "don't know" costs one subsum more. */
+ * The tests are in floating point with one-sided error bounds: if a test is undecided, one subsum more is kept. */
 #include "convex/needed_subsums.h"
 
 #include "base/extremes.h"
@@ -18,76 +18,80 @@
 #include <math.h>
 #include <string.h>
 
-/* Numbers that decide how long it takes, and how many subsums beyond the needed ones are kept; measured on stars,
- * random polygons, forks, covered forks, robots and grids. */
+/* These constants determine the running time, and how many subsums beyond the needed ones are kept; they were chosen by
+ * measurements on stars, random polygons, forks, covered forks, robots and grids. */
 
-/* A cell with at most this many subsums is not halved further: the larger the number, the more subsums are taken as
- * needed, and these take memory. Nor is a half with more, if the two halves together have nearly twice the cell's:
- * halves of such halves will be no better (copies side by side, far longer than they are apart). */
+/* A cell with at most LEAF subsums is not halved further: the larger this number, the more subsums are taken as needed,
+ * and these need memory. A cell with at most STUBBORN_LEAF subsums is not halved further either if the halving of its
+ * parent resulted in at least STUBBORN_GROWTH times the parent's subsums: further halving would be no better (copies
+ * that are longer than the distance between them). */
 #define LEAF 32
 #define STUBBORN_LEAF 256
 #define STUBBORN_GROWTH 1.75
-/* A pair of groups is opened where it is this many times as large as the cell. */
+/* A pair of groups is replaced by pairs of subgroups if it is larger than this many times the cell. */
 #define COARSE 12
-/* Pairs of groups tried in a cell, below each listed pair, for a subsum that holds the cell. */
+/* The number of pairs of groups that are tested in a cell, below each listed pair, for a subsum that contains the
+ * cell. */
 #define LOOKS 64
-/* Credit for each subsum: how many pairs may be looked at in all, handed down from cell to cell. Less than the cost of
- * making one and finding it covered. */
+/* The credit for each subsum: the number of pairs that may be tested in all, divided among the cells. It is less than
+ * the cost of computing a subsum and finding it covered. */
 #define CREDIT 32.0
-/* A cell that is not halved further, or has no credit left, may borrow what leaving out its unlisted subsums would
- * save. The total lent is limited by what loans have saved so far, plus a share of all looks as an advance: along the
- * outline of stars two dozen looks save one subsum. On a loan, a cell with more than this many subsums is halved. */
+/* A cell that is not halved further, or has no credit left, may borrow the amount that leaving out its unlisted subsums
+ * would save. The total of loans is limited by what loans have saved so far, plus the fraction ON_TRUST of all tests:
+ * along the outline of stars two dozen tests save one subsum. On a loan, a cell with more than FEW subsums is
+ * halved. */
 #define ON_TRUST 0.1
 #define FEW 6
-/* The cost of walking round a subsum, in looks at pairs. */
+/* The cost of testing a window against a subsum, in tests of pairs. */
 #define WALK 4
-/* Leaving subsums out does not pay where more than MOST_NEEDED of all are needed; nor where the subsums cover their box
- * fewer than LEAST_LAYERS times on average, unless the largest sample has LARGE_SHARE of the box and holds LEAST_HELD
- * of the other samples. */
+/* Leaving subsums out is not worth its cost if more than the fraction MOST_NEEDED of all are needed; nor if the subsums
+ * cover their bounding box fewer than LEAST_LAYERS times on average, unless the largest sample has the fraction
+ * LARGE_SHARE of the box and contains the fraction LEAST_HELD of the other samples. */
 #define MOST_NEEDED 0.5
 #define LEAST_LAYERS 4
 #define LARGE_SHARE 0.1
 #define LEAST_HELD 0.25
 #define SAMPLES 64
-/* A box halved more often than this is a point in doubles. */
+/* A box that was halved more often than this is a point in doubles. */
 #define DEPTH 96
 
 typedef struct pair {
-    uint32_t a, b; /* groups */
+    uint32_t a, b; /* group numbers */
 } pair;
 
 typedef struct cell {
     double box[4];
-    size_t from, to; /* its pairs */
-    double subsums;  /* in these */
+    size_t from, to; /* its pairs are finder.pair[from .. to - 1] */
+    double subsums;  /* the number of subsums in these pairs */
     double credit;
     int depth;
     bool stubborn; /* halving its parent gained nothing */
 } cell;
 
-/* A loan: the looks that a cell and those below it may take beyond their credit; one loan at a time. */
+/* A loan: the tests that a cell and its descendants may use beyond their credit. There is one loan at a time. */
 typedef struct loan {
     bool on;
-    size_t cells;            /* on the stack below it */
-    size_t listed, unlisted; /* subsums listed when it began, and those that would have been listed without it */
-    double looks;            /* the finder's looks when it began */
+    size_t cells;            /* the number of cells on the stack below the cell with the loan */
+    size_t listed, unlisted; /* the number of subsums listed when the loan began, and of those that would have been
+                              * listed without it */
+    double looks;            /* finder.looks when the loan began */
 } loan;
 
 typedef struct finder {
     const sunder_i_piece_tree *p, *q;
     sunder_i_subsum_list *out;
-    double whole; /* all subsums */
+    double whole; /* the number of all subsums */
     double error;
-    pair *pair; /* lists of all cells on the stack, one after the other */
+    pair *pair; /* the pairs of all cells on the stack, cell by cell */
     size_t pairs, capacity;
     cell *stack;
     size_t cells, cells_capacity;
-    double spent;    /* looks at the current cell */
-    double subsums;  /* in the pairs listed for a half */
-    uint64_t holder; /* the subsum that holds the window, once `held` */
-    double worth;    /* the worth of leaving a subsum out, in looks; 0: no loans */
-    double looks;    /* looks at all cells so far */
-    double balance;  /* what loans have saved, less what they took, in looks */
+    double spent;    /* the tests for the current cell */
+    double subsums;  /* the number of subsums in the pairs that are listed for a half */
+    uint64_t holder; /* the subsum that contains the window, if `held` */
+    double worth;    /* the value of leaving one subsum out, in tests; 0: no loans */
+    double looks;    /* the tests for all cells so far */
+    double balance;  /* what loans have saved, minus what they have used, in tests */
     loan loan;
     bool held, no_memory;
 } finder;
@@ -97,14 +101,14 @@ static uint64_t subsum_of(const finder *f, uint32_t a, uint32_t b)
     return (uint64_t)f->p->group[a].piece << 32 | f->q->group[b].piece;
 }
 
-/* Where does the window lie, relative to the sum of the longest pieces of two groups? */
+/* Returns the position of the window relative to the sum of the longest pieces of groups a and b. */
 static sunder_i_window_place place_of(finder *f, uint32_t a, uint32_t b, const sunder_i_cell_window *w)
 {
     f->spent += WALK;
     return sunder_i_approx_sum_sees(f->p, f->p->group[a].piece, f->q, f->q->group[b].piece, w);
 }
 
-/* ---- Pairs that reach into a window ---- */
+/* ---- Pairs that meet a window ---- */
 
 static bool apart(const sunder_i_piece_group *a, const sunder_i_piece_group *b, const sunder_i_cell_window *w)
 {
@@ -128,14 +132,15 @@ static double size_of(const sunder_i_piece_group *g)
     return sunder_i_max(g->high[0] - g->low[0], g->high[1] - g->low[1]);
 }
 
-/* Which of two groups is opened: the larger of those with several pieces. True for the first. */
+/* Returns true if the first group of a pair is the one to replace by its subgroups: of the groups with several pieces
+ * the larger one is replaced. */
 static bool opens_first(const sunder_i_piece_group *a, const sunder_i_piece_group *b)
 {
     return b->pieces == 1 || (a->pieces > 1 && size_of(a) >= size_of(b));
 }
 
-/* Lists the parts of a pair that reach into the window, opened until none is larger than `size`; stops when one subsum
- * is found to hold the window. */
+/* Lists the pairs below the pair (a, b) that may meet the window; a pair larger than `size` is replaced by pairs of
+ * subgroups. Stops when a subsum is found that contains the window. */
 static void list_pair(finder *f, uint32_t a, uint32_t b, const sunder_i_cell_window *w, double size)
 {
     const sunder_i_piece_group *ga = &f->p->group[a], *gb = &f->q->group[b];
@@ -159,9 +164,9 @@ static void list_pair(finder *f, uint32_t a, uint32_t b, const sunder_i_cell_win
         list_pair(f, first ? part[k] : a, first ? b : part[k], w, size);
 }
 
-/* ---- A subsum that holds a window ---- */
+/* ---- A subsum that contains a window ---- */
 
-/* May a subsum of the pair hold the window? */
+/* Returns false if certainly no subsum of the pair (a, b) contains the window. */
 static bool may_hold(const sunder_i_piece_group *a, const sunder_i_piece_group *b, const sunder_i_cell_window *w)
 {
     for (int k = 0; k < SUNDER_I_WAYS; k++) {
@@ -171,11 +176,12 @@ static bool may_hold(const sunder_i_piece_group *a, const sunder_i_piece_group *
     return true;
 }
 
-/* Looks for a subsum of the pair that holds the window, long pieces first. */
+/* Searches for a subsum of the pair (a, b) that contains the window, long pieces first. *looks limits the number of
+ * pairs tested. Returns true if one is found; f->holder is the subsum. */
 static bool find_holder(finder *f, uint32_t a, uint32_t b, const sunder_i_cell_window *w, int *looks)
 {
     const sunder_i_piece_group *ga = &f->p->group[a], *gb = &f->q->group[b];
-    if (--*looks < 0 || !sunder_i_step()) return false; /* told to stop; the next listing of pairs reports it */
+    if (--*looks < 0 || !sunder_i_step()) return false; /* cancelled; the next call of list_pair() reports it */
     f->spent++;
     if (!may_hold(ga, gb, w)) return false;
     if (ga->pieces == 1 && gb->pieces == 1) {
@@ -207,8 +213,8 @@ static void need(finder *f, uint64_t subsum)
     l->all = (double)l->n > MOST_NEEDED * f->whole;
 }
 
-/* Appends the pairs of pieces whose subsums reach into the cell to the lists; if one of them holds the cell it becomes
- * needed, and the cell is finished. */
+/* Appends the pairs of pieces whose subsums meet the cell to the lists. If one of them contains the cell, that one
+ * becomes needed, and the cell is finished. Returns false if the cell is finished or if out of memory. */
 static bool list_single(finder *f, const cell *c, const sunder_i_cell_window *w)
 {
     f->held = false;
@@ -225,8 +231,8 @@ static void need_listed(finder *f, const cell *c)
 
 /* ---- Cells ---- */
 
-/* Pushes one half of a cell, with those of the cell's pairs that reach into it, unless none does, or one subsum holds
- * it. */
+/* Pushes one half of a cell, with those of the cell's pairs that meet it. A half that no pair meets is not pushed, nor
+ * one that a subsum contains: this subsum becomes needed. */
 static void put_half(finder *f, const cell *c, const double box[4])
 {
     const sunder_i_cell_window w = sunder_i_cell_window_of(box, f->error);
@@ -248,7 +254,8 @@ static void put_half(finder *f, const cell *c, const double box[4])
     f->stack[f->cells++] = (cell){{box[0], box[1], box[2], box[3]}, from, f->pairs, f->subsums, 0, c->depth + 1, false};
 }
 
-/* Halves the cell across its longer axis; the remaining credit is divided in proportion to the halves' pairs. */
+/* Halves the cell across its longer axis; the remaining credit is divided between the halves in proportion to the
+ * subsums in their pairs. */
 static void halve(finder *f, const cell *c)
 {
     const int axis = c->box[3] - c->box[1] > c->box[2] - c->box[0];
@@ -267,7 +274,7 @@ static void halve(finder *f, const cell *c)
 
 /* ---- Loans ---- */
 
-/* Is the cell, whose pieces are listed, worth a closer look on loan? */
+/* Grants the cell, whose pieces are listed, a loan if the rules at ON_TRUST allow it. Returns true if it did. */
 static bool borrow(finder *f, cell *c)
 {
     size_t unlisted = 0;
@@ -287,10 +294,10 @@ static void pay_back(finder *f)
     f->loan.on = false;
 }
 
-/* ---- The descent ---- */
+/* ---- Depth-first search ---- */
 
-/* Is the cell to be halved further? If not, the subsums that reach into it are taken as needed, or the one that holds
- * it. */
+/* Returns true if the cell is to be halved further. Otherwise the subsums that meet it become needed, or the one that
+ * contains it. */
 static bool goes_on(finder *f, cell *c, const sunder_i_cell_window *w)
 {
     const double leaf = c->stubborn ? STUBBORN_LEAF : f->loan.on ? FEW : LEAF;
@@ -311,7 +318,7 @@ static void descend(finder *f)
         if (f->loan.on && f->cells == f->loan.cells) pay_back(f);
         cell c = f->stack[--f->cells];
         const sunder_i_cell_window w = sunder_i_cell_window_of(c.box, f->error);
-        f->pairs = c.to; /* lists above belong to finished cells */
+        f->pairs = c.to; /* the lists above belong to finished cells */
         f->spent = 0;
         if (!goes_on(f, &c, &w)) continue;
         if (is_held(f, &c, &w))
@@ -322,7 +329,7 @@ static void descend(finder *f)
     }
 }
 
-/* Samples: spread evenly, and those of long pieces. */
+/* Two sequences of sample pairs: pieces spread evenly over the operands, and long pieces. */
 static pair sample_of(const finder *f, uint32_t k)
 {
     return (pair){(uint32_t)((uint64_t)k * 7919 % f->p->pieces->n), (uint32_t)((uint64_t)k * 104729 % f->q->pieces->n)};
@@ -333,7 +340,7 @@ static pair long_sample_of(const finder *f, uint32_t k)
     return (pair){f->p->group[k % f->p->groups].piece, f->q->group[k * 5 % f->q->groups].piece};
 }
 
-/* How many of the samples lie inside that subsum? */
+/* Returns the number of samples whose bounding boxes are inside the subsum `in`. */
 static uint32_t count_held(const finder *f, pair in)
 {
     uint32_t held = 0;
@@ -349,7 +356,8 @@ static uint32_t count_held(const finder *f, pair in)
     return held;
 }
 
-/* Do the subsums overlap in several layers, or lie mostly inside one of them? */
+/* Returns true if leaving subsums out is worth its cost: the subsums cover the box several times, or are mostly inside
+ * one of them. */
 static bool is_worth_it(const finder *f, const double box[4])
 {
     double sum = 0, most = 0;

@@ -1,4 +1,5 @@
-/* The tree of pieces: each as doubles, in the order of a curve through the plane, halved again and again. */
+/* piece_tree.c: the tree of pieces: they are converted to doubles, sorted along a space-filling curve, and divided in
+ * halves recursively. */
 #include "convex/piece_tree.h"
 
 #include "predicate/predicate.h"
@@ -10,8 +11,8 @@
 #include <math.h>
 #include <string.h>
 
-/* Doubles of one corner and of the side that starts there. Vectors are taken from exact differences, so that their
- * error is relative to themselves. */
+/* Returns the doubles of the corner `from` and of the vector to the corner `to`. The vector is computed from exact
+ * differences, so that its error is relative to its length. */
 static sunder_i_approx_side side_of(sunder_i_lattice *l, sunder_i_point from, sunder_i_point to)
 {
     if (l->narrow)
@@ -29,7 +30,7 @@ static void clear(sunder_i_piece_group *g)
     }
 }
 
-/* The group of one piece; fills in its sides. */
+/* Returns the group of one piece, and stores its sides in the tree. */
 static sunder_i_piece_group single(sunder_i_piece_tree *t, uint32_t piece)
 {
     const sunder_i_convex_pieces *s = t->pieces;
@@ -53,11 +54,11 @@ static sunder_i_piece_group single(sunder_i_piece_tree *t, uint32_t piece)
 
 static double length_of(const sunder_i_piece_group *g) { return sunder_i_max(g->widest[0], g->widest[1]); }
 
-/* What the groups are made from. */
+/* The input of the tree's construction. */
 typedef struct maker {
     sunder_i_piece_tree *tree;
-    const sunder_i_piece_group *single; /* [pieces] */
-    uint32_t *order;                    /* [pieces] */
+    const sunder_i_piece_group *single; /* [pieces] the groups of single pieces */
+    uint32_t *order;                    /* [pieces] the pieces in the order of the curve */
 } maker;
 
 static void join(sunder_i_piece_group *g, const sunder_i_piece_group *part)
@@ -70,7 +71,7 @@ static void join(sunder_i_piece_group *g, const sunder_i_piece_group *part)
     g->pieces += part->pieces;
 }
 
-/* The group of the pieces from..to in order, from < to. */
+/* Adds the group of the pieces order[from .. to - 1], from < to, with all its subgroups. Returns its number. */
 static uint32_t make_group(maker *m, uint32_t from, uint32_t to)
 {
     sunder_i_piece_tree *t = m->tree;

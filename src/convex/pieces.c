@@ -1,4 +1,4 @@
-/* Lists of convex pieces: made, ranked, summed. */
+/* pieces.c: lists of convex pieces: construction, ranks, sums. */
 #include "convex/pieces.h"
 
 #include "base/invariant.h"
@@ -44,7 +44,7 @@ void sunder_i_convex_pieces_add_shape(sunder_i_convex_pieces *list, const sunder
     }
 }
 
-/* Shrinks the array to n elements. If that fails the array keeps its size. */
+/* Shrinks the memory of an array to n elements. If that fails, the array keeps its size. */
 static void cut_off(void *array, size_t n, size_t size)
 {
     void *old;
@@ -58,7 +58,7 @@ void sunder_i_convex_pieces_remove(sunder_i_convex_pieces *list, const bool *gon
     uint32_t n = 0, corners = 0;
     for (uint32_t i = 0, first = 0; i < list->n; i++) {
         const uint32_t end = list->end[i], m = end - first;
-        if (!gone[i] && n == i) { /* nothing was removed so far: each is in its place */
+        if (!gone[i] && n == i) { /* nothing was removed so far: the piece is not moved */
             corners += m;
             n++;
         } else if (!gone[i]) {
@@ -89,7 +89,7 @@ static uint32_t sides_of(const sunder_i_convex_pieces *list, uint32_t piece)
     return n < 2 ? 0 : n;
 }
 
-/* Writes the vectors of all sides, one after the other; returns how many. */
+/* Writes the vectors of the sides of all pieces to `side`, piece by piece. Returns their number. */
 static size_t side_vectors(sunder_i_lattice *l, const sunder_i_convex_pieces *list, sunder_i_point *side)
 {
     size_t sides = 0;
@@ -109,7 +109,8 @@ static void rotate(void *array, size_t size, uint32_t n, uint32_t by, void *room
     memcpy(item + (n - by) * size, room, by * size);
 }
 
-/* Collinear sides have one rank: the first of them, which may stand at the end of the list, comes first. */
+/* Rotates the corners of a piece so that it starts with a side of the least rank. If several collinear sides have that
+ * rank, the first of them, which may be at the end of the list, comes first. */
 static void start_with_least(sunder_i_convex_pieces *list, uint32_t first, uint32_t n, void *room)
 {
     uint32_t *rank = list->rank + first, least = 0;
@@ -123,7 +124,8 @@ static void start_with_least(sunder_i_convex_pieces *list, uint32_t first, uint3
     if (list->vertex) rotate(list->vertex + first, sizeof *list->vertex, n, least, room);
 }
 
-/* Sets the ranks of the sides, each piece rotated to start with its least. */
+/* Sets the ranks of the sides, and rotates each piece so that it starts with the least one. Returns the number of ranks
+ * used. */
 static size_t take_ranks(sunder_i_convex_pieces *list, const uint32_t *rank, void *room)
 {
     size_t sides = 0;
@@ -192,8 +194,8 @@ bool sunder_i_convex_pieces_init_sum(const sunder_i_convex_pieces *a, const sund
     return true;
 }
 
-/* A point only shifts the other piece, and two parallel segments make a segment, so only two points are a special
- * case. */
+/* Appends the sum of piece i of a and piece j of b. A point only translates the other piece, and two parallel segments
+ * give a segment, so that only two points are a special case. */
 static void add_sum(const sunder_i_convex_pieces *a, uint32_t i, const sunder_i_convex_pieces *b, uint32_t j,
                     sunder_i_convex_pieces *out)
 {

@@ -1,4 +1,4 @@
-/* A list, and a table of the places in it: open addressing, at most half full. */
+/* subsum_list.c: a list of subsums, and a hash table of their indices with open addressing, at most half full. */
 #include "convex/subsum_list.h"
 
 #include "base/memory.h"
@@ -9,7 +9,7 @@
 
 #define LEAST_SLOTS 1024
 
-/* The slot of a subsum, or the free slot where it would be entered. */
+/* Returns the slot of a subsum in the hash table, or the free slot for it. */
 static size_t slot_of(const sunder_i_subsum_list *l, uint64_t subsum)
 {
     size_t at = (size_t)((subsum * SUNDER_I_MIXER) >> 32) & (l->slots - 1);

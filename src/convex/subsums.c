@@ -1,5 +1,5 @@
-/* Subsums: the operands' pieces are made and ranked, each piece of one is merged with each of the other where the union
- * needs it, and sides are tested for whether they can carry boundary. */
+/* subsums.c: computes the subsums: the operands' pieces are made and ranked, the needed pairs are merged, and each side
+ * is tested whether it can contain boundary. */
 #include "convex/subsums.h"
 
 #include "base/watch.h"
@@ -13,7 +13,7 @@
 typedef struct operand {
     const sunder_shape *shape;
     sunder_i_convex_pieces pieces;
-    uint32_t *edge_rank; /* [vertices] rank of the boundary edge (v, next[v]) */
+    uint32_t *edge_rank; /* [vertices] the rank of the boundary edge (v, next[v]) */
 } operand;
 
 static void operand_free(operand *o)
@@ -35,8 +35,8 @@ static void take_edge_ranks(operand *o)
         if (o->pieces.candidate[k]) o->edge_rank[o->pieces.vertex[k]] = o->pieces.rank[k];
 }
 
-/* Does the exterior angle at vertex v contain the rank r? The vertex is then convex, a left turn. Where several
- * vertices stand at one place each has a sector of its own (shape.h), and what any of them covers is covered. */
+/* Returns true if the exterior angle at vertex v contains rank r. Then the vertex is convex, a left turn. If several
+ * vertices have one position, each has a sector of its own (shape.h), and the union of their results is correct. */
 static bool holds(const operand *o, uint32_t v, uint32_t r, uint32_t classes)
 {
     const sunder_shape *s = o->shape;
@@ -46,7 +46,7 @@ static bool holds(const operand *o, uint32_t v, uint32_t r, uint32_t classes)
     return turn < classes && step <= turn;
 }
 
-/* Is side k of a an edge for which the corner of b is a vertex whose exterior angle contains its direction? */
+/* Returns true if side k of a is an edge whose direction is in the exterior angle of the vertex `vertex` of b. */
 static bool is_candidate(const operand *a, uint32_t k, const operand *b, uint32_t vertex, uint32_t classes)
 {
     return a->pieces.candidate[k] && holds(b, vertex, a->pieces.rank[k], classes);
@@ -79,7 +79,7 @@ static uint32_t corners_of(const sunder_i_convex_pieces *list, uint32_t piece)
     return list->end[piece] - sunder_i_convex_pieces_first(list, piece);
 }
 
-/* The subsums of a list that leaves some out. */
+/* Adds the subsums of an incomplete list. */
 static bool add_listed(const operand *p, const operand *q, const sunder_i_subsum_list *list,
                        sunder_i_convex_pieces *out)
 {
@@ -109,9 +109,10 @@ static bool add_all(const operand *p, const operand *q, sunder_i_convex_pieces *
     return true;
 }
 
-/* Below this number all subsums are made. */
+/* If there are fewer subsums than this, all are computed. */
 #define FEW_SUBSUMS 256
-/* Making one and finding it covered takes some ten thousand instructions (stars, random polygons). */
+/* The cost of computing a subsum and finding it covered, in looks at pairs: about ten thousand instructions (stars,
+ * random polygons). */
 #define SUBSUM_WORTH 128.0
 
 static bool add_needed(const operand *p, const operand *q, sunder_i_convex_pieces *out)

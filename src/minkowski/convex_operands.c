@@ -1,9 +1,10 @@
-/* Two convex polygons: their sides in the order of their angles are the sides of the sum. No arrangement is needed, and
- * most buildings are such.
+/* convex_operands.c: the sum of two convex polygons: their sides in the order of their angles are the sides of the sum.
+ * No arrangement is needed. Most buildings are such polygons.
  *
- * Both walks start in the lexicographically smallest corner. From there directions turn from straight down (excluded)
- * once around: first those that lead to greater points, then those that lead back. Sides of one direction make one
- * side, so no vertex is straight, and the sum starts in its own smallest corner: it is canonical as it comes. */
+ * Both polygons are traversed from their lexicographically smallest corner. From there the directions of the sides turn
+ * once around, from straight down (excluded): first those of sides that lead to greater points, then those that lead
+ * back. Sides of equal direction become one side, so that no vertex is straight, and the sum starts at its own smallest
+ * corner: it is in canonical form. */
 #include "minkowski/convex_operands.h"
 
 #include "convex/merge.h"
@@ -19,7 +20,7 @@ static uint32_t smallest(sunder_i_lattice *l, const sunder_shape *shape, const s
 
 typedef struct side {
     sunder_i_point along;
-    bool back; /* does it lead to a smaller point? */
+    bool back; /* does the side lead to a lexicographically smaller point? */
 } side;
 
 static side side_from(sunder_i_lattice *l, const sunder_shape *shape, const sunder_i_point *at, uint32_t v)
@@ -28,7 +29,7 @@ static side side_from(sunder_i_lattice *l, const sunder_shape *shape, const sund
     return (side){sunder_i_point_sub_inline(l, to, from), sunder_i_point_cmp_inline(l, to, from) < 0};
 }
 
-/* Which comes first; 0: they have one direction. */
+/* Compares two sides in the order of the traversal; 0: they have the same direction. */
 static int order(sunder_i_lattice *l, const side *s, const side *t)
 {
     if (s->back != t->back) return s->back ? 1 : -1;

@@ -1,41 +1,44 @@
-/* A polygon P, with or without holes, plus one convex polygon Q: no decomposition and no arrangement of many subsums,
- * only one walk around P. Most buildings and symbols make such sums. Several of them can be united in one pass, as
- * *rounds*.
+/* convolution.c: a polygon P, with or without holes, plus one convex polygon Q, computed by following one closed curve
+ * along P, without a decomposition or an arrangement of many subsums. Most buildings and map symbols have such sums.
+ * Several of them can be united in one computation, each as a *round*.
  *
- * The convolution [GRS83] of P's rings with Q is one closed curve for each ring: every side of P moved by the corner of
- * Q that is extreme in its outward direction, joined at a convex vertex v by the arc of v + Q between the two corners,
- * at a reflex one by that arc run backwards. Its winding number at x is the Euler characteristic of the intersection of
- * P and x - Q: the number of its components less the number of holes of P that lie inside x - Q. Here
+ * The convolution [GRS83] of P's rings with Q consists of one closed curve for each ring: every side of P translated by
+ * the corner of Q that is extreme in the side's outward direction; at a convex vertex v two such sides are joined by
+ * the arc of v + Q between the two corners, at a reflex one by that arc in the opposite direction. The winding number
+ * of the curves at x is the Euler characteristic of the intersection of P and x - Q: the number of its components minus
+ * the number of holes of P that are inside x - Q. Here
  *
- *  - holes of P into which Q's box does not fit are left out, which changes nothing, and no other hole has a box that
- *    fits into Q's. So the number counts components: the interiors meet at x exactly where it is positive, and it is
- *    never negative;
- *  - an arc run backwards is replaced by its chord. The number rises by one between arc and chord; that region is
- *    inside v + Q, where it was positive already. So the set where it is positive remains the same.
+ *   - holes of P into which Q's box does not fit are omitted, which changes nothing, and no other hole has a box that
+ *     fits into Q's. So the winding number counts components: the interiors of P and x - Q meet exactly if it is
+ *     positive, and it is never negative;
+ *   - an arc in the opposite direction is replaced by its chord. This increases the winding number by one between arc
+ *     and chord; that region is inside v + Q, where the number was positive already. So the set where it is positive
+ *     remains the same.
  *
- * With several rounds the numbers add up. None is ever negative, so the set where the sum is positive is the union, and
- * everything said here of one round holds for them together.
+ * With several rounds the winding numbers are added. None is ever negative, so that the set where the sum is positive
+ * is the union, and all statements here about one round hold for several.
  *
  * P may have a vertex that touches one of its edges from outside. (A vertex that touches from inside, or touches
- * another vertex, stands twice in the curve, which is then declined.) Imagine that vertex moved off the edge by a small
- * amount: the ring becomes simple, its curve changes by as small an amount, and it bounds a subset of P that tends to
- * all of P's interior. Tame curves remain tame under small moves, and no part of them collapses in the limit.
+ * another vertex, is twice in the curve, which is then declined.) If that vertex is moved off the edge by a small
+ * amount, the ring becomes simple, its curve changes by the same small amount, and the ring bounds a subset of P that
+ * tends to all of P's interior. Tame curves remain tame under small changes, and no part of them vanishes in the limit.
  *
- * The curve is *tame* if two links meet only in these ways: consecutive links in their common end, and pairs that cross
- * in their relative interiors, with no third link through that point. Now walk along the curve and keep the winding
- * number on the right-hand side. It changes only where another link crosses, by one; the pieces of links with 0 on
- * their right are the boundary of the sum.
+ * The curve is *tame* if two links meet only in these ways: consecutive links at their common end, and pairs that cross
+ * in their relative interiors, with no third link through that point. The curve is then traversed while the winding
+ * number on its right side is updated. That number changes only where another link crosses, by one; the pieces of links
+ * with 0 on their right are the boundary of the sum.
  *
- * There are no degenerate holes then. A degenerate hole would lie on the curve. It cannot lie on a chord, ends
- * included: x - Q has the reflex vertex v on its boundary or in its interior, and so reaches into P. Beside a moved
- * side or an arc the number is positive on both sides, so on the right there is a component other than the one that the
- * link's own contact creates and removes. That component is still there on the link, since another link would have to
- * pass for it to vanish. At a crossing the same argument holds for the quarter to the right of both links.
+ * Then there are no degenerate holes. A degenerate hole would be on the curve. It cannot be on a chord, ends included:
+ * there x - Q has the reflex vertex v on its boundary or in its interior, and so meets the interior of P. Beside a
+ * translated side or an arc the number is positive on both sides, so that on the right there is a component other than
+ * the one that the contact of this link creates and removes. That component also exists on the link itself, since it
+ * could vanish only where another link passes. At a crossing the same argument holds for the quarter to the right of
+ * both links.
  *
- * Rings of the result: no point has two boundary pieces, except a vertex where one continues the other, so the rings
- * are simple and disjoint. An outer ring turns left in its smallest vertex; a round has one outer ring, since P and Q
- * are connected. Collinear vertices cannot arise: parallel sides of P and Q are joined. All tests are exact and need a
- * narrow lattice; on other lattices, and where the curve is not tame, the general road is taken. */
+ * Rings of the result: no point belongs to two boundary pieces, except a vertex where one continues the other, so that
+ * the rings are simple and disjoint. An outer ring turns left at its smallest vertex; a round has one outer ring, since
+ * P and Q are connected. Collinear vertices cannot arise: parallel sides of P and Q are joined. All tests are exact and
+ * need a narrow lattice; on other lattices, and if the curve is not tame, the general method is used (minkowski.c). */
 #include "minkowski/convolution.h"
 
 #include "base/watch.h"
@@ -48,17 +51,17 @@ typedef struct box {
     sunder_i_point low, high;
 } box;
 
-/* A piece of a link is what lies between two stops, or a stop and an end. Link i has its pieces from
- * stop_begin(i) + i on, one more than it has stops. */
+/* The state of the traversal. A piece of a link is the part between two stops, or between a stop and an end. The pieces
+ * of link i have the numbers from stop_begin(i) + i on; there is one more of them than stops. */
 typedef struct walker {
     const sunder_i_convolution *curve;
-    int32_t *right; /* [pieces] the winding number on the right hand */
-    bool *done;     /* [pieces] */
-    bool tame;      /* nothing was found that cannot be */
-    box *reach;     /* [rings] of the curve */
+    int32_t *right; /* [pieces] the winding number on the right side */
+    bool *done;     /* [pieces] whether the piece is in a ring of the result already */
+    bool tame;      /* false: a contradiction to the assumption that the curve is tame was found */
+    box *reach;     /* [rings] the bounding boxes of the curve's rings */
     sunder_i_traced *to;
-    uint32_t first;   /* vertex of this curve's rings in the sum */
-    uint32_t *leaves; /* [vertices of these] the link that continues the ring */
+    uint32_t first;   /* the first vertex of the sum that belongs to this curve's rings */
+    uint32_t *leaves; /* [vertices of these rings] the link on which the ring continues */
 } walker;
 
 static uint32_t stop_begin(const sunder_i_convolution *c, uint32_t link) { return link ? c->stop_end[link - 1] : 0; }
@@ -88,8 +91,8 @@ static box box_of(const sunder_i_convolution *c, uint32_t begin, uint32_t end)
     return b;
 }
 
-/* How often some links that close wind around a place that none of them touches: those that cross the ray from there to
- * the left. */
+/* Returns the winding number, at a point that is on no link, of the closed curve of the links [begin, end). It counts
+ * the links that cross the ray from the point to the left. */
 static int32_t winding_of(const sunder_i_convolution *c, sunder_i_point at, uint32_t begin, uint32_t end)
 {
     int32_t winding = 0;
@@ -98,12 +101,13 @@ static int32_t winding_of(const sunder_i_convolution *c, sunder_i_point at, uint
         if ((a.y > at.y) == (b.y > at.y)) continue;
         const bool up = b.y > at.y;
         const sunder_i_det side = sunder_i_narrow_orient(a, b, at);
-        if (up ? side < 0 : side > 0) winding += up ? -1 : 1; /* it passes to the left of the place */
+        if (up ? side < 0 : side > 0) winding += up ? -1 : 1; /* the link passes to the left of the point */
     }
     return winding;
 }
 
-/* The same of all rings but one: those whose boxes hold the place. */
+/* Returns the winding number, at the point `at`, of all rings except `ring`; only rings whose boxes contain the point
+ * count. */
 static int32_t winding_of_others(const walker *w, sunder_i_point at, uint32_t ring)
 {
     const sunder_i_convolution *c = w->curve;
@@ -117,8 +121,9 @@ static int32_t winding_of_others(const walker *w, sunder_i_point at, uint32_t ri
     return winding;
 }
 
-/* At a ring's smallest corner the outside of the ring is to the left of the bend: a left turn has it on the right hand,
- * a right turn on the left, and there the ring itself counts -1 on the right. */
+/* Returns the winding number on the right of the link that leaves the ring's smallest corner, `least`. There the
+ * outside of the ring is to the left of the corner: a left turn has the outside on its right side; a right turn has it
+ * on its left, so that the ring itself counts -1 on the right. */
 static int32_t number_at(const walker *w, uint32_t least, uint32_t ring)
 {
     const sunder_i_convolution *c = w->curve;
@@ -149,7 +154,7 @@ static void number_ring(walker *w, uint32_t ring)
 
 /* ---- Rings ---- */
 
-/* A vertex, and the link that continues its ring. */
+/* Adds a vertex to the sum; `leaves` is the link on which its ring continues. Returns false if out of memory. */
 static bool add_vertex(walker *w, sunder_i_hpoint at, uint32_t leaves)
 {
     sunder_i_traced *t = w->to;
@@ -161,8 +166,8 @@ static bool add_vertex(walker *w, sunder_i_hpoint at, uint32_t leaves)
     return true;
 }
 
-/* Follows the boundary from piece k of link i until it closes: at a crossing it goes on on the link that comes from the
- * left, which has the free side on its right as well. False if memory is out. */
+/* Follows the boundary from piece k of link i until it closes: at a crossing it continues on the other link, which
+ * comes from the left and has the free side on its right as well. Returns false if out of memory. */
 static bool follow(walker *w, uint32_t i, uint32_t k)
 {
     const sunder_i_convolution *c = w->curve;
@@ -193,7 +198,7 @@ static sunder_i_point along(const walker *w, uint32_t vertex)
     return sunder_i_narrow_sub(c->corner[c->next[link]], c->corner[link]);
 }
 
-/* Takes the vertices of the sum from `start` on as a ring. False if memory is out. */
+/* Makes a ring of the vertices of the sum from number `start` on. Returns false if out of memory. */
 static bool add_ring(walker *w, uint32_t start)
 {
     sunder_i_traced *t = w->to;
@@ -224,9 +229,10 @@ static bool follow_all(walker *w)
     return true;
 }
 
-/* ---- Which holes are in which component ---- */
+/* ---- Components of the holes ---- */
 
-/* Does a ring hold the place of a vertex of another one? An odd number of its sides is to the left of that then. */
+/* Returns true if ring r contains the position of a vertex of another ring. Then an odd number of the sides of r is to
+ * the left of that vertex. */
 static bool holds(const walker *w, const sunder_i_found_ring *r, uint32_t vertex)
 {
     const sunder_i_convolution *c = w->curve;
@@ -246,8 +252,8 @@ static bool holds(const walker *w, const sunder_i_found_ring *r, uint32_t vertex
     return odd;
 }
 
-/* Each outer ring begins a component; a hole is in that of the innermost one around it, which of those around it has
- * the greatest smallest vertex. */
+/* Numbers the components: each outer ring begins one; a hole belongs to that of the innermost outer ring around it,
+ * which is the one with the greatest smallest vertex. */
 static void find_components(walker *w, size_t first_ring)
 {
     sunder_i_traced *t = w->to;
@@ -257,7 +263,7 @@ static void find_components(walker *w, size_t first_ring)
     if (t->components == before + 1) return;
     for (size_t r = first_ring; r < t->rings; r++) {
         if (t->ring[r].outer) continue;
-        if (!sunder_i_steps(t->rings - first_ring)) w->tame = false; /* told to stop: the next allocation fails */
+        if (!sunder_i_steps(t->rings - first_ring)) w->tame = false; /* cancelled: the next allocation fails */
         size_t best = t->rings;
         for (size_t o = first_ring; o < t->rings; o++)
             if (t->ring[o].outer && holds(w, &t->ring[o], t->vertex[t->ring[r].start]) &&
@@ -271,7 +277,7 @@ static void find_components(walker *w, size_t first_ring)
     }
 }
 
-/* ---- All of it ---- */
+/* ---- The whole computation ---- */
 
 static bool walk(sunder_i_convolution *c, sunder_i_traced *to, bool *done)
 {
@@ -311,7 +317,7 @@ static sunder_status trace(sunder_i_convolution *c, sunder_i_traced *to, bool *d
     return walk(c, to, done) ? SUNDER_OK : sunder_i_no_memory(err);
 }
 
-/* Stack memory that suffices for a building and a disc. */
+/* The size of the stack memory, enough for a building and a disc. */
 enum { LENT = 16384 };
 
 sunder_status sunder_i_convolution_trace(sunder_i_traced *to, const sunder_i_round *round, size_t rounds, bool *done,

@@ -1,4 +1,5 @@
-/* Where the curve crosses itself: chains by their boxes, from left to right, then link by link, exactly. */
+/* convolution_crossings.c: finds the crossings of the curve: first pairs of chains with overlapping boxes, from left to
+ * right, then pairs of links, exactly. */
 #include "minkowski/convolution_inner.h"
 
 #include "base/sort.h"
@@ -6,28 +7,28 @@
 
 #include <string.h>
 
-/* Boxes of chains from left to right, as doubles: rounding keeps their order, so what is apart there is apart. In
- * arrays for each bound, since most of the time goes into comparing them. */
+/* The boxes of chains from left to right, as doubles: rounding is monotone, so that boxes that are disjoint as doubles
+ * are disjoint. There is one array for each bound, since most of the time goes into comparing them. */
 typedef struct boxes {
     double *low_x, *high_x, *low_y, *high_y; /* [chains] */
-    uint32_t *chain;                         /* [chains] its number */
-    uint32_t *near;                          /* [chains] of those that overlap the box at hand */
+    uint32_t *chain;                         /* [chains] the number of each box's chain */
+    uint32_t *near;                          /* [chains] the boxes that overlap the current one */
 } boxes;
 
 typedef struct crosser {
     sunder_i_convolution *curve;
-    size_t pairs; /* that may still be looked at */
+    size_t pairs; /* the number of pairs that may still be tested */
     bool fits, no_memory;
 } crosser;
 
-/* Pairs of chains and pairs of links to look at, a chain on the average. What is longer in the direction of the sweep
- * is left to the general road, which has a better order. */
+/* The number of pairs of chains, and of pairs of links, that may be tested for each chain, on average. Curves that are
+ * longer in the direction of the sweep are left to the general method, which has a better order. */
 static const size_t patience = 256;
 
-/* Without branches, since these are mispredicted so often that superfluous tests cost less. */
+/* The functions below avoid branches: these would be mispredicted so often that superfluous tests cost less. */
 
-/* May they meet in nothing but the end that they share, by their making? A side is on a line that supports v + Q at
- * both of its vertices v. Two sides with a chord between them cross, mostly. */
+/* Returns true if chains a and b can meet only at their common end, by construction. A side is on a line that supports
+ * v + Q at both of its vertices v. (Two sides with a chord between them usually cross.) */
 static bool are_neighbours(const sunder_i_convolution *c, const sunder_i_chain *a, const sunder_i_chain *b)
 {
     const uint32_t *next = c->after;
@@ -46,25 +47,25 @@ static inline int64_t most(int64_t a, int64_t b) { return a < b ? b : a; }
 
 static bool link_apart(sunder_i_point a, sunder_i_point b, const sunder_i_chain *c)
 {
-    const bool left = most(a.x, b.x) < c->low[0], right = least(a.x, b.x) > c->high[0];
-    const bool below = most(a.y, b.y) < c->low[1], above = least(a.y, b.y) > c->high[1];
+    const bool left = most(a.x, b.x)<c->low[0], right = least(a.x, b.x)> c->high[0];
+    const bool below = most(a.y, b.y)<c->low[1], above = least(a.y, b.y)> c->high[1];
     return left | right | below | above;
 }
 
 static bool links_apart(sunder_i_point a, sunder_i_point b, sunder_i_point c, sunder_i_point d)
 {
-    const bool left = most(a.x, b.x) < least(c.x, d.x), right = least(a.x, b.x) > most(c.x, d.x);
-    const bool below = most(a.y, b.y) < least(c.y, d.y), above = least(a.y, b.y) > most(c.y, d.y);
+    const bool left = most(a.x, b.x)<least(c.x, d.x), right = least(a.x, b.x)> most(c.x, d.x);
+    const bool below = most(a.y, b.y)<least(c.y, d.y), above = least(a.y, b.y)> most(c.y, d.y);
     return left | right | below | above;
 }
 
-/* Where lines ab and cd cross: s / r of the way from a to b, and t / r from c to d; r > 0. */
+/* The intersection of the lines ab and cd: a + (s / r) (b - a) = c + (t / r) (d - c), with r > 0. */
 typedef struct meeting_point {
     sunder_i_det s, t, r;
-    bool rises; /* ab goes to the left of cd */
+    bool rises; /* ab crosses to the left side of cd */
 } meeting_point;
 
-/* False if they are parallel. */
+/* Returns false if the lines are parallel. */
 static bool find_meeting_point(const sunder_i_point ab[2], const sunder_i_point cd[2], meeting_point *m)
 {
     const sunder_i_point u = sunder_i_narrow_sub(ab[1], ab[0]), w = sunder_i_narrow_sub(cd[1], cd[0]);
@@ -90,7 +91,8 @@ static void add_crossing(crosser *x, uint32_t i, uint32_t j, const meeting_point
     c->lattice->counts.segment_intersections += 2;
 }
 
-/* Two links whose boxes meet. One that goes into the other's end, or lies along it, is not for this road. */
+/* Tests two links with overlapping boxes. If an end of one is on the other, or the two overlap, x->fits becomes
+ * false. */
 static void cross_links(crosser *x, uint32_t i, const sunder_i_point ab[2], uint32_t j, const sunder_i_point cd[2])
 {
     sunder_i_lattice *l = x->curve->lattice;
@@ -99,7 +101,7 @@ static void cross_links(crosser *x, uint32_t i, const sunder_i_point ab[2], uint
         x->fits &= sunder_i_segments_meet(l, ab[0], ab[1], cd[0], cd[1]) == SUNDER_I_APART;
         return;
     }
-    const bool sides = m.t < 0 || m.t > m.r; /* c and d are on one side of ab */
+    const bool sides = m.t < 0 || m.t > m.r; /* c and d are on the same side of ab */
     l->counts.orientation_tests += sides ? 2 : 4;
     if (sides || m.s < 0 || m.s > m.r) return;
     if (m.s == 0 || m.s == m.r || m.t == 0 || m.t == m.r)
@@ -121,7 +123,8 @@ static void cross_chains(crosser *x, const sunder_i_chain *a, const sunder_i_cha
     }
 }
 
-/* Lists the boxes behind number i that overlap it; past the last one there is. */
+/* Lists in x->near the boxes after box i that overlap it, *n of them. Returns the index after the last box that was
+ * tested. */
 static uint32_t list_near(const boxes *x, uint32_t i, uint32_t end, uint32_t *n)
 {
     const double right = x->high_x[i], low = x->low_y[i], high = x->high_y[i];
@@ -158,14 +161,14 @@ typedef struct stop_order {
     const sunder_i_stop *stop;
 } stop_order;
 
-/* Compares stops on one link. */
+/* Compares two stops on the same link. */
 static int compare_stops(void *context, uint32_t a, uint32_t b)
 {
     const stop_order *o = context;
     return sunder_i_fraction_cmp(o->lattice, &o->stop[a].at, &o->stop[b].at);
 }
 
-/* The numbers of all stops, link by link; and where those of each link end. */
+/* Lists the numbers of all stops in `order`, link by link, and sets stop_end. */
 static void group_stops(sunder_i_convolution *c, uint32_t *order)
 {
     uint32_t *end = c->stop_end, before = 0;
@@ -173,13 +176,14 @@ static void group_stops(sunder_i_convolution *c, uint32_t *order)
     for (size_t i = 0; i < c->stops; i++) end[c->stop[i].link]++;
     for (uint32_t k = 0; k < c->links; k++) {
         const uint32_t own = end[k];
-        end[k] = before; /* where the next goes; in the end the end */
+        end[k] = before; /* the index of the next stop of link k; after the loop below the end of its stops */
         before += own;
     }
     for (uint32_t i = 0; i < c->stops; i++) order[end[c->stop[i].link]++] = i;
 }
 
-/* Puts the stops in order, partners with them. Two stops at one place of a link are three links that cross there. */
+/* Sorts the stops along their links, and updates their partners. x->fits becomes false if two stops have the same
+ * position on a link, since then three links cross there. Returns false if out of memory. */
 static bool order_stops(crosser *x, uint32_t *order, uint32_t *rank, sunder_i_stop *sorted)
 {
     sunder_i_convolution *c = x->curve;
@@ -201,7 +205,7 @@ static bool order_stops(crosser *x, uint32_t *order, uint32_t *rank, sunder_i_st
     return true;
 }
 
-/* Boxes from left to right: by insertion where they are few. */
+/* Sorts the boxes from left to right, by insertion if there are few. Returns false if out of memory. */
 static bool order_boxes(sunder_i_convolution *c, boxes *out)
 {
     enum { FEW = 32 };

@@ -1,23 +1,24 @@
-/* The curve: P's sides, each moved by the corner of Q that is extreme in its outward direction, and what joins them. */
+/* convolution_curve.c: constructs the curve: P's sides, each translated by the corner of Q that is extreme in its
+ * outward direction, and the arcs and chords that join them. */
 #include "minkowski/convolution_inner.h"
 
 #include <string.h>
 
-/* One round. Vertices of its P are numbered from 0 on here, and so are the arrays. */
+/* The state of one round. The vertices of its P are numbered from 0 on; so are the arrays. */
 typedef struct mover {
     sunder_i_convolution *curve;
     const sunder_i_round *round;
-    const sunder_i_point *at; /* [n] P's vertices */
-    const uint32_t *next;     /* [n] along the ring, as in the shape: less `start` */
-    uint32_t start, n;        /* P's first vertex in the shape */
-    uint32_t base, ring;      /* its number in the curve, and that of P's first ring */
-    bool *reflex, *joined;    /* [n] in the curve's arrays */
-    sunder_i_point *q;        /* [m] Q's corners, counter-clockwise */
+    const sunder_i_point *at; /* [n] the vertices of P */
+    const uint32_t *next;     /* [n] the next vertex of the ring, with the shape's numbers: subtract `start` */
+    uint32_t start, n;        /* start: the number of P's first vertex in the shape */
+    uint32_t base, ring;      /* the number of P's first vertex in the curve, and that of P's first ring */
+    bool *reflex, *joined;    /* [n] these two are parts of the curve's arrays */
+    sunder_i_point *q;        /* [m] the corners of Q, counterclockwise */
     uint32_t m;
-    uint32_t *first, *last;    /* [n] the corners of Q extreme for the side that leaves a vertex; they differ where Q
-                                  has a side of that direction, from first to last */
-    sunder_i_point *from, *to; /* [n] that side, moved */
-    bool *backwards;           /* [n] run against its direction */
+    uint32_t *first, *last;    /* [n] the corners of Q that are extreme for the side that leaves a vertex; they differ
+                                * if Q has a side of that direction, which goes from first to last */
+    sunder_i_point *from, *to; /* [n] the ends of that side after translation */
+    bool *backwards;           /* [n] whether the translated side has the opposite direction */
 } mover;
 
 static sunder_i_point sum_of(sunder_i_point a, sunder_i_point b) { return (sunder_i_point){a.x + b.x, a.y + b.y}; }
@@ -27,15 +28,15 @@ static uint32_t before(const mover *t, uint32_t j) { return j ? j - 1 : t->m - 1
 static uint32_t next_of(const mover *t, uint32_t v) { return t->next[v] - t->start; }
 static uint32_t prev_of(const mover *t, uint32_t v) { return t->round->p->form->cleaned.prev[t->start + v] - t->start; }
 
-/* The sign of the turn from d to the side of Q that ends in corner j. */
+/* Returns the sign of the turn from d to the side of Q that ends at corner j. */
 static int turn_to(const mover *t, sunder_i_point d, uint32_t j)
 {
     const sunder_i_det c = sunder_i_narrow_cross(d, sunder_i_narrow_sub(t->q[j], t->q[before(t, j)]));
     return (c > 0) - (c < 0);
 }
 
-/* From corner j, the last extreme one of the side before, to the last for d: forwards at a left turn, backwards at a
- * right one. */
+/* Returns the last corner of Q that is extreme for d. The search starts at corner j, the last extreme one of the
+ * previous side, and goes forwards at a left turn, backwards at a right turn. */
 static uint32_t walk_to(const mover *t, uint32_t j, sunder_i_point d, bool backwards)
 {
     if (backwards)
@@ -45,7 +46,7 @@ static uint32_t walk_to(const mover *t, uint32_t j, sunder_i_point d, bool backw
     return j;
 }
 
-/* The last of the corners that are extreme for d: the lowest across it. */
+/* Returns the last of the corners of Q that are extreme for d: the corners farthest to the right of d. */
 static uint32_t find_corner(const mover *t, sunder_i_point d)
 {
     uint32_t best = 0;
@@ -56,7 +57,7 @@ static uint32_t find_corner(const mover *t, sunder_i_point d)
 
 /* ---- Holes ---- */
 
-/* The corners of a ring of P, and how far they reach along x and y. */
+/* Stores the width and the height of a ring of n vertices in `size`. */
 static void size_of(const sunder_i_point *at, uint32_t n, int64_t size[2])
 {
     sunder_i_point low = at[0], high = at[0];
@@ -77,17 +78,17 @@ static uint32_t rings_of(const mover *t)
     return t->round->p->form->cleaned.poly_end[t->round->polygon] - first_ring(t);
 }
 
-/* Ring r of P. */
+/* Returns the end of ring r of P. */
 static uint32_t ring_end(const mover *t, uint32_t r)
 {
     return t->round->p->form->cleaned.ring_end[first_ring(t) + r] - t->start;
 }
 static uint32_t ring_begin(const mover *t, uint32_t r) { return r ? ring_end(t, r - 1) : 0; }
 
-/* Drops a hole that is narrower than Q along x or y, which changes nothing [BFHHM15]: where the interior of x - Q does
- * not meet P it lies in one hole, since it is connected, and it does not fit into this one. A hole with exactly Q's
- * extent along both axes may be filled by a translate of -Q, where winding numbers do not count components: then *fits
- * is false. */
+/* Omits a hole that is narrower than Q along x or y, which changes nothing [BFHHM15]: if the interior of x - Q does not
+ * meet P, it is in one hole, since it is connected, and it does not fit into this one. A hole with exactly Q's extent
+ * along both axes may be filled by a translate of -Q, where winding numbers do not count components: then *fits becomes
+ * false. */
 static void leave_out_holes(const mover *t, bool *fits)
 {
     int64_t size[2], own[2];
@@ -104,8 +105,8 @@ static void leave_out_holes(const mover *t, bool *fits)
 
 /* ---- Sides ---- */
 
-/* Which corners are extreme for the sides of one ring. False where two rings meet in a vertex, which then is not of one
- * chain. */
+/* Finds the extreme corners for the sides of one ring. Returns false if two rings meet in a vertex, since that vertex
+ * would belong to several chains, or if a vertex is straight. */
 static bool find_corners(mover *t, uint32_t start)
 {
     uint32_t v = start;
@@ -125,10 +126,11 @@ static bool find_corners(mover *t, uint32_t start)
     return true;
 }
 
-/* A side of Q with the direction of P's side is joined to it. At a reflex end it would be run back at once, and is left
- * out. So with two reflex ends Q's side is subtracted from P's, and the difference is run backwards where Q's side is
- * the longer: then Q reaches into P at both ends wherever the two sides are in contact, and the argument about chords
- * holds (convolution.c). False where the difference is zero, which may be an exact fit. */
+/* Translates the sides of P. A side of Q with the direction of P's side is joined to it. At a reflex end it would be
+ * traversed in the opposite direction at once, and is omitted. So with two reflex ends Q's side is subtracted from P's,
+ * and the difference has the opposite direction if Q's side is the longer one: then the interior of Q meets that of P
+ * at both ends whenever the two sides are in contact, and the argument about chords holds (convolution.c). Returns
+ * false if the difference is zero, which may be an exact fit. */
 static bool move_sides(mover *t, uint32_t begin, uint32_t end)
 {
     const bool *reflex = t->reflex;
@@ -172,7 +174,7 @@ static void add_chain(sunder_i_convolution *c, uint32_t vertex, uint32_t first, 
     c->chain[c->chains++] = x;
 }
 
-/* From where the side before v ends to where the side that leaves v starts. */
+/* Adds the arc or chord from the end of the side before v to the beginning of the side that leaves v. */
 static void add_joint(mover *t, uint32_t v)
 {
     sunder_i_convolution *c = t->curve;
@@ -212,9 +214,9 @@ static void add_links(mover *t)
     }
 }
 
-/* ---- All of it ---- */
+/* ---- The whole curve ---- */
 
-/* The numbers of one round; those of the next one follow. */
+/* Returns the state for one round, whose vertices and rings are numbered after those of the previous rounds. */
 static mover mover_of(sunder_i_convolution *c, const sunder_i_round *round)
 {
     const uint32_t ring = sunder_i_round_first_ring(round), end = round->p->form->cleaned.poly_end[round->polygon];
@@ -233,7 +235,7 @@ static mover mover_of(sunder_i_convolution *c, const sunder_i_round *round)
     return t;
 }
 
-/* Memory for what the rounds have in common. */
+/* Allocates the arrays that all rounds share. Returns false if out of memory. */
 static bool make_room(sunder_i_convolution *c)
 {
     sunder_i_arena *m = &c->memory;
@@ -263,7 +265,8 @@ static bool make_own_room(mover *t)
     return true;
 }
 
-/* Moves the sides of one round; how many links there will be is added to *links. */
+/* Translates the sides of one round; adds the number of its links to *links. *fits becomes false if the round cannot be
+ * computed in this way. */
 static void move_round(mover *t, bool *fits, size_t *links)
 {
     leave_out_holes(t, fits);

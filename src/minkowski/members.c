@@ -1,5 +1,6 @@
-/* Members are grouped by the boxes of their sums with the other operand: what is not in one group has no point in
- * common. A group of few is one curve, if the other operand or all of its members are convex. */
+/* members.c: the polygons of a set are grouped by the bounding boxes of their sums with the other operand: polygons of
+ * different groups have sums without a common point. A small group is computed as one curve, if the other operand or
+ * all of its polygons are convex. */
 #include "minkowski/members.h"
 
 #include "base/extremes.h"
@@ -13,15 +14,16 @@
 #include <math.h>
 #include <string.h>
 
-/* Members that meet more others than this on average form large groups, if not a single one. */
+/* The method is declined if each polygon overlaps more others than this on average, since then there are large groups,
+ * or only one. */
 #define MOST_MEETINGS 32
 
 typedef struct grouper {
     const sunder_shape *many, *one;
     const sunder_i_point *at_many, *at_one;
-    double (*box)[4]; /* [n] of each member's sum */
-    uint32_t *group;  /* [n] a forest, see base/union_find.h */
-    uint32_t *order;  /* [n] members group by group */
+    double (*box)[4]; /* [n] the box of each polygon's sum */
+    uint32_t *group;  /* [n] a union-find forest, see base/union_find.h */
+    uint32_t *order;  /* [n] the polygons, group by group */
     uint32_t n;
     bool one_convex;
     sunder_i_members_left *left;
@@ -36,7 +38,7 @@ static uint32_t first_vertex(const sunder_shape *s, uint32_t ring)
     return ring ? s->form->cleaned.ring_end[ring - 1] : 0;
 }
 
-/* One ring that turns left everywhere. */
+/* Returns true if the polygon has one ring, which turns left at every vertex. */
 static bool is_convex(const sunder_shape *s, const sunder_i_point *at, uint32_t polygon)
 {
     const uint32_t ring = first_ring(s, polygon);
@@ -49,8 +51,8 @@ static bool is_convex(const sunder_shape *s, const sunder_i_point *at, uint32_t 
 
 /* ---- Groups ---- */
 
-/* Adds the box of a polygon. Doubles are off by at most 2^-53 of the value, so the widened boxes of two sums that share
- * a point overlap. */
+/* Adds the box of a polygon to `box`. Doubles have a relative error of at most 2^-53, so that the widened boxes of two
+ * sums with a common point overlap. */
 static void add_box(const sunder_shape *s, const sunder_i_point *at, uint32_t polygon, double box[4])
 {
     const uint32_t ring = first_ring(s, polygon), begin = first_vertex(s, ring);
@@ -80,7 +82,8 @@ static void make_boxes(const grouper *g)
         for (int k = 0; k < 4; k++) g->box[i][k] += (k < 2 ? -1 : 1) * 0x1p-48 * most;
 }
 
-/* Joins what overlaps; *fits is false where that is too much. */
+/* Joins polygons with overlapping boxes; *fits becomes false if there are too many overlaps. Fails with
+ * SUNDER_ENOMEM. */
 static sunder_status join_groups(grouper *g, bool *fits, sunder_error *err)
 {
     sunder_i_rtree tree;
@@ -102,7 +105,7 @@ static sunder_status join_groups(grouper *g, bool *fits, sunder_error *err)
     return status;
 }
 
-/* Members in the order of their groups, and of their numbers in these. */
+/* Sorts the polygons by group, and by number within a group. Returns false if out of memory. */
 static bool order_members(grouper *g)
 {
     uint64_t *key = sunder_i_alloc(g->n, sizeof *key);
@@ -116,7 +119,8 @@ static bool order_members(grouper *g)
 
 /* ---- Rounds ---- */
 
-/* The rounds of the members order[from..to - 1]; false where one has no convex operand, or there are too many. */
+/* Makes the rounds of the polygons order[from .. to - 1]. Returns false if one of them has no convex operand, or if
+ * there are too many. */
 static bool make_rounds(const grouper *g, uint32_t from, uint32_t to, sunder_i_round round[SUNDER_I_MOST_CURVES])
 {
     size_t rings = 0;
@@ -215,7 +219,7 @@ bool sunder_i_members_view_init(const sunder_shape *many, const bool *polygon, s
             if (takes) vertex[corners++] = from[k];
         if (takes) end[pieces++] = corners;
     }
-    memmove(end + pieces, vertex, corners * sizeof *end); /* corners come right behind the ends */
+    memmove(end + pieces, vertex, corners * sizeof *end); /* the vertices follow the ends directly */
     view->pieces = pieces;
     sunder_i_free(wanted);
     return true;

@@ -1,7 +1,7 @@
-/* Which road leads to the sum? A merge for two convex operands; the convolution where one is convex and the other is
- * one polygon, unless the curve is not tame; rectangles where all sides run along the axes; the reduced convolution for
- * two simple polygons, unless it is large or not tame; else the outline of the union of all subsums. Other roads are
- * taken on request (../unions/). */
+/* minkowski.c: selects the method for a sum: a merge for two convex operands; the convolution if one operand is convex
+ * and the other is one polygon, unless the curve is not tame; rectangles if all sides are parallel to the axes; the
+ * reduced convolution for two simple polygons, unless it is large or not tame; else the outline of the union of all
+ * subsums. Other algorithms are used on request (../unions/). */
 #include "minkowski/minkowski.h"
 
 #include "base/clock.h"
@@ -23,7 +23,7 @@
 
 #include <string.h>
 
-/* The general road. */
+/* The general method: the outline of the union of the needed subsums. */
 static sunder_status unite_subsums(sunder_sum *sum, const sunder_shape *p, const sunder_shape *q,
                                    const sunder_i_placed *at, double start, const sunder_sum_options *options,
                                    sunder_error *err)
@@ -46,7 +46,7 @@ typedef struct operands {
     double start;
 } operands;
 
-/* Hands the outline over to a new sum, which stands on no lattice; NULL if memory is out. */
+/* Moves the outline to a new sum without a lattice. Returns NULL if out of memory. */
 static sunder_sum *take_outline(sunder_sum *sum)
 {
     sunder_sum *part = sunder_i_calloc(1, sizeof *part);
@@ -60,7 +60,7 @@ static sunder_sum *take_outline(sunder_sum *sum)
     return part;
 }
 
-/* The general road for those of several members that are not in the sum yet. */
+/* Adds the sums of those polygons that are not in the sum yet, by the general method. */
 static sunder_status unite_rest(sunder_sum *sum, const operands *o, bool of_p, const sunder_i_members_left *left,
                                 const sunder_sum_options *options, sunder_error *err)
 {
@@ -79,7 +79,8 @@ static sunder_status unite_rest(sunder_sum *sum, const operands *o, bool of_p, c
     return status;
 }
 
-/* Several members and a single one: those that are apart from all others by themselves. */
+/* Adds several polygons and a single one: those with disjoint sums, or sums in small groups, by sunder_i_members_sum(),
+ * the rest by the general method. *done: whether it did. */
 static sunder_status sum_members(sunder_sum *sum, const operands *o, bool *done, const sunder_sum_options *options,
                                  sunder_error *err)
 {
@@ -94,7 +95,7 @@ static sunder_status sum_members(sunder_sum *sum, const operands *o, bool *done,
     return status;
 }
 
-/* One of the roads that are for some operands only, if these are such. */
+/* Computes the sum by one of the special methods if the operands allow it. *done: whether it did. */
 static sunder_status try_special(sunder_sum *sum, const operands *o, bool *done, const sunder_sum_options *options,
                                  sunder_error *err)
 {
@@ -133,7 +134,7 @@ static sunder_status build(sunder_sum *sum, const sunder_shape *p, const sunder_
     return status;
 }
 
-/* Is each option one of its values? */
+/* Fails with SUNDER_EARG if an option has a value that does not exist. */
 static sunder_status check_options(const sunder_sum_options *o, sunder_error *err)
 {
     if ((unsigned)o->algorithm > SUNDER_ALGORITHM_DIVIDE)

@@ -1,5 +1,5 @@
-/* The sum: which road leads to it is decided here, and sunder_minkowski_sum() is this with force_wide false. With
- * force_wide, which tests ask for, numbers are big integers throughout, whatever the operands. */
+/* Computes the sum of p and q with the method that suits the operands; sunder_minkowski_sum() calls this function with
+ * force_wide false. If force_wide is set, as in tests, all numbers are big integers, whatever the operands. */
 #ifndef SUNDER_I_MINKOWSKI_H
 #define SUNDER_I_MINKOWSKI_H
 

@@ -1,41 +1,43 @@
-/* Two simple polygons P and Q, neither of them convex: the outline of O = int P + int Q from the reduced convolution,
- * without pieces and subsums. For operands of fifty vertices it has some hundred segments and a few thousand crossings.
+/* reduced_convolution.c: two simple polygons P and Q, neither of them convex: the outline of O = int P + int Q from the
+ * reduced convolution, without pieces and subsums. For operands of fifty vertices it has some hundred segments and a
+ * few thousand crossings.
  *
  * The *segments* of the reduced convolution [BL11]: each convex vertex of one operand carries the sides of the other
- * whose directions lie strictly between those of its own two sides. Operands with a pair of parallel sides of one
+ * whose directions are strictly between those of its own two sides. Operands with a pair of parallel sides of one
  * direction are declined, so that "between" is unambiguous. Let x be in P + Q, but not in O: then P and x - Q touch,
- * with disjoint interiors. Each place where they touch is one of
+ * with disjoint interiors. Each point where they touch is one of
  *
- *   a vertex on the inside of a side   the vertex is convex, and carries the side: x is inside a segment
- *   two convex vertices                a line separates them, so the directions that they carry have an interval in
- *                                      common; the segments of its first and its last direction end and begin in x
- *   a convex and a reflex vertex       the convex one fits into the other's notch, and carries both its sides: one
- *                                      segment ends and the other begins in x
+ *   a vertex in the interior of a side  the vertex is convex, and carries the side: x is inside a segment
+ *   two convex vertices                 a line separates them, so that the directions that they carry have an interval
+ *                                       in common; the segments of its first and its last direction end and begin in x
+ *   a convex and a reflex vertex        the convex one fits into the other's notch, and carries both its sides: one
+ *                                       segment ends and the other begins in x
  *
- * (Sides in contact along a stretch would have one direction, and two reflex vertices overlap.) So the boundary of O,
- * its degenerate holes included, is on segments. A segment has a loose end where a convex vertex carries only one of
- * the two sides at a reflex vertex; the convex vertex reaches into the other operand there, so the end is in O.
+ * (Sides in contact along a stretch would have the same direction, and two reflex vertices overlap.) So the boundary of
+ * O, its degenerate holes included, is on segments. A segment has a loose end if a convex vertex carries only one of
+ * the two sides at a reflex vertex; there the convex vertex is in the interior of the other operand, so that the end is
+ * in O.
  *
- * The segments are *tame* if two of them meet only in these ways: consecutive segments, as above, in their common end,
- * and pairs that cross in their relative interiors, with no third segment through that point. A place x on segments
+ * The segments are *tame* if two of them meet only in these ways: consecutive segments, as above, at their common end,
+ * and pairs that cross in their relative interiors, with no third segment through that point. A point x on segments
  * that is not in O then has one contact for each segment, or for two consecutive ones, and no other. Near x, these
  * contacts determine O:
  *
- *   inside one segment          its left side
- *   where one continues another the left of both, or of either: the second segment continues the boundary
- *   where two cross             the left of either; the free wedge is right of both
+ *   inside one segment            its left side
+ *   where one continues another   the left of both, or of either: the second segment continues the boundary
+ *   where two cross               the left of either; the free wedge is right of both
  *
  * In no case does the sum surround x, or a line through x: there are no degenerate holes. Between two stops, a segment
  * is in O entirely, or is boundary entirely. So the boundary consists of whole *links* between stops, and each link has
- * one successor: at a crossing it is a link of the other segment, provided that the first link arrives at the other
- * segment's right side. A link that arrives from the left is in O, so is one that leads to a loose end, and so is a
- * link whose successor is in O. The rest are *cycles* of links, and a cycle is boundary entirely or not at all: one
- * place of it is tested (reduced_convolution_inside.c). The cycle through the smallest vertex of the sum needs no test,
- * being the outer ring. There is no other outer ring, since O is connected.
+ * one successor: at a crossing it is a link of the other segment, if the first link arrives at the other segment's
+ * right side. A link that arrives from the left is in O, so is one that leads to a loose end, and so is a link whose
+ * successor is in O. The others form *cycles* of links, and a cycle is boundary entirely or not at all: one point of it
+ * is tested (reduced_convolution_inside.c). The cycle through the smallest vertex of the sum needs no test: it is the
+ * outer ring. There is no other outer ring, since O is connected.
  *
  * No two cycles meet, and none meets itself, since at a crossing only one link leaves to the right of both. A vertex
- * between consecutive links is never straight. Every decision here is exact or certain; where it would not be, or the
- * segments are not tame, this road declines and the general road is taken. */
+ * between consecutive links is never straight. Every decision here is exact or certain; if one would not be, or the
+ * segments are not tame, this method declines and the general method is used. */
 #include "minkowski/reduced_convolution_inner.h"
 
 #include "base/watch.h"
@@ -45,17 +47,18 @@
 
 #define NO_LINK UINT32_MAX
 
-/* Segment a has its links from stop_begin(a) + a on, one more than it has stops. */
+/* The state of the search for cycles. The links of segment a have the numbers from stop_begin(a) + a on; there is one
+ * more of them than stops. */
 typedef struct tracer {
     sunder_i_reduced *r;
-    uint32_t *segment; /* [links] */
-    uint32_t *next;    /* [links] or NO_LINK */
-    uint32_t *visit;   /* [links] the number of the walk that came by, from 1 on, or 0 */
-    uint32_t *cycle;   /* [links] the cycle at hand */
-    uint32_t n;        /* links in it */
+    uint32_t *segment; /* [links] the segment of each link */
+    uint32_t *next;    /* [links] the successor of each link, or NO_LINK */
+    uint32_t *visit;   /* [links] the number of the traversal that reached the link, from 1 on; 0: none */
+    uint32_t *cycle;   /* [links] the current cycle */
+    uint32_t n;        /* the number of links in it */
     sunder_i_place_query inside;
     sunder_sum *sum;
-    uint32_t *vertex; /* the rings, one after the other */
+    uint32_t *vertex; /* the vertex numbers of the rings, ring by ring */
     sunder_i_found_ring *ring;
     size_t rings, vertices_room, numbers_room, rings_room;
 } tracer;
@@ -70,7 +73,7 @@ static bool rises(const sunder_i_reduced *r, uint32_t end)
     return r->crossing[end / 2].first_rises != (end % 2 == 1);
 }
 
-/* Which link follows which. */
+/* Sets the successor of each link. */
 static void find_next(tracer *t)
 {
     const sunder_i_reduced *r = t->r;
@@ -88,7 +91,7 @@ static void find_next(tracer *t)
 
 /* ---- Rings ---- */
 
-/* Where a link begins: at the start of its segment, or at a stop. */
+/* Returns the point where a link begins: the beginning of its segment, or a stop. */
 static sunder_i_hpoint start_of(const tracer *t, uint32_t link)
 {
     const sunder_i_reduced *r = t->r;
@@ -105,7 +108,7 @@ static sunder_i_hpoint start_of(const tracer *t, uint32_t link)
                               &at);
 }
 
-/* Takes the cycle at hand as a ring; a ring begins at its smallest vertex. False if memory is out. */
+/* Makes a ring of the current cycle; a ring begins at its smallest vertex. Returns false if out of memory. */
 static bool add_ring(tracer *t, bool outer)
 {
     sunder_sum *sum = t->sum;
@@ -119,7 +122,7 @@ static bool add_ring(tracer *t, bool outer)
     for (uint32_t i = 0; i < t->n; i++) {
         at[i] = start_of(t, t->cycle[i]);
         if (!outer && sunder_i_hpoint_cmp(&sum->lattice, &at[i], &at[least]) < 0)
-            least = i; /* an outer one begins so */
+            least = i; /* an outer ring begins there already */
     }
     sum->vertices = end;
     for (uint32_t i = 0; i < t->n; i++)
@@ -130,7 +133,7 @@ static bool add_ring(tracer *t, bool outer)
 
 /* ---- Cycles ---- */
 
-/* About the middle of a link, where along its segment. */
+/* Returns a parameter, along its segment, of a point near the middle of a link. */
 static double middle_of(const tracer *t, uint32_t link)
 {
     const sunder_i_reduced *r = t->r;
@@ -139,7 +142,7 @@ static double middle_of(const tracer *t, uint32_t link)
     return (from + (stop < r->stop_end[a] ? r->stop[stop].value : 1)) / 2;
 }
 
-/* Is the cycle at hand in O? Asked of one link after the other until the answer is certain. */
+/* Returns whether the current cycle is in O. The links are tested one after the other until the answer is certain. */
 static sunder_i_place_in_sum ask(tracer *t)
 {
     for (uint32_t i = 0; i < t->n; i++) {
@@ -150,8 +153,8 @@ static sunder_i_place_in_sum ask(tracer *t)
     return SUNDER_I_UNCERTAIN;
 }
 
-/* Goes on from a link for as long as there is one that was not come by. Is it one of this walk where that ends? Then
- * the cycle is from there on. */
+/* Follows successors from a link until there is none or the next one was reached before. Returns true if that one was
+ * reached in this traversal: then the links from there on form the current cycle. */
 static bool walk(tracer *t, uint32_t link, uint32_t number)
 {
     uint32_t n = 0;
@@ -167,7 +170,8 @@ static bool walk(tracer *t, uint32_t link, uint32_t number)
     return true;
 }
 
-/* The segment that begins at the smallest vertex of the sum, which is the sum of the operands' smallest. */
+/* Returns the segment that begins at the smallest vertex of the sum, which is the sum of the operands' smallest
+ * vertices; SUNDER_I_NO_SEGMENT: none. */
 static uint32_t outermost(const sunder_i_reduced *r)
 {
     uint32_t least[2] = {0, 0};
@@ -179,7 +183,8 @@ static uint32_t outermost(const sunder_i_reduced *r)
     return sunder_i_reduced_starting_at(r, least[0], least[1]);
 }
 
-/* *fits is false where something is not certain. Returns false if memory is out. */
+/* Finds all cycles and makes rings of those on the boundary. *fits becomes false if a decision is not certain. Returns
+ * false if out of memory. */
 static bool trace(tracer *t, bool *fits)
 {
     const uint32_t links = t->r->segments + 2 * (uint32_t)t->r->crossings, first = outermost(t->r);
@@ -212,7 +217,7 @@ static bool finish(tracer *t)
     return sunder_i_canonical(&found, sum);
 }
 
-/* *done is set where the cycles are those of the sum. False if memory is out. */
+/* Sets the outline of the sum; *done: whether the cycles prove it. Returns false if out of memory. */
 static bool trace_sum(sunder_i_reduced *r, sunder_sum *sum, bool *done)
 {
     const size_t links = r->segments + 2 * r->crossings;
@@ -237,7 +242,7 @@ static bool trace_sum(sunder_i_reduced *r, sunder_sum *sum, bool *done)
     return ok;
 }
 
-/* What operands of some dozen vertices need, without their segments. */
+/* The size of the stack memory, enough for operands with some dozen vertices, without their segments. */
 enum { LENT = 16384 };
 
 sunder_status sunder_i_reduced_convolution_sum(sunder_sum *sum, const sunder_shape *p, const sunder_i_point *at_p,

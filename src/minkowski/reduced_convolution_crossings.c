@@ -1,5 +1,5 @@
-/* Where segments of the reduced convolution cross: in strips along x, from left to right, those that overlap along both
- * axes, exactly. */
+/* reduced_convolution_crossings.c: finds the crossings of the segments: in strips parallel to the x axis, from left to
+ * right, pairs that overlap along both axes are tested exactly. */
 #include "minkowski/reduced_convolution_inner.h"
 
 #include "base/watch.h"
@@ -7,23 +7,30 @@
 
 #include <string.h>
 
-/* Where segments cross more often, on the average, the outline is a small part of the arrangement. */
+/* The largest number of crossings for each segment, on average. If there are more, the outline is a small part of the
+ * arrangement, and the general method is faster. */
 #define MOST_CROSSINGS 16
-/* Strips are about as high as segments: in lower ones these would be listed more often than it helps. */
+/* Bounds for the number of strips. A strip is about as high as a segment: in lower strips segments would be listed more
+ * often than this saves tests. */
 #define LEAST_STRIP_BITS 3
 #define MOST_STRIP_BITS 8
 #define MOST_STRIPS (1u << MOST_STRIP_BITS)
-/* More stops of one segment are sorted by merging. */
+/* With more stops than this on one segment, they are sorted by merging. */
 #define FEW_STOPS 24
-/* Quotients of exact numbers as doubles are off by less than 2^-51 each (sunder_i_narrow_value()). */
+/* Quotients of exact numbers, as doubles, have an error below 2^-51 each (sunder_i_narrow_value()). */
 #define CERTAIN SUNDER_I_DOUBT(0x1p-48)
 
 /* ---- Two segments ---- */
 
-typedef enum meeting { APART, ACROSS, PERHAPS } meeting; /* perhaps: an end of one is on the line of the other */
+typedef enum meeting {
+    APART,
+    ACROSS,
+    PERHAPS
+} meeting; /* PERHAPS: an end of one segment is on the line of the
+                                                          * other */
 
-/* Two segments do not cross in their insides, and may meet for all that is known: they may do so only where one goes on
- * in the other. They are not collinear then (reduced_convolution.c), and meet nowhere else. */
+/* Returns true if segments a and b, which do not cross in their interiors, meet at most where one continues the other.
+ * In that case they are not collinear (reduced_convolution.c), and meet nowhere else. */
 static bool may_meet(sunder_i_reduced *r, uint32_t a, uint32_t b)
 {
     const sunder_i_reduced_segment *s = &r->segment[a], *t = &r->segment[b];
@@ -33,8 +40,9 @@ static bool may_meet(sunder_i_reduced *r, uint32_t a, uint32_t b)
     return sunder_i_segments_meet(r->lattice, s->from, s_end, t->from, t_end) == SUNDER_I_APART;
 }
 
-/* For segments s and t: s0 and s1 tell on which side of the line of s the start and the end of t lie, t0 and t1 the
- * same for the line of t and s; from the vector between the two starts. */
+/* Classifies two segments with the vectors s and t, where `way` is the vector from the beginning of s to that of t. The
+ * signs of s0 and s1 show on which side of the line of s the beginning and the end of t are, those of t0 and t1 the
+ * same for the line of t and the ends of s. */
 static meeting brief_meeting(sunder_i_point s, sunder_i_point t, sunder_i_point way)
 {
     const int64_t d = sunder_i_brief_cross(s, t);
@@ -51,7 +59,8 @@ static meeting narrow_meeting(sunder_i_point s, sunder_i_point t, sunder_i_point
     return (((s0 < 0) != (s1 < 0)) & ((t0 < 0) != (t1 < 0))) ? ACROSS : APART;
 }
 
-/* Takes the crossing of two segments, if they cross; there is room for it. False where they meet otherwise. */
+/* Adds the crossing of segments a and b, if they cross; the list must have room for it. Returns false if they meet in
+ * another way. */
 static bool cross(sunder_i_reduced *r, uint32_t a, uint32_t b)
 {
     const sunder_i_point s = r->segment[a].along, t = r->segment[b].along;
@@ -79,14 +88,14 @@ static bool cross(sunder_i_reduced *r, uint32_t a, uint32_t b)
 /* A segment in a strip. */
 typedef struct member {
     sunder_i_steps_along x, y;
-    uint32_t segment, first; /* first: 1 where no strip below has it */
+    uint32_t segment, first; /* first: 1 if no lower strip contains the segment */
 } member;
 
 typedef struct strips {
-    int shift; /* from steps to strips */
+    int shift; /* the shift that converts steps to strips */
     uint32_t n;
-    size_t end[MOST_STRIPS]; /* past the last member of each */
-    member *member;          /* from left to right in each */
+    size_t end[MOST_STRIPS]; /* the index after the last segment of each strip */
+    member *member;          /* the segments of each strip, from left to right */
 } strips;
 
 static void choose_strips(const sunder_i_reduced *r, strips *s)
@@ -108,7 +117,7 @@ static bool list_members(sunder_i_reduced *r, strips *s)
         for (uint32_t k = r->y[a].low >> s->shift; k <= r->y[a].high >> s->shift; k++) s->end[k]++;
     for (uint32_t k = 0; k < s->n; k++) {
         const size_t own = s->end[k];
-        s->end[k] = all; /* where the next goes; in the end the end */
+        s->end[k] = all; /* the index of the next segment of strip k; after the loop below the end of its segments */
         all += own;
     }
     s->member = sunder_i_arena_alloc(&r->memory, all, sizeof *s->member);
@@ -118,8 +127,9 @@ static bool list_members(sunder_i_reduced *r, strips *s)
     return s->member;
 }
 
-/* Collects those behind the first of a list that may meet it. A pair with several strips in common is taken in the
- * lowest of them, where one of the two begins. Without branches, since these would be mispredicted. */
+/* Stores in `near` the segments after the first one of the list that may meet it, and returns their number. A pair with
+ * several strips in common is only used in the lowest of them, where one of the two begins. The loop avoids branches,
+ * since these would be mispredicted. */
 static size_t find_near(const member *list, size_t n, uint32_t *near)
 {
     const member own = list[0];
@@ -149,7 +159,7 @@ static bool cross_strip(sunder_i_reduced *r, const member *list, size_t n, uint3
 
 /* ---- Stops in the order of their segments ---- */
 
-/* Puts the stops of one segment in order. False if the work is to stop. */
+/* Sorts the stops of one segment. Returns false if cancelled. */
 static bool order(sunder_i_valued *stop, uint32_t n, sunder_i_valued *scratch)
 {
     if (n > FEW_STOPS) {
@@ -167,7 +177,7 @@ static bool order(sunder_i_valued *stop, uint32_t n, sunder_i_valued *scratch)
     return true;
 }
 
-/* Lists the stops segment by segment; returns how many one has at most. */
+/* Lists the stops, segment by segment. Returns the largest number of stops on a segment. */
 static uint32_t list_stops(sunder_i_reduced *r)
 {
     const uint32_t n = r->segments;
@@ -177,7 +187,8 @@ static uint32_t list_stops(sunder_i_reduced *r)
         for (int k = 0; k < 2; k++) r->stop_end[r->crossing[i].segment[k]]++;
     for (uint32_t a = 0; a < n; a++) {
         const uint32_t own = r->stop_end[a];
-        r->stop_end[a] = before; /* where the next goes; in the end the end */
+        r->stop_end[a] = before; /* the index of the next stop of segment a; after the loop below the end of its
+                                  * stops */
         before += own;
         most = own > most ? own : most;
     }
@@ -189,7 +200,8 @@ static uint32_t list_stops(sunder_i_reduced *r)
     return most;
 }
 
-/* *fits is false where doubles do not tell the order, as where three segments meet in one point. */
+/* Sorts the stops along their segments. *fits becomes false if doubles do not decide the order, for example if three
+ * segments meet in one point. Returns false if out of memory. */
 static bool order_stops(sunder_i_reduced *r, bool *fits)
 {
     const size_t stops = 2 * r->crossings;

@@ -1,10 +1,11 @@
-/* Is a place x on a segment inside the sum? In doubles with one-sided bounds, so the answer may be "not certain".
+/* reduced_convolution_inside.c: tests whether a point x of a segment is inside the sum, in doubles with one-sided error
+ * bounds, so that the result may be "uncertain".
  *
- * It is inside where some side of P crosses some side of x - Q, in the relative interiors of both, and if x is inside
- * such a crossing usually exists: since x is on a segment, the boundaries of x - Q and P are in contact, so neither
- * contains the other in its interior. If none is found, the winding number of the whole convolution [GRS83] is computed
- * just beside the segment: it is the number of components of the intersection of P and x - Q, both being simply
- * connected. */
+ * The point is inside if a side of P crosses a side of x - Q in the relative interiors of both, and for points inside
+ * such a crossing usually exists: since x is on a segment, the boundaries of x - Q and P are in contact, so that
+ * neither contains the other in its interior. If none is found, the winding number of the whole convolution [GRS83] is
+ * computed directly beside the segment: it is the number of components of the intersection of P and x - Q, since both
+ * are simply connected. */
 #include "minkowski/reduced_convolution_inner.h"
 
 #include "base/extremes.h"
@@ -13,18 +14,19 @@
 
 #include <math.h>
 
-/* Coordinates of operands and sums are within `most`, below 2^60 units, and u is 2^-53. A place worked out as from +
- * at * along is off by u * most for `from`, 6u * most for the product of up to 2 * most, and u * most for their sum.
- * Differences of it and of two coordinates, up to 4 * most, by 10u * most beside: together by less than 2^-48 * most. A
- * cross product with a vector d is off by as much times |dx| + |dy|, and by 4u of products up to 4 * most * |d|, less
- * than 2^-48 * most * (|dx| + |dy|) again. Twice the whole is used. */
+/* The error of coordinates. Coordinates of operands and sums are at most `most` in magnitude, below 2^60 units, and u
+ * is 2^-53. A point computed as from + at * along has an error of u * most for `from`, of 6u * most for the product of
+ * up to 2 * most, and of u * most for their sum. Differences of it and of two coordinates, up to 4 * most, add 10u *
+ * most: the total is less than 2^-48 * most. A cross product with a vector d has an error of this times |dx| + |dy|,
+ * plus 4u of products up to 4 * most * |d|, again less than 2^-48 * most * (|dx| + |dy|). Twice the total is used. */
 #define ERROR SUNDER_I_DOUBT(0x1p-46)
 
-/* The budget of sides and vertices looked at, for each vertex of the operands: random polygons of a hundred vertices
- * take some five hundred. Where a sum of large operands has many holes the general road is faster. */
+/* The number of sides and vertices that may be tested, for each vertex of the operands: random polygons of a hundred
+ * vertices need about five hundred. If a sum of large operands has many holes, the general method is faster. */
 #define PATIENCE 4096
 
-/* The sides of P, the longest first: of those some cross a side of x - Q the soonest. */
+/* Sorts the sides of P, the longest first: these are most likely to cross a side of x - Q. Returns false if out of
+ * memory. */
 static bool order_sides(sunder_i_place_query *in, sunder_i_arena *m)
 {
     const sunder_i_chain_operand *p = &in->reduced->operand[0];
@@ -61,9 +63,9 @@ typedef struct place {
     double x, y;
 } place;
 
-/* ---- Sides that cross ---- */
+/* ---- Crossing sides ---- */
 
-/* On which side of the line of P's side i is x - q[j]? Positive: to its left. */
+/* Returns a value whose sign is the side of x - q[j] with respect to the line of P's side i; positive: left. */
 static double side_of_p(const sunder_i_place_query *in, uint32_t i, uint32_t j, place x)
 {
     const sunder_i_chain_operand *p = &in->reduced->operand[0], *q = &in->reduced->operand[1];
@@ -71,7 +73,7 @@ static double side_of_p(const sunder_i_place_query *in, uint32_t i, uint32_t j, 
     return dx * (x.y - (double)q->at[j].y - (double)p->at[i].y) - dy * (x.x - (double)q->at[j].x - (double)p->at[i].x);
 }
 
-/* On which side of the line of (x - Q)'s side j is p[i]? */
+/* Returns a value whose sign is the side of p[i] with respect to the line of side j of x - Q. */
 static double side_of_q(const sunder_i_place_query *in, uint32_t i, uint32_t j, place x)
 {
     const sunder_i_chain_operand *p = &in->reduced->operand[0], *q = &in->reduced->operand[1];
@@ -98,7 +100,7 @@ static bool sides_cross(const sunder_i_place_query *in, uint32_t i, uint32_t j, 
                          doubt(in, q->along[j]));
 }
 
-/* On which side of the line of P's side i are the corners of x - Q? Into value. */
+/* Stores in in->value the values of side_of_p() for side i of P and all vertices of x - Q. */
 static void sides_of_p(const sunder_i_place_query *in, uint32_t i, place x)
 {
     const sunder_i_chain_operand *p = &in->reduced->operand[0];
@@ -110,7 +112,8 @@ static void sides_of_p(const sunder_i_place_query *in, uint32_t i, place x)
     for (uint32_t j = 0; j < n; j++) value[j] = dx * (py - qy[j]) - dy * (px - qx[j]);
 }
 
-/* Those that crossed last are tried first: places follow each other. */
+/* Returns true if a side of P crosses a side of x - Q. The pair that crossed last is tested first, since consecutive
+ * points are near each other. */
 static bool some_sides_cross(sunder_i_place_query *in, place x)
 {
     const sunder_i_chain_operand *p = &in->reduced->operand[0], *q = &in->reduced->operand[1];
@@ -132,8 +135,9 @@ static bool some_sides_cross(sunder_i_place_query *in, place x)
 
 /* ---- Winding numbers ---- */
 
-/* Contribution of one stretch of the curve to the winding number at x, counted along the ray to the left: 1 where the
- * stretch crosses the ray downwards, -1 upwards. */
+/* Returns the contribution of one segment of the curve to the winding number at x, counted along the ray to the left: 1
+ * if the segment crosses the ray downwards, -1 if upwards, else 0. *certain becomes false if doubles do not decide
+ * it. */
 static int passes(const sunder_i_place_query *in, place x, sunder_i_point from, sunder_i_point along, bool *certain)
 {
     const double low = (double)from.y - x.y, high = (double)(from.y + along.y) - x.y;
@@ -144,8 +148,8 @@ static int passes(const sunder_i_place_query *in, place x, sunder_i_point from, 
     return high > 0 ? (side < 0 ? -1 : 0) : (side > 0 ? 1 : 0);
 }
 
-/* What the sides of operand a do that are moved by the vertices of the other, but for one segment: at a reflex vertex
- * those between its sides are run backwards. */
+/* Returns the contribution of the sides of operand a, translated by the vertices of the other operand, except for the
+ * segment `without`: at a reflex vertex the sides between its own two are traversed in the opposite direction. */
 static int wind(const sunder_i_place_query *in, int a, place x, const sunder_i_reduced_segment *without, bool *certain)
 {
     const sunder_i_reduced *r = in->reduced;
@@ -170,12 +174,13 @@ static int wind(const sunder_i_place_query *in, int a, place x, const sunder_i_r
     return winding;
 }
 
-/* On the right hand of the segment, where it does not run along the ray that is counted on. */
+/* Decides by the winding number directly to the right of segment s. The result is uncertain if the segment is along the
+ * ray on which crossings are counted. */
 static sunder_i_place_in_sum winding_says(const sunder_i_place_query *in, place x, const sunder_i_reduced_segment *s)
 {
     const double low = (double)s->from.y - x.y, high = (double)(s->from.y + s->along.y) - x.y;
     bool certain = fabs(low) > in->error && fabs(high) > in->error && (low > 0) != (high > 0);
-    int winding = high > 0 ? -1 : 0; /* a segment that goes up is on the left of its right hand */
+    int winding = high > 0 ? -1 : 0; /* a segment that goes up is to the left of the points on its right side */
     for (int a = 0; a < 2 && certain; a++) winding += wind(in, a, x, s, &certain);
     return !certain ? SUNDER_I_UNCERTAIN : winding == 0 ? SUNDER_I_NOT_INSIDE : SUNDER_I_INSIDE;
 }
@@ -185,7 +190,7 @@ sunder_i_place_in_sum sunder_i_place_query_ask(sunder_i_place_query *inside, uin
     const sunder_i_reduced_segment *s = &inside->reduced->segment[segment];
     const place x = {(double)s->from.x + at * (double)s->along.x, (double)s->from.y + at * (double)s->along.y};
     if (some_sides_cross(inside, x)) return SUNDER_I_INSIDE;
-    const size_t all = 4 * (size_t)inside->reduced->segments; /* approximate size of the whole convolution */
+    const size_t all = 4 * (size_t)inside->reduced->segments; /* the approximate size of the whole convolution */
     if (inside->left < all || !sunder_i_steps(all)) return SUNDER_I_UNCERTAIN;
     inside->left -= all;
     return winding_says(inside, x, s);

@@ -1,5 +1,5 @@
-/* The segments of the reduced convolution: each convex vertex of one operand carries the sides of the other whose
- * directions lie between those of its own two sides. */
+/* reduced_convolution_segments.c: makes the segments of the reduced convolution: each convex vertex of one operand
+ * carries the sides of the other whose directions are between those of its own two sides. */
 #include "minkowski/reduced_convolution_inner.h"
 
 #include "base/sort.h"
@@ -7,20 +7,20 @@
 
 #include <string.h>
 
-/* The general road's cost follows the outline, this road's the arrangement of all segments, whose number can reach the
- * product of sides and vertices. So this road is limited to MOST_FOR_EACH segments for each vertex of the operands, and
- * in any case to the number that a key has room for. */
+/* The cost of the general method depends on the outline, that of this method on the arrangement of all segments, whose
+ * number can be as large as the product of sides and vertices. Therefore this method is limited to MOST_FOR_EACH
+ * segments for each vertex of the operands, and to MOST_SEGMENTS, the number that a sort key can represent. */
 #define MOST_FOR_EACH 13
 #define MOST_SEGMENTS (1u << 20)
-/* With more than FEW_SEGMENTS segments, SAMPLES of them give an estimate of the pairs that overlap along both axes.
- * This road is declined above MOST_PAIRS pairs for each vertex of the smaller operand, a third of that where numbers
- * are long: the general road's time depends more on the smaller operand than on the number of crossings. Measured on
- * stars and random polygons of up to 100 vertices each, and of 600 and 1300 by 12. */
+/* With more than FEW_SEGMENTS segments, SAMPLES of them give an estimate of the number of pairs that overlap along both
+ * axes. This method is declined if there are more than MOST_PAIRS pairs for each vertex of the smaller operand, a third
+ * of that if numbers are long: the time of the general method depends more on the smaller operand than on the number of
+ * crossings. Measured on stars and random polygons of up to 100 vertices each, and of 600 and 1300 by 12. */
 #define FEW_SEGMENTS 1024
 #define SAMPLES 64
 #define MOST_PAIRS 768.0
-/* Bytes reserved for each segment, twice what stars need; bytes that do not depend on their number; and the most
- * reserved. */
+/* The bytes allocated for each segment, twice what stars need; the bytes that do not depend on their number; and the
+ * largest number allocated. */
 #define ROOM_FOR_EACH 1024
 #define MORE_ROOM 16384
 #define MOST_ROOM (1u << 22)
@@ -44,7 +44,7 @@ static bool operand_init(sunder_i_arena *m, sunder_i_chain_operand *o, const sun
     return true;
 }
 
-/* How many sides there are below each rank, and the sides in that order. */
+/* Counts the sides below each rank, and sorts the sides by rank. Returns false if out of memory. */
 static bool order_sides(sunder_i_reduced *r, sunder_i_chain_operand *o)
 {
     const uint32_t ranks = 2 * r->classes;
@@ -54,13 +54,13 @@ static bool order_sides(sunder_i_reduced *r, sunder_i_chain_operand *o)
     for (uint32_t i = 0; i < o->n; i++) o->below[o->rank[i] + 1]++;
     for (uint32_t k = 0; k < ranks; k++) o->below[k + 1] += o->below[k];
     for (uint32_t i = o->n; i-- > 0;) o->by_rank[--o->below[o->rank[i] + 1]] = i;
-    /* Now below[k + 1] is what below[k] is to be. */
+    /* Now below[k + 1] has the value for below[k]. */
     memmove(o->below, o->below + 1, ranks * sizeof *o->below);
     for (uint32_t at = 0; at < o->n; at++) o->position[o->by_rank[at]] = at;
     return true;
 }
 
-/* Which of the four directions along the axes sides have. */
+/* Returns the set of axis-parallel directions of the operand's sides, one bit for each of the four. */
 static unsigned along_axes(const sunder_i_chain_operand *o)
 {
     unsigned found = 0;
@@ -72,7 +72,8 @@ static unsigned along_axes(const sunder_i_chain_operand *o)
     return found;
 }
 
-/* Has some side of the one operand the direction of one of the other's? Contacts along sides are no plain ones. */
+/* Returns true if a side of one operand has the direction of a side of the other. Then contacts along sides exist,
+ * which are not tame. */
 static bool share_direction(const sunder_i_reduced *r)
 {
     const sunder_i_chain_operand *p = &r->operand[0], *q = &r->operand[1];
@@ -83,7 +84,7 @@ static bool share_direction(const sunder_i_reduced *r)
     return false;
 }
 
-/* Ranks all sides by their directions. */
+/* Ranks all sides by their directions. Returns false if out of memory. */
 static bool rank_sides(sunder_i_reduced *r)
 {
     sunder_i_chain_operand *p = &r->operand[0], *q = &r->operand[1];
@@ -103,7 +104,7 @@ static bool rank_sides(sunder_i_reduced *r)
 
 /* ---- Segments ---- */
 
-/* At convex vertex j of b. */
+/* Returns the sides of a that the convex vertex j of b carries. */
 static sunder_i_rank_range carried(const sunder_i_chain_operand *a, const sunder_i_chain_operand *b, uint32_t j)
 {
     return sunder_i_sides_between(a, b->rank[sunder_i_vertex_before(b, j)], b->rank[j]);
@@ -114,8 +115,8 @@ static uint32_t sides_in(sunder_i_rank_range range)
     return range.end[0] - range.first[0] + range.end[1] - range.first[1];
 }
 
-/* Numbers the segments that the vertices of operand b carry, from n on; returns the number past them, or
- * MOST_SEGMENTS. */
+/* Numbers the segments that the vertices of operand b carry, from n on. Returns the next free number, or MOST_SEGMENTS
+ * if there are too many. */
 static uint32_t number(sunder_i_reduced *r, int b, uint32_t n)
 {
     sunder_i_chain_operand *o = &r->operand[b], *a = &r->operand[!b];
@@ -135,17 +136,17 @@ uint32_t sunder_i_reduced_segment_of(const sunder_i_reduced *r, int a, uint32_t 
     const uint32_t at = o->position[i];
     if (at >= range.first[0] && at < range.end[0]) return r->order[b->first[j] + at - range.first[0]];
     if (at >= range.end[1]) return SUNDER_I_NO_SEGMENT;
-    return r->order[b->first[j] + range.end[0] - range.first[0] + at]; /* a second range starts at 0 */
+    return r->order[b->first[j] + range.end[0] - range.first[0] + at]; /* the second range starts at position 0 */
 }
 
-/* A segment before it has its place from left to right. */
+/* A segment before the segments are sorted from left to right. */
 typedef struct made {
     sunder_i_point from, along;
     uint32_t side, vertex;
     int of; /* the operand of the side */
 } made;
 
-/* What the vertices of operand b carry; every step-th of all segments, from number 0 on. */
+/* Makes the segments that the vertices of operand b carry; of all segments only every step-th, from number 0 on. */
 static void make(const sunder_i_reduced *r, int b, uint32_t step, made *out)
 {
     const sunder_i_chain_operand *o = &r->operand[b], *a = &r->operand[!b];
@@ -164,7 +165,7 @@ static void make(const sunder_i_reduced *r, int b, uint32_t step, made *out)
     }
 }
 
-/* The next segment starts where this one ends. */
+/* Returns the segment that starts where segment s ends, or SUNDER_I_NO_SEGMENT. */
 static uint32_t next_of(const sunder_i_reduced *r, const made *s)
 {
     const uint32_t end = sunder_i_vertex_after(&r->operand[s->of], s->side);
@@ -172,7 +173,7 @@ static uint32_t next_of(const sunder_i_reduced *r, const made *s)
                       : sunder_i_reduced_starting_at(r, s->vertex, end);
 }
 
-/* Where a segment begins and ends along one axis. */
+/* The interval of a segment along one axis. */
 typedef struct span {
     int64_t low, high;
 } span;
@@ -193,7 +194,7 @@ static void extend(span *all, span by)
     if (by.high > all->high) all->high = by.high;
 }
 
-/* Are differences of such coordinates brief (narrow.h)? */
+/* Returns true if differences of coordinates with these extents are brief (narrow.h). */
 static bool is_brief(span x, span y) { return (x.high - x.low) >> 30 == 0 && (y.high - y.low) >> 30 == 0; }
 
 static int shift_of(span all)
@@ -208,7 +209,8 @@ static sunder_i_steps_along steps_of(span s, span all, int shift)
     return (sunder_i_steps_along){(uint32_t)((s.low - all.low) >> shift), (uint32_t)((s.high - all.low) >> shift)};
 }
 
-/* Would it take longer than the general road to look at all pairs of segments that overlap along both axes? */
+/* Returns true if testing all pairs of segments that overlap along both axes would probably take longer than the
+ * general method. */
 static bool are_too_many(const sunder_i_reduced *r, uint32_t n)
 {
     made sample[SAMPLES];
@@ -232,7 +234,7 @@ static bool are_too_many(const sunder_i_reduced *r, uint32_t n)
     return (double)found * step * step > (is_brief(all_x, all_y) ? MOST_PAIRS : MOST_PAIRS / 3) * (p < q ? p : q);
 }
 
-/* Puts the segments in order from left to right, and finds which follows which. */
+/* Sorts the segments from left to right, and sets the successor of each. Returns false if out of memory. */
 static bool arrange(sunder_i_reduced *r, const made *s)
 {
     const uint32_t n = r->segments;
@@ -258,8 +260,9 @@ static bool arrange(sunder_i_reduced *r, const made *s)
     return true;
 }
 
-/* Memory for n segments, their stops and links, in one block with spare room that is never touched: glibc keeps up to
- * twice the largest block freed so far (../outline/culling_root.c). If it is not enough the arena allocates more. */
+/* Allocates memory for n segments, their stops and links, in one block with spare room that is never touched: glibc
+ * keeps up to twice the largest block freed so far (../outline/culling_root.c). If the block is too small, the arena
+ * allocates more. Returns false if out of memory. */
 static bool make_room(sunder_i_reduced *r, uint32_t n)
 {
     const size_t bytes = n < MOST_ROOM / ROOM_FOR_EACH ? (size_t)n * ROOM_FOR_EACH + MORE_ROOM : MOST_ROOM;
@@ -269,7 +272,7 @@ static bool make_room(sunder_i_reduced *r, uint32_t n)
     return true;
 }
 
-/* Vertices of one ring, touched by no other ring. */
+/* Returns true if the shape has one ring only, which touches no other point of itself. */
 static bool is_simple(const sunder_shape *s)
 {
     return s->form->cleaned.rings == 1 && !s->touches && !s->repaired && !s->flat && !s->rational;
@@ -284,7 +287,7 @@ bool sunder_i_reduced_build(sunder_i_reduced *r, const sunder_i_point *at[2], bo
     for (int k = 0; k < 2; k++)
         if (!operand_init(&r->small, &r->operand[k], at[k])) return false;
     *fits =
-        /* a common reason to decline, and quickly tested */
+        /* tested first, since it is fast and a common reason to decline */
         (along_axes(&r->operand[0]) & along_axes(&r->operand[1])) == 0;
     if (!*fits) return true;
     if (!rank_sides(r)) return false;

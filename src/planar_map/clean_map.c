@@ -1,12 +1,13 @@
-/* Cleaning: the map of many regions becomes that of their union.
+/* clean_map.c: cleaning converts the map of many regions to that of their union.
  *
- * What is covered goes: an edge whose relative interior lies inside some region, a vertex that does. Edges first: all
- * those at a covered vertex are covered, so it is isolated when its turn comes. An edge or vertex that no region covers
- * stays, also between covered faces: there it is a degenerate hole. Then vertices in the middle of straight edges with
- * equal counts go.
+ * Covered elements are removed: edges whose relative interior is inside some region, and vertices inside some region.
+ * Edges are removed first: all edges at a covered vertex are covered, so that the vertex is isolated when it is
+ * removed. An edge or vertex that no region covers remains, even between covered faces: there it is a degenerate hole.
+ * Then vertices in the interior of straight edges with equal counts are removed.
  *
- * The union then counts as one region that has every remaining edge on its boundary: sides 1 towards a covered face and
- * 0 towards an uncovered one, below likewise. So covered of every remaining edge and vertex is 0, as it should. */
+ * After this the union counts as one region that has every remaining edge on its boundary: `sides` is 1 towards a
+ * covered face and 0 towards an uncovered one, `below` likewise. So the covered count of every remaining edge and
+ * vertex is 0, as required. */
 #include "planar_map/map.h"
 
 #include "base/watch.h"
@@ -23,12 +24,14 @@ void sunder_i_map_settle_vertex(sunder_i_planar_map *map, uint32_t v)
     map->vertex[v].below = map->trapezoid[sunder_i_map_below_vertex(map, v)].covered != 0;
 }
 
-/* Removes the edges of edges_inside and the vertices of vertices_inside, all covered; both sides count 1 already. */
+/* Removes the edges of edges_inside and the vertices of vertices_inside, all of which are covered. The counts of the
+ * faces on both sides must be 1 already. */
 bool sunder_i_map_remove_covered(sunder_i_planar_map *map)
 {
     for (size_t i = 0; i < map->edges_inside.n; i++) {
         const uint32_t e = map->edges_inside.item[i];
-        map->edge[e].sides[0] = map->edge[e].sides[1] = 0; /* so that the face that they leave is covered */
+        map->edge[e].sides[0] = map->edge[e].sides[1] = 0; /* so that the face that results from the removal is
+                                                            * covered */
         if (!sunder_i_step() || !sunder_i_edge_remove(map, e)) return false;
     }
     for (size_t i = 0; i < map->vertices_inside.n; i++) sunder_i_edge_drop_vertex(map, map->vertices_inside.item[i]);
@@ -46,7 +49,8 @@ bool sunder_i_planar_map_mergeable(sunder_i_planar_map *map, uint32_t v)
            sunder_i_line_turn(map, &map->line[left->line], &map->line[right->line]) == 0;
 }
 
-/* The covered ones, into edges_inside and vertices_inside. */
+/* Lists the covered edges in edges_inside and the covered vertices in vertices_inside. Returns false if out of
+ * memory. */
 static bool list_covered(sunder_i_planar_map *map)
 {
     map->edges_inside.n = map->vertices_inside.n = 0;
@@ -69,7 +73,7 @@ static void settle_all(sunder_i_planar_map *map)
         if (map->vertex[v].alive) sunder_i_map_settle_vertex(map, v);
 }
 
-/* Where little stays, what stays makes a new map; the old one then needs no trapezoids any more. */
+/* If few elements remain, a new map is made from them; the old map then needs no valid trapezoids. */
 static bool start_afresh(sunder_i_planar_map *map)
 {
     settle_all(map);
@@ -86,7 +90,7 @@ sunder_status sunder_i_planar_map_clean(sunder_i_planar_map *map, sunder_error *
     if (ok) {
         for (uint32_t t = 0; t < map->trapezoids; t++)
             if (map->trapezoid[t].node != NOWHERE) map->trapezoid[t].covered = map->trapezoid[t].covered != 0;
-        /* Taking an edge out costs about as much as putting one in. */
+        /* The removal of an edge takes about as long as an insertion. */
         if (2 * map->edges_inside.n > map->edges - map->dead_edges)
             ok = start_afresh(map);
         else {
@@ -107,7 +111,7 @@ sunder_status sunder_i_planar_map_clean(sunder_i_planar_map *map, sunder_error *
     return sunder_i_map_status(map, err);
 }
 
-/* ---- By hand ---- */
+/* ---- Removal of single elements ---- */
 
 sunder_status sunder_i_planar_map_remove_edge(sunder_i_planar_map *map, uint32_t h, sunder_error *err)
 {

@@ -1,14 +1,15 @@
-/* Half-edges around their vertices, and edges with the trapezoids along them.
+/* edges.c: half-edges around their vertices, and changes of edges together with the trapezoids along them.
  *
- * Around a vertex half-edges run counter-clockwise from straight down: first those to the right, from the lowest slope
- * to the highest, then those to the left, from the highest end to the lowest. `out` is the first. Where a segment
- * begins or ends, the trapezoid tells its place in that order: the edges that bound it there are its neighbours. */
+ * Around a vertex half-edges are sorted counterclockwise from straight down: first those to the right, from the lowest
+ * slope to the highest, then those to the left, from the highest to the lowest other end. `out` is the first. Where a
+ * segment begins or ends, its position in this order follows from the trapezoid there: the edges that bound the
+ * trapezoid at the vertex are the segment's neighbours. */
 #include "planar_map/map.h"
 
 static uint32_t *ccw_of(sunder_i_planar_map *map, uint32_t h) { return &map->edge[h >> 1].ccw[h & 1]; }
 static uint32_t *cw_of(sunder_i_planar_map *map, uint32_t h) { return &map->edge[h >> 1].cw[h & 1]; }
 
-/* Puts h into the ring right after `before`; alone if that is NOWHERE. */
+/* Inserts h into the ring of half-edges directly after `before`; NOWHERE: h becomes a ring of its own. */
 static void ring_add(sunder_i_planar_map *map, uint32_t h, uint32_t before)
 {
     if (before == NOWHERE) before = *ccw_of(map, h) = h;
@@ -27,7 +28,7 @@ static void ring_remove(sunder_i_planar_map *map, uint32_t h, uint32_t v)
     *cw_of(map, after) = before;
 }
 
-/* g takes the place of h around v. */
+/* Replaces h by g in the ring of half-edges around v. */
 static void ring_replace(sunder_i_planar_map *map, uint32_t h, uint32_t g, uint32_t v)
 {
     const uint32_t before = *cw_of(map, h), after = *ccw_of(map, h);
@@ -70,7 +71,7 @@ uint32_t sunder_i_edge_isolated(sunder_i_planar_map *map, uint32_t t, const sund
     return v;
 }
 
-/* Along edge e: the trapezoid above it (below it) whose walls have v between them. */
+/* Returns the trapezoid above (else below) edge e whose walls have v between them. */
 static uint32_t beside(sunder_i_planar_map *map, uint32_t e, uint32_t v, bool above)
 {
     uint32_t t = above ? map->edge[e].up : map->edge[e].down;
@@ -81,7 +82,7 @@ static uint32_t beside(sunder_i_planar_map *map, uint32_t e, uint32_t v, bool ab
     return t;
 }
 
-/* The trapezoids along e from t on to vertex `end` get edge g for it. */
+/* Sets the edge of the trapezoids along e, from t to the one that ends at vertex `end`, to g. */
 static void relabel(sunder_i_planar_map *map, uint32_t t, uint32_t g, uint32_t end, bool above)
 {
     for (;;) {
@@ -142,7 +143,7 @@ uint32_t sunder_i_edge_make(sunder_i_planar_map *map, uint32_t v, uint32_t w, ui
         const uint32_t next = 2 * last->bottom + 1;
         ring_add(map, 2 * e + 1, *cw_of(map, next));
         if (at_w == next) map->vertex[w].out = 2 * e + 1;
-    } else { /* the only one to the left, so the last */
+    } else { /* it is the only half-edge to the left, so that it is the last one */
         ring_add(map, 2 * e + 1, at_w == NOWHERE ? NOWHERE : *cw_of(map, at_w));
         if (at_w == NOWHERE) map->vertex[w].out = 2 * e + 1;
     }

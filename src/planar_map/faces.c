@@ -1,11 +1,12 @@
-/* Faces: the trapezoids that open walls connect, and the boundaries around and inside them.
+/* faces.c: faces: sets of trapezoids connected through walls, and the boundaries around and inside them.
  *
  * The face left of a half-edge is that of the trapezoids along it. The half-edges that follow each other around it form
- * cycles. A cycle is the outer boundary of its face, or an inner one; its smallest vertex tells. No half-edge of the
- * cycle leads to the left from there. The cycle is an inner boundary exactly if what lies right to the left of that
- * vertex belongs to the corner that the cycle makes there: it then goes around its edges from outside. That corner lies
+ * cycles. A cycle is the outer boundary of its face, or an inner one; its smallest vertex decides this. No half-edge of
+ * the cycle leads to the left from there. The cycle is an inner boundary exactly if the points directly to the left of
+ * that vertex belong to the corner that the cycle makes there: it then surrounds its edges from outside. That corner is
  * between the highest half-edge out of the vertex and the lowest, and the vertex has no half-edge to the left at all.
- * (A cycle may pass through its smallest vertex several times, as antennas do; one of those corners is enough.) */
+ * (A cycle may pass through its smallest vertex several times, as with antennas; one of those corners is
+ * sufficient.) */
 #include "planar_map/map.h"
 
 typedef struct cycle {
@@ -46,7 +47,8 @@ static bool label_faces(sunder_i_planar_map *map)
     return true;
 }
 
-/* Is the corner before h, at its origin, the one to the left of a vertex without edges to the left? */
+/* Returns true if the corner before h, at the origin of h, is the one to the left of a vertex that has no edges to the
+ * left. */
 static bool leftmost_corner(const sunder_i_planar_map *map, uint32_t h)
 {
     return !(h & 1) && sunder_i_planar_map_ccw(map, h) == map->vertex[sunder_i_planar_map_origin(map, h)].out;
@@ -69,7 +71,8 @@ static cycle trace(sunder_i_planar_map *map, uint32_t start, uint8_t *seen)
     return (cycle){start, map->face_of_trapezoid[sunder_i_map_left_of(map, start)], inner};
 }
 
-/* Items by face: item i belongs to face of[i]; end[f] is the index past the last of face f. */
+/* Sorts items by face: item i belongs to face of[i]; (*end)[f] becomes the index after the last item of face f. Returns
+ * false if out of memory. */
 static bool by_face(uint32_t faces, const uint32_t *item, const uint32_t *of, size_t n, uint32_t **sorted, size_t **end)
 {
     *sorted = sunder_i_alloc(n, sizeof **sorted);

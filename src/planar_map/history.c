@@ -1,14 +1,16 @@
-/* The history: every trapezoid there ever was, and what became of it [Mul90, Sei91; BKOS08, section 6.2].
+/* history.c: the history: all trapezoids that have existed, and which trapezoids replaced them [Mul90, Sei91; BKOS08,
+ * section 6.2].
  *
- * A leaf is a trapezoid of today. When one goes, its leaf becomes the node that tells its successors apart: by a vertex
- * whose wall was put up in it (AT), by the line of an edge drawn through it (BY). Where several were merged, several
- * nodes lead to one leaf. Removal adds to the history too: a trapezoid that a removed edge bounded is succeeded by a
- * row of trapezoids, told apart by the vertices between them; one that lost a wall by its union with the neighbour
- * (ALIAS). Nodes name lines and vertices, never edges: these may be split or gone by the time the node is asked, but
- * their lines stay where they were.
+ * A leaf is a trapezoid that exists. When one is removed, its leaf becomes a node that distinguishes its successors: by
+ * a vertex whose wall was inserted (AT), or by the line of an edge that was drawn through it (BY). If several
+ * trapezoids were merged, several nodes lead to one leaf. Removals extend the history, too: a trapezoid along a removed
+ * edge is succeeded by a row of trapezoids, which are distinguished by the vertices between them; one that lost a wall
+ * is succeeded by its union with the neighbour (ALIAS). Nodes refer to lines and vertices, never to edges: an edge may
+ * be split or removed before the node is evaluated, but its line does not change.
  *
- * A query point is taken to be moved up by an infinitesimal, and right by an infinitesimal of higher order: so a point
- * on a line goes above it, a point at a vertex goes right, and both are the same symbolic point everywhere. */
+ * A query point is treated as if it were moved up by an infinitesimal, and right by an infinitesimal of higher order:
+ * so a point on a line is above it, a point at a vertex is right of it, and both are the same symbolic point
+ * everywhere. */
 #include "planar_map/map.h"
 
 static uint32_t add(sunder_i_planar_map *map, unsigned kind, uint32_t of, uint32_t a, uint32_t b)
@@ -42,8 +44,8 @@ void sunder_i_history_alias(sunder_i_planar_map *map, uint32_t node, uint32_t to
     set(map, node, SUNDER_I_ALIAS, 0, to, NOWHERE);
 }
 
-/* A tree over t[low .. high): its root stands at `node`, halves that are single trapezoids are their leaves. Work waits
- * on a stack of our own, never deeper than the tree. */
+/* A tree over t[low .. high): its root is `node`; a half that is a single trapezoid is that trapezoid's leaf. Pending
+ * ranges are on a stack, which is never larger than the depth of the tree. */
 void sunder_i_history_row(sunder_i_planar_map *map, uint32_t node, const uint32_t *t, size_t n)
 {
     typedef struct range {

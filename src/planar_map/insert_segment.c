@@ -1,17 +1,18 @@
-/* The walk of a segment through the map.
+/* insert_segment.c: inserts a segment into the map.
  *
- * Always from the smaller end to the greater. At a vertex the segment either runs along an edge that is there (overlap:
- * the edge's counts grow, and it is split where the segment ends inside it) or enters a trapezoid. It then goes from
- * wall to wall to the first of
- *     its end, inside a trapezoid, on an edge or at a vertex;
- *     a vertex that it runs through;
- *     an edge that it crosses, which is split there;
- * the piece up to there becomes an edge, and the walk goes on from that vertex. So every crossing is a vertex before
- * the next piece begins, and the trapezoids that a piece runs through contain nothing of the map but their walls.
+ * A segment is inserted from its smaller end to its greater one. At a vertex the segment either runs along an existing
+ * edge (an overlap: the edge's counts increase, and it is split if the segment ends inside it) or enters a trapezoid.
+ * It then passes from wall to wall to the first of
+ *   its end, inside a trapezoid, on an edge or at a vertex;
+ *   a vertex through which it passes;
+ *   an edge that it crosses, which is split there;
+ * the piece up to there becomes an edge, and the insertion continues from that vertex. So every crossing is a vertex
+ * before the next piece begins, and the trapezoids through which a piece passes contain nothing of the map except their
+ * walls.
  *
- * Degenerate positions, by name. Vertical segments: the sheared order treats them as steep ones. Many segments through
- * one point: each finds the vertex there (side 0). Overlaps: parallel to an edge at a vertex means along it. Ends on
- * edges: split. Ends at vertices: equal sites. Nothing is ever found by being near. */
+ * Degenerate positions: vertical segments: the sheared order treats them as steep ones. Many segments through one
+ * point: each finds the vertex there (side 0). Overlaps: a segment that is parallel to an edge at a common vertex runs
+ * along it. Ends on edges: the edge is split. Ends at vertices: equal sites. No decision depends on a distance. */
 #include "planar_map/map.h"
 
 uint32_t sunder_i_map_vertex_in(sunder_i_planar_map *map, uint32_t t, const sunder_i_site *site)
@@ -29,19 +30,20 @@ uint32_t sunder_i_map_vertex_at(sunder_i_planar_map *map, const sunder_i_site *s
     return sunder_i_map_vertex_in(map, sunder_i_history_find(map, site), site);
 }
 
-/* Where a piece ends. */
+/* The end of a piece. */
 typedef struct stop {
     enum { AT_VERTEX, ON_EDGE, INSIDE } kind;
-    uint32_t id; /* of the vertex or edge */
+    uint32_t id; /* the number of the vertex or edge */
     sunder_i_site
-        site;  /* of a stop on an edge or inside; the target, or a crossing with numbers in the scratch arena */
-    bool done; /* it is the target */
+        site;  /* for a stop on an edge or inside a trapezoid: the target, or a crossing with numbers in the scratch
+                * arena */
+    bool done; /* whether the stop is the target */
 } stop;
 
-/* What was found out about an edge and the segment in one trapezoid may be needed in the next along the same edge: the
- * side of the edge's greater end, and where the two cross. */
+/* A cache: results about an edge and the segment in one trapezoid may be needed in the next trapezoid along the same
+ * edge: the side of the edge's greater end, and the crossing of the two. */
 typedef struct crossing_cache {
-    uint32_t edge, sided; /* whose crossing, and whose end's side; NOWHERE: none yet */
+    uint32_t edge, sided; /* the edges for which `site` and `side` are valid; NOWHERE: none */
     int side;
     sunder_i_site site;
 } crossing_cache;
@@ -58,14 +60,14 @@ static const sunder_i_site *crossing(sunder_i_planar_map *map, uint32_t e, const
     return &cache->site;
 }
 
-/* The segment goes past the right wall of t, whose vertex lies above it (above = true) or below. Can it leave by the
- * edge e on its other side (the bottom, or the top) before the wall? At the wall it is beyond that edge, or is not. */
+/* The segment passes the right wall of t, whose vertex is above the segment (above = true) or below it. Returns true if
+ * the segment leaves t through the edge e on the other side (the bottom, or the top) before the wall. */
 static bool leaves_by_edge(sunder_i_planar_map *map, uint32_t t, uint32_t e, const sunder_i_map_line *line, bool above,
                            crossing_cache *cache)
 {
     if (e == NOWHERE) return false;
     const uint32_t end = map->edge[e].end[1], wall = map->trapezoid[t].right;
-    if (end == wall) return true; /* the edge ends on the vertex's side of the segment */
+    if (end == wall) return true; /* the edge ends at the wall's vertex, on the same side of the segment */
     if (cache->sided != e) {
         cache->sided = e;
         cache->side = sunder_i_site_side(map, line, &map->vertex[end].site);
@@ -83,7 +85,7 @@ static void stop_crossing(sunder_i_planar_map *map, uint32_t e, const sunder_i_m
     s->done = false;
 }
 
-/* The target lies left of the right wall of t: where is the segment's next stop? */
+/* The target is left of the right wall of t: *s becomes the segment's next stop, which is in t or on its boundary. */
 static void stop_before_wall(sunder_i_planar_map *map, uint32_t t, const sunder_i_site *target,
                              const sunder_i_map_line *line, crossing_cache *cache, stop *s)
 {
@@ -106,8 +108,8 @@ static void stop_before_wall(sunder_i_planar_map *map, uint32_t t, const sunder_
     }
 }
 
-/* Follows the segment from trapezoid t, in which it begins at the left wall's vertex, to its next stop; the trapezoids
- * that it runs through are in map->crossed. */
+/* Follows the segment from trapezoid t, in which it begins at the left wall's vertex, to its next stop *s; map->crossed
+ * becomes the list of the trapezoids through which it passes. Returns false if out of memory. */
 static bool follow(sunder_i_planar_map *map, uint32_t t, const sunder_i_site *target, const sunder_i_map_line *line,
                    stop *s)
 {
@@ -118,7 +120,7 @@ static bool follow(sunder_i_planar_map *map, uint32_t t, const sunder_i_site *ta
         const sunder_i_trapezoid *z = &map->trapezoid[t];
         const int c = z->right == NOWHERE ? -1 : sunder_i_site_cmp(map, target, &map->vertex[z->right].site);
         if (c < 0) {
-            /* At most one of the two edges is crossed before the target, so one cache does for both. */
+            /* At most one of the two edges is crossed before the target, so that one cache suffices for both. */
             crossing_cache *cache = z->bottom == low.edge ? &low : &high;
             stop_before_wall(map, t, target, line, cache, s);
             return true;
@@ -157,19 +159,20 @@ bool sunder_i_map_glide(sunder_i_planar_map *map, uint32_t *t, const sunder_i_si
     }
 }
 
-/* The vertex at a stop, made if need be. */
+/* Returns the vertex at a stop, which is made if it does not exist; NOWHERE if out of memory. */
 static uint32_t vertex_at_stop(sunder_i_planar_map *map, stop *s)
 {
     if (s->kind == AT_VERTEX) return s->id;
-    if (!s->done)
-        s->site = sunder_i_site_copy(&s->site, &map->arena); /* a crossing; the target's numbers stay anyway */
+    if (!s->done) /* a crossing; the numbers of the target are permanent already */
+        s->site = sunder_i_site_copy(&s->site, &map->arena);
     if (sunder_i_map_broken(map)) return NOWHERE;
     const uint32_t last = map->crossed.item[map->crossed.n - 1];
     return s->kind == ON_EDGE ? sunder_i_edge_split(map, s->id, &s->site, last)
                               : sunder_i_edge_isolated(map, last, &s->site);
 }
 
-/* Along half-edge h = 2 e, which lies on the segment's line: to its end, or to the target inside it. */
+/* Follows half-edge h = 2 e, which is on the segment's line, to its end, or to the target if that is inside it. Returns
+ * the vertex there. *done: whether it is the target. */
 static uint32_t run_along(sunder_i_planar_map *map, uint32_t h, const sunder_i_site *target, bool *done)
 {
     const uint32_t e = h >> 1, end = map->edge[e].end[1];

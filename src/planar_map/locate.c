@@ -1,4 +1,4 @@
-/* Point location for users of the map. */
+/* locate.c: point location. */
 #include "planar_map/map.h"
 
 sunder_status sunder_i_planar_map_locate(sunder_i_planar_map *map, sunder_i_rational_point at, sunder_i_location *out,

@@ -1,4 +1,4 @@
-/* Making, freeing and growing a map, and looking at it. */
+/* map.c: construction, destruction, memory and queries of a map. */
 #include "planar_map/map.h"
 
 sunder_status sunder_i_planar_map_new(sunder_i_lattice *lattice, uint64_t seed, sunder_i_planar_map **out,
@@ -10,9 +10,9 @@ sunder_status sunder_i_planar_map_new(sunder_i_lattice *lattice, uint64_t seed, 
     map->random = seed;
     map->free_edge = map->free_trapezoid = NOWHERE;
     map->marked = true;
-    sunder_i_arena_alloc(&map->scratch, 1, 1); /* its first chunk stays, however often it is released */
+    sunder_i_arena_alloc(&map->scratch, 1, 1); /* its first chunk remains allocated when the arena is released */
     if (sunder_i_map_room(map, 0, 0, 1, 1)) {
-        /* One trapezoid: the plane. */
+        /* One trapezoid, the whole plane. */
         const uint32_t t = sunder_i_map_new_trapezoid(map);
         sunder_i_trapezoid *plane = &map->trapezoid[t];
         plane->top = plane->bottom = plane->left = plane->right = NOWHERE;
@@ -49,7 +49,7 @@ sunder_status sunder_i_map_status(sunder_i_planar_map *map, sunder_error *err)
     return sunder_i_map_broken(map) ? sunder_i_no_memory(err) : SUNDER_OK;
 }
 
-/* ---- Growing ---- */
+/* ---- Memory ---- */
 
 static bool grow(void *array, size_t *capacity, uint32_t used, size_t more, size_t size, size_t most)
 {
@@ -58,7 +58,7 @@ static bool grow(void *array, size_t *capacity, uint32_t used, size_t more, size
 
 bool sunder_i_map_room(sunder_i_planar_map *map, size_t vertices, size_t edges, size_t trapezoids, size_t nodes)
 {
-    /* Half-edges are 32 bits, vertices in the history 30, trapezoids with a flag 32. */
+    /* Half-edges have 32 bits, vertices in the history 30, trapezoids with a flag 32. */
     const size_t most = (size_t)1 << 30;
     if (!grow(&map->vertex, &map->vertex_capacity, map->vertices, vertices, sizeof *map->vertex, most) ||
         !grow(&map->edge, &map->edge_capacity, map->edges, edges, sizeof *map->edge, most) ||
@@ -76,7 +76,7 @@ bool sunder_i_map_push(sunder_i_planar_map *map, sunder_i_list *list, uint32_t i
     return pushed;
 }
 
-/* What the limbs of a number take in an arena, which gives out multiples of 16. */
+/* Returns the memory for the limbs of a number in an arena, which allocates multiples of 16 bytes. */
 static size_t bytes_of(sunder_i_big n)
 {
     const size_t limbs = (size_t)(n.size < 0 ? -n.size : n.size);
@@ -158,7 +158,7 @@ void sunder_i_map_drop_faces(sunder_i_planar_map *map)
     map->faces = 0;
 }
 
-/* ---- Looking ---- */
+/* ---- Queries ---- */
 
 uint32_t sunder_i_map_below_vertex(const sunder_i_planar_map *map, uint32_t v)
 {

@@ -1,9 +1,9 @@
-/* The checker: every invariant, proved exactly; the list is in README.md.
+/* map_invariants.c: tests every invariant exactly; README.md lists them.
  *
- * Geometry is proved by the trapezoids: each is bounded by a bottom strictly below its top over its whole width, has
- * its vertices on its walls, and knows the neighbour across each part of a wall that has length, which knows it. The
- * trapezoids along each side of each edge follow each other from end to end. There are as many as there must be. So
- * they tile the plane, and no edge meets another but in a common end. */
+ * The geometry is proved by the trapezoids: each is bounded by a bottom strictly below its top over its whole width,
+ * has its vertices on its walls, and refers to the neighbour at each part of a wall that has length, which refers back.
+ * The trapezoids along each side of each edge follow each other from end to end. Their number is correct. So they tile
+ * the plane, and no edge meets another except at a common end. */
 #include "planar_map/map.h"
 
 #include <stdlib.h>
@@ -53,7 +53,7 @@ static const char *check_edge(sunder_i_planar_map *map, uint32_t e)
     return NULL;
 }
 
-/* *n grows by the half-edges around v. */
+/* Adds the number of half-edges around v to *n. */
 static const char *check_vertex(sunder_i_planar_map *map, uint32_t v, size_t *n)
 {
     const sunder_i_map_vertex *vertex = &map->vertex[v];
@@ -89,8 +89,8 @@ static const char *check_vertex(sunder_i_planar_map *map, uint32_t v, size_t *n)
     return NULL;
 }
 
-/* One of the four neighbours of t: part of the wall at vertex v, whose end is at edge e (the top, or the bottom).
- * `ends` tells whether e starts (ends) in v, so that this part has no length. */
+/* Tests n, one of the four neighbours of t: that at the part of the wall of vertex v next to edge e (the top if
+ * `upper`, else the bottom). ends: whether e starts (ends) at v, so that this part has no length. */
 static const char *check_neighbour(sunder_i_planar_map *map, uint32_t t, uint32_t n, uint32_t v, bool ends, bool left,
                                    bool upper)
 {
@@ -109,7 +109,7 @@ static const char *check_neighbour(sunder_i_planar_map *map, uint32_t t, uint32_
     return NULL;
 }
 
-/* The wall of t at v, on its left or right: the vertex is on it, and apart from the top and bottom unless they end
+/* Tests the left or right wall of t, with the vertex v: v is on the wall, and not on the top or bottom unless these end
  * there. */
 static const char *check_wall(sunder_i_planar_map *map, uint32_t t, bool left)
 {
@@ -138,7 +138,7 @@ static const char *check_wall(sunder_i_planar_map *map, uint32_t t, bool left)
     const char *wrong = check_neighbour(map, t, left ? z->lu : z->ru, v, top_ends, left, true);
     if (!wrong) wrong = check_neighbour(map, t, left ? z->ll : z->rl, v, bottom_ends, left, false);
     if (wrong || v == NOWHERE || top_ends || bottom_ends) return wrong;
-    /* Both parts have length: one neighbour exactly if the vertex has no edge on that side. */
+    /* Both parts have length: there is one neighbour exactly if the vertex has no edge on that side. */
     const uint32_t upper = left ? z->lu : z->ru, lower = left ? z->ll : z->rl;
     bool edges = false;
     uint32_t h = map->vertex[v].out;
@@ -152,8 +152,8 @@ static const char *check_wall(sunder_i_planar_map *map, uint32_t t, bool left)
     return NULL;
 }
 
-/* A point of t: halfway between its vertices, or one beside it; found again by the history. A point on the bottom is
- * taken to be above it, one on the top does not belong to t. */
+/* Tests that the history finds t for a point of t: the midpoint of its two vertices, or a point beside its only vertex.
+ * A point on the bottom counts as above it, one on the top does not belong to t. */
 static const char *check_history(sunder_i_planar_map *map, uint32_t t)
 {
     const sunder_i_trapezoid *z = &map->trapezoid[t];
@@ -180,7 +180,7 @@ static const char *check_history(sunder_i_planar_map *map, uint32_t t)
     return wrong;
 }
 
-/* Along one side of edge e, from end to end. */
+/* Tests the trapezoids along one side of edge e, from end to end; adds their number to *n. */
 static const char *check_row(sunder_i_planar_map *map, uint32_t e, bool above, size_t *n)
 {
     const sunder_i_map_edge *edge = &map->edge[e];
@@ -213,8 +213,8 @@ static const char *check_faces(sunder_i_planar_map *map)
 {
     REQUIRE(map->face_outer[0] == NOWHERE, "the outermost face has an outer boundary");
     for (uint32_t f = 1; f < map->faces; f++) REQUIRE(map->face_outer[f] != NOWHERE, "a face has no outer boundary");
-    /* As many cycles as boundaries: one outer one each. Euler: V - E + F = 1 + components, of which each is one inner
-     * boundary or one isolated vertex. */
+    /* There are as many cycles as boundaries: one outer one for each face. Euler's formula is V - E + F = 1 +
+     * components; each component has one inner boundary or is one isolated vertex. */
     const size_t inner = map->inner_end[map->faces - 1], isolated = map->isolated_end[map->faces - 1];
     const size_t vertices = map->vertices - map->dead_vertices, edges = map->edges - map->dead_edges;
     REQUIRE(vertices + map->faces == edges + 1 + inner + isolated, "faces, edges and vertices do not agree with Euler");

@@ -1,6 +1,6 @@
-/* Marking: how many regions contain each trapezoid, from the unbounded ones inwards. Across a wall the count is the
- * same; across an edge it differs by the regions that end there. An edge is crossed at its smaller end only: the
- * trapezoids along one side of it are neighbours across walls. */
+/* mark.c: marking: computes how many regions contain each trapezoid, from the unbounded ones inwards. At a wall the
+ * count does not change; at an edge it changes by the number of regions bounded by it. An edge is crossed at its
+ * smaller end only: the trapezoids along one side of it are neighbours at walls. */
 #include "planar_map/map.h"
 
 #include "base/watch.h"

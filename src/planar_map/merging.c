@@ -1,11 +1,11 @@
-/* The vertical decomposition under removal: the reverse of trapezoids.c.
+/* merging.c: the vertical decomposition after a removal: the opposite of trapezoids.c.
  *
- * Where an edge goes, the walls that ended on it run on to the next edge: so the rows of trapezoids above it and below
- * it become one row, with a wall at each vertex that either had one. Where an isolated vertex goes, or one in the
- * middle of an edge, its walls go. */
+ * If an edge is removed, the walls that ended on it extend to the next edge: the rows of trapezoids above it and below
+ * it become one row, with a wall at each vertex that had a wall in one of the rows. If an isolated vertex is removed,
+ * or one in the interior of an edge, its walls are removed. */
 #include "planar_map/map.h"
 
-/* Collects the rows above and below edge e, from left to right. */
+/* Lists the rows above and below edge e, from left to right, and reserves memory. Returns false if out of memory. */
 static bool collect_rows(sunder_i_planar_map *map, uint32_t e)
 {
     const uint32_t w = map->edge[e].end[1];
@@ -18,8 +18,8 @@ static bool collect_rows(sunder_i_planar_map *map, uint32_t e)
         if (!sunder_i_map_push(map, &map->beneath, t)) return false;
         if (map->trapezoid[t].right == w) break;
     }
-    /* A leaf for each new one, and the trees of succeed(): over each wall of the new row at most twice, once for each
-     * old row. */
+    /* Memory for a leaf of each new trapezoid, and for the trees of link_successors(): these have each wall of the new
+     * row at most twice, once for each old row. */
     const size_t n = map->above.n + map->beneath.n;
     if (!sunder_i_reserve(&map->made.item, &map->made.capacity, n, sizeof *map->made.item)) map->failed = true;
     return sunder_i_map_room(map, 0, 0, n, 3 * n);
@@ -39,18 +39,20 @@ static uint32_t begin(sunder_i_planar_map *map, uint32_t u, uint32_t d, uint32_t
                                              .covered = covered,
                                              .stamp = map->trapezoid[u].stamp};
     sunder_i_history_leaf(map, m);
-    map->made.item[map->made.n++] = m; /* collect_rows() made the list long enough */
+    map->made.item[map->made.n++] = m; /* collect_rows() has made the list long enough */
     return m;
 }
 
-/* The wall between trapezoid t of a row and the next one now runs on across the edge: m ends there, next begins. */
+/* Extends the wall between trapezoid t of a row and the next one, `after`, across the removed edge: m ends there,
+ * `next` begins. */
 static void wall_across(sunder_i_planar_map *map, uint32_t t, uint32_t after, uint32_t m, uint32_t next, bool above)
 {
     sunder_i_trapezoid_link(map, m, next, !above);
     sunder_i_trapezoid_pass(map, &map->trapezoid[t], after, &map->trapezoid[after], m, next, above);
 }
 
-/* The old ones of a row lead to those of the new row between the same walls, and go. */
+/* Makes the old trapezoids of a row lead, in the history, to those of the new row between the same walls, and frees
+ * them. */
 static void succeed(sunder_i_planar_map *map, const sunder_i_list *old)
 {
     size_t first = 0;
@@ -70,7 +72,7 @@ bool sunder_i_trapezoid_erase(sunder_i_planar_map *map, uint32_t e)
     const uint32_t *u = map->above.item, *d = map->beneath.item;
     const size_t un = map->above.n, dn = map->beneath.n;
     uint32_t covered = map->trapezoid[u[0]].covered - map->edge[e].sides[0];
-    if (map->edge[e].sides[0] > map->trapezoid[u[0]].covered) covered = 0; /* counts not marked yet */
+    if (map->edge[e].sides[0] > map->trapezoid[u[0]].covered) covered = 0; /* the counts are not valid yet */
     uint32_t m = begin(map, u[0], d[0], map->edge[e].end[0], covered);
     sunder_i_trapezoid *z = map->trapezoid;
     sunder_i_trapezoid_link(map, z[u[0]].lu, m, true);
@@ -78,7 +80,7 @@ bool sunder_i_trapezoid_erase(sunder_i_planar_map *map, uint32_t e)
     size_t i = 0, j = 0;
     while (i + 1 < un || j + 1 < dn) {
         const uint32_t p = z[u[i]].right, q = z[d[j]].right;
-        /* The last of a row ends in the edge's end, which is beyond all other walls. */
+        /* The last trapezoid of a row ends at the edge's end, which is beyond all other walls. */
         const bool upper =
             j + 1 == dn || (i + 1 < un && sunder_i_site_cmp(map, &map->vertex[p].site, &map->vertex[q].site) < 0);
         z[m].right = upper ? p : q;

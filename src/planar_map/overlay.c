@@ -1,8 +1,8 @@
-/* All of one map into another, in random order.
+/* overlay.c: inserts all of one map into another, in random order.
  *
- * An edge goes in as a segment with its counts; its ends, once in, are remembered. The count `below` of a vertex of the
- * other map is added once, after all edges: no edge of the other map has a vertex of its own in its relative interior,
- * so walks add nothing to it but what the overlaid edges say. */
+ * An edge is inserted as a segment with its counts; the new numbers of its ends are stored. The count `below` of a
+ * vertex of the other map is added once, after all edges: no edge of the other map has one of its vertices in its
+ * relative interior, so that insertions add to it only the counts of the overlaid edges. */
 #include "base/random.h"
 #include "planar_map/map.h"
 
@@ -12,7 +12,7 @@ static uint32_t copied_line(sunder_i_planar_map *map, const sunder_i_map_line *f
     return sunder_i_map_broken(map) ? NOWHERE : sunder_i_map_new_line(map, &l);
 }
 
-/* Where `of` has them, its vertices and lines as they are called here; NOWHERE: not yet. */
+/* The new numbers of the vertices and lines of the map `of`; NOWHERE: not inserted yet. */
 typedef struct names {
     uint32_t *vertex, *line;
 } names;
@@ -46,7 +46,7 @@ static bool add_all(sunder_i_planar_map *map, const sunder_i_planar_map *of, nam
     size_t count = 0;
     for (uint32_t e = 0; e < of->edges; e++)
         if (of->edge[e].end[0] != NOWHERE) order[count++] = e;
-    for (size_t i = count; i > 0; i--) { /* shuffled, and inserted as drawn; the last one costs a draw, too */
+    for (size_t i = count; i > 0; i--) { /* shuffled while they are inserted; also the last edge uses a random number */
         sunder_i_shuffle_step(order, i, sizeof *order, sunder_i_draw(&map->random));
         if (!add_edge(map, of, n, order[i - 1])) return false;
     }
@@ -78,8 +78,8 @@ sunder_status sunder_i_planar_map_overlay(sunder_i_planar_map *map, const sunder
     return sunder_i_map_status(map, err);
 }
 
-/* What is alive of a map goes into a new one, which takes its place; of the old one only vertices, lines and edges with
- * their ends, lines and counts need to be in order. */
+/* Makes a new map from the live elements of a map and replaces it; of the old map only vertices, lines, and edges with
+ * their ends, lines and counts need to be valid. */
 bool sunder_i_map_renew(sunder_i_planar_map *map)
 {
     sunder_i_planar_map *fresh;
@@ -96,9 +96,9 @@ bool sunder_i_map_renew(sunder_i_planar_map *map)
     return true;
 }
 
-/* Nodes of the history for each trapezoid that is alive, and for a map of any size, before it is made anew: vertices
- * gone, lines and the history of what is gone outweigh the map after many removals, and lead to places the long way
- * round. This number keeps the cost of starting afresh below that of the insertions that made it necessary. */
+/* A map is made anew if its history has more nodes than HISTORY_EACH for each live trapezoid plus HISTORY_LEAST: after
+ * many removals, removed vertices, lines and their history need more memory than the map itself, and make searches
+ * longer. The numbers are so large that the time for new maps is below that of the insertions between them. */
 #define HISTORY_EACH 64
 #define HISTORY_LEAST 65536
 

@@ -1,17 +1,18 @@
-/* A convex polygon as two chains from its smallest corner to its greatest: the lower one counter-clockwise, the upper
- * one clockwise. The polygon is above the edges of the lower chain and below those of the upper one, and right below
- * the vertices that lie inside the upper chain and no others of its boundary. */
+/* polygon.c: a convex polygon as two chains from its smallest corner to its greatest: the lower one counterclockwise,
+ * the upper one clockwise. The polygon is above the edges of the lower chain and below those of the upper one; of the
+ * vertices of its boundary, it is directly below those inside the upper chain only. */
 #include "planar_map/map.h"
 
 typedef struct boundary {
     size_t n, least, most;
-    sunder_i_site *site;     /* numbers are the caller's, later the map's */
-    sunder_i_map_line *line; /* of side i, from corner i to the next; in the scratch arena. Empty sides have none */
+    sunder_i_site *site;     /* with numbers of the caller, later of the map */
+    sunder_i_map_line *line; /* line[i] is the line of side i, from corner i to the next; its numbers are in the scratch
+                              * arena. Sides of length 0 have none */
     bool *empty;
     bool unite;
 } boundary;
 
-/* The corner after i along a chain, and the side between the two. */
+/* Returns the corner after i along a chain; *side becomes the side between the two. */
 static size_t step(const boundary *b, bool upper, size_t i, size_t *side)
 {
     const size_t j = upper ? (i + b->n - 1) % b->n : (i + 1) % b->n;
@@ -56,9 +57,9 @@ static bool glide_chain(sunder_i_planar_map *map, const boundary *b, bool upper,
     return true;
 }
 
-/* Does the polygon change nothing? So it is if its smallest corner, in trapezoid t, is strictly inside a covered face,
- * and both chains go through the same trapezoids without meeting a vertex or an edge: then these contain it. (It may
- * change nothing in other cases too; those are for the cleaning to find out.) */
+/* Returns true if the polygon certainly changes nothing: its smallest corner, in trapezoid t, is strictly inside a
+ * covered face, and both chains pass through the same trapezoids without meeting a vertex or an edge, so that these
+ * contain the polygon. (It may change nothing in other cases, too; the cleaning finds these.) */
 static bool is_redundant(sunder_i_planar_map *map, const boundary *b, uint32_t t)
 {
     const sunder_i_trapezoid *z = &map->trapezoid[t];
@@ -72,7 +73,7 @@ static bool is_redundant(sunder_i_planar_map *map, const boundary *b, uint32_t t
             memcmp(map->above.item, map->beneath.item, map->above.n * sizeof *map->above.item) == 0);
 }
 
-/* ---- Drawing it ---- */
+/* ---- Drawing the polygon ---- */
 
 static bool walk_chain(sunder_i_planar_map *map, const boundary *b, bool upper, uint32_t v)
 {

@@ -1,16 +1,16 @@
-/* Sites and lines: three questions and one construction, each filtered in floating point and then decided exactly.
+/* sites.c: sites and lines: three tests and one construction, each decided in floating point if the error bound allows
+ * it, else exactly.
  *
- * Degrees, where corners are lattice points (degree 1, w of degree 0): a line has A, B of degree 1 and C of degree 2; a
- * crossing x, y of degree 3 over w of degree 2.
- *     side of a corner 2, of a crossing 4; order of corners 1, of two crossings 5; turn of two lines 2.
- * A corner that is a sum with Steiner points has x, y of degree d + 1 over w of degree d (d = 2 for one Steiner point,
- * 4 for two); its line, given a lattice direction, has A, B of degree d + 1 and C of degree d + 2 before the common
- * divisor is taken out, and the degrees grow accordingly: crossings of two such lines have x, y of degree 2 d + 3 over
- * w of degree 2 d + 2, ordered in degree 4 d + 5. Nothing is ever constructed from a crossing, so no number grows
- * beyond that.
+ * Degrees, if corners are lattice points (degree 1, w of degree 0): a line has A, B of degree 1 and C of degree 2; a
+ * crossing x, y of degree 3 over w of degree 2. The degrees of the tests are: side of a corner 2, of a crossing 4;
+ * order of corners 1, of two crossings 5; turn of two lines 2. A corner that is a sum with Steiner points has x, y of
+ * degree d + 1 over w of degree d (d = 2 for one Steiner point, 4 for two); its line, with a given lattice direction,
+ * has A, B of degree d + 1 and C of degree d + 2 before division by the common divisor, and the degrees increase
+ * accordingly: crossings of two such lines have x, y of degree 2 d + 3 over w of degree 2 d + 2, compared in degree 4 d
+ * + 5. Nothing is constructed from a crossing, so that no number becomes longer.
  *
- * The exact answer is always the sign of a sum of up to three products; up to 16 limbs each (1024 bits) it is worked
- * out on the stack, which covers every degree above on a narrow lattice; else on the scratch arena. */
+ * The exact result is always the sign of a sum of up to three products; with up to 16 limbs each (1024 bits) it is
+ * computed on the stack, which covers every degree above on a narrow lattice; else in the scratch arena. */
 #include "planar_map/map.h"
 
 #include "predicate/rational_point.h"
@@ -55,7 +55,7 @@ static int sum_cmp(const sum *a, const sum *b)
 
 static mp_size_t limbs(sunder_i_big a) { return (mp_size_t)labs(a.size); }
 
-/* Sign of the sum of a[i] * b[i], n <= 3. */
+/* Returns the sign of the sum of a[i] * b[i], n <= 3. */
 static int dot_sign(sunder_i_planar_map *map, const sunder_i_big *a, const sunder_i_big *b, int n)
 {
     bool small = true;
@@ -98,17 +98,19 @@ int sunder_i_site_cmp_exact(sunder_i_planar_map *map, const sunder_i_site *p, co
 {
     if (p->at.x.limb == q->at.x.limb && p->at.y.limb == q->at.y.limb && p->at.w.limb == q->at.w.limb &&
         p->at.x.size == q->at.x.size && p->at.y.size == q->at.y.size)
-        return 0; /* the very same numbers */
+        return 0; /* the same numbers in memory */
     const int c = coordinate_cmp(map, p->ax, q->ax, p, q, 0);
     return c ? c : coordinate_cmp(map, p->ay, q->ay, p, q, 1);
 }
 
-/* The filter. With u = 2^-53: the site's doubles and the reference's are off by at most u times their magnitude; the
- * differences dx, dy round once, a and b are off by u, products and the sum round once more. So the error is at most
- *     (|a dx| + |b dy|) 4 u (1 + u)^3  +  u (|a| (|px| + |rx|) + |b| (|py| + |ry|)) (1 + u)^3
- * and twice that is asked for. Subnormal coordinates (of a wide lattice) and subnormal a, b add no more than 2^-1074
- * times the other factor, below 2^502 for sites on the lattice or between them: 2^-500 covers them, and costs a lattice
- * of integers nothing. */
+/* The error bound. With u = 2^-53: the doubles of the site and of the reference point have errors of at most u times
+ * their magnitude; the differences dx, dy are rounded once, a and b have errors of u, products and the sum are rounded
+ * once more. So the error is at most
+ *   (|a dx| + |b dy|) 4 u (1 + u)^3  +  u (|a| (|px| + |rx|) + |b| (|py| + |ry|)) (1 + u)^3
+ * and twice that is used. Subnormal coordinates (of a wide lattice) and subnormal a, b add at most 2^-1074 times the
+ * other factor, which is below 2^502 for sites on the lattice or between them: 2^-500 bounds this, and makes no
+ * difference on a lattice of
+ * integers. */
 int sunder_i_site_side(sunder_i_planar_map *map, const sunder_i_map_line *line, const sunder_i_site *p)
 {
     map->lattice->counts.orientation_tests++;
@@ -123,7 +125,8 @@ int sunder_i_site_side(sunder_i_planar_map *map, const sunder_i_map_line *line, 
     return dot_sign(map, line->abc, at, 3);
 }
 
-/* The direction of a line is (B, -A). The filter: each double off by u, products and the difference round once: 4 u. */
+/* The direction of a line is (B, -A). The error bound: each double has an error of u, products and the difference are
+ * rounded once: 4 u. */
 int sunder_i_line_turn(sunder_i_planar_map *map, const sunder_i_map_line *f, const sunder_i_map_line *g)
 {
     if (f == g) return 0;
@@ -153,7 +156,7 @@ sunder_i_site sunder_i_site_of(sunder_i_planar_map *map, sunder_i_rational_point
     return s;
 }
 
-/* a b - c d, the result alone left in the arena. */
+/* Returns a b - c d; only the result remains in the arena. */
 static sunder_i_big minor(sunder_i_planar_map *map, sunder_i_arena *arena, sunder_i_big a, sunder_i_big b,
                           sunder_i_big c, sunder_i_big d)
 {
@@ -181,11 +184,11 @@ sunder_i_site sunder_i_line_crossing(sunder_i_planar_map *map, const sunder_i_ma
 
 static sunder_i_big divided(sunder_i_arena *arena, sunder_i_big a, sunder_i_big by)
 {
-    return sunder_i_big_div_floor(arena, a, by); /* by divides a, so nothing is rounded */
+    return sunder_i_big_div_floor(arena, a, by); /* `by` divides a, so that nothing is rounded */
 }
 
-/* The line through p along a plain vector (dx, dy): A = -dy w, B = dx w, C = dy x - dx y. What p's denominator has in
- * common with C goes; dx and dy keep what they have in common, which no later step adds to. */
+/* Returns the line through p along a plain vector (dx, dy): A = -dy w, B = dx w, C = dy x - dx y. Common factors of p's
+ * denominator and C are removed, those of dx and dy are not; no later step increases these. */
 static sunder_i_map_line line_along(sunder_i_planar_map *map, const sunder_i_site *p, int64_t dx, int64_t dy)
 {
     sunder_i_arena *s = &map->scratch;
@@ -211,7 +214,7 @@ static sunder_i_map_line line_along(sunder_i_planar_map *map, const sunder_i_sit
                                .ry = p->ay};
 }
 
-/* The same along (dx, dy), or, with that NULL, through q. */
+/* Returns the line through p along a lattice vector, or through q if `along` is NULL. */
 static sunder_i_map_line line_between(sunder_i_planar_map *map, const sunder_i_site *p, const sunder_i_site *q,
                                       const sunder_i_point *along)
 {

@@ -1,4 +1,5 @@
-/* The vertical decomposition under insertion: a wall put up in a trapezoid, an edge drawn through a row of them. */
+/* trapezoids.c: the vertical decomposition at insertions: a wall inserted in a trapezoid, an edge drawn through a row
+ * of trapezoids. */
 #include "planar_map/map.h"
 
 void sunder_i_trapezoid_install(sunder_i_planar_map *map, uint32_t t)
@@ -49,12 +50,12 @@ void sunder_i_trapezoid_pass(sunder_i_planar_map *map, const sunder_i_trapezoid 
     sunder_i_trapezoid_link(map, back, b, upper);
 }
 
-/* Each crossed trapezoid falls into a part above e and one below. Where its right wall's vertex is above e, the wall no
- * longer reaches below: the lower part runs on into the next trapezoid, and the upper part ends; and the other way
- * round. So each crossed trapezoid but the first begins exactly one new part, at the same vertex and along the same
- * other edge, and takes its id: so edges and vertices that knew it as theirs still do. The first begins two, and the
- * upper one takes its id. Invariant: u and d are the parts above and below that are open at the trapezoid looked at;
- * `old` is what it was. */
+/* Each crossed trapezoid is divided into a part above e and one below. If the vertex of its right wall is above e, the
+ * wall no longer extends below e: the lower part continues in the next trapezoid, and the upper part ends; likewise in
+ * the opposite case. So each crossed trapezoid except the first begins exactly one new part, at the same vertex and
+ * along the same other edge, and the part gets its number: so references of edges and vertices to it remain valid. The
+ * first begins two, and the upper one gets its number. Invariant: u and d are the parts above and below that are open
+ * at the current trapezoid; `old` is its former contents. */
 void sunder_i_trapezoid_draw(sunder_i_planar_map *map, uint32_t e)
 {
     sunder_i_trapezoid *z = map->trapezoid;
@@ -79,8 +80,8 @@ void sunder_i_trapezoid_draw(sunder_i_planar_map *map, uint32_t e)
         if (i + 1 == n) break;
         const uint32_t p = old.right, next = t[i + 1];
         const sunder_i_trapezoid after = z[next];
-        /* The row goes on through the part of the wall below its vertex p, or above it; where p has no edge to the
-         * right both parts lead to the same trapezoid, and the side of p tells. */
+        /* The row continues through the part of the wall below its vertex p, or above it; if p has no edge to the
+         * right, both parts lead to the same trapezoid, and the side of p decides. */
         const bool p_above =
             old.rl == next && (old.ru != next || sunder_i_site_side(map, &map->line[line], &map->vertex[p].site) > 0);
         z[next] = (sunder_i_trapezoid){.left = p,

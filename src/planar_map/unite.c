@@ -1,8 +1,9 @@
-/* The step of the incremental union: a convex polygon comes on top of a clean map, and what it makes redundant goes.
+/* unite.c: the step of the incremental union: a convex polygon is added to a clean map, and elements that become
+ * redundant are removed.
  *
- * That is what lies inside the polygon, found by a flood of trapezoids from its boundary, and those parts of the
- * boundary that lie inside the union so far. Elsewhere nothing has changed: an edge outside has the same faces on both
- * sides as before. */
+ * These are the elements inside the polygon, which are found by a flood fill of trapezoids from its boundary, and those
+ * parts of the boundary that are inside the union so far. Nothing else changes: an edge outside has the same faces on
+ * both sides as before. */
 #include "planar_map/map.h"
 
 static bool see(sunder_i_planar_map *map, uint32_t t, uint32_t stamp)
@@ -13,13 +14,14 @@ static bool see(sunder_i_planar_map *map, uint32_t t, uint32_t stamp)
     return sunder_i_map_push(map, &map->inside, t);
 }
 
-/* The trapezoids, edges and vertices strictly inside the ring. Ring edges and vertices bear the stamp already. */
+/* Lists the trapezoids, edges and vertices strictly inside the ring. The edges and vertices of the ring must have the
+ * stamp already. Returns false if out of memory. */
 static bool flood(sunder_i_planar_map *map, uint32_t stamp)
 {
     map->inside.n = map->edges_inside.n = map->vertices_inside.n = 0;
     for (size_t i = 0; i < map->ring.n; i++)
         if (!see(map, sunder_i_map_left_of(map, map->ring.item[i]), stamp)) return false;
-    for (size_t i = 0; i < map->inside.n; i++) { /* the list is its own queue */
+    for (size_t i = 0; i < map->inside.n; i++) { /* the list is also the queue */
         const uint32_t t = map->inside.item[i];
         uint32_t to[6];
         int64_t step[6];
@@ -47,8 +49,8 @@ static bool clean_ring(sunder_i_planar_map *map)
     }
     if (!flood(map, stamp)) return false;
     for (size_t i = 0; i < map->inside.n; i++) map->trapezoid[map->inside.item[i]].covered++;
-    /* Each vertex of the ring begins one of its half-edges. Those that stay wait on the stack; ring keeps its edges
-     * that stay. */
+    /* Each vertex of the ring is the origin of one of its half-edges. The vertices that remain are put on the stack;
+     * `ring` keeps its edges that remain. */
     map->stack.n = 0;
     size_t kept = 0;
     for (size_t i = 0; i < map->ring.n; i++) {
