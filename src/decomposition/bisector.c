@@ -1,27 +1,28 @@
-/* The angle-bisector decomposition after Chazelle and Dobkin [CD85], in the form that is called small-side and
- * slightly improved in [AFH00, AFH02]: pairs of reflex vertices first, the rest one by one.
+/* bisector.c: the angle-bisector decomposition after Chazelle and Dobkin [CD85], in the variant that is called
+ * small-side and slightly improved in [AFH00, AFH02]: pairs of reflex vertices first, the others one by one.
  *
- * A direction d resolves a reflex vertex, whose sector opens counter-clockwise by more than pi from `low` to `high`,
- * if neither of the two angles that it leaves is more than pi: if d lies in the closed cone from -high to -low. One
- * cut in that cone is what it takes, and a vertex that some cut has resolved on its way needs none. So there are at
- * most r + 1 - h pieces.
+ * A direction d resolves a reflex vertex, whose sector opens counterclockwise by more than pi from `low` to `high`, if
+ * neither of the two angles into which d divides the sector is more than pi: if d is in the closed cone from -high to
+ * -low. One cut in that cone is sufficient, and a vertex that was resolved by the end of another cut needs none. So
+ * there are at most r + 1 - h pieces for r reflex vertices and h holes.
  *
- * 1. Two reflex vertices that see each other, each in the other's cone, are resolved by one cut. Among all such
- *    pairs those come first that cut off few reflex vertices on their smaller side (none, where they join two
- *    rings): they leave the other pairs intact. A pair is taken if both its vertices are still to be resolved and it
- *    crosses no cut.
- * 2. Each other reflex vertex, in order, is joined to a vertex that it sees in its cone and that no cut hides,
- *    reflex ones before others, the one nearest to the bisector: no Steiner point. Where there is none a cut runs
- *    near the bisector (direction.c) to the first thing in its way: an edge, a vertex (one that it grazes too),
- *    another cut.
+ * 1. Two reflex vertices that see each other, each in the other's cone, are resolved by one cut. Of all such pairs
+ * those come first that have few reflex vertices on their smaller side (none, if they join two rings): they leave the
+ * other pairs intact. A pair is used if neither of its vertices is resolved yet and it crosses no cut.
  *
- * Every cut lies on a line through a vertex in a lattice direction, so its end is where two such lines meet:
- * numerator and denominator have degree 2, or, for directions of direction.c with their 20 bits, little more than 1.
- * Crossings along one line are compared in degree 4. A cut never passes through a vertex; one that would meet
- * another cut just where that one ends meets the line that the other one ends on, at the same place. Cost: what the
- * reflex vertices see, and r^2 for the cuts.
+ * 2. Each other reflex vertex, in order, is joined to a vertex that it sees in its cone and that no cut hides: reflex
+ * ones are preferred, then the one nearest to the bisector. This needs no Steiner point. If there is none, a cut
+ * extends near the bisector (direction.c) to the first element that it meets: an edge, a vertex (even if the cut only
+ * grazes it), another cut.
  *
- * Doubles choose among what is exactly possible (which vertex is nearest the bisector): they decide nothing else. */
+ * Every cut is on a line through a vertex in a lattice direction, so that its end is the intersection of two such
+ * lines: numerator and denominator have degree 2, or, for directions of direction.c with their 20 bits, little more
+ * than 1. Intersections on one line are compared in degree 4. A cut never passes through a vertex; one that would meet
+ * another cut exactly at its end meets the line on which the other one ends at the same point. The time depends on the
+ * number of vertices that reflex vertices see, and on r^2 for the cuts.
+ *
+ * Doubles select among alternatives that are all exactly possible (which vertex is nearest to the bisector): they
+ * decide nothing else. */
 #include "base/extremes.h"
 #include "base/sort.h"
 #include "base/watch.h"
@@ -39,14 +40,14 @@ typedef struct bisector {
     const sunder_i_member *part;
     sunder_i_ray_shooting rays;
     sunder_i_cut *cut;
-    double (*box)[4]; /* [cuts] see hull() */
+    double (*box)[4]; /* [cuts] the boxes of the cuts, see box_of_cut() */
     uint32_t cuts;
-    uint32_t *ring_of;     /* [n] */
-    uint32_t *rank;        /* [n + 1] reflex vertices before vertex first + i */
-    bool *reflex, *paired; /* [n]; paired: resolved in the first step */
-    uint32_t
-        *first_end;     /* [n] head of the list of cut ends at a vertex: 2 * cut + (1 if the cut ends there), or NONE */
-    uint32_t *next_end; /* [2 * cuts] */
+    uint32_t *ring_of;     /* [n] the ring of each vertex */
+    uint32_t *rank;        /* [n + 1] the number of reflex vertices before vertex first + i */
+    bool *reflex, *paired; /* [n]; paired: whether the vertex was resolved in the first step */
+    uint32_t *first_end;   /* [n] the head of the list of cut ends at a vertex: 2 * cut + (1 if the cut ends there), or
+                         * SUNDER_I_NONE */
+    uint32_t *next_end;    /* [2 * cuts] the next element of that list */
     reflex_pair *pair;
     uint32_t pairs;
     size_t pair_room;
@@ -63,7 +64,8 @@ static sunder_i_point to_vertex(const bisector *b, uint32_t v, uint32_t w)
     return sunder_i_point_sub(b->m->lattice, r->at[w], r->at[v]);
 }
 
-/* Is there such a part, after the cuts at v? Narrows the sector at each cut to the side that is reflex, if any. */
+/* Narrows the sector of v, at each cut that starts or ends at v, to the side that is reflex. Stores the rest in *s.
+ * Returns false if no side is reflex. */
 static bool reflex_part(const bisector *b, uint32_t v, sector *s)
 {
     sunder_i_lattice *l = b->m->lattice;
@@ -73,7 +75,7 @@ static bool reflex_part(const bisector *b, uint32_t v, sector *s)
     for (uint32_t e = b->first_end[v - b->part->first]; e != SUNDER_I_NONE; e = b->next_end[e]) {
         sunder_i_point d = b->cut[e / 2].along;
         if (e & 1) d = sunder_i_point_neg(l, d);
-        if (sunder_i_around(l, s->low, d, s->high) >= 0) continue; /* outside what is left */
+        if (sunder_i_around(l, s->low, d, s->high) >= 0) continue; /* outside the rest of the sector */
         if (sunder_i_cross_sign(l, s->low, d) < 0)
             s->high = d;
         else if (sunder_i_cross_sign(l, d, s->high) < 0)
@@ -84,17 +86,17 @@ static bool reflex_part(const bisector *b, uint32_t v, sector *s)
     return true;
 }
 
-/* Is d in the cone that resolves the sector? */
+/* Returns true if d is in the cone that resolves the sector. */
 static bool resolves(sunder_i_lattice *l, const sector *s, sunder_i_point d)
 {
     return sunder_i_cross_sign(l, s->low, d) >= 0 && sunder_i_cross_sign(l, d, s->high) >= 0;
 }
 
-/* ---- Cuts and what they hide ---- */
+/* ---- Cuts and visibility ---- */
 
-/* A box around vertex v and all of: vertex w; the edge that leaves w; cut w. Its bounds are roundings of
- * coordinates, and rounding is monotone: boxes that are apart hold what is apart. A Steiner point lies in the box of
- * what it lies on. */
+/* *box becomes a box around vertex v and vertex w, the edge that leaves w, or cut w, depending on `end`. Its bounds are
+ * rounded coordinates, and rounding is monotone: objects in disjoint boxes are disjoint. A Steiner point is in the box
+ * of the edge or cut that contains it. */
 static void hull(const bisector *b, uint32_t v, sunder_i_cut_end end, uint32_t w, double box[4])
 {
     const sunder_i_rings *r = &b->m->rings;
@@ -115,7 +117,8 @@ static void hull(const bisector *b, uint32_t v, sunder_i_cut_end end, uint32_t w
     }
 }
 
-/* Where the ray from v along d (through toward) crosses cut k, strictly inside that cut. */
+/* Returns true if the ray from v along d (through `toward`) crosses cut k in the interior of that cut; *t becomes the
+ * position on the ray. */
 static bool meets_cut(const bisector *b, uint32_t v, sunder_i_point toward, sunder_i_point d, uint32_t k,
                       sunder_i_fraction *t)
 {
@@ -124,7 +127,7 @@ static bool meets_cut(const bisector *b, uint32_t v, sunder_i_point toward, sund
     const sunder_i_cut *c = &b->cut[k];
     const sunder_i_point from = r->at[v], other = r->at[c->from];
     const int side = sunder_i_orient(l, from, toward, other);
-    /* The cut must start on one side of the ray's line and run to the other. */
+    /* The cut must start on one side of the ray's line and lead to the other. */
     if (side == 0 || side * sunder_i_cross_sign(l, d, c->along) >= 0) return false;
     const sunder_i_fraction on = sunder_i_crossing(l, other, c->toward, from, toward);
     if (sunder_i_fraction_cmp(l, &on, &c->length) >= 0) return false;
@@ -132,7 +135,7 @@ static bool meets_cut(const bisector *b, uint32_t v, sunder_i_point toward, sund
     return sunder_i_fraction_sign(l, t) > 0;
 }
 
-/* Does a cut cross the segment from v to the vertex w? */
+/* Returns true if a cut crosses the segment from v to the vertex w. */
 static bool is_hidden(const bisector *b, uint32_t v, uint32_t w)
 {
     sunder_i_lattice *l = b->m->lattice;
@@ -188,7 +191,7 @@ static uint32_t small_side(const bisector *b, uint32_t v, uint32_t w)
     return between < rest ? between : rest;
 }
 
-/* Lists the vertices that v sees in its cone, in b->rays.seen. */
+/* Lists the vertices that v sees in the cone that resolves *s, in b->rays.seen. Returns false if out of memory. */
 static bool look_in_cone(bisector *b, uint32_t v, const sector *s)
 {
     const sunder_i_point cone[2] = {s->low, s->high};
@@ -245,7 +248,7 @@ static bool join_pairs(bisector *b)
 
 /* ---- Second step ---- */
 
-/* Of the vertices seen in the cone the one to join v to, or NONE. */
+/* Returns the vertex to which v is joined, one of those in b->rays.seen, or SUNDER_I_NONE. */
 static uint32_t choose_vertex(bisector *b, uint32_t v, const sector *s)
 {
     sunder_i_lattice *l = b->m->lattice;
@@ -263,7 +266,8 @@ static uint32_t choose_vertex(bisector *b, uint32_t v, const sector *s)
         if (!resolves(l, s, d)) continue;
         sunder_i_direction_unit(l, d, unit, &exponent);
         const bool reflex = b->reflex[w - b->part->first];
-        const double fit = unit[0] * middle[0] + unit[1] * middle[1]; /* greatest along the bisector */
+        /* the greatest value is nearest to the bisector */
+        const double fit = unit[0] * middle[0] + unit[1] * middle[1];
         if (best != SUNDER_I_NONE && (reflex < best_reflex || (reflex == best_reflex && fit <= best_fit))) continue;
         if (is_hidden(b, v, w)) continue;
         best = w;
@@ -273,7 +277,7 @@ static uint32_t choose_vertex(bisector *b, uint32_t v, const sector *s)
     return best;
 }
 
-/* Fills in the cut's end: the nearest of what the ray meets. */
+/* Sets the end of the cut: the nearest of the elements that its ray meets. Returns false if out of memory. */
 static bool find_end(const bisector *b, sunder_i_cut *cut)
 {
     sunder_i_lattice *l = b->m->lattice;

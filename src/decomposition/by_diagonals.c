@@ -1,4 +1,4 @@
-/* Decompositions by diagonals alone: every corner is a vertex of the shape. */
+/* by_diagonals.c: decompositions by diagonals only: every corner is a vertex of the shape. */
 #include "base/sort.h"
 #include "decomposition/maker.h"
 
@@ -9,7 +9,7 @@ void sunder_i_make_shape_pieces(sunder_i_maker *m)
     const sunder_shape *s = m->shape;
     uint32_t at = 0;
     for (uint32_t i = 0; i < s->pieces; i++) {
-        /* Pieces stand in the order of the members that they belong to. */
+        /* The pieces are in the order of the polygons to which they belong. */
         while (s->form->cleaned.ring_end[s->form->cleaned.poly_end[m->polygon] - 1] <= sunder_i_piece_vertices(s)[at])
             m->polygon++;
         sunder_i_maker_add_vertices(m, sunder_i_piece_vertices(s) + at, s->piece_end[i] - at);
@@ -17,7 +17,7 @@ void sunder_i_make_shape_pieces(sunder_i_maker *m)
     }
 }
 
-/* The faces of what is left of a mesh. */
+/* Adds the faces of the mesh as pieces. */
 void sunder_i_maker_add_faces(sunder_i_maker *m, sunder_i_mesh *mesh)
 {
     const sunder_i_rings *r = &m->rings;

@@ -1,17 +1,18 @@
-/* Pieces from cuts: the member's edges and the cuts as a planar subdivision by half-edges, and its faces.
+/* cuts.c: makes pieces from cuts: the polygon's edges and the cuts form a planar subdivision with half-edges, and its
+ * faces are the pieces.
  *
- * Lines first: each edge and each cut is a line with its two ends and the Steiner points where other cuts end on it,
- * sorted along it and made one where they coincide (fractions of degree 2, compared in degree 4). Each stretch of a
- * line between two such nodes is a pair of half-edges. Then the half-edges that leave each node are sorted by angle:
- * around a vertex from its outgoing edge counter-clockwise through its sector to its incoming one, around a Steiner
- * point from the direction of its line all the way round. Directions are lattice vectors, so this is degree 2. The
- * half-edge after one that arrives is the one that leaves just before, counter-clockwise, the way back.
+ * First the lines: each edge and each cut is a line with its two ends and the Steiner points where other cuts end on
+ * it, sorted along the line; coincident ones become one node (fractions of degree 2, compared in degree 4). Each
+ * stretch of a line between two such nodes is a pair of half-edges. Then the half-edges that leave each node are sorted
+ * by angle: around a vertex from its outgoing edge counterclockwise through its sector to its incoming one, around a
+ * Steiner point from the direction of its line through a full turn. Directions are lattice vectors, so that this has
+ * degree 2. The half-edge after an arriving one is the half-edge that leaves directly before, counterclockwise, the
+ * opposite direction.
  *
- * Degenerate cases. Two cuts that end at one place of one line, from one side or from both: one node. A cut that
- * ends where another one does, at a vertex: that vertex has several cuts in its sector. Places that coincide but
- * belong to different sectors (rings that touch) are different vertices and stay so. Straight corners, where a cut
- * ends on the other side of a line or runs on as the extension of an edge, are left out of the pieces
- * (sunder_i_maker_end_piece()). */
+ * Degenerate cases. Two cuts that end at one point of a line, from one side or from both, have one node. If a cut ends
+ * where another one does, at a vertex, that vertex has several cuts in its sector. Points that coincide but belong to
+ * different sectors (rings that touch) are different vertices and remain so. Straight corners, at which a cut ends on
+ * the other side of a line or which extend an edge, are omitted from the pieces (sunder_i_maker_end_piece()). */
 #include "base/sort.h"
 #include "decomposition/maker.h"
 
@@ -21,18 +22,21 @@ typedef struct subdivision {
     sunder_i_maker *m;
     const sunder_i_member *part;
     const sunder_i_cut *cut;
-    uint32_t cuts, lines;         /* the member's edges by their first vertex, then the cuts */
-    sunder_i_point *along, *back; /* [lines] the vector of each, and its negative */
-    uint32_t *order;              /* [cuts] those that end in Steiner points, by line and place */
+    uint32_t cuts, lines;         /* the lines are the polygon's edges, numbered by their first vertices, then the
+                                   * cuts */
+    sunder_i_point *along, *back; /* [lines] the vector of each line, and its negative */
+    uint32_t *order;              /* [cuts] the cuts that end at Steiner points, by line and position */
     uint32_t steiner_ends, nodes; /* nodes: the vertices, then the Steiner points */
-    uint32_t *end_node;           /* [cuts] the node where each ends */
-    uint32_t *node_corner;        /* [cuts] number as a corner of Steiner node n + i */
+    uint32_t *end_node;           /* [cuts] the node at which each cut ends */
+    uint32_t *node_corner;        /* [cuts] the corner number of Steiner node n + i */
     uint32_t *line_of;            /* [cuts] the line of Steiner node n + i */
-    uint32_t *line_steiner;       /* [lines + 1] index of the first Steiner node of each line */
-    uint32_t *line_half;          /* [lines + 1] first half-edge of each line: 2 for each stretch, forward and back */
+    uint32_t *line_steiner;       /* [lines + 1] the index of the first Steiner node of each line */
+    uint32_t *line_half;          /* [lines + 1] the first half-edge of each line: there are 2 for each stretch, forward
+                                   * and backward */
     uint32_t *out_first, *out;    /* [nodes + 1], [halves] the half-edges that leave each node */
-    uint32_t *node, *next;        /* [halves] where it starts; what follows it around its face */
-    uint32_t *line;               /* [halves] */
+    uint32_t *node, *next;        /* [halves] the node at which a half-edge starts; the half-edge that follows it around
+                                   * its face */
+    uint32_t *line;               /* [halves] the line of a half-edge */
 } subdivision;
 
 bool sunder_i_cut_run(sunder_i_cut *cut, const sunder_i_ray_shooting *rays)
@@ -67,7 +71,7 @@ int sunder_i_around(sunder_i_lattice *lattice, sunder_i_point ref, sunder_i_poin
     return -sunder_i_cross_sign(lattice, a, b);
 }
 
-/* The line that the cut ends on. */
+/* Returns the line on which the cut ends. */
 static uint32_t line_hit(const subdivision *s, uint32_t cut)
 {
     const sunder_i_cut *c = &s->cut[cut];
@@ -82,7 +86,7 @@ static int compare_ends(void *context, uint32_t a, uint32_t b)
     return sunder_i_fraction_cmp(s->m->lattice, &s->cut[a].on, &s->cut[b].on);
 }
 
-/* The Steiner nodes: ends of cuts, one for each place on a line. */
+/* Makes the Steiner nodes: the ends of cuts, one for each point of a line. Returns false if out of memory. */
 static bool find_nodes(subdivision *s)
 {
     const uint32_t n = s->part->n;
@@ -112,7 +116,7 @@ static bool find_nodes(subdivision *s)
     return !l->arena.failed;
 }
 
-/* The first and the last node of a line. */
+/* Stores the first and the last node of a line in `ends`. */
 static void line_ends(const subdivision *s, uint32_t line, uint32_t ends[2])
 {
     const sunder_i_rings *r = &s->m->rings;
@@ -151,7 +155,7 @@ static sunder_i_point half_along(const subdivision *s, uint32_t h)
     return h & 1 ? s->back[s->line[h]] : s->along[s->line[h]];
 }
 
-/* Sorts what leaves each node and links the faces. */
+/* Sorts the half-edges that leave each node, and links the faces. */
 static void link_halves(subdivision *s)
 {
     sunder_i_lattice *l = s->m->lattice;
@@ -181,7 +185,8 @@ static void add_faces(subdivision *s)
 {
     const uint32_t n = s->part->n;
     for (uint32_t h = 0; h < s->line_half[s->lines]; h++) {
-        if (s->node[h] == SUNDER_I_NONE || (h & 1 && s->line[h] < n)) continue; /* done, or outside */
+        /* done already, or outside the polygon */
+        if (s->node[h] == SUNDER_I_NONE || (h & 1 && s->line[h] < n)) continue;
         for (uint32_t g = h; s->node[g] != SUNDER_I_NONE; g = s->next[g]) {
             const uint32_t at = s->node[g];
             sunder_i_maker_add_side(s->m, at < n ? s->part->first + at : s->node_corner[at - n], half_along(s, g));
@@ -191,7 +196,7 @@ static void add_faces(subdivision *s)
     }
 }
 
-/* All arrays, on the maker's scratch memory. */
+/* Allocates all arrays in the maker's scratch memory. Returns false if out of memory. */
 static bool make_room(subdivision *s)
 {
     sunder_i_arena *arena = &s->m->scratch;

@@ -1,4 +1,4 @@
-/* The six ways to decompose: member by member, or, for the mixed one, both operands together. */
+/* decomposition.c: the six decompositions: polygon by polygon, or, for the mixed one, both operands together. */
 #include "base/counts.h"
 #include "decomposition/maker.h"
 
@@ -71,7 +71,7 @@ sunder_status sunder_i_decompose(sunder_i_lattice *lattice, const sunder_shape *
     return ok ? SUNDER_OK : sunder_i_no_memory(err);
 }
 
-/* Both at once; the operations of the whole are booked to p. */
+/* Decomposes both operands together; the operation counts of both are stored for p. */
 static sunder_status decompose_mixed(sunder_i_lattice *lattice, const sunder_shape *const shape[2],
                                      const sunder_i_point *const at[2], sunder_i_decomposition *const out[2],
                                      sunder_error *err)

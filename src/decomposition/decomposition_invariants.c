@@ -1,4 +1,4 @@
-/* The checker of decompositions: exact and slow, in big integers only. */
+/* decomposition_invariants.c: the tests of decompositions: exact and slow, with big integers only. */
 #include "decomposition/decomposition.h"
 
 #include "predicate/predicate.h"
@@ -13,7 +13,7 @@ static sunder_i_big determinant(sunder_i_arena *a, sunder_i_big p, sunder_i_big 
     return sunder_i_big_sub(a, sunder_i_big_mul(a, p, s), sunder_i_big_mul(a, q, r));
 }
 
-/* Twice the area of piece i. */
+/* Returns twice the area of piece i. */
 static sunder_i_ratio piece_area(sunder_i_arena *a, const sunder_i_decomposition *d, uint32_t i)
 {
     sunder_i_ratio sum = {{NULL, 0}, sunder_i_big_i64(a, 1)};
@@ -28,7 +28,7 @@ static sunder_i_ratio piece_area(sunder_i_arena *a, const sunder_i_decomposition
     return sum;
 }
 
-/* Twice the area of a ring. */
+/* Returns twice the area of the ring with the vertices lo .. hi - 1. */
 static sunder_i_ratio ring_area(sunder_i_lattice *l, const sunder_shape *s, const sunder_i_point *at, uint32_t lo,
                                 uint32_t hi)
 {
@@ -42,7 +42,7 @@ static sunder_i_ratio ring_area(sunder_i_lattice *l, const sunder_shape *s, cons
     return sum;
 }
 
-/* Do the side's ends differ by a positive multiple of the vector? */
+/* Returns true if the difference of the side's ends c and e is a positive multiple of the vector `along`. */
 static bool agrees(sunder_i_lattice *l, const sunder_i_corner *c, const sunder_i_corner *e, sunder_i_point along)
 {
     sunder_i_arena *a = &l->arena;
@@ -86,7 +86,8 @@ static const char *check_corner(sunder_i_lattice *l, const sunder_shape *s, cons
     return NULL;
 }
 
-/* Do the pieces of the polygon, *i and on, have its area? */
+/* Tests that the pieces of the polygon, from number *i on, have its area; *i becomes the first piece of the next
+ * polygon. Returns NULL, or a message. */
 static const char *check_area(sunder_i_lattice *l, const sunder_shape *s, const sunder_i_point *at,
                               const sunder_i_decomposition *d, uint32_t polygon, uint32_t *i)
 {
@@ -106,7 +107,7 @@ const char *sunder_i_decomposition_check(sunder_i_lattice *lattice, const sunder
                                          const sunder_i_decomposition *decomposition)
 {
     const sunder_i_mark mark = sunder_i_arena_mark(&lattice->arena);
-    const sunder_counts counts = lattice->counts; /* checks do not count as work */
+    const sunder_counts counts = lattice->counts; /* the tests are not counted as operations */
     const char *wrong = decomposition->corners < shape->vertices ? "vertices are missing" : NULL;
     for (uint32_t i = 0; i < decomposition->corners && !wrong; i++)
         wrong = check_corner(lattice, shape, at, decomposition, i);
@@ -116,7 +117,7 @@ const char *sunder_i_decomposition_check(sunder_i_lattice *lattice, const sunder
         wrong = check_area(lattice, shape, at, decomposition, polygon, &i);
     if (!wrong && i != decomposition->pieces) wrong = "pieces do not stand in the order of their members";
     lattice->counts = counts;
-    if (lattice->arena.failed) return NULL; /* nothing can be checked */
+    if (lattice->arena.failed) return NULL; /* nothing could be tested */
     sunder_i_arena_release(&lattice->arena, mark);
     return wrong;
 }

@@ -1,10 +1,10 @@
-/* A short lattice vector near the bisector of a cone.
+/* direction.c: a short lattice vector near the bisector of a cone.
  *
- * The bisector of two lattice vectors is irrational. Any direction inside the cone resolves a reflex vertex, so it
- * is approximated in doubles by vectors of growing integers, and the first one that lies in the middle half of the
- * cone, by doubles, and inside it, exactly, is taken. Nothing but the shape of the pieces depends on the doubles. A
- * cone too narrow for integers of 20 bits is cut along its own boundary: the extension of an edge resolves the
- * vertex too. */
+ * The bisector of two lattice vectors is irrational. Any direction inside the cone resolves a reflex vertex, so that it
+ * is approximated in doubles by vectors of growing integers. The first vector that is in the middle half of the cone
+ * according to doubles, and inside the cone exactly, is used. Only the form of the pieces depends on the doubles. A
+ * cone that is too narrow for integers of 20 bits is cut along its own boundary: the extension of an edge resolves the
+ * vertex, too. */
 #include "decomposition/maker.h"
 
 #include "predicate/rational_point.h"
@@ -13,7 +13,7 @@
 
 #include <math.h>
 
-#define MOST 0x1p20 /* of a coordinate: v + d stays on a narrow lattice, and crossings stay short */
+#define MOST 0x1p20 /* the largest coordinate: v + d stays on a narrow lattice, and crossings stay short */
 
 double sunder_i_direction_unit(sunder_i_lattice *lattice, sunder_i_point u, double unit[2], long *exponent)
 {
@@ -37,7 +37,7 @@ double sunder_i_direction_unit(sunder_i_lattice *lattice, sunder_i_point u, doub
     return length;
 }
 
-/* Between two unit vectors, counter-clockwise by at most pi. */
+/* *out becomes the unit vector of the bisector of two unit vectors, from a counterclockwise to b by at most pi. */
 static void halve(const double a[2], const double b[2], double out[2])
 {
     const double x = a[0] + b[0], y = a[1] + b[1], length = hypot(x, y);

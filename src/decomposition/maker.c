@@ -1,13 +1,14 @@
-/* Shared tools of all decompositions: the rings of a shape on its lattice, the vertices of one member after another,
- * and lists of pieces, their corners and Steiner points, which grow as pieces are found and are trimmed at the end. */
+/* maker.c: functions of all decompositions: the rings of a shape on its lattice, the vertices of one polygon, and lists
+ * of pieces, their corners and Steiner points, which grow as pieces are found and are copied without spare memory at
+ * the end. */
 #include "decomposition/maker.h"
 
 #include "base/invariant.h"
 
 #include <string.h>
 
-/* The coordinates as doubles in the order of the exact ones. Rounding to nearest is monotone, which is all that the
- * stages below ask of rounded ones. */
+/* Returns a coordinate as a double, by a monotone conversion: the order of doubles is that of the exact numbers. The
+ * functions below need no more of rounded coordinates. */
 static double monotone(sunder_i_lattice *l, int64_t n, bool *rounded)
 {
     if (!sunder_i_is_plain(n) || n > (int64_t)1 << 53 || n < -((int64_t)1 << 53) || l->approx_shift) *rounded = true;
@@ -25,7 +26,7 @@ bool sunder_i_maker_init(sunder_i_maker *m, sunder_i_lattice *lattice, const sun
     r->vertices = shape->vertices;
     r->rings = shape->form->cleaned.rings;
     r->polygons = shape->form->cleaned.polygons;
-    /* Lent by the shape, and only read. */
+    /* Borrowed from the shape, and not modified. */
     r->ring_end = (uint32_t *)shape->form->cleaned.ring_end;
     r->poly_end = (uint32_t *)shape->form->cleaned.poly_end;
     r->next = (uint32_t *)shape->form->cleaned.next;
@@ -148,7 +149,7 @@ uint32_t sunder_i_maker_add_steiner(sunder_i_maker *m, sunder_i_point a, sunder_
     return m->shape->vertices + m->steiner_n++;
 }
 
-/* A block of the result with a copy of what has grown. */
+/* Returns a copy of n elements, allocated in the arena of the result. NULL if out of memory. */
 static void *keep(sunder_i_arena *arena, const void *from, size_t n, size_t size)
 {
     void *to = sunder_i_arena_alloc(arena, n, size);
@@ -156,7 +157,7 @@ static void *keep(sunder_i_arena *arena, const void *from, size_t n, size_t size
     return to;
 }
 
-/* A Steiner point, or a corner that is a crossing, in lowest terms. */
+/* Returns the corner of a Steiner point, or of a vertex that is a crossing, in lowest terms. */
 static sunder_i_corner reduced(sunder_i_arena *arena, sunder_i_arena *scratch, sunder_i_rational_point at)
 {
     const sunder_i_mark mark = sunder_i_arena_mark(scratch);
@@ -199,7 +200,7 @@ bool sunder_i_maker_finish(sunder_i_maker *m, sunder_i_decomposition *out)
         out->corner[n + i] = reduced(arena, &m->scratch, m->steiner[i]);
     if (!arena->failed && !sunder_i_maker_failed(m))
         SUNDER_I_CHECK(sunder_i_decomposition_check(m->lattice, m->shape, m->rings.at, out), out->corners);
-    if (!arena->failed && !sunder_i_maker_failed(m)) return true; /* the checker may have run out of memory, too */
+    if (!arena->failed && !sunder_i_maker_failed(m)) return true; /* the tests may have run out of memory, too */
     sunder_i_decomposition_clear(out);
     return false;
 }

@@ -1,35 +1,34 @@
-/* Both operands together, for one mixed objective: what a good decomposition of P is depends on Q, the finding of
- * [AFH02]. The objective is derived here.
+/* mixed.c: decomposes both operands together, for a common objective: which decomposition of P is good depends on Q,
+ * the result of [AFH02]. The objective is derived here.
  *
- * The cost of the union of the subsums P_i + Q_j grows with the length of what is drawn, since the sides of k
- * subsums cross about as often as lines thrown at random over the same ground: with the length of all their
- * boundaries. The perimeter of a sum of convex polygons is the sum of their perimeters. So with k_P pieces, d_P the
- * length of the diagonals, and b_P the length of the boundary (the pieces of P have perimeters b_P + 2 d_P in all),
- * what is made small is
+ * The cost of the union of the subsums P_i + Q_j grows with the total length of their boundaries, since the sides of k
+ * subsums cross about as often as random lines in the same region. The perimeter of a sum of convex polygons is the sum
+ * of their perimeters. So with k_P pieces, d_P the length of the diagonals, and b_P the length of the boundary (the
+ * pieces of P have the total perimeter b_P + 2 d_P), the objective to minimise is
  *
  *     c = k_Q (b_P + 2 d_P) + k_P (b_Q + 2 d_Q).
  *
- * Few pieces alone are not the aim, nor are short diagonals: a long diagonal of P is paid k_Q times, one more piece
- * of P as often as Q is long. With Q fixed, c is a constant plus, for each diagonal of P, its length times 2 k_Q
- * plus b_Q + 2 d_Q: the weights of optimal.c's dynamic programming, which finds the best P for this Q (or nearly:
- * see there). The two are solved in turn, from the fewest pieces on, until c falls no further: a local minimum of c
- * in both, never worse than the optimal decompositions are (where both can be computed). Members with holes, or of
- * too many vertices, have the triangulation's diagonals taken away, longest first, once.
+ * Neither few pieces nor short diagonals alone are optimal: the length of a diagonal of P counts k_Q times, one more
+ * piece of P costs the total perimeter of Q. With Q fixed, c is a constant plus, for each diagonal of P, its length
+ * times 2 k_Q plus b_Q + 2 d_Q: these are the weights of the dynamic programming in optimal.c, which finds the best P
+ * for this Q (or nearly: see there). The two are solved alternately, beginning with the fewest pieces, until c does not
+ * decrease: a local minimum of c, never worse than the optimal decompositions (if both can be computed). For polygons
+ * with holes, or with too many vertices, the diagonals of the triangulation are removed once, the longest first.
  *
- * Lengths are doubles: they choose among exact decompositions. */
+ * Lengths are doubles: they only select among exact decompositions. */
 #include "decomposition/maker.h"
 
 #include <math.h>
 #include <string.h>
 
-#define ROUNDS 8 /* it settles in two or three */
+#define ROUNDS 8 /* the largest number of iterations; two or three usually suffice */
 
-/* One operand and its place on the lattice. */
+/* One operand, with its maker. */
 typedef struct side {
     sunder_i_maker *m;
-    sunder_i_program **program; /* [polygons] NULL where there is none */
-    sunder_i_mesh *mesh;        /* [polygons] of reflex members without a program */
-    uint32_t *diagonals;        /* [polygons] of the last solution */
+    sunder_i_program **program; /* [polygons] NULL if there is none */
+    sunder_i_mesh *mesh;        /* [polygons] the meshes of reflex polygons without a program */
+    uint32_t *diagonals;        /* [polygons] the number of diagonals of the last solution */
     double *lengths;
     double boundary;
     double pieces, perimeters; /* sums over all pieces: k, and b + 2 d */
@@ -97,7 +96,7 @@ static double objective(const side *p, const side *q) { return q->pieces * p->pe
 
 static bool solve_both(side *p, side *q)
 {
-    double weight[2][2] = {{1, 0}, {1, 0}}; /* the diagonals of p and of q, by length */
+    double weight[2][2] = {{1, 0}, {1, 0}}; /* the weights of the diagonals of p and of q: `each`, and by length */
     if (!solve(p, 1, 0) || !solve(q, 1, 0)) return false;
     double least = objective(p, q);
     for (int i = 0; i < ROUNDS; i++) {
@@ -106,7 +105,7 @@ static bool solve_both(side *p, side *q)
         const double for_q[2] = {p->perimeters, 2 * p->pieces};
         if (!solve(q, for_q[0], for_q[1])) return false;
         const double now = objective(p, q);
-        /* Back to the best, by the weights that led there. */
+        /* The best solution is computed again, with its weights. */
         if (now > least) return solve(p, weight[0][0], weight[0][1]) && solve(q, weight[1][0], weight[1][1]);
         if (now == least) break;
         least = now;
@@ -121,7 +120,9 @@ static void emit(side *s)
     sunder_i_maker *m = s->m;
     for (; m->polygon < m->rings.polygons; m->polygon++) {
         const sunder_i_member member = sunder_i_maker_member(m, m->polygon);
-        if (sunder_i_maker_failed(m)) return; /* and what was a convex one may seem to be reflex, and has no mesh */
+        if (sunder_i_maker_failed(m))
+            return; /* without exact numbers a convex polygon may seem reflex, for which there
+                                               * is no mesh */
         if (s->program[m->polygon])
             sunder_i_program_emit(s->program[m->polygon], m);
         else if (member.reflex)
@@ -144,7 +145,8 @@ void sunder_i_make_mixed(sunder_i_maker *p, sunder_i_maker *q)
             emit(&a);
             emit(&b);
         }
-    } else if (!sunder_i_maker_failed(p) && !sunder_i_maker_failed(q)) { /* one is empty: the other by itself */
+        /* one operand is empty: the other is decomposed alone */
+    } else if (!sunder_i_maker_failed(p) && !sunder_i_maker_failed(q)) {
         if (solve(&a, 1, 0) && solve(&b, 1, 0)) {
             emit(&a);
             emit(&b);

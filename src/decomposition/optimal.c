@@ -1,33 +1,32 @@
-/* The decomposition of a polygon without holes by diagonals of least total weight: of the fewest pieces where each
- * diagonal weighs one. Dynamic programming in the manner of Greene and of Keil [Gre83, Kei85], arranged so that a
- * vertex and an edge are looked at together once.
+/* optimal.c: the decomposition of a polygon without holes by diagonals of least total weight: one with the fewest
+ * pieces if each diagonal has weight one. The dynamic programming is in the manner of Greene and of Keil [Gre83,
+ * Kei85], arranged so that each pair of a vertex and an edge is processed once.
  *
  * Vertices are 0 .. n - 1 around the ring. A *link* (u, v), u < v, is an edge of the polygon or a diagonal. W(u, v) is
- * the least weight of diagonals inside the part of the polygon that the vertices u .. v bound, the link itself not
- * counted. The piece that rests on the link (i, j) from inside is a convex chain of links i = v0 < v1 < ... < vk = j,
- * and
+ * the least weight of diagonals inside the part of the polygon that the vertices u .. v bound, without the link itself.
+ * The piece at the link (i, j), inside this part, is a convex chain of links i = v0 < v1 < ... < vk = j, and
  *
  *     W(i, j) = min over such chains of the sum over its links of W(v, v') + weight(v, v').
  *
- * For each i, from the last vertex to the first, all chains that start there are grown at once, u ascending: what
- * arrives at u over a link (t, u) may leave over (u, v) if the corner at u is convex. Around u, vertices seen stand in
- * the order of their angles; so for v ascending the t allowed are a growing range (two pointers), and what is kept of
- * it is the best alone. Best in which sense: if i is convex, of least weight. If i is reflex, the chain's first link
- * matters too, since the angle at i from there to j must not exceed pi: later first links are better, and what is kept
- * are the chains that no other beats in both (a front). Where each diagonal weighs one, a chain to u that is not
- * lighter than the link (i, u) itself is beaten by that, so fronts are short. With other weights fronts are cut off at
- * FRONT_MOST, and the result may not quite be the least.
+ * For each i, from the last vertex to the first, all chains that start at i are extended at once, u ascending: a chain
+ * that arrives at u by a link (t, u) may continue with (u, v) if the corner at u is convex. The vertices that u sees
+ * are sorted by angle around u; so for v ascending the permitted t are a growing range (two pointers), and only the
+ * best chains of it are kept. If i is convex, the best chain is that of least weight. If i is reflex, the chain's first
+ * link matters, too, since the angle at i from there to j must not exceed pi: later first links are better, and the
+ * chains that no other beats in both respects are kept (the front). If each diagonal has weight one, a chain to u that
+ * is not lighter than the link (i, u) itself is beaten by that link, so that fronts are short. With other weights
+ * fronts are limited to FRONT_MOST chains, and the result may not be quite the least.
  *
- * A chain is given up when the way back to i is no left turn, or the angle at i exceeds pi: both only get worse.
+ * A chain is discarded when the turn back to i is no left turn, or the angle at i exceeds pi: both can only get worse.
  *
- * Diagonals between two convex vertices are left out: taking one away leaves convex corners. Corners of pieces may be
- * straight: a vertex that touches a line between two others divides it in two diagonals. (So the optimum is at most
- * what decompositions into strictly convex pieces with matching sides have.) A closing link is never degenerate, since
- * a diagonal meets no vertex between its ends.
+ * Diagonals between two convex vertices are not used: removing one leaves convex corners. Corners of pieces may be
+ * straight: a vertex on a line between two others divides it into two diagonals. (So the optimum is at most that of
+ * decompositions into strictly convex pieces with matching sides.) A closing link is never degenerate, since a diagonal
+ * meets no vertex between its ends.
  *
- * Weights are sums of doubles, exact where each diagonal weighs one. All decisions about shape are orientations of
- * vertices (degree 2). Cost: for each vertex that some diagonal leaves upwards, the links among what it sees: O(r n n)
- * at worst and far less as a rule; memory O(r n). */
+ * Weights are sums of doubles, exact if each diagonal has weight one. All decisions about the geometry are orientations
+ * of vertices (degree 2). Time: for each vertex from which a diagonal leads to a greater vertex, the links among the
+ * vertices that it sees: at most O(r n n), usually far less; memory O(r n). */
 #include "decomposition/maker.h"
 
 #include "base/watch.h"
@@ -36,32 +35,33 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Where weights differ, fronts may grow long: as many as a vertex sees. The lightest are kept, and the link alone. */
+/* The largest length of a front if weights differ: without a limit it may become as long as the number of vertices that
+ * a vertex sees. The lightest chains are kept, and the single link. */
 #define FRONT_MOST 8
 
-/* A convex chain that starts at the vertex in hand: its last link arrives from `from`; `before` is the chain without
- * it. */
+/* A convex chain that starts at the current vertex: its last link comes from `from`; `before` is the chain without that
+ * link. */
 typedef struct chain {
     double weight;
-    uint32_t from, start;  /* start: the vertex of its first link (0 where that does not matter) */
-    uint32_t before, next; /* next: of those that arrive at the same vertex, by ascending `from` */
+    uint32_t from, start;  /* start: the vertex of its first link (0 if it does not matter) */
+    uint32_t before, next; /* next: the next chain that arrives at the same vertex, by ascending `from` */
 } chain;
 
 struct sunder_i_program {
     sunder_i_maker *m;
     uint32_t first, n;
     bool *reflex;
-    uint32_t *up_first, *up; /* [n + 1], links (u, v) with v ascending: their upper ends */
+    uint32_t *up_first, *up; /* [n + 1], [links] the upper ends v of the links (u, v) of each u, ascending */
     uint32_t *allowed;       /* [links] for (u, v): the greatest t with a convex corner t u v, plus one; 0: none */
-    double *length, *within; /* [links] W */
+    double *length, *within; /* [links] within: W */
     double each, by_length;
     chain *chain; /* grows */
     uint32_t chains;
     size_t chain_room;
-    uint32_t *least;                      /* [n] see least_start(); NONE: not asked yet */
-    uint32_t *head, *tail;                /* [n] chains that arrive at each vertex */
-    uint32_t pieces, *piece_end, *corner; /* of the last solution */
-    uint32_t *front;                      /* kept chains at one vertex; grows */
+    uint32_t *least;                      /* [n] a cache, see least_start(); SUNDER_I_NONE: not computed yet */
+    uint32_t *head, *tail;                /* [n] the list of chains that arrive at each vertex */
+    uint32_t pieces, *piece_end, *corner; /* the last solution */
+    uint32_t *front;                      /* the chains kept at one vertex; grows */
     size_t front_room;
 };
 
@@ -83,7 +83,8 @@ static int compare_links(const void *a, const void *b)
     return (p->v > q->v) - (p->v < q->v);
 }
 
-/* All pairs u < v that are edges, or see each other and are not both convex. */
+/* Returns all pairs u < v that are edges, or that see each other and are not both convex, *count of them; the caller
+ * frees the array. NULL if out of memory. */
 static both_ways *find_links(sunder_i_program *p, const sunder_i_member *member, uint32_t *count)
 {
     sunder_i_ray_shooting rays;
@@ -115,7 +116,7 @@ static both_ways *find_links(sunder_i_program *p, const sunder_i_member *member,
     return NULL;
 }
 
-/* For each link upwards from u how far the t range; t and v ascend together. */
+/* For each link from u to a greater vertex v, finds the end of the range of t; t and v ascend together. */
 static void find_allowed(sunder_i_program *p, const uint32_t *down_first, const uint32_t *down)
 {
     for (uint32_t u = 0; u < p->n; u++) {
@@ -208,7 +209,8 @@ static bool add_chain(sunder_i_program *p, uint32_t at, chain c)
     return true;
 }
 
-/* Takes chain c into the front of n chains unless one of them is as good; drops those that it beats. */
+/* Adds chain c to the front of n chains unless one of them is as good; removes those that c beats. Returns the new
+ * length of the front. */
 static uint32_t front_add(sunder_i_program *p, uint32_t n, uint32_t c)
 {
     const chain *now = &p->chain[c];
@@ -229,7 +231,7 @@ static uint32_t front_add(sunder_i_program *p, uint32_t n, uint32_t c)
         uint32_t heaviest = SUNDER_I_NONE;
         for (uint32_t k = 0; k < kept; k++) {
             const chain *old = &p->chain[p->front[k]];
-            if (old->before == SUNDER_I_NONE) continue; /* the link alone may be all that can go on */
+            if (old->before == SUNDER_I_NONE) continue; /* the single link may be the only chain that can be extended */
             if (heaviest == SUNDER_I_NONE || old->weight > p->chain[p->front[heaviest]].weight) heaviest = k;
         }
         if (p->chain[p->front[heaviest]].weight > now->weight) p->front[heaviest] = c;
@@ -239,9 +241,9 @@ static uint32_t front_add(sunder_i_program *p, uint32_t n, uint32_t c)
     return kept;
 }
 
-/* The least first link of chains from i that may go on to v: later ones leave an angle of at most pi at i. By
- * halving, since the vertices linked to i stand in the order of their angles; a vertex that i does not see may get
- * any answer, for no chain through it can be closed. */
+/* Returns the least first link for which chains from i can be extended to v: for this link and later ones the angle at
+ * i is at most pi. The search is binary, since the vertices linked to i are sorted by their angles; for a vertex that i
+ * does not see the result may be anything, since no chain through it can be closed. */
 static uint32_t least_start(sunder_i_program *p, uint32_t i, uint32_t v)
 {
     if (!p->reflex[i]) return 0;
@@ -257,7 +259,7 @@ static uint32_t least_start(sunder_i_program *p, uint32_t i, uint32_t v)
     return p->least[v] = lo < p->up_first[i + 1] ? p->up[lo] : v;
 }
 
-/* The chains of the front go on from u over link e. */
+/* Extends the n chains of the front from u by link e. Returns false if out of memory. */
 static bool extend(sunder_i_program *p, uint32_t i, uint32_t u, uint32_t e, uint32_t n)
 {
     const uint32_t v = p->up[e];
@@ -272,7 +274,7 @@ static bool extend(sunder_i_program *p, uint32_t i, uint32_t u, uint32_t e, uint
     return true;
 }
 
-/* The lightest chain that arrives at u, or NONE. */
+/* Returns the lightest chain that arrives at u, or SUNDER_I_NONE. */
 static uint32_t lightest(const sunder_i_program *p, uint32_t u)
 {
     uint32_t best = SUNDER_I_NONE;
@@ -281,8 +283,8 @@ static uint32_t lightest(const sunder_i_program *p, uint32_t u)
     return best;
 }
 
-/* Grows all chains from i up to vertex `last`, and W of the links from i. Returns the lightest chain that arrives at
- * `last`. */
+/* Extends all chains from i up to vertex `last`, and sets W of the links from i. Returns the lightest chain that
+ * arrives at `last`, or SUNDER_I_NONE. */
 static uint32_t grow(sunder_i_program *p, uint32_t i, uint32_t last)
 {
     p->chains = 0;
@@ -292,7 +294,7 @@ static uint32_t grow(sunder_i_program *p, uint32_t i, uint32_t last)
     for (uint32_t u = i + 1; u < last; u++) {
         const bool linked = link < link_end && p->up[link] == u;
         if (!linked && p->head[u] == SUNDER_I_NONE) continue;
-        /* The chain that is the link from i alone: the first to arrive, since i is the least vertex. */
+        /* The chain that is the link from i only: the first to arrive, since i is the least vertex. */
         uint32_t alone = SUNDER_I_NONE;
         if (linked) {
             const uint32_t c = lightest(p, u);
@@ -338,8 +340,8 @@ static uint32_t find_link(const sunder_i_program *p, uint32_t u, uint32_t v)
     return lo;
 }
 
-/* The pieces of the best solution, from the link (0, n - 1) inwards; chains are grown again, which costs less than
- * to keep them all. */
+/* Finds the pieces of the best solution, from the link (0, n - 1) inwards; chains are extended again, which costs less
+ * than storing all of them. Returns false if out of memory. */
 static bool trace(sunder_i_program *p, uint32_t *diagonals, double *length)
 {
     both_ways *stack = sunder_i_alloc(p->n, sizeof *stack);
@@ -352,8 +354,8 @@ static bool trace(sunder_i_program *p, uint32_t *diagonals, double *length)
     while (depth) {
         const both_ways base = stack[--depth];
         uint32_t c = grow(p, base.u, base.v), above = base.v;
-        if (c == SUNDER_I_NONE) break; /* memory is out */
-        /* From the upper end down, so clockwise: put in from the back. */
+        if (c == SUNDER_I_NONE) break; /* out of memory */
+        /* The chain is followed from its upper end down, that is clockwise; the corners are reversed afterwards. */
         const uint32_t start = corners;
         p->corner[corners++] = p->first + above;
         for (; c != SUNDER_I_NONE; c = p->chain[c].before) {

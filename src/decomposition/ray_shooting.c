@@ -1,19 +1,19 @@
-/* Looking through a triangulated member, exactly: every question is the side of a vertex to a line through two
- * lattice points (degree 2).
+/* ray_shooting.c: rays and visibility in a triangulated polygon, exactly: every test is the side of a vertex with
+ * respect to a line through two lattice points (degree 2).
  *
- * A ray crosses one triangle after the other until a side has nothing behind it. What one vertex sees: each triangle
- * around it opens a window, its far side; beyond a window stands an apex, which is seen if it lies strictly between
- * the two points that bound the view, and which divides the view. The vertices that bound a view block what stands
- * behind them in line. In a member without holes each triangle is entered once; with holes a triangle may be entered
- * through several windows. */
+ * A ray crosses one triangle after the other until it reaches a side without a neighbour. Visibility from one vertex:
+ * each triangle around it has a window, its far side; beyond a window there is an apex, which is visible if it is
+ * strictly between the two vertices that bound the view; it divides the view. The vertices that bound a view hide the
+ * points behind them in the same direction. In a polygon without holes each triangle is entered once; with holes a
+ * triangle may be entered through several windows. */
 #include "decomposition/maker.h"
 
 #include "base/watch.h"
 
 #include <string.h>
 
-/* What can be seen from a vertex through half-edge h: the part of the plane between the rays to vertices right and
- * left. The origin of h is on the viewer's right. */
+/* The part of the plane that is visible from a vertex through half-edge h: the part between the rays to the vertices
+ * right and left. The origin of h is on the viewer's right. */
 typedef struct sunder_i_window {
     uint32_t h, right, left;
 } sunder_i_window;
@@ -41,7 +41,7 @@ void sunder_i_ray_shooting_free(sunder_i_ray_shooting *s)
     s->seen_room = s->stack_room = 0;
 }
 
-/* The half-edge that leaves the same vertex next, counter-clockwise; NONE past the last triangle. */
+/* Returns the next half-edge that leaves the same vertex, counterclockwise; SUNDER_I_NONE after the last triangle. */
 static uint32_t turn_left(const sunder_i_mesh *m, uint32_t h) { return m->twin[m->prev[h]]; }
 
 sunder_i_hit sunder_i_ray_shooting_shoot(const sunder_i_ray_shooting *s, uint32_t v, sunder_i_point toward)
@@ -76,7 +76,8 @@ static bool see(sunder_i_ray_shooting *s, uint32_t w)
     return true;
 }
 
-/* Does everything between right and left lie outside the cone? Each of its two half-planes is asked alone. */
+/* Returns true if everything between `right` and `left` is outside the cone. Each of the cone's two half-planes is
+ * tested alone. */
 static bool is_outside(const sunder_i_rings *r, uint32_t v, const sunder_i_window *w, const sunder_i_point *cone)
 {
     sunder_i_lattice *l = r->lattice;
@@ -94,7 +95,8 @@ static bool push(sunder_i_ray_shooting *s, size_t *depth, uint32_t v, const sund
     return true;
 }
 
-/* The apex beyond a window, and the windows through its triangle. */
+/* Processes the apex beyond a window: adds it to the visible vertices if it is one, and pushes the windows of its
+ * triangle. Returns false if out of memory. */
 static bool look_through(sunder_i_ray_shooting *s, size_t *depth, uint32_t v, const sunder_i_point *cone,
                          sunder_i_window w)
 {

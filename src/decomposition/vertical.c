@@ -1,18 +1,18 @@
-/* The vertical decomposition: from each reflex vertex a cut up, a cut down, or both, wherever that direction runs
- * inside.
+/* vertical.c: the vertical decomposition: from each reflex vertex a cut up, a cut down, or both, if that direction is
+ * inside the polygon.
  *
- * The literature draws verticals from every vertex, which makes trapezoids. For convex pieces those of the reflex
- * vertices are enough, and they are all needed: a reflex vertex between an edge to the left and one to the right
- * needs its one vertical, and one with both edges on one side has, with only one of its verticals, an angle of more
- * than pi left. What the others would add are pieces, and each piece is a row of subsums. So there are at most 2 r +
- * 1 - h pieces for r reflex vertices and h holes, convex and with at most two vertical sides each.
+ * In the literature verticals are drawn from every vertex, so that the pieces are trapezoids. For convex pieces those
+ * of the reflex vertices are sufficient, and they are all needed: a reflex vertex between an edge to the left and one
+ * to the right needs its one vertical; one with both edges on one side has an angle of more than pi if only one of its
+ * two verticals is drawn. The others would only add pieces, and each piece adds a row of subsums. So there are at most
+ * 2 r + 1 - h pieces for r reflex vertices and h holes, convex and with at most two vertical sides each.
  *
- * Verticals do not cross each other, so each is found by itself, as a ray through the triangulation. Where two
- * reflex vertices see each other along a vertical the lower one's cut is taken. A Steiner point is where x = x0
- * meets an edge: its w divides the edge's width, degree 1 (x: 1 over 0, y: 2 over 1). */
+ * Verticals do not cross each other, so that each is found separately, as a ray through the triangulation. If two
+ * reflex vertices see each other along a vertical, the lower one's cut is used. A Steiner point is the intersection of
+ * x = x0 with an edge: its w is the edge's width, degree 1 (x: 1 over 0, y: 2 over 1). */
 #include "decomposition/maker.h"
 
-/* Is d strictly inside the sector of the reflex vertex v? The rest of the circle is a convex cone. */
+/* Returns true if d is strictly inside the sector of the reflex vertex v. The rest of the circle is a convex cone. */
 static bool is_inside(const sunder_i_rings *r, uint32_t v, sunder_i_point d)
 {
     sunder_i_lattice *l = r->lattice;

@@ -1,5 +1,6 @@
-/* A product is three words at a place that its exponents say; what is carried beyond runs on while it has to. The value
- * is the top 53 bits of the magnitude, a bit beneath them and whether anything follows that, rounded once. */
+/* accumulator.c: a product has three words at a position given by its exponents; a carry is propagated as far as
+ * necessary. The result is the leading 53 bits of the magnitude, rounded once by the next bit and whether any bit after
+ * that is set. */
 #include "number/accumulator.h"
 
 #include "number/wide.h"
@@ -8,7 +9,7 @@
 #include <stdbool.h>
 #include <string.h>
 
-/* |v| = m 2^(e - 1074) with m < 2^53; of a subnormal e = 0, so that e is never negative. */
+/* Returns m < 2^53 with |v| = m 2^(*e - 1074); *e is 0 for subnormal v, so that it is never negative. */
 static uint64_t take_apart(double v, int *e)
 {
     uint64_t b;
@@ -27,7 +28,7 @@ static void accumulate(sunder_i_accumulator *t, double a, double b, bool minus)
     if (signbit(a) != signbit(b)) minus = !minus;
     const sunder_i_u128 m = (sunder_i_u128)ma * mb;
     const int at = (ea + eb) / 64, shift = (ea + eb) % 64;
-    /* The top word is what 64 - shift bits of m's upper half leave; shift may be 0. */
+    /* The third word is the part of m's upper half above 64 - shift bits; shift may be 0. */
     const sunder_i_u128 low = m << shift;
     const uint64_t word[3] = {(uint64_t)low, (uint64_t)(low >> 64), shift ? (uint64_t)(m >> 64) >> (64 - shift) : 0};
     uint64_t carry = 0;
@@ -58,7 +59,7 @@ int sunder_i_accumulator_sign(const sunder_i_accumulator *sum)
     return 0;
 }
 
-/* Bits [low, low + 64) of a magnitude; low may be negative. */
+/* Returns the bits [low, low + 64) of a magnitude; low may be negative. */
 static uint64_t bits_from(const sunder_i_accumulator *t, long low)
 {
     if (low < 0) return low <= -64 ? 0 : t->limb[0] << -low;
@@ -81,7 +82,7 @@ double sunder_i_accumulator_double(const sunder_i_accumulator *sum, int exponent
     const int sign = sunder_i_accumulator_sign(sum);
     if (sign == 0) return 0;
     sunder_i_accumulator m = *sum;
-    if (sign < 0) { /* ~m + 1 */
+    if (sign < 0) { /* the negative: ~m + 1 */
         uint64_t carry = 1;
         for (int i = 0; i < SUNDER_I_ACCUMULATOR_LIMBS; i++) {
             m.limb[i] = ~m.limb[i] + carry;
@@ -91,8 +92,8 @@ double sunder_i_accumulator_double(const sunder_i_accumulator *sum, int exponent
     long top = SUNDER_I_ACCUMULATOR_LIMBS - 1;
     while (m.limb[top] == 0) top--;
     const long bits = 64 * (top + 1) - __builtin_clzll(m.limb[top]);
-    /* The lowest bit that is kept: 53 bits, fewer in the subnormal range. Below it one bit for rounding, and whether
-     * anything follows that. */
+    /* The lowest bit of the result: 53 bits are kept, fewer in the subnormal range. The bit below it, and whether any
+     * bit after that is set, determine the rounding. */
     const long unit = SUNDER_I_ACCUMULATOR_UNIT + exponent;
     long drop = bits - 53;
     if (unit + drop < -1074) drop = -1074 - unit;

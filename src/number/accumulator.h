@@ -31,19 +31,19 @@
 
 #include <stdint.h>
 
-#define SUNDER_I_ACCUMULATOR_UNIT (-2148) /* the lowest bit stands for 2^-2148 */
+#define SUNDER_I_ACCUMULATOR_UNIT (-2148) /* the value of the lowest bit is 2^-2148 */
 #define SUNDER_I_ACCUMULATOR_LIMBS 67     /* 4288 bits: 4196 for one product, its sign, and room for sums */
 
-/* Two's complement, lowest limb first. Zeroed: zero. */
+/* Two's complement, lowest limb first. If all limbs are 0, the value is 0. */
 typedef struct sunder_i_accumulator {
     uint64_t limb[SUNDER_I_ACCUMULATOR_LIMBS];
 } sunder_i_accumulator;
 
-/* Adds a b, or takes it away; both finite. */
+/* Add a b, or subtract it; both must be finite. */
 void sunder_i_accumulator_add(sunder_i_accumulator *sum, double a, double b);
 void sunder_i_accumulator_sub(sunder_i_accumulator *sum, double a, double b);
 int sunder_i_accumulator_sign(const sunder_i_accumulator *sum);
-/* total * 2^exponent to the nearest double, ties to even; infinite past the range. */
+/* Returns sum * 2^exponent, rounded to the nearest double, ties to even; infinite if it is out of range. */
 double sunder_i_accumulator_double(const sunder_i_accumulator *sum, int exponent);
 
 #endif

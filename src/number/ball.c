@@ -1,6 +1,6 @@
-/* Balls. u = 2^-53 is the unit roundoff. Computing a radius rounds a few times, by a relative u each time, which MORE
- * makes good. Products of a centre below 2^-900 lose bits, but such a centre comes with a radius of at least 1/2, and
- * the loss, 2^-1074, is less than MORE adds to that. */
+/* ball.c: operations on balls. u = 2^-53 is the unit roundoff. The computation of a radius has a few roundings, each
+ * with a relative error of u, for which MORE compensates. Products of a middle below 2^-900 lose bits, but such a
+ * middle has a radius of at least 1/2, and the loss, 2^-1074, is less than MORE adds to that. */
 #include "number/ball.h"
 
 #include "number/lattice.h"
@@ -13,11 +13,11 @@
 
 #define U 0x1p-53
 #define MORE (1 + 0x1p-50)
-#define FAR 200 /* a term smaller by this many bits only adds to the radius */
+#define FAR 200 /* a term that is smaller by this number of bits is only added to the radius */
 
 static const sunder_i_ball ANYTHING = {0, INFINITY, 0};
 
-/* In canonical form: both scaled by a power of two, exactly. */
+/* Returns the ball in canonical form: both numbers are scaled by a power of two, exactly. */
 static sunder_i_ball canonical(double middle, double radius, long exponent)
 {
     const double size = fabs(middle) > radius ? fabs(middle) : radius;
@@ -25,12 +25,12 @@ static sunder_i_ball canonical(double middle, double radius, long exponent)
     if (size == 0) return (sunder_i_ball){0, 0, 0};
     uint64_t bits;
     memcpy(&bits, &size, sizeof bits);
-    const int k = (int)(bits >> 52) - 1022; /* as frexp() says; size is no subnormal */
+    const int k = (int)(bits >> 52) - 1022; /* as the exponent of frexp(); size is not subnormal */
     const double scale = sunder_i_power_of_two(-k);
     return (sunder_i_ball){middle * scale, radius * scale, exponent + k};
 }
 
-/* The topmost 64 bits, as a fraction in [1/2, 1]: off by 2^-64 for those below, and by u / 2 for the rounding. */
+/* The leading 64 bits, as a fraction in [1/2, 1]: the error is 2^-64 for the bits below, and u / 2 for the rounding. */
 sunder_i_ball sunder_i_ball_big(sunder_i_big v)
 {
     if (v.size == 0) return (sunder_i_ball){0, 0, 0};
@@ -49,7 +49,7 @@ sunder_i_ball sunder_i_ball_add(sunder_i_ball a, sunder_i_ball b)
     const sunder_i_ball large = a.exponent < b.exponent ? b : a, small = a.exponent < b.exponent ? a : b;
     const long down = large.exponent - small.exponent;
     if (!(a.radius + b.radius < INFINITY)) return ANYTHING;
-    /* |small| < 2 times its power of two, with its radius. */
+    /* |small| < 2 times its power of two, including its radius. */
     const double scale = sunder_i_power_of_two(down > FAR ? -FAR + 1 : -down);
     const double middle = down > FAR ? large.middle : large.middle + small.middle * scale;
     const double radius = large.radius + (down > FAR ? scale : small.radius * scale) + fabs(middle) * U;
@@ -79,7 +79,7 @@ sunder_i_ball sunder_i_ball_div(sunder_i_ball a, sunder_i_ball b)
     return canonical(q, radius * MORE, a.exponent - b.exponent);
 }
 
-/* |sqrt(m + s) - sqrt(m)| <= |s| / sqrt(m). Where the radius is no less than the middle: from zero to the greatest. */
+/* |sqrt(m + s) - sqrt(m)| <= |s| / sqrt(m). If the radius is at least the middle: from zero to the largest root. */
 sunder_i_ball sunder_i_ball_sqrt(sunder_i_ball a)
 {
     const int odd = (int)(a.exponent & 1);

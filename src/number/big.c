@@ -1,5 +1,5 @@
-/* Big integers on arenas: what GMP does with limbs, with signs and memory added. Sums, order, shifts; products and
- * quotients are in big_product.c, roots and the gcd in big_gcd.c. */
+/* big.c: big integers in arenas: the mpn_ functions of GMP operate on limbs; signs and memory are added here. Sums,
+ * order, shifts; products and quotients are in big_product.c, roots and the gcd in big_gcd.c. */
 #include "number/big_limbs.h"
 
 #include <limits.h>

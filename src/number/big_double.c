@@ -1,4 +1,4 @@
-/* Ratios of big integers as doubles, each rounded once. */
+/* big_double.c: ratios of big integers as doubles, each rounded once. */
 #include "number/big_limbs.h"
 
 #include <math.h>
@@ -6,11 +6,13 @@
 
 typedef enum direction { DOWN, NEAREST, UP } direction;
 
-/* Rounds q + (0 < tail < 1 if inexact) times 2^e, q >= 0 with 64 to 66 bits or exact, to a double of positive sign. */
+/* Returns q + (0 < tail < 1 if inexact) times 2^e, q >= 0 with 64 to 66 bits or exact, rounded to a double in the given
+ * direction. */
 static double round_positive(sunder_i_arena *arena, sunder_i_big q, bool inexact, long e, direction dir)
 {
     const long bits = (long)sunder_i_big_bits(q);
-    /* The lowest bit that a double can hold at this size: 53 bits, fewer in the subnormal range. */
+    /* The number of bits below the lowest bit that a double of this size can have: 53 bits are kept, fewer in the
+     * subnormal range. */
     long drop = bits - 53;
     if (e + drop < -1074) drop = -1074 - e;
     if (drop < 0) drop = 0;
@@ -32,7 +34,7 @@ static double round_positive(sunder_i_arena *arena, sunder_i_big q, bool inexact
     return isinf(v) && dir == DOWN ? 0x1.fffffffffffffp1023 : v;
 }
 
-/* m * 2^exponent, which must neither underflow nor overflow. */
+/* Returns m * 2^exponent, which must neither underflow nor overflow. */
 static double scaled(uint64_t m, long exponent)
 {
     const uint64_t bits = (uint64_t)(exponent + 1023) << 52;
@@ -41,7 +43,7 @@ static double scaled(uint64_t m, long exponent)
     return (double)m * power;
 }
 
-/* The 64 highest bits of |a| > 0, the first of them set. */
+/* Returns the 64 highest bits of |a| > 0, the first of them set. */
 static uint64_t highest(sunder_i_big a)
 {
     const mp_size_t n = sunder_i_limbs(a);
@@ -49,11 +51,11 @@ static uint64_t highest(sunder_i_big a)
     return a.limb[n - 1] << up | (up && n > 1 ? a.limb[n - 2] >> (64 - up) : 0);
 }
 
-/* |num / den| * 2^exponent to the nearest double, from the highest bits of both, where these tell. Let A and D be
- * those, both at least 2^63, and num and den A + a and D + d but for powers of two, 0 <= a, d < 1. The quotient is
- * Q = 2^63 (A + a) / (D + d), and q = floor(2^63 A / D) < 2^64 is at most 2 off it: the floor takes less than 1 away, a
- * less than 2^63 / D <= 1, and d adds less than q / D < 2. So whatever is more than 2 from the middle between two
- * doubles is rounded to the same one. */
+/* *v becomes |num / den| * 2^exponent, rounded to the nearest double, if the highest bits of both decide it; else
+ * returns false. Let A and D be these bits, both at least 2^63, and num and den equal A + a and D + d up to powers of
+ * two, 0 <= a, d < 1. The quotient is Q = 2^63 (A + a) / (D + d), and q = floor(2^63 A / D) < 2^64 differs from it by
+ * at most 2: the floor subtracts less than 1, a less than 2^63 / D <= 1, and d adds less than q / D < 2. So a value
+ * whose distance from the midpoint between two doubles is more than 2 is rounded to the same double. */
 static bool quick_ratio(sunder_i_big num, sunder_i_big den, long exponent, double *v)
 {
     const long e = (long)sunder_i_big_bits(num) - (long)sunder_i_big_bits(den) - 63 + exponent;
@@ -72,7 +74,7 @@ static double ratio(sunder_i_arena *arena, sunder_i_big num, sunder_i_big den, l
     const bool negative = num.size < 0, whole = sunder_i_big_is_one(den);
     double v = 0;
     if (whole && dir == NEAREST && sunder_i_limbs(num) == 1 && exponent > -1000 && exponent < 900) {
-        v = scaled(num.limb[0], exponent); /* no underflow, so rounded once */
+        v = scaled(num.limb[0], exponent); /* there is no underflow, so that it is rounded once */
         return negative ? -v : v;
     }
     if (dir == NEAREST && !whole && den.size && quick_ratio(num, den, exponent, &v)) return negative ? -v : v;
@@ -86,7 +88,8 @@ static double ratio(sunder_i_arena *arena, sunder_i_big num, sunder_i_big den, l
         if (!arena->failed) sunder_i_arena_release(arena, mark);
         return negative ? -v : v;
     }
-    /* A quotient of 65 or 66 bits leaves at least eleven below the 53 kept, and the remainder settles the rest. */
+    /* A quotient of 65 or 66 bits has at least eleven bits below the 53 that are kept, and the remainder decides the
+     * rest. */
     const long shift = 65 - ((long)sunder_i_big_bits(num) - (long)sunder_i_big_bits(den));
     if (shift > 0)
         num = sunder_i_big_shl(arena, num, (unsigned long)shift);

@@ -1,22 +1,22 @@
-/* The greatest common divisor and the square root of big integers: by GMP where the operands are short enough
- * (big_limbs.h says why), else by the algorithms of Lehmer and Newton. */
+/* big_gcd.c: the greatest common divisor and the square root of big integers: with GMP if the operands are short enough
+ * (big_limbs.h explains why), else with the algorithms of Lehmer and Newton. */
 #include "number/big_limbs.h"
 
 #include "base/watch.h"
 
 /* ---- The greatest common divisor ---- */
 
-/* Several steps of Euclid's algorithm at once: u' = a u - b v, v' = c v - d u; both negated where `odd`. */
+/* Several steps of Euclid's algorithm at once: u' = a u - b v, v' = c v - d u; both negated if `odd`. */
 typedef struct lehmer {
     uint64_t a, b, c, d;
     bool odd;
 } lehmer;
 
-/* Those steps that the leading 62 bits of u >= v determine: Collins' condition in Jebelean's form [Jeb95] says how far
- * they can be trusted. False if that is not for a single one. */
+/* *m becomes the steps that the leading 62 bits of u >= v determine: Collins' condition in Jebelean's form [Jeb95]
+ * shows which steps are certain. Returns false if not even the first is. */
 static bool lehmer_steps(uint64_t u, uint64_t v, lehmer *m)
 {
-    /* What is left after i steps is x_i u + y_i v, signs alternating; these are the magnitudes, below 2^31. */
+    /* The remainder after i steps is x_i u + y_i v, with alternating signs; these are the magnitudes, below 2^31. */
     uint64_t x0 = 1, y0 = 0, x1 = 0, y1 = 1;
     bool odd = false;
     int steps = 0;
@@ -36,7 +36,7 @@ static bool lehmer_steps(uint64_t u, uint64_t v, lehmer *m)
     return steps > 0;
 }
 
-/* x u - y v on n limbs; it is known not to be negative, and to fit. */
+/* r becomes x u - y v, with n limbs; the result must not be negative, and must fit. */
 static void combine(mp_limb_t *r, const mp_limb_t *u, uint64_t x, const mp_limb_t *v, uint64_t y, mp_size_t n)
 {
     mpn_mul_1(r, u, n, x);
@@ -51,14 +51,14 @@ static uint64_t leading(sunder_i_big a, unsigned long bits)
     return (first >> shift | (shift ? second << (64 - shift) : 0)) & (((uint64_t)1 << 62) - 1);
 }
 
-/* Euclid's algorithm on a >= b > 0; the results of a step are written to `spare`, which is then exchanged with `used`,
- * where the step before wrote its own. */
+/* The state of Euclid's algorithm for a >= b > 0; the results of a step are written to `spare`, which is then exchanged
+ * with `used`, which has the results of the previous step. */
 typedef struct euclid {
     sunder_i_big a, b;
     mp_limb_t *spare[2], *used[2];
 } euclid;
 
-/* False if memory is out. */
+/* Returns false if out of memory. */
 static bool start_euclid(euclid *e, sunder_i_arena *arena, sunder_i_big a, sunder_i_big b)
 {
     const bool ordered = sunder_i_big_cmp(a, b) >= 0;
@@ -72,12 +72,12 @@ static bool start_euclid(euclid *e, sunder_i_arena *arena, sunder_i_big a, sunde
     return block != NULL;
 }
 
-/* False if memory is out. */
+/* Returns false if out of memory. */
 static bool take_lehmer_steps(euclid *e, sunder_i_arena *arena, const lehmer *m)
 {
     const mp_size_t n = e->a.size;
     const mp_limb_t *u = e->a.limb;
-    mp_limb_t *v = sunder_i_limbs_alloc(arena, n); /* b, as long as a */
+    mp_limb_t *v = sunder_i_limbs_alloc(arena, n); /* b with as many limbs as a */
     if (!v) return false;
     mpn_zero(v, n);
     mpn_copyi(v, e->b.limb, e->b.size);
@@ -93,7 +93,8 @@ static bool take_lehmer_steps(euclid *e, sunder_i_arena *arena, const lehmer *m)
     return true;
 }
 
-/* One step by a division: where the quotient is too large for a word, or too close to call. False if memory is out. */
+/* Does one step by a division: if the quotient is too large for a word, or no step is certain. Returns false if out of
+ * memory. */
 static bool take_division_step(euclid *e, sunder_i_arena *arena)
 {
     sunder_i_big rest;
@@ -106,7 +107,7 @@ static bool take_division_step(euclid *e, sunder_i_arena *arena)
     return true;
 }
 
-/* Of magnitudes, both odd. */
+/* Returns the gcd of two magnitudes, both odd. */
 static sunder_i_big gcd_long(sunder_i_arena *arena, sunder_i_big a, sunder_i_big b)
 {
     euclid e;
@@ -138,7 +139,7 @@ sunder_i_big sunder_i_big_gcd(sunder_i_arena *arena, sunder_i_big a, sunder_i_bi
     if (b.size < 0) b.size = -b.size;
     if (a.size == 0) return b;
     if (b.size == 0) return a;
-    /* mpn_gcd wants the second operand odd and not longer than the first; it destroys both. */
+    /* mpn_gcd requires that the second operand is odd and not longer than the first; it destroys both. */
     const unsigned long ta = sunder_i_big_twos(a), tb = sunder_i_big_twos(b), twos = ta < tb ? ta : tb;
     sunder_i_big u = sunder_i_big_copy(arena, sunder_i_big_shr(arena, a, ta));
     sunder_i_big v = sunder_i_big_copy(arena, sunder_i_big_shr(arena, b, tb));
@@ -158,9 +159,9 @@ sunder_i_big sunder_i_big_gcd(sunder_i_arena *arena, sunder_i_big a, sunder_i_bi
 
 /* ---- Square root ---- */
 
-/* Newton's iteration with as many bits as are right so far, twice as many each time. The invariant, with c = (bits of
- * a - 1) / 2 and d the leading bits of c: (s - 1)^2 < floor(a / 2^(2 c - 2 d)) < (s + 1)^2. One step keeps it, as the
- * error of a quotient step is the square of the old one over 2 s; at the end s or s - 1 is the root. */
+/* Newton's iteration with as many bits as are correct so far, twice as many each time. The invariant, with c = (bits of
+ * a - 1) / 2 and d the leading bits of c: (s - 1)^2 < floor(a / 2^(2 c - 2 d)) < (s + 1)^2. A step preserves it, since
+ * the error of a quotient step is the square of the old error over 2 s; at the end s or s - 1 is the root. */
 static sunder_i_big sqrt_long(sunder_i_arena *arena, sunder_i_big a)
 {
     const unsigned long c = (sunder_i_big_bits(a) - 1) / 2;

@@ -1,16 +1,18 @@
-/* Products and quotients of big integers: by GMP where the operands are short enough (big_limbs.h says why), else by
- * Karatsuba's and by Burnikel and Ziegler's algorithms, which cut the operands until they are. */
+/* big_product.c: products and quotients of big integers: with GMP if the operands are short enough (big_limbs.h
+ * explains why), else with the algorithms of Karatsuba and of Burnikel and Ziegler, which divide the operands until
+ * they are. */
 #include "number/big_limbs.h"
 
 #include <string.h>
 
-/* a 2^(64 k) + b. */
+/* Returns a 2^(64 k) + b. */
 static sunder_i_big join(sunder_i_arena *arena, sunder_i_big a, mp_size_t k, sunder_i_big b)
 {
     return sunder_i_big_add(arena, sunder_i_big_shl(arena, a, 64 * (unsigned long)k), b);
 }
 
-/* A result that stays when the work beneath it is given back: `to` was allocated before the mark. */
+/* Copies a result to `to`, which was allocated before the mark, and releases the memory allocated since. Returns the
+ * copy. */
 static sunder_i_big settle(sunder_i_arena *arena, sunder_i_mark mark, mp_limb_t *to, sunder_i_big v)
 {
     if (arena->failed) return SUNDER_I_BIG_ZERO;
@@ -21,7 +23,8 @@ static sunder_i_big settle(sunder_i_arena *arena, sunder_i_mark mark, mp_limb_t 
 
 /* ---- Products ---- */
 
-/* a of any length, b no longer than a piece: piece by piece into p, which has room for all. */
+/* Returns the product of a, of any length, and b, of at most `piece` limbs; computed piece by piece in p, which has
+ * room for all. */
 static sunder_i_big mul_pieces(sunder_i_arena *arena, sunder_i_big a, sunder_i_big b, mp_size_t piece, mp_limb_t *p)
 {
     const mp_size_t room = a.size + b.size;
@@ -35,7 +38,8 @@ static sunder_i_big mul_pieces(sunder_i_arena *arena, sunder_i_big a, sunder_i_b
     return arena->failed ? SUNDER_I_BIG_ZERO : sunder_i_limbs_slice((sunder_i_big){p, room}, 0, room);
 }
 
-/* a = a1 B + a0 and b likewise: with the middle (a0 + a1) (b0 + b1) - a0 b0 - a1 b1 three products do [KO62]. */
+/* a = a1 B + a0 and b likewise: with the middle term (a0 + a1) (b0 + b1) - a0 b0 - a1 b1 three products are sufficient
+ * [KO62]. */
 static sunder_i_big karatsuba(sunder_i_arena *arena, sunder_i_big a, sunder_i_big b)
 {
     const mp_size_t k = (a.size + 1) / 2;
@@ -47,7 +51,7 @@ static sunder_i_big karatsuba(sunder_i_arena *arena, sunder_i_big a, sunder_i_bi
     return join(arena, join(arena, high, k, middle), k, low);
 }
 
-/* Of magnitudes. */
+/* Returns the product of two magnitudes. */
 static sunder_i_big multiply_long(sunder_i_arena *arena, sunder_i_big a, sunder_i_big b)
 {
     if (a.size < b.size) {
@@ -92,7 +96,8 @@ sunder_i_big sunder_i_big_norm(sunder_i_arena *arena, sunder_i_big x, sunder_i_b
 
 static sunder_i_big divide_2_by_1(sunder_i_arena *arena, sunder_i_big a, sunder_i_big b, mp_size_t n, sunder_i_big *r);
 
-/* a below b 2^(64 k), b of 2 k limbs, normalised: the upper halves give a quotient that is at most two too large. */
+/* Divides a, below b 2^(64 k), by b, which has 2 k limbs and is normalised: the upper halves give a quotient that is at
+ * most two too large. */
 static sunder_i_big divide_3_by_2(sunder_i_arena *arena, sunder_i_big a, sunder_i_big b, mp_size_t k, sunder_i_big *r)
 {
     const sunder_i_big upper = sunder_i_limbs_slice(a, k, a.size), b1 = sunder_i_limbs_slice(b, k, b.size),
@@ -100,7 +105,7 @@ static sunder_i_big divide_3_by_2(sunder_i_arena *arena, sunder_i_big a, sunder_
     sunder_i_big q, rest;
     if (sunder_i_big_cmp(sunder_i_limbs_slice(a, 2 * k, a.size), b1) < 0)
         q = divide_2_by_1(arena, upper, b1, k, &rest);
-    else { /* the largest of k limbs */
+    else { /* the largest number of k limbs */
         q = sunder_i_big_sub(arena, sunder_i_big_shl(arena, sunder_i_big_one(), 64 * (unsigned long)k),
                              sunder_i_big_one());
         rest = sunder_i_big_sub(arena, upper, sunder_i_big_sub(arena, join(arena, b1, k, SUNDER_I_BIG_ZERO), b1));
@@ -114,7 +119,7 @@ static sunder_i_big divide_3_by_2(sunder_i_arena *arena, sunder_i_big a, sunder_
     return q;
 }
 
-/* a below b 2^(64 n), b of n limbs, normalised. */
+/* Divides a, below b 2^(64 n), by b, which has n limbs and is normalised. */
 static sunder_i_big divide_2_by_1(sunder_i_arena *arena, sunder_i_big a, sunder_i_big b, mp_size_t n, sunder_i_big *r)
 {
     *r = SUNDER_I_BIG_ZERO;
@@ -127,8 +132,8 @@ static sunder_i_big divide_2_by_1(sunder_i_arena *arena, sunder_i_big a, sunder_
     return join(arena, high, k, low);
 }
 
-/* Digit by digit, where a digit is as long as b: shifted so that b's top bit is set and its length halves evenly down
- * to what GMP divides. */
+/* Divides digit by digit, where a digit is as long as b: both are shifted so that b's top bit is set and its length can
+ * be halved evenly down to the length that GMP divides. */
 static sunder_i_big divide_long(sunder_i_arena *arena, sunder_i_big a, sunder_i_big b, sunder_i_big *remainder)
 {
     mp_size_t n = b.size, halvings = 0;
@@ -159,7 +164,7 @@ static sunder_i_big divide_long(sunder_i_arena *arena, sunder_i_big a, sunder_i_
 sunder_i_big sunder_i_big_divide(sunder_i_arena *arena, sunder_i_big a, sunder_i_big b, sunder_i_big *remainder)
 {
     const mp_size_t m = sunder_i_limbs(a), n = sunder_i_limbs(b);
-    if (n == 0) { /* left of a product that failed, here or in another arena */
+    if (n == 0) { /* the result of a product that failed, in this or another arena */
         *remainder = SUNDER_I_BIG_ZERO;
         return SUNDER_I_BIG_ZERO;
     }

@@ -1,12 +1,12 @@
-/* Big integers and their ratios as decimal text, and back. */
+/* big_text.c: conversion of big integers and their ratios to and from decimal text. */
 #include "number/big_limbs.h"
 
 #include "base/watch.h"
 
 /* ---- To text ---- */
 
-#define WORD_DIGITS 19 /* of 10^19 - 1 < 2^64 */
-#define PLAIN_LIMBS 30 /* below this, division by 10^19 again and again is the quicker */
+#define WORD_DIGITS 19 /* the digits of 10^19 - 1 < 2^64 */
+#define PLAIN_LIMBS 30 /* below this number of limbs, repeated division by 10^19 is faster */
 
 static size_t plain_digits(sunder_i_arena *arena, sunder_i_big a, char *text, size_t width)
 {
@@ -29,8 +29,8 @@ static size_t plain_digits(sunder_i_arena *arena, sunder_i_big a, char *text, si
     return at;
 }
 
-/* a in `width` digits with zeros in front (0: as many as it has), a below power[level] squared, where power[i] is
- * 10^(19 2^i). */
+/* Writes a with `width` digits and leading zeros (0: without leading zeros); a is below power[level] squared, where
+ * power[i] is 10^(19 2^i). Returns the number of digits; 0 if out of memory. */
 static size_t digits_by_halves(sunder_i_arena *arena, sunder_i_big a, const sunder_i_big *power, int level, char *text,
                                size_t width)
 {
@@ -48,8 +48,8 @@ static size_t digits_by_halves(sunder_i_arena *arena, sunder_i_big a, const sund
     return n + m;
 }
 
-/* The decimal digits of a >= 0 at text, which has room for them and for 20 more; returns how many, 0 where memory is
- * out. */
+/* Writes the decimal digits of a >= 0 to text, which must have room for them and for 20 more. Returns their number; 0
+ * if out of memory. */
 static size_t digits(sunder_i_arena *arena, sunder_i_big a, char *text)
 {
     static const mp_limb_t ten[] = {UINT64_C(10000000000000000000)};
@@ -66,7 +66,7 @@ static size_t digits(sunder_i_arena *arena, sunder_i_big a, char *text)
     return arena->failed ? 0 : digits_by_halves(arena, a, power, level, text, 0);
 }
 
-/* Enough characters for the digits of a number of that many bits, and a spare one. */
+/* Returns a number of characters that suffices for the digits of a, and one more. */
 static size_t digit_room(sunder_i_big a) { return (size_t)(sunder_i_big_bits(a) * 31 / 100) + 4; }
 
 char *sunder_i_big_ratio_text(sunder_i_arena *arena, sunder_i_big num, sunder_i_big den, long exponent)
@@ -109,7 +109,7 @@ bool sunder_i_big_parse(sunder_i_arena *arena, const char *text, size_t n, sunde
     if (n && (*text == '-' || *text == '+')) text++, n--;
     if (n == 0) return false;
     *out = SUNDER_I_BIG_ZERO;
-    /* Eighteen digits at a time fit in 60 bits; all of them in one block, for the text may be as long as it likes. */
+    /* Eighteen digits fit in 60 bits. All limbs are allocated in one block, since the text may have any length. */
     mp_limb_t *limb = sunder_i_limbs_alloc(arena, (mp_size_t)(n / 18 + 1));
     mp_size_t used = 0;
     for (size_t i = 0; i < n;) {

@@ -1,4 +1,4 @@
-/* Choosing a lattice for what is to stand on it, and reading doubles, integers and ratios as its numbers. */
+/* lattice.c: chooses a lattice for given coordinates, and converts doubles, integers and ratios to its numbers. */
 #include "number/lattice.h"
 
 #include "base/invariant.h"
@@ -14,7 +14,7 @@ static inline int low_bit_of(double v)
     const int field = (int)(b >> 52 & 0x7ff);
     const uint64_t fraction = b & (((uint64_t)1 << 52) - 1);
     if (field) return field - 1075 + __builtin_ctzll(fraction | (uint64_t)1 << 52);
-    return fraction ? -1074 + __builtin_ctzll(fraction) : INT_MAX; /* of the smallest doubles, and of zero */
+    return fraction ? -1074 + __builtin_ctzll(fraction) : INT_MAX; /* for subnormal doubles, and for zero */
 }
 
 int sunder_i_low_bit(double v) { return low_bit_of(v); }
@@ -42,7 +42,7 @@ void sunder_i_extent_add(sunder_i_extent *extent, const double *xy, size_t n)
     extent->low_bit = bit;
 }
 
-/* The exponent e of v = m 2^e, 1/2 <= |m| < 1, as frexp() has it, without a call where v is a normal double. */
+/* Returns the exponent e of v = m 2^e, 1/2 <= |m| < 1, as frexp(), but without a call if v is a normal double. */
 static inline int exponent_of(double v)
 {
     uint64_t b;
@@ -59,7 +59,7 @@ double sunder_i_lattice_origin(double low, double high, int bit)
     const double middle = low / 2 + high / 2;
     if (middle == 0) return 0;
     const int e = exponent_of(middle), range = exponent_of(high - low);
-    /* Keep bits down to the size of the range: a finer origin buys nothing. */
+    /* Limits the bits to the size of the range: a more precise origin has no advantage. */
     int keep = e - range + 2;
     if (high == low || keep > 20) keep = 20;
     if (keep <= 0) return 0;
@@ -67,13 +67,13 @@ double sunder_i_lattice_origin(double low, double high, int bit)
     if (keep <= 0) return 0;
     const double bits = fabs(middle) > 0x1p-900 && fabs(middle) < 0x1p900 ? middle * sunder_i_power_of_two(keep - e)
                                                                           : ldexp(middle, keep - e);
-    return ldexp((double)(int64_t)bits, e - keep); /* truncated: below 2^20 */
+    return ldexp((double)(int64_t)bits, e - keep); /* truncated to an integer below 2^20 */
 }
 
-/* Bits of a magnitude |v - o| in units of 2^bit, rounded up safely. */
+/* Returns an upper bound of the number of bits of |v - o| in units of 2^bit. */
 static int magnitude_bits(double v, double o, int bit)
 {
-    const double d = fabs(v - o); /* rounding is relative, below one bit */
+    const double d = fabs(v - o); /* the rounding error is relative, below one bit */
     if (d == 0) return 0;
     if (isinf(d)) return INT_MAX / 2;
     return exponent_of(d) + 1 - bit;
@@ -121,7 +121,7 @@ void sunder_i_lattice_free(sunder_i_lattice *lattice)
 
 sunder_i_mark sunder_i_lattice_begin(sunder_i_lattice *lattice)
 {
-    /* Something stays in the first chunk, so that it is not given back again and again. */
+    /* An allocation that remains in the first chunk, so that the chunk is not freed and allocated again and again. */
     if (!lattice->scratch.chunk) sunder_i_arena_alloc(&lattice->scratch, 1, 1);
     return sunder_i_arena_mark(&lattice->scratch);
 }
@@ -135,7 +135,7 @@ void sunder_i_lattice_end(sunder_i_lattice *lattice, sunder_i_mark mark)
 static const mp_limb_t one_limb = 1;
 static const sunder_i_big one = {&one_limb, 1};
 
-/* The nearest double of num / den in the units of sunder_i_approx(). */
+/* Returns the double nearest to num / den in the units of sunder_i_approx(). */
 static double value_of(sunder_i_lattice *lattice, sunder_i_big num, sunder_i_big den)
 {
     const sunder_i_mark mark = sunder_i_lattice_begin(lattice);
@@ -172,7 +172,7 @@ int64_t sunder_i_lattice_ratio(sunder_i_lattice *lattice, sunder_i_big num, sund
     return sunder_i_lattice_pool(lattice, num, den, value_of(lattice, num, den));
 }
 
-/* v / 2^unit, v a multiple of 2^unit; false if that needs more than 123 bits. */
+/* *out becomes v / 2^unit; v must be a multiple of 2^unit. Returns false if that needs more than 123 bits. */
 static bool units(double v, long unit, sunder_i_i128 *out)
 {
     *out = 0;
@@ -181,7 +181,7 @@ static bool units(double v, long unit, sunder_i_i128 *out)
     const int64_t m = (int64_t)ldexp(frexp(v, &e), 53);
     const long shift = e - 53 - unit;
     if (shift > 70) return false;
-    *out = shift >= 0 ? m * ((sunder_i_i128)1 << shift) : m / ((int64_t)1 << -shift); /* exact: v is a multiple */
+    *out = shift >= 0 ? m * ((sunder_i_i128)1 << shift) : m / ((int64_t)1 << -shift); /* exact, since v is a multiple */
     return true;
 }
 
@@ -192,8 +192,8 @@ static int64_t narrow_int(const sunder_i_lattice *lattice, double v, double o)
     if (lattice->scale > 0 && fabs(sv) < 0x1p62 && fabs(so) < 0x1p62) return (int64_t)sv - (int64_t)so;
     sunder_i_i128 a, b;
     if (units(v, lattice->exponent, &a) && units(o, lattice->exponent, &b)) return (int64_t)(a - b);
-    /* One is above 2^122 units and they differ by less than 2^60: within a factor of two of each other, so the
-     * difference is exact (Sterbenz). */
+    /* One is above 2^122 units and they differ by less than 2^60: their ratio is less than two, so that the difference
+     * is exact (Sterbenz). */
     return (int64_t)ldexp(v - o, (int)-lattice->exponent);
 }
 

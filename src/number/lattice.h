@@ -1,22 +1,22 @@
-/* The lattice: all coordinates of one problem, without loss.
+/* lattice.h: the lattice: represents all coordinates of one problem exactly.
  *
- * Finite doubles are dyadic rationals, so the coordinates of a problem are integer multiples of one power of two. Taken
- * from an origin near the features, map coordinates fit in 60 bits almost always. Two kinds of numbers stand on a
- * lattice, and both are an int64_t: a *plain* integer, below 2^61 in magnitude, is itself. Anything else (a longer
- * integer, or a corner of a repaired shape, which is the crossing of two lattice segments and has a denominator) is a
- * *handle* of a ratio of big integers in the lattice's pool. No denominator is common to anything.
+ * Finite doubles are dyadic rationals, so that the coordinates of a problem are integer multiples of one power of two.
+ * Relative to an origin near the features, map coordinates nearly always fit in 60 bits. There are two kinds of numbers
+ * on a lattice, both represented by an int64_t: a *plain* integer, below 2^61 in magnitude, is itself. Any other number
+ * (a longer integer, or a coordinate of a repaired shape's vertex, which is the intersection of two lattice segments
+ * and has a denominator) is a *handle* of a ratio of big integers in the lattice's pool. There is no common
+ * denominator.
  *
- * On a *narrow* lattice all numbers are plain, and every predicate runs in native and fixed-width integers without
- * asking. Elsewhere the predicates look at the numbers they are given: plain ones go the same way, and only what has
- * handles among its operands is put to a floating-point filter, and then to big integers. Code above this folder does
- * not see the difference: it holds points as sunder_i_point and asks the functions of predicate/ about them. Off narrow
- * lattices no code outside number/ and predicate/ may do arithmetic on the fields of a point; equality of handles means
- * nothing either.
+ * On a *narrow* lattice all numbers are plain, and every predicate uses native and fixed-width integers without tests.
+ * Otherwise the predicates test the given numbers: plain ones are treated in the same way, and only operations with
+ * handles among the operands use a floating-point filter, and then big integers. Code outside number/ and predicate/
+ * does not depend on the difference: it has points as sunder_i_point and calls the functions of predicate/. On lattices
+ * that are not narrow, no other code may compute with the fields of a point; equality of handles has no meaning either.
  *
- * Value of a number n: n * 2^exponent + origin, where the origin is a double that the holder of the points keeps (each
- * operand may have its own; few significant bits, so that sums of origins are exact).
+ * The value of a number n is n * 2^exponent + origin, where the origin is a double that is stored with the points (each
+ * operand may have its own; it has few significant bits, so that sums of origins are exact).
  *
- * A lattice is not shared between threads: it owns the pool of ratios and the operation counters. */
+ * A lattice must not be used by several threads at once: it owns the pool of ratios and the operation counters. */
 #ifndef SUNDER_I_LATTICE_H
 #define SUNDER_I_LATTICE_H
 
@@ -27,10 +27,10 @@
 #include <string.h>
 
 #define SUNDER_I_NARROW_BITS 60 /* |coordinate| and |sum of two operands' coordinates| < 2^60 on a narrow lattice */
-#define SUNDER_I_PLAIN_BITS 61  /* |plain number| < 2^61: differences of such coordinates are plain too */
+#define SUNDER_I_PLAIN_BITS 61  /* |plain number| < 2^61: differences of such coordinates are plain, too */
 
 typedef struct sunder_i_point {
-    int64_t x, y; /* plain, or handles */
+    int64_t x, y; /* plain numbers, or handles */
 } sunder_i_point;
 
 /* A ratio of the pool, and the nearest double in the units of sunder_i_approx(). */
@@ -41,35 +41,37 @@ typedef struct sunder_i_pooled {
 
 typedef struct sunder_i_lattice {
     bool narrow; /* all numbers are plain */
-    bool small;  /* all doubles that it was made for are plain, less their origins */
-    bool pooled; /* no number is made plain (for tests, which ask the longest rung of the ladder so) */
+    bool small;  /* all doubles for which it was made, minus their origins, are plain */
+    bool pooled; /* no number is made plain (for tests of the big-integer code) */
     long exponent;
-    double scale;           /* 2^-exponent where that is a normal double, else 0 */
+    double scale;           /* 2^-exponent if that is a normal double, else 0 */
     int approx_shift;       /* sunder_i_approx() divides by 2^approx_shift; 0 on a narrow lattice */
-    sunder_i_arena arena;   /* pool and results; arena.failed is the sticky error of everything on it */
-    sunder_i_arena scratch; /* of one predicate or construction at a time */
-    sunder_i_pooled *pool;  /* by handle */
+    sunder_i_arena arena;   /* memory for the pool and results; every function on the lattice sets arena.failed if out
+                             * of memory */
+    sunder_i_arena scratch; /* memory for one predicate or construction at a time */
+    sunder_i_pooled *pool;  /* indexed by handle - INT64_MIN */
     size_t pool_n, pool_capacity;
     sunder_counts counts;
 } sunder_i_lattice;
 
 static inline bool sunder_i_is_plain(int64_t n) { return n > INT64_MIN / 2; }
 
-/* All of these numbers: a handle among them makes the least one negative beyond all plain ones. */
+/* Returns true if both coordinates are plain: a handle among them makes the lesser one more negative than all plain
+ * ones. */
 static inline bool sunder_i_point_is_plain(sunder_i_point a) { return sunder_i_is_plain(a.x < a.y ? a.x : a.y); }
 
-/* What a lattice has to hold: gathered over all operands, then the lattice is chosen. */
+/* The requirements for a lattice: they are collected over all operands, then the lattice is chosen. */
 typedef struct sunder_i_extent {
     bool any;
     double low[2], high[2]; /* exact bounds of dyadic operands */
     int low_bit;            /* every coordinate is a multiple of 2^low_bit */
 } sunder_i_extent;
 
-/* Adds n points x0 y0 x1 y1 ..., all finite. A zeroed extent is the empty one. */
+/* Adds n points x0 y0 x1 y1 ..., all finite. An extent of zeros is the empty one. */
 void sunder_i_extent_add(sunder_i_extent *extent, const double *xy, size_t n);
-/* The exponent of the lowest set bit of v (finite); INT_MAX for zero. */
+/* Returns the exponent of the lowest set bit of v (finite); INT_MAX for zero. */
 int sunder_i_low_bit(double v);
-/* ldexp(1, e), without a call where that is a normal double. */
+/* Returns 2^e; without a call to ldexp() if that is a normal double. */
 static inline double sunder_i_power_of_two(long e)
 {
     if (e < -1022 || e > 1023) return ldexp(1, e < -2000 ? -2000 : e > 2000 ? 2000 : (int)e);
@@ -79,44 +81,49 @@ static inline double sunder_i_power_of_two(long e)
     return v;
 }
 
-/* The origin for coordinates in [low, high]: a double with at most 20 significant bits near the middle, a multiple of
- * the unit 2^bit, or zero where the range reaches down to that scale anyway. */
+/* Returns the origin for coordinates in [low, high]: a double with at most 20 significant bits near the middle, a
+ * multiple of the unit 2^bit, or zero if the range extends down to that scale anyway. */
 double sunder_i_lattice_origin(double low, double high, int bit);
-/* A lattice that holds the given extents, each taken from an origin of its own if relative is true: the origin is in
- * origins[i], a multiple of the unit near the middle of extent i (zeroes if relative is false). Small if sums of one
- * coordinate of each extent stay below 2^60, and then narrow; with `force_wide` all numbers are pooled (for tests). */
+/* Makes a lattice that represents the given extents, each relative to an origin of its own if `relative`: origins[i]
+ * becomes a multiple of the unit near the middle of extent i (zeros if not `relative`). The lattice is small if sums of
+ * one coordinate of each extent are below 2^60, and then narrow; with `force_wide` all numbers are pooled (for
+ * tests). */
 void sunder_i_lattice_init(sunder_i_lattice *lattice, const sunder_i_extent *extents, size_t n, bool relative,
                            double (*origins)[2], bool force_wide);
-/* From now on numbers that are not plain may come: the lattice is not narrow any more. */
+/* Permits numbers that are not plain: the lattice is no longer narrow. */
 void sunder_i_lattice_admit_ratios(sunder_i_lattice *lattice);
 void sunder_i_lattice_free(sunder_i_lattice *lattice);
 
-/* The double v, a multiple of the unit, less the origin o, as a number. */
+/* Returns the number of the double v, a multiple of the unit, minus the origin o. */
 int64_t sunder_i_lattice_int(sunder_i_lattice *lattice, double v, double o);
-/* n points x0 y0 x1 y1 ..., less that origin. */
+/* Converts n points x0 y0 x1 y1 ..., minus the origin. */
 void sunder_i_lattice_points(sunder_i_lattice *lattice, const double *xy, size_t n, const double origin[2],
                              sunder_i_point *out);
-/* A big integer as a number; it is kept, not copied. On a narrow lattice it must be plain. */
+/* Returns the number of a big integer, which is stored without a copy. On a narrow lattice it must be plain. */
 int64_t sunder_i_lattice_big(sunder_i_lattice *lattice, sunder_i_big v);
-/* The same of num / den, den > 0, not on narrow lattices. */
+/* Returns the number of num / den, den > 0; not on narrow lattices. */
 int64_t sunder_i_lattice_ratio(sunder_i_lattice *lattice, sunder_i_big num, sunder_i_big den);
-/* A handle of num / den, den > 0, even where that is a plain number. */
+/* Returns a handle of num / den, den > 0, even if that is a plain number; `value`: the nearest double in the units of
+ * sunder_i_approx(). */
 int64_t sunder_i_lattice_pool(sunder_i_lattice *lattice, sunder_i_big num, sunder_i_big den, double value);
-/* A number as a ratio; plain ones are made on that arena. The lattice stays as it is. */
+/* Returns a number as a ratio; plain ones are allocated in `arena`. The lattice does not change. */
 sunder_i_ratio sunder_i_lattice_read(sunder_i_arena *arena, const sunder_i_lattice *lattice, int64_t n);
-/* A number that is an integer, on the lattice's arena. */
+/* Returns a number that is an integer, in the lattice's arena. */
 sunder_i_big sunder_i_lattice_get(sunder_i_lattice *lattice, int64_t n);
-/* Close to n / 2^approx_shift: error at most half an ulp of the largest magnitude on the lattice. Always finite. */
+/* Returns an approximation of n / 2^approx_shift: the error is at most half an ulp of the largest magnitude on the
+ * lattice. Always finite. */
 static inline double sunder_i_approx(const sunder_i_lattice *lattice, int64_t n)
 {
     if (!sunder_i_is_plain(n)) return lattice->pool[n - INT64_MIN].value;
     return lattice->approx_shift ? ldexp((double)n, -lattice->approx_shift) : (double)n;
 }
-/* What the cross product of two differences in those units may be off by where they underflow, besides what is relative
- * to them: each is off by half of 2^-1074 then, times another below 2^502, and a sum has a few such terms. */
+/* The absolute error of the cross product of two differences in those units by underflow, in addition to its relative
+ * error: each difference has an error of half of 2^-1074 then, times another below 2^502, and a sum has a few such
+ * terms. */
 #define SUNDER_I_APPROX_UNDERFLOW 0x1p-560
 
-/* Temporaries on the scratch arena live between these two; they nest. A failure there is one of the lattice. */
+/* Temporary numbers in the scratch arena are allocated between these two calls, which may be nested. A failure there is
+ * one of the lattice. */
 sunder_i_mark sunder_i_lattice_begin(sunder_i_lattice *lattice);
 void sunder_i_lattice_end(sunder_i_lattice *lattice, sunder_i_mark mark);
 

@@ -1,5 +1,5 @@
-/* Ratios: read, added, reduced, compared. Where memory is out, and a greatest common divisor zero for that, a ratio is
- * left as it is; the arena says so. */
+/* ratio.c: ratios: read, added, reduced, compared. If out of memory, in which case a greatest common divisor is zero, a
+ * ratio does not change; the arena's `failed` is set. */
 #include "number/ratio.h"
 
 #include <string.h>

@@ -1,15 +1,16 @@
-/* A number of height h is lo + hi r with lo, hi of height h - 1 and r the root h - 1: every operation recurses on the
- * halves. The sign of lo + hi r, where the two disagree, is that of lo times that of lo^2 - hi^2 r^2, which has one
- * root less: no bound on the separation of roots is needed, and squares are computed only where the leading bits do not
- * decide. Each root doubles the lengths; two are usual here, and four arise where two points with two roots each are
- * compared. */
+/* surd.c: a number of height h is lo + hi r with lo, hi of height h - 1 and r the root number h - 1: every operation is
+ * recursive on the halves. The sign of lo + hi r, if the signs of the two terms differ, is that of lo times that of
+ * lo^2 - hi^2 r^2, which has one root less: no bound on the separation of roots is needed, and squares are computed
+ * only if the leading bits do not decide. Each root doubles the lengths; two are usual here, and four arise if two
+ * points with two roots each are compared. */
 #include "number/surd.h"
 
 #define PARTS(height) ((size_t)1 << (height))
 
 static const sunder_i_big ZERO = {NULL, 0};
 
-/* The parts of a new number, all zero; if memory is out, a shared zero that is never written to. */
+/* Allocates the parts of a new number, all zero; if out of memory, *out becomes a shared zero that is never written to,
+ * and the function returns NULL. */
 static sunder_i_big *new_parts(sunder_i_arena *arena, int height, sunder_i_surd *out)
 {
     sunder_i_big *part = sunder_i_arena_alloc(arena, PARTS(height), sizeof *part);
@@ -30,7 +31,7 @@ static bool is_zero(sunder_i_surd a)
     return true;
 }
 
-/* Without the roots above that do not occur. */
+/* Returns the number without the highest roots if their coefficients are zero. */
 static sunder_i_surd trimmed(sunder_i_surd a)
 {
     while (a.height && is_zero(half(a, true))) a = half(a, false);
@@ -169,7 +170,7 @@ int sunder_i_surd_sign(sunder_i_arena *arena, const sunder_i_roots *roots, sunde
 
 static unsigned long root_bits(const sunder_i_roots *roots, int i);
 
-/* |a| < 2^bits. */
+/* Returns a number of bits with |a| < 2^bits. */
 static unsigned long value_bits(const sunder_i_roots *roots, sunder_i_surd a)
 {
     unsigned long bits = 0;
@@ -181,13 +182,14 @@ static unsigned long value_bits(const sunder_i_roots *roots, sunder_i_surd a)
     return bits;
 }
 
-/* Root i < 2^bits; at least 1. */
+/* Returns a number of bits, at least 1, with root i < 2^bits. */
 static unsigned long root_bits(const sunder_i_roots *roots, int i)
 {
     return value_bits(roots, roots->square[i]) / 2 + 1;
 }
 
-/* Within 3 of root i times 2^bits: a square that is off by 2 makes a root that is off by less than 2, and floor. */
+/* Returns an approximation of root i times 2^bits with an error below 3: the square has an error of 2, so that the root
+ * has one below 2, and it is rounded down. */
 static sunder_i_big scaled_root(sunder_i_arena *arena, const sunder_i_roots *roots, int i, unsigned long bits)
 {
     const sunder_i_big square = sunder_i_surd_scaled(arena, roots, roots->square[i], 2 * bits);
@@ -199,9 +201,10 @@ sunder_i_big sunder_i_surd_scaled(sunder_i_arena *arena, const sunder_i_roots *r
 {
     a = trimmed(a);
     if (a.height == 0) return sunder_i_big_shl(arena, a.part[0], bits);
-    /* Four digits to spare. With the root off by 3 * 2^-m, m = bits + 6 + those of hi, and hi by 2 * 2^-n, n = bits + 6
-     * + those of the root, the product is off by less than (3 + 2 + 1) / 64, that is by 6 / 4 at the spare digits; the
-     * shift there adds 1 and lo 2. These 4.5 / 16, and 1 for the last shift, stay below 2. */
+    /* Four additional binary digits are computed. The root has an error of 3 * 2^-m, m = bits + 6 + the bits of hi, and
+     * hi one of 2 * 2^-n, n = bits + 6 + the bits of the root, so that the product has an error below (3 + 2 + 1) / 64,
+     * that is 6 / 4 with the additional digits; the shift adds 1 and lo 2. These 4.5 / 16, and 1 for the last shift,
+     * are below 2. */
     const sunder_i_surd low = half(a, false), high = half(a, true);
     const unsigned long m = bits + 6 + value_bits(roots, high), n = bits + 6 + root_bits(roots, a.height - 1);
     const sunder_i_big product = sunder_i_big_mul(arena, scaled_root(arena, roots, a.height - 1, m),

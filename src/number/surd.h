@@ -1,10 +1,10 @@
-/* Numbers with square roots, exactly: sums of integers times products of the roots r_0, r_1, ... where the square of
- * r_i is such a number over the roots before it. They cover every expression in a few nested square roots, up to a
- * denominator that the holder keeps.
+/* surd.h: numbers with square roots, exactly: sums of integers times products of the roots r_0, r_1, ..., where the
+ * square of r_i is such a number over the previous roots. They represent every expression with a few nested square
+ * roots, up to a denominator that is stored elsewhere.
  *
  * Part k of a number is the coefficient of the product of the roots whose bits are set in k. The roots need not be
- * independent over the rationals: signs are right all the same. Results live in the arena, as those of big.h do; a
- * failed allocation sets arena->failed and yields zero. */
+ * independent over the rationals: signs are correct anyway. Results are allocated in the arena, as those of big.h; a
+ * failed allocation sets arena->failed and gives zero. */
 #ifndef SUNDER_I_SURD_H
 #define SUNDER_I_SURD_H
 
@@ -13,7 +13,7 @@
 #define SUNDER_I_SURD_ROOTS 4
 
 typedef struct sunder_i_surd {
-    int height;               /* over the roots 0 .. height - 1 */
+    int height;               /* the number of roots: 0 .. height - 1 */
     const sunder_i_big *part; /* [2^height] */
 } sunder_i_surd;
 
@@ -23,7 +23,8 @@ typedef struct sunder_i_roots {
 } sunder_i_roots;
 
 sunder_i_surd sunder_i_surd_big(sunder_i_arena *arena, sunder_i_big v);
-/* The root of `square`: an integer if it is one, else one root more (n < SUNDER_I_SURD_ROOTS). False if negative. */
+/* *out becomes the root of `square`: an integer if `square` is the square of one, else a new root is added (roots->n <
+ * SUNDER_I_SURD_ROOTS). Returns false if `square` is negative. */
 bool sunder_i_surd_root(sunder_i_arena *arena, sunder_i_roots *roots, sunder_i_surd square, sunder_i_surd *out);
 
 sunder_i_surd sunder_i_surd_add(sunder_i_arena *arena, sunder_i_surd a, sunder_i_surd b);
@@ -32,18 +33,18 @@ sunder_i_surd sunder_i_surd_scale(sunder_i_arena *arena, sunder_i_surd a, sunder
 sunder_i_surd sunder_i_surd_shl(sunder_i_arena *arena, sunder_i_surd a, unsigned long shift);
 sunder_i_surd sunder_i_surd_mul(sunder_i_arena *arena, const sunder_i_roots *roots, sunder_i_surd a, sunder_i_surd b);
 
-/* Its value, from the topmost bits of its parts. */
+/* Returns the value as a ball, from the leading bits of its parts. */
 sunder_i_ball sunder_i_surd_ball(const sunder_i_roots *roots, sunder_i_surd a);
 int sunder_i_surd_sign(sunder_i_arena *arena, const sunder_i_roots *roots, sunder_i_surd a);
-/* An integer within 2 of a * 2^bits. */
+/* Returns an integer whose difference from a * 2^bits is below 2. */
 sunder_i_big sunder_i_surd_scaled(sunder_i_arena *arena, const sunder_i_roots *roots, sunder_i_surd a,
                                   unsigned long bits);
 
-/* Makes room in *to for the roots of `from` too (those that are there already are shared): root i of `from` is root
- * place[i] of the result. False if there are too many. */
+/* Adds the roots of `from` to *to (those that exist there already are shared): root i of `from` becomes root place[i]
+ * of *to. Returns false if there are too many. */
 bool sunder_i_roots_join(sunder_i_arena *arena, sunder_i_roots *to, const sunder_i_roots *from,
                          int place[SUNDER_I_SURD_ROOTS]);
-/* A number over the roots of `from`, over those of the joined ones. */
+/* Returns a number over the roots of `from` as a number over the joined roots. */
 sunder_i_surd sunder_i_surd_lift(sunder_i_arena *arena, sunder_i_surd a, const int place[SUNDER_I_SURD_ROOTS]);
 
 #endif

@@ -1,4 +1,4 @@
-/* The public face of the accumulator: one addend is a product with 1. */
+/* total.c: the public functions of the accumulator: an addend is a product with 1. */
 #include "sunder_parts.h"
 
 #include "number/accumulator.h"
@@ -40,7 +40,7 @@ void sunder_total_join(sunder_total *total, const sunder_total *part)
 
 double sunder_total_nearest(const sunder_total *total)
 {
-    if (total->beyond != 0) return total->beyond; /* NAN, too, differs from 0 */
+    if (total->beyond != 0) return total->beyond; /* NAN differs from 0, too */
     const sunder_i_accumulator words = words_of(total);
     return sunder_i_accumulator_double(&words, 0);
 }

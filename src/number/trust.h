@@ -1,4 +1,4 @@
-/* The building blocks of determinants on a narrow lattice, and how far doubles are trusted.
+/* trust.h: the basic operations of determinants on a narrow lattice, and whether doubles are trusted.
  *
  * All filters and native predicates of sums use these few functions and macros, so that a benchmark can build the
  * library a second time with another header of this name, which computes in doubles and trusts all of them
@@ -12,13 +12,13 @@
 typedef sunder_i_i128 sunder_i_det;
 
 static inline int sunder_i_det_sign(sunder_i_det v) { return sunder_i_i128_sign(v); }
-/* To the nearest double. */
+/* Returns the nearest double. */
 static inline double sunder_i_det_double(sunder_i_det v) { return sunder_i_i128_double(v); }
 static inline sunder_i_i128 sunder_i_det_i128(sunder_i_det v) { return v; }
 
-/* The error of a double from which that bound is derived. */
+/* The error bound of a double. */
 #define SUNDER_I_DOUBT(bound) (bound)
-/* May numbers that doubles do not tell apart differ? */
+/* Whether numbers that doubles do not distinguish may differ. */
 #define SUNDER_I_DOUBLES_MAY_ERR 1
 
 #endif

@@ -1,5 +1,5 @@
-/* Sums of two products of 64 by 128 bits, the order of products of 128 by 128 and of 256 by 128 bits, and greatest
- * common divisors. */
+/* wide.c: sums of two products of 64 by 128 bits, the order of products of 128 by 128 and of 256 by 128 bits, and
+ * greatest common divisors. */
 #include "number/wide.h"
 
 #include <math.h>
@@ -56,7 +56,7 @@ sunder_i_i256 sunder_i_mul_add_long(int64_t a, sunder_i_i128 b, int64_t c, sunde
     return r;
 }
 
-/* 256 x 128 -> 384 bits. */
+/* Multiplies 256 by 128 bits to 384 bits. */
 static void mul_256_128(const uint64_t a[4], sunder_i_u128 b, uint64_t r[6])
 {
     const uint64_t b0 = (uint64_t)b, b1 = (uint64_t)(b >> 64);
@@ -99,16 +99,16 @@ double sunder_i_i256_double_long(const sunder_i_i256 *a)
     while (top > 0 && a->limb[top] == 0) top--;
     double v = (double)a->limb[top];
     if (top > 0) {
-        /* Two limbs carry at least 65 significant bits, so what is dropped is far below the rounding. */
+        /* Two limbs have at least 65 significant bits, so that the omitted ones are far below the rounding. */
         const sunder_i_u128 two = (sunder_i_u128)a->limb[top] << 64 | a->limb[top - 1];
         v = ldexp((double)two, 64 * (top - 1));
     }
     return a->sign < 0 ? -v : v;
 }
 
-/* Binary: of two odd numbers the difference is even, and its odd part has the same divisors in common with the lesser
- * one. */
-/* For odd numbers. Without branches, since which is greater cannot be predicted. */
+/* The binary algorithm: the difference of two odd numbers is even, and its odd part has the same common divisors with
+ * the lesser number. */
+/* Returns the gcd of two odd numbers. The loop avoids branches, since which number is greater cannot be predicted. */
 static uint64_t odd_gcd_64(uint64_t a, uint64_t b)
 {
     while (a != b) {
@@ -131,7 +131,7 @@ sunder_i_u128 sunder_i_u128_odd_gcd(sunder_i_u128 a, sunder_i_u128 b)
         }
     }
     if (a == b) return a;
-    /* One is short: of the other, if that is the greater, only the rest matters. */
+    /* One number has at most 64 bits: the other, if greater, is replaced by its remainder. */
     const uint64_t c = (uint64_t)(a < b ? a : b);
     const sunder_i_u128 other = a < b ? b : a;
     const uint64_t rest = other >> 64 ? (uint64_t)(other % c) : (uint64_t)other % c;

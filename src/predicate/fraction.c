@@ -1,12 +1,12 @@
-/* Parameters of crossings along a line, as fractions. Numerator and denominator have degree 2: they are below 2^124
- * on a narrow lattice, and below 2^126 elsewhere if all points are plain. Comparing two fractions has degree 4 (256
- * bits). If one of the points is a handle, so is the fraction: den is 0, and num is the handle of a ratio in the
- * pool. */
+/* fraction.c: positions of intersections along a line, as fractions. Numerator and denominator have degree 2: they are
+ * below 2^124 on a narrow lattice, and below 2^126 elsewhere if all points are plain. Comparing two fractions has
+ * degree 4 (256 bits). If one of the points is a handle, so is the fraction: den is 0, and num is the handle of a ratio
+ * in the lattice's pool. */
 #include "predicate/narrow.h"
 
 #include <math.h>
 
-/* num / den from the scratch arena, den not zero. */
+/* Returns num / den, which are in the scratch arena, as a handle; den is not zero. */
 static sunder_i_fraction pooled_fraction(sunder_i_lattice *l, sunder_i_big num, sunder_i_big den)
 {
     if (sunder_i_big_sign(den) < 0) {
@@ -48,7 +48,7 @@ sunder_i_fraction sunder_i_crossing(sunder_i_lattice *lattice, sunder_i_point a,
 
 sunder_i_fraction sunder_i_along(sunder_i_lattice *lattice, sunder_i_point a, sunder_i_point b, sunder_i_point c)
 {
-    /* Collinear: the ratio of either coordinate will do; take the longer one. */
+    /* The points are collinear, so that the ratio of either coordinate is correct; the longer one is used. */
     if (are_plain(lattice, a, b, c)) {
         const sunder_i_point u = sunder_i_narrow_sub(b, a), v = sunder_i_narrow_sub(c, a);
         const uint64_t ux = (uint64_t)(u.x < 0 ? -u.x : u.x), uy = (uint64_t)(u.y < 0 ? -u.y : u.y);
@@ -101,7 +101,7 @@ int sunder_i_fraction_sign(const sunder_i_lattice *lattice, const sunder_i_fract
     return sunder_i_big_sign(lattice->pool[(int64_t)t->num - INT64_MIN].ratio.num);
 }
 
-/* Of two that doubles leave open: they are no farther apart than `apart`. */
+/* Compares two fractions that doubles do not decide; their difference is at most `apart`. */
 static __attribute__((noinline)) int exact_fraction_cmp(sunder_i_lattice *l, const sunder_i_fraction *s,
                                                         const sunder_i_fraction *t, double apart)
 {

@@ -1,5 +1,6 @@
-/* Intersection points in homogeneous coordinates: degree 3 over degree 2, compared in degree 5. What plain points
- * define is native on every lattice: coordinates below 2^188 over weights below 2^126 off the narrow ones. */
+/* hpoint.c: intersection points in homogeneous coordinates: degree 3 over degree 2, compared in degree 5. Points
+ * computed from plain points use native integers on every lattice: coordinates below 2^188 and weights below 2^126 on
+ * lattices that are not narrow. */
 #include "base/extremes.h"
 #include "base/invariant.h"
 #include "predicate/narrow.h"
@@ -9,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Relative to the larger of 1 and the coordinate: three conversions, a division. */
+/* The error of ax and ay, relative to the larger of 1 and the coordinate: three conversions, a division. */
 #define HPOINT_ERROR 0x1p-49
 
 static double scaled(const sunder_i_lattice *l, double v) { return l->approx_shift ? ldexp(v, -l->approx_shift) : v; }
@@ -20,7 +21,7 @@ static sunder_i_hpoint native(const sunder_i_lattice *l, sunder_i_i256 x, sunder
     return (sunder_i_hpoint){x, y, w, scaled(l, sunder_i_i256_double(&x) / d), scaled(l, sunder_i_i256_double(&y) / d)};
 }
 
-/* From the scratch arena. */
+/* Returns the point v, whose numbers are in the scratch arena, with handles. */
 static sunder_i_hpoint pooled(sunder_i_lattice *l, sunder_i_rational_point v)
 {
     sunder_i_hpoint p;
@@ -45,7 +46,7 @@ sunder_i_hpoint sunder_i_hpoint_at(sunder_i_lattice *lattice, sunder_i_point a, 
         const sunder_i_i128 num = sunder_i_det_i128(t->num), den = sunder_i_det_i128(t->den);
         return native(lattice, sunder_i_mul_add(a.x, den, u.x, num), sunder_i_mul_add(a.y, den, u.y, num), den);
     }
-    /* a + (num / den) u with a over v, u = b - a over w: (a w den + u v num) / (v w den), and less where w = v. */
+    /* a + (num / den) u with a over v, u = b - a over w: (a w den + u v num) / (v w den), and less if w = v. */
     const sunder_i_mark mark = sunder_i_lattice_begin(lattice);
     sunder_i_arena *m = &lattice->scratch;
     const sunder_i_rational_point o = sunder_i_rational_get(m, lattice, a);
@@ -76,7 +77,7 @@ sunder_i_hpoint sunder_i_hpoint_of(sunder_i_lattice *lattice, sunder_i_point a)
     if (!sunder_i_is_plain(a.x) && !sunder_i_is_plain(a.y) &&
         lattice->pool[a.x - INT64_MIN].ratio.den.limb == v.w.limb &&
         lattice->pool[a.y - INT64_MIN].ratio.den.limb == v.w.limb) {
-        /* The point's own handles will do. */
+        /* The handles of the point itself are used. */
         memset(&p, 0, sizeof p);
         p.ax = sunder_i_approx(lattice, a.x);
         p.ay = sunder_i_approx(lattice, a.y);
@@ -136,11 +137,11 @@ static sunder_i_u128 low_bits(const sunder_i_i256 *a)
 
 static double bound_of(double a, double b)
 {
-    return SUNDER_I_DOUBT(HPOINT_ERROR * (fabs(a) + fabs(b)) + DBL_MIN); /* the last for underflow */
+    return SUNDER_I_DOUBT(HPOINT_ERROR * (fabs(a) + fabs(b)) + DBL_MIN); /* the last term is for underflow */
 }
 
-/* Of native points and the coordinate k, x or y, p / v against q / w: the filter left them open, so that they are no
- * farther apart than twice its bound. */
+/* Compares the coordinate k (0: x, 1: y) of two native points, p / v and q / w: doubles have not decided it, so that
+ * they differ by at most twice the error bound. */
 static int native_cmp(const sunder_i_lattice *l, const sunder_i_hpoint *a, const sunder_i_hpoint *b, int k)
 {
     const sunder_i_i256 *p = k ? &a->y : &a->x, *q = k ? &b->y : &b->x;
@@ -156,7 +157,7 @@ static int native_cmp(const sunder_i_lattice *l, const sunder_i_hpoint *a, const
     return sunder_i_cmp_products_256(p, b->w, q, a->w);
 }
 
-/* By the coordinate k, where the filter did not tell. */
+/* Compares the coordinate k of two points if doubles have not decided it. */
 static __attribute__((noinline)) int exact_coordinate_cmp(sunder_i_lattice *l, const sunder_i_hpoint *a,
                                                           const sunder_i_hpoint *b, int k)
 {
@@ -175,7 +176,7 @@ static int coordinate_cmp(sunder_i_lattice *l, const sunder_i_hpoint *a, const s
     return SUNDER_I_DOUBLES_MAY_ERR ? exact_coordinate_cmp(l, a, b, k) : 0;
 }
 
-/* 0 where the doubles leave it open. */
+/* Returns 0 if doubles do not decide. */
 static int filter(double a, double b)
 {
     const double d = a - b, bound = bound_of(a, b);
@@ -214,7 +215,8 @@ bool sunder_i_hpoint_equal(sunder_i_lattice *lattice, const sunder_i_hpoint *a, 
     return coordinate_cmp(lattice, a, b, 0) == 0 && coordinate_cmp(lattice, a, b, 1) == 0;
 }
 
-/* As in orient.c, the doubles of the point being off by 2^-49 of the largest coordinate: 2^4 times the bound there. */
+/* Returns the side of c with respect to the line ab if doubles decide it, else 0. The bound is derived as in orient.c;
+ * the doubles of the point have an error of 2^-49 of the largest coordinate: 2^4 times the bound there. */
 static int filter_side(const sunder_i_lattice *l, sunder_i_point a, sunder_i_point b, const sunder_i_hpoint *c)
 {
     const double ax = sunder_i_approx(l, a.x), ay = sunder_i_approx(l, a.y);
@@ -232,7 +234,8 @@ static uint64_t mix(uint64_t h, uint64_t v)
     return h ^ h >> 32;
 }
 
-/* Of the square of 2^-64 units that the point is in: floor(2^64 x / w) depends on the value of the fraction alone. */
+/* Returns a hash of the square with sides of 2^-64 units that contains the point: floor(2^64 x / w) depends on the
+ * value of the fraction only. */
 uint64_t sunder_i_hpoint_hash(sunder_i_lattice *lattice, const sunder_i_hpoint *a)
 {
     const sunder_i_mark mark = sunder_i_lattice_begin(lattice);
@@ -248,7 +251,7 @@ uint64_t sunder_i_hpoint_hash(sunder_i_lattice *lattice, const sunder_i_hpoint *
     return h;
 }
 
-/* cross(b - a, c - a) * w: big integers; a rarely asked question. */
+/* Returns the sign of cross(b - a, c - a) * w with big integers; this is rarely needed. */
 static __attribute__((noinline)) int exact_orient_hpoint(sunder_i_lattice *l, sunder_i_point a, sunder_i_point b,
                                                          const sunder_i_hpoint *c)
 {

@@ -1,6 +1,6 @@
-/* Determinants on a narrow lattice, in native integers: the inner loops of the algorithms include this to avoid a call.
- * Coordinates are below 2^60 and differences below 2^61 in magnitude, so products of two stay below 2^122 and their
- * differences below 2^123. */
+/* narrow.h: determinants on a narrow lattice, in native integers: inline functions for the inner loops of the
+ * algorithms. Coordinates are below 2^60 and differences below 2^61 in magnitude, so that products of two are below
+ * 2^122 and their differences below 2^123. */
 #ifndef SUNDER_I_NARROW_H
 #define SUNDER_I_NARROW_H
 
@@ -16,7 +16,7 @@ static inline sunder_i_det sunder_i_narrow_dot(sunder_i_point u, sunder_i_point 
     return (sunder_i_det)u.x * (sunder_i_det)v.x + (sunder_i_det)u.y * (sunder_i_det)v.y;
 }
 
-/* The same of *brief* vectors, below 2^30: in 64 bits, below 2^61. */
+/* The same products of *brief* vectors, with coordinates below 2^30: in 64 bits, below 2^61. */
 static inline int64_t sunder_i_brief_cross(sunder_i_point u, sunder_i_point v) { return u.x * v.y - u.y * v.x; }
 static inline int64_t sunder_i_brief_dot(sunder_i_point u, sunder_i_point v) { return u.x * v.x + u.y * v.y; }
 
@@ -30,7 +30,7 @@ static inline sunder_i_det sunder_i_narrow_orient(sunder_i_point a, sunder_i_poi
     return sunder_i_narrow_cross(sunder_i_narrow_sub(b, a), sunder_i_narrow_sub(c, a));
 }
 
-/* sunder_i_orient() without a call where the lattice is narrow. */
+/* Inline version of sunder_i_orient(): no call is made if the lattice is narrow. */
 static inline int sunder_i_orient_inline(sunder_i_lattice *l, sunder_i_point a, sunder_i_point b, sunder_i_point c)
 {
     if (!l->narrow) return sunder_i_orient(l, a, b, c);
@@ -38,7 +38,7 @@ static inline int sunder_i_orient_inline(sunder_i_lattice *l, sunder_i_point a, 
     return sunder_i_det_sign(sunder_i_narrow_orient(a, b, c));
 }
 
-/* The same of others. */
+/* Inline versions of the functions of predicate.h. */
 static inline int sunder_i_point_cmp_inline(sunder_i_lattice *l, sunder_i_point a, sunder_i_point b)
 {
     if (!l->narrow) return sunder_i_point_cmp(l, a, b);
@@ -63,7 +63,7 @@ static inline sunder_i_i256 sunder_i_narrow_i256(int64_t v)
     return (sunder_i_i256){{v < 0 ? -(uint64_t)v : (uint64_t)v, 0, 0, 0}, (v > 0) - (v < 0)};
 }
 
-/* sunder_i_hpoint_of() the sum of two points. */
+/* *out becomes sunder_i_hpoint_of() the sum of two points. */
 static inline void sunder_i_hpoint_of_sum(sunder_i_lattice *l, sunder_i_point a, sunder_i_point b, sunder_i_hpoint *out)
 {
     if (!l->narrow) {
@@ -74,13 +74,14 @@ static inline void sunder_i_hpoint_of_sum(sunder_i_lattice *l, sunder_i_point a,
     *out = (sunder_i_hpoint){sunder_i_narrow_i256(s.x), sunder_i_narrow_i256(s.y), 1, (double)s.x, (double)s.y};
 }
 
-/* num / den as a double: both conversions and the division round once each, relative error below 2^-51. */
+/* Returns num / den as a double: both conversions and the division are rounded once each, so that the relative error is
+ * below 2^-51. */
 static inline double sunder_i_narrow_value(sunder_i_det num, sunder_i_det den)
 {
     return sunder_i_det_double(num) / sunder_i_det_double(den);
 }
 
-/* num / den, den not zero, below 2^124 in magnitude. */
+/* Returns the fraction num / den, den not zero; both are below 2^124 in magnitude. */
 static inline sunder_i_fraction sunder_i_narrow_fraction(sunder_i_det num, sunder_i_det den)
 {
     if (den < 0) {
@@ -90,7 +91,7 @@ static inline sunder_i_fraction sunder_i_narrow_fraction(sunder_i_det num, sunde
     return (sunder_i_fraction){num, den, sunder_i_narrow_value(num, den)};
 }
 
-/* |s.value - s| <= 2^-50 * max(1, |s.value|), so values further apart than this settle the order. */
+/* |s.value - s| <= 2^-50 * max(1, |s.value|), so that values that differ by more than this decide the order. */
 #define SUNDER_I_FRACTION_ERROR SUNDER_I_DOUBT(0x1p-49)
 
 #endif

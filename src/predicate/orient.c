@@ -1,9 +1,9 @@
-/* Degree 1 and 2: order, side, cross and dot products, angle.
+/* orient.c: tests of degree 1 and 2: order, side, cross and dot products, angle.
  *
- * Off narrow lattices there are three rungs. Plain operands go the narrow way: differences of plain numbers are below
- * 2^62, so products of two stay below 2^124 and their differences below 2^125. Where a handle is among them, doubles
- * are believed as far as the bounds derived below reach; then big integers decide, over the operands' own
- * denominators. */
+ * On lattices that are not narrow there are three steps. Plain operands are treated as on narrow ones: differences of
+ * plain numbers are below 2^62, so that products of two are below 2^124 and their differences below 2^125. If a handle
+ * is among the operands, doubles decide as far as the error bounds derived below allow; otherwise big integers decide,
+ * over the operands' own denominators. */
 #include "predicate/narrow.h"
 #include "predicate/rational_point.h"
 
@@ -11,10 +11,10 @@
 
 #include <math.h>
 
-/* Products of approximations must neither overflow (they are below 2^501) nor lose bits to underflow. */
+/* Products of approximations must neither overflow (they are below 2^501) nor lose bits by underflow. */
 #define SMALLEST 0x1p-400
 
-/* With u = 2^-53: the doubles of both vectors are off by u of themselves, the products round once more, and so does
+/* With u = 2^-53: the doubles of both vectors have a relative error of u, the products are rounded once, and so is
  * their sum or difference: 4 u (1 + u)^3 of the products together. */
 #define PRODUCT_ERROR 0x1p-50
 
@@ -26,7 +26,7 @@ static int filter_products(double s, double t)
     return size > SMALLEST ? sign_of(s + t, PRODUCT_ERROR * size) : 0;
 }
 
-/* What no filter tells is asked of functions that are called exact_*: what they cost can be counted. */
+/* Tests that doubles do not decide are made in functions named exact_*, so that a profile shows their cost. */
 static __attribute__((noinline)) int exact_int_cmp(sunder_i_lattice *l, int64_t a, int64_t b)
 {
     const sunder_i_mark mark = sunder_i_lattice_begin(l);
@@ -70,7 +70,7 @@ static bool stays_plain(int64_t n)
     return n < limit && n > -limit;
 }
 
-/* a + b or a - b, b's sign being given. */
+/* Returns a + b if sign is 1, a - b if it is -1. */
 static sunder_i_point combine(sunder_i_lattice *l, sunder_i_point a, sunder_i_point b, int sign)
 {
     if (!l->pooled && both_plain(a, b)) {
@@ -126,9 +126,10 @@ void sunder_i_point_difference(sunder_i_lattice *lattice, sunder_i_point a, sund
 
 /* ---- Side ---- */
 
-/* Each double is off by at most u M, M the largest of them (half an ulp). So differences, which are below 2 M, are off
- * by 2 u M and their own rounding, 4 u M together; each product by 2 * 2 M * 4 u M, and by the square of that error. So
- * the determinant by 32 u M^2 and its roundings, 3 u * 8 M^2: below 64 u M^2. */
+/* Each double has an error of at most u M, M the largest of them (half an ulp). So differences, which are below 2 M,
+ * have an error of 2 u M and that of their own rounding, 4 u M together; each product one of 2 * 2 M * 4 u M, plus the
+ * square of that error. So the determinant has an error of 32 u M^2 and that of its roundings, 3 u * 8 M^2: below 64 u
+ * M^2. */
 #define SIDE_ERROR 0x1p-47
 
 static int filter_orient(const sunder_i_lattice *l, sunder_i_point a, sunder_i_point b, sunder_i_point c)

@@ -1,13 +1,14 @@
-/* The side of a point to a line, on doubles as they come: the ladder in one place, rung by rung. */
+/* orient_double.c: the side of a point with respect to a line, for any finite doubles: first with an error bound, then
+ * exactly. */
 #include "predicate/orient_double.h"
 
 #include "number/accumulator.h"
 
 #include <math.h>
 
-/* Error bound of the filter below: with u = 2^-53 the computed determinant differs from the true one by at most
- * (3 + 16 u) u (|detleft| + |detright|) [She96, section 4.3, "ccwerrboundA"], given round-to-nearest, no underflow and
- * no contraction of multiply-add. Underflow can spoil a product by 2^-1075, so tiny determinants are not believed. */
+/* The error bound: with u = 2^-53 the computed determinant differs from the true one by at most (3 + 16 u) u (|detleft|
+ * + |detright|) [She96, section 4.3, "ccwerrboundA"], given round-to-nearest, no underflow and no contraction of
+ * multiply-add. Underflow can change a product by 2^-1075, so that tiny determinants decide nothing. */
 int sunder_i_orient_filter(const sunder_point *a, const sunder_point *b, const sunder_point *c)
 {
     const double left = (a->x - c->x) * (b->y - c->y), right = (a->y - c->y) * (b->x - c->x);

@@ -1,4 +1,4 @@
-/* The rungs of sunder_orient(), each by itself so that tests can force them. */
+/* orient_double.h: the two steps of sunder_orient(), as separate functions so that tests can call each. */
 #ifndef SUNDER_I_ORIENT_DOUBLE_H
 #define SUNDER_I_ORIENT_DOUBLE_H
 
@@ -6,9 +6,9 @@
 
 #define SUNDER_I_UNSURE 2
 
-/* Floating point with a proved bound: +1, -1 or SUNDER_I_UNSURE. */
+/* Returns +1 or -1 if floating point with a proved error bound decides the side, else SUNDER_I_UNSURE. */
 int sunder_i_orient_filter(const sunder_point *a, const sunder_point *b, const sunder_point *c);
-/* The six products of the determinant, summed exactly in fixed memory. */
+/* Returns the sign of the six products of the determinant, summed exactly in fixed memory. */
 int sunder_i_orient_exact(const sunder_point *a, const sunder_point *b, const sunder_point *c);
 
 #endif

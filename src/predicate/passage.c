@@ -1,12 +1,13 @@
-/* How the way of a point meets a segment, where the way's end, a + t - s, is a sum of doubles. Degree 2: sums of
- * products of the doubles as they are, without rounding the end.
+/* passage.c: whether the path of a point meets a segment, where the end of the path, a + t - s, is a sum of doubles.
+ * The tests have degree 2: they are sums of products of the given doubles, and the end is not rounded.
  *
- * With D = d - c, U = t - s, A = a - c, the side of the end to cd is the sign of D x A + D x U, that of c to the way's
- * line the sign of U x (c - a). First in doubles, whose bounds are those of the orientation test: with u = 2^-53, a 2 x
- * 2 determinant of four differences, each rounded once, errs by no more than (3 + 16 u) u of the sum of the magnitudes
- * of its two products [She96, section 4.3]; two of them added err by (3 + 16 u) u of the sum of all four, and by u of
- * that for the addition: less than 5 u. Underflow can spoil a product by 2^-1075, so tiny determinants are not
- * believed. Then by the long accumulator, which holds any sum of products. */
+ * With D = d - c, U = t - s, A = a - c, the side of the end with respect to cd is the sign of D x A + D x U, that of c
+ * with respect to the path's line the sign of U x (c - a). Doubles are used first, with the error bounds of the
+ * orientation test: with u = 2^-53, a 2 x 2 determinant of four differences, each rounded once, has an error of at most
+ * (3 + 16 u) u of the sum of the magnitudes of its two products [She96, section 4.3]; the sum of two such determinants
+ * has an error of (3 + 16 u) u of the sum of all four, plus u of that for the addition: less than 5 u. Underflow can
+ * change a product by 2^-1075, so that tiny determinants decide nothing. Otherwise the long accumulator, which
+ * represents any sum of products, decides. */
 #include "predicate/passage.h"
 
 #include "number/accumulator.h"
@@ -28,7 +29,7 @@ static int sign_beyond(double det, double bound, double sum)
 void sunder_i_passage_box(const sunder_i_passage *passage, double box[4])
 {
     for (int k = 0; k < 2; k++) {
-        /* Two roundings, each by u of what is there: 3 u (|a| + |t| + |s|) is more than both. */
+        /* Two roundings, each with an error of u times the magnitude: 3 u (|a| + |t| + |s|) is more than both. */
         const double end = passage->from[k] + (passage->t[k] - passage->s[k]);
         const double slack = 4 * UNIT * (fabs(passage->from[k]) + fabs(passage->t[k]) + fabs(passage->s[k]));
         const bool known = isfinite(end) && isfinite(slack);
@@ -109,7 +110,7 @@ typedef struct meeting {
     const double *c, *d;
 } meeting;
 
-/* Coordinate k of c less that of the passage's start, or (end) of its end: the sign. */
+/* Returns the sign of coordinate k of c minus that of the passage's start, or, if `end`, minus that of its end. */
 static int order(const sunder_i_passage *p, const double c[2], int k, bool end)
 {
     if (!end) return (c[k] > p->from[k]) - (c[k] < p->from[k]);
@@ -121,7 +122,8 @@ static int order(const sunder_i_passage *p, const double c[2], int k, bool end)
     return sunder_i_accumulator_sign(&sum);
 }
 
-/* Two segments on one line, or one of them a point: they meet where their projections on both axes do. */
+/* For two segments on one line, or one of them a point: they meet if their projections on both axes do. Returns true if
+ * so. */
 static bool share_coordinates(const void *context)
 {
     const meeting *m = context;

@@ -1,5 +1,5 @@
-/* Rational points: read off the lattice and put back, added, compared. Denominators that are one, or equal, are looked
- * for first: nearly all are. */
+/* rational_point.c: rational points: read from the lattice and stored there, added, compared. Denominators that are
+ * one, or equal, are tested first: nearly all are. */
 #include "predicate/rational_point.h"
 
 #include "number/ball.h"
@@ -16,12 +16,12 @@ sunder_i_rational_point sunder_i_rational_get(sunder_i_arena *arena, const sunde
 {
     const sunder_i_ratio x = sunder_i_lattice_read(arena, lattice, a.x), y = sunder_i_lattice_read(arena, lattice, a.y);
     if (equal(x.den, y.den)) return (sunder_i_rational_point){x.num, y.num, x.den};
-    /* One of the two is an integer, or they were made apart. */
+    /* One of the two is an integer, or they were computed separately. */
     return (sunder_i_rational_point){sunder_i_times(arena, x.num, y.den), sunder_i_times(arena, y.num, x.den),
                                      sunder_i_times(arena, x.den, y.den)};
 }
 
-/* x and y as integers in *x, *y, where w divides both. */
+/* Divides *x and *y by w. Returns true if w divides both; otherwise they are unchanged. */
 static bool divides(sunder_i_arena *arena, sunder_i_big w, sunder_i_big *x, sunder_i_big *y)
 {
     const sunder_i_big p = sunder_i_big_div_floor(arena, *x, w), q = sunder_i_big_div_floor(arena, *y, w);
@@ -36,7 +36,8 @@ static bool divides(sunder_i_arena *arena, sunder_i_big w, sunder_i_big *x, sund
 sunder_i_point sunder_i_rational_put(sunder_i_lattice *lattice, sunder_i_rational_point u)
 {
     sunder_i_arena *arena = &lattice->arena;
-    /* Both corners of a side may stand over one crossing, and what they differ by is then a lattice vector. */
+    /* Both corners of a side may have the denominator of one intersection, while their difference is a lattice
+     * vector. */
     const bool whole = sunder_i_big_is_one(u.w) || divides(&lattice->scratch, u.w, &u.x, &u.y);
     const sunder_i_big x = sunder_i_big_copy(arena, u.x), y = sunder_i_big_copy(arena, u.y);
     if (whole) return (sunder_i_point){sunder_i_lattice_big(lattice, x), sunder_i_lattice_big(lattice, y)};
@@ -84,7 +85,7 @@ int sunder_i_rational_cmp(sunder_i_arena *arena, const sunder_i_rational_point *
     return sunder_i_big_cmp(sunder_i_times(arena, a, v->w), sunder_i_times(arena, b, u->w));
 }
 
-/* From this many limbs on a product takes longer than the product of the leading bits. */
+/* From this number of limbs on an exact product takes longer than one of the leading bits. */
 #define LONG_LIMBS 8
 
 static bool is_long(const sunder_i_rational_point *u)
@@ -102,14 +103,14 @@ static rough_point roughly(const sunder_i_rational_point *u)
     return (rough_point){sunder_i_ball_big(u->x), sunder_i_ball_big(u->y), sunder_i_ball_big(u->w)};
 }
 
-/* v - u, times both denominators. */
+/* Returns v - u, times both denominators. */
 static rough_point rough_way(const rough_point *u, const rough_point *v)
 {
     return (rough_point){sunder_i_ball_sub(sunder_i_ball_mul(v->x, u->w), sunder_i_ball_mul(u->x, v->w)),
                          sunder_i_ball_sub(sunder_i_ball_mul(v->y, u->w), sunder_i_ball_mul(u->y, v->w)), u->w};
 }
 
-/* The sign of u x v where the topmost bits tell, else 0. */
+/* Returns the sign of u x v if the leading bits decide it, else 0. */
 static int rough_cross_sign(const rough_point *u, const rough_point *v)
 {
     return sunder_i_ball_sign(sunder_i_ball_sub(sunder_i_ball_mul(u->x, v->y), sunder_i_ball_mul(u->y, v->x)));
@@ -133,7 +134,8 @@ int sunder_i_rational_cross_sign(sunder_i_arena *arena, sunder_i_rational_point 
     return sunder_i_big_sign(sunder_i_rational_cross(arena, u, v));
 }
 
-/* Points that are near each other tell the side by their differences alone, of all whose bits the topmost are taken. */
+/* First the leading bits of the points are used. The side of points that are near each other depends on their
+ * differences, which are therefore computed exactly, and their leading bits are used next. */
 int sunder_i_rational_orient(sunder_i_arena *arena, sunder_i_rational_point a, sunder_i_rational_point b,
                              sunder_i_rational_point c)
 {

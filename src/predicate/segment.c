@@ -1,15 +1,15 @@
-/* Two segments: how they meet, and how far apart they are. */
+/* segment.c: two segments: how they meet, and their distance. */
 #include "predicate/narrow.h"
 #include "predicate/rational_point.h"
 
-/* Is c, known to lie on the line ab (or a == b), on the closed segment ab? */
+/* Returns true if c is on the closed segment ab; c must be on the line ab (or a == b). */
 static bool within(sunder_i_lattice *l, sunder_i_point a, sunder_i_point b, sunder_i_point c)
 {
-    /* On the line the lexicographic order is monotone. */
+    /* On a line the lexicographic order is monotone. */
     return sunder_i_point_cmp(l, a, c) * sunder_i_point_cmp(l, b, c) <= 0;
 }
 
-/* c against the closed segment ab, which may be a point. */
+/* Returns how the point c meets the closed segment ab, which may be a point. */
 static sunder_i_meeting point_meets(sunder_i_lattice *l, sunder_i_point c, sunder_i_point a, sunder_i_point b)
 {
     if (sunder_i_point_equal(l, a, c) || sunder_i_point_equal(l, b, c)) return SUNDER_I_ENDS_EQUAL;
@@ -17,11 +17,11 @@ static sunder_i_meeting point_meets(sunder_i_lattice *l, sunder_i_point c, sunde
     return sunder_i_point_equal(l, a, b) ? SUNDER_I_APART : SUNDER_I_END_INSIDE;
 }
 
-/* All four on one line, both segments of positive length. */
+/* Returns how two segments of positive length on one line meet. */
 static sunder_i_meeting collinear_meet(sunder_i_lattice *l, sunder_i_point a, sunder_i_point b, sunder_i_point c,
                                        sunder_i_point d)
 {
-    /* Sort the ends of each along the line by the lexicographic order, which is monotone on it. */
+    /* Sorts the ends of each lexicographically, which is an order along the line. */
     if (sunder_i_point_cmp(l, a, b) > 0) {
         const sunder_i_point t = a;
         a = b;
@@ -51,7 +51,7 @@ sunder_i_meeting sunder_i_segments_meet(sunder_i_lattice *lattice, sunder_i_poin
     return (oc == 0 || od == 0) && (oa == 0 || ob == 0) ? SUNDER_I_ENDS_EQUAL : SUNDER_I_END_INSIDE;
 }
 
-/* ---- Squared distance of a point and a segment against gap^2 ---- */
+/* ---- The squared distance of a point and a segment, compared with gap^2 ---- */
 
 static int narrow_distance_cmp(sunder_i_point p, sunder_i_point a, sunder_i_point b, int64_t gap)
 {
@@ -69,7 +69,8 @@ static int narrow_distance_cmp(sunder_i_point p, sunder_i_point a, sunder_i_poin
     return (square > limit) - (square < limit);
 }
 
-/* Points over denominators of their own: squares are compared over their product. */
+/* Compares the distance of points with denominators of their own: the squares are compared over the product of the
+ * denominators. */
 static int wide_distance_cmp(sunder_i_lattice *l, sunder_i_point p, sunder_i_point a, sunder_i_point b, int64_t gap)
 {
     const sunder_i_mark mark = sunder_i_lattice_begin(l);
@@ -78,7 +79,7 @@ static int wide_distance_cmp(sunder_i_lattice *l, sunder_i_point p, sunder_i_poi
     const sunder_i_rational_point ap = sunder_i_rational_sub(m, at, sunder_i_rational_get(m, l, a));
     const sunder_i_rational_point bp = sunder_i_rational_sub(m, at, sunder_i_rational_get(m, l, b));
     const sunder_i_ratio g = sunder_i_lattice_read(m, l, gap);
-    sunder_i_big square, over; /* square / over is the square of the distance */
+    sunder_i_big square, over; /* square / over is the squared distance */
     if (sunder_i_big_sign(sunder_i_rational_dot(m, ap, u)) <= 0) {
         square = sunder_i_rational_dot(m, ap, ap);
         over = sunder_i_big_mul(m, ap.w, ap.w);
@@ -86,7 +87,7 @@ static int wide_distance_cmp(sunder_i_lattice *l, sunder_i_point p, sunder_i_poi
         square = sunder_i_rational_dot(m, bp, bp);
         over = sunder_i_big_mul(m, bp.w, bp.w);
     } else {
-        /* u's own denominator drops out. */
+        /* The denominator of u cancels. */
         const sunder_i_big cross = sunder_i_rational_cross(m, u, ap);
         square = sunder_i_big_mul(m, cross, cross);
         over = sunder_i_big_mul(m, sunder_i_rational_dot(m, u, u), sunder_i_big_mul(m, ap.w, ap.w));
@@ -112,7 +113,7 @@ int sunder_i_segment_distance_cmp(sunder_i_lattice *lattice, sunder_i_point a, s
     const bool zero_gap = sunder_i_int_cmp(lattice, gap, 0) == 0;
     if (sunder_i_segments_meet(lattice, a, b, c, d) != SUNDER_I_APART) return zero_gap ? 0 : -1;
     if (zero_gap) return 1;
-    /* Apart: the least distance is from an end of one to the other. */
+    /* The segments are disjoint: the least distance is that of an end of one to the other. */
     int least = point_distance_cmp(lattice, a, c, d, gap);
     const sunder_i_point end[3] = {b, c, d};
     for (int i = 0; i < 3 && least >= 0; i++) {

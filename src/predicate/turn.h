@@ -1,11 +1,11 @@
-/* Directions as numbers that grow with the angle, without roots or angles. */
+/* turn.h: directions as numbers that grow with the angle, computed without roots or angles. */
 #ifndef SUNDER_I_TURN_H
 #define SUNDER_I_TURN_H
 
 #include <math.h>
 
-/* The direction of (dx, dy), not both 0, in [0, 4), a whole turn being 4; it grows with the angle, no faster than it.
- * In doubles, within a few 2^-52. */
+/* Returns the direction of (dx, dy), not both 0, as a number in [0, 4), where 4 is a full turn; it grows with the
+ * angle, at most as fast as it. The error is a few 2^-52. */
 static inline double sunder_i_turn(double dx, double dy)
 {
     const double t = dy / (fabs(dx) + fabs(dy));
