@@ -1,10 +1,10 @@
-/* The clock by which phases are timed. */
+/* clock.h: the clock with which phases are timed. */
 #ifndef SUNDER_I_CLOCK_H
 #define SUNDER_I_CLOCK_H
 
 #include <time.h>
 
-/* Seconds since a fixed moment. */
+/* Returns the seconds since a fixed moment. */
 static inline double sunder_i_now(void)
 {
     struct timespec t;

@@ -1,10 +1,10 @@
-/* Differences of counters between two moments. */
+/* counts.h: differences of operation counters between two moments. */
 #ifndef SUNDER_I_COUNTS_H
 #define SUNDER_I_COUNTS_H
 
 #include "sunder.h"
 
-/* Adds `after` less `before`. */
+/* Adds `after` minus `before` to *to. */
 static inline void sunder_i_counts_add(sunder_counts *to, const sunder_counts *after, const sunder_counts *before)
 {
     to->comparisons += after->comparisons - before->comparisons;

@@ -1,4 +1,4 @@
-/* The error of a failed call: what a person needs to know, in a caller's struct. */
+/* error.c: stores the error of a failed call, with a message for users, in the caller's struct. */
 #include "base/error.h"
 
 #include "base/watch.h"
@@ -39,7 +39,7 @@ sunder_status sunder_i_fail_at(sunder_error *err, sunder_status status, size_t p
     return status;
 }
 
-/* A status that says all there is to say. */
+/* Stores an error whose message is the text of its status. Returns the status. */
 static sunder_status fail_plainly(sunder_error *err, sunder_status status)
 {
     return sunder_i_fail(err, status, "%s", sunder_status_string(status));

@@ -1,5 +1,5 @@
-/* The lesser and the greater of two numbers; of a number and NaN the number. They replace fmin() and fmax(), which are
- * library calls, some two hundred for each feature of a town. */
+/* extremes.h: the lesser and the greater of two numbers; of a number and NaN these functions return the number. They
+ * replace fmin() and fmax(), which are library calls: about two hundred for each feature of a town. */
 #ifndef SUNDER_I_EXTREMES_H
 #define SUNDER_I_EXTREMES_H
 

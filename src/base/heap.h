@@ -1,13 +1,13 @@
-/* A binary heap in an array: what comes before all others stands first, and an item never comes before the one at half
- * its place.
+/* heap.h: a binary heap in an array: the item that comes before all others is the first, and item i never comes before
+ * item (i - 1) / 2.
  *
- * The order in which equal items come out is part of the contract, since a search may depend on it: a new item climbs
- * past items that it comes before, and past no equals. An item that sinks goes below the right child where that comes
- * before the left one, else below the left child, and stops above its equals. If no two items are equal, this does not
- * matter.
+ * The order in which equal items are removed is part of the contract, since a search may depend on it: a new item moves
+ * up past items that it comes before, but not past equal ones. An item that moves down goes below the right child if
+ * that child comes before the left one, else below the left child, and stops above its equals. If no two items are
+ * equal, this makes no difference.
  *
- * Items have any size; the functions are inlined where size and order are known, so that they cost as much as a heap
- * written by hand. */
+ * Items may have any size; the functions are inlined with a known size and order, so that they are as fast as a heap
+ * written for one type. */
 #ifndef SUNDER_I_HEAP_H
 #define SUNDER_I_HEAP_H
 
@@ -17,12 +17,12 @@
 #include <stddef.h>
 #include <string.h>
 
-/* Does a come before b? A strict weak order. */
+/* Returns true if a comes before b; a strict weak order. */
 typedef bool (*sunder_i_before)(const void *a, const void *b);
 
 #define SUNDER_I_INLINE static inline __attribute__((always_inline))
 
-/* Moves v, an item outside the array, up from place i. */
+/* Moves v, an item outside the array, up from position i. */
 SUNDER_I_INLINE void sunder_i_heap_climb(void *heap, size_t i, size_t size, const void *v, sunder_i_before before)
 {
     unsigned char *at = heap;
@@ -31,13 +31,13 @@ SUNDER_I_INLINE void sunder_i_heap_climb(void *heap, size_t i, size_t size, cons
     memcpy(at + i * size, v, size);
 }
 
-/* Moves v down from place i of n. */
+/* Moves v, an item outside the array, down from position i of n. */
 SUNDER_I_INLINE void sunder_i_heap_sink(void *heap, size_t n, size_t i, size_t size, const void *v,
                                         sunder_i_before before)
 {
     unsigned char *at = heap;
     for (size_t k = 2 * i + 1; k < n; i = k, k = 2 * k + 1) {
-        /* Without a branch, since neither child is more likely than the other. An only child does not come before
+        /* Without a branch, since neither child is more likely than the other. A single child does not come before
          * itself. */
         const size_t right = k + 1 < n ? k + 1 : k;
         k += (size_t)before(at + right * size, at + k * size);
@@ -47,13 +47,13 @@ SUNDER_I_INLINE void sunder_i_heap_sink(void *heap, size_t n, size_t i, size_t s
     memcpy(at + i * size, v, size);
 }
 
-/* Adds v to the n items; there is room. */
+/* Adds v to the n items; the array must have room. */
 SUNDER_I_INLINE void sunder_i_heap_push(void *heap, size_t *n, size_t size, const void *v, sunder_i_before before)
 {
     sunder_i_heap_climb(heap, (*n)++, size, v, before);
 }
 
-/* Takes the first of n > 0 items out, to *first. */
+/* Removes the first of n > 0 items and stores it in *first. */
 SUNDER_I_INLINE void sunder_i_heap_pop(void *heap, size_t *n, size_t size, void *first, sunder_i_before before)
 {
     SUNDER_I_ASSERT(*n > 0);
@@ -61,7 +61,7 @@ SUNDER_I_INLINE void sunder_i_heap_pop(void *heap, size_t *n, size_t size, void 
     if (--*n) sunder_i_heap_sink(heap, *n, 0, size, (unsigned char *)heap + *n * size, before);
 }
 
-/* Makes a heap of n items in any order. scratch: room for one of them. */
+/* Converts an array of n items in any order to a heap. scratch: memory for one item. */
 SUNDER_I_INLINE void sunder_i_heap_make(void *heap, size_t n, size_t size, void *scratch, sunder_i_before before)
 {
     for (size_t i = n / 2; i-- > 0;) {

@@ -1,9 +1,12 @@
-/* Invariants that run where NDEBUG is not set: the debug preset, and one configuration of the tests.
+/* invariant.h: tests of invariants, which are active if NDEBUG is not defined: in the debug preset and in one
+ * configuration of the tests.
  *
- * SUNDER_I_ASSERT  a condition that costs no more than the work that it guards.
- * SUNDER_I_CHECK   a checker, which returns NULL or a sentence. Checkers look at everything, some of them at all pairs:
- *                  they are skipped for more than SUNDER_I_CHECKED things. Some allocate: nothing is checked under an
- *                  allocator of the caller's, e.g. that of a test that counts allocations. */
+ *   SUNDER_I_ASSERT  a condition that costs no more than the work that it guards.
+ *   SUNDER_I_CHECK   a function that tests invariants, and returns NULL or a message. Such functions test everything,
+ *                    some of them all pairs: they are skipped for more than SUNDER_I_CHECKED elements. Some allocate
+ *                    memory:
+ * they are skipped if the caller has set an allocator, for example in a test that counts
+ * allocations. */
 #ifndef SUNDER_I_INVARIANT_H
 #define SUNDER_I_INVARIANT_H
 
@@ -15,9 +18,11 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#define SUNDER_I_CHECKED 256 /* a quadratic checker takes a millisecond for this many, so tests can call it often */
+#define SUNDER_I_CHECKED                                                                                               \
+    256 /* a quadratic test takes a millisecond for this number of elements, so that tests can call
+                              * it often */
 
-bool sunder_i_allocator_is_own(void); /* memory.c: was none set? */
+bool sunder_i_allocator_is_own(void); /* memory.c: returns true if the caller has set no allocator */
 
 static inline void sunder_i_broken(const char *sentence, const char *file, int line)
 {

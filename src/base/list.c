@@ -1,4 +1,4 @@
-/* Ascending sets of numbers, and of pairs of them, as arrays. */
+/* list.c: lists of numbers, ascending sets of numbers, and binary search. */
 #include "base/list.h"
 
 #include <stdlib.h>
@@ -20,7 +20,7 @@ int sunder_i_by_number(const void *a, const void *b)
     return *p < *q ? -1 : *p > *q;
 }
 
-/* Most sets are of a dozen numbers, for which qsort() with its calls takes several times as long. */
+/* Most sets have a dozen numbers, for which qsort() with its calls takes several times as long. */
 enum { FEW = 24 };
 
 static void sort(uint32_t *number, size_t n)

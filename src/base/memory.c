@@ -1,4 +1,5 @@
-/* The allocation hooks, growing arrays, and arenas: chunks of memory, each twice as large as the one before. */
+/* memory.c: the allocation hooks, growing arrays, and arenas: chunks of memory, each twice as large as the previous
+ * one. */
 #include "base/memory.h"
 
 #include "base/invariant.h"
@@ -7,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The hooks are the one piece of global state; sunder_set_allocator() says when they may be set. */
+/* The hooks are the only global state; sunder_set_allocator() documents when they may be set. */
 static void *(*hook_alloc)(size_t) = malloc;
 static void *(*hook_realloc)(void *, size_t) = realloc;
 static void (*hook_free)(void *) = free;
@@ -42,7 +43,7 @@ void *sunder_i_calloc(size_t n, size_t size)
 {
     size_t b;
     if (!sunder_i_step() || !bytes(n, size, &b)) return NULL;
-    /* Fresh pages are zero already, and calloc() knows which are. */
+    /* New pages of the system are zero already, and calloc() does not clear them again. */
     if (hook_alloc == malloc) return calloc(b, 1);
     void *p = hook_alloc(b);
     if (p) memset(p, 0, b);
@@ -61,8 +62,8 @@ void sunder_i_free(void *memory)
     if (memory) hook_free(memory);
 }
 
-/* A capacity for at least `need` elements, which is more than the present capacity: doubled; 0 if that cannot be
- * addressed. A first capacity is taken as asked for. */
+/* Returns a capacity for at least `need` elements, which is more than the present capacity: the capacity is doubled; 0
+ * if the size is too large. The first capacity is `need`, at least 16. */
 static size_t grown(size_t capacity, size_t need)
 {
     size_t want = capacity ? capacity : need > 16 ? need : 16;
@@ -91,7 +92,7 @@ bool sunder_i_enlarge(void *array, size_t *capacity, size_t need, size_t size)
 typedef struct sunder_i_chunk {
     struct sunder_i_chunk *older;
     size_t size, used;
-    bool lent; /* not ours to free */
+    bool lent; /* the memory is the caller's and must not be freed */
     _Alignas(16) unsigned char data[];
 } sunder_i_chunk;
 
@@ -151,7 +152,7 @@ void *sunder_i_arena_alloc(sunder_i_arena *arena, size_t n, size_t size)
         arena->failed = true;
         return NULL;
     }
-    /* Usually the chunk has room; a request for nothing takes one byte. */
+    /* Usually the chunk has room; a request for 0 bytes takes one byte. */
     if (!c || __builtin_mul_overflow(n, size, &b) || b > c->size - c->used) return alloc_in_new_chunk(arena, n, size);
     b = (b + 15 + (b == 0)) & ~(size_t)15;
     if (b > c->size - c->used) return alloc_in_new_chunk(arena, n, size);

@@ -1,7 +1,8 @@
-/* Independent work on several threads. The assignment of work to threads is arbitrary; the place of each result is not.
+/* parallel.c: independent work on several threads. The assignment of work to threads is arbitrary; the place of each
+ * result is not.
  *
- * Work may ask for threads itself: it gets idle threads of the run that it belongs to. So a large item that comes last
- * does not occupy one thread while the others wait, and no more threads run than the caller asked for. */
+ * Work may itself call sunder_i_parallel(): then it gets idle threads of the run to which it belongs. So a large item
+ * at the end does not occupy one thread while the others wait, and no more threads run than the caller asked for. */
 #include "base/parallel.h"
 
 #include "base/memory.h"
@@ -15,19 +16,19 @@
 typedef struct job {
     sunder_i_work work;
     void *context;
-    sunder_i_watch *watch; /* of the thread whose work it is */
+    sunder_i_watch *watch; /* the watch of the thread that started the job */
     size_t n, grain;
-    const uint64_t *order; /* [n] items in the low halves; NULL: as they are numbered */
-    atomic_size_t next;    /* first item not handed out */
+    const uint64_t *order; /* [n] the items, in the lower halves; NULL: in the order of their numbers */
+    atomic_size_t next;    /* the first item that is not assigned to a thread yet */
     atomic_bool failed;
-    atomic_size_t idle;   /* idle threads that nested work may take */
-    pthread_mutex_t lock; /* of what follows */
+    atomic_size_t idle;   /* the number of idle threads that nested work may use */
+    pthread_mutex_t lock; /* protects the following fields */
     size_t failed_at;     /* the least failing item so far */
     sunder_status status;
     sunder_error error;
 } job;
 
-/* The run that the calling thread works for; NULL: none. */
+/* The job that the calling thread belongs to; NULL: none. */
 static _Thread_local job *here;
 
 static void fail(job *j, size_t begin, sunder_status status, const sunder_error *error)
@@ -42,7 +43,7 @@ static void fail(job *j, size_t begin, sunder_status status, const sunder_error 
     pthread_mutex_unlock(&j->lock);
 }
 
-/* Takes up to `most` of the idle threads; returns how many. */
+/* Takes up to `most` of the idle threads; returns their number. */
 static size_t take_idle(job *j, size_t most)
 {
     size_t idle = atomic_load(&j->idle), taken;
@@ -72,7 +73,7 @@ static void *run(void *argument)
     return NULL;
 }
 
-/* The caller has set j->work, context, n, grain and order. */
+/* Runs the job; work, context, n, grain and order must be set. */
 static sunder_status run_on(unsigned threads, job *j, sunder_error *err)
 {
     enum { MOST = 256 };
@@ -89,7 +90,7 @@ static sunder_status run_on(unsigned threads, job *j, sunder_error *err)
     const size_t helpers = most < parts - 1 ? most : parts - 1;
     atomic_init(&j->idle, most - helpers);
     pthread_t helper[MOST];
-    /* A thread that cannot be started is no error: the others do its share. */
+    /* If a thread cannot be started, this is no error: the others do its share. */
     while (started < helpers && pthread_create(&helper[started], NULL, run, j) == 0) started++;
     run(j);
     for (size_t i = 0; i < started; i++) pthread_join(helper[i], NULL);

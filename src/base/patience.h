@@ -1,5 +1,5 @@
-/* Patience: how many questions of one kind, in one cluster, may still go unanswered. An answer earns some back. Once
- * the patience is used up, only every `stride`-th question is asked, and each one that goes unanswered doubles the
+/* patience.h: a limit for the number of tests of one kind, in one cluster, that fail. A successful test restores part
+ * of it. When the patience is used up, only every `stride`-th test is made, and each one that fails doubles the
  * stride. */
 #ifndef SUNDER_I_PATIENCE_H
 #define SUNDER_I_PATIENCE_H
@@ -7,7 +7,7 @@
 #include <stdbool.h>
 
 typedef struct sunder_i_patience {
-    unsigned most, regained; /* initial value, and earned by each answer */
+    unsigned most, regained; /* the initial patience, and the part restored by each success */
     unsigned left, stride, passed;
 } sunder_i_patience;
 
@@ -16,7 +16,7 @@ static inline sunder_i_patience sunder_i_patience_of(unsigned most, unsigned reg
     return (sunder_i_patience){most, regained, most, 1, 0};
 }
 
-/* Is the next question to be asked? */
+/* Returns true if the next test is to be made. */
 static inline bool sunder_i_patience_asks(sunder_i_patience *p)
 {
     if (p->left) return true;

@@ -1,6 +1,6 @@
-/* Pseudo-random numbers for orders of insertion: splitmix64 [SLF14]. Sums do not depend on them; times, and the course
- * of a search, do. So the draws and their order are part of the contract: one draw for each choice, from all n items
- * down to two. */
+/* random.h: pseudo-random numbers for orders of insertion: splitmix64 [SLF14]. Sums do not depend on them; times, and
+ * the course of a search, do. So the numbers and their order are part of the contract: one number for each choice, from
+ * all n items down to two. */
 #ifndef SUNDER_I_RANDOM_H
 #define SUNDER_I_RANDOM_H
 
@@ -10,7 +10,7 @@
 #include <stdint.h>
 #include <string.h>
 
-/* The next number of the stream. */
+/* Returns the next number of the stream. */
 static inline uint64_t sunder_i_draw(uint64_t *state)
 {
     uint64_t z = *state += 0x9e3779b97f4a7c15u;
@@ -19,8 +19,8 @@ static inline uint64_t sunder_i_draw(uint64_t *state)
     return z ^ (z >> 31);
 }
 
-/* Swaps a random item with the last of n items of this size, which stand in one array: one step of a Fisher-Yates
- * shuffle from the back. random: a number drawn. */
+/* Swaps a random item with the last of n items of `size` bytes in an array: one step of a Fisher-Yates shuffle from the
+ * back. random: a number from sunder_i_draw(). */
 static inline void sunder_i_shuffle_step(void *array, size_t n, size_t size, uint64_t random)
 {
     unsigned char *const chosen = (unsigned char *)array + (size_t)(random % n) * size;

@@ -1,6 +1,6 @@
-/* Structs that grow, from a caller of another version and back. The rules are those of copy_struct_from_user() in
- * Linux: a shorter struct is of an older caller, and a longer one is taken if all that this version does not know is
- * zero. */
+/* sized_struct.c: structs that grow between versions, copied from a caller of another version and back. The rules are
+ * those of copy_struct_from_user() in Linux: a shorter struct comes from an older caller, and a longer one is accepted
+ * if all bytes that this version does not know are zero. */
 #include "base/sized_struct.h"
 
 #include "base/error.h"
@@ -21,7 +21,7 @@ void sunder_i_sized_struct_write(void *given, size_t size, const void *own, size
 
 void sunder_i_options_write(void *given, size_t size, const void *own, size_t own_size)
 {
-    if (size < sizeof size) return; /* there is no place for the size itself */
+    if (size < sizeof size) return; /* the struct has no room for the size itself */
     sunder_i_sized_struct_write(given, size, own, own_size);
     memcpy(given, &size, sizeof size);
 }

@@ -1,5 +1,5 @@
-/* Merge sort: runs by insertion, merged pairwise between two arrays. Radix sort: from the lowest digit up, each
- * beginning at a bit in which not all keys agree. */
+/* sort.c: merge sort: runs sorted by insertion, merged pairwise between two arrays. Radix sort: from the lowest digit
+ * to the highest; each digit begins at a bit in which not all keys agree. */
 #include "base/sort.h"
 
 #include "base/invariant.h"
@@ -7,7 +7,7 @@
 
 #include <string.h>
 
-#define RUN 8 /* insertion sort below this: measured fastest between 6 and 12 */
+#define RUN 8 /* shorter runs are sorted by insertion: fastest between 6 and 12, by measurement */
 
 typedef int (*comparison)(void *, uint32_t, uint32_t);
 
@@ -55,11 +55,11 @@ bool sunder_i_sort_indices(uint32_t *index, size_t n, comparison compare, void *
     return true;
 }
 
-/* Bits of a digit: a pass counts 2^DIGIT values whatever the number of keys, so some hundred keys take short digits,
- * and fewer keys are sorted by insertion. */
+/* The bits of a digit: a pass counts 2^DIGIT values whatever the number of keys, so that a few hundred keys are sorted
+ * with short digits, and fewer keys by insertion. */
 #define DIGIT 11
 #define SHORT_DIGIT 8
-#define SOME_KEYS 2048 /* measured: from here on the longer digits take less */
+#define SOME_KEYS 2048 /* from this number of keys on the longer digits are faster, by measurement */
 #define FEW_KEYS 32
 
 static void sort_few(uint64_t *key, size_t n)
@@ -87,7 +87,7 @@ bool sunder_i_sort_keys(uint64_t *key, size_t n)
     const int bits = n < SOME_KEYS ? SHORT_DIGIT : DIGIT;
     const uint64_t digit = ((uint64_t)1 << bits) - 1;
     for (int shift = 0; shift < 64 && used >> shift; shift += bits) {
-        shift += __builtin_ctzll(used >> shift); /* all keys agree in what is left out */
+        shift += __builtin_ctzll(used >> shift); /* all keys agree in the bits that are skipped */
         size_t start[(1u << DIGIT) + 1];
         memset(start, 0, (digit + 2) * sizeof *start);
         for (size_t i = 0; i < n; i++) start[((from[i] >> shift) & digit) + 1]++;

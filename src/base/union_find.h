@@ -1,7 +1,7 @@
-/* Disjoint sets of the numbers 0 .. n - 1, as a forest: parent[x] is x itself at a root.
+/* union_find.h: disjoint sets of the numbers 0 .. n - 1, as a forest: parent[x] is x itself at a root.
  *
- * The root of a set is its least member, whatever the order of joining: so results may depend on it. That gives up
- * union by rank; halving paths alone keeps m operations within O(m log n) [TL84]. */
+ * The root of a set is its least member, whatever the order of joins: so results may depend on it. This excludes union
+ * by rank; path halving alone limits m operations to O(m log n) [TL84]. */
 #ifndef SUNDER_I_UNION_FIND_H
 #define SUNDER_I_UNION_FIND_H
 
@@ -15,7 +15,7 @@ static inline void sunder_i_union_init(uint32_t *parent, size_t n)
     for (size_t x = 0; x < n; x++) parent[x] = (uint32_t)x;
 }
 
-/* The least member of the set of x. */
+/* Returns the least member of the set of x. */
 static inline uint32_t sunder_i_union_find(uint32_t *parent, uint32_t x)
 {
     while (parent[x] != x) {

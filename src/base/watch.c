@@ -1,9 +1,10 @@
-/* May the work go on? Watches are asked from the innermost outwards, each by one thread at a time. */
+/* watch.c: whether work may continue. Watches are called from the innermost to the outermost, each by one thread at a
+ * time. */
 #include "base/watch.h"
 
 _Thread_local sunder_i_thread sunder_i_this_thread;
 
-/* A thread that finds the lock taken does not wait: the holder is asking already. */
+/* If the lock is taken, the thread does not wait: the thread with the lock is calling the watch already. */
 static void ask(sunder_i_watch *watch)
 {
     if (pthread_mutex_trylock(&watch->lock) != 0) return;
@@ -16,7 +17,7 @@ static void ask(sunder_i_watch *watch)
 bool sunder_i_look(void)
 {
     sunder_i_thread *t = &sunder_i_this_thread;
-    t->left = 0; /* once told to stop, it looks at every step */
+    t->left = 0; /* after a stop the thread looks at every step */
     for (sunder_i_watch *w = t->watch; w; w = w->outer) {
         ask(w);
         if (atomic_load(&w->stopped)) return false;
@@ -32,7 +33,7 @@ bool sunder_i_stopped(void)
     return false;
 }
 
-/* A sunder_progress: user is the watch. */
+/* A function of the type sunder_progress: user is the watch. */
 static bool tell(double fraction, void *user)
 {
     sunder_i_watch *watch = user;

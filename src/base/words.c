@@ -1,5 +1,5 @@
-/* The fixed words of the public enumerations, and the versions. Each list is as long as its enumeration, which the
- * compiler checks; a number that is not one of the values has no word. */
+/* words.c: the fixed words of the public enumerations, and the versions. Each list is as long as its enumeration, which
+ * the compiler tests; a number that is not one of the values has no word. */
 #include "sunder.h"
 
 #include <gmp.h>
