@@ -47,7 +47,7 @@ static sunder_status fail_plainly(sunder_error *err, sunder_status status)
 
 sunder_status sunder_i_cancelled(sunder_error *err) { return fail_plainly(err, SUNDER_ECANCEL); }
 
-sunder_status sunder_i_no_memory(sunder_error *err)
+sunder_status sunder_i_failure_cause(sunder_error *err)
 {
     const bool too_many = sunder_i_was_too_many();
     return fail_plainly(err, sunder_i_stopped() ? SUNDER_ECANCEL : too_many ? SUNDER_ESIZE : SUNDER_ENOMEM);

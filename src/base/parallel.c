@@ -116,7 +116,7 @@ sunder_status sunder_i_parallel_largest_first(unsigned threads, const size_t *si
         order[k] = (uint64_t)(UINT32_MAX - (size[k] < UINT32_MAX ? size[k] : UINT32_MAX)) << 32 | k;
     job j = {.work = work, .context = context, .n = n, .grain = 1, .order = order};
     const bool ok = order && sunder_i_sort_keys(order, n);
-    const sunder_status status = !ok ? sunder_i_no_memory(err) : n ? run_on(threads, &j, err) : SUNDER_OK;
+    const sunder_status status = !ok ? sunder_i_failure_cause(err) : n ? run_on(threads, &j, err) : SUNDER_OK;
     sunder_i_free(order);
     return status;
 }

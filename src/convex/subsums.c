@@ -144,5 +144,5 @@ sunder_status sunder_i_subsums_build(sunder_i_lattice *lattice, const sunder_sha
     if (ok) return SUNDER_OK;
     sunder_i_directions_free(directions);
     sunder_i_convex_pieces_free(out);
-    return sunder_i_no_memory(err);
+    return sunder_i_failure_cause(err);
 }

@@ -68,7 +68,7 @@ sunder_status sunder_i_decompose(sunder_i_lattice *lattice, const sunder_shape *
         *out = made;
     }
     sunder_i_maker_free(&m);
-    return ok ? SUNDER_OK : sunder_i_no_memory(err);
+    return ok ? SUNDER_OK : sunder_i_failure_cause(err);
 }
 
 /* Decomposes both operands together; the operation counts of both are stored for p. */
@@ -95,7 +95,7 @@ static sunder_status decompose_mixed(sunder_i_lattice *lattice, const sunder_sha
     }
     sunder_i_maker_free(&m[0]);
     sunder_i_maker_free(&m[1]);
-    return ok ? SUNDER_OK : sunder_i_no_memory(err);
+    return ok ? SUNDER_OK : sunder_i_failure_cause(err);
 }
 
 sunder_status sunder_i_decompose_pair(sunder_i_lattice *lattice, const sunder_shape *p, const sunder_i_point *at_p,

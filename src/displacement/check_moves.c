@@ -70,12 +70,12 @@ static sunder_status check_feature(comparison *c, uint32_t f, sunder_error *err)
     /* If the geometry was repaired on input, the shape as given is not the one written; the move is then not known. */
     if (!c->translated[f] && there && still && sunder_shape_repaired(was)) return SUNDER_OK;
     if (!c->translated[f])
-        return add_conflict(c, SUNDER_CONFLICT_NOT_A_TRANSLATE, f, SIZE_MAX) ? SUNDER_OK : sunder_i_no_memory(err);
+        return add_conflict(c, SUNDER_CONFLICT_NOT_A_TRANSLATE, f, SIZE_MAX) ? SUNDER_OK : sunder_i_failure_cause(err);
     const sunder_i_body *body = &c->model.body[c->model.body_of[f]];
     const double limit = sunder_i_limit_of(body);
     if (sunder_i_is_within_limit(t, limit)) return SUNDER_OK;
     sunder_conflict *found = add_conflict(c, SUNDER_CONFLICT_LIMIT, f, SIZE_MAX);
-    if (!found) return sunder_i_no_memory(err);
+    if (!found) return sunder_i_failure_cause(err);
     found->distance = hypot(t[0], t[1]);
     found->required = limit;
     draw_link(c, f, none, found);
@@ -93,7 +93,7 @@ static sunder_status tell_side(comparison *c, uint32_t f, uint32_t part, sunder_
     if (!c->translated[f] || (last && last->kind == SUNDER_CONFLICT_SIDE && last->a == f && last->b == barrier))
         return SUNDER_OK;
     sunder_conflict *found = add_conflict(c, SUNDER_CONFLICT_SIDE, f, barrier);
-    if (!found) return sunder_i_no_memory(err);
+    if (!found) return sunder_i_failure_cause(err);
     for (size_t k = 0; k < 2; k++) {
         found->from[k] = c->model.side_at[2 * (size_t)f + k];
         found->to[k] = found->from[k] + c->move[2 * (size_t)f + k];
@@ -108,7 +108,7 @@ static sunder_status tell_jump(comparison *c, uint32_t f, uint32_t g, sunder_err
     const sunder_status status = sunder_i_jumps_over(&c->jumps, &c->model, f, g, &jumps, err);
     if (status || !jumps) return status;
     sunder_conflict *found = add_conflict(c, SUNDER_CONFLICT_JUMP, f, g);
-    if (!found) return sunder_i_no_memory(err);
+    if (!found) return sunder_i_failure_cause(err);
     draw_link(c, f, c->move + 2 * (size_t)g, found);
     return SUNDER_OK;
 }
@@ -135,7 +135,7 @@ static sunder_status place_after(comparison *c, sunder_error *err)
 {
     sunder_i_placement *p = &c->placement;
     double *box = sunder_i_rtree_boxes(&p->tree, c->model.things);
-    sunder_status status = box ? SUNDER_OK : sunder_i_no_memory(err);
+    sunder_status status = box ? SUNDER_OK : sunder_i_failure_cause(err);
     for (uint32_t f = 0; f < c->model.features && !status; f++) {
         const sunder_shape *shape = c->after->shape[f];
         c->model.present[f] = c->model.present[f] && shape && !sunder_shape_is_empty(shape);
@@ -193,7 +193,7 @@ static sunder_status check_pairs(comparison *c, sunder_report *report, sunder_er
         const sunder_conflict *described = &report->conflict[k];
         double on_a[2], on_b[2];
         sunder_conflict *found = add_conflict(c, SUNDER_CONFLICT_WORSE, described->a, described->b);
-        if (!found) return sunder_i_no_memory(err);
+        if (!found) return sunder_i_failure_cause(err);
         *found = *described;
         found->b = c->layer.number[described->b];
         found->kind = SUNDER_CONFLICT_WORSE;
@@ -229,7 +229,7 @@ static sunder_status begin_comparison(comparison *c, const sunder_layer_options 
     if (status) return status;
     c->move = sunder_i_calloc(2 * c->before->n, sizeof *c->move);
     c->translated = sunder_i_calloc(c->before->n, sizeof *c->translated);
-    return c->move && c->translated ? SUNDER_OK : sunder_i_no_memory(err);
+    return c->move && c->translated ? SUNDER_OK : sunder_i_failure_cause(err);
 }
 
 static sunder_status compare_layers(comparison *c, const sunder_layer_options *options, sunder_report **report,

@@ -27,10 +27,10 @@ static sunder_status relate_features(sunder_i_solver *s, bool movers_only, sunde
 {
     if (!movers_only) return sunder_i_placement_relate(&s->model, &s->placement, NULL, &s->start, err);
     sunder_i_changes movers;
-    sunder_status status = sunder_i_changes_init(&movers, s->model.things) ? SUNDER_OK : sunder_i_no_memory(err);
+    sunder_status status = sunder_i_changes_init(&movers, s->model.things) ? SUNDER_OK : sunder_i_failure_cause(err);
     for (uint32_t f = 0; f < s->model.features && !status; f++)
         if (s->model.present[f] && !sunder_i_feature(&s->layer, f).fixed) sunder_i_changes_add(&movers, f);
-    if (!status && !sunder_i_changes_sort(&movers)) status = sunder_i_no_memory(err);
+    if (!status && !sunder_i_changes_sort(&movers)) status = sunder_i_failure_cause(err);
     if (!status) status = sunder_i_placement_relate(&s->model, &s->placement, &movers, &s->start, err);
     sunder_i_changes_free(&movers);
     return status;
@@ -80,7 +80,7 @@ static sunder_status prepare_search(sunder_i_solver *s, sunder_error *err)
     if (!status) status = sunder_i_solver_find_shut_in(s, err);
     if (!status) status = sunder_i_solver_init(s, err);
     if (status) return status;
-    return begin_as_at_start(s) ? SUNDER_OK : sunder_i_no_memory(err);
+    return begin_as_at_start(s) ? SUNDER_OK : sunder_i_failure_cause(err);
 }
 
 /* Does everything up to the point where the report begins. */
@@ -92,9 +92,9 @@ static sunder_status find_moves(sunder_i_solver *s, const sunder_layer *layer, c
     if (!status) status = sunder_i_solver_find_infeasible(s, NULL, err);
     if (!status) status = prepare_search(s, err);
     if (!status) status = sunder_i_solver_begin_holding(s, err);
-    if (!status && !sunder_i_progress(&s->model.rules, SUNDER_I_PREPARED)) status = sunder_i_no_memory(err);
+    if (!status && !sunder_i_progress(&s->model.rules, SUNDER_I_PREPARED)) status = sunder_i_failure_cause(err);
     if (!status) status = sunder_i_layer_solve(s, err);
-    if (!status && !sunder_i_progress(&s->model.rules, SUNDER_PROGRESS_SOLVED)) status = sunder_i_no_memory(err);
+    if (!status && !sunder_i_progress(&s->model.rules, SUNDER_PROGRESS_SOLVED)) status = sunder_i_failure_cause(err);
     return status;
 }
 
@@ -156,13 +156,13 @@ static sunder_status answer_question(const sunder_layer *layer, const sunder_lay
 static sunder_status relate_last(sunder_i_solver *s, sunder_error *err)
 {
     sunder_i_changes elsewhere;
-    sunder_status status = sunder_i_changes_init(&elsewhere, s->model.things) ? SUNDER_OK : sunder_i_no_memory(err);
+    sunder_status status = sunder_i_changes_init(&elsewhere, s->model.things) ? SUNDER_OK : sunder_i_failure_cause(err);
     for (uint32_t f = 0; f < s->model.features && !status; f++) {
         const double *t = s->placement.move + 2 * (size_t)f;
         if (t[0] != 0 || t[1] != 0 || s->placement.was_rounded[f]) sunder_i_changes_add(&elsewhere, f);
     }
-    if (!status && elsewhere.failed) status = sunder_i_no_memory(err);
-    if (!status && !begin_as_at_start(s)) status = sunder_i_no_memory(err);
+    if (!status && elsewhere.failed) status = sunder_i_failure_cause(err);
+    if (!status && !begin_as_at_start(s)) status = sunder_i_failure_cause(err);
     if (!status) status = sunder_i_placement_relate_again(&s->model, &s->placement, &elsewhere, NULL, &s->now, err);
     sunder_i_changes_free(&elsewhere);
     return status ? status : sunder_i_jumps_update(&s->jumps, &s->model, NULL, err);
@@ -172,7 +172,7 @@ static sunder_status relate_last(sunder_i_solver *s, sunder_error *err)
 static sunder_status report_progress(const sunder_i_solver *s, double fraction, sunder_status status, sunder_error *err)
 {
     if (status || sunder_i_progress(&s->model.rules, fraction)) return status;
-    return sunder_i_no_memory(err);
+    return sunder_i_failure_cause(err);
 }
 
 static void trace_conflicts(sunder_i_solver *s, const sunder_report *report)

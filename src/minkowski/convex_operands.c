@@ -47,7 +47,7 @@ sunder_status sunder_i_convex_operands_sum(sunder_sum *sum, const sunder_shape *
     sum->ring_vertex = sunder_i_alloc(most, sizeof *sum->ring_vertex);
     sum->ring_end = sunder_i_alloc(1, sizeof *sum->ring_end);
     sum->poly_end = sunder_i_alloc(1, sizeof *sum->poly_end);
-    if (!sum->vertex || !sum->ring_vertex || !sum->ring_end || !sum->poly_end) return sunder_i_no_memory(err);
+    if (!sum->vertex || !sum->ring_vertex || !sum->ring_end || !sum->poly_end) return sunder_i_failure_cause(err);
     uint32_t n = 0, i = smallest(l, p, at_p), j = smallest(l, q, at_q);
     sunder_i_merge m = sunder_i_merge_of(p->vertices, q->vertices);
     side s = side_from(l, p, at_p, i), t = side_from(l, q, at_q, j);
@@ -56,7 +56,7 @@ sunder_status sunder_i_convex_operands_sum(sunder_sum *sum, const sunder_shape *
         if (m.of_a) s = side_from(l, p, at_p, i = p->form->cleaned.next[i]);
         if (m.of_b) t = side_from(l, q, at_q, j = q->form->cleaned.next[j]);
     }
-    if (l->arena.failed) return sunder_i_no_memory(err);
+    if (l->arena.failed) return sunder_i_failure_cause(err);
     for (uint32_t v = 0; v < n; v++) sum->ring_vertex[v] = v;
     sum->vertices = n;
     sum->ring_end[0] = n;

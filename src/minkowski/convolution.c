@@ -314,7 +314,7 @@ static sunder_status trace(sunder_i_convolution *c, sunder_i_traced *to, bool *d
     sunder_status status = sunder_i_convolution_build(c, &fits, err);
     if (status == SUNDER_OK && fits) status = sunder_i_convolution_cross(c, &fits, err);
     if (status != SUNDER_OK || !fits) return status;
-    return walk(c, to, done) ? SUNDER_OK : sunder_i_no_memory(err);
+    return walk(c, to, done) ? SUNDER_OK : sunder_i_failure_cause(err);
 }
 
 /* The size of the stack memory, enough for a building and a disc. */
@@ -349,7 +349,7 @@ sunder_status sunder_i_traced_end(sunder_i_traced *traced, bool keep, sunder_err
     sunder_i_free(sum->vertex);
     sum->vertex = NULL;
     sum->vertices = 0;
-    return ok ? SUNDER_OK : sunder_i_no_memory(err);
+    return ok ? SUNDER_OK : sunder_i_failure_cause(err);
 }
 
 sunder_status sunder_i_convolution_sum(sunder_sum *sum, const sunder_shape *p, const sunder_i_point *at_p,

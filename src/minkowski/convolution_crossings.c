@@ -259,5 +259,5 @@ sunder_status sunder_i_convolution_cross(sunder_i_convolution *curve, bool *fits
         ok = both && sorted && order_stops(&x, both, both + curve->stops, sorted);
     }
     *fits = x.fits;
-    return ok ? SUNDER_OK : sunder_i_no_memory(err);
+    return ok ? SUNDER_OK : sunder_i_failure_cause(err);
 }

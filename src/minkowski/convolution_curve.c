@@ -296,7 +296,7 @@ sunder_status sunder_i_convolution_build(sunder_i_convolution *curve, bool *fits
 {
     size_t links = 0;
     mover *t = sunder_i_arena_alloc(&curve->memory, curve->rounds, sizeof *t);
-    if (!t) return sunder_i_no_memory(err);
+    if (!t) return sunder_i_failure_cause(err);
     for (size_t i = 0; i < curve->rounds; i++) t[i] = mover_of(curve, &curve->round[i]);
     bool ok = make_room(curve);
     *fits = true;
@@ -306,5 +306,5 @@ sunder_status sunder_i_convolution_build(sunder_i_convolution *curve, bool *fits
     }
     *fits = *fits && links < UINT32_MAX / 4;
     if (ok && *fits) ok = make_links(curve, t, links);
-    return ok ? SUNDER_OK : sunder_i_no_memory(err);
+    return ok ? SUNDER_OK : sunder_i_failure_cause(err);
 }

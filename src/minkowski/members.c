@@ -95,7 +95,7 @@ static sunder_status join_groups(grouper *g, bool *fits, sunder_error *err)
     *fits = true;
     for (uint32_t i = 0; i < g->n && *fits && status == SUNDER_OK; i++) {
         hits.n = 0;
-        if (!sunder_i_rtree_query(&tree, g->box[i], &hits) || !sunder_i_step()) status = sunder_i_no_memory(err);
+        if (!sunder_i_rtree_query(&tree, g->box[i], &hits) || !sunder_i_step()) status = sunder_i_failure_cause(err);
         for (size_t k = 0; k < hits.n; k++) sunder_i_union_join(g->group, i, hits.item[k]);
         meetings += hits.n;
         *fits = meetings <= (size_t)MOST_MEETINGS * g->n;
@@ -150,7 +150,7 @@ static sunder_status trace_groups(const grouper *g, sunder_i_traced *traced, sun
         }
         for (uint32_t m = i; m < k; m++) g->left->polygon[g->order[m]] = !done;
         g->left->n += done ? 0 : k - i;
-        if (!sunder_i_step()) return sunder_i_no_memory(err);
+        if (!sunder_i_step()) return sunder_i_failure_cause(err);
     }
     return SUNDER_OK;
 }
@@ -182,7 +182,7 @@ sunder_status sunder_i_members_sum(sunder_sum *sum, const sunder_shape *many, co
                  .one_convex = is_convex(one, at_one, 0),
                  .left = left};
     bool fits;
-    sunder_status status = arena.failed ? sunder_i_no_memory(err) : SUNDER_OK;
+    sunder_status status = arena.failed ? sunder_i_failure_cause(err) : SUNDER_OK;
     if (status == SUNDER_OK) {
         make_boxes(&g);
         status = join_groups(&g, &fits, err);
@@ -190,7 +190,7 @@ sunder_status sunder_i_members_sum(sunder_sum *sum, const sunder_shape *many, co
     if (status == SUNDER_OK && fits) {
         left->polygon = sunder_i_alloc(n, sizeof *left->polygon);
         left->n = 0;
-        status = left->polygon && order_members(&g) ? trace(&g, sum, err) : sunder_i_no_memory(err);
+        status = left->polygon && order_members(&g) ? trace(&g, sum, err) : sunder_i_failure_cause(err);
     }
     sunder_i_arena_free(&arena);
     return status;

@@ -65,15 +65,15 @@ static sunder_status unite_rest(sunder_sum *sum, const operands *o, bool of_p, c
                                 const sunder_sum_options *options, sunder_error *err)
 {
     sunder_shape view;
-    if (!sunder_i_members_view_init(of_p ? o->p : o->q, left->polygon, &view)) return sunder_i_no_memory(err);
+    if (!sunder_i_members_view_init(of_p ? o->p : o->q, left->polygon, &view)) return sunder_i_failure_cause(err);
     sunder_sum *part[2] = {take_outline(sum), NULL};
     sunder_status status =
         part[0] ? unite_subsums(sum, of_p ? &view : o->p, of_p ? o->q : &view, o->at, o->start, options, err)
-                : sunder_i_no_memory(err);
+                : sunder_i_failure_cause(err);
     sunder_i_members_view_free(&view);
     if (status == SUNDER_OK) {
         part[1] = take_outline(sum);
-        if (!part[1] || !sunder_i_gather(part, 2, sum)) status = sunder_i_no_memory(err);
+        if (!part[1] || !sunder_i_gather(part, 2, sum)) status = sunder_i_failure_cause(err);
     }
     for (int i = 0; i < 2; i++) sunder_sum_free(part[i]);
     return status;
@@ -155,7 +155,7 @@ sunder_status sunder_i_minkowski_sum(const sunder_shape *p, const sunder_shape *
     if (status == SUNDER_OK) status = check_options(&o, err);
     if (status != SUNDER_OK) return status;
     sunder_sum *sum = sunder_i_calloc(1, sizeof *sum);
-    if (!sum) return sunder_i_no_memory(err);
+    if (!sum) return sunder_i_failure_cause(err);
     sum->method.algorithm = o.algorithm  ? o.algorithm
                             : o.keep_map ? SUNDER_ALGORITHM_ARRANGEMENT
                                          : SUNDER_ALGORITHM_CONVOLUTION;

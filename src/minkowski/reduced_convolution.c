@@ -261,5 +261,5 @@ sunder_status sunder_i_reduced_convolution_sum(sunder_sum *sum, const sunder_sha
     sunder_i_arena_free(&r.small);
     sunder_i_free(r.room);
     *done &= ok;
-    return ok ? SUNDER_OK : sunder_i_no_memory(err);
+    return ok ? SUNDER_OK : sunder_i_failure_cause(err);
 }

@@ -97,7 +97,7 @@ static sunder_status draw_region(fit *f, int i, const sunder_shape *shape, const
         sunder_i_rational_point *corner = sunder_i_arena_alloc(&f->scratch, end - first, sizeof *corner);
         for (size_t k = first; corner && k < end; k++)
             corner[k - first] = sunder_i_rational_get(&f->scratch, f->lattice, at[sunder_i_piece_vertices(shape)[k]]);
-        if (f->scratch.failed) return sunder_i_no_memory(err);
+        if (f->scratch.failed) return sunder_i_failure_cause(err);
         status = sunder_i_planar_map_insert_polygon(f->region[i], corner, NULL, end - first, err);
         sunder_i_arena_release(&f->scratch, mark);
     }
@@ -154,7 +154,7 @@ static sunder_status find_sides(fit *f, side **sides, size_t *n, sunder_error *e
     for (int i = 0; i < 2; i++) most += sunder_i_planar_map_edge_end(f->region[i]);
     *n = 0;
     *sides = sunder_i_alloc(most, sizeof **sides);
-    if (!*sides) return sunder_i_no_memory(err);
+    if (!*sides) return sunder_i_failure_cause(err);
     for (uint32_t i = 0; i < 2; i++)
         for (uint32_t e = 0; e < sunder_i_planar_map_edge_end(f->region[i]); e++) {
             const side s = {i, 2 * e};
@@ -165,7 +165,7 @@ static sunder_status find_sides(fit *f, side **sides, size_t *n, sunder_error *e
             if (band_is_near(f, &s)) (*sides)[(*n)++] = s;
         }
     sunder_i_shuffle(*sides, *n, sizeof **sides, &f->random);
-    return f->scratch.failed ? sunder_i_no_memory(err) : SUNDER_OK;
+    return f->scratch.failed ? sunder_i_failure_cause(err) : SUNDER_OK;
 }
 
 static sunder_status unite_bands(fit *f, const side *sides, size_t n, sunder_error *err)
@@ -176,11 +176,11 @@ static sunder_status unite_bands(fit *f, const side *sides, size_t n, sunder_err
         const sunder_i_mark mark = sunder_i_arena_mark(&f->scratch);
         sunder_i_rational_point *band = sunder_i_arena_alloc(&f->scratch, corners + 2, sizeof *band);
         sunder_i_point *along = sunder_i_arena_alloc(&f->scratch, corners + 2, sizeof *along);
-        if (!band || !along) return sunder_i_no_memory(err);
+        if (!band || !along) return sunder_i_failure_cause(err);
         bool known;
         const size_t m = sunder_i_band(&f->scratch, &f->element, 0, corners, *end_of(f, &sides[k], false),
                                        *end_of(f, &sides[k], true), band, along, &known);
-        if (f->scratch.failed) return sunder_i_no_memory(err);
+        if (f->scratch.failed) return sunder_i_failure_cause(err);
         status = sunder_i_planar_map_unite_polygon(f->bands, band, known ? along : NULL, m, err);
         sunder_i_arena_release(&f->scratch, mark);
     }
@@ -206,7 +206,7 @@ static sunder_status look_at_vertices(fit *f, bool *fits, sunder_error *err)
         if (status == SUNDER_OK && in[0]) status = holds(f->region[1], *point, &in[1], err);
         *fits = in[0] && in[1];
     }
-    return f->scratch.failed ? sunder_i_no_memory(err) : status;
+    return f->scratch.failed ? sunder_i_failure_cause(err) : status;
 }
 
 /* ---- All steps --------------------------------------------------------------------------------------------------- */
@@ -226,13 +226,13 @@ static sunder_status find_fit(fit *f, bool *fits, sunder_error *err)
 static sunder_status place_element(fit *f, const sunder_shape *d, sunder_error *err)
 {
     sunder_i_point *at = sunder_i_alloc(d->vertices, sizeof *at);
-    if (!at) return sunder_i_no_memory(err);
+    if (!at) return sunder_i_failure_cause(err);
     for (uint32_t v = 0; v < d->vertices; v++)
         at[v] = (sunder_i_point){sunder_i_lattice_int(f->lattice, d->xy[2 * (size_t)v], 0),
                                  sunder_i_lattice_int(f->lattice, d->xy[2 * (size_t)v + 1], 0)};
     const bool ok = sunder_i_structuring_element_of_shape(f->lattice, d, at, true, &f->element);
     sunder_i_free(at);
-    return ok ? SUNDER_OK : sunder_i_no_memory(err);
+    return ok ? SUNDER_OK : sunder_i_failure_cause(err);
 }
 
 sunder_status sunder_i_fits_in_both(const sunder_shape *p, const double tp[2], const sunder_shape *q,

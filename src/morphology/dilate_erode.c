@@ -215,12 +215,12 @@ static sunder_status add_band(stage *g, const uint32_t *next, uint64_t k, sunder
     const sunder_i_mark mark = sunder_i_arena_mark(&g->scratch);
     sunder_i_rational_point *corner = sunder_i_arena_alloc(&g->scratch, end - first + 2, sizeof *corner);
     sunder_i_point *along = sunder_i_arena_alloc(&g->scratch, end - first + 2, sizeof *along);
-    if (!corner || !along) return sunder_i_no_memory(err);
+    if (!corner || !along) return sunder_i_failure_cause(err);
     uint32_t ends[2];
     bool known;
     ends_of(f, next, i, ends);
     const size_t n = sunder_i_band(&g->scratch, p, first, end, f->at[ends[0]], f->at[ends[1]], corner, along, &known);
-    if (g->scratch.failed) return sunder_i_no_memory(err);
+    if (g->scratch.failed) return sunder_i_failure_cause(err);
     const sunder_status status = sunder_i_planar_map_unite_polygon(g->bands, corner, known ? along : NULL, n, err);
     sunder_i_arena_release(&g->scratch, mark);
     return status;
@@ -232,7 +232,7 @@ static sunder_status unite_bands(stage *g, sunder_error *err)
     const uint64_t all = (f->sides + f->segments + f->points) * (uint64_t)g->element->pieces;
     uint32_t *next = successors(f);
     uint64_t *order = biased_order(&g->random, all);
-    sunder_status status = next && order ? SUNDER_OK : sunder_i_no_memory(err);
+    sunder_status status = next && order ? SUNDER_OK : sunder_i_failure_cause(err);
     for (uint64_t i = 0; i < all && status == SUNDER_OK; i++)
         status = go_on(g->options, &of_bands, i, all) ? add_band(g, next, order[i], err) : sunder_i_cancelled(err);
     sunder_i_free(next);
@@ -248,14 +248,14 @@ static sunder_status is_inside(stage *g, uint32_t vertex, bool *in, sunder_error
 {
     const bool any = g->figure->rings > 0;
     *in = any && g->erode;
-    if (!sunder_i_step()) return sunder_i_no_memory(err);
+    if (!sunder_i_step()) return sunder_i_failure_cause(err);
     for (uint32_t j = 0; any && j < g->element->pieces && *in == g->erode; j++) {
         const sunder_i_mark mark = sunder_i_arena_mark(&g->scratch);
         sunder_i_arena *s = &g->scratch;
         const sunder_i_rational_point at =
             sunder_i_rational_sub(s, *sunder_i_planar_map_vertex_point(g->bands, vertex), g->element->inner[j]);
         if (!s->failed) *in = is_in_figure(&g->solid, s, at);
-        if (s->failed) return sunder_i_no_memory(err);
+        if (s->failed) return sunder_i_failure_cause(err);
         sunder_i_arena_release(s, mark);
     }
     return SUNDER_OK;
@@ -298,7 +298,7 @@ static sunder_status read_cells(stage *g, sunder_sum *sum, sunder_error *err)
     bool *edge = sunder_i_calloc(sunder_i_planar_map_edge_end(g->bands), sizeof *edge);
     bool *vertex = sunder_i_calloc(sunder_i_planar_map_vertex_end(g->bands), sizeof *vertex);
     const sunder_i_inside inside = {face, g->erode ? edge : NULL, g->erode ? vertex : NULL};
-    status = face && edge && vertex ? sort_faces(g, face, err) : sunder_i_no_memory(err);
+    status = face && edge && vertex ? sort_faces(g, face, err) : sunder_i_failure_cause(err);
     if (status == SUNDER_OK && g->erode) status = sort_rest(g, edge, vertex, err);
     if (status == SUNDER_OK) status = sunder_i_sum_from_cells(g->bands, &inside, sum, err);
     sunder_i_free(face);
@@ -315,7 +315,7 @@ static sunder_status dilate_or_erode(stage *g, sunder_sum *sum, sunder_error *er
     sunder_status status = sunder_i_planar_map_new(&sum->lattice, sunder_i_draw(&g->random), &g->bands, err);
     if (status == SUNDER_OK) status = unite_bands(g, err);
     if (status == SUNDER_OK && g->figure->rings && !solid_init(&g->solid, g->figure, &sum->lattice))
-        status = sunder_i_no_memory(err);
+        status = sunder_i_failure_cause(err);
     if (status == SUNDER_OK) status = read_cells(g, sum, err);
     sunder_i_planar_map_free(g->bands);
     solid_free(&g->solid);

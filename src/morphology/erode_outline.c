@@ -257,7 +257,7 @@ static sunder_status turn_over(sunder_i_coverage *coverage, void *user, sunder_e
     const uint8_t both = SUNDER_I_BANK_LEFT | SUNDER_I_BANK_RIGHT;
     for (size_t i = 0; i < coverage->stretches; i++)
         if (coverage->stretch[i].banks != both) coverage->stretch[i].banks ^= both;
-    return drop_outside(user, coverage) ? SUNDER_OK : sunder_i_no_memory(err);
+    return drop_outside(user, coverage) ? SUNDER_OK : sunder_i_failure_cause(err);
 }
 
 static sunder_status find_outline(eroder *e, const sunder_sum_options *options, sunder_sum *sum, sunder_error *err)
@@ -270,7 +270,7 @@ static sunder_status find_outline(eroder *e, const sunder_sum_options *options, 
     if (begin && sunder_i_convex_pieces_rank(&sum->lattice, list, 2, &directions) && add_bands(e, begin, &bands))
         status = sunder_i_drop_contained(&bands, err);
     else
-        status = sunder_i_no_memory(err);
+        status = sunder_i_failure_cause(err);
     if (status == SUNDER_OK) status = sunder_i_outline_find(&bands, options, turn_over, e, sum, err);
     sunder_i_free(begin);
     sunder_i_directions_free(&directions);
@@ -291,7 +291,7 @@ sunder_status sunder_i_erode_by_outline(const sunder_i_figure *figure, const sun
     e.before = sunder_i_alloc(figure->sides, sizeof *e.before);
     if (!e.before || !sunder_i_convex_pieces_init(&e.side, figure->sides, 2 * figure->sides) ||
         !sunder_i_convex_pieces_init(&e.piece, 1, element->end[0]))
-        status = sunder_i_no_memory(err);
+        status = sunder_i_failure_cause(err);
     if (status == SUNDER_OK && list_sides(&e) && list_piece(&e)) {
         *done = true;
         sum->lattice.narrow = sum->lattice.small = true;

@@ -431,7 +431,7 @@ sunder_status sunder_i_sum_by_convolution(const sunder_i_figure *figure, const s
     sunder_status status = sunder_i_figure_convolution_build(&c, &fits, err);
     if (status == SUNDER_OK && fits) status = sunder_i_figure_convolution_cross(&c, &fits, err);
     if (status == SUNDER_OK && fits) status = sunder_i_figure_convolution_places(&c, &fits, err);
-    if (status == SUNDER_OK && fits && !walk(&c, sum, done)) status = sunder_i_no_memory(err);
+    if (status == SUNDER_OK && fits && !walk(&c, sum, done)) status = sunder_i_failure_cause(err);
     sum->lattice.counts.comparisons += c.counts.comparisons;
     sum->lattice.counts.orientation_tests += c.counts.orientation_tests;
     sum->lattice.counts.segment_intersections += c.counts.segment_intersections;

@@ -264,5 +264,5 @@ sunder_status sunder_i_figure_convolution_cross(sunder_i_figure_convolution *cur
     ok = ok && !x.no_memory && !curve->memory.failed && !curve->scratch.failed;
     if (ok && x.fits) ok = order_stops(&x) && !curve->scratch.failed;
     *fits = x.fits;
-    return ok ? SUNDER_OK : sunder_i_no_memory(err);
+    return ok ? SUNDER_OK : sunder_i_failure_cause(err);
 }

@@ -345,11 +345,11 @@ static bool add_rings(mover *t, size_t links, bool *fits)
 sunder_status sunder_i_figure_convolution_build(sunder_i_figure_convolution *curve, bool *fits, sunder_error *err)
 {
     mover t = {.curve = curve, .figure = curve->figure, .c = curve->element, .m = (uint32_t)curve->element->end[0]};
-    if (!make_room(&t) || !round_corners(&t)) return sunder_i_no_memory(err);
+    if (!make_room(&t) || !round_corners(&t)) return sunder_i_failure_cause(err);
     *fits = true;
     const size_t links = survey(&t, fits);
     *fits = *fits && links < UINT32_MAX / 4;
-    if (*fits && !add_rings(&t, links, fits)) return sunder_i_no_memory(err);
-    if (curve->memory.failed || curve->scratch.failed || sunder_i_stopped()) return sunder_i_no_memory(err);
+    if (*fits && !add_rings(&t, links, fits)) return sunder_i_failure_cause(err);
+    if (curve->memory.failed || curve->scratch.failed || sunder_i_stopped()) return sunder_i_failure_cause(err);
     return SUNDER_OK;
 }

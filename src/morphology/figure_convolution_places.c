@@ -91,12 +91,12 @@ sunder_status sunder_i_figure_convolution_places(sunder_i_figure_convolution *cu
     *fits = true;
     if (curve->touches == 0) return SUNDER_OK;
     uint32_t *parent = sunder_i_arena_alloc(&curve->memory, curve->links, sizeof *parent);
-    if (!parent) return sunder_i_no_memory(err);
+    if (!parent) return sunder_i_failure_cause(err);
     sunder_i_union_init(parent, curve->links);
     bool ok = number_places(curve, parent) && list_rays(curve);
     for (uint32_t p = 0; ok && p < curve->places; p++) {
         const uint32_t first = sunder_i_place_first(curve, p);
         ok = sort_rays(curve, curve->ray + first, curve->place_end[p] - first, fits);
     }
-    return ok ? SUNDER_OK : sunder_i_no_memory(err);
+    return ok ? SUNDER_OK : sunder_i_failure_cause(err);
 }

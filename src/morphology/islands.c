@@ -54,7 +54,7 @@ static sunder_status dilate_again(const islands *all, const sunder_sum_options *
 {
     sunder_i_figure figure;
     sunder_sum *sum = sunder_i_morphology_operands_sum(all->operands, 0);
-    if (!sum) return sunder_i_no_memory(err);
+    if (!sum) return sunder_i_failure_cause(err);
     sunder_status status;
     if (sunder_i_figure_of_sum(eroded, 0, eroded->polygons, false, &figure)) {
         bool done;
@@ -63,7 +63,7 @@ static sunder_status dilate_again(const islands *all, const sunder_sum_options *
             status = sunder_i_dilate_figure(&figure, &all->operands->element, options, sum, err);
         sunder_i_figure_free(&figure);
     } else
-        status = sunder_i_no_memory(err);
+        status = sunder_i_failure_cause(err);
     if (status == SUNDER_OK)
         *out = sum;
     else
@@ -96,7 +96,7 @@ static sunder_status one_island(islands *all, const sunder_i_figure *figure, sun
         options.progress_user = &t;
     }
     sunder_sum *eroded = sunder_i_morphology_operands_sum(all->operands, -1);
-    if (!eroded) return sunder_i_no_memory(err);
+    if (!eroded) return sunder_i_failure_cause(err);
     sunder_status status = erode(all, figure, &options, eroded, err);
     if (status == SUNDER_OK && !all->open) {
         *out = eroded;
@@ -120,7 +120,7 @@ static sunder_status work(void *context, size_t begin, size_t end, sunder_error 
         }
         sunder_i_figure figure;
         const size_t last = all->connected ? i + 1 : all->whole->polygons;
-        if (!sunder_i_figure_of_sum(all->whole, i, last, true, &figure)) return sunder_i_no_memory(err);
+        if (!sunder_i_figure_of_sum(all->whole, i, last, true, &figure)) return sunder_i_failure_cause(err);
         status = one_island(all, &figure, &all->part[i], err);
         pthread_mutex_lock(&all->lock);
         all->done += figure.sides;
@@ -135,13 +135,13 @@ static sunder_status run(islands *all, sunder_sum **out, sunder_error *err)
     all->part = sunder_i_calloc(all->n + 1, sizeof *all->part);
     /* in a closing the dilation has added B's origin already */
     sunder_sum *sum = sunder_i_morphology_operands_sum(all->operands, all->open || all->dilated ? 0 : -1);
-    sunder_status status = all->part && sum ? SUNDER_OK : sunder_i_no_memory(err);
+    sunder_status status = all->part && sum ? SUNDER_OK : sunder_i_failure_cause(err);
     if (status == SUNDER_OK) {
         pthread_mutex_init(&all->lock, NULL);
         status = sunder_i_parallel(all->asked->threads, all->n, SUNDER_I_GRAIN_WHOLE, work, all, err);
         pthread_mutex_destroy(&all->lock);
     }
-    if (status == SUNDER_OK && !sunder_i_gather(all->part, all->n, sum)) status = sunder_i_no_memory(err);
+    if (status == SUNDER_OK && !sunder_i_gather(all->part, all->n, sum)) status = sunder_i_failure_cause(err);
     for (size_t i = 0; all->part && i < all->n; i++) sunder_sum_free(all->part[i]);
     sunder_i_free(all->part);
     if (status == SUNDER_OK)

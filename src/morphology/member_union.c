@@ -51,15 +51,15 @@ static sunder_status unite_pieces(const sunder_shape *shape, const sunder_i_poin
     sunder_i_directions directions = {0};
     if (shape->pieces == 0) return SUNDER_OK;
     if (!sunder_i_convex_pieces_init(&pieces, shape->pieces, shape->piece_end[shape->pieces - 1]))
-        return sunder_i_no_memory(err);
+        return sunder_i_failure_cause(err);
     sunder_i_convex_pieces_add_shape(&pieces, shape, at);
     sunder_status status = SUNDER_OK;
     if (sunder_i_convex_pieces_rank(&sum->lattice, list, 1, &directions)) {
         if (shape->form->cleaned.polygons > 1) status = sunder_i_drop_contained(&pieces, err);
         if (status == SUNDER_OK) status = sunder_i_outline_find(&pieces, options, NULL, NULL, sum, err);
     } else
-        status = sunder_i_no_memory(err);
-    if (status == SUNDER_OK && !drop_degenerate(sum)) status = sunder_i_no_memory(err);
+        status = sunder_i_failure_cause(err);
+    if (status == SUNDER_OK && !drop_degenerate(sum)) status = sunder_i_failure_cause(err);
     sunder_i_directions_free(&directions);
     sunder_i_convex_pieces_free(&pieces);
     return status;
@@ -69,7 +69,7 @@ sunder_status sunder_i_union_of_members(const sunder_shape *shape, const sunder_
                                         const sunder_sum_options *options, sunder_sum **out, sunder_error *err)
 {
     sunder_sum *sum = sunder_i_calloc(1, sizeof *sum);
-    if (!sum) return sunder_i_no_memory(err);
+    if (!sum) return sunder_i_failure_cause(err);
     sunder_i_placed placed;
     sunder_status status = sunder_i_sum_place(sum, shape, b, false, &placed, err);
     if (status == SUNDER_OK) {

@@ -29,7 +29,7 @@ sunder_status sunder_i_morphology_operands_make(const sunder_shape *p, const sun
     const sunder_i_place_options how = {.force_wide = true};
     sunder_status status = sunder_i_place(p, b, &how, &placed, err);
     if (status != SUNDER_OK) return status;
-    if (!fill(p, b, &placed, out)) status = sunder_i_no_memory(err);
+    if (!fill(p, b, &placed, out)) status = sunder_i_failure_cause(err);
     sunder_i_placed_free(&placed);
     if (status != SUNDER_OK) sunder_i_morphology_operands_free(out);
     return status;

@@ -105,5 +105,5 @@ sunder_status sunder_i_corners_find(const sunder_i_free_space *space, const sund
         return SUNDER_OK;
     }
     sunder_i_corners_free(out);
-    return sunder_i_no_memory(err);
+    return sunder_i_failure_cause(err);
 }

@@ -249,7 +249,7 @@ static sunder_status keep_stretches(sunder_i_coverage *coverage, void *user, sun
 {
     sunder_i_free_space *out = user;
     out->stretch = sunder_i_alloc(coverage->stretches, sizeof *out->stretch);
-    if (!out->stretch) return sunder_i_no_memory(err);
+    if (!out->stretch) return sunder_i_failure_cause(err);
     memcpy(out->stretch, coverage->stretch, coverage->stretches * sizeof *out->stretch);
     out->stretches = coverage->stretches;
     return SUNDER_OK;
@@ -268,17 +268,17 @@ static sunder_status make(maker *m, sunder_error *err)
 {
     sunder_status status = SUNDER_OK;
     choose_lattice(m);
-    if (!make_pieces(m) || !make_parts(m) || !measure(m)) status = sunder_i_no_memory(err);
+    if (!make_pieces(m) || !make_parts(m) || !measure(m)) status = sunder_i_failure_cause(err);
     if (status == SUNDER_OK) status = find_outline(m, err);
     if (status == SUNDER_OK && (!sunder_i_part_tree_build(m->out) || m->lattice->arena.failed))
-        status = sunder_i_no_memory(err);
+        status = sunder_i_failure_cause(err);
     return status;
 }
 
 static sunder_status build(maker *m, sunder_error *err)
 {
     m->out->sum = sunder_i_calloc(1, sizeof *m->out->sum);
-    if (!m->out->sum) return sunder_i_no_memory(err);
+    if (!m->out->sum) return sunder_i_failure_cause(err);
     m->out->sum->method.algorithm = SUNDER_ALGORITHM_CONVOLUTION;
     m->lattice = &m->out->sum->lattice;
     const sunder_status status = make(m, err);
@@ -296,7 +296,7 @@ static sunder_status build_with_lines(maker *m, sunder_error *err)
     sunder_status status = sunder_i_without_seams(m->robot, &whole, err);
     if (status != SUNDER_OK) return status;
     if (whole) m->robot = whole;
-    status = sunder_i_diagonals_find(m->robot, &m->diagonals) ? build(m, err) : sunder_i_no_memory(err);
+    status = sunder_i_diagonals_find(m->robot, &m->diagonals) ? build(m, err) : sunder_i_failure_cause(err);
     sunder_i_diagonals_free(&m->diagonals);
     sunder_shape_free(whole);
     return status;

@@ -44,9 +44,9 @@ static sunder_status read_place(sunder_i_free_space *space, const sunder_place *
         if (!isfinite(place->xy[k])) return sunder_i_fail(err, SUNDER_EARG, "%s is not finite", which);
         at[k] = sunder_i_ratio_double(&l->arena, place->xy[k]);
     }
-    if (l->arena.failed) return sunder_i_no_memory(err);
+    if (l->arena.failed) return sunder_i_failure_cause(err);
     *out = sunder_i_filtered_of_rational(space->sum, l, at[0], at[1]);
-    if (l->arena.failed) return sunder_i_no_memory(err);
+    if (l->arena.failed) return sunder_i_failure_cause(err);
     const double size = sunder_i_max(fabs(out->ax), fabs(out->ay));
     if (!(size < 0x1p900)) return sunder_i_fail(err, SUNDER_ERANGE, "%s is too far away", which);
     space->filter.error = sunder_i_max(space->filter.error, 0x1p-48 * size);
@@ -90,7 +90,7 @@ static sunder_status take_stop(sunder_route *r, const sunder_i_filtered_point *a
     if (status == SUNDER_OK) {
         r->n++;
         sunder_i_sum_doubles(&arena, r->space.sum, at->at, s->xy);
-        if (arena.failed) status = sunder_i_no_memory(err);
+        if (arena.failed) status = sunder_i_failure_cause(err);
     }
     sunder_i_arena_free(&arena);
     return status;
@@ -108,27 +108,27 @@ static sunder_status prove(sunder_route *r, const sunder_i_filtered_point *place
     for (size_t i = 0; i == 0 || i + 1 < r->n; i++) {
         const size_t j = r->n > 1 ? i + 1 : i;
         const bool is_free = sunder_i_leg_verified(&r->space, &place[path[i]], &place[path[j]]);
-        if (l->arena.failed) return sunder_i_no_memory(err);
+        if (l->arena.failed) return sunder_i_failure_cause(err);
         if (!is_free) return sunder_i_fail(err, SUNDER_EFAULT, "leg %zu of the path fails its proof", i + 1);
         if (!r->rounded_is_free) continue;
         const sunder_i_filtered_point a = sunder_i_filtered_of_double(r->space.sum, l, r->stop[i].xy);
         const sunder_i_filtered_point b = sunder_i_filtered_of_double(r->space.sum, l, r->stop[j].xy);
         r->rounded_is_free = sunder_i_leg_verified(&r->space, &a, &b);
     }
-    return l->arena.failed ? sunder_i_no_memory(err) : SUNDER_OK;
+    return l->arena.failed ? sunder_i_failure_cause(err) : SUNDER_OK;
 }
 
 static sunder_status keep_path(sunder_route *r, const sunder_i_filtered_point *place, const uint32_t *path, size_t n,
                                sunder_error *err)
 {
     r->stop = sunder_i_calloc(n, sizeof *r->stop);
-    sunder_status status = r->stop ? SUNDER_OK : sunder_i_no_memory(err);
+    sunder_status status = r->stop ? SUNDER_OK : sunder_i_failure_cause(err);
     for (size_t i = 0; status == SUNDER_OK && i < n; i++) status = take_stop(r, &place[path[i]], err);
     if (status == SUNDER_OK) status = prove(r, place, path, err);
     if (status != SUNDER_OK) return status;
     const sunder_i_path of_places = {place, NULL, path, n};
     r->length = sunder_i_path_length(&r->space.filter, &of_places);
-    return isnan(r->length) ? sunder_i_no_memory(err) : SUNDER_OK;
+    return isnan(r->length) ? sunder_i_failure_cause(err) : SUNDER_OK;
 }
 
 static sunder_status find_path(sunder_route *r, sunder_i_corners *corners, const sunder_sum_options *how,
@@ -187,13 +187,13 @@ sunder_status sunder_route_find(const sunder_obstacle *obstacles, size_t n, cons
     if (status != SUNDER_OK) return status;
     sunder_sum_options how = {.size = sizeof how, .progress = o.progress, .progress_user = o.progress_user};
     sunder_route *r = sunder_i_calloc(1, sizeof *r);
-    if (!r) return sunder_i_no_memory(err);
+    if (!r) return sunder_i_failure_cause(err);
     r->obstacle = SIZE_MAX;
     sunder_i_watch watch;
     sunder_i_watch_begin(&watch, &how.progress, &how.progress_user);
     status = sunder_i_free_space_build(obstacles, n, robot, o.gap, &how, &r->space, err);
     if (status == SUNDER_OK) status = find(r, from, to, &how, err);
-    if (status == SUNDER_OK && r->space.filter.lattice->arena.failed) status = sunder_i_no_memory(err);
+    if (status == SUNDER_OK && r->space.filter.lattice->arena.failed) status = sunder_i_failure_cause(err);
     sunder_i_watch_end(&watch);
     if (status == SUNDER_OK)
         *out = r;

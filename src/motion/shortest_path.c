@@ -369,7 +369,7 @@ sunder_status sunder_i_shortest_path(const sunder_i_free_space *space, sunder_i_
     find(&s);
     sunder_status status = SUNDER_OK;
     if (s.no_memory || space->filter.lattice->arena.failed || (!s.cancelled && !s.at[s.goal].known))
-        status = sunder_i_no_memory(err);
+        status = sunder_i_failure_cause(err);
     else if (s.cancelled)
         status = sunder_i_cancelled(err);
     if (status == SUNDER_OK) {

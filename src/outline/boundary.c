@@ -158,5 +158,5 @@ sunder_status sunder_i_boundary_build(sunder_i_lattice *lattice, uint32_t classe
                         .sorted = coverage->sorted};
     const bool ok = sunder_i_graph_build(&g, coverage) && trace(&g, coverage, out);
     sunder_i_graph_free(&g);
-    return ok && !lattice->arena.failed ? SUNDER_OK : sunder_i_no_memory(err);
+    return ok && !lattice->arena.failed ? SUNDER_OK : sunder_i_failure_cause(err);
 }

@@ -179,7 +179,7 @@ static sunder_status drop_contained(sunder_i_convex_pieces *parts, bool whole, s
     }
     sunder_i_free(d.gone);
     sunder_i_part_grid_free(&d.grid);
-    return ok ? SUNDER_OK : sunder_i_no_memory(err);
+    return ok ? SUNDER_OK : sunder_i_failure_cause(err);
 }
 
 sunder_status sunder_i_drop_contained(sunder_i_convex_pieces *parts, sunder_error *err)

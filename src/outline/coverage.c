@@ -366,7 +366,7 @@ sunder_status sunder_i_coverage_find(const sunder_i_convex_pieces *parts, const 
     sunder_i_events_free(&f.events);
     if (ok) return SUNDER_OK;
     sunder_i_coverage_free(out);
-    return sunder_i_no_memory(err);
+    return sunder_i_failure_cause(err);
 }
 
 void sunder_i_coverage_free(sunder_i_coverage *coverage)

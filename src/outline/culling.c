@@ -425,7 +425,7 @@ static void split(builder *b, const cell *c)
 static sunder_status descend(builder *b, sunder_error *err)
 {
     cell root;
-    if (!sunder_i_cells_root(b, &root)) return sunder_i_no_memory(err);
+    if (!sunder_i_cells_root(b, &root)) return sunder_i_failure_cause(err);
     split(b, &root);
     unsigned tick = 0;
     while (b->stack_n > 0 && !b->no_memory) {
@@ -440,7 +440,7 @@ static sunder_status descend(builder *b, sunder_error *err)
         split(b, &c);
         if (b->trial.on) sunder_i_cells_end_trial(b);
     }
-    return b->no_memory ? sunder_i_no_memory(err) : SUNDER_OK;
+    return b->no_memory ? sunder_i_failure_cause(err) : SUNDER_OK;
 }
 
 sunder_status sunder_i_cull(const sunder_i_convex_pieces *parts, const sunder_i_lines *lines,
@@ -465,8 +465,8 @@ sunder_status sunder_i_cull(const sunder_i_convex_pieces *parts, const sunder_i_
     b.recent = sunder_i_alloc((size_t)1 << b.recent_bits, sizeof *b.recent);
     const bool ok = out->fate && out->live_line && b.stamp && b.widest && b.shared && b.recent;
     if (ok) sunder_i_cells_forget_pairs(&b);
-    sunder_status status = ok ? descend(&b, err) : sunder_i_no_memory(err);
-    if (status == SUNDER_OK && !sunder_i_cells_fates(&b)) status = sunder_i_no_memory(err);
+    sunder_status status = ok ? descend(&b, err) : sunder_i_failure_cause(err);
+    if (status == SUNDER_OK && !sunder_i_cells_fates(&b)) status = sunder_i_failure_cause(err);
     sunder_i_free(b.side);
     sunder_i_free(b.before);
     sunder_i_free(b.entries);

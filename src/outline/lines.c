@@ -129,7 +129,7 @@ sunder_status sunder_i_lines_group(const sunder_i_convex_pieces *parts, sunder_i
     sunder_i_free(t.keys);
     if (ok && !parts->lattice->arena.failed) return SUNDER_OK;
     sunder_i_lines_free(out);
-    return sunder_i_no_memory(err);
+    return sunder_i_failure_cause(err);
 }
 
 void sunder_i_lines_free(sunder_i_lines *lines)

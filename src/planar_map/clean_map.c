@@ -100,7 +100,7 @@ sunder_status sunder_i_planar_map_clean(sunder_i_planar_map *map, sunder_error *
     }
     if (!ok) {
         map->failed = true;
-        return sunder_i_no_memory(err);
+        return sunder_i_failure_cause(err);
     }
     for (uint32_t v = 0; v < map->vertices; v++)
         if (!sunder_i_step())

@@ -220,7 +220,7 @@ sunder_status sunder_i_planar_map_insert_point(sunder_i_planar_map *map, sunder_
     map->marked = false;
     const sunder_i_site given = sunder_i_site_of(map, at), site = sunder_i_site_copy(&given, &map->arena);
     const uint32_t v = sunder_i_map_vertex_at(map, &site);
-    if (sunder_i_map_broken(map) || v == NOWHERE) return sunder_i_no_memory(err);
+    if (sunder_i_map_broken(map) || v == NOWHERE) return sunder_i_failure_cause(err);
     map->vertex[v].below += below;
     if (vertex) *vertex = v;
     return SUNDER_OK;
@@ -237,13 +237,13 @@ sunder_status sunder_i_planar_map_insert_segment(sunder_i_planar_map *map, sunde
     const bool forward = sunder_i_site_cmp(map, &p, &q) < 0;
     const sunder_i_site *from = forward ? &p : &q, *to = forward ? &q : &p;
     const sunder_i_map_line through = sunder_i_line_through(map, from, to, NULL, &map->arena);
-    if (sunder_i_map_broken(map)) return sunder_i_no_memory(err);
+    if (sunder_i_map_broken(map)) return sunder_i_failure_cause(err);
     const uint32_t line = sunder_i_map_new_line(map, &through);
     const uint32_t v = line == NOWHERE ? NOWHERE : sunder_i_map_vertex_at(map, from);
     const uint32_t w = v == NOWHERE
                            ? NOWHERE
                            : sunder_i_map_walk(map, v, to, line, forward ? left : right, forward ? right : left, false);
-    if (sunder_i_map_broken(map) || w == NOWHERE) return sunder_i_no_memory(err);
+    if (sunder_i_map_broken(map) || w == NOWHERE) return sunder_i_failure_cause(err);
     if (first) *first = forward ? v : w;
     if (last) *last = forward ? w : v;
     return SUNDER_OK;

@@ -6,7 +6,7 @@ sunder_status sunder_i_planar_map_locate(sunder_i_planar_map *map, sunder_i_rati
 {
     const sunder_i_mark mark = sunder_i_arena_mark(&map->scratch);
     const sunder_i_site site = sunder_i_site_of(map, at);
-    if (sunder_i_map_broken(map)) return sunder_i_no_memory(err);
+    if (sunder_i_map_broken(map)) return sunder_i_failure_cause(err);
     const uint32_t t = sunder_i_history_find(map, &site);
     const sunder_i_trapezoid *z = &map->trapezoid[t];
     sunder_i_location l = {SUNDER_I_IN_FACE, NOWHERE, z->bottom == NOWHERE ? NOWHERE : 2 * z->bottom, z->covered,
@@ -19,7 +19,7 @@ sunder_status sunder_i_planar_map_locate(sunder_i_planar_map *map, sunder_i_rati
         l = (sunder_i_location){SUNDER_I_ON_EDGE, z->bottom, 2 * z->bottom,
                                 sunder_i_planar_map_edge_covered(map, z->bottom), NOWHERE};
     sunder_i_arena_release(&map->scratch, mark);
-    if (sunder_i_map_broken(map)) return sunder_i_no_memory(err);
+    if (sunder_i_map_broken(map)) return sunder_i_failure_cause(err);
     *out = l;
     return SUNDER_OK;
 }

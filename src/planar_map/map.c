@@ -5,7 +5,7 @@ sunder_status sunder_i_planar_map_new(sunder_i_lattice *lattice, uint64_t seed, 
                                       sunder_error *err)
 {
     sunder_i_planar_map *map = sunder_i_calloc(1, sizeof *map);
-    if (!map) return sunder_i_no_memory(err);
+    if (!map) return sunder_i_failure_cause(err);
     map->lattice = lattice;
     map->random = seed;
     map->free_edge = map->free_trapezoid = NOWHERE;
@@ -21,7 +21,7 @@ sunder_status sunder_i_planar_map_new(sunder_i_lattice *lattice, uint64_t seed, 
     }
     if (sunder_i_map_broken(map)) {
         sunder_i_planar_map_free(map);
-        return sunder_i_no_memory(err);
+        return sunder_i_failure_cause(err);
     }
     *out = map;
     return SUNDER_OK;
@@ -46,7 +46,7 @@ void sunder_i_planar_map_free(sunder_i_planar_map *map)
 
 sunder_status sunder_i_map_status(sunder_i_planar_map *map, sunder_error *err)
 {
-    return sunder_i_map_broken(map) ? sunder_i_no_memory(err) : SUNDER_OK;
+    return sunder_i_map_broken(map) ? sunder_i_failure_cause(err) : SUNDER_OK;
 }
 
 /* ---- Memory ---- */

@@ -35,10 +35,10 @@ sunder_status sunder_i_planar_map_mark(sunder_i_planar_map *map, sunder_error *e
     map->stack.n = 0;
     map->trapezoid[outermost].stamp = stamp;
     map->trapezoid[outermost].covered = 0;
-    if (!sunder_i_map_push(map, &map->stack, outermost)) return sunder_i_no_memory(err);
+    if (!sunder_i_map_push(map, &map->stack, outermost)) return sunder_i_failure_cause(err);
     while (map->stack.n) {
         const uint32_t t = map->stack.item[--map->stack.n];
-        if (!sunder_i_step()) return sunder_i_no_memory(err);
+        if (!sunder_i_step()) return sunder_i_failure_cause(err);
         uint32_t to[6];
         int64_t step[6];
         const size_t n = sunder_i_map_around(map, t, 0, to, step);
@@ -47,7 +47,7 @@ sunder_status sunder_i_planar_map_mark(sunder_i_planar_map *map, sunder_error *e
             if (z->stamp == stamp) continue;
             z->stamp = stamp;
             z->covered = (uint32_t)(map->trapezoid[t].covered + step[i]);
-            if (!sunder_i_map_push(map, &map->stack, to[i])) return sunder_i_no_memory(err);
+            if (!sunder_i_map_push(map, &map->stack, to[i])) return sunder_i_failure_cause(err);
         }
     }
     map->marked = true;

@@ -116,7 +116,7 @@ sunder_status sunder_i_map_polygon(sunder_i_planar_map *map, const sunder_i_rati
         }
     } else
         map->failed = true;
-    if (sunder_i_map_broken(map)) return sunder_i_no_memory(err);
+    if (sunder_i_map_broken(map)) return sunder_i_failure_cause(err);
     sunder_i_arena_release(&map->scratch, mark);
     return SUNDER_OK;
 }

@@ -80,7 +80,7 @@ sunder_status sunder_i_planar_map_unite_polygon(sunder_i_planar_map *map, const 
     if (status != SUNDER_OK || map->ring.n == 0) return status;
     if (!clean_ring(map) || !sunder_i_map_compact(map)) {
         map->failed = true;
-        return sunder_i_no_memory(err);
+        return sunder_i_failure_cause(err);
     }
     map->marked = true;
     return sunder_i_map_status(map, err);

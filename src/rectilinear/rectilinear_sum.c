@@ -83,7 +83,7 @@ static sunder_status unite(sunder_sum *sum, const sunder_i_rectangle_list *recta
 {
     sunder_i_ranked_rectangles ranked;
     if (rectangles->n == 0) return SUNDER_OK;
-    if (!sunder_i_rectangles_rank(rectangles, &ranked)) return sunder_i_no_memory(err);
+    if (!sunder_i_rectangles_rank(rectangles, &ranked)) return sunder_i_failure_cause(err);
     sum->lattice.counts.comparisons += ranked.comparisons;
     const sunder_status status = sunder_i_rectangles_unite(&ranked, sum, err);
     sunder_i_ranked_rectangles_free(&ranked);
@@ -103,7 +103,7 @@ sunder_status sunder_i_rectilinear_sum(sunder_sum *sum, const sunder_shape *p, c
                     make_sums(&a, &b, &sum->lattice, &sums);
     sunder_i_free(a.item);
     sunder_i_free(b.item);
-    const sunder_status status = ok ? unite(sum, &sums, done, err) : sunder_i_no_memory(err);
+    const sunder_status status = ok ? unite(sum, &sums, done, err) : sunder_i_failure_cause(err);
     sunder_i_free(sums.item);
     return status;
 }

@@ -189,7 +189,7 @@ sunder_status sunder_i_rectangles_unite(const sunder_i_ranked_rectangles *rectan
     sunder_i_free(j.order);
     sunder_i_free(j.vertex);
     const sunder_status status =
-        ok ? sunder_i_boundary_build(&sum->lattice, 2, &lines, &coverage, sum, err) : sunder_i_no_memory(err);
+        ok ? sunder_i_boundary_build(&sum->lattice, 2, &lines, &coverage, sum, err) : sunder_i_failure_cause(err);
     sunder_i_coverage_free(&coverage);
     sunder_i_lines_free(&lines);
     sunder_i_free(g.at);

@@ -183,7 +183,7 @@ static sunder_status ask_rational(const sunder_i_passage *way, const sunder_shap
         answer = holds ? holds_rational(&r, p) : meets_rational(&r, p) && !holds_rational(&r, p);
     const bool failed = r.arena.failed;
     sunder_i_arena_free(&r.arena);
-    if (failed) return sunder_i_no_memory(err);
+    if (failed) return sunder_i_failure_cause(err);
     *(holds ? holds : passes) = answer;
     return SUNDER_OK;
 }
@@ -230,7 +230,7 @@ sunder_status sunder_i_enters_by_edge(const sunder_i_passage *passage, const sun
         answer = sunder_i_rational_orient(&r.arena, r.corner[0], r.corner[1], r.from) < 0 && meets_edge(&r, 0, 1);
     const bool failed = r.arena.failed;
     sunder_i_arena_free(&r.arena);
-    if (failed) return sunder_i_no_memory(err);
+    if (failed) return sunder_i_failure_cause(err);
     *enters = answer;
     return SUNDER_OK;
 }

@@ -26,5 +26,5 @@ sunder_status sunder_i_parts_within(const sunder_shape *p, const sunder_shape *q
     const bool failed = arena.failed || !read;
     sunder_i_arena_free(&arena);
     sunder_separation_clear(&least);
-    return failed ? sunder_i_no_memory(err) : SUNDER_OK;
+    return failed ? sunder_i_failure_cause(err) : SUNDER_OK;
 }

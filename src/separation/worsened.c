@@ -112,7 +112,7 @@ static sunder_status compare_distances(const sunder_i_pair *was, const sunder_i_
     if (!status) {
         const square a = least_square(&g), b = least_square(&h);
         *worse = is_less(&g.placed.lattice.arena, &b, &a);
-        if (g.placed.lattice.arena.failed || h.placed.lattice.arena.failed) status = sunder_i_no_memory(err);
+        if (g.placed.lattice.arena.failed || h.placed.lattice.arena.failed) status = sunder_i_failure_cause(err);
         sunder_i_operands_free(&h);
     }
     sunder_i_operands_free(&g);
@@ -130,7 +130,7 @@ static sunder_status compare_texts(const char *was, const char *is, bool *worse,
     *worse = read && is_less(&arena, &a, &b);
     const bool failed = arena.failed || !read;
     sunder_i_arena_free(&arena);
-    return failed ? sunder_i_no_memory(err) : SUNDER_OK;
+    return failed ? sunder_i_failure_cause(err) : SUNDER_OK;
 }
 
 static double translation_at(const double *t, int c) { return t ? t[c] : 0; }

@@ -195,17 +195,18 @@ static sunder_status add_polygon(builder *b, size_t p, sunder_error *err)
     sunder_i_problem problem = {SUNDER_I_SOUND, 0, SUNDER_I_NONE};
     bool touches = false;
     if (b->in->poly_end[p] == (p ? b->in->poly_end[p - 1] : 0)) return SUNDER_OK;
-    if (!append_polygon(r, b->in, b->at, p, &problem, &b->arena)) return sunder_i_no_memory(err);
+    if (!append_polygon(r, b->in, b->at, p, &problem, &b->arena)) return sunder_i_failure_cause(err);
     if (!problem.fault) check_polygon(r, rings, &b->arena, &problem, &touches);
-    if (b->arena.failed || b->lattice.arena.failed) return sunder_i_no_memory(err);
+    if (b->arena.failed || b->lattice.arena.failed) return sunder_i_failure_cause(err);
     if (problem.fault && b->validity == SUNDER_VALIDITY_STRICT) return sunder_i_fail_problem(b->in, &problem, err);
     b->touches |= touches || problem.fault; /* after a fault the rest was not checked */
     if (problem.fault || touches) {
         b->repaired |= problem.fault != SUNDER_I_SOUND;
         r->vertices = vertices;
         r->rings = rings;
-        return sunder_i_repair_polygon(r, b->in, b->at, b->origin[0], p, &b->made, &b->arena) ? SUNDER_OK
-                                                                                              : sunder_i_no_memory(err);
+        return sunder_i_repair_polygon(r, b->in, b->at, b->origin[0], p, &b->made, &b->arena)
+                   ? SUNDER_OK
+                   : sunder_i_failure_cause(err);
     }
     r->poly_end[r->polygons++] = r->rings;
     return SUNDER_OK;
@@ -260,20 +261,26 @@ static bool complete_shape(builder *b, sunder_shape *s)
 static sunder_status build_shape(builder *b, sunder_shape **out, sunder_error *err)
 {
     const sunder_i_input *in = b->in;
-    if (!place_input(b)) return sunder_i_no_memory(err);
+    if (!place_input(b)) return sunder_i_failure_cause(err);
     for (size_t p = 0; p < in->polygons; p++) {
         const sunder_status status = add_polygon(b, p, err);
         if (status) return status;
     }
-    if (b->made.n && !sunder_i_repair_place(&b->r, &b->made, b->origin[0], &b->arena)) return sunder_i_no_memory(err);
-    if (!sunder_i_rings_canonical(&b->r, &b->arena)) return sunder_i_no_memory(err);
+    if (b->made.n && !sunder_i_repair_place(&b->r, &b->made, b->origin[0], &b->arena))
+        return sunder_i_failure_cause(err);
+    if (!sunder_i_rings_canonical(&b->r, &b->arena)) return sunder_i_failure_cause(err);
     sunder_i_pieces pieces;
-    if (!sunder_i_pieces_find(&b->r, &b->arena, &pieces)) return sunder_i_no_memory(err);
+    if (!sunder_i_pieces_find(&b->r, &b->arena, &pieces)) return sunder_i_failure_cause(err);
     sunder_shape *s = sunder_i_shape_assemble(in->xy, in->ring_end, in->poly_end, in->polygons, &b->r, &pieces);
-    if (!s) return sunder_i_no_memory(err);
+<<<<<<< HEAD
+    if (!s) return sunder_i_failure_cause(err);
     if (!complete_shape(b, s)) {
+=======
+    if (!s) return sunder_i_failure_cause(err);
+    if (!complete(b, s)) {
+>>>>>>> b755d988 (src: sunder_i_failure_cause(), formerly sunder_i_failure_cause(), which may also mean cancelled)
         sunder_shape_free(s);
-        return sunder_i_no_memory(err);
+        return sunder_i_failure_cause(err);
     }
     SUNDER_I_CHECK(sunder_i_shape_check(s), s->vertices);
     *out = s;
@@ -290,7 +297,7 @@ sunder_status sunder_shape_from_rings(const double *xy, const size_t *ring_end, 
     if (status) return status;
     sunder_shape *small;
     if (sunder_i_small_polygon(&in, &small)) {
-        if (!small) return sunder_i_no_memory(err);
+        if (!small) return sunder_i_failure_cause(err);
         SUNDER_I_CHECK(sunder_i_shape_check(small), small->vertices);
         *out = small;
         return SUNDER_OK;

@@ -34,8 +34,13 @@ static sunder_shape *copy_shape(const sunder_shape *s)
 sunder_status sunder_shape_reflect(const sunder_shape *shape, sunder_shape **out, sunder_error *err)
 {
     sunder_shape *c = copy_shape(shape);
-    if (!c) return sunder_i_no_memory(err);
+<<<<<<< HEAD
+    if (!c) return sunder_i_failure_cause(err);
     /* a rotation by half a turn: orientations are kept; 0 - v is never a negative zero */
+=======
+    if (!c) return sunder_i_failure_cause(err);
+    /* Half a turn: orientations stay. 0 - v has no negative zero. */
+>>>>>>> b755d988 (src: sunder_i_failure_cause(), formerly sunder_i_failure_cause(), which may also mean cancelled)
     for (size_t i = 0; i < 2 * sunder_i_shape_raw_vertices(c); i++) c->raw_xy[i] = 0 - c->raw_xy[i];
     bool good = true;
     for (size_t i = 0; c->xy != c->raw_xy && i < 2 * (size_t)c->vertices; i++) c->xy[i] = 0 - c->xy[i];
@@ -51,7 +56,7 @@ sunder_status sunder_shape_reflect(const sunder_shape *shape, sunder_shape **out
     }
     if (!good) {
         sunder_shape_free(c);
-        return sunder_i_no_memory(err);
+        return sunder_i_failure_cause(err);
     }
     *out = c;
     return SUNDER_OK;
@@ -105,7 +110,7 @@ static bool move_rational(const sunder_shape *shape, const double d[2], sunder_s
 static sunder_status move_exactly(const sunder_shape *shape, const double d[2], sunder_shape **out, sunder_error *err)
 {
     sunder_shape *c = copy_shape(shape);
-    if (!c) return sunder_i_no_memory(err);
+    if (!c) return sunder_i_failure_cause(err);
     for (size_t i = 0; i < 2 * sunder_i_shape_raw_vertices(c); i++) c->raw_xy[i] += d[i & 1];
     bool good;
     if (shape->rational) {
@@ -117,7 +122,7 @@ static sunder_status move_exactly(const sunder_shape *shape, const double d[2], 
     }
     if (!good) {
         sunder_shape_free(c);
-        return sunder_i_no_memory(err);
+        return sunder_i_failure_cause(err);
     }
     *out = c;
     return SUNDER_OK;
@@ -128,7 +133,7 @@ static sunder_status move_rounded(const sunder_shape *shape, const double d[2], 
 {
     const size_t n = sunder_i_shape_raw_vertices(shape);
     double *xy = sunder_i_alloc(2 * n, sizeof *xy);
-    if (!xy) return sunder_i_no_memory(err);
+    if (!xy) return sunder_i_failure_cause(err);
     sunder_status status = SUNDER_OK;
     for (size_t i = 0; i < 2 * n && !status; i++) {
         xy[i] = shape->raw_xy[i] + d[i & 1];

@@ -106,7 +106,7 @@ sunder_status sunder_i_shape_of_pieces(const sunder_i_piece_of *piece, size_t n,
     if (corners >= UINT32_MAX / 2) return sunder_i_fail(err, SUNDER_ESIZE, "too many corners: %zu", corners);
     sunder_i_form *form;
     sunder_shape *s = sunder_i_calloc(1, sizeof *s + sizeof *form->numbers + sizeof *form);
-    if (!s) return sunder_i_no_memory(err);
+    if (!s) return sunder_i_failure_cause(err);
     sunder_i_numbers *numbers = (sunder_i_numbers *)(s + 1);
     s->form = form = (sunder_i_form *)(numbers + 1);
     form->numbers = numbers;
@@ -119,7 +119,7 @@ sunder_status sunder_i_shape_of_pieces(const sunder_i_piece_of *piece, size_t n,
     arrays to;
     if (!make_room(s, form, &to)) {
         sunder_shape_free(s);
-        return sunder_i_no_memory(err);
+        return sunder_i_failure_cause(err);
     }
     fill_arrays(s, &to, piece);
     measure_shape(s, piece);

@@ -156,7 +156,7 @@ static sunder_status finish_placing(sunder_i_placed *out, sunder_error *err)
 {
     if (!out->lattice.arena.failed) return SUNDER_OK;
     sunder_i_placed_free(out);
-    return sunder_i_no_memory(err);
+    return sunder_i_failure_cause(err);
 }
 
 /* Reflects q and its origin. */
@@ -170,7 +170,7 @@ static sunder_status make_room(const sunder_shape *p, const sunder_shape *q, sun
 {
     const size_t n = p->vertices, m = q ? q->vertices : 0;
     out->p = sunder_i_alloc(n + m, sizeof *out->p);
-    if (!out->p) return sunder_i_no_memory(err);
+    if (!out->p) return sunder_i_failure_cause(err);
     out->q = out->p + n;
     return SUNDER_OK;
 }

@@ -150,7 +150,7 @@ static sunder_status prove_corners(const disc *d, sunder_i_arena *arena, sunder_
         if (!make_corners(d, d->inside ? ideal * (1 - give) : ideal * (1 + give)))
             return sunder_i_fail(err, SUNDER_ERANGE, "a disc of radius %.17g leaves the range of doubles", d->radius);
         const bool good = is_proved(d, arena);
-        if (arena->failed) return sunder_i_no_memory(err);
+        if (arena->failed) return sunder_i_failure_cause(err);
         if (good) return SUNDER_OK;
     }
     /* only if doubles are too coarse, at the lower end of their range */
@@ -168,7 +168,7 @@ sunder_status sunder_shape_disc(double radius, unsigned segments, bool inside, s
               sunder_i_calloc(segments, sizeof(bool))};
     sunder_i_arena arena;
     sunder_i_arena_init(&arena);
-    sunder_status status = d.xy && d.proved ? prove_corners(&d, &arena, err) : sunder_i_no_memory(err);
+    sunder_status status = d.xy && d.proved ? prove_corners(&d, &arena, err) : sunder_i_failure_cause(err);
     sunder_i_arena_free(&arena);
     if (!status) status = from_ring(d.xy, segments, out, err);
     sunder_i_free(d.xy);

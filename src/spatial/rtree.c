@@ -86,7 +86,7 @@ sunder_status sunder_i_rtree_build(const double *box, const bool *present, size_
 {
     uint64_t *places = NULL;
     size_t leaves = 0;
-    if (sort_places(box, present, n, &places, &leaves)) return sunder_i_no_memory(err);
+    if (sort_places(box, present, n, &places, &leaves)) return sunder_i_failure_cause(err);
     sunder_i_rtree tree;
     memset(&tree, 0, sizeof tree);
     tree.leaves = leaves;
@@ -104,7 +104,7 @@ sunder_status sunder_i_rtree_build(const double *box, const bool *present, size_
     if (!tree.box || !tree.item || !tree.leaf) {
         sunder_i_free(places);
         sunder_i_rtree_free(&tree);
-        return sunder_i_no_memory(err);
+        return sunder_i_failure_cause(err);
     }
     memset(tree.box + 4 * nodes, 0, 4 * sizeof *tree.box);
     for (size_t i = 0; i < n && leaves < n; i++) tree.leaf[i] = (uint32_t)nodes;
@@ -137,7 +137,7 @@ sunder_status sunder_i_rtree_own(sunder_i_rtree *tree, sunder_error *err)
     if (!tree->unmoved) return SUNDER_OK;
     const size_t n = 4 * ((tree->levels ? tree->level[tree->levels] : 0) + 1);
     double *box = sunder_i_alloc(n, sizeof *box);
-    if (!box) return sunder_i_no_memory(err);
+    if (!box) return sunder_i_failure_cause(err);
     tree->box = memcpy(box, tree->box, n * sizeof *box);
     tree->unmoved = false;
     return SUNDER_OK;

@@ -69,7 +69,7 @@ sunder_status sunder_sum_area_text(const sunder_sum *sum, char **area, sunder_er
     char *text = NULL;
     if (!arena.failed) text = sunder_i_big_ratio_text(&arena, twice.num, twice.den, 2 * sum->lattice.exponent - 1);
     sunder_i_arena_free(&arena);
-    if (!text) return sunder_i_no_memory(err);
+    if (!text) return sunder_i_failure_cause(err);
     *area = text;
     return SUNDER_OK;
 }

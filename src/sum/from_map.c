@@ -277,7 +277,7 @@ sunder_status sunder_i_sum_from_cells(sunder_i_planar_map *map, const sunder_i_i
     sunder_i_free(o.done);
     sunder_i_free(o.vertex);
     sunder_i_free(o.ring);
-    return ok && !sunder_i_planar_map_failed(map) ? SUNDER_OK : sunder_i_no_memory(err);
+    return ok && !sunder_i_planar_map_failed(map) ? SUNDER_OK : sunder_i_failure_cause(err);
 }
 
 sunder_status sunder_i_sum_from_map(sunder_i_planar_map *map, sunder_sum *sum, sunder_error *err)

@@ -54,7 +54,7 @@ sunder_status sunder_i_map_view_take(sunder_i_planar_map *map, const sunder_sum 
     sunder_map *m = sunder_i_calloc(1, sizeof *m);
     if (!m) {
         sunder_i_planar_map_free(map);
-        return sunder_i_no_memory(err);
+        return sunder_i_failure_cause(err);
     }
     m->map = map;
     m->sum = sum;
@@ -71,7 +71,7 @@ sunder_status sunder_i_map_view_take(sunder_i_planar_map *map, const sunder_sum 
         }
     }
     sunder_i_map_view_free(m);
-    return status == SUNDER_OK ? sunder_i_no_memory(err) : status;
+    return status == SUNDER_OK ? sunder_i_failure_cause(err) : status;
 }
 
 void sunder_i_map_view_free(sunder_map *map)

@@ -220,7 +220,7 @@ sunder_status sunder_sum_vertices(const sunder_sum *sum, const uint32_t *vertex,
     }
     const bool failed = arena.failed;
     sunder_i_arena_free(&arena);
-    if (failed) return sunder_i_no_memory(err);
+    if (failed) return sunder_i_failure_cause(err);
     if (f.most > *deviation) *deviation = f.most;
     return SUNDER_OK;
 }

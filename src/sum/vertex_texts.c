@@ -49,7 +49,7 @@ sunder_status sunder_i_sum_texts(sunder_i_arena *arena, const sunder_sum *sum, s
     if (!text[0] || !text[1]) {
         sunder_i_free(text[0]);
         sunder_i_free(text[1]);
-        return sunder_i_no_memory(err);
+        return sunder_i_failure_cause(err);
     }
     *x = text[0];
     *y = text[1];

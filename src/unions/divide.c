@@ -57,7 +57,7 @@ sunder_status sunder_i_unite_by_halves(sunder_i_uniting *u, sunder_i_planar_map 
 {
     uint32_t n = u->q.pieces;
     sunder_i_planar_map **map = sunder_i_calloc(n, sizeof(sunder_i_planar_map *));
-    if (!map) return sunder_i_no_memory(err);
+    if (!map) return sunder_i_failure_cause(err);
     sunder_status status = SUNDER_OK;
     for (uint32_t j = 0; j < n && status == SUNDER_OK; j++)
         status = sunder_i_unite_some(u, j * u->p.pieces, u->p.pieces, &map[j], err);

@@ -31,7 +31,7 @@ sunder_status sunder_i_feed(sunder_i_uniting *u, const uint32_t *subsum, uint32_
         if (!go_on(u)) return sunder_i_cancelled(err);
         const sunder_i_mark mark = sunder_i_arena_mark(&u->arena);
         sunder_i_convex_sum s;
-        if (!sunder_i_make_subsum(u, subsum[i], &s)) return sunder_i_no_memory(err);
+        if (!sunder_i_make_subsum(u, subsum[i], &s)) return sunder_i_failure_cause(err);
         status = add(map, s.at, s.along, s.corners, err);
         sunder_i_arena_release(&u->arena, mark);
     }

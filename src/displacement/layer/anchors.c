@@ -67,10 +67,10 @@ static sunder_status test_neighbour(holder_search *l, uint32_t f, uint32_t g, do
     if (!holds) {
         const double distance = distance_to_outline(l, g, a);
         *clear = sunder_i_min(*clear, distance);
-        return distance < 0 ? sunder_i_no_memory(err) : SUNDER_OK;
+        return distance < 0 ? sunder_i_failure_cause(err) : SUNDER_OK;
     }
     if (!sunder_i_reserve(&held->pair, &held->capacity, held->n + 1, sizeof *held->pair))
-        return sunder_i_no_memory(err);
+        return sunder_i_failure_cause(err);
     held->pair[held->n++] = (sunder_i_id_pair){f, g};
     return SUNDER_OK;
 }
@@ -131,7 +131,7 @@ static sunder_status find_holders_of_run(holder_search *l, size_t run, sunder_er
     l->near.n = 0;
     if (!sunder_i_rtree_query_leaves(tree, all, &l->near) ||
         !sunder_i_reserve(&l->about.item, &l->about.capacity, l->near.n + 1, sizeof *l->about.item))
-        return sunder_i_no_memory(err);
+        return sunder_i_failure_cause(err);
     for (size_t leaf = first; leaf < end && !status; leaf++)
         if (!sunder_i_is_barrier(l->model, tree->item[leaf])) status = find_holders(l, tree->item[leaf], err);
     return status;
@@ -177,10 +177,10 @@ static sunder_status find_all_holders(sunder_i_model *model, sunder_error *err)
 {
     const size_t batches = (sunder_i_rtree_runs(&model->tree) + RUNS_OF_A_BATCH - 1) / RUNS_OF_A_BATCH;
     holder_search_task all = {model, sunder_i_calloc(batches, sizeof *all.held)};
-    if (!all.held) return sunder_i_no_memory(err);
+    if (!all.held) return sunder_i_failure_cause(err);
     sunder_status status =
         sunder_i_parallel(model->rules.threads, batches, SUNDER_I_GRAIN_WHOLE, find_holders_of_batches, &all, err);
-    if (!status && !merge_held(model, all.held, batches)) status = sunder_i_no_memory(err);
+    if (!status && !merge_held(model, all.held, batches)) status = sunder_i_failure_cause(err);
     for (size_t k = 0; k < batches; k++) sunder_i_free(all.held[k].pair);
     sunder_i_free(all.held);
     for (size_t f = 0; f < model->features && !status; f++) {
@@ -206,10 +206,10 @@ sunder_status sunder_i_model_anchor(sunder_i_model *model, sunder_error *err)
     if (status || model->rules.jumps) return status;
     model->anchor_at = sunder_i_calloc(2 * n, sizeof *model->anchor_at);
     model->clear = sunder_i_calloc(n, sizeof *model->clear);
-    if (!model->anchor_at || !model->clear) return sunder_i_no_memory(err);
+    if (!model->anchor_at || !model->clear) return sunder_i_failure_cause(err);
     status = sunder_i_parallel(model->rules.threads, n, SUNDER_I_GRAIN_BOXES, find_anchors, model, err);
     for (size_t b = 0; b < model->bodies && !status; b++)
-        if (!sunder_i_keep_anchors(model, &model->body[b])) status = sunder_i_no_memory(err);
+        if (!sunder_i_keep_anchors(model, &model->body[b])) status = sunder_i_failure_cause(err);
     return status ? status : find_all_holders(model, err);
 }
 

@@ -49,9 +49,9 @@ sunder_status sunder_i_resolve_things(const sunder_i_model *model, size_t a, siz
                                       sunder_i_resolution *out, sunder_error *err);
 
 /* The same as sunder_i_resolve_things() for moves within the limits of the two things, INFINITY for no limit. If the
- * pair owes no gap and may not be resolved by a place of one inside the other, a length that exceeds the sum of the
- * limits by one unit in the last place is beyond them. With a gap, and for barriers, lengths up to the rounded-up sum
- * of the limits count as within them. */
+ * pair does not have to keep a gap and may not be resolved by a place of one inside the other, a length that exceeds
+ * the sum of the limits by one unit in the last place is beyond them. With a gap, and for barriers, lengths up to the
+ * rounded-up sum of the limits count as within them. */
 sunder_status sunder_i_resolve_within(const sunder_i_model *model, size_t a, size_t b, const double limit[2],
                                       sunder_i_resolution *out, sunder_error *err);
 

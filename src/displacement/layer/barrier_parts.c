@@ -135,14 +135,14 @@ static void set_required(double half, double gap, double out[2])
 static sunder_status make_shapes(sunder_i_barriers *b, sunder_error *err)
 {
     b->shape = sunder_i_calloc(b->parts, sizeof *b->shape);
-    if (!b->shape) return sunder_i_no_memory(err);
+    if (!b->shape) return sunder_i_failure_cause(err);
     for (uint32_t k = 0; k < b->parts; k++) {
         const uint32_t first = k ? b->piece_end[k - 1] : 0;
         const sunder_status status =
             sunder_i_shape_of_pieces(b->piece + first, b->piece_end[k] - first, &b->shape[k], err);
         if (status) return status;
         b->flat = b->flat || b->shape[k]->flat;
-        if (!sunder_i_step()) return sunder_i_no_memory(err);
+        if (!sunder_i_step()) return sunder_i_failure_cause(err);
     }
     return SUNDER_OK;
 }
@@ -155,7 +155,7 @@ sunder_status sunder_i_barriers_make(const sunder_layer *layer, double gap, sund
     out->part_end = sunder_i_alloc(layer->barriers, sizeof *out->part_end);
     out->half = sunder_i_alloc(layer->barriers, sizeof *out->half);
     out->required = sunder_i_alloc(layer->barriers, sizeof *out->required);
-    if (!out->part_end || !out->half || !out->required) return sunder_i_no_memory(err);
+    if (!out->part_end || !out->half || !out->required) return sunder_i_failure_cause(err);
     for (uint32_t k = 0; k < out->n; k++) {
         const sunder_barrier *barrier = &layer->barrier[k];
         out->half[k] = barrier->width / 2;
@@ -164,7 +164,7 @@ sunder_status sunder_i_barriers_make(const sunder_layer *layer, double gap, sund
             return sunder_i_fail(err, SUNDER_EARG, "barrier %u: half the width and the gap are too much for a double",
                                  k);
         out->farthest = sunder_i_max(out->farthest, sunder_i_required_above(out, k));
-        if (!add_barrier(&m, k, &barrier->geometry)) return sunder_i_no_memory(err);
+        if (!add_barrier(&m, k, &barrier->geometry)) return sunder_i_failure_cause(err);
         if (m.pieces >= UINT32_MAX - layer->n)
             return sunder_i_fail(err, SUNDER_ESIZE, "too many pieces of barriers: %zu", m.pieces);
     }
@@ -197,7 +197,7 @@ sunder_status sunder_i_barrier_near(const sunder_i_barriers *barriers, const sun
             if (ok) piece[n++] = barriers->piece[i];
         }
     }
-    sunder_status status = ok ? SUNDER_OK : sunder_i_no_memory(err);
+    sunder_status status = ok ? SUNDER_OK : sunder_i_failure_cause(err);
     if (!status && n) status = sunder_i_shape_of_pieces(piece, n, out, err);
     sunder_i_free(piece);
     sunder_i_free(near.item);

@@ -88,7 +88,7 @@ sunder_status sunder_i_model_cut(sunder_i_model *model, sunder_error *err)
     if (status) return status;
     if (!number_pieces(model, &pieces)) return sunder_i_fail(err, SUNDER_ESIZE, "too many pieces: %zu", pieces);
     model->whole = sunder_i_calloc(model->bodies, sizeof *model->whole);
-    if (!sunder_i_pieces_begin(model) || !model->whole) return sunder_i_no_memory(err);
+    if (!sunder_i_pieces_begin(model) || !model->whole) return sunder_i_failure_cause(err);
     return sunder_i_inclusion_walls(model, err);
 }
 
@@ -132,7 +132,7 @@ static sunder_status unite_members(sunder_i_model *model, uint32_t b, sunder_err
     }
     double *xy = sunder_i_alloc(2 * corners, sizeof *xy);
     size_t *ring_end = sunder_i_alloc(rings, sizeof *ring_end), *poly_end = sunder_i_alloc(polygons, sizeof *poly_end);
-    sunder_status status = xy && ring_end && poly_end ? SUNDER_OK : sunder_i_no_memory(err);
+    sunder_status status = xy && ring_end && poly_end ? SUNDER_OK : sunder_i_failure_cause(err);
     polygons = rings = corners = 0;
     for (uint32_t m = 0; !status && m < body->members; m++) {
         const uint32_t f = model->member[body->member + m];

@@ -67,7 +67,7 @@ static sunder_status set_cover_corners(sunder_i_model *model, sunder_error *err)
     if (!shrink_array(&model->diagonal_cover, n, sizeof *model->diagonal_cover) ||
         !shrink_array(&model->diagonal_cover_vertices, 4 * n, sizeof *model->diagonal_cover_vertices) ||
         !shrink_array(&model->diagonal_cover_corner, 8 * n, sizeof *model->diagonal_cover_corner))
-        return sunder_i_no_memory(err);
+        return sunder_i_failure_cause(err);
     for (size_t k = 0; k < n; k++) model->diagonal_cover[k].corner = model->diagonal_cover_corner + 8 * k;
     return SUNDER_OK;
 }
@@ -111,7 +111,7 @@ sunder_status sunder_i_model_cover_diagonals_of(sunder_i_model *model, const uin
     cover_lists g = {model, model->diagonal_covers, 4 * model->diagonal_covers, 8 * model->diagonal_covers};
     if (model->has_diagonal_covers || are_covers_useless(model)) return SUNDER_OK;
     for (size_t k = 0; k < n; k++)
-        if (!cover_body(&g, &model->body[body[k]])) return sunder_i_no_memory(err);
+        if (!cover_body(&g, &model->body[body[k]])) return sunder_i_failure_cause(err);
     return set_cover_corners(model, err);
 }
 
@@ -121,6 +121,6 @@ sunder_status sunder_i_model_cover_diagonals(sunder_i_model *model, sunder_error
     if (model->has_diagonal_covers || are_covers_useless(model)) return SUNDER_OK;
     model->has_diagonal_covers = true;
     for (size_t b = 0; b < model->bodies; b++)
-        if (!cover_body(&g, &model->body[b])) return sunder_i_no_memory(err);
+        if (!cover_body(&g, &model->body[b])) return sunder_i_failure_cause(err);
     return set_cover_corners(model, err);
 }

@@ -129,5 +129,5 @@ sunder_status sunder_i_order_layer(const sunder_layer *layer, const sunder_i_bar
     for (size_t k = 0; ok && k < n && as_given; k++) out->number[k] = (uint32_t)k;
     if (ok && !as_given) ok = sort_by_place(layer, out->number);
     if (ok) append_parts(barriers, out);
-    return ok ? SUNDER_OK : sunder_i_no_memory(err);
+    return ok ? SUNDER_OK : sunder_i_failure_cause(err);
 }

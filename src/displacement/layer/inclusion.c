@@ -1,9 +1,9 @@
 /* Keeps a feature inside another one that it lies in and may overlap.
  *
- * Such a pair owes no gap, but if an edge of the holder cut through the inner feature the two would be in conflict. So
- * the edges of the holder are walls for the inner feature: convex pieces without area that it must not cross. It lies
- * inside at the start, and remains inside as long as no wall crosses it. In the quadratic programs walls are
- * constraints like all others. If an inner feature cannot be kept inside, its inclusion lapses and the pair is
+ * Such a pair does not have to keep a gap, but if an edge of the holder cut through the inner feature the two would be
+ * in conflict. So the edges of the holder are walls for the inner feature: convex pieces without area that it must not
+ * cross. It lies inside at the start, and remains inside as long as no wall crosses it. In the quadratic programs walls
+ * are constraints like all others. If an inner feature cannot be kept inside, its inclusion lapses and the pair is
  * separated.
  *
  * Many inner features touch the edge of their holder, and with a tolerance they may overstep it. So a wall never
@@ -56,7 +56,7 @@ sunder_status sunder_i_inclusions_init(sunder_i_model *model, const sunder_i_rel
     size_t n = 0;
     for (size_t k = 0; k < relations->n; k++) n += relations->pair[k].kept;
     model->inclusion = sunder_i_alloc(n, sizeof *model->inclusion);
-    if (!model->inclusion) return sunder_i_no_memory(err);
+    if (!model->inclusion) return sunder_i_failure_cause(err);
     for (size_t k = 0; k < relations->n; k++) {
         const sunder_i_relation *r = &relations->pair[k];
         if (r->kept) model->inclusion[model->inclusions++] = (sunder_i_inclusion){r->a, r->b, .a_inside = r->a_in_b};
@@ -70,7 +70,7 @@ sunder_status sunder_i_inclusions_note_nested(sunder_i_model *model, const sunde
     size_t n = 0;
     for (size_t k = 0; k < relations->n; k++) n += relations->pair[k].contained;
     model->nested = sunder_i_alloc(n, sizeof *model->nested);
-    if (!model->nested) return sunder_i_no_memory(err);
+    if (!model->nested) return sunder_i_failure_cause(err);
     for (size_t k = 0; k < relations->n; k++) {
         const sunder_i_relation *r = &relations->pair[k];
         const uint32_t i = model->body_of[r->a], j = model->body_of[r->b];
@@ -86,7 +86,7 @@ sunder_status sunder_i_inclusions_add(sunder_i_model *model, uint32_t a, uint32_
     const sunder_i_inclusion pair = {a, b, a_inside, true, SUNDER_I_STRICT};
     size_t at = model->inclusions;
     sunder_i_inclusion *list = sunder_i_realloc(model->inclusion, at + 1, sizeof *list);
-    if (!list) return sunder_i_no_memory(err);
+    if (!list) return sunder_i_failure_cause(err);
     for (; at > 0 && sunder_i_by_id_pair(&list[at - 1], &pair) > 0; at--) list[at] = list[at - 1];
     list[at] = pair;
     SUNDER_I_ASSERT(a < b && (at == 0 || sunder_i_by_id_pair(&list[at - 1], &pair) < 0));
@@ -123,7 +123,7 @@ sunder_status sunder_i_inclusions_choose(sunder_i_model *model, const sunder_i_r
     const size_t n = model->inclusions;
     /* Pairs (inner feature, number of the inclusion), sorted, so that the holders of one feature are consecutive. */
     sunder_i_id_pair *by_inner = sunder_i_alloc(n, sizeof *by_inner);
-    if (!by_inner) return sunder_i_no_memory(err);
+    if (!by_inner) return sunder_i_failure_cause(err);
     for (uint32_t k = 0; k < n; k++) by_inner[k] = (sunder_i_id_pair){inner_of(&model->inclusion[k]), k};
     if (n) qsort(by_inner, n, sizeof *by_inner, sunder_i_by_id_pair);
     for (size_t k = 0; k < n; k++)
@@ -151,8 +151,7 @@ static void add_walls(sunder_i_model *model, const sunder_i_body *body, uint32_t
         wall->corner = p;
         wall->corners = 2;
         const uint32_t ends[2] = {v, shape->form->cleaned.next[v]};
-        for (size_t e = 0; e < 2; e++)
-            memcpy(p + 2 * e, shape->xy + 2 * (size_t)ends[e], 2 * sizeof *p);
+        for (size_t e = 0; e < 2; e++) memcpy(p + 2 * e, shape->xy + 2 * (size_t)ends[e], 2 * sizeof *p);
         sunder_i_reckon_from_origin(body, p, 2);
         for (size_t c = 0; c < 2; c++) {
             wall->box[c] = sunder_i_min(p[c], p[c + 2]);
@@ -165,7 +164,7 @@ sunder_status sunder_i_inclusion_walls(sunder_i_model *model, sunder_error *err)
 {
     if (model->inclusions + model->nested_n == 0) return SUNDER_OK;
     bool *holds = sunder_i_calloc(model->features, sizeof *holds);
-    if (!holds) return sunder_i_no_memory(err);
+    if (!holds) return sunder_i_failure_cause(err);
     size_t edges = 0;
     for (size_t k = 0; k < model->inclusions; k++) holds[holder_of(&model->inclusion[k])] = true;
     for (size_t k = 0; k < model->nested_n; k++) holds[holder_of(&model->nested[k])] = true;
@@ -177,7 +176,7 @@ sunder_status sunder_i_inclusion_walls(sunder_i_model *model, sunder_error *err)
     if (!status) {
         model->wall = sunder_i_alloc(edges, sizeof *model->wall);
         model->wall_corner = sunder_i_alloc(4 * edges, sizeof *model->wall_corner);
-        if (!model->wall || !model->wall_corner) status = sunder_i_no_memory(err);
+        if (!model->wall || !model->wall_corner) status = sunder_i_failure_cause(err);
     }
     for (size_t b = 0; !status && b < model->bodies; b++) {
         sunder_i_body *body = &model->body[b];
@@ -191,7 +190,7 @@ sunder_status sunder_i_inclusion_walls(sunder_i_model *model, sunder_error *err)
             extras->wall = (uint32_t)first;
             extras->walls = (uint32_t)(model->walls - first);
         } else {
-            status = sunder_i_no_memory(err);
+            status = sunder_i_failure_cause(err);
         }
     }
     sunder_i_free(holds);

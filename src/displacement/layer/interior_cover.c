@@ -121,7 +121,7 @@ static sunder_status assemble_cover(const sunder_shape *shape, const sunder_i_di
 {
     sunder_i_piece_of *piece = sunder_i_alloc(shape->pieces + diagonals->n, sizeof *piece);
     out->corner = sunder_i_alloc(8 * diagonals->n, sizeof *out->corner);
-    sunder_status status = piece && out->corner ? SUNDER_OK : sunder_i_no_memory(err);
+    sunder_status status = piece && out->corner ? SUNDER_OK : sunder_i_failure_cause(err);
     size_t n = 0;
     for (uint32_t i = 0; i < shape->pieces && !status; i++)
         piece[n++] = (sunder_i_piece_of){.shape = shape, .piece = i};
@@ -129,7 +129,7 @@ static sunder_status assemble_cover(const sunder_shape *shape, const sunder_i_di
         double *corner = out->corner + 8 * i;
         if (all_doubles(shape, diagonals->corner[i]) && find_quadrilateral(shape->xy, diagonals->corner[i], corner))
             piece[n++] = (sunder_i_piece_of){.n = 4, .xy = corner};
-        if (!sunder_i_steps(SEAM_STEPS)) status = sunder_i_no_memory(err);
+        if (!sunder_i_steps(SEAM_STEPS)) status = sunder_i_failure_cause(err);
     }
     if (!status) status = sunder_i_shape_of_pieces(piece, n, &out->shape, err);
     sunder_i_free(piece);
@@ -144,7 +144,7 @@ sunder_status sunder_i_interior_cover_make(const sunder_shape *shape, sunder_i_i
     if (status) return status;
     const sunder_shape *whole = out->whole ? out->whole : shape;
     sunder_i_diagonals diagonals;
-    if (!sunder_i_diagonals_find(whole, &diagonals)) return sunder_i_no_memory(err);
+    if (!sunder_i_diagonals_find(whole, &diagonals)) return sunder_i_failure_cause(err);
     if (diagonals.n || out->whole) status = assemble_cover(whole, &diagonals, out, err);
     sunder_i_diagonals_free(&diagonals);
     return status;

@@ -21,8 +21,8 @@ typedef struct sunder_i_diagonal_cover {
     uint32_t diagonal[4];
 } sunder_i_diagonal_cover;
 
-/* Finds the quadrilaterals around the diagonals of a shape. Sets *seam to an array of *n, which the caller frees.
- * Diagonals without one are left out. Returns false if memory is out. */
+/* Finds the quadrilaterals around the diagonals of a shape. Sets *diagonal_cover to an array of *n, which the caller
+ * frees. Diagonals without one are left out. Returns false if memory is out. */
 bool sunder_i_diagonal_covers_find(const sunder_shape *shape, sunder_i_diagonal_cover **diagonal_cover, size_t *n);
 /* Recomputes the corners of a quadrilateral from the vertices in sunder_i_diagonal_cover.diagonal. */
 void sunder_i_diagonal_cover_corners(const sunder_shape *shape, const uint32_t diagonal[4], double corner[8]);

@@ -91,11 +91,11 @@ static sunder_status find_crossed(const sunder_i_jumps *jumps, const sunder_i_mo
 {
     sunder_status status = SUNDER_OK;
     near->n = 0;
-    if (!find_parts(jumps, model, f, near)) status = sunder_i_no_memory(err);
+    if (!find_parts(jumps, model, f, near)) status = sunder_i_failure_cause(err);
     for (size_t k = 0; k < near->n && !status; k++) {
         bool crosses;
         status = sunder_i_jumps_over(jumps, model, f, near->item[k], &crosses, err);
-        if (!status && crosses && !sunder_i_list_push(found, near->item[k])) status = sunder_i_no_memory(err);
+        if (!status && crosses && !sunder_i_list_push(found, near->item[k])) status = sunder_i_failure_cause(err);
     }
     return status;
 }
@@ -129,7 +129,7 @@ static sunder_status find_jumped(const pair_search *s, uint32_t f, sunder_i_list
     sunder_i_reads_begin(&reading, s->model, s->model->body_of[f]);
     const bool ok = find_near(s->jumps, s->model, f, near);
     sunder_i_reads_end(&reading);
-    if (!ok) return sunder_i_no_memory(err);
+    if (!ok) return sunder_i_failure_cause(err);
     for (size_t i = 0; i < near->n && !status; i++) {
         const uint32_t g = near->item[i];
         bool jumps = false;
@@ -137,7 +137,7 @@ static sunder_status find_jumped(const pair_search *s, uint32_t f, sunder_i_list
         if (jumps) near->item[kept++] = g;
     }
     near->n = kept;
-    return status || sunder_i_list_copy(list, near) ? status : sunder_i_no_memory(err);
+    return status || sunder_i_list_copy(list, near) ? status : sunder_i_failure_cause(err);
 }
 
 static sunder_status find_partners(void *context, size_t begin, size_t end, sunder_error *err)
@@ -184,7 +184,7 @@ sunder_status sunder_i_jumps_update(sunder_i_jumps *jumps, const sunder_i_model 
                                : sunder_i_path_tree_begin(&jumps->paths, model, err);
     const size_t most = changes ? changes->list.n : model->features;
     uint32_t *asked = sunder_i_alloc(most, sizeof *asked);
-    if (!status && !asked) status = sunder_i_no_memory(err);
+    if (!status && !asked) status = sunder_i_failure_cause(err);
     size_t n = 0;
     for (size_t k = 0; k < most && !status; k++) {
         const uint32_t f = changes ? changes->list.item[k] : (uint32_t)k;
@@ -197,9 +197,9 @@ sunder_status sunder_i_jumps_update(sunder_i_jumps *jumps, const sunder_i_model 
     for (size_t k = 0; k < present && !status; k++)
         if (is_asked(&s, asked[k])) asked[n++] = asked[k];
     sunder_i_list *found = s.found = sunder_i_calloc(n, sizeof *found);
-    if (!status && !found) status = sunder_i_no_memory(err);
+    if (!status && !found) status = sunder_i_failure_cause(err);
     if (!status) status = sunder_i_parallel(model->rules.threads, n, SUNDER_I_GRAIN_TESTS, find_partners, &s, err);
-    if (!status && !collect_pairs(jumps, &s, n)) status = sunder_i_no_memory(err);
+    if (!status && !collect_pairs(jumps, &s, n)) status = sunder_i_failure_cause(err);
     for (size_t k = 0; k < n && found; k++) sunder_i_free(found[k].item);
     sunder_i_free(found);
     sunder_i_free(asked);
@@ -230,11 +230,11 @@ sunder_status sunder_i_jumps_of_body(const sunder_i_jumps *jumps, const sunder_i
         const uint32_t f = model->member[b->member + m];
         if (!model->present[f]) continue;
         near->n = 0;
-        if (sunder_i_jumps_begun(jumps) && !find_near(jumps, model, f, near)) return sunder_i_no_memory(err);
+        if (sunder_i_jumps_begun(jumps) && !find_near(jumps, model, f, near)) return sunder_i_failure_cause(err);
         for (size_t k = 0; k < near->n && !status && !*any; k++)
             status = ask_both(jumps, model, f, near->item[k], any, err);
         near->n = 0;
-        if (!status && model->sides && !find_parts(jumps, model, f, near)) return sunder_i_no_memory(err);
+        if (!status && model->sides && !find_parts(jumps, model, f, near)) return sunder_i_failure_cause(err);
         for (size_t k = 0; k < near->n && !status && !*any; k++)
             status = sunder_i_jumps_over(jumps, model, f, near->item[k], any, err);
     }

@@ -55,7 +55,7 @@ sunder_status sunder_layer_new(const sunder_feature *features, size_t n, sunder_
     sunder_layer *layer = sunder_i_calloc(1, sizeof *layer);
     if (!layer || !take_features(layer, features, n)) {
         sunder_layer_free(layer);
-        return sunder_i_no_memory(err);
+        return sunder_i_failure_cause(err);
     }
     *out = layer;
     return SUNDER_OK;
@@ -88,7 +88,7 @@ sunder_status sunder_layer_set_barriers(sunder_layer *layer, const sunder_barrie
         if (status) return status;
     }
     sunder_barrier *copy = sunder_i_alloc(n, sizeof *copy);
-    if (!copy) return sunder_i_no_memory(err);
+    if (!copy) return sunder_i_failure_cause(err);
     if (n) memcpy(copy, barriers, n * sizeof *copy);
     sunder_i_free(layer->barrier);
     layer->barrier = copy;
@@ -101,7 +101,7 @@ sunder_status sunder_layer_set_side_anchors(sunder_layer *layer, const double *x
     double *copy = NULL;
     if (xy) {
         copy = sunder_i_alloc(2 * layer->n, sizeof *copy);
-        if (!copy) return sunder_i_no_memory(err);
+        if (!copy) return sunder_i_failure_cause(err);
         if (layer->n) memcpy(copy, xy, 2 * layer->n * sizeof *copy);
     }
     sunder_i_free(layer->side_anchor);

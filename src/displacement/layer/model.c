@@ -68,7 +68,7 @@ static sunder_status make_interior_covers(sunder_i_model *model, sunder_error *e
 {
     if (!model->barriers->flat) return SUNDER_OK;
     model->interior_cover = sunder_i_calloc(model->features, sizeof *model->interior_cover);
-    if (!model->interior_cover) return sunder_i_no_memory(err);
+    if (!model->interior_cover) return sunder_i_failure_cause(err);
     return sunder_i_parallel(model->rules.threads, model->features, SUNDER_I_GRAIN_SHAPES, make_some_interior_covers,
                              model, err);
 }
@@ -102,7 +102,7 @@ static sunder_status find_some_present(void *context, size_t begin, size_t end, 
 static sunder_status build_tree(sunder_i_model *model, sunder_error *err)
 {
     presence p = {model, sunder_i_alloc(4 * model->things, sizeof *p.box), 0};
-    if (!p.box) return sunder_i_no_memory(err);
+    if (!p.box) return sunder_i_failure_cause(err);
     sunder_status status =
         sunder_i_parallel(model->rules.threads, model->things, SUNDER_I_GRAIN_LOOKS, find_some_present, &p, err);
     model->vertices = p.vertices;
@@ -125,7 +125,7 @@ sunder_status sunder_i_model_init(const sunder_layer *layer, const sunder_i_barr
     model->member = sunder_i_alloc(n, sizeof *model->member);
     model->present = sunder_i_calloc(n, sizeof *model->present);
     model->inexact = sunder_i_calloc(n, sizeof *model->inexact);
-    if (!model->body_of || !model->member || !model->present || !model->inexact) return sunder_i_no_memory(err);
+    if (!model->body_of || !model->member || !model->present || !model->inexact) return sunder_i_failure_cause(err);
     sunder_status status = build_tree(model, err);
     if (!status) status = sunder_i_thin_disc(rules->tolerance, &model->disc, err);
     model->rules.disc = model->disc;
@@ -236,7 +236,7 @@ sunder_status sunder_i_model_join(sunder_i_model *model, const sunder_i_relation
 {
     const size_t n = model->things;
     uint32_t *parent = sunder_i_alloc(n, sizeof *parent);
-    if (!parent) return sunder_i_no_memory(err);
+    if (!parent) return sunder_i_failure_cause(err);
     sunder_i_union_init(parent, n);
     for (size_t k = 0; k < relations->n; k++) {
         const sunder_i_relation *r = &relations->pair[k];
@@ -244,9 +244,9 @@ sunder_status sunder_i_model_join(sunder_i_model *model, const sunder_i_relation
             sunder_i_union_join(parent, r->a, r->b);
     }
     sunder_status status = unite_labelled(model->layer, parent) ? sunder_i_inclusions_init(model, relations, err)
-                                                                : sunder_i_no_memory(err);
-    if (!status && !number_bodies(model, parent)) status = sunder_i_no_memory(err);
-    if (!status && model->rules.keep_worlds && !keep_reads(model)) status = sunder_i_no_memory(err);
+                                                                : sunder_i_failure_cause(err);
+    if (!status && !number_bodies(model, parent)) status = sunder_i_failure_cause(err);
+    if (!status && model->rules.keep_worlds && !keep_reads(model)) status = sunder_i_failure_cause(err);
     SUNDER_I_CHECK(status ? NULL : check_bodies(model), model->things);
     sunder_i_free(parent);
     return status;

@@ -18,8 +18,10 @@
 typedef struct sunder_i_extras {
     uint32_t wall, walls; /* the edges of its members that hold other features inside, in sunder_i_model.wall */
     uint32_t diagonal_cover,
-        diagonal_covers; /* pieces that cover the diagonals between its convex pieces, in sunder_i_model.seam */
-    uint32_t wall_cover, wall_covers; /* pieces that cover the walls that its members share, in sunder_i_model.joint */
+        diagonal_covers; /* pieces that cover the diagonals between its convex pieces, in the arrays diagonal_cover_...
+                          * of sunder_i_model */
+    uint32_t wall_cover, wall_covers; /* pieces that cover the walls that its members share, in the array wall_cover of
+                                       * sunder_i_model */
     uint32_t side, sides;             /* if the body is a part of a barrier: the lines of it that may not be crossed, in
                              * sunder_i_model.side */
     double anchors[4];                /* if it has many members: the box of their anchors (sunder_i_anchors()) */
@@ -135,17 +137,17 @@ struct sunder_i_model {
     _Atomic(sunder_i_body_pieces *) *made; /* [bodies] the pieces of each, or NULL until they are made; see
                                             * sunder_i_pieces_of() */
     struct sunder_i_pieces_store *store;   /* the memory of the pieces */
-    /* anchor_at, clear and held are set only if jumps are not allowed, and covers (seam, joint) also if a barrier owes
-     * no distance; otherwise they are NULL. */
+    /* anchor_at, clear and held are set only if jumps are not allowed, and covers (the members diagonal_cover... and
+     * wall_cover...) also if a barrier requires no distance; otherwise they are NULL. */
     double *anchor_at; /* [2 * features] the anchors in coordinates of the layer */
     double *clear;     /* [features] a lower bound of the distance from each anchor to the nearest feature of
                                 * another body that does not contain it */
     sunder_i_body_piece *
         diagonal_cover; /* convex pieces of features that cover the diagonals between their pieces; diagonal_covers.c */
-    double *diagonal_cover_corner; /* [8 * seams] the four corners of each, relative to the body's origin */
-    uint32_t *
-        diagonal_cover_vertices; /* [4 * seams] the vertices from which sunder_i_diagonal_cover_corners() recomputes the
-                                  * corners as given */
+    double *diagonal_cover_corner; /* [8 * diagonal covers] the four corners of each, relative to the body's origin */
+    uint32_t
+        *diagonal_cover_vertices; /* [4 * diagonal covers] the vertices from which sunder_i_diagonal_cover_corners()
+                                  * recomputes the corners as given */
     size_t diagonal_covers;
     bool has_diagonal_covers; /* the covers of diagonals have been made for all bodies */
     sunder_i_wall_cover
@@ -377,7 +379,7 @@ bool sunder_i_is_held(const sunder_i_model *model, uint32_t f, uint32_t g);
 
 /* ---- diagonal_covers.c ------------------------------------------------------------------------------------------- */
 
-/* Is there a barrier without area that owes no distance? A feature could meet it along a diagonal without meeting a
+/* Is there a barrier without area that requires no distance? A feature could meet it along a diagonal without meeting a
  * piece. */
 bool sunder_i_has_bare_barriers(const sunder_i_model *model);
 /* Makes the covers of diagonals that are still missing, for all bodies or for the n bodies in `body`. Pieces must have

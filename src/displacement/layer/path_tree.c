@@ -104,7 +104,7 @@ sunder_status sunder_i_path_tree_begin(sunder_i_path_tree *tree, const sunder_i_
 {
     tree->packed = model->tree.packed;
     tree->hull = room_for_hulls(tree, model);
-    if (!tree->hull) return sunder_i_no_memory(err);
+    if (!tree->hull) return sunder_i_failure_cause(err);
     make_hulls(tree, model);
     return SUNDER_OK;
 }
@@ -132,14 +132,14 @@ static sunder_status reorder_leaves(sunder_i_path_tree *tree, const sunder_i_mod
 {
     const size_t n = model->features;
     double *path = sunder_i_alloc(4 * n, sizeof *path);
-    if (!path) return sunder_i_no_memory(err);
+    if (!path) return sunder_i_failure_cause(err);
     for (uint32_t f = 0; f < n; f++)
         if (model->present[f]) sunder_i_path_box(tree, model, f, path + 4 * (size_t)f);
     sunder_i_path_tree_free(tree);
     sunder_status status = sunder_i_rtree_build(path, model->present, n, &tree->longer, err);
     sunder_i_free(path);
     tree->hull = status ? NULL : room_for_hulls(tree, model);
-    if (!status && !tree->hull) status = sunder_i_no_memory(err);
+    if (!status && !tree->hull) status = sunder_i_failure_cause(err);
     if (!status) make_hulls(tree, model);
     tree->packed = tree->sprawl;
     return status;

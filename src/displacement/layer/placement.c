@@ -25,7 +25,7 @@ sunder_status sunder_i_placement_init(const sunder_i_model *model, sunder_i_plac
     placement->was_rounded = sunder_i_calloc(n, sizeof *placement->was_rounded);
     if (!placement->move || !placement->rounded || (model->interior_cover && !placement->interior_cover) ||
         !placement->was_rounded)
-        return sunder_i_no_memory(err);
+        return sunder_i_failure_cause(err);
     placement->tree = sunder_i_rtree_lend(&model->tree); /* every feature is at its original position */
     return SUNDER_OK;
 }
@@ -86,7 +86,7 @@ sunder_status sunder_i_placement_move(sunder_i_model *model, sunder_i_placement 
     if (status) return status;
     if (!sunder_i_rtree_is_worn(&placement->tree)) return SUNDER_OK;
     double *box = sunder_i_rtree_boxes(&placement->tree, model->things);
-    if (!box) return sunder_i_no_memory(err);
+    if (!box) return sunder_i_failure_cause(err);
     sunder_i_rtree_free(&placement->tree);
     status = sunder_i_rtree_build(box, model->present, model->things, &placement->tree, err);
     sunder_i_free(box);
@@ -181,7 +181,7 @@ static sunder_status find_partners(void *context, size_t begin, size_t end, sund
     }
     sunder_i_free(near.item);
     sunder_i_free(leaves.item);
-    return ok ? SUNDER_OK : sunder_i_no_memory(err);
+    return ok ? SUNDER_OK : sunder_i_failure_cause(err);
 }
 
 /* Sorts the n features asked about by their leaves in the tree, and finds where each run of leaves begins among them;
@@ -261,7 +261,7 @@ sunder_status sunder_i_placement_visit(const sunder_i_model *model, const sunder
         const uint32_t f = model->member[b->member + m];
         if (!model->present[f]) continue;
         near->n = 0;
-        if (!sunder_i_placement_near(model, placement, f, near)) return sunder_i_no_memory(err);
+        if (!sunder_i_placement_near(model, placement, f, near)) return sunder_i_failure_cause(err);
         if (near->n) qsort(near->item, near->n, sizeof *near->item, sunder_i_by_number);
         for (size_t k = 0; k < near->n && on && !status; k++) {
             const uint32_t g = near->item[k];
@@ -332,14 +332,14 @@ static sunder_status find_pairs(const sunder_i_model *model, const sunder_i_plac
     bool ok = asked && first && place && found && order_by_runs(&search, n, place, first, &runs);
     if (ok) search.partner = sunder_i_calloc(runs, sizeof *search.partner);
     ok = ok && search.partner;
-    sunder_status status = ok ? SUNDER_OK : sunder_i_no_memory(err);
+    sunder_status status = ok ? SUNDER_OK : sunder_i_failure_cause(err);
     if (!status)
         status = sunder_i_parallel(model->rules.threads, runs, SUNDER_I_GRAIN_TESTS, find_partners, &search, err);
     sunder_i_free(first);
     sunder_i_free(place);
     if (!status) {
         *pair = collect_pairs(&search, n, pairs);
-        if (!*pair) status = sunder_i_no_memory(err);
+        if (!*pair) status = sunder_i_failure_cause(err);
     }
     for (size_t run = 0; run < runs && search.partner; run++) sunder_i_free(search.partner[run]);
     sunder_i_free(search.partner);
@@ -463,7 +463,7 @@ sunder_status sunder_i_placement_relate_again(const sunder_i_model *model, const
     sunder_status status = relate_changed(&c, changes, &n, &tested, err);
     if (!status && !(things && replace_pairs(changes, things, c.pair, n, relations))) {
         drop_changed(changes->is, relations);
-        if (!insert_pairs(relations, c.pair, n)) status = sunder_i_no_memory(err);
+        if (!insert_pairs(relations, c.pair, n)) status = sunder_i_failure_cause(err);
     }
     if (!status) relations->tested = tested;
     sunder_i_free(c.pair);

@@ -25,7 +25,7 @@ typedef struct sunder_i_relation {
     bool kept;      /* contained, and the rules allow such pairs to overlap */
 } sunder_i_relation;
 
-/* Sets all flags of the relation of a and b, exactly; not a and b of it. */
+/* Sets all flags of the relation of a and b, exactly; its members a and b are left unchanged. */
 sunder_status sunder_i_relate(const sunder_i_rules *rules, const sunder_i_translate *a, const sunder_i_translate *b,
                               sunder_i_relation *relation, sunder_error *err);
 

@@ -365,7 +365,7 @@ sunder_status sunder_i_relaxations_make(const sunder_i_model *model, uint32_t bo
             status = sunder_i_relaxation_of(model, f, g, &relaxation, err);
             if (!status && relaxation.gap < reach + (sunder_i_owed_above(model, f, g) - model->rules.gap) &&
                 !sunder_i_relaxations_spread(out, model, &relaxation, reach))
-                status = sunder_i_no_memory(err);
+                status = sunder_i_failure_cause(err);
         }
     }
     return status;

@@ -31,7 +31,7 @@ static sunder_status are_apart(const sunder_i_model *model, uint32_t a, uint32_t
 }
 
 /* Sets out->clearance to a length just below the pair's distance, which is about `near`, but at most the distance that
- * the pair owes. Sets it to 0 if no such length is found. */
+ * the pair has to keep. Sets it to 0 if no such length is found. */
 static sunder_status below_distance(const sunder_i_model *model, double near, sunder_i_requirement *out,
                                     sunder_error *err)
 {

@@ -18,8 +18,8 @@ static inline bool sunder_i_may_be_inside(const sunder_i_rules *rules)
     return rules->contained == SUNDER_CONTAINMENT_IGNORE;
 }
 
-/* Are the two things in conflict in their present positions? (Members of one block owe each other nothing; the caller
- * excludes them.) */
+/* Are the two things in conflict in their present positions? (Members of one block do not have to keep a distance; the
+ * caller excludes them.) */
 static inline bool sunder_i_is_conflict(const sunder_i_relation *r) { return r->near && !r->kept; }
 
 /* The relative moves of b that resolve a pair, by their lengths. */

@@ -143,7 +143,7 @@ sunder_status sunder_i_roomy_place(const sunder_i_translate *a, const sunder_i_t
     *found = false;
     if (!collect_sides(of, &sides) || !sunder_i_steps(sides.n)) {
         sunder_i_free(sides.side);
-        return sunder_i_no_memory(err);
+        return sunder_i_failure_cause(err);
     }
     *found = search_squares(&sides, radius, place);
     sunder_i_free(sides.side);

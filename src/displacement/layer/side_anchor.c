@@ -119,7 +119,7 @@ static sunder_status widest_interval(sunder_i_side_cut *c, const sunder_i_cut_pa
         widest = width;
         *out = middle;
     }
-    return widest.w.size && !c->arena.failed ? SUNDER_OK : sunder_i_no_memory(err);
+    return widest.w.size && !c->arena.failed ? SUNDER_OK : sunder_i_failure_cause(err);
 }
 
 static sunder_status point_of(sunder_i_side_cut *c, const sunder_i_cut_part *p, sunder_i_rational_point *out,
@@ -133,7 +133,7 @@ static sunder_status point_of(sunder_i_side_cut *c, const sunder_i_cut_part *p, 
     for (uint32_t k = 0; order && k < l.n; k++) order[k] = k;
     point_order s = {c, l.at};
     sunder_status status = SUNDER_OK;
-    if (!order || l.failed || !sunder_i_sort_indices(order, l.n, by_x, &s)) status = sunder_i_no_memory(err);
+    if (!order || l.failed || !sunder_i_sort_indices(order, l.n, by_x, &s)) status = sunder_i_failure_cause(err);
     if (!status) status = widest_interval(c, p, &l, order, out, err);
     sunder_i_free(order);
     sunder_i_free(l.at);
@@ -197,7 +197,7 @@ static sunder_status keep_roomiest(sunder_i_side_cut *c, const sunder_i_side_sco
     double box[4];
     size_t lines, kept = 0;
     sunder_i_box_grow(c->shape->box, reach, box);
-    if (!scope->find(scope->user, box, &line, &lines)) return sunder_i_no_memory(err);
+    if (!scope->find(scope->user, box, &line, &lines)) return sunder_i_failure_cause(err);
     for (size_t k = 0; k < c->parts; k++) {
         sunder_i_rational_point at;
         const sunder_status status = point_of(c, &c->part[k], &at, err);
@@ -227,7 +227,7 @@ static sunder_status choose_among_lines(const sunder_shape *shape, const sunder_
         if (!status) sunder_i_side_cut_keep_largest(&cut, 0);
         if (!status) status = choose_part(&cut, anchor, err);
     }
-    if (!status && (cut.arena.failed || cut.lattice.arena.failed)) status = sunder_i_no_memory(err);
+    if (!status && (cut.arena.failed || cut.lattice.arena.failed)) status = sunder_i_failure_cause(err);
     sunder_i_side_cut_free(&cut);
     return status;
 }
@@ -238,7 +238,7 @@ sunder_status sunder_i_side_anchor(const sunder_shape *shape, const sunder_i_sid
     sunder_shape_anchor(shape, anchor);
     const sunder_i_side **near = n ? sunder_i_alloc(n, sizeof *near) : NULL;
     size_t left = 0;
-    if (n && !near) return sunder_i_no_memory(err);
+    if (n && !near) return sunder_i_failure_cause(err);
     for (size_t k = 0; k < n; k++)
         if (!lies_beside(shape, side[k])) near[left++] = side[k];
     const sunder_status status = left ? choose_among_lines(shape, near, left, scope, anchor, err) : SUNDER_OK;

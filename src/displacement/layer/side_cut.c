@@ -206,7 +206,7 @@ static sunder_status take_parts(sunder_i_side_cut *c, sunder_i_planar_map *map, 
     for (uint32_t e = 0; e < sunder_i_planar_map_edge_end(map) && !c->any; e++)
         c->any = sunder_i_planar_map_edge_alive(map, e) && is_inside(map, e);
     for (uint32_t f = 1; f < sunder_i_planar_map_face_end(map); f++)
-        if (sunder_i_planar_map_face_covered(map, f) > 0 && !add_part(c, map, f)) return sunder_i_no_memory(err);
+        if (sunder_i_planar_map_face_covered(map, f) > 0 && !add_part(c, map, f)) return sunder_i_failure_cause(err);
     return SUNDER_OK;
 }
 
@@ -220,7 +220,7 @@ static sunder_status insert_segments(sunder_i_planar_map *map, const segment *li
 {
     uint32_t *order = sunder_i_alloc(n, sizeof *order);
     uint64_t random = 1;
-    sunder_status status = order ? SUNDER_OK : sunder_i_no_memory(err);
+    sunder_status status = order ? SUNDER_OK : sunder_i_failure_cause(err);
     for (uint32_t k = 0; order && k < n; k++) order[k] = k;
     if (order) sunder_i_shuffle(order, n, sizeof *order, &random);
     for (size_t k = 0; k < n && !status; k++) {
@@ -238,7 +238,7 @@ static sunder_status cut_member(sunder_i_side_cut *c, uint32_t first, uint32_t l
 {
     size_t n = 0;
     segment *list = sunder_i_alloc(last - first + c->sides, sizeof *list);
-    if (!list) return sunder_i_no_memory(err);
+    if (!list) return sunder_i_failure_cause(err);
     for (uint32_t v = first; v < last; v++)
         list[n++] = (segment){put_vertex(c, v), put_vertex(c, c->shape->form->cleaned.next[v]), false};
     for (size_t k = 0; k < c->sides; k++, n++) {
@@ -269,7 +269,7 @@ sunder_status sunder_i_side_cut_make(const sunder_shape *shape, const sunder_i_s
     out->sides = n;
     set_lattice(out);
     out->map = sunder_i_calloc(shape->form->cleaned.polygons, sizeof(sunder_i_planar_map *));
-    sunder_status status = out->map ? SUNDER_OK : sunder_i_no_memory(err);
+    sunder_status status = out->map ? SUNDER_OK : sunder_i_failure_cause(err);
     for (uint32_t k = 0; k < shape->form->cleaned.polygons && !status; k++)
         status = cut_member(out, k ? vertices_to(shape, k - 1) : 0, vertices_to(shape, k), &out->map[k], err);
     return status;

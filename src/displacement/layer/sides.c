@@ -88,13 +88,13 @@ static sunder_status take_all_lines(sunder_i_model *model, sunder_error *err)
     if (n == 0) return SUNDER_OK;
     if (n >= UINT32_C(1) << 30) return sunder_i_fail(err, SUNDER_ESIZE, "too many sides: %zu", n);
     model->side = sunder_i_alloc(n, sizeof *model->side);
-    if (!model->side) return sunder_i_no_memory(err);
+    if (!model->side) return sunder_i_failure_cause(err);
     for (uint32_t k = 0; k < parts; k++) {
         sunder_i_body *body = &model->body[model->body_of[model->features + k]];
         const uint32_t first = (uint32_t)model->sides, sides = (uint32_t)take_part(model, k, model->side + first);
         if (sides == 0) continue;
         sunder_i_extras *extras = sunder_i_own_extras(model, body);
-        if (!extras) return sunder_i_no_memory(err);
+        if (!extras) return sunder_i_failure_cause(err);
         extras->side = first;
         extras->sides = sides;
         for (uint32_t i = 0; i < sides; i++) put_piece(model, body, k, &model->side[model->sides++]);
@@ -177,7 +177,7 @@ static sunder_status find_some_anchors(void *context, size_t begin, size_t end, 
             continue;
         }
         around.body = model->body_of[f];
-        if (!find_lines(&about, shape->box)) status = sunder_i_no_memory(err);
+        if (!find_lines(&about, shape->box)) status = sunder_i_failure_cause(err);
         if (!status) status = sunder_i_side_anchor(shape, about.line, about.n, &scope, model->side_at + 2 * f, err);
     }
     free_lines(&about);
@@ -211,7 +211,7 @@ sunder_status sunder_i_model_find_sides(sunder_i_model *model, sunder_error *err
     model->side_at = sunder_i_calloc(2 * model->features, sizeof *model->side_at);
     model->side_anchor = sunder_i_calloc(model->features, sizeof *model->side_anchor);
     model->side_anchors = sunder_i_alloc(4 * model->bodies, sizeof *model->side_anchors);
-    if (!model->side_at || !model->side_anchor || !model->side_anchors) return sunder_i_no_memory(err);
+    if (!model->side_at || !model->side_anchor || !model->side_anchors) return sunder_i_failure_cause(err);
     status =
         sunder_i_parallel(model->rules.threads, model->features, SUNDER_I_GRAIN_TESTS, find_some_anchors, model, err);
     if (!status) put_anchors(model);

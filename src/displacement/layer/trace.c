@@ -61,7 +61,7 @@ static sunder_status emit_steps(const sunder_i_model *model, const char *scope, 
 {
     size_t things;
     uint32_t *thing = list_things(model, body, n, &things);
-    if (!thing) return sunder_i_no_memory(err);
+    if (!thing) return sunder_i_failure_cause(err);
     for (size_t k = 0; k < steps; k++) {
         sunder_trace_event event = event_of(model, scope, &step[k]);
         event.thing = thing;

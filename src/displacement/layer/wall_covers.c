@@ -151,5 +151,5 @@ sunder_status sunder_i_model_cover_walls(sunder_i_model *model, const uint32_t *
     for (size_t k = 0; k < n && !j.failed; k++) cover_walls_of_body(&j, body[k]);
     sunder_i_free(j.near.item);
     for (size_t k = 0; k < model->wall_covers; k++) model->wall_cover[k].piece.corner = model->wall_cover[k].corner;
-    return j.failed ? sunder_i_no_memory(err) : SUNDER_OK;
+    return j.failed ? sunder_i_failure_cause(err) : SUNDER_OK;
 }

@@ -28,7 +28,7 @@
 #include <math.h>
 #include <string.h>
 
-/* A squared rest below this is a rounding error. */
+/* A squared length of `rest` (nearest.h) below this is taken for a rounding error. */
 #define NOTHING 1e-28
 
 void sunder_i_nearest_free(sunder_i_nearest *nearest)

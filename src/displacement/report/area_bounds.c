@@ -102,7 +102,7 @@ static sunder_status take_bound(payers *p, sunder_i_area_bound *area, const sund
                                 sunder_error *err)
 {
     area->body = sunder_i_alloc(area->n, sizeof *area->body);
-    if (!area->body) return sunder_i_no_memory(err);
+    if (!area->body) return sunder_i_failure_cause(err);
     memcpy(area->body, p->body, area->n * sizeof *area->body);
     for (size_t k = 0; k < members; k++) p->parts->by_areas[sunder_i_union_find(p->parts->root, member[k].b)] = -1;
     p->parts->by_areas[area->root] = area->bound;
@@ -158,7 +158,7 @@ sunder_status sunder_i_report_area_bounds(sunder_i_solver *solver, sunder_i_inde
                 .body = sunder_i_alloc(n, sizeof *p.body)};
     parts->area = sunder_i_alloc(n / AREAS_FEWEST + 1, sizeof *parts->area);
     const bool ok = p.cost && p.joint && p.member && p.left_out && p.body && parts->area;
-    const sunder_status status = ok ? bound_all_joint(&p, err) : sunder_i_no_memory(err);
+    const sunder_status status = ok ? bound_all_joint(&p, err) : sunder_i_failure_cause(err);
     sunder_i_free(p.cost);
     sunder_i_free(p.joint);
     sunder_i_free(p.member);
@@ -198,7 +198,7 @@ sunder_status sunder_i_report_area_trees(sunder_report *report, const sunder_i_s
     for (size_t k = 0; k < parts->areas; k++) {
         sunder_i_area_bound *area = &parts->area[k];
         sunder_bound_tree *tree = &report->bound_tree[report->bound_trees];
-        if (!record_tree(&solver->model, area, tree)) return sunder_i_no_memory(err);
+        if (!record_tree(&solver->model, area, tree)) return sunder_i_failure_cause(err);
         tree->group = solver->groups.n + area->root;
         report->bound_trees++;
     }

@@ -28,7 +28,7 @@ static sunder_status find_around(const sunder_i_solver *s, const sunder_conflict
     sunder_i_reads_begin(&reading, model, sunder_i_reader_of(model, c->a, c->b));
     const bool ok = sunder_i_look_about(model, &placement->tree, box, near);
     sunder_i_reads_end(&reading);
-    if (!ok) return sunder_i_no_memory(err);
+    if (!ok) return sunder_i_failure_cause(err);
     for (size_t k = 0; k < near->n; k++) {
         const uint32_t g = near->item[k], other = model->body_of[g];
         if (other == model->body_of[c->a] || sunder_i_whole_of(model, g) == c->b || other == model->body_of[c->b] ||
@@ -39,7 +39,7 @@ static sunder_status find_around(const sunder_i_solver *s, const sunder_conflict
         bool apart;
         const sunder_status status = sunder_i_apart(p.shape, p.t, q.shape, q.t, sunder_i_max(off, 0), &apart, err);
         if (status) return status;
-        if (!apart && !sunder_i_list_push(blockers, sunder_i_whole_of(model, g))) return sunder_i_no_memory(err);
+        if (!apart && !sunder_i_list_push(blockers, sunder_i_whole_of(model, g))) return sunder_i_failure_cause(err);
     }
     return SUNDER_OK;
 }
@@ -88,14 +88,14 @@ sunder_status sunder_i_report_blockers(sunder_report *report, const sunder_i_sol
         if (!report->proof[k])
             status = find_blockers(solver, c, &near, &blockers, err);
         else if (!take_from_proof(&solver->model, c, report->proof[k], &blockers))
-            status = sunder_i_no_memory(err);
+            status = sunder_i_failure_cause(err);
         if (blockers.n == first) continue; /* no blockers; blockers.item may still be NULL */
         c->n_blocked_by = sunder_i_set_make(&blockers.item[first], blockers.n - first);
         blockers.n = first + c->n_blocked_by;
     }
     if (!status) {
         report->blocker = sunder_i_alloc(blockers.n, sizeof *report->blocker);
-        if (!report->blocker) status = sunder_i_no_memory(err);
+        if (!report->blocker) status = sunder_i_failure_cause(err);
     }
     if (!status) {
         size_t next = 0;

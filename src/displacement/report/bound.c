@@ -145,7 +145,7 @@ sunder_status sunder_i_bound(const sunder_i_model *model, sunder_bound_pair *pai
     sunder_i_free(load);
     sunder_i_free(root);
     sunder_i_free(which);
-    return ok ? SUNDER_OK : sunder_i_no_memory(err);
+    return ok ? SUNDER_OK : sunder_i_failure_cause(err);
 }
 
 bool sunder_i_bound_parts(const sunder_i_model *model, const sunder_bound_pair *pairs, size_t n, uint32_t *root,

@@ -46,7 +46,7 @@ static sunder_status measure_pairs(void *context, size_t begin, size_t end, sund
 static sunder_status measure_all(const sunder_i_solver *s, sunder_bound_pair *pair, size_t n, sunder_error *err)
 {
     sunder_bound_pair *known = sunder_i_alloc(s->measured_n, sizeof *known);
-    if (!known) return sunder_i_no_memory(err);
+    if (!known) return sunder_i_failure_cause(err);
     if (s->measured_n) memcpy(known, s->measured, s->measured_n * sizeof *known);
     if (s->measured_n) qsort(known, s->measured_n, sizeof *known, by_pair);
     measuring m = {&s->model, pair, known, s->measured_n};
@@ -93,7 +93,7 @@ sunder_status sunder_i_report_bound(sunder_report *report, const sunder_i_solver
     size_t n = 0;
     key_pair *key = sunder_i_alloc(solver->start.n, sizeof *key);
     report->bound_pair = sunder_i_calloc(solver->start.n, sizeof *report->bound_pair);
-    sunder_status status = key && report->bound_pair ? SUNDER_OK : sunder_i_no_memory(err);
+    sunder_status status = key && report->bound_pair ? SUNDER_OK : sunder_i_failure_cause(err);
     if (!status) {
         for (size_t k = 0; k < solver->start.n; k++) {
             const sunder_i_relation *r = &solver->start.pair[k];

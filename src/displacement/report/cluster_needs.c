@@ -53,7 +53,7 @@ static sunder_status take_body(cluster_trial *g, uint32_t body, bool *done, sund
     *done = sunder_i_may_move(&model->body[body]) && !g->taken[body] &&
             memcmp(goal_of(g, body), model->move + 2 * (size_t)body, 2 * sizeof(double)) != 0;
     if (!*done) return SUNDER_OK;
-    if (!sunder_i_trial_take(&g->trial, body)) return sunder_i_no_memory(err);
+    if (!sunder_i_trial_take(&g->trial, body)) return sunder_i_failure_cause(err);
     g->taken[body] = g->any = true;
     return put_body(g, body, goal_of(g, body), err);
 }
@@ -196,7 +196,7 @@ static sunder_status free_cluster(cluster_trial *g, const sunder_i_id_pair *item
     sunder_i_reading reading;
     g->body.n = 0;
     for (size_t k = 0; k < members; k++)
-        if (!sunder_i_list_push(&g->body, member[k])) return sunder_i_no_memory(err);
+        if (!sunder_i_list_push(&g->body, member[k])) return sunder_i_failure_cause(err);
     sunder_i_reads_begin(&reading, model, item[0].a);
     sunder_status status = free_by(g, model->lifted, item, n, &well, err);
     if (!status && !well) status = sunder_i_spread_out(g->trial.solver, &g->body, spread, &found, err);
@@ -229,7 +229,7 @@ sunder_status sunder_i_report_cluster_needs(sunder_report *report, sunder_i_solv
     double *spread = sunder_i_alloc(2 * solver->model.bodies, sizeof *spread);
     g.taken = sunder_i_calloc(solver->model.bodies, sizeof *g.taken);
     g.stays = sunder_i_calloc(report->conflicts, sizeof *g.stays);
-    sunder_status status = item && spread && g.taken && g.stays ? SUNDER_OK : sunder_i_no_memory(err);
+    sunder_status status = item && spread && g.taken && g.stays ? SUNDER_OK : sunder_i_failure_cause(err);
     if (!status) memcpy(spread, solver->model.move, 2 * solver->model.bodies * sizeof *spread);
     const size_t n = status ? 0 : group_by_cluster(solver, report, item);
     for (size_t k = 0, end; k < n && !status; k = end) {

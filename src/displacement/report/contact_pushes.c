@@ -190,7 +190,7 @@ static sunder_status press_batches(void *context, size_t begin, size_t end, sund
     sunder_i_free(p.push);
     sunder_i_free(p.near.item);
     sunder_i_free(p.touch.item);
-    return ok ? SUNDER_OK : sunder_i_no_memory(err);
+    return ok ? SUNDER_OK : sunder_i_failure_cause(err);
 }
 
 static bool append_pushes(sunder_report *report, size_t *capacity, const found_pushes *found)
@@ -217,7 +217,7 @@ sunder_status sunder_i_report_pushes(sunder_report *report, sunder_i_solver *sol
         pressed = sunder_i_parallel(solver->model.rules.threads, BATCHES_AT_ONCE, SUNDER_I_GRAIN_WHOLE, press_batches,
                                     &all, err);
         for (size_t k = 0; k < BATCHES_AT_ONCE; k++) {
-            if (!pressed && !append_pushes(report, &capacity, &found[k])) pressed = sunder_i_no_memory(err);
+            if (!pressed && !append_pushes(report, &capacity, &found[k])) pressed = sunder_i_failure_cause(err);
             sunder_i_free(found[k].push);
         }
         sunder_i_pieces_forget(&solver->model, SUNDER_I_PIECES_HELD);

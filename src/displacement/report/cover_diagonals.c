@@ -149,7 +149,7 @@ static sunder_status find_some(looking *l, sunder_i_model *model, sunder_error *
     near.n = 0;
     for (uint32_t b = 0; b < model->bodies && ok && left; b++)
         if (l->far[b] >= 0 || l->met[b]) ok = sunder_i_list_push(&near, b);
-    sunder_status status = ok ? SUNDER_OK : sunder_i_no_memory(err);
+    sunder_status status = ok ? SUNDER_OK : sunder_i_failure_cause(err);
     if (ok && !left) status = sunder_i_model_cover_diagonals(model, err);
     if (ok && left) status = sunder_i_model_cover_diagonals_of(model, near.item, near.n, err);
     sunder_i_free(near.item);
@@ -162,9 +162,9 @@ sunder_status sunder_i_report_cover_diagonals(sunder_i_solver *solver, sunder_er
                  .far = sunder_i_alloc(solver->model.bodies, sizeof *l.far),
                  .met = sunder_i_calloc(solver->model.bodies, sizeof *l.met),
                  .gathered = sunder_i_calloc(solver->model.bodies, sizeof *l.gathered)};
-    sunder_status status = l.far && l.met && l.gathered ? SUNDER_OK : sunder_i_no_memory(err);
+    sunder_status status = l.far && l.met && l.gathered ? SUNDER_OK : sunder_i_failure_cause(err);
     if (!status) enter_remaining(&l);
-    if (!status && !enter_given_up(&l)) status = sunder_i_no_memory(err);
+    if (!status && !enter_given_up(&l)) status = sunder_i_failure_cause(err);
     if (!status && l.any) status = find_some(&l, &solver->model, err);
     sunder_i_free(l.far);
     sunder_i_free(l.met);

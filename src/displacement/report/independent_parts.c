@@ -41,7 +41,7 @@ sunder_status sunder_i_independent_parts_find(sunder_i_independent_parts *parts,
                                           .by_groups = sunder_i_calloc(model->bodies, sizeof *parts->by_groups),
                                           .by_areas = sunder_i_calloc(model->bodies, sizeof *parts->by_areas)};
     if (!parts->root || !parts->by_pairs || !parts->by_trees || !parts->by_groups || !parts->by_areas)
-        return sunder_i_no_memory(err);
+        return sunder_i_failure_cause(err);
     sunder_i_union_init(parts->root, model->bodies);
     join_pairs(model, report, parts->root);
     for (size_t k = 0; k < solver->groups.n; k++)
@@ -53,7 +53,7 @@ sunder_status sunder_i_independent_parts_find(sunder_i_independent_parts *parts,
         *sum = *sum > 0 ? nextafter(*sum + g->bound, -INFINITY) : g->bound;
     }
     if (!sunder_i_bound_parts(model, report->bound_pair, report->bound_pairs, parts->root, parts->by_pairs))
-        return sunder_i_no_memory(err);
+        return sunder_i_failure_cause(err);
     memcpy(parts->by_trees, parts->by_pairs, model->bodies * sizeof *parts->by_trees);
     return SUNDER_OK;
 }

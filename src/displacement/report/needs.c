@@ -60,7 +60,7 @@ static sunder_status keep_what_there_is(const sunder_i_questions *g, sunder_erro
     const sunder_i_model *model = &g->solver->model;
     sunder_report *report = g->report;
     double *least = sunder_i_alloc(model->bodies, sizeof *least);
-    if (!least) return sunder_i_no_memory(err);
+    if (!least) return sunder_i_failure_cause(err);
     for (size_t b = 0; b < model->bodies; b++) least[b] = INFINITY;
     for (int pass = 0; pass < 2; pass++)
         for (size_t k = 0; k < report->conflicts; k++) {
@@ -241,7 +241,7 @@ static sunder_status look_ahead(asked *g, bool all, sunder_error *err)
     if (g->foresight && g->foresight_of_all == all) return SUNDER_OK;
     look_ahead_no_more(g);
     g->foresight = sunder_i_alloc(1, sizeof *g->foresight);
-    if (!g->foresight) return sunder_i_no_memory(err);
+    if (!g->foresight) return sunder_i_failure_cause(err);
     g->foresight_of_all = all;
     return sunder_i_foresight_init(g->foresight, g->questions, g->about, g->conflict, all, err);
 }
@@ -501,7 +501,7 @@ sunder_status sunder_i_report_needs(sunder_report *report, const sunder_i_solver
     if (!(effort > 0)) return SUNDER_OK;
     matter *list = sunder_i_alloc(report->conflicts, sizeof *list);
     size_t *first = sunder_i_alloc(report->conflicts + 1, sizeof *first);
-    sunder_status status = list && first ? keep_what_there_is(&g, err) : sunder_i_no_memory(err);
+    sunder_status status = list && first ? keep_what_there_is(&g, err) : sunder_i_failure_cause(err);
     if (!status) {
         const size_t groups = group_by_cluster(solver, report, list, first);
         asking h = {&g, list, first, NEED_IN_VAIN * (uint64_t)effort};

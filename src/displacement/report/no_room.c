@@ -68,7 +68,7 @@ static sunder_status reduce_proof(const sunder_i_subproblem *subproblem, sunder_
     const size_t room = 3 * (*proof)->nodes;
     uint32_t *all = sunder_i_alloc(room, sizeof *all), *set = sunder_i_alloc(room, sizeof *set);
     uint32_t *body = sunder_i_alloc(room, sizeof *body);
-    sunder_status status = all && set && body ? SUNDER_OK : sunder_i_no_memory(err);
+    sunder_status status = all && set && body ? SUNDER_OK : sunder_i_failure_cause(err);
     const size_t n = status ? 0 : sunder_i_proof_things(q.model, *proof, all);
     size_t left = n;
     if (n) memcpy(set, all, n * sizeof *set);
@@ -92,7 +92,7 @@ static sunder_status reduce_proof(const sunder_i_subproblem *subproblem, sunder_
             sunder_i_proof_free(*proof);
             *proof = decision.proof;
             decision.proof = NULL;
-            if (!take_features(q.model, *proof, set, &left)) status = sunder_i_no_memory(err);
+            if (!take_features(q.model, *proof, set, &left)) status = sunder_i_failure_cause(err);
         } else {
             set[out] = all[k];
             left = sunder_i_set_make(set, out + 1);
@@ -281,7 +281,7 @@ static sunder_status ask_chains(const asking *g, matter *first, const matter *la
                                 uint64_t *reducing, sunder_error *err)
 {
     sunder_i_chains *chains = sunder_i_chains_new(q, reducing != NULL);
-    sunder_status status = chains ? SUNDER_OK : sunder_i_no_memory(err);
+    sunder_status status = chains ? SUNDER_OK : sunder_i_failure_cause(err);
     for (matter *m = first; m < last && !status; m++)
         if (g->report->conflict[m->conflict].reason == SUNDER_REASON_UNRESOLVED && !has_no_limit(g, m))
             status = ask_chain(g, m, q, chains, reducing, err);
@@ -329,7 +329,7 @@ static sunder_status ask_without_limit(const asking *g, matter *m, const sunder_
     const uint32_t body[2] = {q->model->body_of[c->a], q->model->body_of[c->b]};
     sunder_i_subproblem two = *q;
     uint32_t *set = members_of(q->model, body, &two.features);
-    if (!set) return sunder_i_no_memory(err);
+    if (!set) return sunder_i_failure_cause(err);
     two.feature = set;
     two.reserves = 0;
     two.instead = 2 * sunder_i_farthest_near(q->model, body[0], body[1]);
@@ -434,7 +434,7 @@ sunder_status sunder_i_report_proofs(sunder_report *report, const sunder_i_solve
     matter *list = sunder_i_alloc(most, sizeof *list);
     size_t *first = sunder_i_alloc(most + 1, sizeof *first);
     sunder_i_requirement *required = sunder_i_alloc(most, sizeof *required);
-    sunder_status status = listed && list && first && required ? SUNDER_OK : sunder_i_no_memory(err);
+    sunder_status status = listed && list && first && required ? SUNDER_OK : sunder_i_failure_cause(err);
     size_t n = 0;
     for (size_t k = 0; !status && k < most; k++)
         if (!report->conflict[k].inside_block) listed[n++] = (uint32_t)k;

@@ -75,7 +75,7 @@ static sunder_status count_groups(sunder_layer_summary *summary, sunder_i_solver
         g->cost = cost_of(&s->model, g);
         summary->clusters_optimal += sunder_i_group_is_optimal(g);
     }
-    return ok ? SUNDER_OK : sunder_i_no_memory(err);
+    return ok ? SUNDER_OK : sunder_i_failure_cause(err);
 }
 
 /* Moves the trees on which the bound is based, those of groups and those of pairs, to the report, which owns them from
@@ -86,7 +86,7 @@ static sunder_status take_trees(sunder_report *report, sunder_i_groups *groups, 
     size_t n = of_pairs->n + parts->areas; /* with room for the trees of bounds by area */
     for (size_t k = 0; k < groups->n; k++) n += groups->group[k].trees.n;
     report->bound_tree = sunder_i_calloc(n, sizeof *report->bound_tree);
-    if (!report->bound_tree) return sunder_i_no_memory(err);
+    if (!report->bound_tree) return sunder_i_failure_cause(err);
     for (size_t k = 0; k < groups->n; k++) {
         sunder_i_group *g = &groups->group[k];
         if (!(g->bound > 0) || !sunder_i_independent_part_is_by_groups(parts, g->number)) continue;
@@ -150,7 +150,7 @@ sunder_status sunder_i_report_optimality(sunder_report *report, sunder_i_solver 
     if (!any && !report->bound_pairs) return SUNDER_OK;
     sunder_i_independent_parts parts = {0};
     double *proved = sunder_i_alloc(solver->model.bodies, sizeof *proved);
-    sunder_status status = proved ? SUNDER_OK : sunder_i_no_memory(err);
+    sunder_status status = proved ? SUNDER_OK : sunder_i_failure_cause(err);
     if (!status && any) status = count_groups(summary, solver, err);
     if (!status) status = sunder_i_independent_parts_find(&parts, report, solver, err);
     if (!status) status = sunder_i_report_area_bounds(solver, &parts, err);

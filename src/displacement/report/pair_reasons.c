@@ -129,7 +129,7 @@ static bool needs_no_proof(const sunder_i_model *model, const sunder_conflict *c
 static sunder_status make_empty_proof(sunder_proof **proof, sunder_error *err)
 {
     *proof = sunder_i_calloc(1, sizeof **proof);
-    return *proof ? SUNDER_OK : sunder_i_no_memory(err);
+    return *proof ? SUNDER_OK : sunder_i_failure_cause(err);
 }
 
 static sunder_status find_reason(const sunder_i_model *model, sunder_conflict *c, common *both, sunder_proof **proof,
@@ -213,7 +213,7 @@ sunder_status sunder_i_report_reasons(sunder_report *report, const sunder_i_mode
 {
     matter *list = sunder_i_alloc(report->conflicts, sizeof *list);
     size_t *first = sunder_i_alloc(report->conflicts + 1, sizeof *first);
-    sunder_status status = list && first ? SUNDER_OK : sunder_i_no_memory(err);
+    sunder_status status = list && first ? SUNDER_OK : sunder_i_failure_cause(err);
     if (!status) {
         const asking g = {model, report, list, first};
         const size_t pairs = list_matters(report, model, list, first);

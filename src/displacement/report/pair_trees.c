@@ -54,9 +54,9 @@ static sunder_status prove_pair(const sunder_i_solver *s, const sunder_bound_pai
 {
     const sunder_i_model *model = &s->model;
     const sunder_i_waived waived = {.pair = s->groups.waived, .n = s->groups.waived_n};
-    if (!find_bodies(model, pair, body)) return sunder_i_no_memory(err);
+    if (!find_bodies(model, pair, body)) return sunder_i_failure_cause(err);
     double *weight = sunder_i_alloc(body->n, sizeof *weight), slack = 0;
-    if (!weight) return sunder_i_no_memory(err);
+    if (!weight) return sunder_i_failure_cause(err);
     for (size_t k = 0; k < body->n; k++) {
         const sunder_i_body *b = &model->body[body->item[k]];
         weight[k] = b->fixed ? b->weight : b->weight * (pair->multiplier / load[body->item[k]]) * (1 - SHARED);
@@ -78,7 +78,7 @@ static sunder_status prove_pair(const sunder_i_solver *s, const sunder_bound_pai
     if (*bound > 0 && task.keep) ok = sunder_i_tree_keep(&tree, trees);
     sunder_i_tree_free(&tree);
     sunder_i_free(weight);
-    return ok ? SUNDER_OK : sunder_i_no_memory(err);
+    return ok ? SUNDER_OK : sunder_i_failure_cause(err);
 }
 
 /* Returns the body of pair->a or, if that body is fixed, the body of pair->b. */
@@ -133,7 +133,7 @@ sunder_status sunder_i_report_pair_trees(const sunder_report *report, sunder_i_s
 {
     sunder_i_id_pair *which = sunder_i_alloc(report->bound_pairs, sizeof *which);
     double *load = sunder_i_calloc(solver->model.bodies, sizeof *load);
-    sunder_status status = which && load ? SUNDER_OK : sunder_i_no_memory(err);
+    sunder_status status = which && load ? SUNDER_OK : sunder_i_failure_cause(err);
     const size_t n = status ? 0 : list_pairs(report, &solver->model, parts, which);
     if (!status && n) status = sunder_i_solver_list_waivers(solver, err);
     for (size_t b = 0; b < solver->model.bodies; b++) parts->by_trees[b] = 0;

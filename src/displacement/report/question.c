@@ -158,7 +158,7 @@ sunder_status sunder_i_surround(const sunder_i_solver *solver, const sunder_conf
     sunder_i_free(near.item);
     surroundings->as = sunder_i_alloc(surroundings->feature.n, sizeof *surroundings->as);
     surroundings->standing = sunder_i_calloc(surroundings->feature.n, sizeof *surroundings->standing);
-    sunder_status status = ok && surroundings->as && surroundings->standing ? SUNDER_OK : sunder_i_no_memory(err);
+    sunder_status status = ok && surroundings->as && surroundings->standing ? SUNDER_OK : sunder_i_failure_cause(err);
     for (size_t k = 0; k < surroundings->feature.n && !status; k++) status = take_part(solver, surroundings, k, err);
     return status;
 }
@@ -289,7 +289,7 @@ static sunder_status find_jump(const sunder_i_questions *g, const sunder_i_surro
     sunder_status status = SUNDER_OK;
     *jumps = false;
     if (sunder_i_jumps_begun(&s->jumps) && !sunder_i_path_tree_look_about(&s->jumps.paths, &s->model, a->known, &mover))
-        status = sunder_i_no_memory(err);
+        status = sunder_i_failure_cause(err);
     for (size_t k = 0; k < x->model.features && !status && !*jumps; k++) {
         const size_t at = x->layer.number[k];
         if (at >= a->moving || !x->model.present[k]) continue;
@@ -314,7 +314,7 @@ static sunder_status set_barriers(const sunder_i_solver *s, const sunder_i_surro
 {
     sunder_barrier *barrier = sunder_i_alloc(a->part.n, sizeof *barrier);
     size_t n = 0;
-    if (!barrier) return sunder_i_no_memory(err);
+    if (!barrier) return sunder_i_failure_cause(err);
     for (size_t k = 0; k < a->part.n; k++) {
         const uint32_t part = a->part.item[k];
         if (sunder_i_whole_of(&s->model, part) == gone) continue;
@@ -334,7 +334,7 @@ static sunder_status set_side_anchors(const sunder_i_model *model, const sunder_
 {
     if (!model->side_at) return SUNDER_OK;
     double *xy = sunder_i_alloc(2 * a->feature.n, sizeof *xy);
-    if (!xy) return sunder_i_no_memory(err);
+    if (!xy) return sunder_i_failure_cause(err);
     for (size_t k = 0; k < 2 * a->feature.n; k++)
         xy[k] = k < 2 * a->moving ? model->side_at[2 * (size_t)a->feature.item[k / 2] + k % 2] : NAN;
     const sunder_status status = sunder_layer_set_side_anchors(layer, xy, err);
@@ -387,7 +387,7 @@ static sunder_status make_layer(const sunder_i_questions *g, const sunder_i_surr
 {
     const size_t n = a->feature.n;
     sunder_feature *feature = sunder_i_alloc(n, sizeof *feature);
-    if (!feature) return sunder_i_no_memory(err);
+    if (!feature) return sunder_i_failure_cause(err);
     for (size_t k = 0; k < n; k++) {
         sunder_feature *f = &feature[k];
         *f = a->as[k];
@@ -448,7 +448,7 @@ sunder_status sunder_i_few_are_listed(const sunder_i_questions *questions, const
     const bool ok = list_spared(questions, surroundings, conflict, SUNDER_I_NOBODY, &spared, &n);
     *few = n > 0 && n <= NEED_ALL;
     sunder_i_free(spared);
-    return ok ? SUNDER_OK : sunder_i_no_memory(err);
+    return ok ? SUNDER_OK : sunder_i_failure_cause(err);
 }
 
 /* Up to NEED_ALL other listed pairs have to be solved too. If that has no solution and what->all is not set, or if they
@@ -460,8 +460,9 @@ sunder_status sunder_i_ask(const sunder_i_questions *questions, const sunder_i_s
     sunder_i_id_pair *spared = NULL;
     size_t n = 0;
     *answer = (sunder_i_answer){.refuted = what->gap};
-    sunder_status status =
-        list_spared(questions, surroundings, conflict, what->gone, &spared, &n) ? SUNDER_OK : sunder_i_no_memory(err);
+    sunder_status status = list_spared(questions, surroundings, conflict, what->gone, &spared, &n)
+                               ? SUNDER_OK
+                               : sunder_i_failure_cause(err);
     if (!status && n <= NEED_ALL)
         status = ask_sparing(questions, surroundings, conflict, what, NULL, 0, proof, answer, err);
     const bool spares = n > NEED_ALL || (n > 0 && !what->all && !answer->yes);
@@ -482,7 +483,7 @@ sunder_status sunder_i_foresight_init(sunder_i_foresight *foresight, const sunde
     sunder_i_proof_found later = SUNDER_I_PROOF_LATER;
     *f = (sunder_i_foresight){.questions = questions, .about = surroundings};
     if (!list_spared(questions, surroundings, conflict, SUNDER_I_NOBODY, &f->spared, &f->n))
-        return sunder_i_no_memory(err);
+        return sunder_i_failure_cause(err);
     if (all && f->n <= NEED_ALL) f->n = 0;
     sunder_status status = make_layer(questions, surroundings, &what, &f->layer, err);
     if (!status) status = questions->solve(f->layer, &options, f->spared, f->n, &later, &f->solver, err);
@@ -490,7 +491,7 @@ sunder_status sunder_i_foresight_init(sunder_i_foresight *foresight, const sunde
     f->move = sunder_i_calloc(2 * f->solver.model.bodies, sizeof *f->move);
     f->next = sunder_i_calloc(2 * f->solver.model.bodies, sizeof *f->next);
     f->at = sunder_i_calloc(2 * surroundings->feature.n, sizeof *f->at);
-    return f->move && f->next && f->at ? SUNDER_OK : sunder_i_no_memory(err);
+    return f->move && f->next && f->at ? SUNDER_OK : sunder_i_failure_cause(err);
 }
 
 void sunder_i_foresight_clear(sunder_i_foresight *foresight)
@@ -524,7 +525,7 @@ sunder_status sunder_i_foresee(sunder_i_foresight *foresight, double gap, uint32
     const bool all = gone == SUNDER_I_NOBODY;
     sunder_i_list heeded = {0};
     *refuted = gap;
-    sunder_status status = all || list_others(f, gone, &heeded) ? SUNDER_OK : sunder_i_no_memory(err);
+    sunder_status status = all || list_others(f, gone, &heeded) ? SUNDER_OK : sunder_i_failure_cause(err);
     memset(f->next, 0, 2 * f->solver.model.bodies * sizeof *f->next);
     const sunder_i_proving how = {&list, all ? NULL : &heeded, &f->planes, &f->precedents, in_plane, f->next};
     if (!status) status = sunder_i_solver_prove(&f->solver, &how, verdict, refuted, err);
@@ -563,7 +564,7 @@ sunder_status sunder_i_foresight_holds(const sunder_i_foresight *foresight, cons
     *yes = false;
     sunder_status status = g->solve(f->layer, &options, f->spared, f->n, &later, &x, err);
     double *move = status ? NULL : sunder_i_calloc(2 * x.model.bodies, sizeof *move);
-    if (!status && !move) status = sunder_i_no_memory(err);
+    if (!status && !move) status = sunder_i_failure_cause(err);
     if (!status) carry_over(f, &x, move);
     if (!status) status = sunder_i_solver_place_all(&x, move, yes, err);
     if (!status && *yes) status = is_solved(g, f->about, conflict, &x, &what, yes, &longest, err);

@@ -155,7 +155,7 @@ static sunder_status inside_overlap(const sunder_shape *a, const sunder_shape *b
         sunder_i_free(p);
         sunder_i_free(q);
         sunder_i_free(c);
-        return sunder_i_no_memory(err);
+        return sunder_i_failure_cause(err);
     }
     for (uint32_t j = 0; j < b->pieces; j++) {
         const size_t sides = corners_of(b, j, origin, c);
@@ -182,7 +182,7 @@ static sunder_status inside_overlap(const sunder_shape *a, const sunder_shape *b
     sunder_i_free(p);
     sunder_i_free(q);
     sunder_i_free(c);
-    return sunder_i_stopped() ? sunder_i_no_memory(err) : SUNDER_OK;
+    return sunder_i_stopped() ? sunder_i_failure_cause(err) : SUNDER_OK;
 }
 
 static sunder_status measure_pair(const sunder_shape *a, const sunder_shape *b, bool overlap, sunder_conflict *c,
@@ -298,7 +298,7 @@ sunder_status sunder_i_report_conflicts(sunder_report *report, const sunder_i_mo
     bool *overlap = sunder_i_alloc(n, sizeof *overlap);
     if (!report->conflict || !overlap || (reasons && !report->proof)) {
         sunder_i_free(overlap);
-        return sunder_i_no_memory(err);
+        return sunder_i_failure_cause(err);
     }
     for (size_t i = 0; i < relations->n;) {
         i = take_pair(model, relations, i, &r);

@@ -56,7 +56,7 @@ static sunder_status number_conflicts(sunder_report *report, const uint32_t *num
 {
     const size_t n = report->conflicts;
     listed *list = sunder_i_alloc(n, sizeof *list);
-    if (!list) return sunder_i_no_memory(err);
+    if (!list) return sunder_i_failure_cause(err);
     for (size_t k = 0; k < n; k++) {
         list[k] = (listed){report->conflict[k], report->proof ? report->proof[k] : NULL};
         sunder_conflict *c = &list[k].conflict;
@@ -132,7 +132,7 @@ static void number_pushes(sunder_report *report, const uint32_t *number)
 static sunder_status number_blocks(int64_t *block, size_t n, sunder_error *err)
 {
     int64_t *to = sunder_i_alloc(n, sizeof *to);
-    if (!to) return sunder_i_no_memory(err);
+    if (!to) return sunder_i_failure_cause(err);
     for (size_t k = 0; k < n; k++) to[k] = -1;
     for (size_t f = 0; f < n; f++) {
         if (block[f] < 0) continue;
@@ -171,7 +171,7 @@ sunder_status sunder_i_report_renumber(sunder_report *report, const uint32_t *nu
     const bool ok = number_values(&report->move, n, 2 * sizeof *report->move, number) &&
                     number_values(&report->status, n, sizeof *report->status, number) &&
                     number_values(&report->block, n, sizeof *report->block, number);
-    sunder_status status = ok ? number_blocks(report->block, n, err) : sunder_i_no_memory(err);
+    sunder_status status = ok ? number_blocks(report->block, n, err) : sunder_i_failure_cause(err);
     if (!status) status = number_conflicts(report, number, err);
     for (size_t k = 0; !status && k < report->bound_pairs; k++) {
         sunder_bound_pair *p = &report->bound_pair[k];

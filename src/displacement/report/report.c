@@ -9,7 +9,7 @@
 sunder_status sunder_i_report_new(const sunder_i_model *model, sunder_report **out, sunder_error *err)
 {
     sunder_report *r = sunder_i_calloc(1, sizeof *r);
-    if (!r) return sunder_i_no_memory(err);
+    if (!r) return sunder_i_failure_cause(err);
     r->n = model->features;
     r->stripped = model->rules.drop_proofs;
     r->summary.features = model->features;
@@ -35,7 +35,7 @@ sunder_status sunder_i_report_features(sunder_report *report, const sunder_i_mod
     report->move = sunder_i_calloc(2 * n, sizeof *report->move);
     report->status = sunder_i_calloc(n, sizeof *report->status);
     report->block = sunder_i_calloc(n, sizeof *report->block);
-    if (!report->move || !report->status || !report->block) return sunder_i_no_memory(err);
+    if (!report->move || !report->status || !report->block) return sunder_i_failure_cause(err);
     report_blocks(report, model);
     report->summary.vertices = model->vertices;
     for (size_t f = 0; f < n; f++) {

@@ -160,7 +160,7 @@ static sunder_status find_stretch(const sunder_i_solver *s, const sunder_i_list 
 {
     size_t asks;
     asked *list = list_asked(s, body->item, body->n, &asks);
-    if (!list) return sunder_i_no_memory(err);
+    if (!list) return sunder_i_failure_cause(err);
     find_extent(s, body->item, body->n, g->middle, g->half);
     *found = choose_factors(list, asks, g->half, g->factor);
     sunder_i_free(list);
@@ -177,7 +177,7 @@ sunder_status sunder_i_spread_out(const sunder_i_solver *solver, sunder_i_list *
     for (size_t n = 0; *found && n != body->n && !status;) {
         n = body->n;
         status = find_stretch(solver, body, &g, found, err);
-        if (!status && *found && !take_in(solver, &g, body)) status = sunder_i_no_memory(err);
+        if (!status && *found && !take_in(solver, &g, body)) status = sunder_i_failure_cause(err);
         *found = *found && body->n <= most;
     }
     const double unit = unit_of(g.middle, g.half, g.factor);

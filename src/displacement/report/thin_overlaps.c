@@ -39,7 +39,7 @@ sunder_status sunder_i_count_thin_overlaps(const sunder_i_model *model, const su
     sunder_shape *disc;
     sunder_status status = sunder_i_thin_disc(model->rules.thin, &disc, err);
     thin_search s = {model, placement, relations, disc, sunder_i_calloc(relations->n, sizeof *s.thin)};
-    if (!status && !s.thin) status = sunder_i_no_memory(err);
+    if (!status && !s.thin) status = sunder_i_failure_cause(err);
     if (!status) status = sunder_i_parallel(model->rules.threads, relations->n, SUNDER_I_GRAIN_PAIRS, look_at, &s, err);
     for (size_t k = 0; k < relations->n && !status; k++) *n += s.thin[k];
     if (model->rules.keep_worlds)

@@ -122,14 +122,14 @@ static sunder_status meet_readers(gathering *g, uint32_t *world, sunder_error *e
     bool *there = sunder_i_calloc(n, sizeof *there);
     sunder_i_rtree tree = {0};
     sunder_i_list hits = {0};
-    sunder_status status = there ? SUNDER_OK : sunder_i_no_memory(err);
+    sunder_status status = there ? SUNDER_OK : sunder_i_failure_cause(err);
     for (size_t b = 0; b < n && !status; b++) there[b] = g->wrote[b][0] <= g->wrote[b][2];
     if (!status) status = sunder_i_rtree_build(g->wrote[0], there, n, &tree, err);
     memcpy(world, g->root, n * sizeof *world);
     for (uint32_t b = 0; b < n && !status; b++) {
         if (!there[b]) continue;
         hits.n = 0;
-        if (!sunder_i_rtree_query(&tree, g->read[b], &hits)) status = sunder_i_no_memory(err);
+        if (!sunder_i_rtree_query(&tree, g->read[b], &hits)) status = sunder_i_failure_cause(err);
         for (size_t k = 0; k < hits.n && !status; k++)
             if (!is_fixed(g->model, b) && !is_fixed(g->model, hits.item[k]))
                 sunder_i_union_join(world, b, hits.item[k]);
@@ -150,7 +150,7 @@ static sunder_status number_worlds(sunder_report *report, const gathering *g, ui
     size_t *named = sunder_i_alloc(model->bodies, sizeof *named),
            *thing = sunder_i_alloc(model->features, sizeof *thing);
     report->world_of = sunder_i_alloc(model->features, sizeof *report->world_of);
-    sunder_status status = named && thing && report->world_of ? SUNDER_OK : sunder_i_no_memory(err);
+    sunder_status status = named && thing && report->world_of ? SUNDER_OK : sunder_i_failure_cause(err);
     for (size_t b = 0; b < model->bodies && !status; b++) named[b] = SIZE_MAX;
     for (size_t f = 0; f < model->features && !status; f++) thing[number[f]] = f;
     for (size_t k = 0; k < model->features && !status; k++) {
@@ -160,7 +160,7 @@ static sunder_status number_worlds(sunder_report *report, const gathering *g, ui
         size_t *name = &named[sunder_i_union_find(world, body)];
         if (*name == SIZE_MAX) {
             if (!sunder_i_reserve(&report->world, &report->world_room, report->worlds + 1, sizeof *report->world)) {
-                status = sunder_i_no_memory(err);
+                status = sunder_i_failure_cause(err);
                 break;
             }
             report->world[ *name = report->worlds++] = (sunder_world){.first = k};
@@ -199,7 +199,7 @@ static sunder_status list_footprints(sunder_report *report, const gathering *g, 
     size_t n = 0;
     for (uint32_t b = 0; b < g->model->bodies; b++) n += g->active[b] && sunder_i_union_find(g->root, b) == b;
     report->footprint = sunder_i_alloc(n, sizeof *report->footprint);
-    if (!report->footprint) return sunder_i_no_memory(err);
+    if (!report->footprint) return sunder_i_failure_cause(err);
     for (uint32_t b = 0; b < g->model->bodies; b++) {
         if (!g->active[b] || sunder_i_union_find(g->root, b) != b) continue;
         sunder_footprint *p = &report->footprint[report->footprints++];
@@ -223,7 +223,7 @@ static sunder_status count_pairs(sunder_report *report, const gathering *g, sund
 {
     const sunder_i_relations *const list[2] = {&g->solver->start, &g->solver->now};
     report->inside = sunder_i_calloc(g->model->features, sizeof *report->inside);
-    if (!report->inside) return sunder_i_no_memory(err);
+    if (!report->inside) return sunder_i_failure_cause(err);
     for (int now = 0; now < 2; now++) {
         for (size_t k = 0; k < list[now]->n;) {
             sunder_conflict c;
@@ -271,7 +271,7 @@ static sunder_status count_proved(sunder_report *report, const gathering *g, sun
         report->world[k].bounds = 0;
     }
     report->world_bound = sunder_i_alloc(report->world_bounds, sizeof *report->world_bound);
-    if (!report->world_bound) return sunder_i_no_memory(err);
+    if (!report->world_bound) return sunder_i_failure_cause(err);
     for (uint32_t b = 0; b < g->model->bodies; b++) {
         if (!is_any(bound_of(report, b))) continue;
         sunder_world *w = &report->world[world_of_body(report, g, b)];
@@ -286,7 +286,7 @@ static sunder_status keep_each(sunder_report *report, const gathering *g, sunder
     const sunder_i_model *model = g->model;
     report->inexact = sunder_i_calloc(model->features, sizeof *report->inexact);
     report->stands = sunder_i_calloc(model->features, sizeof *report->stands);
-    if (!report->inexact || !report->stands) return sunder_i_no_memory(err);
+    if (!report->inexact || !report->stands) return sunder_i_failure_cause(err);
     for (size_t f = 0; f < model->features; f++) {
         report->inexact[g->solver->layer.number[f]] = model->inexact[f];
         report->stands[g->solver->layer.number[f]] = is_fixed(model, model->body_of[f]);
@@ -309,7 +309,7 @@ sunder_status sunder_i_report_worlds(sunder_report *report, const sunder_i_solve
                    .wrote = sunder_i_alloc(n, sizeof *g.wrote)};
     uint32_t *world = sunder_i_alloc(n, sizeof *world);
     sunder_status status =
-        g.root && g.active && g.read && g.seen && g.wrote && world ? SUNDER_OK : sunder_i_no_memory(err);
+        g.root && g.active && g.read && g.seen && g.wrote && world ? SUNDER_OK : sunder_i_failure_cause(err);
     if (!status) {
         sunder_i_union_init(g.root, n);
         for (size_t e = 0; e < solver->edges; e++) meet_bodies(&g, solver->edge[e].a, solver->edge[e].b);

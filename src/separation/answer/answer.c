@@ -133,7 +133,7 @@ sunder_status sunder_i_stay(bool texts, sunder_separation *out, sunder_error *er
     out->contact = SUNDER_CONTACT_NONE;
     if (!texts) return SUNDER_OK;
     char *block = sunder_i_alloc(6, 1);
-    if (!block) return sunder_i_no_memory(err);
+    if (!block) return sunder_i_failure_cause(err);
     memcpy(block, "0\0000\0000", 6);
     out->dx_text = block;
     out->dy_text = block + 2;

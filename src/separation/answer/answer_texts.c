@@ -175,5 +175,5 @@ sunder_status sunder_i_answer_texts(sunder_i_operands *operands, const sunder_i_
     if (!short_texts(operands, v, out)) long_texts(operands, v, out);
     if (out->dx_text && !operands->placed.lattice.arena.failed) return SUNDER_OK;
     sunder_separation_clear(out);
-    return sunder_i_no_memory(err);
+    return sunder_i_failure_cause(err);
 }

@@ -95,7 +95,7 @@ static sunder_status conclude_search(sunder_i_gap_state *s, sunder_i_gap_answer 
     if (sunder_i_surd_point_is_rational(&f->exact))
         out->at = f->exact;
     else if (!sunder_i_gap_rational_beside(s, f, &way, xy, bits, &out->at))
-        return s->failed ? sunder_i_no_memory(err)
+        return s->failed ? sunder_i_failure_cause(err)
                          : sunder_i_fail(err, SUNDER_EFAULT, "internal fault: no way off a free point");
     SUNDER_I_ASSERT(s->failed || out->at.roots.n == 0);
     return SUNDER_OK;
@@ -105,7 +105,7 @@ sunder_status sunder_i_gap_search(const sunder_i_gap_problem *problem, sunder_i_
 {
     sunder_i_lattice *l = &problem->operands->placed.lattice;
     sunder_i_gap_state s = {.p = problem, .g = problem->operands};
-    if (!set_up(&s)) return sunder_i_no_memory(err);
+    if (!set_up(&s)) return sunder_i_failure_cause(err);
     fill_heap(&s);
     while (s.heap_n && s.heap[0].key <= s.best && !s.failed && !l->arena.failed) {
         const sunder_i_gap_item i = sunder_i_gap_pop_item(&s);
@@ -116,6 +116,11 @@ sunder_status sunder_i_gap_search(const sunder_i_gap_problem *problem, sunder_i_
         else
             sunder_i_gap_take_point(&s, i.index);
     }
+<<<<<<< HEAD
     const sunder_status status = s.failed || l->arena.failed ? SUNDER_OK : conclude_search(&s, out, err);
-    return s.failed || l->arena.failed ? sunder_i_no_memory(err) : status;
+    return s.failed || l->arena.failed ? sunder_i_failure_cause(err) : status;
+=======
+    const sunder_status status = s.failed || l->arena.failed ? SUNDER_OK : conclude(&s, out, err);
+    return s.failed || l->arena.failed ? sunder_i_failure_cause(err) : status;
+>>>>>>> b755d988 (src: sunder_i_failure_cause(), formerly sunder_i_failure_cause(), which may also mean cancelled)
 }

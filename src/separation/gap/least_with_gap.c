@@ -83,11 +83,11 @@ static sunder_status run_search(sunder_i_gap_problem *p, sunder_i_gap_answer *an
 {
     sunder_i_candidates heap;
     if (!p->quadtree) {
-        if (!sunder_i_candidates_find(p->operands, p->limit + p->gap_units, &heap)) return sunder_i_no_memory(err);
+        if (!sunder_i_candidates_find(p->operands, p->limit + p->gap_units, &heap)) return sunder_i_failure_cause(err);
         p->segment = heap.item;
         p->segments = heap.n;
     }
-    return find_centers(p) ? sunder_i_gap_search(p, answer, err) : sunder_i_no_memory(err);
+    return find_centers(p) ? sunder_i_gap_search(p, answer, err) : sunder_i_failure_cause(err);
 }
 
 /* Returns whether the translation (dx, dy) of doubles keeps the gap, too. Exact. */
@@ -117,10 +117,10 @@ static sunder_status fill_answer(sunder_i_gap_problem *p, const sunder_i_gap_ans
     out->overlap = out->attained = true;
     out->contact = a->contact;
     out->rounded_is_free = sunder_i_answer_exact(g, &v, out->dx, out->dy) || doubles_free(p, out->dx, out->dy);
-    if (g->placed.lattice.arena.failed) return sunder_i_no_memory(err);
+    if (g->placed.lattice.arena.failed) return sunder_i_failure_cause(err);
     if (!sunder_i_gap_verify(p, &a->at) && !g->placed.lattice.arena.failed)
         return sunder_i_fail(err, SUNDER_EFAULT, "internal fault: a translation failed its exact check");
-    if (g->placed.lattice.arena.failed) return sunder_i_no_memory(err);
+    if (g->placed.lattice.arena.failed) return sunder_i_failure_cause(err);
     return texts ? sunder_i_answer_texts(g, &v, out, err) : SUNDER_OK;
 }
 
@@ -159,11 +159,11 @@ static sunder_status solve_problem(sunder_i_gap_problem *p, const sunder_i_least
     p->bound_only = o->bound_only && g->unit > 0x1p-400 && g->unit < 0x1p400;
     p->limit = way_out(g, p->gap_units);
     if (upper < p->limit) p->limit = upper * SUNDER_I_GAP_MORE + 8 * g->error;
-    if (are_many(p, o) && !take_squares(p, quadtree)) return sunder_i_no_memory(err);
-    if (!p->quadtree && !sunder_i_operands_reach(g, p->limit + p->gap_units)) return sunder_i_no_memory(err);
+    if (are_many(p, o) && !take_squares(p, quadtree)) return sunder_i_failure_cause(err);
+    if (!p->quadtree && !sunder_i_operands_reach(g, p->limit + p->gap_units)) return sunder_i_failure_cause(err);
     bool memory = true;
-    if (origin_free(p, &memory)) return memory ? sunder_i_stay(o->texts, out, err) : sunder_i_no_memory(err);
-    if (!memory || g->placed.lattice.arena.failed) return sunder_i_no_memory(err);
+    if (origin_free(p, &memory)) return memory ? sunder_i_stay(o->texts, out, err) : sunder_i_failure_cause(err);
+    if (!memory || g->placed.lattice.arena.failed) return sunder_i_failure_cause(err);
     sunder_i_gap_answer answer;
     const sunder_status status = run_search(p, &answer, err);
     if (status) return status;
@@ -212,8 +212,13 @@ sunder_status sunder_i_least_with_gap(const sunder_shape *p, const sunder_shape 
     }
     sunder_i_operands_admit(&g, problem.gap_units);
     sunder_i_gap_quadtree quadtree = {.node = NULL};
-    status = g.placed.lattice.arena.failed ? sunder_i_no_memory(err)
+<<<<<<< HEAD
+    status = g.placed.lattice.arena.failed ? sunder_i_failure_cause(err)
                                            : solve_problem(&problem, options, &quadtree, out, beyond, err);
+=======
+    status = g.placed.lattice.arena.failed ? sunder_i_failure_cause(err)
+                                           : solve(&problem, options, &quadtree, out, beyond, err);
+>>>>>>> b755d988 (src: sunder_i_failure_cause(), formerly sunder_i_failure_cause(), which may also mean cancelled)
     sunder_i_gap_quadtree_free(&quadtree);
     out->counts = g.placed.lattice.counts;
     sunder_i_operands_free(&g);

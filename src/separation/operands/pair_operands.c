@@ -203,7 +203,7 @@ static sunder_status place_operands(sunder_i_operands *g, const sunder_i_operand
     if (plain_unit(p, q, o, &u)) {
         if (place_plain(g, o, &u)) return SUNDER_OK;
         sunder_i_placed_free(&g->placed);
-        return sunder_i_no_memory(err);
+        return sunder_i_failure_cause(err);
     }
     const sunder_i_place_options options = {.reflect_q = o->reflect_q,
                                             .common_origin = true,
@@ -216,7 +216,7 @@ static sunder_status place_operands(sunder_i_operands *g, const sunder_i_operand
     if (status) return status;
     if (!make_room(g, NULL) || g->placed.lattice.arena.failed) {
         sunder_i_placed_free(&g->placed);
-        return sunder_i_no_memory(err);
+        return sunder_i_failure_cause(err);
     }
     g->at[0] = g->placed.p;
     g->at[1] = g->placed.q;
@@ -258,7 +258,7 @@ sunder_status sunder_i_operands_end(sunder_i_operands *operands, sunder_error *e
 {
     const bool failed = operands->placed.lattice.arena.failed;
     sunder_i_operands_free(operands);
-    return failed ? sunder_i_no_memory(err) : SUNDER_OK;
+    return failed ? sunder_i_failure_cause(err) : SUNDER_OK;
 }
 
 double sunder_i_operands_way_out(const sunder_i_operands *operands)

@@ -58,7 +58,7 @@ static sunder_status answer_without_gap(sunder_i_operands *g, const sunder_i_fre
         sunder_i_answer_exact(g, &v, out->dx, out->dy) || sunder_i_doubles_free(g, f, &near, out->dx, out->dy);
     if (!sunder_i_free_point_verify(g, f) && !l->arena.failed)
         return sunder_i_fail(err, SUNDER_EFAULT, "internal fault: a translation failed its exact check");
-    if (l->arena.failed) return sunder_i_no_memory(err);
+    if (l->arena.failed) return sunder_i_failure_cause(err);
     return texts ? sunder_i_answer_texts(g, &v, out, err) : SUNDER_OK;
 }
 

@@ -294,7 +294,7 @@ sunder_status sunder_i_nearest_by_squares(sunder_i_operands *operands, double li
 {
     search s = begin_search(operands, limit);
     *done = false;
-    if (!by_squares(&s, done)) return sunder_i_no_memory(err);
+    if (!by_squares(&s, done)) return sunder_i_failure_cause(err);
     *out = s.best;
     return SUNDER_OK;
 }
@@ -315,7 +315,7 @@ static sunder_status by_parts(sunder_i_operands *g, double limit, bool *done, su
                               sunder_error *err)
 {
     const sunder_i_operands whole = *g;
-    if (!sunder_i_operands_cut(g)) return sunder_i_no_memory(err);
+    if (!sunder_i_operands_cut(g)) return sunder_i_failure_cause(err);
     const sunder_status status = sunder_i_nearest_by_squares(g, limit, done, out, err);
     if (status || *done) return status;
     sunder_i_operands_uncut(g, &whole);
@@ -339,8 +339,13 @@ sunder_status sunder_i_nearest_free_point(sunder_i_operands *operands, double li
         for (int k = 0; k < times; k++) disc /= WIDEN_BY;
         s.limit = disc;
         s.first = 0;
-        if (!nearest_within(&s) || l->arena.failed) return sunder_i_no_memory(err);
+<<<<<<< HEAD
+        if (!nearest_within(&s) || l->arena.failed) return sunder_i_failure_cause(err);
         /* near the boundary of the disc a nearer point may have been taken to be outside */
+=======
+        if (!nearest_within(&s) || l->arena.failed) return sunder_i_failure_cause(err);
+        /* So close to the rim, a nearer point may have been taken for one outside. */
+>>>>>>> b755d988 (src: sunder_i_failure_cause(), formerly sunder_i_failure_cause(), which may also mean cancelled)
         if (times && !s.best.origin && s.best.distance + 16 * operands->error > disc)
             s.best = (sunder_i_free_point){.found = false};
         s.best_point_known = s.best_point_known && s.best.found;

@@ -124,9 +124,9 @@ static void test_errors(void **state)
     longer[sizeof longer - 1] = '\0';
     sunder_i_fail(&err, SUNDER_ERANGE, "%s", longer);
     assert_int_equal(strlen(err.message), SUNDER_MESSAGE_MAX - 1);
-    assert_int_equal(sunder_i_no_memory(&err), SUNDER_ENOMEM);
+    assert_int_equal(sunder_i_failure_cause(&err), SUNDER_ENOMEM);
     assert_int_equal(err.status, SUNDER_ENOMEM);
-    assert_int_equal(sunder_i_no_memory(NULL), SUNDER_ENOMEM);
+    assert_int_equal(sunder_i_failure_cause(NULL), SUNDER_ENOMEM);
     assert_int_equal(sunder_i_fail(NULL, SUNDER_EARG, "x"), SUNDER_EARG);
     assert_int_equal(sunder_i_fail_at(NULL, SUNDER_EARG, 0, 0, 0, "x"), SUNDER_EARG);
 }

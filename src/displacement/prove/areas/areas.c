@@ -46,7 +46,7 @@ sunder_status sunder_i_areas_bound(const sunder_i_model *model, const uint32_t *
     *bound = 0;
     sunder_status status = sunder_i_price_grids_init(&l, model, body, n, 0, err);
     while (!status && l.left > 0)
-        if (!sunder_i_price_grids_refine(&l) || !prove_prices(&l, prices, bound)) status = sunder_i_no_memory(err);
+        if (!sunder_i_price_grids_refine(&l) || !prove_prices(&l, prices, bound)) status = sunder_i_failure_cause(err);
     sunder_i_price_grids_free(&l);
     if (status) {
         sunder_i_free(prices->price);

@@ -228,7 +228,7 @@ static sunder_status ask_some(void *context, size_t begin, size_t end, sunder_er
         ok = sunder_i_step() && ask_payer(&a);
     }
     sunder_i_free(a.glance);
-    return ok ? SUNDER_OK : sunder_i_no_memory(err);
+    return ok ? SUNDER_OK : sunder_i_failure_cause(err);
 }
 
 /* Evaluates the payers from index `first` on, at most AT_ONCE of them. Returns how many were evaluated, or 0 if memory

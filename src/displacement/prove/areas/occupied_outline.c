@@ -39,7 +39,7 @@ static sunder_status take_rings(const sunder_shape *shape, sunder_i_outline *o, 
         }
     o->xy = sunder_i_alloc(2 * corners, sizeof *o->xy);
     o->ring_end = sunder_i_alloc(rings, sizeof *o->ring_end);
-    if (!o->xy || !o->ring_end) return sunder_i_no_memory(err);
+    if (!o->xy || !o->ring_end) return sunder_i_failure_cause(err);
     corners = 0;
     for (size_t p = 0; p < polygons; p++)
         for (size_t r = 0; r < sunder_shape_rings(shape, p); r++) {

@@ -16,10 +16,10 @@ sunder_status sunder_i_areas_places(const sunder_i_model *model, const uint32_t 
     /* The finest grid increases what is proved but does not improve the positions; it is left out. */
     const unsigned last = rough && l.left > 1 ? l.left - 1 : 1;
     while (!status && l.left > last)
-        if (!sunder_i_price_grids_refine(&l)) status = sunder_i_no_memory(err);
+        if (!sunder_i_price_grids_refine(&l)) status = sunder_i_failure_cause(err);
     if (!status && l.price && l.payers == n) {
         *found = sunder_i_prices_places(&l.grid, l.payer, n, l.patience, model->rules.threads, l.price, move);
-        if (!*found) status = sunder_i_no_memory(err);
+        if (!*found) status = sunder_i_failure_cause(err);
     }
     sunder_i_price_grids_free(&l);
     return status;

@@ -86,7 +86,7 @@ sunder_status sunder_i_price_grids_init(sunder_i_price_grids *grids, const sunde
     *grids = (sunder_i_price_grids){.model = model, .body = body, .n = n};
     grids->outline = sunder_i_calloc(n, sizeof *grids->outline);
     grids->payer = sunder_i_calloc(n, sizeof *grids->payer);
-    sunder_status status = grids->outline && grids->payer ? SUNDER_OK : sunder_i_no_memory(err);
+    sunder_status status = grids->outline && grids->payer ? SUNDER_OK : sunder_i_failure_cause(err);
     if (!status) status = find_outlines(grids, about, err);
     if (!status && grids->size > 0) choose_sides(grids);
     return status;

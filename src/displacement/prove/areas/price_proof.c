@@ -255,7 +255,7 @@ static sunder_status ask_some(void *context, size_t begin, size_t end, sunder_er
 {
     const questions *q = context;
     for (size_t k = begin; k < end; k++)
-        if (!sunder_i_step() || !ask_payer(q->field, &q->payer[k], &q->paid[k])) return sunder_i_no_memory(err);
+        if (!sunder_i_step() || !ask_payer(q->field, &q->payer[k], &q->paid[k])) return sunder_i_failure_cause(err);
     return SUNDER_OK;
 }
 

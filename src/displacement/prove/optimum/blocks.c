@@ -393,5 +393,5 @@ sunder_status sunder_i_blocks_bound(const sunder_i_model *model, const sunder_i_
     sunder_i_free(d.item);
     sunder_i_free(d.first);
     sunder_i_free(d.pressure);
-    return ok ? SUNDER_OK : sunder_i_no_memory(err);
+    return ok ? SUNDER_OK : sunder_i_failure_cause(err);
 }

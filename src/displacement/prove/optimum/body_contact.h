@@ -17,7 +17,7 @@ typedef struct sunder_i_contact_list {
     size_t n, capacity;
 } sunder_i_contact_list;
 
-/* Returns the distance, beyond the one that they owe, up to which two bodies count as in contact. */
+/* Returns the distance, beyond the one that they have to keep, up to which two bodies count as in contact. */
 double sunder_i_contact_hair(const sunder_i_model *model, const sunder_i_body *p, const sunder_i_body *q);
 /* Sets *out to the contacts of bodies i and j, moved by t and v, for which u is at most `hair` from the boundary on
  * either side. *edges, if not NULL, grows by the number of edges processed. Returns false if memory is out. */

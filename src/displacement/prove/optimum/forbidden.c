@@ -1,12 +1,12 @@
 /* The forbidden set of a pair, as a union of convex pieces.
  *
- * If convex pieces A and B of two bodies owe each other the distance g, the relative move u may not be in the open set
- * (A + (-B)) grown by the disc of radius g. So the forbidden set of two bodies is a union of such pieces, with arcs at
- * the corners. A listed pair (left in conflict) must be no nearer than at the start. If it still overlaps, as at the
- * start, some translation no longer than the one that separated it at the start must make it disjoint: u may not be a
- * point such that the disc of that radius around it lies in the union of the pair's open pieces, in particular in one
- * of them. Pairs in which one lies in the other, or could get there, and may overlap it are omitted, which makes the
- * set smaller and a bound at most weaker. Courtyards need no care: the pieces of a feature cover the feature and
+ * If convex pieces A and B of two bodies have to keep the distance g from each other, the relative move u may not be in
+ * the open set (A + (-B)) grown by the disc of radius g. So the forbidden set of two bodies is a union of such pieces,
+ * with arcs at the corners. A listed pair (left in conflict) must be no nearer than at the start. If it still overlaps,
+ * as at the start, some translation no longer than the one that separated it at the start must make it disjoint: u may
+ * not be a point such that the disc of that radius around it lies in the union of the pair's open pieces, in particular
+ * in one of them. Pairs in which one lies in the other, or could get there, and may overlap it are omitted, which makes
+ * the set smaller and a bound at most weaker. Courtyards need no care: the pieces of a feature cover the feature and
  * nothing else. Shadows of features that anchors may not pass, and of lines that side anchors may not cross, are
  * further pieces, without exceptions.
  *
@@ -61,7 +61,7 @@ const sunder_i_waiver *sunder_i_waiver_of(const sunder_i_model *model, const sun
     return waived->n ? bsearch(&key, waived->pair, waived->n, sizeof key, sunder_i_by_id_pair) : NULL;
 }
 
-/* Do the things f and g owe each other a distance? *waiver is set to the pair's waiver, or NULL. */
+/* Do the things f and g have to keep a distance from each other? *waiver is set to the pair's waiver, or NULL. */
 static bool owe_distance(const listing *l, uint32_t f, uint32_t g, const sunder_i_waiver **waiver)
 {
     *waiver = sunder_i_waiver_of(l->model, l->waived, f, g);

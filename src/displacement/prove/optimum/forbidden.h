@@ -13,7 +13,7 @@ typedef struct sunder_i_forbidden_piece {
     const sunder_i_body_piece *a, *b; /* the pieces of the two bodies from which K is made; for a shadow one of them is
                                        * an anchor */
     bool shadow;
-    double clearance; /* NAN: the full distance is owed; else the clearance to which the pair is held instead
+    double clearance; /* NAN: the full distance is required; else the clearance to which the pair is held instead
                        * (layer/requirement.h) */
     double radius, vague;
     double box[4];            /* of the grown K */

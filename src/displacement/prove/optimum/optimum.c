@@ -71,7 +71,7 @@ static sunder_status settle_layout(const sunder_i_model *model, const sunder_i_w
     *cost = INFINITY;
     if (tight) {
         if (!sunder_i_tight_place(model, waived, body, n, TIGHT_MARGIN * g->margin, move, &found))
-            return sunder_i_no_memory(err);
+            return sunder_i_failure_cause(err);
     } else {
         const sunder_status status = g->search->descend(model, body, n, g->margin, g->cost, move, &found, err);
         if (status) return status;
@@ -89,7 +89,7 @@ static sunder_status attempt_layout(const sunder_i_model *model, const sunder_i_
     standing *at = sunder_i_alloc(n, sizeof *at);
     uint32_t *list = sunder_i_alloc(n, sizeof *list);
     double *move = sunder_i_alloc(2 * n, sizeof *move);
-    sunder_status status = at && list && move ? SUNDER_OK : sunder_i_no_memory(err);
+    sunder_status status = at && list && move ? SUNDER_OK : sunder_i_failure_cause(err);
     *better = false;
     if (!status && !g->held) {
         for (size_t k = 0; k < n; k++) at[k] = (standing){body[k], {t[2 * k], t[2 * k + 1]}};
@@ -152,7 +152,7 @@ static sunder_status run_tree(const sunder_i_model *model, const sunder_i_waived
     for (uint64_t most = large ? steps_of_large(tree, 0, steps) : steps;;) {
         bool better;
         const sunder_i_tree_outcome outcome = sunder_i_tree_run(tree, most);
-        if (tree->failed) return sunder_i_no_memory(err);
+        if (tree->failed) return sunder_i_failure_cause(err);
         const uint64_t more = outcome == SUNDER_I_TREE_SPENT && large ? steps_of_large(tree, most, steps) : 0;
         if (more > most) {
             most = more;
@@ -248,7 +248,7 @@ static sunder_status prove_parts(const sunder_i_model *model, const sunder_i_wai
         double bound = 0;
         part.cost = cost_of(model, part.body, part.n, part.move);
         if (part.cost > 0) status = prove_part(model, waived, &part, steps / g->n * part.n, &bound, &trees, err);
-        if (!status && !sunder_i_bound_trees_take(&g->trees, &trees)) status = sunder_i_no_memory(err);
+        if (!status && !sunder_i_bound_trees_take(&g->trees, &trees)) status = sunder_i_failure_cause(err);
         sunder_i_bound_trees_free(&trees);
         if (bound > 0) g->bound = nextafter(g->bound + bound, -INFINITY);
     }
@@ -344,10 +344,10 @@ static sunder_status grow_tree(proving *x, uint64_t steps, sunder_error *err)
                                 .goal = goal_of(x->model, g),
                                 .keep = x->model->rules.keep_trees};
     sunder_i_tree tree;
-    sunder_status status = sunder_i_tree_init(&tree, &task) ? SUNDER_OK : sunder_i_no_memory(err);
+    sunder_status status = sunder_i_tree_init(&tree, &task) ? SUNDER_OK : sunder_i_failure_cause(err);
     if (!status) status = run_tree(x->model, x->waived, g, &tree, steps, x->movers > BRANCHED, err);
-    if (!status && !keep_guests(g, &tree, n)) status = sunder_i_no_memory(err);
-    if (!status && task.keep && !sunder_i_tree_keep(&tree, &g->trees)) status = sunder_i_no_memory(err);
+    if (!status && !keep_guests(g, &tree, n)) status = sunder_i_failure_cause(err);
+    if (!status && task.keep && !sunder_i_tree_keep(&tree, &g->trees)) status = sunder_i_failure_cause(err);
     x->spent = x->movers > BRANCHED && (tree.steps >= steps || blocks_are_dear(&tree, steps));
     x->exhausted_tree = x->movers <= BRANCHED && tree.steps >= steps;
     sunder_i_tree_free(&tree);
@@ -405,7 +405,7 @@ static sunder_status run_stage(proving *x, const stage *y, uint64_t steps, sunde
                           : proved       ? "proved to be the least"
                                          : "bound raised";
     const sunder_i_trace_step step = {y->name, outcome, cost, g->cost};
-    return sunder_i_trace_note(&g->log, &step) ? SUNDER_OK : sunder_i_no_memory(err);
+    return sunder_i_trace_note(&g->log, &step) ? SUNDER_OK : sunder_i_failure_cause(err);
 }
 
 static sunder_status prove_afresh(const sunder_i_model *model, const sunder_i_waived *waived, const uint32_t *group_of,

@@ -38,9 +38,9 @@ typedef struct sunder_i_tight {
 
 /* Adds a body, moved by t. Returns false if memory is out. */
 bool sunder_i_tight_add(sunder_i_tight *f, uint32_t body, const double t[2]);
-/* Finds the common step of all coordinates of the group's bodies and of the distances they owe, and a tolerance (hair)
- * in proportion to the movable ones (a fixed one may be a road, miles long). Sets *coarse if there is such a step.
- * Returns false if memory is out. */
+/* Finds the common step of all coordinates of the group's bodies and of the distances that they have to keep, and a
+ * tolerance (hair) in proportion to the movable ones (a fixed one may be a road, miles long). Sets *coarse if there is
+ * such a step. Returns false if memory is out. */
 bool sunder_i_tight_find_step(sunder_i_tight *f, bool *coarse);
 /* Adds the other bodies that are within a hair of the place. Returns false if memory is out. */
 bool sunder_i_tight_find_outside(sunder_i_tight *f);

@@ -42,8 +42,8 @@ static bool lower_by_piece(sunder_i_tight *f, const sunder_i_body_piece *piece, 
     return true;
 }
 
-/* Lowers *exponent to the lowest bit of a body's coordinates and of the distance it owes; *known is set if that
- * distance is a double. Returns false if memory is out. */
+/* Lowers *exponent to the lowest bit of a body's coordinates and of the distance that it has to keep; *known is set if
+ * that distance is a double. Returns false if memory is out. */
 static bool lower_by_body(sunder_i_tight *f, const sunder_i_body *body, int *exponent, bool *known)
 {
     const sunder_i_model *model = f->model;

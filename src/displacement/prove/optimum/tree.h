@@ -17,7 +17,7 @@ typedef struct sunder_i_task {
     uint32_t group;           /* the number of this group */
     const uint32_t *body;     /* [n] */
     size_t n;
-    const double *weight; /* [n] NULL: the bodies' own; else at most those */
+    const double *weight; /* [n] at most the bodies' own weights; NULL: exactly these */
     const double *anchor; /* [2 n] the points a; 0 for bodies that do not move; NULL: all are 0 */
     double goal;          /* the bound to be proved */
     bool no_paths;        /* jumps and sides are ignored, so less is forbidden */
@@ -134,7 +134,7 @@ typedef struct sunder_i_tree {
 typedef enum sunder_i_tree_outcome {
     SUNDER_I_TREE_PROVED, /* no layout costs less than the goal or the least leaf */
     SUNDER_I_TREE_FOUND,  /* program.t has no conflicts: a descent from it may find a cheaper layout */
-    SUNDER_I_TREE_JOINED, /* the same, if the bodies in `joins` are ignored */
+    SUNDER_I_TREE_JOINED, /* as SUNDER_I_TREE_FOUND, if the bodies in `joins` are ignored */
     SUNDER_I_TREE_SPENT   /* the steps are used up */
 } sunder_i_tree_outcome;
 

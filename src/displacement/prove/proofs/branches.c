@@ -211,11 +211,11 @@ static sunder_status search_cases(sunder_i_branching *c, const sunder_i_violatio
 {
     const uint32_t i = sunder_i_branching_join(c, o->p),
                    j = o->slack ? sunder_i_branching_join_slack(c, o->slack) : sunder_i_branching_join(c, o->q);
-    if (c->failed) return sunder_i_no_memory(err);
+    if (c->failed) return sunder_i_failure_cause(err);
     const size_t first = c->node[node].half_plane, end = first + c->node[node].half_planes, claims = c->claims,
                  bodies = c->bodies;
     double *t = sunder_i_alloc(2 * bodies, sizeof *t);
-    if (!t) return sunder_i_no_memory(err);
+    if (!t) return sunder_i_failure_cause(err);
     memcpy(t, c->t, 2 * bodies * sizeof *t);
     sunder_status status = SUNDER_OK;
     memset(levels, 0, sizeof *levels);
@@ -236,7 +236,7 @@ static sunder_status search_cases(sunder_i_branching *c, const sunder_i_violatio
         else if (ok)
             status = sunder_i_branching_search(c, level + 1, verdict, &used, &below, err);
         if (between) set_still(c, false);
-        if (!ok) status = sunder_i_no_memory(err);
+        if (!ok) status = sunder_i_failure_cause(err);
         if (status || *verdict != SUNDER_I_INFEASIBLE) break;
         c->half_plane[half_plane].next = below;
         if (!sunder_i_levels_has(&used, level)) {
@@ -247,7 +247,8 @@ static sunder_status search_cases(sunder_i_branching *c, const sunder_i_violatio
         for (size_t k = 0; k < sizeof used.bit / sizeof *used.bit; k++) levels->bit[k] |= used.bit[k];
         /* The next cases are searched behind this line. A line beyond all limits needs no such claim. */
         c->claims = before;
-        if (!dead && !sunder_i_branching_push(c, i, j, node, half_plane, true, level)) status = sunder_i_no_memory(err);
+        if (!dead && !sunder_i_branching_push(c, i, j, node, half_plane, true, level))
+            status = sunder_i_failure_cause(err);
     }
     sunder_i_levels_drop(levels, level);
     c->claims = claims;
@@ -282,7 +283,7 @@ static sunder_status search_wall(sunder_i_branching *c, unsigned level, sunder_i
     const size_t half_planes = sunder_i_branching_wall_half_planes(c, w);
     size_t node;
     if (!c->failed && half_planes == 0) return SUNDER_OK;
-    if (c->failed || !sunder_i_branching_add_branch(c, &o, half_planes, &node)) return sunder_i_no_memory(err);
+    if (c->failed || !sunder_i_branching_add_branch(c, &o, half_planes, &node)) return sunder_i_failure_cause(err);
     return search_cases(c, &o, node, level, verdict, levels, root, err);
 }
 
@@ -318,8 +319,8 @@ static sunder_status branch_on(sunder_i_branching *c, const sunder_i_violation *
     const size_t half_planes = sunder_i_branching_half_planes(c, o);
     size_t node;
     if (level == SUNDER_I_LEVELS || sunder_i_branching_is_over(c))
-        return c->failed ? sunder_i_no_memory(err) : SUNDER_OK;
-    if (c->failed || !sunder_i_branching_add_branch(c, o, half_planes, &node)) return sunder_i_no_memory(err);
+        return c->failed ? sunder_i_failure_cause(err) : SUNDER_OK;
+    if (c->failed || !sunder_i_branching_add_branch(c, o, half_planes, &node)) return sunder_i_failure_cause(err);
     return search_cases(c, o, node, level, verdict, levels, root, err);
 }
 
@@ -333,22 +334,22 @@ sunder_status sunder_i_branching_search(sunder_i_branching *branching, unsigned 
     if (status || outcome == SUNDER_I_NODE_UNDECIDED) return status;
     if (outcome == SUNDER_I_NODE_INFEASIBLE) {
         *verdict = SUNDER_I_INFEASIBLE;
-        return sunder_i_branching_add_leaf(branching, levels, root) ? SUNDER_OK : sunder_i_no_memory(err);
+        return sunder_i_branching_add_leaf(branching, levels, root) ? SUNDER_OK : sunder_i_failure_cause(err);
     }
     sunder_i_violation deepest[SUNDER_I_CHOICES];
     if (!branching->still && find_left(branching, &deepest[0]))
         return branch_on(branching, &deepest[0], level, verdict, levels, root, err);
-    if (branching->failed) return sunder_i_no_memory(err);
+    if (branching->failed) return sunder_i_failure_cause(err);
     size_t n = find_violations(branching, deepest);
     while (n == 0 && !branching->failed && !sunder_i_branching_is_over(branching) &&
            sunder_i_branching_widen(branching))
         n = find_violations(branching, deepest);
     if (n == 0 && !branching->failed) *verdict = SUNDER_I_FEASIBLE;
     if (n == 0 || branching->failed || level == SUNDER_I_LEVELS || sunder_i_branching_is_over(branching))
-        return branching->failed ? sunder_i_no_memory(err) : SUNDER_OK;
+        return branching->failed ? sunder_i_failure_cause(err) : SUNDER_OK;
     size_t half_planes, node;
     const size_t best = choose_violation(branching, deepest, n, &half_planes);
     if (branching->failed || !sunder_i_branching_add_branch(branching, &deepest[best], half_planes, &node))
-        return sunder_i_no_memory(err);
+        return sunder_i_failure_cause(err);
     return search_cases(branching, &deepest[best], node, level, verdict, levels, root, err);
 }

@@ -162,7 +162,7 @@ void sunder_i_branching_begin(sunder_i_branching *branching, size_t first);
 bool sunder_i_branching_widen(sunder_i_branching *branching);
 /* Returns the distance asked of two things without a reduced requirement, rounded down. */
 double sunder_i_branching_owed(const sunder_i_subproblem *subproblem, uint32_t f, uint32_t g);
-/* Do the features f and g of two bodies owe each other a distance? If so, sets *clearance to it. */
+/* Do the features f and g of two bodies have to keep a distance from each other? If so, sets *clearance to it. */
 bool sunder_i_branching_owe(const sunder_i_branching *branching, uint32_t f, uint32_t g, double *clearance);
 /* Do the rules on paths (jumps, sides) of feature f count in this subproblem? */
 bool sunder_i_branching_is_path_heeded(const sunder_i_branching *branching, uint32_t f);
@@ -191,7 +191,7 @@ bool sunder_i_branching_contradict(sunder_i_branching *branching, const uint32_t
 
 /* ---- violations.c ------------------------------------------------------------------------------------------------ */
 
-/* Two convex pieces that are nearer in the candidate than they owe; or an anchor, and a piece that it passed. */
+/* Two convex pieces that are nearer in the candidate than they may be; or an anchor, and a piece that it passed. */
 typedef struct sunder_i_violation {
     uint32_t p, q; /* bodies; p takes part, q may not yet */
     const sunder_i_body_piece *a, *b;

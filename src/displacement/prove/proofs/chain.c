@@ -268,7 +268,7 @@ static bool ask_things(finding *f, uint32_t a, uint32_t b)
     const uint32_t i = model->body_of[a], j = model->body_of[b];
     const sunder_i_body *p = &model->body[i], *r = &model->body[j];
     double clearance;
-    f->g->of.a = f->q->a; /* the pair in question owes its full distance only here, not in links */
+    f->g->of.a = f->q->a; /* the pair in question has to keep its full distance only here, not in links */
     f->g->of.b = f->q->b;
     const bool owe = sunder_i_branching_owe(&f->g->branching, a, b, &clearance);
     f->g->of.a = f->g->of.b = SUNDER_I_NOBODY;
@@ -330,7 +330,7 @@ sunder_status sunder_i_chains_decide(sunder_i_chains *chains, const sunder_i_sub
     }
     sunder_i_free(f.half_plane);
     sunder_i_free(f.chain);
-    return ok && sunder_i_look() ? SUNDER_OK : sunder_i_no_memory(err);
+    return ok && sunder_i_look() ? SUNDER_OK : sunder_i_failure_cause(err);
 }
 
 /* ---- The chains of a cluster ------------------------------------------------------------------------------------- */

@@ -12,8 +12,8 @@ typedef struct sunder_i_chain_link {
     const sunder_i_body_piece *a, *b;
     double clearance;
     double n[2], d; /* the link is n.(t_j - t_i) >= d */
-    double spare;   /* n.(t_j - t_i) - d at the present positions; not negative, unless all pairs owe their full
-                     * distance */
+    double spare;   /* n.(t_j - t_i) - d at the present positions; not negative, unless all pairs have to keep their
+                     * full distance */
 } sunder_i_chain_link;
 
 /* The links of one body as i. */
@@ -40,8 +40,8 @@ typedef struct sunder_i_chain_entry {
 /* The links of a cluster's bodies, found when needed, and kept for all conflicts of the cluster. */
 struct sunder_i_chains {
     sunder_i_subproblem of; /* the cluster; no pair is in question */
-    bool all;               /* listed pairs owe their full distance, too, and all bodies are at their original positions
-                             * (chain_fewest.c) */
+    bool all;               /* listed pairs have to keep their full distance, too, and all bodies are at their original
+                             * positions (chain_fewest.c) */
     sunder_i_branching branching;
     sunder_i_chain_links *body; /* [of.reserves] the links of each */
     sunder_i_chain_link *link;
@@ -82,8 +82,8 @@ bool sunder_i_chain_is_open_behind(const sunder_i_half_plane *half_plane, const 
 
 /* ---- chain_fewest.c ---------------------------------------------------------------------------------------------- */
 
-/* If all pairs owe their full distance: finds the chain of fewest links that leaves a half-plane of the pair no room;
- * *found. Returns false if memory is out. */
+/* If all pairs have to keep their full distance: finds the chain of fewest links that leaves a half-plane of the pair
+ * no room; *found. Returns false if memory is out. */
 bool sunder_i_chain_fewest(sunder_i_chains *chains, const sunder_i_chain_link *pair,
                            const sunder_i_half_plane *half_plane, sunder_i_pushing *chain, bool *found);
 

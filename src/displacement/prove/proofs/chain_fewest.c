@@ -1,5 +1,5 @@
-/* The shortest chain through a pair if every pair owes its full distance, whether it is listed or not. It proves that
- * these few pairs cannot all be solved, whatever happens elsewhere.
+/* The shortest chain through a pair if every pair has to keep its full distance, whether it is listed or not. It proves
+ * that these few pairs cannot all be solved, whatever happens elsewhere.
  *
  * No positions are known here, and the sums are those at the start: along a row the d of each link, less L |n - n'| at
  * each body between two and L at the end (chain.c). The gain of a link may have either sign, so there are no

@@ -287,7 +287,7 @@ static void take_line(looking *g, const facing *f, const double *part, size_t co
                                         &(sunder_i_piece_of){.n = w->b->corners, .xy = f->b}, &same, g->err);
     if (g->status || !same) return;
     if (!sunder_i_reserve(&g->line, &g->capacity, g->n + 1, sizeof *g->line))
-        g->status = sunder_i_no_memory(g->err);
+        g->status = sunder_i_failure_cause(g->err);
     else
         g->line[g->n++] = *w;
 }
@@ -352,7 +352,7 @@ static void look_at_overlap(looking *g, uint32_t f, const sunder_i_requirement *
             const sunder_i_body *q = &model->body[model->body_of[c->near.item[n]]];
             const sunder_i_body_pieces *of_p = sunder_i_pieces_of(model, p), *of_q = sunder_i_pieces_of(model, q);
             sunder_i_branching_join(c, model->body_of[c->near.item[n]]);
-            if (!of_p || !of_q) g->status = sunder_i_no_memory(g->err);
+            if (!of_p || !of_q) g->status = sunder_i_failure_cause(g->err);
             for (uint32_t k = 0; k < p->pieces && !g->status; k++)
                 for (uint32_t l = 0; l < q->pieces && !g->status; l++)
                     if (of_p->piece[k].feature == f)
@@ -369,7 +369,7 @@ static void look_at_pair(looking *g, uint32_t f, uint32_t standing, double clear
     const double reach = fabs(clearance) + g->branching->hair;
     const sunder_i_body_pieces *of_p = sunder_i_pieces_of(model, p), *of_q = sunder_i_pieces_of(model, q);
     sunder_i_branching_join(g->branching, model->body_of[standing]); /* this determines the size of a hair */
-    if (!of_p || !of_q) g->status = sunder_i_no_memory(g->err);
+    if (!of_p || !of_q) g->status = sunder_i_failure_cause(g->err);
     for (uint32_t k = 0; k < p->pieces && !g->status; k++) {
         const sunder_i_body_piece *a = &of_p->piece[k];
         double box[4];
@@ -398,7 +398,7 @@ static void look_at_requirement(looking *g, const sunder_i_requirement *r)
     const uint32_t end = (uint32_t)model->features + model->barriers->part_end[sunder_i_barrier_of(model, other)];
     sunder_i_box_grow(sunder_i_home_box(model, f), fabs(clearance) + c->hair, box);
     c->near.n = 0;
-    if (!sunder_i_look_about(model, &model->tree, box, &c->near)) g->status = sunder_i_no_memory(g->err);
+    if (!sunder_i_look_about(model, &model->tree, box, &c->near)) g->status = sunder_i_failure_cause(g->err);
     if (c->near.n) qsort(c->near.item, c->near.n, sizeof *c->near.item, sunder_i_by_number);
     size_t out = 0;
     for (size_t k = 0; k < c->near.n; k++)

@@ -6,9 +6,9 @@
  * part once another one meets it; a body that is never met stays in place and is irrelevant. So the size of a branch
  * and bound is that of the conflict.
  *
- * The question never demands more than a solution owes: pairs with reduced requirements keep those; pairs that may
- * overlap (one lies, or could come to lie, in the other, and the rules allow it) and bodies without a limit are left
- * out. Arcs of gaps and limits are replaced by lines that demand at most what the arcs do. So nothing that has a
+ * The question never demands more than a solution has to keep: pairs with reduced requirements keep those; pairs that
+ * may overlap (one lies, or could come to lie, in the other, and the rules allow it) and bodies without a limit are
+ * left out. Arcs of gaps and limits are replaced by lines that demand at most what the arcs do. So nothing that has a
  * solution is ever called infeasible; and every number that supports a verdict is rounded against it. */
 #include "displacement/prove/proofs/branching.h"
 
@@ -60,7 +60,7 @@ static sunder_status take_plane_solution(const sunder_i_branching *c, const sund
     const double of_p = c->limit[0], share = two ? of_p / (of_p + c->limit[1]) : 1, part[2] = {-share, 1 - share};
     out->body = sunder_i_alloc(2, sizeof *out->body);
     out->move = sunder_i_alloc(4, sizeof *out->move);
-    if (!out->body || !out->move) return sunder_i_no_memory(err);
+    if (!out->body || !out->move) return sunder_i_failure_cause(err);
     out->bodies = two ? 2 : 1;
     for (size_t k = 0; k < out->bodies; k++) {
         const size_t from = two && found->p > found->q ? 1 - k : k;
@@ -90,7 +90,7 @@ static sunder_status decide_in_plane(const sunder_i_subproblem *subproblem, cons
     memcpy(told->place, answer.u, sizeof told->place);
     if (!status && answer.verdict == SUNDER_I_INFEASIBLE) {
         decision->proof = sunder_i_proof_of(&c, answer.root);
-        if (!decision->proof) status = sunder_i_no_memory(err);
+        if (!decision->proof) status = sunder_i_failure_cause(err);
     }
     if (!status && answer.verdict == SUNDER_I_FEASIBLE)
         status = take_plane_solution(&c, &answer, &decision->solution, err);
@@ -153,7 +153,7 @@ static sunder_status note_precedent(const sunder_i_subproblem *subproblem, const
     if (!decision->proof ||
         sunder_i_precedent_note_proof(precedent, subproblem->model, decision->proof, decision->fine_plane))
         return SUNDER_OK;
-    return sunder_i_no_memory(err);
+    return sunder_i_failure_cause(err);
 }
 
 static sunder_status ask_plane(const sunder_i_branching *c, sunder_i_decision *decision, sunder_error *err)
@@ -184,7 +184,7 @@ sunder_status sunder_i_decide(const sunder_i_subproblem *subproblem, sunder_i_de
         limited = limited && (b->fixed || isfinite(b->limit) || subproblem->instead > 0);
         sunder_i_branching_join(&c, subproblem->body[k]);
     }
-    sunder_status status = c.failed ? sunder_i_no_memory(err) : SUNDER_OK;
+    sunder_status status = c.failed ? sunder_i_failure_cause(err) : SUNDER_OK;
     sunder_i_levels levels;
     size_t root = 0;
     decision->no_plane = subproblem->no_plane;
@@ -205,7 +205,7 @@ sunder_status sunder_i_decide(const sunder_i_subproblem *subproblem, sunder_i_de
         status = sunder_i_branching_search(&c, 0, &decision->verdict, &levels, &root, err);
     if (!status && decision->verdict == SUNDER_I_INFEASIBLE) {
         decision->proof = sunder_i_proof_of(&c, root);
-        if (!decision->proof) status = sunder_i_no_memory(err);
+        if (!decision->proof) status = sunder_i_failure_cause(err);
     }
     decision->work += sunder_i_branching_work(&c);
     if (!status && decision->verdict == SUNDER_I_FEASIBLE) {

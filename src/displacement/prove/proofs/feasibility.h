@@ -8,7 +8,7 @@
 
 typedef enum sunder_i_verdict {
     SUNDER_I_UNKNOWN,    /* the work exceeded its limit, or a body has no limit */
-    SUNDER_I_INFEASIBLE, /* proved: no moves within the limits give every pair the distance that it owes */
+    SUNDER_I_INFEASIBLE, /* proved: no moves within the limits give every pair the distance that it has to keep */
     SUNDER_I_FEASIBLE    /* the solution gives it, up to a hair; things that it did not meet were not examined */
 } sunder_i_verdict;
 
@@ -41,18 +41,18 @@ typedef struct sunder_i_precedents {
 
 typedef struct sunder_i_subproblem {
     const sunder_i_model *model;
-    const uint32_t *body; /* the bodies to begin with; those that they meet are asked about as well */
+    const uint32_t *body; /* the bodies to begin with; bodies that they meet take part, too */
     size_t bodies;
     const uint32_t *reserve; /* ascending: bodies that join, if they are in reach of participants, when nothing else is
                               * met */
     size_t reserves;
     double farthest; /* the longest finite limit of the reserve */
-    uint32_t a, b;   /* two things (a barrier by its first part) that owe each other the full distance, whatever is
-                      * listed; or SUNDER_I_NOBODY */
+    uint32_t a, b;   /* two things (a barrier by its first part) that have to keep the full distance from each other,
+                      * whatever is listed; or SUNDER_I_NOBODY */
     const sunder_i_requirement *required; /* the reduced requirements; sorted */
     size_t required_n;
     double less;             /* the gap is reduced by this: the answer is for a smaller gap */
-    double margin;           /* extra distance beyond what is owed; 0 if a proof is sought */
+    double margin;           /* extra distance beyond what is required; 0 if a proof is sought */
     const uint32_t *feature; /* NULL, or the only things that count, a barrier by its first part; ascending */
     size_t features;
     /* Half-planes may demand less by this share of the two bodies' limits. Then proofs are smaller, but a solution need
@@ -97,8 +97,8 @@ typedef struct sunder_i_decision {
 typedef struct sunder_i_chains sunder_i_chains;
 
 /* Makes the cache for the cluster whose bodies are cluster->reserve, with the requirements in force. all: for finding
- * the smallest set that cannot be solved together, where every pair owes its full distance. Returns NULL if memory is
- * out. */
+ * the smallest set that cannot be solved together, where every pair has to keep its full distance. Returns NULL if
+ * memory is out. */
 sunder_i_chains *sunder_i_chains_new(const sunder_i_subproblem *cluster, bool all);
 void sunder_i_chains_free(sunder_i_chains *chains);
 /* Looks for a proof that the things a and b of the subproblem push others to their limits, one after the other. The

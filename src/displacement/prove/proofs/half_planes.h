@@ -4,8 +4,9 @@
 
 #include <stddef.h>
 
-/* Two convex polygons, counter-clockwise, each relative to an origin, and the distance that they owe: to be `clearance`
- * apart; or, if that is negative, that some translation no longer than -clearance makes their interiors disjoint. */
+/* Two convex polygons, counter-clockwise, each relative to an origin, and the distance that they have to keep: to be
+ * `clearance` apart; or, if that is negative, that some translation no longer than -clearance makes their interiors
+ * disjoint. */
 typedef struct sunder_i_parting {
     const double *a, *b;
     size_t na, nb;

@@ -4,8 +4,8 @@
  * the clearance r. Move all its lines n.u = d inwards by e |n|, e <= r. What is behind them is a K' such that K' grown
  * by a disc of radius e lies in K, and so in C grown by r - e and by e. If one set lies in a convex set after both are
  * grown alike, it does so before: K' lies in C grown by r - e. So the proof holds for a gap that is smaller by e if the
- * half-planes of all nodes that owe the gap are n.u >= d - e |n| and each leaf remains a contradiction: the sum of its
- * forces falls by a multiple of e, and the loss by limits stays the same.
+ * half-planes of all nodes that have to keep the gap are n.u >= d - e |n| and each leaf remains a contradiction: the
+ * sum of its forces falls by a multiple of e, and the loss by limits stays the same.
  *
  * It is computed in doubles, roughly: it decides which gaps are not asked about, and no verdict. */
 #include "displacement/prove/proofs/branching.h"
@@ -27,8 +27,8 @@ static double owed_distance(const shrinking *g, const sunder_proof_node *node)
     return sunder_i_branching_owed(g->subproblem, (uint32_t)node->a, (uint32_t)node->b);
 }
 
-/* Does the node's pair owe the layer's gap? Reduced requirements of listed pairs, and gaps of barriers of their own, do
- * not change. */
+/* Does the node's pair have to keep the layer's gap? Reduced requirements of listed pairs, and gaps of barriers of
+ * their own, do not change. */
 static bool owes_gap(const shrinking *g, const sunder_proof_node *node)
 {
     return !node->shadow && node->clearance >= owed_distance(g, node) &&
@@ -75,8 +75,8 @@ static double shrink_leaf(shrinking *g, const sunder_proof_node *leaf)
     return falls > 0 ? sunder_i_max(won, 0) / falls : INFINITY;
 }
 
-/* Returns by how much the gap may be reduced because of a node: the distance owed may not fall below the requirement of
- * a listed pair. */
+/* Returns by how much the gap may be reduced because of a node: the required distance may not fall below the
+ * requirement of a listed pair. */
 static double shrink_owed(const shrinking *g, const sunder_proof_node *node)
 {
     const double all = owed_distance(g, node);
@@ -89,7 +89,7 @@ sunder_status sunder_i_proof_least_gap(const sunder_i_subproblem *subproblem, co
     const sunder_i_model *model = subproblem->model;
     const double of = model->rules.gap - subproblem->less;
     shrinking g = {subproblem, model, proof, sunder_i_calloc(2 * model->bodies, sizeof *g.net)};
-    if (!g.net) return sunder_i_no_memory(err);
+    if (!g.net) return sunder_i_failure_cause(err);
     double less = of;
     for (size_t k = 0; k < proof->nodes; k++) {
         const sunder_proof_node *node = &proof->node[k];

@@ -1,4 +1,4 @@
-/* The participants of a branch and bound, and the distances that they owe each other. */
+/* The participants of a branch and bound, and the distances that they have to keep from each other. */
 #include "displacement/layer/reads.h"
 #include "displacement/layer/resolution.h"
 #include "displacement/prove/proofs/branching.h"

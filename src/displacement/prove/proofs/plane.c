@@ -97,7 +97,7 @@ static sunder_status divide_case(sunder_i_plane *g, cases *s, size_t node, size_
 {
     sunder_i_branching *c = g->c;
     const sunder_i_half_plane *w = &c->half_plane[half_plane];
-    if (!sunder_i_branching_push(c, g->i, g->j, node, half_plane, false, level)) return sunder_i_no_memory(err);
+    if (!sunder_i_branching_push(c, g->i, g->j, node, half_plane, false, level)) return sunder_i_failure_cause(err);
     const uint32_t last = (uint32_t)c->claims - 1;
     uint32_t by[2];
     unsigned thin = s->thin;
@@ -116,7 +116,7 @@ static sunder_status divide_case(sunder_i_plane *g, cases *s, size_t node, size_
                    ? SUNDER_I_INFEASIBLE
                    : SUNDER_I_UNKNOWN;
     if (*verdict == SUNDER_I_INFEASIBLE && !sunder_i_branching_add_leaf(c, levels, root))
-        return sunder_i_no_memory(err);
+        return sunder_i_failure_cause(err);
     return SUNDER_OK;
 }
 
@@ -159,7 +159,7 @@ static sunder_status divide_all(sunder_i_plane *g, const sunder_i_plane_region *
         }
         sunder_i_levels_join(levels, &used);
         c->claims = before;
-        if (!dead && !go_behind(g, &s, node, half_plane, level)) status = sunder_i_no_memory(err);
+        if (!dead && !go_behind(g, &s, node, half_plane, level)) status = sunder_i_failure_cause(err);
         if (status) break;
     }
     sunder_i_levels_drop(levels, level);
@@ -208,12 +208,12 @@ static sunder_status divide_region(sunder_i_plane *g, const sunder_i_plane_regio
     if (sunder_i_plane_distance(r, nearest, by) > g->reach) {
         if (!is_out_of_reach(g, by)) return SUNDER_OK;
         *verdict = SUNDER_I_INFEASIBLE;
-        return sunder_i_branching_add_leaf(c, levels, root) ? SUNDER_OK : sunder_i_no_memory(err);
+        return sunder_i_branching_add_leaf(c, levels, root) ? SUNDER_OK : sunder_i_failure_cause(err);
     }
     sunder_i_plane_middle(r, nearest, g->reach, middle);
     divider d;
     size_t node;
-    if (!find_divider(g, r, at, middle, &d)) return sunder_i_no_memory(err);
+    if (!find_divider(g, r, at, middle, &d)) return sunder_i_failure_cause(err);
     if (!d.obstacle && !g->thin) { /* a sliver is forbidden, up to rounding */
         *verdict = SUNDER_I_FEASIBLE;
         memcpy(g->free, middle, sizeof middle);
@@ -222,7 +222,7 @@ static sunder_status divide_region(sunder_i_plane *g, const sunder_i_plane_regio
     const sunder_i_plane_obstacle *o = d.obstacle;
     const sunder_i_violation v = {
         .a = o->a, .b = o->b, .clearance = o->clearance, .shadow = o->shadow, .chord = d.across ? &d.chord : NULL};
-    if (!sunder_i_branching_add_branch(c, &v, d.half_planes, &node)) return sunder_i_no_memory(err);
+    if (!sunder_i_branching_add_branch(c, &v, d.half_planes, &node)) return sunder_i_failure_cause(err);
     return divide_all(g, r, node, d.below, level, verdict, levels, root, err);
 }
 
@@ -297,13 +297,13 @@ sunder_status sunder_i_branching_plane(sunder_i_branching *branching, sunder_i_p
     sunder_i_planes own = {0};
     if (!find_bodies(branching, &g)) return SUNDER_OK;
     const bool ok = begin_plane(branching, &g, &own) && sunder_i_plane_choices_begin(&g);
-    sunder_status status = ok ? SUNDER_OK : sunder_i_no_memory(err);
+    sunder_status status = ok ? SUNDER_OK : sunder_i_failure_cause(err);
     if (ok) {
         sunder_i_levels levels;
         const place all = {0, 0};
         status = divide_region(&g, &g.disc, all, 0, &answer->verdict, &levels, &answer->root, err);
         if (!status && !sunder_i_plane_choices_end(&g, answer->verdict == SUNDER_I_INFEASIBLE))
-            status = sunder_i_no_memory(err);
+            status = sunder_i_failure_cause(err);
     }
     end_plane(branching, &g, &own, answer);
     return status;
@@ -322,7 +322,7 @@ sunder_status sunder_i_branching_plane_try(sunder_i_branching *branching, const 
         answer->verdict = SUNDER_I_FEASIBLE;
         memcpy(g.free, at[k], sizeof g.free);
     }
-    const sunder_status status = ok && !branching->failed ? SUNDER_OK : sunder_i_no_memory(err);
+    const sunder_status status = ok && !branching->failed ? SUNDER_OK : sunder_i_failure_cause(err);
     end_plane(branching, &g, &own, answer);
     return status;
 }

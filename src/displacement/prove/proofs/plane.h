@@ -28,9 +28,9 @@ typedef struct sunder_i_plane_obstacle {
     uint32_t run, rank; /* rank: its place among the obstacles found, the same for all clearances */
 } sunder_i_plane_obstacle;
 
-/* Consecutive obstacles between the same two things f and g (features or parts of barriers), which owe each other a
- * distance, or where f may not pass g: all are forbidden, or none. The full distance and a reduced requirement have a
- * run each, so that neither has to be made again. */
+/* Consecutive obstacles between the same two things f and g (features or parts of barriers), which have to keep from
+ * each other a distance, or where f may not pass g: all are forbidden, or none. The full distance and a reduced
+ * requirement have a run each, so that neither has to be made again. */
 typedef struct sunder_i_plane_run {
     uint32_t f, g;
     bool shadow, side;

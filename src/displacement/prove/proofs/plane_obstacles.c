@@ -1,6 +1,6 @@
 /* The obstacles in the plane of one relative move: pairs of pieces that must keep a distance, and pieces that anchors
  * may not pass. Which pieces qualify depends on the model alone, and is found once for all questions about the two
- * bodies. The distance they owe each other depends on the question, and is the same for nearly all pieces in most
+ * bodies. The distance that they have to keep depends on the question, and is the same for nearly all pieces in most
  * questions. The half-planes of each are made at most once, as in violations.c, when the first place near it is tested;
  * most are never needed. */
 #include "displacement/layer/reads.h"
@@ -172,8 +172,8 @@ static int by_things(const void *a, const void *b)
     return (p->first > q->first) - (p->first < q->first);
 }
 
-/* Makes one run of all obstacles between the same two things, so that the distance they owe is determined once. Returns
- * false if memory is out. */
+/* Makes one run of all obstacles between the same two things, so that the distance they have to keep is determined
+ * once. Returns false if memory is out. */
 static bool join_runs(struct sunder_i_plane_kept *kept)
 {
     sunder_i_plane_obstacle *all = sunder_i_alloc(kept->n, sizeof *all);

@@ -209,9 +209,9 @@ sunder_status sunder_i_branching_solve(sunder_i_branching *branching, sunder_i_n
     *outcome = SUNDER_I_NODE_UNDECIDED;
     static const double hairs[] = {1, 0, -0.5};
     for (size_t k = 0; k < sizeof hairs / sizeof *hairs && *outcome == SUNDER_I_NODE_UNDECIDED; k++) {
-        if (!load_claims(branching, hairs[k] * branching->hair)) return sunder_i_no_memory(err);
+        if (!load_claims(branching, hairs[k] * branching->hair)) return sunder_i_failure_cause(err);
         *outcome = solve_program(branching);
-        if (branching->failed || !sunder_i_look()) return sunder_i_no_memory(err);
+        if (branching->failed || !sunder_i_look()) return sunder_i_failure_cause(err);
     }
     return SUNDER_OK;
 }

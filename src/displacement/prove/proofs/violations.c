@@ -1,5 +1,5 @@
-/* The violations of a candidate: pairs of convex pieces that are nearer than they owe, anchors that jumped over a piece
- * or crossed a side; and the half-planes of each. */
+/* The violations of a candidate: pairs of convex pieces that are nearer than they may be, anchors that jumped over a
+ * piece or crossed a side; and the half-planes of each. */
 #include "displacement/geometry/anchor_reach.h"
 #include "displacement/layer/barrier_parts.h"
 #include "displacement/layer/reads.h"

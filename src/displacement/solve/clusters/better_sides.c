@@ -28,7 +28,7 @@ sunder_status sunder_i_solver_is_improved(const sunder_i_solver *solver, bool *i
             if (wanted[b] && !sunder_i_is_improved(solver, b)) *improved = false;
         }
     sunder_i_free(wanted);
-    return wanted ? SUNDER_OK : sunder_i_no_memory(err);
+    return wanted ? SUNDER_OK : sunder_i_failure_cause(err);
 }
 
 static sunder_status note_improved(const sunder_i_solver *s, sunder_i_cluster *c, double before, const double *move,
@@ -37,7 +37,7 @@ static sunder_status note_improved(const sunder_i_solver *s, sunder_i_cluster *c
     const double after = sunder_i_trace_cost(&s->model, c->body, c->n, move);
     const sunder_i_trace_step step = {"better sides", "cheaper", before, after};
     if (!(after < before)) return SUNDER_OK;
-    return sunder_i_trace_note(&c->log, &step) ? SUNDER_OK : sunder_i_no_memory(err);
+    return sunder_i_trace_note(&c->log, &step) ? SUNDER_OK : sunder_i_failure_cause(err);
 }
 
 static sunder_status improve_clusters(void *context, size_t begin, size_t end, sunder_error *err)
@@ -70,7 +70,7 @@ static sunder_status find_blocking_neighbours(void *context, size_t begin, size_
         sunder_i_reads_begin(&reading, &s->model, sunder_i_reader_for(s, c));
         const bool ok = sunder_i_cluster_find_blocking(&s->model, c, move);
         sunder_i_reads_end(&reading);
-        if (!ok) return sunder_i_no_memory(err);
+        if (!ok) return sunder_i_failure_cause(err);
     }
     return SUNDER_OK;
 }
@@ -85,7 +85,7 @@ static sunder_status join_guests(sunder_i_solver *s, sunder_error *err)
         for (size_t g = 0; g < s->cluster[k].guests && !status; g++) {
             const sunder_i_id_pair *pair = &s->cluster[k].guest[g];
             any = true;
-            if (!sunder_i_solver_add_edge(s, pair->a, pair->b)) status = sunder_i_no_memory(err);
+            if (!sunder_i_solver_add_edge(s, pair->a, pair->b)) status = sunder_i_failure_cause(err);
         }
     return status || !any ? status : sunder_i_solver_gather(s, err);
 }

@@ -72,7 +72,7 @@ static void take_moves(sunder_i_solver *s, const sunder_i_cluster *c, const bool
 sunder_status sunder_i_solver_commit(sunder_i_solver *solver, sunder_error *err)
 {
     committing c = {solver, sunder_i_alloc(solver->members, sizeof *c.exact)};
-    sunder_status status = c.exact ? SUNDER_OK : sunder_i_no_memory(err);
+    sunder_status status = c.exact ? SUNDER_OK : sunder_i_failure_cause(err);
     if (!status)
         status = sunder_i_parallel(solver->model.rules.threads, solver->clusters, SUNDER_I_GRAIN_LOOKS, find_some_exact,
                                    &c, err);
@@ -90,7 +90,7 @@ sunder_status sunder_i_solver_relate(sunder_i_solver *solver, sunder_error *err)
 
 sunder_status sunder_i_solver_relate_near(sunder_i_solver *solver, const sunder_i_list *things, sunder_error *err)
 {
-    if (!sunder_i_changes_sort(&solver->changes)) return sunder_i_no_memory(err);
+    if (!sunder_i_changes_sort(&solver->changes)) return sunder_i_failure_cause(err);
     sunder_status status = sunder_i_placement_move(&solver->model, &solver->placement, &solver->changes, err);
     if (status) return status;
     status = sunder_i_jumps_update(&solver->jumps, &solver->model, &solver->changes, err);

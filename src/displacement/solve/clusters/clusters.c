@@ -71,7 +71,7 @@ sunder_status sunder_i_solver_init(sunder_i_solver *solver, sunder_error *err)
     if (!solver->parent || !solver->widened || !solver->carrier || !solver->crowd_size ||
         !sunder_i_body_states_init(&solver->states, n) ||
         !sunder_i_changes_init(&solver->changes, solver->model.things))
-        return sunder_i_no_memory(err);
+        return sunder_i_failure_cause(err);
     sunder_i_union_init(solver->parent, n);
     for (size_t b = 0; b < n; b++) solver->carrier[b] = SUNDER_I_NOBODY;
     return SUNDER_OK;
@@ -256,7 +256,7 @@ sunder_status sunder_i_solver_gather(sunder_i_solver *solver, sunder_error *err)
     free_clusters(solver);
     if (!reserve_clusters(solver) || !list_members(solver)) {
         solver->members = 0;
-        return sunder_i_no_memory(err);
+        return sunder_i_failure_cause(err);
     }
     for (size_t first = 0, end; first < solver->members; first = end) {
         sunder_i_cluster *c = &solver->cluster[solver->clusters++];
@@ -281,7 +281,7 @@ sunder_status sunder_i_solver_for_clusters(const sunder_i_solver *solver, sunder
                                            sunder_error *err)
 {
     size_t *size = sunder_i_alloc(solver->clusters, sizeof *size);
-    if (!size) return sunder_i_no_memory(err);
+    if (!size) return sunder_i_failure_cause(err);
     for (size_t k = 0; k < solver->clusters; k++) size[k] = solver->cluster[k].n;
     const sunder_status status =
         sunder_i_parallel_largest_first(solver->model.rules.threads, size, solver->clusters, work, context, err);
@@ -303,7 +303,7 @@ sunder_status sunder_i_solver_unite_blocks(sunder_i_solver *solver, sunder_error
 {
     bool *seen = sunder_i_calloc(solver->model.bodies, sizeof *seen);
     uint32_t *body = sunder_i_alloc(solver->members, sizeof *body);
-    sunder_status status = seen && body ? SUNDER_OK : sunder_i_no_memory(err);
+    sunder_status status = seen && body ? SUNDER_OK : sunder_i_failure_cause(err);
     size_t n = 0;
     for (size_t k = 0; !status && k < solver->members; k++) {
         if (!seen[solver->body[k]] && sunder_i_cluster_may_want_shape(&solver->model, solver->body[k]))

@@ -123,7 +123,7 @@ static bool may_hold(const sunder_i_model *model)
 sunder_status sunder_i_solver_begin_holding(sunder_i_solver *solver, sunder_error *err)
 {
     if (!may_hold(&solver->model)) return SUNDER_OK;
-    if (!sunder_i_body_states_init(&solver->states, solver->model.bodies)) return sunder_i_no_memory(err);
+    if (!sunder_i_body_states_init(&solver->states, solver->model.bodies)) return sunder_i_failure_cause(err);
     solver->may_hold = true;
     for (size_t b = 0; b < solver->model.bodies; b++) sunder_i_find_far_corners(&solver->model, &solver->model.body[b]);
     hold_coarse_bodies(solver, &solver->start);
@@ -201,7 +201,7 @@ sunder_status sunder_i_solver_let_go(sunder_i_solver *solver, bool *any, sunder_
     mark_let_go(solver, any);
     if (!*any) return SUNDER_OK;
     bool *root = sunder_i_calloc(model->bodies, sizeof *root), *back = sunder_i_calloc(model->bodies, sizeof *back);
-    sunder_status status = root && back ? SUNDER_OK : sunder_i_no_memory(err);
+    sunder_status status = root && back ? SUNDER_OK : sunder_i_failure_cause(err);
     if (!status) mark_roots(solver, root);
     for (uint32_t b = 0; b < model->bodies && !status; b++) {
         sunder_i_body *body = &model->body[b];
@@ -209,7 +209,7 @@ sunder_status sunder_i_solver_let_go(sunder_i_solver *solver, bool *any, sunder_
         back[b] = !body->fixed && root[sunder_i_union_find(solver->parent, b)];
         sunder_i_body_event(&solver->states, b, back[b] ? SUNDER_I_BEGINS_AGAIN_FREED : SUNDER_I_IS_LEFT);
     }
-    if (!status && !keep_infeasible(solver)) status = sunder_i_no_memory(err);
+    if (!status && !keep_infeasible(solver)) status = sunder_i_failure_cause(err);
     if (!status) status = sunder_i_solver_begin_again(solver, back, err);
     sunder_i_free(root);
     sunder_i_free(back);

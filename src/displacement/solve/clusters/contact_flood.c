@@ -111,7 +111,7 @@ static sunder_status find_contacts_of_batches(void *context, size_t begin, size_
             ok = sunder_i_step() && find_contacts(f, f->out->body.item[k], &near, &f->batch[batch]);
     }
     sunder_i_free(near.item);
-    return ok ? SUNDER_OK : sunder_i_no_memory(err);
+    return ok ? SUNDER_OK : sunder_i_failure_cause(err);
 }
 
 /* Joins two bodies in contact. A fixed body connects nothing, and is listed with each body that touches it. */
@@ -140,7 +140,7 @@ static sunder_status process_batches(flooding *f, sunder_error *err)
     f->turn += n;
     for (size_t batch = 0; batch < batches; batch++)
         for (size_t k = 0; k < f->batch[batch].n; k++)
-            if (!join_contact(f, &f->batch[batch].pair[k])) return sunder_i_no_memory(err);
+            if (!join_contact(f, &f->batch[batch].pair[k])) return sunder_i_failure_cause(err);
     sunder_i_pieces_forget(&f->solver->model, SUNDER_I_PIECES_HELD);
     return SUNDER_OK;
 }
@@ -149,11 +149,11 @@ static sunder_status flood_from_queue(flooding *f, sunder_error *err)
 {
     const sunder_i_groups *groups = &f->solver->groups;
     sunder_i_union_init(f->out->parent, f->solver->model.bodies);
-    if (!enqueue_starting_bodies(f)) return sunder_i_no_memory(err);
+    if (!enqueue_starting_bodies(f)) return sunder_i_failure_cause(err);
     for (size_t k = 0; k < groups->joins; k++) {
         const sunder_i_id_pair *joined = &groups->joined[k];
         sunder_i_union_join(f->out->parent, joined->a, joined->b);
-        if (!enqueue_body(f, joined->a) || !enqueue_body(f, joined->b)) return sunder_i_no_memory(err);
+        if (!enqueue_body(f, joined->a) || !enqueue_body(f, joined->b)) return sunder_i_failure_cause(err);
     }
     sunder_status status = SUNDER_OK;
     while (f->turn < f->out->body.n && !status) status = process_batches(f, err);
@@ -164,7 +164,7 @@ sunder_status sunder_i_flood_contacts(sunder_i_solver *solver, sunder_i_flood *o
 {
     flooding f = {.solver = solver, .out = out, .standing = sunder_i_calloc(solver->model.bodies, sizeof *f.standing)};
     *out = (sunder_i_flood){.parent = sunder_i_alloc(solver->model.bodies, sizeof *out->parent)};
-    const sunder_status status = f.standing && out->parent ? flood_from_queue(&f, err) : sunder_i_no_memory(err);
+    const sunder_status status = f.standing && out->parent ? flood_from_queue(&f, err) : sunder_i_failure_cause(err);
     for (size_t k = 0; k < BATCHES_AT_ONCE; k++) sunder_i_free(f.batch[k].pair);
     sunder_i_free(f.standing);
     return status;

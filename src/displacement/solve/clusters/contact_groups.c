@@ -74,7 +74,7 @@ static sunder_status make_group(const sunder_i_solver *s, const sunder_i_id_pair
 {
     out->body = sunder_i_alloc(n, sizeof *out->body);
     out->move = sunder_i_alloc(2 * n, sizeof *out->move);
-    if (!out->body || !out->move) return sunder_i_no_memory(err);
+    if (!out->body || !out->move) return sunder_i_failure_cause(err);
     out->n = n;
     out->number = SUNDER_I_NOBODY;
     for (size_t k = 0; k < n; k++) {
@@ -158,7 +158,7 @@ static sunder_status make_groups(const gathering *g, sunder_i_groups *groups, su
     uint32_t *at = sunder_i_alloc(s->model.bodies, sizeof *at);
     sunder_i_groups made = {.group = sunder_i_calloc(count_groups(g), sizeof *made.group),
                             .of = sunder_i_alloc(s->model.bodies, sizeof *made.of)};
-    sunder_status status = made.group && made.of && at ? SUNDER_OK : sunder_i_no_memory(err);
+    sunder_status status = made.group && made.of && at ? SUNDER_OK : sunder_i_failure_cause(err);
     if (!status) index_groups(groups, at, s->model.bodies);
     for (size_t b = 0; !status && b < s->model.bodies; b++) made.of[b] = SUNDER_I_NOBODY;
     for (size_t first = 0, end; first < g->members && !status; first = end) {
@@ -173,7 +173,7 @@ static sunder_status make_groups(const gathering *g, sunder_i_groups *groups, su
             if (!s->model.body[group->body[k]].fixed) made.of[group->body[k]] = group->number;
     }
     if (!status) index_groups(&made, at, s->model.bodies);
-    if (!status && !hand_on(&s->model, groups, &made, at)) status = sunder_i_no_memory(err);
+    if (!status && !hand_on(&s->model, groups, &made, at)) status = sunder_i_failure_cause(err);
     sunder_i_free(at);
     if (status) {
         sunder_i_groups_free(&made);
@@ -195,8 +195,8 @@ sunder_status sunder_i_solver_gather_groups(sunder_i_solver *solver, sunder_erro
     if (!solver->groups.spent)
         solver->groups.spent = sunder_i_calloc(solver->model.bodies, sizeof *solver->groups.spent);
     sunder_status status =
-        solver->groups.spent ? sunder_i_flood_contacts(solver, &g.flood, err) : sunder_i_no_memory(err);
-    if (!status && !list_members(&g)) status = sunder_i_no_memory(err);
+        solver->groups.spent ? sunder_i_flood_contacts(solver, &g.flood, err) : sunder_i_failure_cause(err);
+    if (!status && !list_members(&g)) status = sunder_i_failure_cause(err);
     if (!status) status = make_groups(&g, &solver->groups, err);
     sunder_i_flood_free(&g.flood);
     sunder_i_free(g.member);

@@ -75,7 +75,7 @@ static sunder_status align_to_steps(const sunder_i_model *model, const sunder_i_
             memcpy(t->goal + 2 * moved++, f.move + 2 * k, 2 * sizeof *f.move);
     sunder_i_free(f.body);
     sunder_i_free(f.move);
-    return ok ? SUNDER_OK : sunder_i_no_memory(err);
+    return ok ? SUNDER_OK : sunder_i_failure_cause(err);
 }
 
 /* The pair is solved: ends its relaxations, except infeasible ones. */
@@ -83,7 +83,7 @@ static sunder_status take_over(sunder_i_solver *s, sunder_i_cluster *c, const su
 {
     const sunder_i_relaxations *all = &s->model.relaxations;
     sunder_i_restored *list = sunder_i_alloc(all->n, sizeof *list);
-    if (!list) return sunder_i_no_memory(err);
+    if (!list) return sunder_i_failure_cause(err);
     sunder_i_free(c->restored);
     c->restored = list;
     c->restored_n = 0;
@@ -154,7 +154,7 @@ static sunder_status fit_pair(sunder_i_solver *s, sunder_i_cluster *c, const sun
     sunder_status status = how == SHARE_LEAST ? share_least(model, c, pair, move, &found, err)
                                               : sunder_i_cluster_fit(model, c, pair->a, pair->b, room,
                                                                      how == SEARCH_FROM_HOME, move, &found, err);
-    if (!status && found && !sunder_i_trial_take_moved(&t, c, move)) status = sunder_i_no_memory(err);
+    if (!status && found && !sunder_i_trial_take_moved(&t, c, move)) status = sunder_i_failure_cause(err);
     if (!status && found) status = align_to_steps(model, c, &t, &found, err);
     if (!status && found) status = sunder_i_trial_place(&t, none, err);
     *well = t.well;
@@ -173,7 +173,7 @@ static sunder_status may_fit(const sunder_i_solver *s, const sunder_i_cluster *c
         !sunder_i_solver_any_of(s, c->body, c->n, sunder_i_is_wanted) ||
         !sunder_i_relaxations_between(&s->model.relaxations, pair->a, pair->b))
         return SUNDER_OK;
-    return sunder_i_may_be_tight(&s->model, body, 2, may) ? SUNDER_OK : sunder_i_no_memory(err);
+    return sunder_i_may_be_tight(&s->model, body, 2, may) ? SUNDER_OK : sunder_i_failure_cause(err);
 }
 
 static sunder_status fit_all(sunder_i_solver *s, const sunder_i_id_pair *pair, size_t n, unsigned *in_vain,
@@ -201,7 +201,7 @@ sunder_status sunder_i_solver_fit_exactly(sunder_i_solver *solver, sunder_error 
     if (!status) status = sunder_i_solver_unite_blocks(solver, err);
     unsigned *in_vain = sunder_i_calloc(solver->clusters, sizeof *in_vain);
     sunder_i_id_pair *pair = sunder_i_alloc(n, sizeof *pair);
-    if (!status && (!in_vain || !pair)) status = sunder_i_no_memory(err);
+    if (!status && (!in_vain || !pair)) status = sunder_i_failure_cause(err);
     if (!status) memcpy(pair, solver->model.given_up, n * sizeof *pair);
     if (!status) status = fit_all(solver, pair, n, in_vain, err);
     sunder_i_free(in_vain);

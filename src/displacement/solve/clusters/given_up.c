@@ -79,5 +79,5 @@ static bool merge_relaxations(sunder_i_solver *s)
 sunder_status sunder_i_solver_take_relaxations(sunder_i_solver *solver, sunder_error *err)
 {
     const bool ok = restore_pairs(&solver->model, solver->cluster, solver->clusters) && merge_relaxations(solver);
-    return ok ? SUNDER_OK : sunder_i_no_memory(err);
+    return ok ? SUNDER_OK : sunder_i_failure_cause(err);
 }

@@ -127,7 +127,7 @@ static sunder_status grow_once(growth *g, bool *any, sunder_error *err)
     if (!status) status = sunder_i_rtree_build(g->box, g->placed, s->model.bodies, &g->tree, err);
     if (status) return status;
     find_unabsorbable(g);
-    if (!join_all_met_bodies(g)) status = sunder_i_no_memory(err);
+    if (!join_all_met_bodies(g)) status = sunder_i_failure_cause(err);
     sunder_i_rtree_free(&g->tree);
     *any = s->edges > edges;
     if (!status && *any) status = sunder_i_solver_gather(s, err);
@@ -149,7 +149,7 @@ sunder_status sunder_i_solver_grow_crowds(sunder_i_solver *solver, sunder_error 
                 .placed = sunder_i_alloc(solver->model.bodies, sizeof *g.placed),
                 .box = sunder_i_alloc(4 * solver->model.bodies, sizeof *g.box),
                 .unabsorbable = sunder_i_alloc(solver->model.bodies, sizeof *g.unabsorbable)};
-    sunder_status status = g.placed && g.box && g.unabsorbable ? SUNDER_OK : sunder_i_no_memory(err);
+    sunder_status status = g.placed && g.box && g.unabsorbable ? SUNDER_OK : sunder_i_failure_cause(err);
     bool any = true;
     for (int k = 0; k < CROWDS_GROWN && any && !status; k++) status = grow_once(&g, &any, err);
     sunder_i_free(g.placed);

@@ -81,7 +81,7 @@ sunder_status sunder_i_solver_keep_held(const sunder_i_solver *solver, sunder_i_
     }
     for (size_t k = 0; k < model->relaxations.n && ok; k++)
         ok = sunder_i_relaxations_add(&layout->relaxations, &model->relaxations.item[k]);
-    return ok ? SUNDER_OK : sunder_i_no_memory(err);
+    return ok ? SUNDER_OK : sunder_i_failure_cause(err);
 }
 
 /* ---- Compared ---------------------------------------------------------------------------------------------------- */
@@ -234,11 +234,12 @@ sunder_status sunder_i_solver_take_better(sunder_i_solver *solver, const sunder_
                                           sunder_error *err)
 {
     bool *back = sunder_i_calloc(solver->model.bodies, sizeof *back), any = false;
-    sunder_status status = back && find_better_held(solver, layout, back, &any) ? SUNDER_OK : sunder_i_no_memory(err);
+    sunder_status status =
+        back && find_better_held(solver, layout, back, &any) ? SUNDER_OK : sunder_i_failure_cause(err);
     if (!status && any) {
         status = sunder_i_solver_begin_again(solver, back, err);
         if (!status) put_back_moves(solver, layout, back);
-        if (!status && !put_back_pairs(solver, layout, back)) status = sunder_i_no_memory(err);
+        if (!status && !put_back_pairs(solver, layout, back)) status = sunder_i_failure_cause(err);
         if (!status) status = sunder_i_solver_relate(solver, err);
         if (!status) status = sunder_i_solver_gather(solver, err);
     }

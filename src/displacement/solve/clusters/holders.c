@@ -14,7 +14,7 @@ sunder_status sunder_i_solver_choose_holders(sunder_i_solver *solver, sunder_err
 {
     if (solver->model.inclusions == 0) return SUNDER_OK;
     bool *conflict = sunder_i_calloc(solver->start.n, sizeof *conflict);
-    if (!conflict) return sunder_i_no_memory(err);
+    if (!conflict) return sunder_i_failure_cause(err);
     for (size_t k = 0; k < solver->start.n; k++) {
         const uint32_t pair[2] = {solver->model.body_of[solver->start.pair[k].a],
                                   solver->model.body_of[solver->start.pair[k].b]};

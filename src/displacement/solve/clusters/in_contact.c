@@ -19,10 +19,11 @@ static sunder_status find_places(const sunder_i_solver *s, const sunder_i_group 
     const sunder_i_waived waived = {s->groups.waived, s->groups.waived_n, s->states.of[SUNDER_I_DIAGONALS]};
     bool may;
     *found = false;
-    if (!sunder_i_may_be_tight(&s->model, g->body, g->n, &may)) return sunder_i_no_memory(err);
+    if (!sunder_i_may_be_tight(&s->model, g->body, g->n, &may)) return sunder_i_failure_cause(err);
     if (!may) return SUNDER_OK;
-    return sunder_i_tight_place(&s->model, &waived, g->body, g->n, g->margin, move, found) ? SUNDER_OK
-                                                                                           : sunder_i_no_memory(err);
+    return sunder_i_tight_place(&s->model, &waived, g->body, g->n, g->margin, move, found)
+               ? SUNDER_OK
+               : sunder_i_failure_cause(err);
 }
 
 /* The increase of the group's cost, body by body, since it is the difference of two almost equal sums. */
@@ -42,7 +43,7 @@ static sunder_status put_group_in_contact(sunder_i_solver *s, const sunder_i_gro
     const sunder_i_cluster bodies = {.body = g->body, .n = g->n};
     sunder_i_trial t = {.solver = s};
     double *move = sunder_i_alloc(2 * g->n, sizeof *move);
-    if (!move) return sunder_i_no_memory(err);
+    if (!move) return sunder_i_failure_cause(err);
     for (size_t k = 0; k < g->n; k++) memcpy(move + 2 * k, s->model.move + 2 * (size_t)g->body[k], 2 * sizeof *move);
     bool found;
     sunder_i_reading reading;
@@ -50,7 +51,7 @@ static sunder_status put_group_in_contact(sunder_i_solver *s, const sunder_i_gro
     sunder_status status = find_places(s, g, move, &found, err);
     sunder_i_reads_end(&reading);
     if (!status && found && cost_increase(&s->model, g, move) < 0) {
-        if (!sunder_i_trial_take_moved(&t, &bodies, move)) status = sunder_i_no_memory(err);
+        if (!sunder_i_trial_take_moved(&t, &bodies, move)) status = sunder_i_failure_cause(err);
         if (!status) status = sunder_i_trial_place(&t, none, err);
     }
     sunder_i_trial_free(&t);

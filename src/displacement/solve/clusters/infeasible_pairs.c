@@ -74,13 +74,13 @@ static sunder_status take_judgement(sunder_i_solver *s, const sunder_i_relation 
     if (relaxation->infeasible)
         return sunder_i_relaxations_spread(&model->relaxations, model, relaxation, model->rules.gap)
                    ? SUNDER_OK
-                   : sunder_i_no_memory(err);
+                   : sunder_i_failure_cause(err);
     const sunder_i_body *p = &model->body[model->body_of[r->a]], *q = &model->body[model->body_of[r->b]];
     const double reach = sunder_i_limit_of(p) + sunder_i_limit_of(q);
     if (!resolution->apart_beyond || !resolution->inside || hypot(resolution->place[0], resolution->place[1]) > reach)
         return SUNDER_OK;
     if (!sunder_i_reserve(&s->entry, &s->entry_capacity, s->entries + 1, sizeof *s->entry))
-        return sunder_i_no_memory(err);
+        return sunder_i_failure_cause(err);
     s->entry[s->entries++] =
         (sunder_i_entry){r->a, r->b, resolution->a_inside, {resolution->place[0], resolution->place[1]}};
     return sunder_i_inclusions_add(model, r->a, r->b, resolution->a_inside, err);
@@ -95,13 +95,13 @@ sunder_status sunder_i_solver_find_infeasible(sunder_i_solver *solver, const sun
                  .start = &solver->start,
                  .relaxation = sunder_i_calloc(n, sizeof *g.relaxation),
                  .resolution = sunder_i_calloc(n, sizeof *g.resolution)};
-    sunder_status status = g.relaxation && g.resolution ? SUNDER_OK : sunder_i_no_memory(err);
+    sunder_status status = g.relaxation && g.resolution ? SUNDER_OK : sunder_i_failure_cause(err);
     if (!status) status = sunder_i_inclusions_note_nested(&solver->model, &solver->start, err);
     if (!status) status = sunder_i_parallel(solver->model.rules.threads, n, SUNDER_I_GRAIN_PAIRS, judge_pairs, &g, err);
     for (size_t k = 0; !status && k < n; k++)
         status = take_judgement(solver, &solver->start.pair[k], &g.relaxation[k], &g.resolution[k], err);
     if (!status && !sunder_i_relaxations_index(&solver->model.relaxations, &solver->model))
-        status = sunder_i_no_memory(err);
+        status = sunder_i_failure_cause(err);
     sunder_i_free(g.relaxation);
     sunder_i_free(g.resolution);
     return status;

@@ -56,13 +56,13 @@ sunder_status sunder_i_solver_lift_limits(sunder_i_solver *solver, bool *lifted,
     if (!*lifted) return SUNDER_OK;
     solver->limit = sunder_i_alloc(model->bodies, sizeof *solver->limit);
     solver->went = sunder_i_calloc(2 * model->bodies, sizeof *solver->went);
-    if (!solver->limit || !solver->went) return sunder_i_no_memory(err);
+    if (!solver->limit || !solver->went) return sunder_i_failure_cause(err);
     for (uint32_t b = 0; b < model->bodies; b++) {
         solver->limit[b] = model->body[b].limit;
         if (!model->body[b].fixed) model->body[b].limit = INFINITY;
         sunder_i_body_event(&solver->states, b, SUNDER_I_LIMIT_IS_LIFTED);
     }
-    return set_infeasible_aside(solver) ? SUNDER_OK : sunder_i_no_memory(err);
+    return set_infeasible_aside(solver) ? SUNDER_OK : sunder_i_failure_cause(err);
 }
 
 /* ---- What went too far ------------------------------------------------------------------------------------------- */
@@ -161,7 +161,7 @@ sunder_status sunder_i_solver_set_far_aside(sunder_i_solver *solver, sunder_erro
     uint32_t *root = sunder_i_alloc(n, sizeof *root);
     size_t *size = sunder_i_calloc(n, sizeof *size);
     bool *running = sunder_i_calloc(n, sizeof *running), *back = sunder_i_calloc(n, sizeof *back);
-    sunder_status status = root && size && running && back ? SUNDER_OK : sunder_i_no_memory(err);
+    sunder_status status = root && size && running && back ? SUNDER_OK : sunder_i_failure_cause(err);
     if (!status) {
         find_running_clusters(solver, root, size, running);
         if (set_running_aside(solver, running, back)) {
@@ -254,7 +254,7 @@ sunder_status sunder_i_solver_begin_again(sunder_i_solver *solver, const bool *b
 {
     send_home(solver, back);
     const sunder_status status =
-        forget_bodies(solver, back) ? sunder_i_solver_relate(solver, err) : sunder_i_no_memory(err);
+        forget_bodies(solver, back) ? sunder_i_solver_relate(solver, err) : sunder_i_failure_cause(err);
     /* Otherwise a body that shared a cluster with a fixed body would still count as tested against it. */
     return status ? status : sunder_i_solver_gather(solver, err);
 }
@@ -263,14 +263,14 @@ sunder_status sunder_i_solver_restore_limits(sunder_i_solver *solver, sunder_err
 {
     sunder_i_model *model = &solver->model;
     bool *root = sunder_i_calloc(model->bodies, sizeof *root), *back = sunder_i_calloc(model->bodies, sizeof *back);
-    sunder_status status = root && back ? SUNDER_OK : sunder_i_no_memory(err);
+    sunder_status status = root && back ? SUNDER_OK : sunder_i_failure_cause(err);
     model->lifted = solver->went; /* of bodies that were set aside; all others keep their present moves */
     solver->went = NULL;
     for (uint32_t b = 0; b < model->bodies; b++)
         if (!sunder_i_is_aside(solver, b))
             memcpy(model->lifted + 2 * (size_t)b, model->move + 2 * (size_t)b, 2 * sizeof *model->move);
     for (size_t b = 0; b < model->bodies; b++) model->body[b].limit = solver->limit[b];
-    if (!status && !doubt_limited_clusters(solver)) status = sunder_i_no_memory(err);
+    if (!status && !doubt_limited_clusters(solver)) status = sunder_i_failure_cause(err);
     if (!status) {
         find_offenders(solver, root);
         for (uint32_t b = 0; b < model->bodies; b++) {

@@ -33,7 +33,7 @@ sunder_status sunder_i_solver_move_inside(sunder_i_solver *solver, sunder_error 
     for (size_t k = 0; k < solver->entries; k++) {
         const uint32_t i = solver->model.body_of[solver->entry[k].a], j = solver->model.body_of[solver->entry[k].b];
         send_inside(solver, &solver->entry[k]);
-        if (!sunder_i_solver_add_edge(solver, i, j)) return sunder_i_no_memory(err);
+        if (!sunder_i_solver_add_edge(solver, i, j)) return sunder_i_failure_cause(err);
     }
     return sunder_i_solver_relate(solver, err);
 }

@@ -115,7 +115,7 @@ static sunder_status ask_question(sunder_i_subproblem *p, sunder_i_decision *dec
     *work += decision->work;
     if (!status && decision->verdict == SUNDER_I_INFEASIBLE && p->margin > 0 &&
         !sunder_i_may_be_tight(p->model, p->body, p->bodies, &tight))
-        status = sunder_i_no_memory(err);
+        status = sunder_i_failure_cause(err);
     if (!status && tight) {
         sunder_i_decision_clear(decision);
         p->margin = 0;
@@ -319,7 +319,7 @@ static sunder_status align_exactly(const resuming *g, const proposal *x, sunder_
         if (ok) memcpy(c->restored, x->restored, x->n * sizeof *c->restored);
         c->restored_n = ok ? x->n : 0;
     }
-    return ok ? SUNDER_OK : sunder_i_no_memory(err);
+    return ok ? SUNDER_OK : sunder_i_failure_cause(err);
 }
 
 static void place_solution(const sunder_i_cluster *c, const sunder_i_solution *solution, double *move)
@@ -336,7 +336,7 @@ static sunder_status resume_proposal(const resuming *g, const proposal *x, sunde
     const size_t size = 2 * c->n * sizeof *move;
     double *stood = sunder_i_alloc(2 * c->n, sizeof *stood);
     bool done = false;
-    if (!stood) return sunder_i_no_memory(err);
+    if (!stood) return sunder_i_failure_cause(err);
     memcpy(stood, move, size);
     place_solution(c, x->solution, move);
     sunder_status status = sunder_i_cluster_resume(&g->solver->model, c, x->restored, x->n, move, &done, err);
@@ -403,7 +403,7 @@ static sunder_status resume_from_solutions(sunder_i_solver *s, const asking *ask
     proposal *list = sunder_i_calloc(clusters, sizeof *list);
     sunder_status status = SUNDER_OK;
     if (!list || !list_proposals(s, asked, clusters, list, &g.n) || !note_asked(s, asked, asked->first[clusters]))
-        status = sunder_i_no_memory(err);
+        status = sunder_i_failure_cause(err);
     g.proposal = list;
     *changed = g.n > 0;
     if (!status && g.n) {
@@ -435,7 +435,7 @@ sunder_status sunder_i_solver_ask_one_by_one(sunder_i_solver *solver, bool *chan
     sunder_i_decision *decision = sunder_i_calloc(n, sizeof *decision);
     if (!solver->asked_work) solver->asked_work = sunder_i_calloc(solver->model.bodies, sizeof *solver->asked_work);
     if (!status && (!list || !first || !required || !asked || !wanted || !decision || !solver->asked_work))
-        status = sunder_i_no_memory(err);
+        status = sunder_i_failure_cause(err);
     if (!status) {
         list_questions(solver, wanted, list, first, &clusters);
         asking g = {solver,  list, first, required, list_requirements(solver, required), asked, solver->asked_work,

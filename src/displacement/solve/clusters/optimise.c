@@ -89,11 +89,11 @@ sunder_status sunder_i_solver_list_waivers(sunder_i_solver *solver, sunder_error
     const size_t n = groups->waived_n;
     groups->waived_n = 0;
     groups->waived = sunder_i_alloc(solver->now.n, sizeof *groups->waived);
-    sunder_status status = groups->waived ? SUNDER_OK : sunder_i_no_memory(err);
+    sunder_status status = groups->waived ? SUNDER_OK : sunder_i_failure_cause(err);
     for (size_t k = 0; k < solver->now.n && !status; k++)
         if (sunder_i_is_conflict(&solver->now.pair[k]))
             status = list_pair(solver, &solver->now.pair[k], before, n, err);
-    if (!status && !forget_proofs(solver, before, n)) status = sunder_i_no_memory(err);
+    if (!status && !forget_proofs(solver, before, n)) status = sunder_i_failure_cause(err);
     sunder_i_free(before);
     return status;
 }
@@ -317,7 +317,7 @@ static sunder_status put_back_offenders(taking *t, bool *any, sunder_error *err)
     }
     for (size_t k = 0; k < s->jumps.n && !status; k++) {
         const sunder_i_id_pair *p = &s->jumps.pair[k];
-        if (!is_outdated(s, p->a, p->b) && !put_back_jump(t, p->a, p->b, any)) status = sunder_i_no_memory(err);
+        if (!is_outdated(s, p->a, p->b) && !put_back_jump(t, p->a, p->b, any)) status = sunder_i_failure_cause(err);
     }
     if (*any) t->mended = (sunder_i_id_pair){0, 0};
     return status || *any ? status : mend_first(t, any, err);
@@ -332,7 +332,7 @@ static sunder_status take_over(sunder_i_solver *s, bool *any, sunder_error *err)
                 sunder_i_alloc(2 * n, sizeof *t.before),
                 sunder_i_solver_patience(s),
                 {0, 0}};
-    sunder_status status = t.by && t.before && t.budget ? SUNDER_OK : sunder_i_no_memory(err);
+    sunder_status status = t.by && t.before && t.budget ? SUNDER_OK : sunder_i_failure_cause(err);
     bool again = false;
     *any = false;
     if (!status) {
@@ -394,7 +394,7 @@ static sunder_status prove_each(sunder_i_solver *s, sunder_error *err)
 {
     const sunder_i_groups *groups = &s->groups;
     size_t *size = sunder_i_alloc(groups->n, sizeof *size);
-    if (!size) return sunder_i_no_memory(err);
+    if (!size) return sunder_i_failure_cause(err);
     for (size_t k = 0; k < groups->n; k++) size[k] = groups->group[k].n;
     const sunder_status status =
         sunder_i_parallel_largest_first(s->model.rules.threads, size, groups->n, prove_groups, s, err);
@@ -420,7 +420,7 @@ static sunder_status prove_all(sunder_i_solver *s, bool *again, sunder_error *er
     sunder_status status = prove_each(s, err);
     if (!status) status = trace_groups(s, err);
     if (!status) charge_bodies(s);
-    if (!status) status = join_groups(s, again) ? take_over(s, &moved, err) : sunder_i_no_memory(err);
+    if (!status) status = join_groups(s, again) ? take_over(s, &moved, err) : sunder_i_failure_cause(err);
     *again = *again || moved;
     return status;
 }

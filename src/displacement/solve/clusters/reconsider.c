@@ -79,7 +79,7 @@ static sunder_status find_components(sunder_i_solver *s, components *out, sunder
     rooted *list = sunder_i_alloc(most, sizeof *list);
     if (!out->root_of || !out->component || !out->pair || !out->body || !list) {
         sunder_i_free(list);
-        return sunder_i_no_memory(err);
+        return sunder_i_failure_cause(err);
     }
     const size_t n = list_pairs(s, out->root_of, list);
     for (size_t first = 0, end; first < n; first = end) {
@@ -113,7 +113,7 @@ static sunder_status gather_bodies(const sunder_i_solver *s, const component *c,
     size_t more;
     const uint32_t *member = sunder_i_solver_members(s, sunder_i_union_find(s->parent, c->root), &more);
     *body = sunder_i_alloc(c->bodies + more, sizeof **body);
-    if (!*body) return sunder_i_no_memory(err);
+    if (!*body) return sunder_i_failure_cause(err);
     memcpy(*body, c->body, c->bodies * sizeof **body);
     if (more) memcpy(*body + c->bodies, member, more * sizeof **body);
     *n = sunder_i_set_make(*body, c->bodies + more);
@@ -183,7 +183,7 @@ static sunder_status mark_asked(const sunder_i_solver *s, const components *all,
     if (!root || !doubtful) {
         sunder_i_free(root);
         sunder_i_free(doubtful);
-        return sunder_i_no_memory(err);
+        return sunder_i_failure_cause(err);
     }
     for (size_t k = 0; k < model->given_up_n; k++) {
         mark_component(all, model, model->given_up[k].a, root);
@@ -261,7 +261,7 @@ sunder_status sunder_i_solver_reconsider(sunder_i_solver *solver, bool *changed,
     bool *asked = sunder_i_calloc(all.n, sizeof *asked);
     sunder_i_decision *decision = sunder_i_calloc(all.n, sizeof *decision);
     sunder_i_requirement *required = sunder_i_alloc(solver->model.relaxations.n, sizeof *required);
-    if (!status && (!asked || !decision || !required)) status = sunder_i_no_memory(err);
+    if (!status && (!asked || !decision || !required)) status = sunder_i_failure_cause(err);
     if (!status) status = mark_asked(solver, &all, asked, err);
     if (!status) {
         asking g = {solver, all.component, asked, required, list_requirements(&solver->model, required), decision};
@@ -275,7 +275,7 @@ sunder_status sunder_i_solver_reconsider(sunder_i_solver *solver, bool *changed,
             continue;
         }
         *changed = true;
-        if (!take_solution(solver, &all.component[k], &decision[k].solution)) status = sunder_i_no_memory(err);
+        if (!take_solution(solver, &all.component[k], &decision[k].solution)) status = sunder_i_failure_cause(err);
     }
     for (size_t k = 0; k < all.n && decision; k++) sunder_i_decision_clear(&decision[k]);
     sunder_i_free(asked);

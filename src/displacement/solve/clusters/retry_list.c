@@ -134,7 +134,7 @@ static sunder_status note_retried(const sunder_i_solver *s, sunder_i_cluster *c,
     const char *outcome = c->restored_n ? "pairs solved that were given up" : "no pair solved that was given up";
     const sunder_i_trace_step step = {"ask again", outcome, before,
                                       sunder_i_trace_cost(&s->model, c->body, c->n, move)};
-    return sunder_i_trace_note(&c->log, &step) ? SUNDER_OK : sunder_i_no_memory(err);
+    return sunder_i_trace_note(&c->log, &step) ? SUNDER_OK : sunder_i_failure_cause(err);
 }
 
 /* A cluster in which nothing was given up since the last time is skipped: the result would be the same. */
@@ -226,7 +226,7 @@ static sunder_status join_all(sunder_i_solver *s, sunder_error *err)
     bool *asked = sunder_i_solver_connected_with(s, sunder_i_is_to_retry);
     const bool ok = asked && join_relaxed(s, asked) && join_neighbours(s, asked);
     sunder_i_free(asked);
-    return ok ? SUNDER_OK : sunder_i_no_memory(err);
+    return ok ? SUNDER_OK : sunder_i_failure_cause(err);
 }
 
 sunder_status sunder_i_solver_retry(sunder_i_solver *solver, sunder_error *err)
@@ -236,7 +236,7 @@ sunder_status sunder_i_solver_retry(sunder_i_solver *solver, sunder_error *err)
     sunder_status status = join_all(solver, err);
     if (!status) status = sunder_i_solver_gather(solver, err);
     if (!status) status = sunder_i_solver_unite_blocks(solver, err);
-    if (!status && !list_retries(solver, &all)) status = sunder_i_no_memory(err);
+    if (!status && !list_retries(solver, &all)) status = sunder_i_failure_cause(err);
     asking g = {solver, &all};
     if (!status)
         status = sunder_i_parallel(solver->model.rules.threads, solver->clusters, SUNDER_I_GRAIN_WHOLE, retry_clusters,

@@ -48,7 +48,7 @@ static sunder_status note_solved(sunder_i_solver *s, sunder_error *err)
         }
         if (!(c->measured.least > 0)) continue;
         if (!sunder_i_reserve(&s->measured, &s->measured_capacity, s->measured_n + 1, sizeof *s->measured))
-            return sunder_i_no_memory(err);
+            return sunder_i_failure_cause(err);
         s->measured[s->measured_n++] = c->measured;
     }
     return SUNDER_OK;
@@ -104,7 +104,7 @@ static sunder_status heed_relaxation(sunder_i_solver *s, const sunder_i_relation
     *any = true;
     sunder_i_trace_pair(&s->model, "check", "left in conflict, and worse than at the start: solved together", r->a,
                         r->b);
-    return solve_together(s, i, j) ? SUNDER_OK : sunder_i_no_memory(err);
+    return solve_together(s, i, j) ? SUNDER_OK : sunder_i_failure_cause(err);
 }
 
 /* The two are in one cluster, whose solution should have separated them, and rounding spoiled it: the cluster is solved
@@ -132,7 +132,7 @@ static sunder_status find_jumps(sunder_i_solver *s, bool *any, sunder_error *err
             widen_margin(s, s->jumps.pair[k].a, s->jumps.pair[k].b, any);
             continue;
         }
-        if (!solve_together(s, i, j)) return sunder_i_no_memory(err);
+        if (!solve_together(s, i, j)) return sunder_i_failure_cause(err);
         sunder_i_trace_pair(model, "check", "jumped over: solved together from now on", s->jumps.pair[k].a,
                             s->jumps.pair[k].b);
         *any = true;
@@ -159,7 +159,7 @@ static sunder_status find_work(sunder_i_solver *s, bool *any, sunder_error *err)
             continue;
         }
         if (!are_together(s, i, j)) {
-            if (!solve_together(s, i, j)) return sunder_i_no_memory(err);
+            if (!solve_together(s, i, j)) return sunder_i_failure_cause(err);
             sunder_i_trace_pair(model, "check", "in conflict: solved together from now on", r->a, r->b);
             carry_inner_body(s, r->a, r->b);
             *any = true;

@@ -62,7 +62,7 @@ sunder_status sunder_i_find_unsolvable(const sunder_i_model *model, const sunder
                                .most = 2};
     uint32_t *members = members_of(model, bodies, &two.features);
     sunder_i_requirement *required = list_required(model, bodies, relaxation, n, &two.required_n);
-    sunder_status status = members && required ? SUNDER_OK : sunder_i_no_memory(err);
+    sunder_status status = members && required ? SUNDER_OK : sunder_i_failure_cause(err);
     two.feature = members;
     two.required = required;
     for (size_t k = 0; k < n && !status && in_vain < EFFORT_IN_VAIN; k++) {

@@ -21,7 +21,7 @@ static sunder_status judge_pairs(void *context, size_t begin, size_t end, sunder
 {
     const judging *g = context;
     for (size_t k = begin; k < end; k++)
-        if (!sunder_i_is_shut_in(g->model, g->pair[k].a, g->pair[k].b, &g->shut[k])) return sunder_i_no_memory(err);
+        if (!sunder_i_is_shut_in(g->model, g->pair[k].a, g->pair[k].b, &g->shut[k])) return sunder_i_failure_cause(err);
     return SUNDER_OK;
 }
 
@@ -92,7 +92,7 @@ static sunder_status judge_features(const sunder_i_model *model, shut_in_conflic
     bool ok = pair && relaxation && shut;
     for (size_t k = 0; k < n && ok; k++) pair[k] = list[k].pair;
     ok = ok && sunder_i_find_shut_in_pairs(model, list->bodies.a, list->bodies.b, pair, n, shut);
-    sunder_status status = ok ? SUNDER_OK : sunder_i_no_memory(err);
+    sunder_status status = ok ? SUNDER_OK : sunder_i_failure_cause(err);
     for (size_t k = 0; k < n && !status; k++) {
         status = sunder_i_relaxation_of(model, pair[k].a, pair[k].b, &relaxation[k], err);
         list[k].shut = relaxation[k].infeasible = shut[k];
@@ -160,7 +160,7 @@ static sunder_status leave_conflict(sunder_i_model *model, const shut_in_conflic
     } else {
         model->given_up[model->given_up_n++] = m->bodies;
     }
-    return sunder_i_relaxations_add(more, &m->relaxation) ? SUNDER_OK : sunder_i_no_memory(err);
+    return sunder_i_relaxations_add(more, &m->relaxation) ? SUNDER_OK : sunder_i_failure_cause(err);
 }
 
 /* Relaxes all conflicts between the n sorted pairs of bodies. */
@@ -174,7 +174,7 @@ static sunder_status relax_conflicts(sunder_i_solver *s, const sunder_i_id_pair 
     model->shut_in = sunder_i_alloc(conflicts, sizeof *model->shut_in);
     model->given_up = sunder_i_alloc(conflicts, sizeof *model->given_up);
     const bool ok = found && first && model->shut_in && model->given_up;
-    sunder_status status = ok ? SUNDER_OK : sunder_i_no_memory(err);
+    sunder_status status = ok ? SUNDER_OK : sunder_i_failure_cause(err);
     if (ok) list_conflicts(s, list, n, found, first, &pairs);
     judging_features g = {model, found, first};
     if (!status)
@@ -182,13 +182,13 @@ static sunder_status relax_conflicts(sunder_i_solver *s, const sunder_i_id_pair 
     if (ok && conflicts) qsort(found, conflicts, sizeof *found, by_pair);
     for (size_t k = 0; k < conflicts && !status; k++) status = leave_conflict(model, &found[k], &more, err);
     for (size_t k = 0; k < more.n && !status; k++)
-        if (!sunder_i_relaxations_add(&model->relaxations, &more.item[k])) status = sunder_i_no_memory(err);
+        if (!sunder_i_relaxations_add(&model->relaxations, &more.item[k])) status = sunder_i_failure_cause(err);
     sunder_i_relaxations_free(&more);
     sunder_i_free(found);
     sunder_i_free(first);
     if (model->shut_in_n) qsort(model->shut_in, model->shut_in_n, sizeof *model->shut_in, sunder_i_by_id_pair);
     sunder_i_sort_given_up(model);
-    if (!status && !sunder_i_relaxations_index(&model->relaxations, model)) status = sunder_i_no_memory(err);
+    if (!status && !sunder_i_relaxations_index(&model->relaxations, model)) status = sunder_i_failure_cause(err);
     return status;
 }
 
@@ -196,7 +196,7 @@ static sunder_status relax_conflicts(sunder_i_solver *s, const sunder_i_id_pair 
 static sunder_status cover_pairs(sunder_i_model *model, const sunder_i_id_pair *pair, size_t n, sunder_error *err)
 {
     uint32_t *body = sunder_i_alloc(2 * n, sizeof *body);
-    if (!body) return sunder_i_no_memory(err);
+    if (!body) return sunder_i_failure_cause(err);
     memcpy(body, pair, 2 * n * sizeof *body);
     const size_t bodies = sunder_i_set_make(body, 2 * n);
     sunder_status status = sunder_i_model_cover_diagonals_of(model, body, bodies, err);
@@ -210,10 +210,10 @@ sunder_status sunder_i_solver_find_shut_in(sunder_i_solver *solver, sunder_error
     sunder_i_model *model = &solver->model;
     if (model->rules.jumps) return SUNDER_OK;
     sunder_i_id_pair *pair = sunder_i_alloc(solver->start.n, sizeof *pair);
-    if (!pair) return sunder_i_no_memory(err);
+    if (!pair) return sunder_i_failure_cause(err);
     size_t n = list_pairs(solver, pair);
     judging g = {model, pair, sunder_i_calloc(n, sizeof *g.shut)};
-    sunder_status status = g.shut ? SUNDER_OK : sunder_i_no_memory(err);
+    sunder_status status = g.shut ? SUNDER_OK : sunder_i_failure_cause(err);
     if (!status) status = sunder_i_parallel(model->rules.threads, n, SUNDER_I_GRAIN_TESTS, suspect_pairs, &g, err);
     if (!status) n = keep_shut(pair, g.shut, n);
     if (!status && n) status = cover_pairs(model, pair, n, err);

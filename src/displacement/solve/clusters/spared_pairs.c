@@ -30,9 +30,9 @@ sunder_status sunder_i_solver_spare(sunder_i_solver *solver, const sunder_i_spar
         status = sunder_i_relaxation_of(model, r->a, r->b, &relaxation, err);
         relaxation.infeasible = true;
         if (!status && !sunder_i_relaxations_spread(&model->relaxations, model, &relaxation, model->rules.gap))
-            status = sunder_i_no_memory(err);
+            status = sunder_i_failure_cause(err);
     }
-    if (!status && !sunder_i_relaxations_index(&model->relaxations, model)) status = sunder_i_no_memory(err);
+    if (!status && !sunder_i_relaxations_index(&model->relaxations, model)) status = sunder_i_failure_cause(err);
     return status;
 }
 
@@ -130,7 +130,7 @@ sunder_status sunder_i_solver_prove(const sunder_i_solver *solver, const sunder_
     sunder_i_requirement *required = sunder_i_alloc(solver->start.n, sizeof *required);
     size_t n = 0;
     sunder_status status =
-        required ? find_requirements(solver, how->spared, required, &n, err) : sunder_i_no_memory(err);
+        required ? find_requirements(solver, how->spared, required, &n, err) : sunder_i_failure_cause(err);
     *verdict = SUNDER_I_UNKNOWN;
     if (!status) {
         sunder_i_subproblem q = {.model = &solver->model,

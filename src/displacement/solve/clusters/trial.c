@@ -101,7 +101,7 @@ sunder_status sunder_i_trial_place(sunder_i_trial *trial, const double to[2], su
     if (!can_go(trial, to)) return SUNDER_OK;
     trial->well = true;
     trial->about.n = 0;
-    sunder_status status = note_neighbours(trial) ? put_bodies(trial, to, err) : sunder_i_no_memory(err);
+    sunder_status status = note_neighbours(trial) ? put_bodies(trial, to, err) : sunder_i_failure_cause(err);
     for (size_t k = 0; k < trial->n && trial->well && !status; k++)
         status =
             sunder_i_placement_visit(&s->model, &s->placement, trial->body[k], &trial->near, check_pair, trial, err);

@@ -87,12 +87,12 @@ static sunder_status take_bodies_alike(sunder_i_trial *t, uint32_t b, double hai
         sunder_i_reads_begin(&reading, model, b);
         const bool ok = sunder_i_look_about(model, &t->solver->placement.tree, box, &t->near);
         sunder_i_reads_end(&reading);
-        if (!ok) return sunder_i_no_memory(err);
+        if (!ok) return sunder_i_failure_cause(err);
         for (size_t k = 0; k < t->near.n; k++) {
             const uint32_t other = model->body_of[t->near.item[k]];
             if (t->taken[other] || !sunder_i_may_move(&t->solver->model.body[other]) || !is_alike(t, b, other, hair))
                 continue;
-            if (!sunder_i_trial_take(t, other)) return sunder_i_no_memory(err);
+            if (!sunder_i_trial_take(t, other)) return sunder_i_failure_cause(err);
             t->taken[other] = true;
         }
     }
@@ -106,7 +106,7 @@ static sunder_status try_common_move(sunder_i_trial *t, sunder_error *err)
     double coarsest = 0, to[2] = {0, 0};
     sunder_status status = SUNDER_OK;
     if (!t->taken) t->taken = sunder_i_calloc(t->solver->model.bodies, sizeof *t->taken);
-    if (!t->taken) return sunder_i_no_memory(err);
+    if (!t->taken) return sunder_i_failure_cause(err);
     t->taken[t->body[0]] = true;
     for (size_t k = 0; k < t->n && t->n <= *t->budget && !status; k++) {
         double unit[2];
@@ -152,7 +152,7 @@ sunder_status sunder_i_solver_mend(sunder_i_solver *solver, const sunder_i_relat
             t.along = remedies[k].along;
             if (!sunder_i_may_move(&solver->model.body[pair[e]])) continue;
             t.budget = &budget[sunder_i_union_find(solver->parent, pair[e])];
-            if (!sunder_i_trial_take(&t, pair[e])) status = sunder_i_no_memory(err);
+            if (!sunder_i_trial_take(&t, pair[e])) status = sunder_i_failure_cause(err);
             if (!status && remedies[k].remedy == NEARBY) status = try_nearby(&t, err);
             if (!status && remedies[k].remedy == PARTNER) status = sunder_i_trial_place(&t, to, err);
             if (!status && remedies[k].remedy == TOGETHER) status = try_common_move(&t, err);
@@ -181,7 +181,7 @@ static sunder_status demand_margin(sunder_i_solver *s, const sunder_i_relation *
     double *move = sunder_i_solver_load_moves(s, c);
     bool done;
     status = sunder_i_cluster_demand_margin(&s->model, c, r->a, r->b, others, move, &done, err);
-    if (!status && done && !sunder_i_trial_take_moved(&t, c, move)) status = sunder_i_no_memory(err);
+    if (!status && done && !sunder_i_trial_take_moved(&t, c, move)) status = sunder_i_failure_cause(err);
     if (!status && done) status = sunder_i_trial_place(&t, none, err);
     *well = t.well;
     sunder_i_trial_free(&t);
@@ -303,7 +303,7 @@ sunder_status sunder_i_solver_uphold(sunder_i_solver *solver, sunder_error *err)
     sunder_status status = SUNDER_OK;
     size_t *budget = sunder_i_solver_patience(solver);
     waiting held;
-    if (!waiting_init(&held, solver->model.bodies) || !budget) status = sunder_i_no_memory(err);
+    if (!waiting_init(&held, solver->model.bodies) || !budget) status = sunder_i_failure_cause(err);
     for (bool any = solver->now.n + solver->jumps.n > 0, pinned; any && !status;) {
         any = pinned = false;
         begin_pass(solver, &held);

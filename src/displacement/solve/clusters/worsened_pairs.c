@@ -56,7 +56,7 @@ sunder_status sunder_i_solver_is_worse(sunder_i_solver *solver, const sunder_i_r
                                   sunder_i_thing_shape(&solver->model, r->b), NULL, NULL},
                         now = {a.shape, b.shape, a.t, b.t};
     sunder_i_depth *depth = depth_of(solver, was);
-    return depth ? sunder_i_pair_worsened_since(&before, depth, &now, worse, err) : sunder_i_no_memory(err);
+    return depth ? sunder_i_pair_worsened_since(&before, depth, &now, worse, err) : sunder_i_failure_cause(err);
 }
 
 /* Is it a conflict that is always listed, whatever the options? Members of a block may have gaps between them, and may

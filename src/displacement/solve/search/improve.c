@@ -327,7 +327,7 @@ sunder_status sunder_i_cluster_improve(const sunder_i_model *model, const sunder
     sunder_i_free(best);
     sunder_i_free(near);
     sunder_i_free(order);
-    return ok ? SUNDER_OK : sunder_i_no_memory(err);
+    return ok ? SUNDER_OK : sunder_i_failure_cause(err);
 }
 
 sunder_status sunder_i_cluster_descend(const sunder_i_model *model, const sunder_i_cluster *cluster, double cost,
@@ -344,5 +344,5 @@ sunder_status sunder_i_cluster_descend(const sunder_i_model *model, const sunder
     }
     ok = ok && !s.failed;
     sunder_i_search_free(&s);
-    return ok ? SUNDER_OK : sunder_i_no_memory(err);
+    return ok ? SUNDER_OK : sunder_i_failure_cause(err);
 }

@@ -101,5 +101,5 @@ sunder_status sunder_i_cluster_demand_margin(const sunder_i_model *model, const 
     }
     ok = ok && !s.failed;
     sunder_i_search_free(&s);
-    return ok ? SUNDER_OK : sunder_i_no_memory(err);
+    return ok ? SUNDER_OK : sunder_i_failure_cause(err);
 }

@@ -40,7 +40,7 @@ static sunder_status turn_overlaps(sunder_i_search *s, uint32_t i, uint32_t j, s
         const double *ta = s->t + 2 * (swapped ? j : i), *tb = s->t + 2 * (swapped ? i : j);
         bool fits;
         status = sunder_i_relaxation_turn(model, ta, tb, &t, &fits, err);
-        if (!status && fits && !sunder_i_relaxations_add(&s->relaxations, &t)) status = sunder_i_no_memory(err);
+        if (!status && fits && !sunder_i_relaxations_add(&s->relaxations, &t)) status = sunder_i_failure_cause(err);
     }
     return status;
 }
@@ -50,7 +50,7 @@ static sunder_status turn_all(sunder_i_search *s, sunder_error *err)
     sunder_status status = SUNDER_OK;
     sunder_i_search_find_clashes(s, s->t);
     for (size_t k = 0; k < s->clashes && !status; k++) status = turn_overlaps(s, s->clash[k].i, s->clash[k].j, err);
-    if (!status && !sunder_i_relaxations_index(&s->relaxations, s->model)) status = sunder_i_no_memory(err);
+    if (!status && !sunder_i_relaxations_index(&s->relaxations, s->model)) status = sunder_i_failure_cause(err);
     return status;
 }
 
@@ -73,5 +73,5 @@ sunder_status sunder_i_cluster_resume(const sunder_i_model *model, sunder_i_clus
     }
     sunder_i_search_free(&s);
     if (status) return status;
-    return ok ? SUNDER_OK : sunder_i_no_memory(err);
+    return ok ? SUNDER_OK : sunder_i_failure_cause(err);
 }

@@ -363,5 +363,5 @@ sunder_status sunder_i_cluster_retry(const sunder_i_model *model, sunder_i_clust
         sunder_i_search_hand_over(&s, cluster);
     }
     sunder_i_search_free(&s);
-    return ok ? SUNDER_OK : sunder_i_no_memory(err);
+    return ok ? SUNDER_OK : sunder_i_failure_cause(err);
 }

@@ -229,7 +229,7 @@ static sunder_status shake_group(shaking *k, const sunder_i_model *model, const 
     sunder_i_free(k->force);
     k->force = NULL;
     k->forces = k->capacity = 0;
-    sunder_status status = ok ? SUNDER_OK : sunder_i_no_memory(err);
+    sunder_status status = ok ? SUNDER_OK : sunder_i_failure_cause(err);
     if (!status && better) status = sunder_i_group_descend(model, waived, g, k->best, err);
     sunder_i_free(k->best);
     return status;
@@ -243,7 +243,7 @@ sunder_status sunder_i_group_shake(const sunder_i_model *model, const sunder_i_w
     double farthest = 0;
     for (size_t m = 0; m < 2 * group->n; m++) farthest = sunder_i_max(farthest, fabs(group->move[m]));
     k.near = sunder_i_alloc(k.n, sizeof *k.near);
-    sunder_status status = k.near ? SUNDER_OK : sunder_i_no_memory(err);
+    sunder_status status = k.near ? SUNDER_OK : sunder_i_failure_cause(err);
     if (!status) status = shake_group(&k, model, waived, group, 0, steps, err);
     if (!status && k.ended == 0 && !group->tired && group->n > HEAP) {
         status = shake_group(&k, model, waived, group, farthest / 2, steps, err);

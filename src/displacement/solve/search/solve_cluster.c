@@ -255,7 +255,7 @@ static sunder_status note_stage(const solving *before, const solving *x, const c
     const char *outcome = x->given_up ? "solved but for pairs given up" : x->done ? "solved" : "not solved";
     const sunder_i_trace_step step = {name, outcome, cost, now};
     if (x->done == before->done && x->given_up == before->given_up && !(now < cost) && !(now > cost)) return SUNDER_OK;
-    return sunder_i_trace_note(&x->cluster->log, &step) ? SUNDER_OK : sunder_i_no_memory(err);
+    return sunder_i_trace_note(&x->cluster->log, &step) ? SUNDER_OK : sunder_i_failure_cause(err);
 }
 
 static sunder_status run_stage(solving *x, const stage *y, sunder_error *err)
@@ -286,5 +286,5 @@ sunder_status sunder_i_cluster_solve(const sunder_i_model *model, sunder_i_clust
     if (!failed && cluster->outcome != SUNDER_I_FOUND_NONE) sunder_i_search_round(&s, move);
     sunder_i_search_free(&s);
     if (status) return status;
-    return failed ? sunder_i_no_memory(err) : SUNDER_OK;
+    return failed ? sunder_i_failure_cause(err) : SUNDER_OK;
 }
