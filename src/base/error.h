@@ -13,14 +13,8 @@ sunder_status sunder_i_fail_at(sunder_error *err, sunder_status status, size_t p
                                const char *format, ...) __attribute__((format(printf, 6, 7)));
 /* Stores and returns SUNDER_ECANCEL: a progress function asked to stop. */
 sunder_status sunder_i_cancelled(sunder_error *err);
-<<<<<<< HEAD
 /* Stores and returns the error of work that was refused memory or cut short: SUNDER_ENOMEM or, if the watch (watch.h)
  * is the cause, SUNDER_ECANCEL or SUNDER_ESIZE. */
 sunder_status sunder_i_failure_cause(sunder_error *err);
-=======
-/* Sets *err to the cause for which work on this thread could not go on, and returns its status: SUNDER_ENOMEM if memory
- * was refused; SUNDER_ECANCEL or SUNDER_ESIZE if the watch (watch.h) stopped the work. */
-sunder_status sunder_i_failure_cause(sunder_error *err);
->>>>>>> b755d988 (src: sunder_i_failure_cause(), formerly sunder_i_failure_cause(), which may also mean cancelled)
 
 #endif

@@ -1,18 +1,10 @@
 /* watch.h: whether work may continue.
  *
-<<<<<<< HEAD
  * Work is counted in steps: an allocation, a node of a search, a comparison of two sides; each takes a few microseconds
  * at most. Every SUNDER_I_STEPS steps a thread calls its watches: the progress functions of the public calls in which
  * it is, and its own (sunder_watch). When one of these returns false, the thread is refused memory, so that all work
  * ends in the same way as if out of memory; sunder_i_failure_cause() distinguishes the two causes. A loop that does not
  * allocate counts its steps and returns:
-=======
- * Work is counted in steps: an allocation, a node of a search, a side against a side; each takes at most some
- * microseconds. Every SUNDER_I_STEPS steps the thread asks its watches: the progress functions of the public calls that
- * it is in, and its own (sunder_watch). Once one of these says stop, the thread is refused memory, so that all work
- * unwinds along its out-of-memory paths; sunder_i_failure_cause() tells the two causes apart. A loop that does not
- * allocate counts its steps and leaves:
->>>>>>> b755d988 (src: sunder_i_failure_cause(), formerly sunder_i_failure_cause(), which may also mean cancelled)
  *
  *     if (!sunder_i_step()) return sunder_i_failure_cause(err);
  *
@@ -78,11 +70,7 @@ static inline bool sunder_i_steps(size_t n)
     return true;
 }
 
-<<<<<<< HEAD
 /* Records, for sunder_i_failure_cause(), that a count cannot be represented. Always returns false. */
-=======
-/* Records, for sunder_i_failure_cause(), that a count cannot be represented. Always false. */
->>>>>>> b755d988 (src: sunder_i_failure_cause(), formerly sunder_i_failure_cause(), which may also mean cancelled)
 bool sunder_i_too_many(void);
 /* Returns whether this was recorded, and clears the record. */
 bool sunder_i_was_too_many(void);

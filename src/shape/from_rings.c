@@ -272,13 +272,8 @@ static sunder_status build_shape(builder *b, sunder_shape **out, sunder_error *e
     sunder_i_pieces pieces;
     if (!sunder_i_pieces_find(&b->r, &b->arena, &pieces)) return sunder_i_failure_cause(err);
     sunder_shape *s = sunder_i_shape_assemble(in->xy, in->ring_end, in->poly_end, in->polygons, &b->r, &pieces);
-<<<<<<< HEAD
     if (!s) return sunder_i_failure_cause(err);
     if (!complete_shape(b, s)) {
-=======
-    if (!s) return sunder_i_failure_cause(err);
-    if (!complete(b, s)) {
->>>>>>> b755d988 (src: sunder_i_failure_cause(), formerly sunder_i_failure_cause(), which may also mean cancelled)
         sunder_shape_free(s);
         return sunder_i_failure_cause(err);
     }

@@ -34,13 +34,8 @@ static sunder_shape *copy_shape(const sunder_shape *s)
 sunder_status sunder_shape_reflect(const sunder_shape *shape, sunder_shape **out, sunder_error *err)
 {
     sunder_shape *c = copy_shape(shape);
-<<<<<<< HEAD
     if (!c) return sunder_i_failure_cause(err);
     /* a rotation by half a turn: orientations are kept; 0 - v is never a negative zero */
-=======
-    if (!c) return sunder_i_failure_cause(err);
-    /* Half a turn: orientations stay. 0 - v has no negative zero. */
->>>>>>> b755d988 (src: sunder_i_failure_cause(), formerly sunder_i_failure_cause(), which may also mean cancelled)
     for (size_t i = 0; i < 2 * sunder_i_shape_raw_vertices(c); i++) c->raw_xy[i] = 0 - c->raw_xy[i];
     bool good = true;
     for (size_t i = 0; c->xy != c->raw_xy && i < 2 * (size_t)c->vertices; i++) c->xy[i] = 0 - c->xy[i];

@@ -116,11 +116,6 @@ sunder_status sunder_i_gap_search(const sunder_i_gap_problem *problem, sunder_i_
         else
             sunder_i_gap_take_point(&s, i.index);
     }
-<<<<<<< HEAD
     const sunder_status status = s.failed || l->arena.failed ? SUNDER_OK : conclude_search(&s, out, err);
     return s.failed || l->arena.failed ? sunder_i_failure_cause(err) : status;
-=======
-    const sunder_status status = s.failed || l->arena.failed ? SUNDER_OK : conclude(&s, out, err);
-    return s.failed || l->arena.failed ? sunder_i_failure_cause(err) : status;
->>>>>>> b755d988 (src: sunder_i_failure_cause(), formerly sunder_i_failure_cause(), which may also mean cancelled)
 }

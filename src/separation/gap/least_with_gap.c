@@ -212,13 +212,8 @@ sunder_status sunder_i_least_with_gap(const sunder_shape *p, const sunder_shape 
     }
     sunder_i_operands_admit(&g, problem.gap_units);
     sunder_i_gap_quadtree quadtree = {.node = NULL};
-<<<<<<< HEAD
     status = g.placed.lattice.arena.failed ? sunder_i_failure_cause(err)
                                            : solve_problem(&problem, options, &quadtree, out, beyond, err);
-=======
-    status = g.placed.lattice.arena.failed ? sunder_i_failure_cause(err)
-                                           : solve(&problem, options, &quadtree, out, beyond, err);
->>>>>>> b755d988 (src: sunder_i_failure_cause(), formerly sunder_i_failure_cause(), which may also mean cancelled)
     sunder_i_gap_quadtree_free(&quadtree);
     out->counts = g.placed.lattice.counts;
     sunder_i_operands_free(&g);

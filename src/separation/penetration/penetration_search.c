@@ -339,13 +339,8 @@ sunder_status sunder_i_nearest_free_point(sunder_i_operands *operands, double li
         for (int k = 0; k < times; k++) disc /= WIDEN_BY;
         s.limit = disc;
         s.first = 0;
-<<<<<<< HEAD
         if (!nearest_within(&s) || l->arena.failed) return sunder_i_failure_cause(err);
         /* near the boundary of the disc a nearer point may have been taken to be outside */
-=======
-        if (!nearest_within(&s) || l->arena.failed) return sunder_i_failure_cause(err);
-        /* So close to the rim, a nearer point may have been taken for one outside. */
->>>>>>> b755d988 (src: sunder_i_failure_cause(), formerly sunder_i_failure_cause(), which may also mean cancelled)
         if (times && !s.best.origin && s.best.distance + 16 * operands->error > disc)
             s.best = (sunder_i_free_point){.found = false};
         s.best_point_known = s.best_point_known && s.best.found;
