@@ -1,6 +1,6 @@
 """Checks a file of --proof in integers and fractions, from the input and the options of the run:
 
-    python3 check_proof.py PROOF INPUT.gpkg [--layer NAME] [options of sunder separate]
+    python3 check_proof.py PROOF INPUT [--layer NAME] [options of sunder separate]
 
 Nothing is shared with the program; docs/PROOF.md says what is asked, and why the bound and the verdicts follow. Status
 0: all of it holds, with a line that says what; 1: something does not, with what; 2: it cannot be asked.
@@ -25,11 +25,11 @@ from result import Result  # noqa: E402
 def read_options(words):
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("proof")
-    parser.add_argument("input")
-    parser.add_argument("--layer")
+    parser.add_argument("input", help="a GeoPackage, or whatever ogr2ogr reads")
+    parser.add_argument("--layer", "--input-layer", "-l")
     parser.add_argument("--result", help="a GeoPackage with what separate wrote: LAYER, LAYER_displacement, "
                         "LAYER_conflicts; its moves cost what they cost")
-    for name in ("where", "fixed-where", "ignore-where", "max-shift-field", "weight-field", "block-field", "symbol", "symbol-field",
+    for name in ("sql", "dialect", "bbox", "input-crs", "where", "fixed-where", "ignore-where", "max-shift-field", "weight-field", "block-field", "symbol", "symbol-field",
                  "symbol-size-field", "scale"):
         parser.add_argument("--" + name)
     for name in ("max-shift", "touch-tolerance"):
@@ -37,6 +37,7 @@ def read_options(words):
     parser.add_argument("--gap", default="0")
     parser.add_argument("--barrier", action="append", default=[])
     parser.add_argument("--contained")
+    parser.add_argument("--invalid", default="repair")
     parser.add_argument("--weight", default="1")
     parser.add_argument("--no-blocks", action="store_true")
     parser.add_argument("--allow-jumps", action="store_true")

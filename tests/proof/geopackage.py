@@ -47,7 +47,7 @@ def read_geometry(blob, at=0):
             polygons += more
             lines += others
         return polygons, lines, at
-    raise NotRead(f"geometries of type {kind} are not read")
+    raise NotRead(f"geometries of type {kind} are not read" + (": arcs become polygons in ways that are rounded" if 8 <= kind <= 12 else ""))
 
 
 def read_blob(blob):
@@ -117,6 +117,8 @@ class Layer:
         base = sqlite3.connect(f"file:{path}?mode=ro", uri=True)
         tables = base.execute("SELECT table_name, column_name, srs_id FROM gpkg_geometry_columns").fetchall()
         found = [t for t in tables if name is None or t[0] == name]
+        if name is None and len(found) > 1:
+            raise NotRead(f"{path} has several layers, and none is named")
         if not found:
             raise NotRead(f"{path} has no layer {name}")
         self.name, column, srs = found[0]
@@ -136,6 +138,3 @@ class Layer:
     def demand_field(self, name):
         for attributes, _, _ in self.features.values():
             value_of(attributes, name)
-
-    def fids(self, path, where):
-        return set(Layer(path, self.name, where).features) if where else set()

@@ -217,3 +217,17 @@ make_three() {
     make_rings three.gpkg '600001.8 5000002.9,600007.3 4999996.5,600010.1 5000004.5' \
         '600000.1 5000005.6,600001.1 4999994.4,600010.3 5000000.8' '599999.5 4999988.9,600005.3 4999998.2,599994.3 4999998.5'
 }
+
+# Five houses beside a street, two of them with rings that cross; in three formats.
+make_formats() {
+    printf 'WKT,w\n"%s",1\n"%s",2\n"%s",1\n"%s",4\n"%s",5\n' "POLYGON((600000 5400000,600010 5400000,600010 5400010,600000 5400010))" \
+        "POLYGON((600011 5400001,600021 5400001,600021 5400009,600011 5400009))" \
+        "POLYGON((600000 5400011,600009 5400011,600009 5400020,600000 5400020))" \
+        "POLYGON((600022 5400000,600032 5400010,600032 5400000,600022 5400010))" \
+        "POLYGON((600033 5400001,600041 5400001,600041 5400008,600033 5400008),(600050 5400001,600051 5400001,600051 5400002))" |
+        layer formats.gpkg buildings POLYGON
+    printf 'WKT,w\n"LINESTRING(599980 5399998.9,600015 5399998.7,600040 5399999.5)",1\n' | layer alley.gpkg alley LINESTRING
+    ogr2ogr buildings.shp formats.gpkg 2>/dev/null && ogr2ogr -f GeoJSON buildings.geojson formats.gpkg 2>/dev/null &&
+        ogr2ogr -f FlatGeobuf alley.fgb alley.gpkg 2>/dev/null || fail "ogr2ogr: formats.gpkg"
+    printf 'WKT,w\n"CURVEPOLYGON(CIRCULARSTRING(0 0,5 5,10 0,5 -5,0 0))",1\n' | layer arc.gpkg buildings CURVEPOLYGON
+}

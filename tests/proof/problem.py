@@ -14,7 +14,9 @@ from lengths import Units
 from pieces import in_polygon, in_union
 from repair import area_of, members_of, repaired
 from reprojected import in_crs_of
+from sources import Source
 from symbols import Symbols
+from validity import leave_out_broken
 from unions import union_outline
 
 
@@ -92,20 +94,23 @@ def have_common_walls(one, other):
 
 class Problem:
     def __init__(self, path, options):
-        layer = geopackage.Layer(path, options.layer, options.where)
+        source = Source(path, options.layer, options.sql, options.dialect, options.bbox, options.input_crs)
+        layer = source.layer(options.where)
         self.crs, self.units = layer.crs, Units(layer.crs, options.scale)
         self.name, self.options = layer.name, self.in_units(options)
         options = self.options
         for name in (options.max_shift_field, options.weight_field, options.block_field):
             layer.demand_field(name)
+        if not options.points:
+            leave_out_broken(layer, options.invalid)
         self.points = Symbols(options, self.units).place(layer) if options.points else {}
         self.tolerance = options.touch_tolerance if options.touch_tolerance is not None else options.gap / 10
         self.given, self.areas, self.median = {fid: f[1] for fid, f in layer.features.items()}, {}, None
         for fid, (attributes, polygons, _) in layer.features.items():  # lines of a collection are no part of a feature
             layer.features[fid] = attributes, [repaired(p) for p in polygons], []
         self.standing = {fid: f[1] for fid, f in layer.features.items()}
-        fixed = layer.fids(path, options.fixed_where)
-        self.ignored = layer.fids(path, options.ignore_where)
+        fixed = source.fids(options.fixed_where)
+        self.ignored = source.fids(options.ignore_where)
         barriers = [b for spec in options.barrier for b in self.read_barriers(spec)]
         self.lattice = Lattice()
         for number in (options.gap, self.tolerance):
@@ -150,8 +155,9 @@ class Problem:
 
     def read_barriers(self, spec):
         words = split_spec(spec)
-        layer = geopackage.Layer(words["path"], words.get("layer"), words["where"])
-        features = layer.features.items() if layer.crs.is_same(self.crs) else in_crs_of(self.crs, layer, words["path"])
+        source = Source(words["path"], words.get("layer"))
+        layer = source.layer(words["where"])
+        features = layer.features.items() if layer.crs.is_same(self.crs) else in_crs_of(self.crs, layer, source)
         width_of_all = self.units(words.get("width", 0), "--barrier " + spec)
         gap = self.units(words["gap"], "--barrier " + spec) if "gap" in words else self.options.gap
         for fid, (attributes, polygons, lines) in features:

@@ -1,25 +1,11 @@
 """Barriers in another CRS than the layer: their coordinates are those that ogr2ogr makes of them, in a file of its own."""
-import os
-import subprocess
-import tempfile
-
-import geopackage
 from form import NotRead
+from sources import converted
 
 
-def in_crs_of(crs, layer, path):
+def in_crs_of(crs, layer, source):
     """The features of the layer, with coordinates of the CRS. Nothing else changes: not the rings, nor how many corners they have."""
-    with tempfile.TemporaryDirectory() as directory:
-        to = os.path.join(directory, "there.gpkg")
-        words = ["ogr2ogr", "-q", "-f", "GPKG", "-preserve_fid", "-dim", "XY", "-t_srs", target(crs), "-nln", layer.name, to, path,
-                 layer.name]
-        try:
-            done = subprocess.run(words, capture_output=True, text=True, check=False)
-        except OSError as why:
-            raise NotRead(f"barriers in another CRS are read by ogr2ogr, which does not run: {why}") from None
-        if done.returncode:
-            raise NotRead(f"ogr2ogr does not bring {path} to {crs.name}: {done.stderr.strip()}")
-        there = geopackage.Layer(to, layer.name).features
+    there = converted(["-t_srs", target(crs), source.path, layer.name], layer.name).features
     for fid, (attributes, *chains) in layer.features.items():
         moved = there[fid][1:]
         if shape_of(moved) != shape_of(chains):

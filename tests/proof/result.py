@@ -2,16 +2,16 @@
 they cost."""
 from fractions import Fraction
 
-import geopackage
 from form import demand, shown
+from sources import Source
 
 
 class Result:
     def __init__(self, problem, path):
         self.problem = problem
-        self.main = geopackage.Layer(path, problem.name).features
-        self.lines = geopackage.Layer(path, problem.name + "_displacement").features.values()
-        self.listed = geopackage.Layer(path, problem.name + "_conflicts").features.values()
+        self.main = Source(path, problem.name).layer().features
+        self.lines = Source(path, problem.name + "_displacement").layer().features.values()
+        self.listed = Source(path, problem.name + "_conflicts").layer().features.values()
         self.moves = {fid: tuple(row[c] or 0.0 for c in ("sunder_dx", "sunder_dy")) for fid, (row, _, _) in self.main.items()}
 
     def check(self, conflicts, total):

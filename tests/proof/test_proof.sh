@@ -9,13 +9,20 @@ here=$SUNDER_SOURCE/tests/proof
 python=$(command -v python3)
 . "$here/layers.sh"
 
+# of NAME OPTIONS...: the words for that layer, unless a statement gives it
+of() {
+    named=(--layer "$1")
+    [[ " $* " != *" --sql "* ]] || named=()
+}
+
 # proved NAME SOURCE OPTIONS...: of separate, but for --layer of `buildings`
 proved() {
     local name=$1 source=$2
     shift 2
-    "$SUNDER" separate "$source" o.gpkg --overwrite -q -l buildings --layers main,displacement,conflicts --proof "$name.jsonl" "$@" 2>err
+    of buildings "$@"
+    "$SUNDER" separate "$source" o.gpkg --overwrite -q "${named[@]}" --layers main,displacement,conflicts --proof "$name.jsonl" "$@" 2>err
     case $? in 0 | 3) ;; *) fail "$name: status $?" ;; esac
-    python3 "$here/check_proof.py" "$name.jsonl" "$source" --layer buildings --result o.gpkg "$@" >said 2>&1 || fail "$name, $*: $(tail -1 said)"
+    python3 "$here/check_proof.py" "$name.jsonl" "$source" "${named[@]}" --result o.gpkg "$@" >said 2>&1 || fail "$name, $*: $(tail -1 said)"
     echo "$name $*: $(tail -1 said)"
 }
 
@@ -31,7 +38,8 @@ refuted() {
 strange() {
     local name=$1 source=$2
     shift 2
-    python3 "$here/check_proof.py" "$name.jsonl" "$source" --layer buildings "$@" >said 2>&1
+    of buildings "$@"
+    python3 "$here/check_proof.py" "$name.jsonl" "$source" "${named[@]}" "$@" >said 2>&1
     [ $? = 1 ] && grep -q '^refused: ' said || fail "$name for $source $*: $(cat said)"
 }
 
@@ -287,6 +295,21 @@ not_asked 'has no layer' degrees degrees.gpkg --layer nowhere
 not_asked 'there is no field' degrees degrees.gpkg --weight-field nothing
 not_asked 'no such column' degrees degrees.gpkg --where 'colour = 1'
 not_asked 'No such file' symbols symbols.gpkg --symbol @nowhere.wkt
+
+# Other formats, and what is selected of a source.
+make_formats
+formats=(--gap 2 --no-blocks)
+proved shp buildings.shp "${formats[@]}" --where 'w < 5' --fixed-where 'w = 2' --barrier alley.fgb,width=3
+proved geojson buildings.geojson "${formats[@]}" --sql 'SELECT * FROM buildings WHERE w < 5' --max-shift 3
+strange geojson buildings.geojson "${formats[@]}" --sql 'SELECT * FROM buildings WHERE w <> 2' --max-shift 3
+proved bbox formats.gpkg "${formats[@]}" --bbox 600000,5400000,600020,5400025
+strange bbox formats.gpkg "${formats[@]}" --bbox 600000,5400010.5,600009,5400025
+proved feet_told formats.gpkg "${formats[@]}" --input-crs EPSG:2263 --max-shift 3m
+proved skip formats.gpkg "${formats[@]}" --invalid skip
+proved repaired formats.gpkg "${formats[@]}"
+strange repaired formats.gpkg "${formats[@]}" --invalid skip
+not_asked 'arcs become polygons' skip arc.gpkg
+not_asked 'No such file' skip nowhere.shp
 
 # A crowd at one place, for which prices of area prove more than trees do: symbols; and buildings on top of each other,
 # some with a corner cut out, three of them one block, some pairs given up.

@@ -1,0 +1,56 @@
+"""Layers as the command reads them. A table of a GeoPackage is read as it is; for other formats, --sql, --bbox and --input-crs ogr2ogr writes
+a GeoPackage first, with the same FIDs and coordinates: what a driver of GDAL reads is trusted, for the command and for this checker."""
+import os
+import subprocess
+import tempfile
+
+import geopackage
+from form import NotRead
+
+
+def is_geopackage(path):
+    try:
+        with open(path, "rb") as file:
+            return path.lower().endswith(".gpkg") and file.read(16) == b"SQLite format 3\0"
+    except OSError:
+        return False
+
+
+def converted(words, name):
+    """The only layer of the GeoPackage that ogr2ogr makes of these words; under that name."""
+    with tempfile.TemporaryDirectory() as directory:
+        to = os.path.join(directory, "there.gpkg")
+        words = ["ogr2ogr", "-q", "-f", "GPKG", "-preserve_fid", "-dim", "XY", *(["-nln", name] if name else []), to, *words]
+        try:
+            done = subprocess.run(words, capture_output=True, text=True, check=False)
+        except OSError as why:
+            raise NotRead(f"this is read by ogr2ogr, which does not run: {why}") from None
+        if done.returncode:
+            raise NotRead(f"ogr2ogr does not read {words[-1]}: {done.stderr.strip()}")
+        return geopackage.Layer(to, name)
+
+
+class Source:
+    """A data source, and what is selected of it: the layer's name, statement, dialect, box, CRS; None where they are not given."""
+
+    def __init__(self, path, name=None, sql=None, dialect=None, bbox=None, crs=None):
+        self.path, self.name, self.sql, self.dialect, self.bbox, self.crs = path, name, sql, dialect, bbox, crs
+        self.is_table = is_geopackage(path) and not (sql or bbox or crs)
+
+    def layer(self, where=None):
+        if self.is_table:
+            return geopackage.Layer(self.path, self.name, where)
+        if not os.path.exists(self.path) and not self.path.startswith("/vsi"):
+            raise NotRead(f"No such file: {self.path}")
+        words = [self.path]
+        for option, value in (("-sql", self.sql), ("-dialect", self.dialect), ("-where", where), ("-a_srs", self.crs)):
+            words += [option, value] if value else []
+        words += ["-spat", *self.bbox.split(",")] if self.bbox else []
+        return converted(words + ([self.name] if self.name and not self.sql else []), self.name_of_result())
+
+    def name_of_result(self):
+        """Of a statement's result its dataset's name, without directory and ending."""
+        return os.path.splitext(os.path.basename(self.path))[0] if self.sql else self.name
+
+    def fids(self, where):
+        return set(self.layer(where).features) if where else set()
