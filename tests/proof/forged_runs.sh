@@ -40,6 +40,7 @@ forge_generated() {
     make_through
     make_short
     forged through houses.gpkg --gap 1 --max-shift 1 --no-blocks --barrier through.gpkg
+    forged free houses.gpkg --gap 2 --no-blocks
     forged side wall.gpkg --no-blocks --fixed-where 'w = 1 AND fid = 2' --barrier side.gpkg
     forged wedge wedged.gpkg --max-shift 5 --barrier wedge.gpkg
     forged aside wedged.gpkg --max-shift 1 --barrier bow.gpkg
@@ -48,11 +49,13 @@ forge_generated() {
     only='"still"' forged lane lanes.gpkg "${lane[@]}"
     forged pierced pierced.gpkg "${lane[@]}"
     forged well well.gpkg --no-blocks --contained separate
+    forged leap well.gpkg --no-blocks --contained separate --allow-jumps --gap 1
     forged halves halves.gpkg --gap 1 --max-shift 25
     forged three three.gpkg --gap 0.5 --no-blocks --contained separate
     only='"crowded"' forged crowd crowd.gpkg --gap 0.5 --no-blocks --max-shift 2 --allow-jumps --contained separate --effort 0
     forged pile pile.gpkg --symbol square:6
     forged mixed mixed.gpkg --gap 1 --max-shift-field m --fixed-where 'w = 3' --weight sqrt-area --weight-field w --block-field k --contained ignore
+    forged apart mixed.gpkg --gap 1 --max-shift-field m --fixed-where 'w = 3' --block-field k --contained separate
     forged short short.gpkg --gap 1 --no-blocks --max-shift-field m
     forged shares squares.gpkg --gap 3 --effort 0
 }

@@ -5,9 +5,8 @@
 RUNS: a JSON list of runs, each with `proof` and the `words` of check_proof.py (--result among them), perhaps `only`: words of the
 lines that are forged. In each file every number is changed: up and down, by a little and by much, to zero, negative,
 subnormal, huge, infinite, no number. Every line, member and element is dropped, doubled, swapped with the next,
-emptied, or replaced by one of another type. Indices become -1 and the count. The file is checked against another layer,
-and with other options. N of all of
-these are drawn by the seed, or all are tried. What is accepted is judged: the conflicts that are claimed, the blocks and the sum of
+emptied, or replaced by one of another type. Indices become -1 and the count. N of all of these are drawn by the seed, or all are tried.
+The file is checked against another layer, and with other options; lines of another run on the same layer are put into it. What is accepted is judged: the conflicts that are claimed, the blocks and the sum of
 the bounds here, what each line says by judge.py. With --need-all the runs together have to use every member and every kind of cut
 that the form has.
 """
@@ -221,12 +220,29 @@ def other_options(words):
                 yield words[:k + 1] + [words[k + 1] + "," + more] + words[k + 2:]
 
 
+def swapped(run, other):
+    """(what, lines): of another run on the same layer, by other options or beside other barriers, what could be taken for this one's."""
+    def of(lines, *kinds):
+        return [line for line in lines if any(kind in line for kind in kinds)]
+    proofs = {key(line): line["proof"] for line in of(other.lines, "proof")}
+    verdicts = [{**line, "proof": proofs[key(line)]} if "proof" in line and key(line) in proofs else line for line in run.lines]
+    yield "verdicts", verdicts
+    top, own, others = run.lines[:1] + of(run.lines, "block", "conflict"), of(run.lines, "group"), of(other.lines, "group")
+    yield "trees", counted(top + others, True)
+    yield "trees besides", counted(top + own + [{**t, "group": t["group"] + len(own)} for t in others], True)
+    yield "trees in its groups", counted(top + sorted(own + others, key=lambda t: t["group"]), True)
+    yield "all but the first line", counted(run.lines[:1] + other.lines[1:], True)
+
+
 def strangers(runs):
     """(what, function that says what is wrong)"""
     for run in runs:
         for other in runs:
             if other is not run:
                 yield f"{run.path} for {other.path}", lambda r=run, o=other: o.wrong_with(r.lines)[0]
+            if other is not run and other.words[0] == run.words[0]:
+                for what, lines in swapped(run, other):
+                    yield f"{run.path} with the {what} of {other.path}", lambda r=run, own=lines: r.wrong_with(own)[0]
         for words in other_options(run.words):
             yield f"{run.path} with {' '.join(words)}", lambda r=run, w=words: wrong_with_options(r, w)
 

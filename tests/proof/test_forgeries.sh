@@ -1,5 +1,5 @@
 # shellcheck shell=bash disable=SC1091
-# A forged file of --proof is refused, or claims no more than is true (forgeries.py). Fifteen runs on layers of at most
+# A forged file of --proof is refused, or claims no more than is true (forgeries.py). Runs on layers of at most
 # ten features use together every kind of line and member; 2,000 forgeries of these are drawn by seed (SUNDER_SEED), all
 # of them with SUNDER_LAWS=all. A thousand are of three maps, if these are beside the repository.
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
