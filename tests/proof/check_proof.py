@@ -29,8 +29,8 @@ def read_options(words):
     parser.add_argument("--layer", "--input-layer", "-l")
     parser.add_argument("--result", help="a GeoPackage with what separate wrote: LAYER, LAYER_displacement, "
                         "LAYER_conflicts; its moves cost what they cost")
-    for name in ("sql", "dialect", "bbox", "input-crs", "where", "fixed-where", "ignore-where", "max-shift-field", "weight-field", "block-field", "symbol", "symbol-field",
-                 "symbol-size-field", "scale"):
+    for name in ("sql", "dialect", "bbox", "input-crs", "where", "fixed-where", "ignore-where", "max-shift-field", "weight-field",
+                 "block-field", "symbol", "symbol-field", "symbol-size-field", "scale"):
         parser.add_argument("--" + name)
     for name in ("max-shift", "touch-tolerance"):
         parser.add_argument("--" + name)

@@ -29,7 +29,7 @@ import verdicts
 MODULES = {m.__name__ + ".py": m for m in (trees, bodies, prices, verdicts, decided, problem)}
 ENDLESS = {"a node has two parents:"}  # without which the search does not end
 UNSEEN = {
-    "a side, where there is no limit": "what two anchors may do that lines shut in, but for a narrow way of each, far away: no case is made",
+    "a side, where there is no limit": "of two anchors that lines shut in, but for a narrow way far away: no case is made",
 }
 
 

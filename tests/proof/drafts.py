@@ -109,7 +109,8 @@ def part(feature, k=0):
 
 def question(a, b, part_a, part_b, ways, **more):
     """ways: (n, d, next)."""
-    return {"a": a, "b": b, "A": part_a, "B": part_b, "ways": [{"n": list(n), "d": d, "next": to} for n, d, to in ways], "forces": [], **more}
+    ways = [{"n": list(n), "d": d, "next": to} for n, d, to in ways]
+    return {"a": a, "b": b, "A": part_a, "B": part_b, "ways": ways, "forces": [], **more}
 
 
 def leaf(*forces, **more):

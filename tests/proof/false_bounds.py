@@ -25,6 +25,26 @@ case("piece-of-others", "another pair", SQUARES, lambda problem: proof(problem, 
     problem, [3, 1, 2], 0.9, [piece(1, 2, 1, 2, part(SQUARES[1]), part(SQUARES[2]))], empty([0]))]), APART,
     "--no-blocks --weight-field w")
 
+# A child by itself that is the half of what its parent is about; a cut beyond a limit; more than two owe each other.
+HALF = [node(None), node(0, [cut("cone", [1, 0], 1000)], [[0, 1]])]
+case("cone-of-an-only-child", "no child's first cut", SQUARES, lambda problem: proof(problem, trees=[tree(problem, [1, 2], 100, [], HALF)]),
+     APART)
+case("cut-within-a-limit", "what the limit leaves", {3: SQUARES[3]}, lambda problem: proof(problem, trees=[tree(
+    problem, [3], 100, [], [node(None, [cut("limit", [1, 0], 50)], [[0, 4]])])]), {}, "--no-blocks --max-shift 100")
+case("more-than-is-owed", "more is asked", SQUARES, lambda problem: proof(problem, trees=[tree(
+    problem, [1, 2], 100, [piece(0, 1, 1, 2, part(SQUARES[1]), part(SQUARES[2]), clearance=100)], empty([0]))]), APART)
+
+# Two houses that are no block, as one body: where one has to go the other does not.
+PUSHED = {1: box(0, 0, 10, 10), 2: box(500, 0, 510, 10), 3: box(-20, -20, 1, 30, m=0)}
+
+
+def one_of_two(problem):
+    both = body(problem, 1, features=[f for fid in (1, 2) for f in body(problem, fid)["features"]], weight=2)
+    return proof(problem, trees=[tree(problem, [3, both], 1.875, [piece(0, 1, 3, 1, part(PUSHED[3]), part(PUSHED[1]))], empty([0]))])
+
+
+case("body-of-two", "no block", PUSHED, one_of_two, {1: (1, 0)}, "--no-blocks --max-shift-field m")
+
 INSIDE = {1: box(0, 0, 100, 100, m=0), 2: box(96, 50, 101, 55, m=2)}
 IGNORED = "--no-blocks --contained ignore --max-shift-field m --touch-tolerance 0"
 case("out-of-another", "lie in each other", INSIDE, lambda problem: proof(problem, trees=[tree(
@@ -73,6 +93,8 @@ gate("side-from-elsewhere", "not the side anchor", line((3, -50), (3, 60)), segm
 THIN = box(7, -50, 7.5, 60, m=0)
 case("jump-allowed", "jumps are allowed", {1: WALL, 2: HOUSE, 3: THIN}, behind_the_gate(3, part(THIN), [5, 5]), {2: (8, 0)},
      "--no-blocks --max-shift-field m --contained separate --allow-jumps")
+case("shadow-of-a-place", "does not lie in the block", {1: WALL, 2: HOUSE, 3: box(70, -50, 70.5, 60, m=0)},
+     behind_the_gate(3, part(THIN), [5, 5]), {2: (8, 0)}, "--no-blocks --max-shift-field m --contained separate")
 case("jump-out-of-its-holder", "holds the anchor", {1: WALL, 2: HOUSE}, lambda problem: proof(problem, trees=[tree(
     problem, [1, 2], 100, [piece(0, 1, 1, 2, part(WALL), part(HOUSE)),
                            piece(0, 1, 1, 2, [[7, -50], [8, -50], [8, 60], [7, 60]], [[5, 5]], shadow=True)], empty([0, 1]))]),
@@ -108,3 +130,19 @@ case("prices-of-what-stands", "stand still", stands_still(PAYERS, 1, 2), priced(
 case("prices-without-weight", "who pays prices moves", stands_still(PAYERS, 1), priced(5, weights=(None, 1)), STUMBLES,
      "--no-blocks --max-shift-field m")
 case("prices-without-end", "too many nodes", PAYERS, priced(5, columns=1 << 62), STUMBLES)
+case("prices-paid-twice", "there twice", {1: box(-2, 0, 2, 10)}, lambda problem: proof(problem, trees=[{
+    "bound": 0.125, "bodies": [body(problem, 1, weight=0.5)] * 2, "prices": PRICES}]), {})
+
+
+def against_each_other(problem):
+    """Prices of half the weight, shifted as the houses go; and a tree of the other half, shifted against that."""
+    def halves(shift):
+        return [body(problem, 1, weight=0.5, shift=[-shift, 0]), body(problem, 2, weight=0.5, shift=[shift, 0])]
+    pieces = [piece(0, 1, 1, 2, part(PAYERS[1]), part(PAYERS[2]))]
+    nodes = [node(None, [cut("hull", [1, 0], 3.9375, pieces=[0])], [[0, 3.96875]])]
+    lines = proof(problem, trees=[{"bound": 2.5, "bodies": halves(2), "prices": {**PRICES, "unit": 2 ** -11}},
+                                  tree(problem, halves(-2), 15.75, pieces, nodes)], bound=10)
+    return [{**line, "group": 0} if "group" in line else line for line in lines]
+
+
+case("prices-that-are-shifted", "has no shift", PAYERS, against_each_other, {1: (-2, 0), 2: (2, 0)})

@@ -51,7 +51,7 @@ class Case:
         if callable(self.moves):
             return self.moves(self.problem)
         moves = {fid: tuple(map(Fraction, t)) for fid, t in self.moves.items()}
-        told = self.lines[1 + self.conflict] if self.conflict is not None else None
+        told = next(line for line in self.lines if line.get("conflict") == self.conflict) if self.conflict is not None else None
         cost = sum(Fraction(self.problem.weight(f)) * (x * x + y * y) for f, (x, y) in moves.items())
         return self.allows(told, moves) and (told is not None or cost < Fraction(self.lines[0]["lower_bound"]))
 
@@ -78,6 +78,9 @@ class Case:
         if told is None or told["reason"] == "no_room":
             return places.bodies_may(p, q, u)
         a, b = told["a"], told["b"]
+        if told.get("crowded"):
+            crowd = {a, b, *told["blocked_by"]}
+            return all(places.pair_may(k, l, u, None) for k in p for l in q if {k, l} <= crowd) and places.may_go(p[0], q[0], u)
         own = [(k, l) for k in p for l in q if {k, l} == {a, b}]
         barrier = self.problem.is_barrier(p[0]) or self.problem.is_barrier(q[0])
         if not all(places.pair_may(k, l, u, None) for k, l in own):

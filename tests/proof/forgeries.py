@@ -5,10 +5,10 @@
 RUNS: a JSON list of runs, each with `proof` and the `words` of check_proof.py (--result among them), perhaps `only`: words of the
 lines that are forged. In each file every number is changed: up and down, by a little and by much, to zero, negative,
 subnormal, huge, infinite, no number. Every line, member and element is dropped, doubled, swapped with the next,
-emptied, or replaced by one of another type. Indices become -1 and the count. N of all of these are drawn by the seed, or all are tried.
-The file is checked against another layer, and with other options; lines of another run on the same layer are put into it. What is accepted is judged: the conflicts that are claimed, the blocks and the sum of
-the bounds here, what each line says by judge.py. With --need-all the runs together have to use every member and every kind of cut
-that the form has.
+emptied, or replaced by one of another type. Indices become -1 and the count. N of all of these are drawn by the seed, or
+all are tried. The file is checked against another layer, and with other options; lines of another run on the same layer
+are put into it. What is accepted is judged: the conflicts that are claimed, the blocks and the sum of the bounds here,
+what each line says by judge.py. With --need-all the runs together have to use every member and every kind of cut that the form has.
 """
 import argparse
 import json

@@ -47,7 +47,8 @@ def read_geometry(blob, at=0):
             polygons += more
             lines += others
         return polygons, lines, at
-    raise NotRead(f"geometries of type {kind} are not read" + (": arcs become polygons in ways that are rounded" if 8 <= kind <= 12 else ""))
+    why = ": arcs become polygons in ways that are rounded" if 8 <= kind <= 12 else ""
+    raise NotRead(f"geometries of type {kind} are not read{why}")
 
 
 def read_blob(blob):

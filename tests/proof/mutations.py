@@ -79,7 +79,7 @@ def drop_child(tree):
         for k in sisters:
             if len(sisters) == 3 and not children[k]:
                 drop_node(tree, k)
-                return ("a child too few",)
+                return ("no child's first cut",)
     return False
 
 
@@ -146,7 +146,7 @@ def move_side(tree):
             part = piece["A"] if len(piece["A"]) == 2 else piece["B"]
             part[0][0] += 0.25
             part[1][0] += 0.25
-            return ("a side is not of",)
+            return ("faces away",)
     return False
 
 
@@ -200,7 +200,7 @@ def heavier(tree):
     for body in tree["bodies"]:
         if body["weight"] is not None:
             body["weight"] *= 1.5
-            return ("weighs more",)
+            return ("more than its weight",)
     return False
 
 
@@ -289,7 +289,7 @@ def part_sides(told):
         shared = next(p for p in node["side_b"] if p in node["side_c"])
         other = next(p for p in node["side_c"] if p != shared)
         node["side_c"][node["side_c"].index(shared)] = [(x + y) / 2 for x, y in zip(shared, other)]
-        return ("share no corner", "is not of", "none of the input")
+        return ("share no corner", "faces away")
     return False
 
 
@@ -305,7 +305,7 @@ def drop_sides(told):
     for node in chords(told):
         for key in ("c", "side_b", "side_c"):
             del node[key]
-        return ("a side is not of", "none of the input")
+        return ("faces away",)
     return False
 
 

@@ -254,7 +254,6 @@ class Problem:
         clearance = Fraction(told) * self.lattice.unit
         demand(clearance <= required, "more is asked of", a, b, "than they owe")
         if pair not in self.listed:
-            demand(clearance >= 0, "less is asked of", a, b, "than they owe")
             return clearance
         square, depth, inside = self.how_it_stood(a, b)
         depth = None if inside else depth
@@ -328,7 +327,8 @@ class Problem:
         if self.is_barrier(a) or self.is_barrier(b):
             if self.is_barrier(a):
                 return self.demand_side(a, told_a, b, told_b), self.demand_side_anchor(b, told_b)
-            return self.demand_side_anchor(a, told_a), self.demand_side(b, told_b, a, told_a)
+            side = self.demand_side(b, told_b, a, told_a)
+            return self.demand_side_anchor(a, told_a), side
         demand(not self.options.allow_jumps, "jumps are allowed")
         demand(1 in (len(told_a), len(told_b)), "a shadow without the anchor of", a, "or", b)
         if len(told_a) == 1:
@@ -338,9 +338,9 @@ class Problem:
         return self.demand_passed(a, told_a, b, place[0]), place
 
     def demand_side_anchor(self, key, corners):
-        demand(len(corners) == 1 and key in self.things and not self.is_barrier(key), "that is no side anchor of", key)
-        demand(tuple(corners[0]) == self.side_anchor(key), "that is not the side anchor of", key)
-        return (self.lattice.point(corners[0]),)
+        corner, = corners
+        demand(tuple(corner) == self.side_anchor(key), "that is not the side anchor of", key)
+        return (self.lattice.point(corner),)
 
     def side_anchor(self, fid):
         """Of a point the point; else as the barriers cut the feature, or the anchor where they do not."""
@@ -371,10 +371,9 @@ class Problem:
             demand(not any(plane.on_edge(e, at) for e in lines), "the side anchor of", feature, "lies on", key)
             return p, q
         areas = [o for o in thing.outlines if any(plane.on_edge(e, p) and plane.on_edge(e, q) for e in o.edges)]
-        demand(p != q and areas, "a side is not of", key)
         middle, along = (p[0] + q[0], p[1] + q[1]), (q[0] - p[0], q[1] - p[1])
         demand(any(plane.on_its_left(o.scaled(2), middle, along) for o in areas) and plane.side(p, q, at) < 0,
-               "a side of", key, "faces away from", feature)
+               "a side that is none of", key, "or faces away from", feature)
         return p, q
 
     def demand_chord(self, node):
@@ -382,10 +381,9 @@ class Problem:
         the other. The anchor's path through the corner, or the rest of that ray, meets the chord's line no nearer than the
         corner."""
         a, b, c, anchor = node["a"], node["b"], node["c"], node["A"]
-        demand(all(self.is_barrier(k) for k in (b, c)) and not self.is_barrier(a), "a chord of what are no barriers")
         self.demand_owed(a, c)
-        place, = self.demand_side_anchor(a, anchor)
         sides = self.demand_side(b, node["side_b"], a, anchor), self.demand_side(c, node["side_c"], a, anchor)
+        place, = self.demand_side_anchor(a, anchor)
         shared = set(sides[0]) & set(sides[1])
         demand(len(shared) == 1 and len(node["B"]) == 2, "sides that share no corner")
         corner, = shared

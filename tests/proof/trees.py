@@ -130,7 +130,6 @@ class Tree(Bodies):
                 if not state[parent][2]:
                     del state[parent]
             if children[k]:
-                demand(len(children[k]) in (1, 3), "node", k, "has a child too few")
                 if len(children[k]) == 3:
                     self.demand_cones([self.nodes[c]["cuts"] for c in children[k]])
                 state[k] = [own, regions, len(children[k])]

@@ -1,5 +1,5 @@
-"""Which features --invalid skip leaves out: those with a polygon whose rings cross, share a length, or have holes elsewhere than in the first
-ring, and those with a coordinate that is no finite number."""
+"""Which features --invalid skip leaves out: those with a polygon whose rings cross, share a length, or have holes
+elsewhere than in the first ring, and those with a coordinate that is no finite number."""
 import math
 from fractions import Fraction
 
