@@ -9,7 +9,7 @@
 
 #include <math.h>
 
-/* Bodies that clash with the cluster's body i at that place. */
+/* Adds to cluster->guest the ignored bodies that clash with body i at this place. */
 static void add_blocking(sunder_i_search *s, sunder_i_cluster *cluster, uint32_t i, const double place[2])
 {
     for (uint32_t j = (uint32_t)cluster->n; j < s->n && !s->failed; j++) {

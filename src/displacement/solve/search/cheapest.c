@@ -23,26 +23,26 @@
 #include <math.h>
 #include <string.h>
 
-/* A constraint that acts, and the obstacle of two pieces that it is of. */
+/* An active constraint, and the pair of pieces that it is about. */
 typedef struct acting {
     const sunder_i_constraint *constraint;
-    uint32_t i, j; /* places of the two bodies */
-    double fixed;  /* what a body that does not move adds to d */
-    double force;  /* on that, ... */
-    double d;      /* ... which is known to be kept; -INFINITY: nothing ... */
-    double radius; /* ... of a disc so large; INFINITY: of none yet */
+    uint32_t i, j; /* indices of the two bodies in the search */
+    double fixed;  /* the part of d that is due to a body that does not move */
+    double force;  /* force of the constraint in the bounding program */
+    double d;      /* every cheaper solution keeps n.u >= d; -INFINITY: nothing is known yet */
+    double radius; /* radius of the disc for which that was found; INFINITY: none yet */
 } acting;
 
 typedef struct disc {
     double centre[2], radius;
 } disc;
 
-/* Obstacles of pieces of two bodies, as they are about a disc. */
+/* A disc, and the obstacles of the pieces of two bodies near it. */
 typedef struct covering {
     sunder_i_obstacle_edge *edge;
-    size_t edges, capacity, first[MOST_COVERING + 1], n; /* the edges of each, one after the other */
-    double gap[MOST_COVERING];                           /* what each is grown by */
-    size_t last;                                         /* the piece that covered the last place tested */
+    size_t edges, capacity, first[MOST_COVERING + 1], n; /* [edges] edges of all obstacles, one after the other */
+    double gap[MOST_COVERING];                           /* [n] distance by which each is grown */
+    size_t last;                                         /* the obstacle that covered the last place tested */
     disc disc;
 } covering;
 
@@ -50,14 +50,14 @@ typedef struct bounding {
     sunder_i_search *s;
     acting *acting; /* [n] */
     size_t n;
-    sunder_i_quadratic program; /* of those that are known */
-    double cost, least;         /* of the solution; of any solution, as far as is known */
+    sunder_i_quadratic program; /* the program of the known constraints */
+    double cost, least;         /* cost of the solution; lower bound of the cost of any solution */
     covering about;
 } bounding;
 
 /* ---- What acts --------------------------------------------------------------------------------------------------- */
 
-/* Whose is the piece, in the search? Constraints have it, but of what stands. */
+/* The index in the search of the body that owns a piece. Constraints name the body, unless it does not move. */
 static uint32_t owner_of(const sunder_i_search *s, uint32_t named, uint32_t piece)
 {
     const uint32_t owner =
@@ -67,7 +67,7 @@ static uint32_t owner_of(const sunder_i_search *s, uint32_t named, uint32_t piec
     return owner;
 }
 
-/* Which of two pieces is it? Not one of a wall, nor of a shadow. */
+/* Finds the bodies of the constraint's two pieces. False for a wall or a shadow, or if the bodies are relaxed. */
 static bool find_part(const sunder_i_search *s, acting *a)
 {
     const sunder_i_constraint *c = a->constraint;
@@ -83,7 +83,7 @@ static bool find_part(const sunder_i_search *s, acting *a)
     return true;
 }
 
-/* False if a constraint is of a kind that this test does not handle, or there are too many. */
+/* Lists the active constraints. False if one is of a kind that this test does not handle, or if there are too many. */
 static bool find_acting(bounding *b)
 {
     const sunder_i_quadratic *program = &b->s->program;
@@ -95,7 +95,7 @@ static bool find_acting(bounding *b)
         a->constraint = c;
         a->radius = INFINITY;
         a->force = 0;
-        a->d = sunder_i_is_tangent(c) ? c->d : -INFINITY; /* a limit is one, wherever they go */
+        a->d = sunder_i_is_tangent(c) ? c->d : -INFINITY; /* a limit holds for every solution */
         if (!sunder_i_is_tangent(c) && !find_part(b->s, a)) return false;
     }
     return true;
@@ -103,15 +103,15 @@ static bool find_acting(bounding *b)
 
 /* ---- One line ---------------------------------------------------------------------------------------------------- */
 
-/* How far it is, at least as far as the gap, from the corner where an edge that it faces begins, or ends. */
+/* The distance of `at` from the corner where edge e begins (along < 0) or ends. */
 static double beyond_corner(const sunder_i_obstacle_edge *edge, size_t n, size_t e, double along, const double at[2])
 {
     const double *c = along < 0 ? edge[e].from : edge[e + 1 < n ? e + 1 : 0].from;
     return sqrt((at[0] - c[0]) * (at[0] - c[0]) + (at[1] - c[1]) * (at[1] - c[1]));
 }
 
-/* Is it no farther from obstacle k than the gap, as sunder_i_support_at() tells it? That is so if no line is farther
- * below it, and it faces an edge, or no corner of those that it faces is farther. */
+/* Is the point within the gap of obstacle k, in the sense of sunder_i_support_at()? It is if no edge line is farther
+ * away, and the point projects onto an edge, or is near enough to a corner. */
 static bool is_covered(const covering *o, size_t k, const double at[2])
 {
     const sunder_i_obstacle_edge *edge = o->edge + o->first[k];
@@ -142,11 +142,11 @@ static bool is_covered_by_any(covering *o, const double at[2])
     return false;
 }
 
-/* Places of a disc between two lines, seen along them: `out` is how far out, from the centre, `across` how far to the
- * left. */
+/* The part of a disc between two parallel lines. `out`: distance from the centre along n; `across`: to the left of
+ * n. */
 typedef struct between {
     const disc *disc;
-    const double *n; /* of the lines */
+    const double *n; /* normal of the lines */
     double low, out;
 } between;
 
@@ -166,8 +166,8 @@ static bool is_covered_at(const covering *o, size_t obstacle, const between *b, 
     return true;
 }
 
-/* Does one obstacle cover all of it? It is convex: so it does if it covers the corners of a polygon about that, of the
- * ends of the chords and of tangents of the arcs between them. */
+/* Does one obstacle cover the whole part? Obstacles are convex, so it does if it covers the corners of a polygon around
+ * the part: the ends of the chords, and corners of tangents to the arcs between them. */
 static bool is_covered_by_one(const covering *o, size_t obstacle, const between *b)
 {
     const double radius = b->disc->radius;
@@ -176,7 +176,8 @@ static bool is_covered_by_one(const covering *o, size_t obstacle, const between 
     double out = radius * cos(begin), across = radius * sin(begin);
     if (!is_covered_at(o, obstacle, b, across, out)) return false;
     if (!is_covered_at(o, obstacle, b, radius * sin(end), radius * cos(end))) return false;
-    /* From one end of an arc by half a side each time; a corner is where two tangents meet. */
+    /* Follows an arc from one end, by half a side each time; every second point is below a corner, where two tangents
+     * meet. */
     for (int k = 0; k < 2 * ARC_SIDES - 1; k++) {
         const double next = turn[0] * out - turn[1] * across;
         across = turn[0] * across + turn[1] * out;
@@ -186,8 +187,8 @@ static bool is_covered_by_one(const covering *o, size_t obstacle, const between 
     return true;
 }
 
-/* Sets `corner` for a strip that runs outwards, from `left` to `right` across: to the part between the tangents of
- * the arcs in its middle. Where a tangent passes a line in the strip, the line replaces it, which leaves more. */
+/* The corners of a strip of the part, from `left` to `right`: it ends at the tangents of the arcs above its middle, or
+ * at a line of the part if the tangent passes that line, which makes the strip larger. */
 static void find_strip(const between *b, double left, double right, double corner[4][2])
 {
     const double radius = b->disc->radius, middle = (left + right) / 2;
@@ -201,7 +202,7 @@ static void find_strip(const between *b, double left, double right, double corne
     place_at(b, right, cut ? b->out : end, corner[3]);
 }
 
-/* Does one of them cover each of some strips? */
+/* Is the strip covered by one obstacle, or are its halves, `halvings` times over? */
 static bool cover_strip(covering *o, const between *b, double left, double right, int halvings)
 {
     double corner[4][2];
@@ -224,7 +225,7 @@ static double half_chord(const between *b, double out)
     return sqrt(sunder_i_max(0, b->disc->radius * b->disc->radius - out * out));
 }
 
-/* Usually the ends of the outer chord are what is not covered. */
+/* Is the part covered? The ends of the outer chord are tested first, since most often they are not. */
 static bool is_segment_covered(covering *o, const between *b)
 {
     const double radius = b->disc->radius;
@@ -240,8 +241,8 @@ static bool is_segment_covered(covering *o, const between *b)
     return o->n > 1 && cover_strip(o, b, -across, 0, STRIP_HALVINGS) && cover_strip(o, b, 0, across, STRIP_HALVINGS);
 }
 
-/* The farthest such line, no farther out than d; or nearly: how much nearer it is, is told to a power of two. From
- * `known` on, which is kept anyhow. */
+/* The greatest d' <= d such that obstacles cover the part of the disc between `known` and n.u = d'. It is found by
+ * bisection of the distance from d in powers of two, so it may be too small. */
 static double find_line(covering *o, const double n[2], double known, double d, double hair)
 {
     const disc *about = &o->disc;
@@ -286,7 +287,7 @@ static const double *place_of_body(const bounding *b, uint32_t i)
     return b->s->mass[i] > 0 ? b->program.t + 2 * i : b->s->t + 2 * i;
 }
 
-/* Is more known of it now? */
+/* Raises a->d if obstacles show that cheaper solutions keep a farther line. Returns whether it was raised. */
 static bool raise_line(bounding *b, acting *a)
 {
     sunder_i_search *s = b->s;
@@ -301,7 +302,8 @@ static bool raise_line(bounding *b, acting *a)
     o->n = o->edges = o->last = 0;
     o->disc.centre[0] = q[0] - p[0] - back * c->n[0];
     o->disc.centre[1] = q[1] - p[1] - back * c->n[1];
-    /* About where the line n.u = d cuts the way out, which forces that are not solved to the end leave a hair off. */
+    /* The disc around the point of the line n.u = d that is nearest to the free optimum; forces that are not solved to
+     * the end leave it slightly off. */
     const double slack = a->force > 0 ? sunder_i_stretch(c, b->program.t) - a->d : 0;
     o->disc.radius = sqrt(sunder_i_max(0, radius * radius + back * back - 2 * back * slack));
     sunder_i_search_piece_pairs(s, a->i, a->j, o->disc.centre, s->gap + o->disc.radius, false, add_obstacle, o);
@@ -314,7 +316,8 @@ static bool raise_line(bounding *b, acting *a)
 
 /* ---- All of them ------------------------------------------------------------------------------------------------- */
 
-/* x, and V by the forces: whatever they are, no moves that keep the constraints cost less (weak duality). */
+/* Solves the program of the known constraints, and computes the lower bound from its forces. By weak duality the bound
+ * holds for any forces. */
 static bool solve_bound(bounding *b)
 {
     sunder_i_quadratic *p = &b->program;
@@ -334,7 +337,8 @@ static bool solve_bound(bounding *b)
     return true;
 }
 
-/* How much less any solution may cost, as a share; told more closely while it is more than `enough`. */
+/* Alternates between raising lines and solving, until no solution can be cheaper by more than the share `enough`.
+ * Returns the share. */
 static double raise_bound(bounding *b, double enough)
 {
     double left = 1;
@@ -348,8 +352,8 @@ static double raise_bound(bounding *b, double enough)
     return left;
 }
 
-/* A bound on the share of its cost by which any solution may be cheaper than s->t; determined no more closely than to
- * `enough`. */
+/* An upper bound of the share of its cost by which any solution may be cheaper than s->t; it is not computed more
+ * closely than to `enough`. */
 static double find_left(sunder_i_search *s, double enough)
 {
     const uint64_t steps = s->steps;
@@ -371,8 +375,8 @@ static double find_left(sunder_i_search *s, double enough)
     return left;
 }
 
-/* Goes down to the last of it. If it is not known to be the cheapest then, all is as it was: also what a search that
- * goes on from there has left to spend. */
+/* Computes s->t to the last digits and asks again. If it is still not known to be the cheapest, the search returns to
+ * its former state, including the work counted. */
 static bool is_cheapest_below(sunder_i_search *s)
 {
     const sunder_i_quadratic *p = &s->program;

@@ -8,8 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The mean size of the bodies that are not parts of barriers: how long those are says nothing of how far a
- * body has to go. */
+/* The mean size of the bodies that are not parts of barriers. (The length of a barrier says nothing about how far a
+ * body has to move.) */
 static double mean_extent(const sunder_i_model *model, const uint32_t *body, size_t n)
 {
     size_t counted = 0;

@@ -22,7 +22,7 @@ static void join_alike(sunder_i_search *s, uint32_t i, uint32_t j, void *context
         sunder_i_union_join(context, i, j);
 }
 
-/* Parts by pushing what clashes, each once. Returns whether nothing does any more. */
+/* Separates clashing pairs by pushing, each once. Returns whether no clash is left. */
 static bool push_apart(sunder_i_search *s)
 {
     if (sunder_i_search_find_clashes(s, s->t) <= s->tolerance) return true;

@@ -10,8 +10,8 @@
 
 #include <math.h>
 
-/* An upper bound of the distance from u to those relative moves at which the boxes of features f and g are nearer to
- * each other than the gap. */
+/* An upper bound of the distance from u to relative moves at which the boxes of features f and g are closer than the
+ * gap. */
 static double farthest_near(const sunder_i_search *s, uint32_t f, uint32_t g, const double u[2])
 {
     const sunder_i_model *model = s->model;

@@ -17,9 +17,9 @@ static const sunder_i_constraint *look_up(const sunder_i_constraint *c, size_t n
     return n ? bsearch(&wanted, c, n, sizeof *c, sunder_i_by_constraint) : NULL;
 }
 
-/* Adds the constraints of pair (i, j). They are made for those pairs of pieces that are at most gap + reach apart at
- * the relative position `near`; which separating side each gets is decided at position u. Pairs of pieces that
- * `known` has already keep their constraints. */
+/* How the constraints of a pair (i, j) are made: for all pairs of pieces within gap + reach of each other at the
+ * relative position `near`. The side of each is chosen at the relative position u. Pairs of pieces that have a
+ * constraint in known[known_n] keep it. */
 typedef struct sighting {
     const double *near, *u;
     double reach;
@@ -31,7 +31,7 @@ typedef struct sighting {
 typedef struct sighted {
     const sighting *at;
     uint32_t i, j;
-    size_t first; /* of the pair's constraints */
+    size_t first; /* index of the first constraint of the pair of bodies */
 } sighted;
 
 static void constrain_pieces(sunder_i_search *s, const sunder_i_piece_pair *pair, void *context)
@@ -48,12 +48,12 @@ static void constrain_pieces(sunder_i_search *s, const sunder_i_piece_pair *pair
     if (at->near != at->u) h = sunder_i_search_support(pair, edge, n, at->u);
     const sunder_i_constraint *before = look_up(s->old, s->old_n, pair->key);
     double d = h.support + gap;
-    /* If the position violates d by at most the tolerance, d is lowered to the present value. Otherwise an exact
-     * fit, missed by a hair on two sides, would be a contradiction. (While `roughly` is set, nothing is forgiven:
-     * forgiven each round, it would add up.) */
+    /* If the position violates d by at most the tolerance, d is lowered to the present value. Otherwise an exact fit
+     * that is missed by a little on two sides would be a contradiction. While `roughly` is set d is not lowered, since
+     * the violations of all rounds would add up. */
     const double now = h.n[0] * at->u[0] + h.n[1] * at->u[1];
     if (!s->roughly && now < d && now >= d - s->tolerance) d = now;
-    /* A body that does not move counts at its place. */
+    /* The move of a fixed body is a constant, which is added to d. */
     uint32_t ends[2] = {bodies->i, bodies->j};
     for (int e = 0; e < 2; e++) {
         const double *t = s->t + 2 * ends[e];
@@ -76,9 +76,9 @@ static void constrain_pair(sunder_i_search *s, uint32_t i, uint32_t j, const sig
     sunder_i_search_piece_pairs(s, i, j, at->near, at->reach + s->gap, at->yields, constrain_pieces, &pair);
 }
 
-/* The most by which a free place beside round corners of the pair exceeds the distance owed. A body that is separated
- * from a wide barrier in a corner between two of its parts exceeds the distance to one part by this, but owes the other
- * as much: if that part were out of reach, the QP could push the body through it. */
+/* Where the outline of an obstacle has a concave corner, a free place may be farther than the full distance from one of
+ * the two pieces that form it. This bounds the excess. Without it a piece would be out of reach, and the QP could push
+ * the body through it. */
 static double kept_too_much(const sunder_i_search *s, uint32_t i, uint32_t j)
 {
     const sunder_i_model *model = s->model;
@@ -93,7 +93,7 @@ static double kept_too_much(const sunder_i_search *s, uint32_t i, uint32_t j)
 typedef struct around {
     const double *t;
     double reach;
-    bool as_it_stands; /* clashing pairs are separated at their present place: they miss only a hair */
+    bool as_it_stands; /* clashing pairs keep their present position, since they violate the distance by very little */
     bool clashing;
 } around;
 
@@ -121,7 +121,7 @@ static void constrain_bodies(sunder_i_search *s, uint32_t i, uint32_t j, void *c
     constrain_pair(s, i, j, &(sighting){u, side, reach, yields, NULL, 0});
 }
 
-/* Usually they are sorted already. */
+/* Sorts the constraints by their keys; most often they are sorted already. */
 static void sort_constraints(sunder_i_search *s)
 {
     const sunder_i_constraint *c = s->program.constraint;
@@ -134,7 +134,7 @@ static void sort_constraints(sunder_i_search *s)
 bool sunder_i_search_constrain(sunder_i_search *search, double reach, bool as_it_stands)
 {
     sunder_i_quadratic *p = &search->program;
-    /* The last round's constraints become the old ones. */
+    /* Swaps the constraints of the last round with the old ones. */
     sunder_i_constraint *swap = search->old;
     const size_t capacity = search->old_capacity;
     search->old = p->constraint;
@@ -151,12 +151,12 @@ bool sunder_i_search_constrain(sunder_i_search *search, double reach, bool as_it
             sunder_i_search_add_constraint(search, p->n, &search->old[k]);
     sort_constraints(search);
     memcpy(search->next, search->t,
-           2 * search->n * sizeof *search->t); /* a search out of patience by now stays in its present place */
+           2 * search->n * sizeof *search->t); /* if the patience has ended, the search stays in its present place */
     return a.clashing || sunder_i_search_is_beyond(search, search->t);
 }
 
-/* Pieces in the way of s->next that the sorted `known` does not hold: their sides are those of the reference position,
- * where they stood apart. */
+/* Adds constraints for the pieces that clash at s->next and have none in the sorted `known`. Their sides are those of
+ * the reference position, where they were apart. */
 static void constrain_met(sunder_i_search *s, const sunder_i_constraint *known, size_t known_n)
 {
     const uint64_t before = s->steps;

@@ -4,7 +4,7 @@
 
 #include <math.h>
 
-/* Pieces of one wall give the same line many times. */
+/* The pieces along one wall give almost equal constraints. */
 void sunder_i_search_add_constraint(sunder_i_search *search, size_t first, const sunder_i_constraint *constraint)
 {
     sunder_i_quadratic *p = &search->program;

@@ -46,7 +46,8 @@ static double longest_move(const sunder_i_search *s)
     return longest;
 }
 
-/* A fixed body stays at its place, which for a neighbour of the cluster may differ from its original one. */
+/* Fixed bodies keep their present moves. (A neighbour of the cluster may stand elsewhere than at its original
+ * place.) */
 static void keep_still(sunder_i_search *s)
 {
     for (size_t k = 0; k < s->n; k++)
@@ -55,8 +56,8 @@ static void keep_still(sunder_i_search *s)
 
 static bool is_out_of_patience(const sunder_i_search *s) { return sunder_i_search_work(s) >= s->patience; }
 
-/* Solves; what long chains leave of the hard constraints is made good by asking for that much more. Returns the
- * violation left. */
+/* Solves the program. If the solution violates hard constraints, which long chains of contacts cause, it is solved
+ * again with larger demands. Returns the remaining violation. */
 static double solve_program(sunder_i_search *s, double softness)
 {
     sunder_i_quadratic *p = &s->program;
@@ -81,9 +82,9 @@ static double solve_program(sunder_i_search *s, double softness)
     return v;
 }
 
-/* Solves a hard program again, of which s->next violates only the latest constraints; returns the violation left.
- * With limits the effect of these fades, and the solution is mended. Without limits chains of contacts carry it on,
- * and the layout that a crowd ends in is arbitrary. */
+/* Solves a hard program again after constraints were added that s->next violates. Returns the remaining violation. With
+ * limits their effect is local, and the old solution is repaired. Without limits chains of contacts carry it on, and
+ * the result would depend on the repair, so the program is solved from scratch. */
 static double solve_further(sunder_i_search *s)
 {
     sunder_i_quadratic *p = &s->program;
@@ -93,7 +94,8 @@ static double solve_further(sunder_i_search *s)
     return v >= 0 && v <= s->tolerance ? v : solve_program(s, 0);
 }
 
-/* The program around s->t with everything that its solution runs into. */
+/* Solves the program around s->t, adds the constraints that its solution violates, and repeats that until none are
+ * added. */
 static double solve_lazily(sunder_i_search *s, double softness)
 {
     double v = 0;
@@ -101,7 +103,7 @@ static double solve_lazily(sunder_i_search *s, double softness)
     s->ended = false;
     for (int k = 0; k < most && !is_out_of_patience(s) && !s->failed; k++) {
         v = k > 0 && softness == 0 ? solve_further(s) : solve_program(s, softness);
-        /* No solution: what lies in the way of where it went astray is of no interest. */
+        /* There is no solution, and constraints near the point reached are of no use. */
         if (softness == 0 && v > NO_SOLUTION * (s->extent + s->gap)) break;
         s->ended = !sunder_i_search_constrain_further(s);
         if (s->ended) break;
@@ -109,8 +111,8 @@ static double solve_lazily(sunder_i_search *s, double softness)
     return v;
 }
 
-/* Finds the clashes at the end of a program. Usually the last step looked there already and found none: then its result
- * is still valid, and its work is counted once more. */
+/* The greatest violation at the solution of a program. If the last step has looked there and found nothing, its result
+ * is used, and its work is counted again. */
 static double look_at_end(sunder_i_search *s)
 {
     if (!s->ended) return sunder_i_search_find_clashes(s, s->next);
@@ -118,8 +120,8 @@ static double look_at_end(sunder_i_search *s)
     return s->seen;
 }
 
-/* Around a position with clashes: solves softly; and then hard, if the violation is small compared with the moves and
- * the hard program turns out to have a solution. */
+/* Solves the program around a position with clashes softly. If the violation is small compared with the moves, it is
+ * solved hard as well, and that solution is used if it is one. */
 static double solve_compromise(sunder_i_search *s, double softness)
 {
     const double v = solve_lazily(s, softness);
@@ -147,8 +149,8 @@ static double solve_compromise(sunder_i_search *s, double softness)
     return full;
 }
 
-/* The farthest towards s->next that one can go from s->t, which is free, without missing a constraint more than there;
- * for programs that were not solved to the end. The constraints are convex, so the way is free up to there. */
+/* For a program that was not solved to the end: shortens the step from the free position s->t to s->next, so that no
+ * constraint is violated more than at s->t. Constraints are convex, so the whole path is free. */
 static void stop_short(sunder_i_search *s)
 {
     double share = 1;
@@ -161,7 +163,7 @@ static void stop_short(sunder_i_search *s)
     s->ended = false;
 }
 
-/* Does the program end where a search came from, all but for rounding? Then it would begin there once more. */
+/* Does the program end at s->back, from where a search came? Then the next round would begin there again. */
 static bool is_back(const sunder_i_search *s)
 {
     for (size_t k = 0; k < 2 * s->n; k++)
@@ -170,7 +172,7 @@ static bool is_back(const sunder_i_search *s)
 }
 
 #ifndef NDEBUG
-/* Does s->next miss no constraint by more than s->t, but for rounding? */
+/* The checker: s->next violates no constraint by more than s->t does, up to the tolerance. */
 static const char *check_next(const sunder_i_search *s)
 {
     for (size_t k = 0; k < s->program.n; k++) {
@@ -182,7 +184,7 @@ static const char *check_next(const sunder_i_search *s)
 }
 #endif
 
-/* With all that move at their limits; 0 where one has none. */
+/* The cost if all bodies are at their limits; 0 if a body has none. */
 static double most_cost(const sunder_i_search *s)
 {
     double cost = 0;
@@ -195,20 +197,22 @@ static double most_cost(const sunder_i_search *s)
 
 /* ---- The sequence ------------------------------------------------------------------------------------------------ */
 
-/* A way down, between two rounds. */
+/* The state of a descent between two rounds. */
 typedef struct descent {
     sunder_i_search *s;
-    double *best;                    /* [2 n] of the places that clash the one that misses least */
-    double *lead;                    /* [2 n] of a large crowd; NULL */
-    double reach, farthest;          /* how far is looked, and how far at most */
-    double cost;                     /* where they stand, once it is free */
-    double softness;                 /* of the next compromise */
-    double missed, left;             /* the least that a program missed, and that was missed where it ended */
-    bool is_free, is_led;            /* where they stand; are the next sides those of `lead`? */
-    int clashing, idle, led_in_vain; /* rounds that clashed, that gained nothing on it, and that are not led */
+    double *best;                    /* [2 n] the layout with the least violation so far, of those with clashes */
+    double *lead;                    /* [2 n] see lead_on(), for large crowds; otherwise NULL */
+    double reach, farthest;          /* pieces within this distance get constraints; its upper bound */
+    double cost;                     /* cost of the present layout, if it is free */
+    double softness;                 /* softness of the next compromise */
+    double missed, left;             /* least violation of a program so far; least violation of a layout so far */
+    bool is_free, is_led;            /* the present layout has no clashes; the next round takes its sides at `lead` */
+    int clashing, idle, led_in_vain; /* number of rounds with clashes; of those in a row without progress; of those
+                                      * without `lead` to come */
 } descent;
 
-/* Within limits ways are short, and what is missed roughly may be all that there is. */
+/* Is it a large crowd without limits? Within limits moves are short, and the tolerance of a coarse descent may exceed
+ * all violations. */
 static bool descends_coarsely(const sunder_i_search *s)
 {
     if (sunder_i_search_movers(s) <= LARGE_CROWD_LED) return false;
@@ -228,8 +232,8 @@ static bool descent_init(descent *d, sunder_i_search *s)
     const bool crowd = sunder_i_search_movers(s) > LARGE_CROWD, large = descends_coarsely(s);
     const double part = large ? PART_OF_LARGE_CROWD : crowd ? PART_OF_CROWD : SMALL_PART;
     const double farthest = sunder_i_max(s->gap / 2, s->extent / part);
-    /* At least a margin: a body in a free place keeps a hair more than the distance owed from its neighbours. A crowd
-     * away from its original place has contacts everywhere. */
+    /* The reach is at least the margin: a body in a free place keeps a little more than the full distance from its
+     * neighbours. In a crowd away from its original place contacts are everywhere. */
     *d = (descent){.s = s,
                    .best = sunder_i_alloc(2 * s->n, sizeof *d->best),
                    .lead = large ? sunder_i_alloc(2 * s->n, sizeof *d->lead) : NULL,
@@ -242,8 +246,8 @@ static bool descent_init(descent *d, sunder_i_search *s)
     return d->best && (d->lead || !large);
 }
 
-/* If its steps are free, the next round takes its sides at `lead`: as far beyond s->next as this step was long.
- * Round things roll along each other, so that sides turn a little each round, and always the same way. */
+/* If this step and the last are free, the next round takes its sides at `lead`, beyond s->next by the length of this
+ * step. Round bodies roll along each other, so that their sides turn a little each round, in the same sense. */
 static void lead_on(descent *d, bool is_free)
 {
     const sunder_i_search *s = d->s;
@@ -252,14 +256,14 @@ static void lead_on(descent *d, bool is_free)
     for (size_t k = 0; k < 2 * s->n && d->is_led; k++) d->lead[k] = s->next[k] + (s->next[k] - s->t[k]);
 }
 
-/* It led astray: the next rounds take the sides of where they stand. */
+/* A round with `lead` failed: the next NOT_LED rounds take their sides at the present layout. */
 static void lead_no_more(descent *d)
 {
     d->is_led = false;
     d->led_in_vain = NOT_LED;
 }
 
-/* Solves the program about where they stand. Returns what it misses. */
+/* Solves the program around the present layout. Returns its violation. */
 static double solve_round(descent *d, bool clashing)
 {
     sunder_i_search *s = d->s;
@@ -276,7 +280,7 @@ static double solve_round(descent *d, bool clashing)
     return v;
 }
 
-/* Goes to s->next, which is free or not. */
+/* Moves to s->next. left, cost: its violation and cost. */
 static void take_step(descent *d, bool is_free, double left, double cost)
 {
     sunder_i_search *s = d->s;
@@ -307,7 +311,7 @@ static outcome run_round(descent *d)
     const double left = look_at_end(s), cost = sunder_i_search_cost(s, s->next);
     const bool is_free = left <= s->tolerance, settled = !is_free || cost >= d->cost - s->settled * d->cost;
     if (s->back && is_free && is_back(s)) {
-        s->steps += sunder_i_search_work(s) - before; /* the round that would follow; it counts as work */
+        s->steps += sunder_i_search_work(s) - before; /* the work of the next round, which would repeat known results */
         return IN_VAIN;
     }
     if (d->is_free && is_free && cost - HOPEFUL * (d->cost - cost) > s->hope) return IN_VAIN;
@@ -315,7 +319,8 @@ static outcome run_round(descent *d)
         lead_no_more(d);
         if (!is_free || v > s->tolerance || !(cost < d->cost)) return ON;
     } else if (d->is_free && settled) {
-        /* The last round; one that ends in a clash was stuck numerically, and what stands is free. */
+        /* This is the last round. If it ends in a clash the program had numerical trouble, and the present free layout
+         * is kept. */
         if (is_free && cost < d->cost) memcpy(s->t, s->next, 2 * s->n * sizeof *s->t);
         return SETTLED_DOWN;
     }
@@ -326,7 +331,7 @@ static outcome run_round(descent *d)
     return ++d->clashing >= s->clashing || d->idle >= MOST_IDLE ? IN_VAIN : ON;
 }
 
-/* From s->t, to where nothing is gained any more. */
+/* Runs rounds from s->t until one gains little. Returns whether the result is free. */
 static bool descend_by_rounds(sunder_i_search *s)
 {
     descent d;
@@ -370,7 +375,7 @@ bool sunder_i_search_repair(sunder_i_search *search)
 
 /* ---- Where it ended in a compromise ------------------------------------------------------------------------------ */
 
-/* The sets of bodies that constraints hold together, by their roots; what does not move joins none. */
+/* Joins bodies that share a constraint; a body that does not move joins none. */
 static void join_constrained(const sunder_i_search *s, uint32_t *root)
 {
     sunder_i_union_init(root, s->n);
@@ -380,7 +385,7 @@ static void join_constrained(const sunder_i_search *s, uint32_t *root)
     }
 }
 
-/* Do they form at most one connected set? */
+/* Are all movable bodies in one component? */
 static bool is_one_component(const sunder_i_search *s, uint32_t *root)
 {
     uint32_t first = SUNDER_I_NOBODY;
@@ -400,7 +405,7 @@ void sunder_i_search_settle_components(sunder_i_search *search)
     search->failed = search->failed || !root || !unsolved;
     if (!search->failed) sunder_i_search_constrain(search, search->gap, false);
     if (!search->failed) {
-        /* If one part has no solution the others are still solved. */
+        /* A component without a solution does not keep the others from being solved. */
         join_constrained(search, root);
         search->program.most_cost = is_one_component(search, root) ? most_cost(search) : 0;
         solve_lazily(search, 0);

@@ -12,7 +12,7 @@
 
 static const size_t stage[] = FIT_STAGES;
 
-/* What they were held to does not count from now on, but for what is infeasible. */
+/* Ends the relaxations between bodies a and b in the search, except infeasible ones. False if memory is out. */
 static bool restore_between(sunder_i_search *s, uint32_t a, uint32_t b)
 {
     const sunder_i_model *model = s->model;
@@ -29,7 +29,7 @@ static bool restore_between(sunder_i_search *s, uint32_t a, uint32_t b)
     return true;
 }
 
-/* They and those about them from where they stand, more and more of them. */
+/* Tries the two with more and more bodies around them, from the present layout. */
 static bool fit_about(sunder_i_search *s, uint32_t i, uint32_t j)
 {
     sunder_i_neighbourhood about;
@@ -43,7 +43,7 @@ static bool fit_about(sunder_i_search *s, uint32_t i, uint32_t j)
     return found;
 }
 
-/* All from where they came from, if they are few: what they had to do for others does not matter there. */
+/* Tries all bodies from their original places, if they are few: earlier moves for other pairs do not matter there. */
 static bool fit_from_home(sunder_i_search *s)
 {
     if (sunder_i_search_movers(s) > stage[sizeof stage / sizeof *stage - 1]) return false;

@@ -13,7 +13,7 @@
 
 /* ---- Where there is room ----------------------------------------------------------------------------------------- */
 
-/* What a body is made of: its pieces, or the outlines of its members where pieces would be too many. */
+/* The number of shapes that stand for a body: its pieces, or, if coarse, the outlines of its members. */
 static uint32_t count_shapes(const sunder_i_body *body, bool coarse) { return coarse ? body->members : body->pieces; }
 
 static const sunder_i_body_piece *find_shapes(sunder_i_search *s, const sunder_i_body *body, bool coarse)
@@ -32,7 +32,7 @@ static void add_wall(sunder_i_search *s, const sunder_i_piece_pair *pair, void *
     if (n) sunder_i_obstacles_add(o, s->scratch.xy, n, sunder_i_max(gap, 0) + 2 * s->tolerance);
 }
 
-/* The walls of either that keep the other inside. */
+/* Adds the walls of either body that keep the other inside. */
 static void add_walls(sunder_i_search *s, sunder_i_obstacles *o, const sunder_i_body *p, const sunder_i_body *q,
                       const double offset[2], const double v[2], double reach, bool relaxed)
 {
@@ -42,7 +42,7 @@ static void add_walls(sunder_i_search *s, sunder_i_obstacles *o, const sunder_i_
     if (q->has->walls) sunder_i_search_walls(s, q, p, back, reach, &pair, true, add_wall, o);
 }
 
-/* Shadows as obstacles: moved by `shift`, and as far as they matter. */
+/* Adds shadows as obstacles, translated by `shift`, and cut off at distance `far`. */
 typedef struct shading {
     sunder_i_obstacles *obstacles;
     double shift[2], far;
@@ -66,7 +66,7 @@ static void add_shadow(sunder_i_search *s, const sunder_i_piece_pair *pair, void
     sunder_i_obstacles_add(shade->obstacles, corner, n, sunder_i_max(gap, 0) + 2 * s->tolerance);
 }
 
-/* The shadows between p, which moved by t, and q, for moves of q within reach of `at`. */
+/* Adds the shadows between p at move t and q, for moves of q within `reach` of `at`. */
 static void add_shadows(sunder_i_search *s, sunder_i_obstacles *o, const sunder_i_body *p, const double t[2],
                         const sunder_i_body *q, const double at[2], double reach)
 {
@@ -89,7 +89,7 @@ static void take_shade(sunder_i_search *s, const sunder_i_piece_pair *pair, void
     at->deep = at->deep || (edge && sunder_i_search_support(pair, edge, n, at->u).distance < gap);
 }
 
-/* Does the move `at` of q lie in a shadow between it and p, which moved by t? */
+/* Is the move `at` of q in a shadow between p, at move t, and q? */
 static bool is_shaded(sunder_i_search *s, const sunder_i_body *p, const double t[2], const sunder_i_body *q,
                       const double at[2])
 {
@@ -101,8 +101,8 @@ static bool is_shaded(sunder_i_search *s, const sunder_i_body *p, const double t
 
 static double box_extent(const double box[4]) { return sunder_i_max(box[2] - box[0], box[3] - box[1]); }
 
-/* Might they, or what a relaxation shifts, be within r of each other at v? No least translation is longer than the
- * boxes. */
+/* Can the two, or their obstacle shifted by a relaxation, be within r of each other at v? The shift is a least
+ * translation, and so at most the sum of the box sizes. */
 static bool are_near(const sunder_i_body *p, const sunder_i_body *q, const double v[2], double r)
 {
     const double far = r + box_extent(p->box) + box_extent(q->box);
@@ -111,7 +111,7 @@ static bool are_near(const sunder_i_body *p, const sunder_i_body *q, const doubl
     return sunder_i_box_meet(box, q->box);
 }
 
-/* Adds the obstacle of two parts. pieces: that is what they are; else outlines, which are not kept. */
+/* Adds the obstacle of two shapes. pieces: they are pieces, whose obstacle is kept; otherwise outlines. */
 static void add_obstacle(sunder_i_search *s, sunder_i_obstacles *o, const sunder_i_body_piece *a,
                          const sunder_i_body_piece *b, const sunder_i_relaxation *relaxation, bool pieces,
                          const sunder_i_grown_key *key)
@@ -131,7 +131,7 @@ static void add_obstacle(sunder_i_search *s, sunder_i_obstacles *o, const sunder
     if (kept && o->n > before && !sunder_i_grown_cache_keep(&s->grown, key, o)) s->failed = true;
 }
 
-/* Adds the obstacles that parts of p make for parts of q, which stands at u, of parts within reach. */
+/* Adds the obstacles of the shapes of p for the shapes of q, which is at u, within `reach`. */
 static void add_obstacles(sunder_i_search *s, sunder_i_obstacles *o, const sunder_i_body *p, bool coarse_p,
                           const sunder_i_body *q, bool coarse_q, const double offset[2], const double u[2],
                           double reach)
@@ -159,7 +159,7 @@ static void add_obstacles(sunder_i_search *s, sunder_i_obstacles *o, const sunde
                 continue;
             const sunder_i_relaxation *relaxation = relaxed ? sunder_i_search_relaxation(s, a, b) : NULL;
             if (relaxation && relaxation->inside) continue;
-            /* A little more room than is asked, so that no rounding makes a clash of it. */
+            /* A little more than the full distance, so that rounding does not cause a clash. */
             const sunder_i_grown_key key = {(uint64_t)(p->piece + k) << 32 | (q->piece + l),
                                             {offset[0], offset[1]},
                                             sunder_i_search_owed(s, a, b) + 2 * s->tolerance};
@@ -170,7 +170,8 @@ static void add_obstacles(sunder_i_search *s, sunder_i_obstacles *o, const sunde
     }
 }
 
-/* Beyond everything, in the four directions: always free, for when all else is full. */
+/* The nearest point outside the box of all obstacles in one of the four directions, if it is within `limit`. It is free
+ * even if all else is full. */
 static bool outside_all(const sunder_i_obstacles *o, const double target[2], double limit, double place[2])
 {
     double all[4], best = INFINITY;
@@ -186,8 +187,8 @@ static bool outside_all(const sunder_i_obstacles *o, const double target[2], dou
     return best < INFINITY;
 }
 
-/* The same by the exact search for two shapes, which is the quicker where pieces are many; the vector that it starts
- * from is cut to few bits. Without the gap: it is the side that matters, and the search with a gap is far slower. */
+/* A free position by the exact search for two shapes, which is faster if there are many pieces. The start vector is
+ * rounded to few bits. The search without the gap suffices, since it only decides the side, and is much faster. */
 static bool free_pair_exactly(sunder_i_search *s, const sunder_shape *p, const sunder_shape *q, const double target[2],
                               double limit, double place[2])
 {
@@ -202,7 +203,7 @@ static bool free_pair_exactly(sunder_i_search *s, const sunder_shape *p, const s
     sunder_separation least;
     bool beyond = false, overlap = true;
     sunder_status status = SUNDER_OK;
-    /* Most pairs that are too near do not overlap, which is quicker to find out. */
+    /* Most pairs that are too near do not overlap, and that test is faster. */
     if (s->model->rules.gap > 0) status = sunder_i_overlap(p, none, q, from, &overlap, NULL);
     if (!status && !overlap) {
         memcpy(place, from, sizeof from);
@@ -217,8 +218,9 @@ static bool free_pair_exactly(sunder_i_search *s, const sunder_shape *p, const s
     return !beyond && isfinite(place[0]) && isfinite(place[1]);
 }
 
-/* Free places of q about `target`, p as it is, no farther than `reach`. Most lie in no shadow: so those without shadows
- * come first, and shadows are asked for where one does. outside: beyond everything will do. */
+/* Free positions of q within `reach` of `target`, while p does not move. Most are in no shadow, so shadows are only
+ * added if one of the positions found is in one. outside: if there is none, a position outside all obstacles is
+ * returned. */
 static size_t find_beside(sunder_i_search *s, const sunder_i_body *p, const sunder_i_body *q, bool many,
                           const double target[2], double reach, double spread, bool outside, size_t most,
                           double (*places)[2])
@@ -241,7 +243,7 @@ static size_t find_beside(sunder_i_search *s, const sunder_i_body *p, const sund
     return n;
 }
 
-/* As shapes, or piece by piece? */
+/* Are there too many pairs of pieces for obstacles piece by piece? */
 static bool are_many(uint32_t pieces, uint32_t others) { return (uint64_t)pieces * others > MANY_PAIRS; }
 
 bool sunder_i_cluster_may_want_shape(const sunder_i_model *model, uint32_t body)
@@ -260,7 +262,8 @@ size_t sunder_i_search_free_pair(sunder_i_search *search, uint32_t i, uint32_t j
                        *qs = sunder_i_model_shape(model, search->body[j]);
     double shift;
     const bool relaxed = sunder_i_search_is_relaxed(search, search->body[i], search->body[j], &shift);
-    /* Its cost grows with the depth: blocks that lie deep in each other are parted by their outlines. */
+    /* The cost of the exact search grows with the depth, so blocks that lie deep in each other are separated by their
+     * outlines. */
     const double shallow =
         sunder_i_max(2 * search->gap, SHALLOW * sunder_i_min(box_extent(p->box), box_extent(q->box)));
     if (many && most == 1 && model->inclusions == 0 && !relaxed && ps && qs && !ps->flat && !qs->flat &&
@@ -269,7 +272,7 @@ size_t sunder_i_search_free_pair(sunder_i_search *search, uint32_t i, uint32_t j
     double all = BEYOND_ALL * (box_extent(p->box) + box_extent(q->box) + search->gap);
     const bool confined = sunder_i_search_is_confined(search, i, j, target, &all);
     double reach = sunder_i_max(2 * search->gap, PAIR_REACH * sunder_i_min(box_extent(p->box), box_extent(q->box)));
-    /* Beside a point, to which no gap is owed, it begins with the other one's size: from 0 it would not grow. */
+    /* A point without a gap has size 0, so the search begins with the size of the other body. */
     if (!(reach > 0)) reach = PAIR_REACH * sunder_i_max(box_extent(p->box), box_extent(q->box));
     for (;; reach *= PAIR_GROWTH) {
         if (confined) reach = sunder_i_min(reach, all);
@@ -279,8 +282,8 @@ size_t sunder_i_search_free_pair(sunder_i_search *search, uint32_t i, uint32_t j
     }
 }
 
-/* Bodies of the model that stand near a box (relative to body p's origin, at the start), those of this search apart;
- * appended to hits once each. */
+/* Appends to `hits`, once each, the bodies of the model near a box (relative to the origin of p) that are not in this
+ * search. */
 static bool find_others(sunder_i_search *s, const sunder_i_body *p, const double box[4], sunder_i_list *hits)
 {
     const sunder_i_model *model = s->model;
@@ -298,21 +301,21 @@ static bool find_others(sunder_i_search *s, const sunder_i_body *p, const double
     return true;
 }
 
-/* How many shadows two bodies may cast. */
+/* An upper bound of the number of shadows between two bodies. */
 static uint64_t count_shadows(const sunder_i_body *p, const sunder_i_body *q)
 {
     return (uint64_t)p->members * (q->pieces + q->has->sides) + (uint64_t)q->members * (p->pieces + p->has->sides);
 }
 
-/* The others about body i: those of the search, as its list `about` names them, and foreign ones. */
+/* The bodies around body i: bodies of the search, listed in `about`, and bodies outside it. */
 typedef struct others {
     sunder_i_search *search;
     uint32_t i;
     sunder_i_list foreign;
-    bool coarse; /* parts are outlines */
+    bool coarse; /* outlines stand for bodies */
 } others;
 
-/* The k-th of them, and where it stands; NULL: it is not there. */
+/* The k-th of these bodies, and its move; NULL: it is ignored. */
 static const sunder_i_body *other_at(const others *all, size_t k, const double **t)
 {
     const sunder_i_search *s = all->search;
@@ -326,7 +329,7 @@ static const sunder_i_body *other_at(const others *all, size_t k, const double *
 
 static size_t count_others(const others *all) { return all->search->about.n + all->foreign.n; }
 
-/* How many pieces of others lie within reach of body i, by their boxes. */
+/* The number of pieces of other bodies whose boxes are within `reach` of body i. */
 static uint64_t count_around(const others *all, const double at[2], double reach)
 {
     sunder_i_search *s = all->search;
@@ -348,7 +351,7 @@ static uint64_t count_around(const others *all, const double at[2], double reach
     return n;
 }
 
-/* Obstacles for body i from all the others, within reach of place `at`. */
+/* Adds the obstacles of all other bodies for body i, within `reach` of the move `at`. */
 static void add_surroundings(others *all, sunder_i_obstacles *o, const double at[2], double reach)
 {
     sunder_i_search *s = all->search;
@@ -359,14 +362,15 @@ static void add_surroundings(others *all, sunder_i_obstacles *o, const double at
         const double *t;
         const sunder_i_body *q = other_at(all, k, &t);
         if (!q) continue;
-        /* Body q, where it stands, is the fixed partner: the obstacle for t_i is Q + t_q - P. */
+        /* Body q does not move, so the obstacle for the move of body i is Q + t_q - P. */
         const double offset[2] = {p->origin[0] - q->origin[0] - t[0], p->origin[1] - q->origin[1] - t[1]};
         add_obstacles(s, o, q, all->coarse && q->pieces > q->members && !sunder_i_is_barrier_body(model, q), p,
                       all->coarse, offset, at, reach);
     }
 }
 
-/* Among very many pieces, shadows of large blocks are left out: a body that is put into one will clash there. */
+/* If there are very many pieces, the shadows of large blocks are left out. A body that is put into one will clash
+ * there. */
 static bool has_shadows(const others *all, const sunder_i_body *p, const sunder_i_body *q)
 {
     return !all->coarse || count_shadows(p, q) <= MANY_SHADOWS;
@@ -395,8 +399,8 @@ static void add_shadows_of_others(const others *all, sunder_i_obstacles *o, cons
     }
 }
 
-/* The free places nearest to `home`, at most `most` of them and no farther than reach; shadows are asked for where the
- * nearest one is in them. */
+/* At most `most` free positions within `reach`, the nearest to `home` first. Shadows are only added if the nearest
+ * position is in one. */
 static size_t find_among(others *all, const double home[2], double reach, size_t most, double (*place)[2])
 {
     sunder_i_search *s = all->search;
@@ -414,7 +418,7 @@ static size_t find_among(others *all, const double home[2], double reach, size_t
     return n;
 }
 
-/* Is body i free of clashes there? All prepared obstacles are tested. */
+/* Is body i free of clashes at this move, against all prepared obstacles? */
 static bool is_clear_at(sunder_i_search *s, uint32_t i, const double place[2])
 {
     const double stood[2] = {s->t[2 * i], s->t[2 * i + 1]};
@@ -424,8 +428,9 @@ static bool is_clear_at(sunder_i_search *s, uint32_t i, const double place[2])
     return clear;
 }
 
-/* The free place nearest to where body i began, no farther than `all`, or a little, and within a limit. clear: the
- * nearest of several where it clashes with nothing. Between shadows with a common corner there is a ray in neither. */
+/* The free position of body i that is nearest to its original one, within `limit` and about within `all`. clear: of
+ * several positions the nearest one without clashes is chosen, since between two shadows with a common corner there is
+ * a ray that is in neither. */
 static bool find_free_place(sunder_i_search *s, uint32_t i, double limit, double all, bool clear, double place[2])
 {
     const sunder_i_body *p = &s->model->body[s->body[i]];

@@ -22,14 +22,14 @@
 
 /* ---- One at a time ----------------------------------------------------------------------------------------------- */
 
-/* A clash that may be given up. */
+/* A clashing pair that may be relaxed. */
 typedef struct candidate {
     const sunder_i_clash *clash;
-    bool overlaps; /* at home */
+    bool overlaps; /* the two overlapped in the original places */
 } candidate;
 
-/* Is p rather to be given up than q? One that does not overlap at home rather than one that does; then the one that
- * misses most. */
+/* Should p be given up rather than q? A pair that did not overlap at home should, before one that did; then the one
+ * with the greater violation. */
 static bool is_cheaper(const candidate *p, const candidate *q)
 {
     if (p->overlaps != q->overlaps) return q->overlaps;
@@ -37,8 +37,8 @@ static bool is_cheaper(const candidate *p, const candidate *q)
     return sunder_i_by_id_pair(p->clash, q->clash) < 0;
 }
 
-/* What clashes now, clashed at home, and is not given up yet. Of each set of clashes that hang together only those that
- * miss at least that share of what the worst does: what the others miss may be due to these. */
+/* Lists the clashing pairs that clashed at home and are not relaxed yet. In each component of clashes only those count
+ * whose violation is at least `share` of the worst one, since smaller ones may be its consequence. */
 static size_t list_candidates(sunder_i_search *s, const sunder_i_clash *at_home, size_t n, double share,
                               candidate *list, uint32_t *root, double *worst)
 {
@@ -60,7 +60,8 @@ static size_t list_candidates(sunder_i_search *s, const sunder_i_clash *at_home,
     return out;
 }
 
-/* Relaxes those that nothing beside them is cheaper than. Returns whether there was any. */
+/* Relaxes each candidate that is the cheapest of all candidates with one of its bodies, for both of them. Returns
+ * whether there was any. */
 static bool relax_cheapest(sunder_i_search *s, const sunder_i_clash *at_home, size_t n, double share)
 {
     const size_t before = s->relaxations.n;
@@ -93,8 +94,8 @@ static void send_all_home(sunder_i_search *s)
     s->program.n = 0;
 }
 
-/* With the same pairs given up, from where all came from: where that ends without clashes and cheaper, it stays
- * there. */
+/* Descends once more from the original places, with the same pairs relaxed. If the result has no clashes and is cheaper
+ * it is kept. */
 static void try_from_home(sunder_i_search *s)
 {
     sunder_i_search_waive_margins(s);
@@ -110,16 +111,16 @@ static void try_from_home(sunder_i_search *s)
     sunder_i_free(stand);
 }
 
-/* Beyond this number, pairs that were given up in excess are not all asked for again; yet they are few enough to be
- * given up gradually. */
+/* Is it a crowd that is small enough to give up pairs gradually, and too large for take_back.c to try all of them
+ * again? */
 static bool restarts_from_home(const sunder_i_search *s) { return s->n >= CROWD && s->n <= LARGE_CROWD; }
 
-/* Gives up the cheapest pairs, continues from there, and so on, more at once each time, as far as the effort goes.
- * Returns whether nothing clashes in the end.
+/* Relaxes the cheapest candidates, continues the search, and so on, with more candidates each time, until the effort
+ * ends. Returns whether nothing clashes in the end.
  *
- * A crowd restarts from its original places: where it ended hundreds are pushed into each other, including pairs that
- * were given up and may not stand worse, and the more is given up the fewer of the clashing pairs there have anything
- * left to give. */
+ * A crowd restarts from its original places each time: where its search ended, hundreds of bodies are pushed into each
+ * other, including relaxed pairs, and the more pairs are relaxed, the fewer of the clashing ones there can still be
+ * relaxed. */
 static bool give_up_gradually(sunder_i_search *s, const sunder_i_clash *at_home, size_t n)
 {
     const uint64_t work = sunder_i_search_work(s), times = (GIVE_UP_TIMES - 1) * work;
@@ -180,7 +181,8 @@ bool sunder_i_search_waive_margins(sunder_i_search *search)
     return !search->failed && search->relaxations.n > before;
 }
 
-/* Bodies that are nearly at their original place, which only unobstructed bodies are, return to it. */
+/* Bodies that are almost at their original places return there, if nothing clashes then. Only unobstructed bodies are
+ * that near. */
 static void settle_at_home(sunder_i_search *s)
 {
     double *stand = sunder_i_alloc(2 * s->n, sizeof *stand);
@@ -193,7 +195,7 @@ static void settle_at_home(sunder_i_search *s)
     sunder_i_free(stand);
 }
 
-/* How many clash at t by more than a hair, such as rounding leaves. */
+/* The number of clashes at t, except violations as small as rounding causes. */
 static size_t count_clashes(sunder_i_search *s, const double *t)
 {
     size_t n = 0;
@@ -202,22 +204,21 @@ static size_t count_clashes(sunder_i_search *s, const double *t)
     return n;
 }
 
-/* Do fewer clash where the search began than at its end, and few beside those that clashed at home? Then most of it was
- * solved before, in parts that ran into each other. */
+/* Has the start fewer clashes than the end of the search, and few compared with the clashes at home? Then the start
+ * consists of separate solutions that have run into each other. */
 static bool was_solved_separately(sunder_i_search *s, const double *start, size_t at_home)
 {
     const size_t clashes = count_clashes(s, s->t), then = count_clashes(s, start);
     return then < clashes && then <= at_home / FEW_LEFT;
 }
 
-/* To where the search began, if fewer clash there than at its end. */
+/* Returns to the start of the search, if fewer pairs clash there. */
 static void begin_again(sunder_i_search *s, const double *start)
 {
     if (count_clashes(s, start) < count_clashes(s, s->t)) memcpy(s->t, start, 2 * s->n * sizeof *s->t);
 }
 
-/* Relaxes the pairs that clashed at the start, for all bodies with a pair that misses at least half of what the worst
- * misses. */
+/* Relaxes all pairs that clashed at home of bodies whose present violation is at least FIRST_SHARE of the worst one. */
 static void relax_about(sunder_i_search *s, const sunder_i_clash *at_home, size_t n, bool *about)
 {
     double worst = 0;
@@ -231,9 +232,9 @@ static void relax_about(sunder_i_search *s, const sunder_i_clash *at_home, size_
     if (s->relaxations.n > before && !sunder_i_relaxations_index(&s->relaxations, s->model)) s->failed = true;
 }
 
-/* From the solutions of parts that ran into each other: gives up the distances of bodies that still clash, then of
- * those that clash after that, and so on. Other pairs keep theirs; pairs given up in excess are asked for again
- * (retry_cluster.c). Returns whether nothing clashes in the end. */
+/* For separate solutions that have run into each other: relaxes the pairs of clashing bodies, then those of bodies that
+ * clash after that, and so on. Other pairs keep their distance. Pairs that were relaxed without need are tried again
+ * later (retry_cluster.c). Returns whether nothing clashes in the end. */
 static bool give_up_about(sunder_i_search *s, const double *start, const sunder_i_clash *at_home, size_t n)
 {
     const size_t size = 2 * s->n * sizeof *s->t;
@@ -253,7 +254,7 @@ static bool give_up_about(sunder_i_search *s, const double *start, const sunder_
     return done && !s->failed;
 }
 
-/* The end of either: what still clashes by a hair yields, and all go down. */
+/* Lets the last clashes yield, and descends. */
 static void end_free(sunder_i_search *s, const sunder_i_clash *at_home, size_t n, bool done, bool pushed)
 {
     if (!s->failed) sunder_i_search_yield(s, at_home, n, 0);
@@ -293,7 +294,7 @@ void sunder_i_search_give_up(sunder_i_search *search, const double *start)
     }
     if (!search->failed && !done) sunder_i_search_clip(search);
     if (!search->failed && !done) {
-        /* What rounding took of what was solved before is no reason to give anything up. */
+        /* Violations by rounding only are no reason to relax a pair. */
         sunder_i_search_yield(search, at_home, n, MENDED * search->tolerance);
         if (!search->failed) sunder_i_search_repair(search);
     }

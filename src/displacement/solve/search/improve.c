@@ -24,8 +24,7 @@ static int by_cost(const void *a, const void *b)
 
 static bool has_time(const sunder_i_search *s) { return sunder_i_search_work(s) < s->effort; }
 
-/* The same after bodies i and j alone were put elsewhere. In a large cluster only those about them go down with
- * them. */
+/* The same after bodies i and j alone were moved. In a large cluster only the bodies around them descend. */
 static bool attempt_about(sunder_i_search *s, uint32_t i, uint32_t j, double *best, double *cost)
 {
     if (!s->neighbourhood) return sunder_i_search_attempt(s, best, cost);
@@ -36,8 +35,8 @@ static bool attempt_about(sunder_i_search *s, uint32_t i, uint32_t j, double *be
     return gain > 0;
 }
 
-/* Bodies, or pairs of them, whose other places failed since the last gain, and the work it took: they would fail again.
- * Skipping them counts as the same work, so that the remaining effort is the same. */
+/* Bodies, or pairs of bodies, whose other places failed since the last gain, and the work spent. They would fail again,
+ * so they are skipped, but the work is counted, so that the remaining effort does not change. */
 typedef struct vain {
     struct vain_try {
         uint32_t i, j;
@@ -56,14 +55,14 @@ static bool was_in_vain(sunder_i_search *s, const vain *v, uint32_t i, uint32_t 
     return false;
 }
 
-/* before: the work when it began. */
+/* Notes the result of a try. before: the work at its beginning. */
 static void note_try(sunder_i_search *s, vain *v, uint32_t i, uint32_t j, uint64_t before, bool gained)
 {
     if (gained) {
         v->n = 0;
         return;
     }
-    if (s->neighbourhood) return; /* too many to look through, and seldom twice */
+    if (s->neighbourhood) return; /* there are too many to search through, and few repeat */
     if (!sunder_i_reserve(&v->tried, &v->capacity, v->n + 1, sizeof *v->tried)) {
         s->failed = true;
         return;
@@ -71,7 +70,7 @@ static void note_try(sunder_i_search *s, vain *v, uint32_t i, uint32_t j, uint64
     v->tried[v->n++] = (struct vain_try){i, j, sunder_i_search_work(s) - before};
 }
 
-/* The longest move, and the power of two below it. */
+/* The longest move; *below: the greatest power of two below it. */
 static double longest_move(const sunder_i_search *s, double *below)
 {
     double longest = 0;
@@ -83,10 +82,9 @@ static double longest_move(const sunder_i_search *s, double *below)
     return longest;
 }
 
-/* Once more from the original places, with no move longer than the power of two below the longest. Where sides
- * contradict each other the search then ends elsewhere: bodies that were sent far stay near if possible. That can only
- * help if a body has moved much farther than any pair was in conflict; and not in a crowd, where no body has room
- * nearer by. */
+/* Searches once more from the original places, with all moves limited to the power of two below the longest one. If
+ * sides contradict each other the search then ends elsewhere, with bodies nearer to home. That helps only if a body has
+ * moved much farther than any pair was in conflict by. In a crowd there is no room nearby. */
 static void try_near(sunder_i_search *s, double *best, double *cost)
 {
     double below;
@@ -98,7 +96,7 @@ static void try_near(sunder_i_search *s, double *best, double *cost)
         s->patience = sunder_i_search_work(s) + NEAR_PATIENCE + sunder_i_search_work(s) / NEAR_SHARE;
         s->program.n = 0;
         bool found = sunder_i_search_descend(s);
-        /* A body that jumps would have to descend, too, which fails without patience. */
+        /* After a jump the bodies have to descend, which needs patience that is left. */
         if (!found && sunder_i_search_work(s) < s->patience && sunder_i_search_jump_soon(s))
             found = sunder_i_search_descend(s);
         s->cap = INFINITY;
@@ -108,15 +106,15 @@ static void try_near(sunder_i_search *s, double *best, double *cost)
     memcpy(s->t, best, 2 * s->n * sizeof *best);
 }
 
-/* Is it worth going on? In a small cluster everything is tried, and in one without limits: 53,000 places of Europe cost
- * 2.6 % more otherwise. In a crowd within limits bodies are alike, and if this many before found no better place the
- * rest will not either. */
+/* Should further tries follow after in_vain failures in a row? In a small cluster and without limits everything is
+ * tried: 53,000 places of Europe cost 2.6 % more otherwise. In a crowd within limits bodies are alike, so if many found
+ * no better place the rest will not either. */
 static bool is_hopeful(const sunder_i_search *s, size_t in_vain)
 {
     return !s->neighbourhood || !(s->program.most_cost > 0) || in_vain < BETTER_IN_VAIN + s->n / BETTER_SHARE;
 }
 
-/* Body i put to the free place nearest to where it came from: is it cheaper? */
+/* Moves body i to the free position nearest to its origin, and descends. Returns whether the result is cheaper. */
 static bool try_place(sunder_i_search *s, uint32_t i, double *best, double *cost)
 {
     double place[2];
@@ -125,7 +123,7 @@ static bool try_place(sunder_i_search *s, uint32_t i, double *best, double *cost
     return attempt_about(s, i, i, best, cost);
 }
 
-/* Each body in turn, the costliest first, to the free place nearest to where it came from, the others standing. */
+/* Tries each body, the most expensive first, at the free position nearest to its origin. */
 static void try_places(sunder_i_search *s, rank *order, vain *v, double *best, double *cost)
 {
     size_t n = 0;
@@ -135,7 +133,7 @@ static void try_places(sunder_i_search *s, rank *order, vain *v, double *best, d
         if (c > 0) order[n++] = (rank){c, k, 0};
     }
     qsort(order, n, sizeof *order, by_cost);
-    size_t in_vain = 0; /* one after the other */
+    size_t in_vain = 0; /* failures in a row */
     for (size_t k = 0; k < n && is_hopeful(s, in_vain) && has_time(s) && !s->failed; k++) {
         const uint32_t i = order[k].index;
         in_vain++;
@@ -155,7 +153,7 @@ static int by_places(const void *a, const void *b)
     return p->cost < q->cost ? -1 : p->cost > q->cost;
 }
 
-/* The pairs in contact, those that press hardest first. NULL if memory is out. */
+/* The pairs in contact, those with the greatest force first. NULL if memory is out. */
 static rank *rank_contacts(const sunder_i_quadratic *program, size_t *n)
 {
     rank *order = sunder_i_alloc(program->n, sizeof *order);
@@ -178,16 +176,16 @@ static rank *rank_contacts(const sunder_i_quadratic *program, size_t *n)
     return order;
 }
 
-/* Does it lead nowhere to go down from here, where the two stand at the p-th of their places from home? All together
- * cost less than in the solution that is to be bettered, and clash, which has a price. Where many move that price is a
- * small part of the cost. What proofs begin from is sought from all places. */
+/* Is a descent from here useless? The two bodies are at the p-th of their positions. The present layout costs less than
+ * the best solution and clashes; if it starts too cheap, it ends too expensive. If many bodies move, the clash is a
+ * small part of the cost. With proofs all positions are tried. */
 static bool is_too_cheap(const sunder_i_search *s, size_t p, double cost)
 {
     if (sunder_i_search_movers(s) > MOST_FORESEEN || s->model->rules.effort > 0) return false;
     return sunder_i_search_cost(s, s->t) < (p == 0 ? 1 : CHEAP_OTHER) * cost;
 }
 
-/* Bodies i and j put to their other sides, one after the other, until one is cheaper. */
+/* Tries bodies i and j on the other sides of each other, until one is cheaper. */
 static bool try_sides_of(sunder_i_search *s, uint32_t i, uint32_t j, double *best, double *cost)
 {
     const double home[2] = {0, 0}, u[2] = {s->t[2 * j] - s->t[2 * i], s->t[2 * j + 1] - s->t[2 * i + 1]};
@@ -196,7 +194,7 @@ static bool try_sides_of(sunder_i_search *s, uint32_t i, uint32_t j, double *bes
     const size_t found = sunder_i_search_free_pair(s, i, j, home, OTHER_SIDE * length, MOST_SIDES, places);
     for (size_t p = 0; p < found && has_time(s) && !s->failed; p++) {
         if (hypot(places[p][0] - u[0], places[p][1] - u[1]) < OTHER_SIDE * length) continue;
-        /* The lighter goes farther. */
+        /* The lighter body moves farther. */
         const double share = s->mass[j] / (s->mass[i] + s->mass[j]);
         for (int c = 0; c < 2; c++) {
             const double change = places[p][c] - u[c];
@@ -211,7 +209,7 @@ static bool try_sides_of(sunder_i_search *s, uint32_t i, uint32_t j, double *bes
     return false;
 }
 
-/* Pairs in contact put to their other sides. */
+/* Tries the pairs in contact on other sides. */
 static void try_sides(sunder_i_search *s, vain *v, double *best, double *cost)
 {
     size_t n;
@@ -230,7 +228,8 @@ static void try_sides(sunder_i_search *s, vain *v, double *best, double *cost)
     sunder_i_free(order);
 }
 
-/* Every place once, then every side once; in a large cluster with those about each only, after which all go down. */
+/* Tries every place once, then every side once. In a large cluster each is tried with the bodies around it, and all
+ * bodies descend after each kind. */
 static void try_once(sunder_i_search *s, rank *order, vain *v, double *best, double *cost)
 {
     sunder_i_neighbourhood about = {0};
@@ -238,7 +237,7 @@ static void try_once(sunder_i_search *s, rank *order, vain *v, double *best, dou
     if (s->neighbourhood && !sunder_i_neighbourhood_init(&about, s)) s->failed = true;
     const double start = *cost;
     if (!s->failed) try_places(s, order, v, best, cost);
-    /* All bodies descend, which also gives the forces; unless these are known from the last full descent, and nothing
+    /* All bodies descend, which also gives the forces, unless these are known from the last full descent and nothing
      * has moved since. */
     if (s->neighbourhood && !s->failed && (*cost < start || s->program.n == 0)) sunder_i_search_attempt(s, best, cost);
     if (!s->neighbourhood && !s->failed) {
@@ -252,7 +251,7 @@ static void try_once(sunder_i_search *s, rank *order, vain *v, double *best, dou
     sunder_i_neighbourhood_free(&about);
 }
 
-/* Places and sides in turn, until a round of both gains little. */
+/* Tries places and sides in rounds, until a round gains less than ROUND_GAIN. */
 static void try_all(sunder_i_search *s, rank *order, double *best, double *cost)
 {
     vain v = {0};
@@ -265,26 +264,26 @@ static void try_all(sunder_i_search *s, rank *order, double *best, double *cost)
     sunder_i_free(v.tried);
 }
 
-/* Does it stand without clashes? What rounding took of the margin is made good first. */
+/* Is the start without clashes? A loss of margin by rounding is repaired first. */
 static bool is_free_start(sunder_i_search *s)
 {
     const double missed = sunder_i_search_find_clashes(s, s->t);
     return missed <= s->tolerance || (missed <= MENDED * s->tolerance && !s->failed && sunder_i_search_descend(s));
 }
 
-/* From s->t, which is free, to the cheapest that is found, in best; near is scratch of the same size. */
+/* From the free layout s->t to the cheapest layout found, which is stored in `best`. near: [2 n] scratch. */
 static void improve_layout(sunder_i_search *s, rank *order, double *best, double *near)
 {
     const size_t size = 2 * s->n * sizeof *best;
     memcpy(best, s->t, size);
     double cost = sunder_i_search_cost(s, s->t);
-    sunder_i_search_attempt(s, best, &cost); /* otherwise it was tested for the first solution */
+    sunder_i_search_attempt(s, best, &cost); /* without proofs this was done for the first solution */
     if (!sunder_i_search_runs_without_proofs(s) &&
-        sunder_i_search_is_cheapest(s)) { /* else done for the first solution */
+        sunder_i_search_is_cheapest(s)) { /* without proofs this was asked about the first solution */
         memcpy(best, s->t, size);
         return;
     }
-    /* Descends from here, and from a start that keeps all bodies near, and keeps the cheaper of the two ends. */
+    /* Descends from here, and from a start that keeps all bodies near home; the cheaper result is kept. */
     memcpy(near, best, size);
     double near_cost = cost;
     const double start = cost;

@@ -18,8 +18,8 @@ void sunder_i_search_clip(sunder_i_search *search)
     }
 }
 
-/* Where the smaller of the two that clash finds room, or else the other: its number, or SUNDER_I_NOBODY. Bodies that
- * found none are marked, and not asked again. */
+/* Finds a free position for the body of the clash with fewer pieces, or for the other one. Returns its index, or
+ * SUNDER_I_NOBODY. stuck: [n] bodies for which none was found; they are not tried again. */
 static uint32_t find_room(sunder_i_search *s, const sunder_i_clash *clash, bool *stuck, double place[2])
 {
     const sunder_i_body *p = &s->model->body[s->body[clash->i]], *q = &s->model->body[s->body[clash->j]];
@@ -36,12 +36,12 @@ static uint32_t find_room(sunder_i_search *s, const sunder_i_clash *clash, bool 
 
 bool sunder_i_search_jump(sunder_i_search *search)
 {
-    search->program.n = 0; /* the forces belong to places that are left */
+    search->program.n = 0; /* its forces belong to the former places */
     sunder_i_search_clip(search);
     bool *stuck = sunder_i_calloc(search->n, sizeof *stuck);
     if (!stuck) search->failed = true;
     if (!search->failed) sunder_i_search_find_clashes(search, search->t);
-    /* A body that jumps clashes with nothing where it lands, so the number of clashing bodies falls each time. */
+    /* After a jump the body clashes with nothing, so the number of clashing bodies falls. */
     size_t at = 0;
     for (size_t k = 0; k <= 2 * search->n && at < search->clashes && sunder_i_search_work(search) < search->patience &&
                        !search->failed;

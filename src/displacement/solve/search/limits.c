@@ -9,9 +9,9 @@
 #include <math.h>
 #include <string.h>
 
-/* By how much a move may exceed its limit and still count as within it: less than the tolerance; for small coordinates
- * a share of the limit that is larger than the error of programs, and than the margin of an exact fit, which rounding
- * to the limit then repairs. */
+/* A move that exceeds its limit by at most this counts as within it. It is at most half the tolerance; or, for small
+ * coordinates, a share of the limit that covers the error of programs and the room of an exact fit. Rounding to the
+ * limit repairs it later. */
 static double slack_of_limit(const sunder_i_search *s, double limit)
 {
     return sunder_i_max(s->tolerance / 2, limit * LIMIT_SLACK);
@@ -32,7 +32,7 @@ bool sunder_i_search_is_beyond(const sunder_i_search *search, const double *t)
     return false;
 }
 
-/* The tangents of body k among the first n constraints, which are sorted: from *first on; how many. */
+/* The number of tangents of body k among the first n constraints, which are sorted; *first: the index of the first. */
 static size_t tangents_of(const sunder_i_search *s, size_t n, uint32_t k, size_t *first)
 {
     const sunder_i_constraint *c = s->program.constraint, key = {.key = UINT64_C(1) << 63 | (uint64_t)k << 32};
@@ -42,8 +42,8 @@ static size_t tangents_of(const sunder_i_search *s, size_t n, uint32_t k, size_t
     return end - *first;
 }
 
-/* Adds one in that direction, unless one of those before it is as good: then the limit contradicts something else, and
- * the same again would not help. */
+/* Adds the tangent in this direction, unless an almost equal one is among the first `before` constraints. If that one
+ * did not help, the limit contradicts other constraints. */
 static void add_tangent(sunder_i_search *s, size_t before, uint32_t k, const double direction[2])
 {
     const double length = hypot(direction[0], direction[1]);
@@ -64,8 +64,8 @@ static void add_tangent(sunder_i_search *s, size_t before, uint32_t k, const dou
                                .key = UINT64_C(1) << 63 | (uint64_t)k << 32 | s->tangents++});
 }
 
-/* The force on body k without that of its limit, times its mass: where it would go if no other body moved. Returns
- * whether its limit is active. */
+/* push: where body k would go by the forces of all constraints but its limit, if no other body moved. Returns whether
+ * its limit is active. */
 static bool push_on(const sunder_i_search *s, size_t before, uint32_t k, double push[2])
 {
     size_t first;
@@ -80,10 +80,10 @@ static bool push_on(const sunder_i_search *s, size_t before, uint32_t k, double 
     return acts;
 }
 
-/* Adds tangents of the limit circle for bodies whose proposed move s->next is longer than their limit: one in the
- * direction of the move, which converges fast if neighbours determine the move, and one in the direction in which
- * constraints push the body, which converges fast if nothing else holds it. With only one of the two, the error is
- * halved by each tangent in the other case. Returns whether any was added. */
+/* Adds tangents of the limit circle for bodies whose move s->next exceeds their limit. One is in the direction of the
+ * move, which converges fast if neighbours determine the move; one is in the direction in which constraints push the
+ * body, which converges fast if nothing else holds it. With only one of the two, each tangent would halve the error in
+ * the other case. Returns whether any was added. */
 bool sunder_i_search_constrain_limits(sunder_i_search *search)
 {
     const size_t before = search->program.n;

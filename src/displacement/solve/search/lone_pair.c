@@ -13,14 +13,14 @@
 #include <math.h>
 #include <string.h>
 
-/* The feature that the body is; SUNDER_I_NOBODY: it is a block, or part of a barrier. */
+/* The feature that makes up the body; SUNDER_I_NOBODY: it is a block, or part of a barrier. */
 static uint32_t only_feature(const sunder_i_model *model, uint32_t body)
 {
     const sunder_i_body *b = &model->body[body];
     return b->members == 1 && !sunder_i_is_barrier_body(model, b) ? model->member[b->member] : SUNDER_I_NOBODY;
 }
 
-/* Are these two that owe each other the gap, and nothing else? */
+/* Is the search about two single features, with nothing to keep but the gap? */
 static bool is_lone_pair(const sunder_i_search *s, const sunder_i_cluster *cluster)
 {
     double reach;
@@ -30,7 +30,7 @@ static bool is_lone_pair(const sunder_i_search *s, const sunder_i_cluster *clust
            !sunder_i_search_is_relaxed(s, s->body[0], s->body[1], &reach);
 }
 
-/* What takes them farther apart than this is beyond their limits. */
+/* The sum of the two limits; a longer separation is not needed. */
 static double farthest_apart(const sunder_i_search *s)
 {
     double sum = 0;
@@ -38,8 +38,8 @@ static double farthest_apart(const sunder_i_search *s)
     return nextafter(sum, INFINITY);
 }
 
-/* Puts the two apart by `away`, made longer until they keep the margin, too: in a corner between two lines the way to a
- * margin from both is longer than the margin. */
+/* Separates the two by `away`, made longer until they keep the margin, too: between two lines that form a corner, a
+ * move that leaves a margin to both is longer than the margin. */
 static bool stand_apart(sunder_i_search *s, const double away[2])
 {
     const double length = hypot(away[0], away[1]), margin = s->gap - s->model->rules.gap;
@@ -58,7 +58,8 @@ static bool stand_apart(sunder_i_search *s, const double away[2])
 
 /* ---- Exact contact ----------------------------------------------------------------------------------------------- */
 
-/* What the margin is for is asked exactly here: are the two the gap apart, moved by what doubles hold? */
+/* The exact test that makes the margin unnecessary: are the two the gap apart after the moves t, which doubles
+ * represent exactly? */
 static sunder_status are_apart(const sunder_i_search *s, const sunder_bound_pair *pair, const double t[4], bool *apart,
                                sunder_error *err)
 {
@@ -66,7 +67,8 @@ static sunder_status are_apart(const sunder_i_search *s, const sunder_bound_pair
     return sunder_i_apart(p, t, q, t + 2, s->model->rules.gap, apart, err);
 }
 
-/* Rounds the move of body k of the two; false if doubles do not hold it. *unit: the larger of its units. */
+/* Rounds the move of body k; false if its coordinates need rounding then. *unit: the larger of the units of the
+ * move. */
 static bool round_one(const sunder_i_search *s, uint32_t k, double t[4], double *unit)
 {
     double to[2];
@@ -77,9 +79,9 @@ static bool round_one(const sunder_i_search *s, uint32_t k, double t[4], double 
     return exact;
 }
 
-/* The share of each of `away`, as doubles hold it. The one with the coarser unit is rounded first, the other makes up
- * for it: so the relative move is `away` where that is a multiple of the finer unit. Then the latter goes `steps` of
- * its units farther along each axis whose bit `along` has. False if doubles do not hold that. */
+/* Divides the relative move `away` between the two, rounded. The move with the coarser unit is rounded first, and the
+ * other makes up for it, so their difference is `away` if that is a multiple of the finer unit. Then the latter is
+ * longer by one unit along each axis whose bit in `along` is set. False if coordinates need rounding. */
 static bool share_rounded(const sunder_i_search *s, const double away[2], unsigned along, double t[4])
 {
     const double share = s->mass[1] / (s->mass[0] + s->mass[1]);
@@ -98,8 +100,8 @@ static bool share_rounded(const sunder_i_search *s, const double away[2], unsign
     return round_one(s, last, t, &unit[last]);
 }
 
-/* The share of the least translation itself, without a margin, where doubles hold one that leaves the two just the gap
- * apart: the nearest, or the next one farther out along either axis. *done: t is it. */
+/* Divides the least translation itself, without a margin, if moved coordinates are doubles and the exact test succeeds:
+ * for the nearest rounded moves, or those one unit farther along either axis. *done: the search stands there. */
 static sunder_status stand_in_contact(sunder_i_search *s, const sunder_bound_pair *pair, const double away[2],
                                       bool *done, sunder_error *err)
 {

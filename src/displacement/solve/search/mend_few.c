@@ -56,7 +56,7 @@ static bool has_pinned_body(const sunder_i_search *s)
     return false;
 }
 
-/* By more than a hair; else all is put back. */
+/* Settles the clashes; a very large crowd yields if that fails. On failure all bodies return. */
 static bool mend_clashes(sunder_i_search *s, const sunder_i_clash *clash, size_t n)
 {
     const size_t size = 2 * s->n * sizeof *s->t;
@@ -74,7 +74,7 @@ static bool mend_clashes(sunder_i_search *s, const sunder_i_clash *clash, size_t
     return done;
 }
 
-/* Of the clashes of the last look those that are no hair; n: in, out. NULL if memory is out. */
+/* Lists the clashes of more than the tolerance; *n: their number. NULL if memory is out. */
 static sunder_i_clash *list_clashes(sunder_i_search *s, size_t *n)
 {
     sunder_i_clash *list = sunder_i_alloc(s->clashes, sizeof *list);
@@ -94,8 +94,8 @@ bool sunder_i_search_mend_few(sunder_i_search *search)
         return false;
     sunder_i_search_find_clashes(search, search->t);
     if (search->failed) return false;
-    /* If the margin has grown since they were settled, most pairs violate it; the part that they keep was found to be
-     * sufficient. */
+    /* If the margin has grown since the bodies settled, most pairs violate it. The part of it that they keep has proved
+     * sufficient, so it is tolerated. */
     search->tolerance *= MARGIN_LEFT;
     sunder_i_clash *list = list_clashes(search, &n);
     search->failed = !list;

@@ -7,7 +7,7 @@
 
 #include <stdlib.h>
 
-/* Sorts order by the left sides of the boxes; insertion would do between rounds, but clusters can be large. */
+/* Sorts boxes by their left sides. (Clusters can be large, so insertion sort from the last order would not do.) */
 static int by_left(const void *a, const void *b)
 {
     const double *p = *(const double *const *)a, *q = *(const double *const *)b;
@@ -44,7 +44,7 @@ static void visit_near(sunder_i_search *s, const double *t, double reach, bool o
         s->failed = true;
         return;
     }
-    /* visit() may look elsewhere, but never sorts again. */
+    /* visit() may change s->box, but never calls this function again. */
     for (size_t x = 0; x < s->n && !s->failed; x++) {
         const uint32_t i = s->order[x];
         const double *a = s->box + 4 * i;

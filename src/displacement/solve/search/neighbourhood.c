@@ -60,7 +60,7 @@ bool sunder_i_neighbourhood_look_about(sunder_i_neighbourhood *neighbourhood, ui
     return true;
 }
 
-/* What stands far from all of the search has no place in it, and does not move. */
+/* Adds a movable body to the neighbourhood. SUNDER_I_NOBODY is a body that the search does not contain. */
 static void take_in(sunder_i_neighbourhood *v, uint32_t i)
 {
     if (i == SUNDER_I_NOBODY || v->moves[i] || !(v->all->mass[i] > 0)) return;
@@ -68,8 +68,8 @@ static void take_in(sunder_i_neighbourhood *v, uint32_t i)
     v->place[v->n++] = i;
 }
 
-/* The pair, those that they could run into, and those that these could, up to `most` that move; then those that stand
- * about them. v->wider: there would have been more. */
+/* Collects bodies i and j, the bodies within `reach` of these, and so on, up to `most` movable ones; then all fixed and
+ * remaining bodies around them, which do not move. v->wider: there would have been more movable ones. */
 static bool gather_bodies(sunder_i_neighbourhood *v, uint32_t i, uint32_t j, size_t most, double reach)
 {
     v->n = 0;
@@ -89,7 +89,7 @@ static bool gather_bodies(sunder_i_neighbourhood *v, uint32_t i, uint32_t j, siz
         for (size_t k = 0; k < v->near.n; k++) {
             const uint32_t who = v->near.item[k];
             if (v->moves[who]) continue;
-            v->moves[who] = true; /* it is listed */
+            v->moves[who] = true; /* this marks it as listed, for now */
             v->place[v->n++] = who;
         }
     }
@@ -97,7 +97,8 @@ static bool gather_bodies(sunder_i_neighbourhood *v, uint32_t i, uint32_t j, siz
     return true;
 }
 
-/* The search among those gathered; it borrows the relaxations of the whole search. */
+/* Begins the search among the collected bodies. It borrows the relaxations and the obstacle cache of the whole
+ * search. */
 static bool begin_search(sunder_i_neighbourhood *v, sunder_i_search *inner)
 {
     sunder_i_search *s = v->all;
@@ -106,7 +107,7 @@ static bool begin_search(sunder_i_neighbourhood *v, sunder_i_search *inner)
         v->body[k] = s->body[v->place[k]];
         memcpy(v->t + 2 * k, s->t + 2 * (size_t)v->place[k], 2 * sizeof *v->t);
     }
-    /* Places go by number up to s->own, and again from there: bodies are ascending in both, and so they are here. */
+    /* Indices ascend, and bodies ascend below s->own and again above it; so they do here. */
     if (!sunder_i_search_init(inner, s->model, v->body, v->n, s->gap - s->model->rules.gap, v->t)) return false;
     inner->own = 0;
     for (size_t k = 0; k < v->n; k++) {
@@ -118,13 +119,14 @@ static bool begin_search(sunder_i_neighbourhood *v, sunder_i_search *inner)
     inner->relaxations = s->relaxations;
     inner->restored = s->restored;
     inner->restored_n = s->restored_n;
-    inner->cache = s->cache; /* and returns there */
+    inner->cache = s->cache; /* give_back_cache() returns it */
     memset(&s->cache, 0, sizeof s->cache);
     inner->patience = PATIENCE + PATIENCE_EACH * (uint64_t)v->n;
     return true;
 }
 
-/* Gives back what was lent: before the whole is looked at, which would begin another one. */
+/* Returns the cache. This has to happen before the whole search computes obstacles, since that would begin another
+ * cache. */
 static void give_back_cache(sunder_i_neighbourhood *v, sunder_i_search *inner)
 {
     if (inner->cache.slots) v->all->cache = inner->cache;
@@ -142,7 +144,8 @@ static void end_search(sunder_i_neighbourhood *v, sunder_i_search *inner)
     for (size_t k = 0; k < v->n; k++) v->moves[v->place[k]] = false;
 }
 
-/* Did the two go the same way, so that they stand to each other as they stood? stood: [2 n] of all; NULL: not known. */
+/* Did the two make the same move, so that their relative position did not change? stood: [2 n] former moves of all;
+ * NULL: not known. */
 static bool went_together(const sunder_i_neighbourhood *v, uint32_t i, uint32_t j, const double *stood)
 {
     const sunder_i_search *s = v->all;
@@ -154,7 +157,7 @@ static bool went_together(const sunder_i_neighbourhood *v, uint32_t i, uint32_t 
     return true;
 }
 
-/* Are the moved bodies free of clashes with all others? */
+/* Do the moved bodies clash with no body of the whole search? */
 static bool is_free(sunder_i_neighbourhood *v, const double *stood)
 {
     sunder_i_search *s = v->all;
@@ -173,7 +176,7 @@ static bool is_free(sunder_i_neighbourhood *v, const double *stood)
     return !s->failed;
 }
 
-/* Puts those that move there: a place for each of v->place. */
+/* Gives the movable bodies of v->place the moves t[2 * v->n]. */
 static void put_bodies(sunder_i_neighbourhood *v, const double *t)
 {
     for (size_t k = 0; k < v->n; k++) {
@@ -185,7 +188,7 @@ static void put_bodies(sunder_i_neighbourhood *v, const double *t)
     }
 }
 
-/* Begins with the pair and those about it as they stand. On failure it has ended. */
+/* Collects the bodies around the pair, and begins their search. If it fails it has ended. */
 static bool open_search(sunder_i_neighbourhood *v, uint32_t i, uint32_t j, size_t most, double reach,
                         sunder_i_search *inner)
 {
@@ -196,7 +199,8 @@ static bool open_search(sunder_i_neighbourhood *v, uint32_t i, uint32_t j, size_
     return false;
 }
 
-/* Ends the part. Where its search is done, all are put where it went, if nothing is in the way there; else back. */
+/* Ends the inner search. If it was successful (done), its bodies take the new moves, unless they clash with bodies
+ * outside. */
 static bool end_where_it_went(sunder_i_neighbourhood *v, sunder_i_search *inner, bool done)
 {
     if (done && !inner->failed) {
@@ -232,8 +236,7 @@ bool sunder_i_neighbourhood_repair(sunder_i_neighbourhood *neighbourhood, uint32
     return end_where_it_went(neighbourhood, &inner, done);
 }
 
-/* What those that move cost, standing at t, a place for each of v->place, less what they cost at `best`, one for
- * each of all. */
+/* The cost of the movable bodies at t[2 * v->n], minus their cost at `best`, which has moves of all bodies. */
 static double costs_more(const sunder_i_neighbourhood *v, const double *t, const double *best)
 {
     double sum = 0;

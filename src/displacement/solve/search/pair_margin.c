@@ -15,14 +15,14 @@
 
 static const size_t stage[] = RETRY_STAGES;
 
-/* Do two bodies of the search stand to each other otherwise than they did, by more than rounding? */
+/* Has the relative position of the two changed, by more than rounding? */
 static bool have_moved(const sunder_i_search *s, uint32_t i, uint32_t j)
 {
     const double margin = s->gap - s->model->rules.gap;
     return fabs(s->t[2 * i] - s->t[2 * j]) > margin || fabs(s->t[2 * i + 1] - s->t[2 * j + 1]) > margin;
 }
 
-/* The relaxations of the pair, and of all that have moved, with the margin. */
+/* Adds the margin to the relaxations of the pair (a, b), and of all pairs that have moved. False if memory is out. */
 static bool ask_margins(sunder_i_search *s, uint32_t a, uint32_t b)
 {
     const sunder_i_model *model = s->model;
@@ -44,7 +44,7 @@ static sunder_i_id_pair in_order(uint32_t p, uint32_t q)
     return p < q ? (sunder_i_id_pair){p, q} : (sunder_i_id_pair){q, p};
 }
 
-/* Except for those without one at present. */
+/* Removes the margin from pairs other than (i, j) that do not keep it at present. */
 static void spare_others(sunder_i_search *s, uint32_t i, uint32_t j)
 {
     sunder_i_search_find_clashes(s, s->t);

@@ -16,7 +16,7 @@ double sunder_i_search_owed(const sunder_i_search *search, const sunder_i_body_p
     return search->gap + (sunder_i_owed_above(search->model, a->feature, b->feature) - search->model->rules.gap);
 }
 
-/* Is it one of the model's relaxations that still counts here? */
+/* Does this relaxation of the model count in the search? */
 static bool still_counts(const sunder_i_search *s, const sunder_i_relaxation *relaxation)
 {
     if (s->restored_n == 0) return true;
@@ -25,7 +25,7 @@ static bool still_counts(const sunder_i_search *s, const sunder_i_relaxation *re
     return at == s->restored_n || sunder_i_by_restored(&s->restored[at], &wanted) != 0;
 }
 
-/* Has every relaxation of the model between the two ended here? */
+/* Has the search restored all relaxations of the model between the two bodies? */
 static bool all_restored(const sunder_i_search *s, const sunder_i_relaxed_bodies *relaxed)
 {
     const sunder_i_restored first = {{relaxed->i, relaxed->j}, {0, 0}},
@@ -56,7 +56,7 @@ const sunder_i_relaxation *sunder_i_search_relaxation(const sunder_i_search *sea
     return relaxation && still_counts(search, relaxation) ? relaxation : NULL;
 }
 
-/* Does the wall keep the piece inside, by the rules or by a relaxation? */
+/* Does the wall keep the piece inside, by the rules or by a relaxation? Sets pair->inclusion. */
 static bool keeps_inside(const sunder_i_search *s, const sunder_i_body_piece *wall, const sunder_i_body_piece *piece,
                          sunder_i_piece_pair *pair)
 {
@@ -67,7 +67,7 @@ static bool keeps_inside(const sunder_i_search *s, const sunder_i_body_piece *wa
     return relaxation && relaxation->inside && sunder_i_is_inner(s->model, piece->feature, wall->feature);
 }
 
-/* Do the pieces let each other alone? */
+/* Are the pieces exempt from keeping a distance, since one feature lies in the other? Sets pair->relaxation. */
 static bool are_exempt(const sunder_i_search *s, const sunder_i_body_piece *a, const sunder_i_body_piece *b,
                        sunder_i_piece_pair *pair)
 {
@@ -80,18 +80,18 @@ static bool are_exempt(const sunder_i_search *s, const sunder_i_body_piece *a, c
 typedef struct visiting {
     sunder_i_search *s;
     sunder_i_piece_pair *pair;
-    const sunder_i_body_piece *from; /* n parts of one body, or walls, numbered from `first` on ... */
+    const sunder_i_body_piece *from; /* [n] pieces of one body, or walls, numbered from `first` on */
     uint32_t n, first;
-    const sunder_i_body_pieces *of; /* ... whose pieces these are; NULL: walls */
+    const sunder_i_body_pieces *of; /* the pieces of that body; NULL: `from` are walls */
     const sunder_i_body *other;
-    const sunder_i_body_pieces *facing; /* pieces of that */
+    const sunder_i_body_pieces *facing; /* the pieces of `other` */
     bool swapped;
     sunder_i_visit_piece_pair call;
     void *context;
 } visiting;
 
-/* Part k of `from` with its box, and piece l of the other body. Inline, as what calls it: the innermost loops of the
- * search. */
+/* Visits piece or wall k of `from`, with its box, and piece l of the other body. It is inline, like its callers, as the
+ * innermost loop of the search. */
 static inline void visit_piece(const visiting *to, uint32_t k, const double box[4], uint32_t l)
 {
     const sunder_i_body_piece *a = &to->from[k], *b = &to->facing->piece[l];
@@ -105,20 +105,22 @@ static inline void visit_piece(const visiting *to, uint32_t k, const double box[
     to->call(to->s, pair, to->context);
 }
 
-/* The box of a part as the other body sees it, grown. */
+/* The box of a piece of `from` relative to the other body, grown by `reach`. */
 static inline void box_seen(const sunder_i_body_piece *a, const double v[2], double reach, double box[4])
 {
     for (int c = 0; c < 4; c++) box[c] = a->box[c] - v[c & 1] + (c < 2 ? -reach : reach);
 }
 
-/* Does a run of pieces begin with that of this number, one of `left` more, that has nothing to do with the box? */
+/* Does a run of SUNDER_I_RUN pieces begin with the piece of this number, whose common box does not meet `box`? left:
+ * the number of pieces that remain. */
 static inline bool is_run_beside(const sunder_i_body_pieces *of, uint32_t number, uint32_t left, const double box[4])
 {
     return number % SUNDER_I_RUN == 0 && left >= SUNDER_I_RUN &&
            !sunder_i_box_meet(of->run + 4 * (size_t)(number / SUNDER_I_RUN - of->first_run), box);
 }
 
-/* Pieces of the other whose boxes meet the box, ascending; MOST_FACING + 1 if there are more than that. */
+/* Lists the pieces of the other body whose boxes meet `box`, ascending. Returns their number, or MOST_FACING + 1 if
+ * there are more. */
 static inline uint32_t find_facing(const visiting *to, const double box[4], uint32_t piece[MOST_FACING])
 {
     const sunder_i_body *body = to->other;
@@ -135,8 +137,8 @@ static inline uint32_t find_facing(const visiting *to, const double box[4], uint
     return n;
 }
 
-/* The box of the other body as the parts see it, grown, and by more than rounding takes: what misses it misses the
- * other's own, as that sees the part. */
+/* The box of the other body relative to `from`, grown by `reach` and more than the rounding error. A piece whose box
+ * does not meet it cannot meet the other body's box in the other frame. */
 static inline void box_of_other(const sunder_i_body *other, const double v[2], double reach, double box[4])
 {
     double most = sunder_i_max(fabs(v[0]), fabs(v[1])) + fabs(reach);
@@ -145,9 +147,9 @@ static inline void box_of_other(const sunder_i_body *other, const double v[2], d
     for (int c = 0; c < 4; c++) box[c] = other->box[c] + v[c & 1] + (c < 2 ? -grown : grown);
 }
 
-/* Takes as many parts from `begin` on as face the other body in one pass: returns where to continue. Blocks have
- * hundreds of pieces, few of which face each other, so pieces of the other that none of these parts comes near are
- * dropped beforehand. */
+/* Visits up to PARTS_AT_ONCE pieces of `from`, from `begin` on, that are near the other body; returns where to
+ * continue. Blocks have hundreds of pieces of which few face each other, so pieces of the other body that are near none
+ * of these are dropped first. */
 static inline uint32_t visit_some(const visiting *to, uint32_t begin, const double v[2], double reach)
 {
     sunder_i_search *s = to->s;
@@ -177,7 +179,7 @@ static inline uint32_t visit_some(const visiting *to, uint32_t begin, const doub
     return k;
 }
 
-/* All of them, where there are few. */
+/* The same for two bodies of few pieces: tests all pairs. */
 static inline void visit_each(const visiting *to, const double v[2], double reach)
 {
     sunder_i_search *s = to->s;
@@ -190,7 +192,7 @@ static inline void visit_each(const visiting *to, const double v[2], double reac
     if (!sunder_i_steps(to->n * (1 + (size_t)to->other->pieces / 8))) s->failed = true;
 }
 
-/* Parts of the one that may stand within `reach` of parts of the other at `v`. */
+/* Visits all pairs within `reach`, with the other body at v. */
 static inline void visit_all(const visiting *to, const double v[2], double reach)
 {
     if (to->n <= FEW_PARTS && to->other->pieces <= FEW_PARTS)
@@ -220,7 +222,7 @@ void sunder_i_search_walls(sunder_i_search *search, const sunder_i_body *holder,
         search->failed = true;
 }
 
-/* The same of pieces of both. */
+/* Visits the pairs of pieces of two bodies. */
 static void visit_pieces(sunder_i_search *s, const sunder_i_body *p, const sunder_i_body *q, const double v[2],
                          double reach, sunder_i_piece_pair *pair, sunder_i_visit_piece_pair visit, void *context)
 {
@@ -253,7 +255,7 @@ void sunder_i_search_piece_pairs(sunder_i_search *search, uint32_t i, uint32_t j
     pair.relaxed = yields && sunder_i_search_is_relaxed(search, search->body[i], search->body[j], &shift);
     reach += shift;
     visit_pieces(search, p, q, v, reach, &pair, visit, context);
-    /* Shadows are seldom in the way: no more of them than that are looked for ahead. */
+    /* Shadows are seldom in the way, so they are looked for within a shorter distance. */
     const double ahead = sunder_i_min(reach - shift - search->gap, search->gap / LEAST_REACH);
     sunder_i_search_body_shadows(search, p, q, u, search->gap - model->rules.gap + ahead, visit, context);
     if (!pair.relaxed && model->inclusions == 0) return;
@@ -269,14 +271,14 @@ double sunder_i_search_shift(const sunder_i_relaxation *relaxation, uint32_t of_
     return gap;
 }
 
-/* A + (-B), as it is. */
+/* The obstacle A + (-B), without a relaxation. */
 static size_t make_obstacle(sunder_i_search *s, const sunder_i_piece_pair *pair)
 {
     const sunder_i_body_piece *a = pair->a, *b = pair->b;
     return sunder_i_obstacle_corners(a->corner, a->corners, b->corner, b->corners, pair->offset, &s->scratch);
 }
 
-/* What two pieces without a relaxation owe each other, n edges of its obstacle given. */
+/* The distance that a pair without a relaxation has to keep. edge: the n edges of its obstacle. */
 static double owed_by_pair(const sunder_i_search *s, const sunder_i_piece_pair *pair,
                            const sunder_i_obstacle_edge *edge, size_t n)
 {
@@ -287,7 +289,7 @@ static double owed_by_pair(const sunder_i_search *s, const sunder_i_piece_pair *
     return sunder_i_min(margin, sunder_i_support_at(edge, n, home).distance);
 }
 
-/* The edges of the obstacle in s->scratch. */
+/* Converts the obstacle in s->scratch into edges, s->shifted. */
 static const sunder_i_obstacle_edge *take_edges(sunder_i_search *s, size_t *n)
 {
     if (!sunder_i_reserve(&s->shifted, &s->shifted_capacity, *n, sizeof *s->shifted)) return NULL;
@@ -295,7 +297,7 @@ static const sunder_i_obstacle_edge *take_edges(sunder_i_search *s, size_t *n)
     return s->shifted;
 }
 
-/* Those of a shadow; they are not kept. */
+/* The edges of a shadow, which no cache keeps. */
 static const sunder_i_obstacle_edge *shadow_edges(sunder_i_search *s, const sunder_i_piece_pair *pair, size_t *n,
                                                   double *gap)
 {
@@ -361,7 +363,8 @@ static void measure_pieces(sunder_i_search *s, const sunder_i_piece_pair *pair, 
     if (edge) m->worst = sunder_i_max(m->worst, gap - sunder_i_search_support(pair, edge, n, m->u).distance);
 }
 
-/* Returns the shortfall of pair (i, j) at `u` as if no pair were relaxed. It depends on `u` alone, so it is kept. */
+/* The violation of pair (i, j) at relative position u as if no pair were relaxed. It depends on u alone, so it is kept
+ * in s->measures. */
 static double measure_pair(sunder_i_search *s, uint32_t i, uint32_t j, const double u[2])
 {
     missing m = {u, 0};

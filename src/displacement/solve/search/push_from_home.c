@@ -23,7 +23,7 @@ static bool begins_at_home(const sunder_i_search *s, const double *start)
     return limited;
 }
 
-/* All that clashes at home is given up, and everybody is there. Returns whether nothing clashes then. */
+/* Moves all bodies to `start`, and relaxes all pairs that clash there. Returns whether nothing clashes then. */
 static bool give_up_all(sunder_i_search *s, const double *start, const sunder_i_clash *at_home, size_t n)
 {
     memcpy(s->t, start, 2 * s->n * sizeof *s->t);
@@ -37,8 +37,8 @@ static bool give_up_all(sunder_i_search *s, const double *start, const sunder_i_
     return !s->failed && sunder_i_search_find_clashes(s, s->t) <= s->tolerance;
 }
 
-/* Pushes, goes down, pushes again, as long as that takes back any number. Returns whether the first left more than that
- * share. */
+/* Pushes, descends, and pushes again, as long as that restores a fair number of pairs. Returns whether the first push
+ * left more than `share` of them relaxed. */
 static bool push_all(sunder_i_search *s, double share)
 {
     const size_t all = s->relaxations.n;

@@ -101,7 +101,8 @@ static void begin_front(const sunder_i_pushed *p, sunder_i_push_front *f, uint32
     reach_body(p, f, k, 0);
 }
 
-/* Looks at the next, if there is any that is pushed. but: the body at the other end of the pair. */
+/* Examines the next body in the queue of a front. `end` is its end of the pair, `but` the other end, which it does not
+ * push. False if the queue is empty. */
 static bool advance_front(sunder_i_pushed *p, sunder_i_push_front *f, uint32_t end, uint32_t but)
 {
     sunder_i_search *s = p->about.all;
@@ -143,7 +144,7 @@ bool sunder_i_pushed_reaches(sunder_i_pushed *pushed, uint32_t i, uint32_t j, co
 
 /* ---- Giving way -------------------------------------------------------------------------------------------------- */
 
-/* How many are pushed if the end gives way as far as it may. */
+/* The number of bodies that are pushed if this end moves as far as it can. */
 static double count_pushed(const sunder_i_push_front *f)
 {
     size_t n = 0;
@@ -151,7 +152,8 @@ static double count_pushed(const sunder_i_push_front *f)
     return (double)n;
 }
 
-/* The side of fewer goes farther, by as much as it is less: so the squares of all moves are least. */
+/* Divides the move between the two ends. The end that pushes fewer bodies moves farther, in inverse proportion, which
+ * minimises the sum of the squared moves. */
 static void divide_between_fronts(const sunder_i_push_front f[2], double missing, double share[2])
 {
     const double right = count_pushed(&f[0]), left = count_pushed(&f[1]);
@@ -160,7 +162,7 @@ static void divide_between_fronts(const sunder_i_push_front f[2], double missing
     share[1] = missing - share[0];
 }
 
-/* Those that went, and those about them, are to be looked at again. */
+/* The lines of the moved bodies, and of the bodies around them, have to be checked again. */
 static void note_gone(sunder_i_pushed *p)
 {
     for (size_t k = 0; k < p->about.n; k++) {
@@ -182,7 +184,7 @@ bool sunder_i_pushed_part(sunder_i_pushed *pushed, double missing)
             const uint32_t b = f->reached[k];
             const double by = share[e] - f->spare[b];
             if (!(by > 0)) continue;
-            if (e == 1 && pushed->front[0].spare[b] < share[0]) return false; /* it cannot go both ways */
+            if (e == 1 && pushed->front[0].spare[b] < share[0]) return false; /* a body cannot be pushed by both ends */
             double *to = pushed->to + 2 * pushed->about.n;
             pushed->about.place[pushed->about.n++] = b;
             for (int x = 0; x < 2; x++) to[x] = s->t[2 * (size_t)b + (size_t)x] + by * f->along[x];

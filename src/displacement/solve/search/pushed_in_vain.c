@@ -28,8 +28,8 @@ static size_t direction_of(const double along[2])
 
 static double dot_product(const double a[2], const double b[2]) { return a[0] * b[0] + a[1] * b[1]; }
 
-/* What it takes, along there, until the body that the line is of pushes the other; or is pushed by it, if n.along is
- * negative. */
+/* How far body k moves until it pushes the other body of the line; on: the component of the line's normal along the
+ * direction. If it is negative, the other body pushes k. */
 static double spare_of(const sunder_i_search *s, const sunder_i_push_line *l, uint32_t k, double on)
 {
     const double *own = s->t + 2 * (size_t)k, *t = s->t + 2 * (size_t)l->other;
@@ -39,7 +39,7 @@ static double spare_of(const sunder_i_search *s, const sunder_i_push_line *l, ui
 
 /* ---- All of one direction ---------------------------------------------------------------------------------------- */
 
-/* How far a body may give way, as far as is known. */
+/* A body in the queue, and an upper bound of how far it can move. */
 typedef struct giving {
     double most;
     uint32_t body;
@@ -54,7 +54,7 @@ static bool gives_less(const void *a, const void *b)
 typedef struct survey {
     sunder_i_pushed *pushed;
     double along[2];
-    double *most; /* [n] */
+    double *most; /* [n] upper bounds of how far bodies can move */
     uint32_t *next;
     giving *heap;
     size_t waiting, capacity;
@@ -72,7 +72,8 @@ static void lower_room(survey *v, uint32_t k, double most, uint32_t next)
     sunder_i_heap_push(v->heap, &v->waiting, sizeof *v->heap, &(giving){most, k}, gives_less);
 }
 
-/* Those that push the body. Lines between two are nearly the same for both. */
+/* Lowers the bounds of the bodies that push body k. The lines between two bodies are almost the same for both, so those
+ * of k are used. */
 static void lower_pushers(survey *v, uint32_t k)
 {
     sunder_i_search *s = v->pushed->about.all;
@@ -124,14 +125,14 @@ static double spare_between(sunder_i_pushed *p, uint32_t k, uint32_t other, cons
     return least;
 }
 
-/* A bound on how far an end gives way, determined no more closely than to `enough`; but: the other end, which it does
- * not push. */
+/* An upper bound of how far `end` can move, not computed more closely than to `enough`. It does not push `but`, the
+ * other end. */
 static double most_along(sunder_i_pushed *p, uint32_t end, uint32_t but, const double along[2], double enough)
 {
     sunder_i_search *s = p->about.all;
     const uint32_t *next = p->survey[direction_of(along)].next;
     double most = enough, spare = 0;
-    size_t hops = 0; /* ways that changed since may go in a circle */
+    size_t hops = 0; /* paths may have become cycles, since bodies have moved */
     for (uint32_t k = end; next && hops < s->n && spare < most && !s->failed; k = next[k], hops++) {
         most = sunder_i_min(most, spare + sunder_i_pushed_room(p, k, along));
         if (next[k] == SUNDER_I_NOBODY || (k == end && next[k] == but)) break;

@@ -12,8 +12,8 @@
 typedef struct taking {
     sunder_i_push_lines *out;
     uint32_t other;
-    bool turned;        /* the lines are of a pair whose second body it is */
-    const double *from; /* where the pair stands */
+    bool turned;        /* the body that owns the lines is the second of the pair */
+    const double *from; /* relative position of the pair */
 } taking;
 
 static void take_line(sunder_i_search *s, const sunder_i_piece_pair *pair, void *context)
@@ -34,7 +34,7 @@ static void take_line(sunder_i_search *s, const sunder_i_piece_pair *pair, void 
         .other = g->other, .n = {sign * h.n[0], sign * h.n[1]}, .d = h.support + gap, .u = {g->from[0], g->from[1]}};
 }
 
-/* All of a body to those that it might push. */
+/* Chooses the lines of body i towards all bodies that it might push. */
 static void take_lines(sunder_i_pushed *p, uint32_t i)
 {
     sunder_i_search *s = p->about.all;
@@ -53,7 +53,7 @@ static void take_lines(sunder_i_pushed *p, uint32_t i)
     }
 }
 
-/* Did what stands about the body go so far since that its lines say little? */
+/* Have body i or its neighbours moved so far that its lines demand much more than necessary? */
 static bool is_stale(const sunder_i_pushed *p, uint32_t i)
 {
     const sunder_i_search *s = p->about.all;

@@ -15,7 +15,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A body, and what it is sorted by. */
+/* A body with a key for sorting. */
 typedef struct ranked {
     double by;
     uint32_t index;
@@ -30,10 +30,10 @@ static int by_rank(const void *a, const void *b)
 
 typedef struct reordering {
     sunder_i_search *search;
-    ranked *doubtful, *near; /* [doubtfuls], the costliest first; [moving] */
+    ranked *doubtful, *near; /* [doubtfuls] bodies with uncertain sides, the most expensive first; [moving] scratch */
     size_t doubtfuls, moving;
-    uint32_t *out;             /* those that are taken out */
-    double tried[MOST_ORDERS]; /* costs of earlier starts: the same start would end in the same layout */
+    uint32_t *out;             /* [moving] bodies that are taken out, in the order in which they are put back */
+    double tried[MOST_ORDERS]; /* costs of earlier starts: an equal cost means the same start, and the same result */
     size_t tries;
     double *best, cost;
 } reordering;
@@ -75,7 +75,7 @@ static bool find_doubtful(reordering *r)
 
 /* ---- Out, and in again ------------------------------------------------------------------------------------------- */
 
-/* How far apart the boxes of two bodies are, where they came from (share 0) or where they stand (1). */
+/* The distance of the boxes of two bodies, at their original places (share 0) or at their present ones (1). */
 static double boxes_apart(const sunder_i_search *s, uint32_t i, uint32_t j, double share)
 {
     const sunder_i_body *p = &s->model->body[s->body[i]], *q = &s->model->body[s->body[j]];
@@ -87,7 +87,7 @@ static double boxes_apart(const sunder_i_search *s, uint32_t i, uint32_t j, doub
     return hypot(d[0], d[1]);
 }
 
-/* That body, and those that stand, or stood, nearest to it: n in all. */
+/* Stores in r->out the body `first` and the n - 1 bodies that are or were nearest to it. */
 static void choose_bodies(reordering *r, uint32_t first, size_t n)
 {
     const sunder_i_search *s = r->search;
@@ -100,7 +100,7 @@ static void choose_bodies(reordering *r, uint32_t first, size_t n)
     for (size_t k = 0; k < n; k++) r->out[k] = r->near[k].index;
 }
 
-/* Shuffled by a sequence that is always the same (xorshift). */
+/* Shuffles n numbers by a fixed pseudo-random sequence (xorshift). */
 static void shuffle_bodies(uint32_t *order, size_t n, uint64_t *state)
 {
     for (size_t k = n; k-- > 1;) {
@@ -118,9 +118,9 @@ static bool is_known(const reordering *r, double cost)
     return false;
 }
 
-/* Is a start useless? A start that was tried ends where it did. A start that clashes, yet costs less than the present
- * layout, is more expensive once nothing clashes: of 630 such starts in a town of 100,000 three led to a gain, and a
- * tiny one. The start of proofs is searched from these, too. */
+/* Is a descent from this start useless? A start that was tried ends in the same layout. A start that clashes, yet costs
+ * less than the present layout, is more expensive once nothing clashes: of 630 such starts in a town of 100,000 three
+ * led to a gain, and a tiny one. With proofs these starts are tried, too. */
 static bool is_in_vain(reordering *r, double start)
 {
     sunder_i_search *s = r->search;
@@ -129,8 +129,8 @@ static bool is_in_vain(reordering *r, double start)
     return !(s->model->rules.effort > 0) && start < r->cost && sunder_i_search_find_clashes(s, s->t) > s->tolerance;
 }
 
-/* Takes the n bodies in r->out out, puts them back in this order, and lets all descend. A body without a place returns
- * to its origin, and all make room for it. Returns how useless that was. */
+/* Takes out the n bodies of r->out, puts them back in this order, and descends. A body without a free place returns to
+ * its origin, and all make room for it. Returns 0 if the result is cheaper, otherwise how useless the try was. */
 static size_t put_back(reordering *r, size_t n)
 {
     sunder_i_search *s = r->search;
@@ -148,13 +148,13 @@ static size_t put_back(reordering *r, size_t n)
     }
     const double start = sunder_i_search_cost(s, s->t), before = r->cost;
     const bool in_vain = is_in_vain(r, start);
-    s->program.n = 0; /* the forces belong to places that are left */
+    s->program.n = 0; /* its forces belong to the former places */
     if (!in_vain) sunder_i_search_attempt(s, r->best, &r->cost);
     memcpy(s->t, r->best, 2 * s->n * sizeof *r->best);
     return in_vain ? ORDER_IN_VAIN : !(r->cost < before);
 }
 
-/* About what it takes to look for room for all that may move, in pairs of pieces. */
+/* About the work of searching a place for each movable body, in pairs of pieces. */
 static uint64_t search_work(const sunder_i_search *s)
 {
     uint64_t own = 0, all = 0;
@@ -166,8 +166,8 @@ static uint64_t search_work(const sunder_i_search *s)
     return 4 * own * all;
 }
 
-/* Tries a number of orders, from one uncertain body to the next; n: how many are taken out, or 0: few at first, then
- * more. */
+/* Tries a number of orders, around one uncertain body after the other. n: how many bodies are taken out; 0: from 2 to
+ * MOST_OUT. */
 static void try_orders(reordering *r, size_t n, size_t most_useless, uint64_t most_work)
 {
     sunder_i_search *s = r->search;
@@ -190,7 +190,7 @@ void sunder_i_search_reorder(sunder_i_search *search, double *best, double *cost
 {
     reordering r = {.search = search, .best = best, .cost = *cost, .moving = sunder_i_search_movers(search)};
     const uint64_t work = sunder_i_search_work(search);
-    if (r.moving < 3 || r.moving > MOST_MOVING) return; /* pairs were tried on all sides */
+    if (r.moving < 3 || r.moving > MOST_MOVING) return; /* all sides of two bodies were tried before */
     r.doubtful = sunder_i_alloc(r.moving, sizeof *r.doubtful);
     r.near = sunder_i_alloc(r.moving, sizeof *r.near);
     r.out = sunder_i_alloc(r.moving, sizeof *r.out);

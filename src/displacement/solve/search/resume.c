@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* From now on these do not count. */
+/* Makes these the restored pairs of the search. False if memory is out. */
 static bool restore_relaxed(sunder_i_search *s, const sunder_i_restored *restored, size_t n)
 {
     if (!sunder_i_reserve(&s->restored, &s->restored_capacity, n, sizeof *s->restored)) return false;
@@ -17,7 +17,7 @@ static bool restore_relaxed(sunder_i_search *s, const sunder_i_restored *restore
 
 /* ---- The way out of an overlap that stays ------------------------------------------------------------------------ */
 
-/* Is it a relaxation between these bodies, of an overlap, that counts here? */
+/* Is it a relaxation of an overlap between these two bodies, which counts in the search? */
 static bool is_overlap_of(const sunder_i_search *s, const sunder_i_relaxation *t, uint32_t body, uint32_t other)
 {
     const uint32_t i = s->model->body_of[t->a], j = s->model->body_of[t->b];
@@ -27,8 +27,9 @@ static bool is_overlap_of(const sunder_i_search *s, const sunder_i_relaxation *t
     return !s->restored_n || !bsearch(&key, s->restored, s->restored_n, sizeof key, sunder_i_by_restored);
 }
 
-/* What overlaps and stays so was relaxed by one way out of it; the solution knows of any as long as that. The overlaps
- * of two bodies of places i and j that clash there are held to the shortest where they stand now. */
+/* A relaxed overlap is held to one direction of separation, while a solution may have any direction of the same length.
+ * For the bodies i and j, which clash there, each overlap is relaxed along the least translation of the present
+ * layout. */
 static sunder_status turn_overlaps(sunder_i_search *s, uint32_t i, uint32_t j, sunder_error *err)
 {
     const sunder_i_model *model = s->model;

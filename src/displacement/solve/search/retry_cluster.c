@@ -23,12 +23,12 @@ typedef struct retrying {
     sunder_i_search *search;
     const sunder_i_retry *retry;
     size_t n, moving;
-    bool *settled;         /* [n] nothing is left to ask for */
-    bool *in_vain;         /* [n] with more bodies the question would be the same */
+    bool *settled;         /* [n] nothing remains to be demanded */
+    bool *in_vain;         /* [n] the last try included all bodies around the pair, so a larger one would be the same */
     double *stand;         /* [2 bodies] */
-    uint64_t effort;       /* the work done (sunder_i_search_work()) at which asking ends */
-    uint64_t in_vain_most; /* at one stage, since something was granted there */
-    bool any;              /* something was resolved */
+    uint64_t effort;       /* tries end when the work (sunder_i_search_work()) reaches this */
+    uint64_t in_vain_most; /* work at one stage without a success, after which the stage ends */
+    bool any;              /* a try has succeeded */
     sunder_i_neighbourhood neighbourhood;
 } retrying;
 
@@ -56,8 +56,7 @@ static size_t find_restored(const sunder_i_search *s, const sunder_i_relaxation 
     return at;
 }
 
-/* From now on the model's relaxations of this retry do not count, but for those that are infeasible; or they do
- * again. */
+/* Ends the relaxations of this request in the search, except infeasible ones; relax_again() restores them. */
 static bool restore_retry(sunder_i_search *s, const sunder_i_retry *x)
 {
     if (!sunder_i_reserve(&s->restored, &s->restored_capacity, s->restored_n + x->relaxations, sizeof *s->restored))
@@ -82,7 +81,7 @@ static void relax_again(sunder_i_search *s, const sunder_i_retry *x)
     }
 }
 
-/* The relaxation, but that what overlapped no longer does, nor will after rounding. */
+/* Changes a relaxation: an overlap has to end, by as much as rounding needs. */
 static void part_barely(const sunder_i_search *s, sunder_i_relaxation *t)
 {
     if (t->shift[0] == 0 && t->shift[1] == 0) return;
@@ -91,7 +90,7 @@ static void part_barely(const sunder_i_search *s, sunder_i_relaxation *t)
     t->gap = s->gap - s->model->rules.gap;
 }
 
-/* The retry's relaxations, but that what overlapped no longer does. */
+/* Adds the relaxations of the request, changed so that overlaps have to end. False if memory is out. */
 static bool ask_disjoint(sunder_i_search *s, const sunder_i_retry *x)
 {
     const sunder_i_model *model = s->model;
@@ -113,8 +112,8 @@ static void resume_overlap(sunder_i_search *s, const sunder_i_retry *x)
 
 /* ---- At one stage ------------------------------------------------------------------------------------------------ */
 
-/* The whole cluster from its present place: a descent, and if that fails, out of clashes and a second descent. If that
- * fails too all bodies are put back. */
+/* Descends with the whole cluster from its present layout; if that fails, bodies jump, and all descend again. On
+ * failure all return. */
 static bool settle_all(retrying *p)
 {
     sunder_i_search *s = p->search;
@@ -144,7 +143,7 @@ static bool settle_one(retrying *p, size_t k, size_t level)
     return done;
 }
 
-/* Asks for the full distance of one pair, or for no overlap. */
+/* Demands the full distance of a pair (resolve), or the end of its overlap. Returns whether there is a solution. */
 static bool grant_retry(retrying *p, size_t k, size_t level, bool resolve)
 {
     sunder_i_search *s = p->search;
@@ -161,8 +160,8 @@ static bool grant_retry(retrying *p, size_t k, size_t level, bool resolve)
     return false;
 }
 
-/* The questions in order: as few overlaps as possible, then as few pairs. The relaxations between two bodies are first
- * asked about together; if that has no solution, each. */
+/* The demands, in their order: first as few overlaps as possible, then as few pairs. The relaxations between two bodies
+ * are tried together first, and then each (single). */
 typedef struct request {
     bool overlap, resolve, single;
 } request;
@@ -171,7 +170,7 @@ static const request requests[] = {{true, true, false}, {true, true, true},   {t
                                    {true, false, true}, {false, true, false}, {false, true, true}};
 #define REQUESTS (sizeof requests / sizeof *requests)
 
-/* Was it granted with others, or is it not what this request is for? */
+/* Was the demand met together with others, or is this request not about it? */
 static bool is_out(const retrying *p, size_t k, const request *r)
 {
     const sunder_i_retry *x = &p->retry[k];
@@ -185,21 +184,21 @@ static bool is_out(const retrying *p, size_t k, const request *r)
     return known || sunder_i_relaxations_find(&p->search->relaxations, t->a, t->b);
 }
 
-/* Failures at one stage since the last success there. */
+/* The failures at one stage since its last success. */
 typedef struct useless {
     size_t asked;
-    uint64_t since; /* the work done when that began */
+    uint64_t since; /* work when they began */
     size_t most;
 } useless;
 
-/* Is it too much to go on? With few questions all are asked. */
+/* Have too many tries failed to continue with the stage? The first stage is never ended early. */
 static bool is_useless(const retrying *p, const useless *u, size_t level)
 {
     if (level == 0 || u->asked == 0) return false;
     return u->asked >= u->most || sunder_i_search_work(p->search) > u->since + p->in_vain_most;
 }
 
-/* Asks one question for all pairs concerned, stage by stage. */
+/* Makes one demand of all pairs that it is about, stage by stage. */
 static void ask_request(retrying *p, const request *r)
 {
     sunder_i_search *s = p->search;
@@ -216,7 +215,7 @@ static void ask_request(retrying *p, const request *r)
             u.asked++;
             if (p->settled[k]) u = (useless){0, sunder_i_search_work(s), most};
         }
-        /* A question that fails for a crowd at one stage usually fails at the next. */
+        /* In a crowd a demand that fails at one stage usually fails at the next. */
         most = any || p->n <= FEW_RETRIES || p->n / SHARE_OF_RETRIES >= RETRIES_IN_VAIN ? RETRIES_IN_VAIN
                                                                                         : p->n / SHARE_OF_RETRIES;
     }
@@ -224,8 +223,8 @@ static void ask_request(retrying *p, const request *r)
 
 /* ---- Pairs for an overlap ---------------------------------------------------------------------------------------- */
 
-/* Lets the pairs that were in conflict at the start, and are not now, be as they were then, but that none overlaps:
- * their relaxations are in `list`. */
+/* Relaxes the pairs that were in conflict at the start and are not now, so that they may return to that, except to an
+ * overlap. Their relaxations are stored in `list`. */
 static void sacrifice_pairs(sunder_i_search *s, sunder_i_relaxations *list)
 {
     size_t n = 0, out = 0;
@@ -249,7 +248,7 @@ static void sacrifice_pairs(sunder_i_search *s, sunder_i_relaxations *list)
     list->n = s->failed ? 0 : out;
 }
 
-/* Takes the relaxations back, those first that least is missing of, where there is a solution without. */
+/* Ends these relaxations again, those with the smallest shortfall first, where there is a solution. */
 static void redeem_pairs(retrying *p, sunder_i_relaxations *list)
 {
     sunder_i_search *s = p->search;
@@ -268,7 +267,8 @@ static void redeem_pairs(retrying *p, sunder_i_relaxations *list)
     }
 }
 
-/* From where all came from: sides that others chose do not matter there. */
+/* Tries a pair with all bodies starting from their original places, where the sides chosen for other pairs do not
+ * matter. */
 static bool grant_from_home(retrying *p, size_t k)
 {
     sunder_i_search *s = p->search;
@@ -284,8 +284,8 @@ static bool grant_from_home(retrying *p, size_t k)
     return granted;
 }
 
-/* Separates remaining overlaps that end only if other pairs give up their gap. An overlap counts for more than any
- * number of such pairs. */
+/* Ends remaining overlaps at the expense of other pairs, which give up their gap: an overlap counts for more than any
+ * number of those. */
 static void trade_pairs(retrying *p)
 {
     sunder_i_search *s = p->search;
@@ -305,8 +305,8 @@ static void trade_pairs(retrying *p)
     }
 }
 
-/* Does nothing clash at the start? Bodies that joined the cluster may demand a wider margin than the others kept. A
- * violation below half the margin does not harm here: otherwise one pair left so by rounding would keep a crowd of
+/* Is the start without clashes? Bodies that joined the cluster may demand a wider margin than the others keep. A
+ * violation below half the margin is accepted, since otherwise one pair left so by rounding would keep a crowd of
  * hundreds from being tried. */
 static bool is_in_order(sunder_i_search *s)
 {

@@ -21,7 +21,7 @@
 
 /* ---- Of two bodies ----------------------------------------------------------------------------------------------- */
 
-/* The same for a box of p and one of the other body; swapped: p is the second of the two. */
+/* The same for boxes of p and of the other body; swapped: p is the second body. */
 static bool may_reach(const double p[4], const double other[4], const double offset[2], const double path[4],
                       bool swapped)
 {
@@ -29,8 +29,8 @@ static bool may_reach(const double p[4], const double other[4], const double off
                    : sunder_i_shadow_may_reach(p, other, offset, path);
 }
 
-/* Shadows of pieces of `other` from the anchors of `p`, of those that may reach `far`; swapped: p is the second of the
- * two. */
+/* Visits the shadows that pieces of `other` cast from the anchors of `p`, for anchors with less clearance than `far`;
+ * swapped: p is the second body of the pair. */
 static void visit_from(sunder_i_search *s, const sunder_i_body *p, const sunder_i_body *other, const double path[4],
                        double far, sunder_i_piece_pair *pair, bool swapped, sunder_i_visit_piece_pair visit,
                        void *context)
@@ -63,7 +63,7 @@ static void visit_from(sunder_i_search *s, const sunder_i_body *p, const sunder_
     if (!sunder_i_steps(1 + p->members / 8)) s->failed = true;
 }
 
-/* Lines of `other`, part of a barrier, from the side anchors of `p`. */
+/* Visits the shadows that lines of `other`, a part of a barrier, cast from the side anchors of `p`. */
 static void visit_sides(sunder_i_search *s, const sunder_i_body *p, const sunder_i_body *other, const double path[4],
                         sunder_i_piece_pair *pair, bool swapped, sunder_i_visit_piece_pair visit, void *context)
 {
@@ -87,7 +87,7 @@ static void visit_sides(sunder_i_search *s, const sunder_i_body *p, const sunder
     if (!sunder_i_steps(1 + p->members / 8)) s->failed = true;
 }
 
-/* May one of them have sides that the other may not cross, which are within reach of the way? swapped: it is p. */
+/* Has one of the two bodies lines that the other may not cross, within reach of the path? swapped: it is p. */
 static bool may_cross(const sunder_i_model *model, const sunder_i_body *p, const sunder_i_body *q,
                       const double offset[2], const double path[4], bool *swapped)
 {
@@ -96,7 +96,7 @@ static bool may_cross(const sunder_i_model *model, const sunder_i_body *p, const
     return q->has->sides && sunder_i_shadow_may_reach(sunder_i_side_anchors(model, p), q->box, offset, path);
 }
 
-/* May one of them jump over the other, were it not for the rule? */
+/* Could one of the two jump over the other, and is that forbidden? */
 static bool may_jump(const sunder_i_model *model, const sunder_i_body *p, const sunder_i_body *q)
 {
     return !model->rules.jumps && !sunder_i_is_barrier_body(model, p) && !sunder_i_is_barrier_body(model, q);
@@ -123,7 +123,7 @@ void sunder_i_search_visit_shadows(sunder_i_search *search, const sunder_i_body 
 
 /* ---- Which bodies may have passed which -------------------------------------------------------------------------- */
 
-/* Where body k was on its way from home to t, from the first body's origin. */
+/* The box that contains body k at home and at t, relative to the first body's origin. */
 static void box_of_body(const sunder_i_search *s, const double *t, uint32_t k, double box[4])
 {
     const sunder_i_body *b = &s->model->body[s->body[k]], *first = &s->model->body[s->body[0]];
@@ -133,7 +133,7 @@ static void box_of_body(const sunder_i_search *s, const double *t, uint32_t k, d
     }
 }
 
-/* Do the two stand within reach of each other at t? */
+/* Are the boxes of the two bodies at t within `reach` of each other? */
 static bool are_near(const sunder_i_search *s, const double *t, uint32_t i, uint32_t j, double reach)
 {
     const sunder_i_body *p = &s->model->body[s->body[i]], *q = &s->model->body[s->body[j]];
@@ -159,8 +159,8 @@ bool sunder_i_search_may_pass(const sunder_i_search *search, const double *t, ui
            sunder_i_anchors_may_reach(search->model, p, q, true, offset, path);
 }
 
-/* A body that passed another, and stands clear of it by more than the gap, has moved farther than this plus the gap: to
- * the nearest feature that does not contain its anchor; or out of its own box, with its side anchor. */
+/* A body that passed another, and is farther from it than the gap, has moved farther than this plus the gap: to the
+ * nearest feature that does not contain its anchor, or with its side anchor out of its own box. */
 static double least_passing(const sunder_i_search *s)
 {
     double least = INFINITY;
@@ -203,7 +203,7 @@ void sunder_i_search_visit_passing(sunder_i_search *search, const double *t, dou
                                    void *context)
 {
     if (!sunder_i_forbids_paths(search->model) || search->n < 2) return;
-    /* The moves of two bodies that passed each other are together longer than this. */
+    /* The moves of two bodies that passed each other are together longer than `least`. */
     if (!search->least_passing_known) search->least_passing = least_passing(search);
     search->least_passing_known = true;
     const double least = search->least_passing + search->model->rules.gap, most = longest_move(search, t);

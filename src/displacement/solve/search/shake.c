@@ -31,21 +31,22 @@
 #include <string.h>
 
 typedef struct near_body {
-    double square; /* distance from the released body */
-    uint32_t at;   /* in the group's list */
+    double square; /* squared distance from the released body */
+    uint32_t at;   /* index in the group's list */
 } near_body;
 
 typedef struct shaking {
-    sunder_i_search search;     /* the group's bodies, and those about them, which stand; at `best` between tries */
-    size_t n;                   /* the group's */
-    double *best;               /* [2 * search.n] a solution ... */
-    double cost;                /* ... and its cost */
+    sunder_i_search search;     /* bodies of the group, and fixed ones around them; at `best` between tries */
+    size_t n;                   /* number of the group's bodies */
+    double *best;               /* [2 * search.n] the best layout without clashes */
+    double cost;                /* its cost */
     near_body *near;            /* [n] scratch */
-    sunder_i_constraint *force; /* [forces] the contacts of `best` and their forces, from which programs begin */
+    sunder_i_constraint *force; /* [forces] contacts of `best` with their forces, from which programs start */
     size_t forces, capacity;
-    bool far; /* with patience: all may go elsewhere, and programs begin with no forces */
+    bool far; /* with patience: bodies may go anywhere, and programs start without forces */
     uint64_t random, patience;
-    size_t times, ended; /* tries at most, without patience; those of all that came to an end */
+    size_t times, ended; /* the greatest number of tries without patience; number of descents that ended by
+                          * themselves */
 } shaking;
 
 static int by_nearness(const void *a, const void *b)
@@ -54,10 +55,10 @@ static int by_nearness(const void *a, const void *b)
     return p->square != q->square ? (p->square < q->square ? -1 : 1) : p->at < q->at ? -1 : p->at > q->at;
 }
 
-/* In [0, 1). */
+/* Draws a number in [0, 1). */
 static double draw_unit(uint64_t *random) { return (double)(sunder_i_draw(random) >> 11) * 0x1p-53; }
 
-/* The group's bodies that may move, from the one in the middle outwards: into k->near. */
+/* Lists the movable bodies of the group in k->near, by their distance from the body `middle`. Returns their number. */
 static size_t list_near(const shaking *k, uint32_t middle)
 {
     const sunder_i_search *s = &k->search;
@@ -78,7 +79,8 @@ static size_t list_near(const shaking *k, uint32_t middle)
     return n;
 }
 
-/* Rotates the moves of the n nearest bodies, all by the same angle: a body pushed to one side goes to another. */
+/* Rotates the moves of the n nearest bodies by one random angle, so that a body that was pushed to one side goes to
+ * another. */
 static void turn_moves(shaking *k, size_t n)
 {
     const double angle = 6.283185307179586 * draw_unit(&k->random), c = cos(angle), s = sin(angle);
@@ -90,7 +92,7 @@ static void turn_moves(shaking *k, size_t n)
     }
 }
 
-/* The n nearest are let go: to where they came from, or halfway, and up to half their size beside that. */
+/* Moves the n nearest bodies home, or halfway, and up to half their size beside that. */
 static void release_bodies(shaking *k, size_t n)
 {
     sunder_i_search *s = &k->search;
@@ -106,7 +108,7 @@ static void release_bodies(shaking *k, size_t n)
     }
 }
 
-/* Is it a solution where the group stands, but for what rounding took? */
+/* Takes the group's layout as `best`. False if it clashes by more than rounding can cause. */
 static bool begins_free(shaking *k)
 {
     sunder_i_search *s = &k->search;
@@ -117,7 +119,7 @@ static bool begins_free(shaking *k)
     return true;
 }
 
-/* One of the group's bodies, as likely as it is dear. */
+/* Draws one of the group's bodies, with a probability in proportion to its cost. */
 static uint32_t draw_payer(shaking *k)
 {
     const sunder_i_search *s = &k->search;
@@ -132,7 +134,7 @@ static uint32_t draw_payer(shaking *k)
     return last;
 }
 
-/* The program that the search ended with is that of what it found. False if memory is out. */
+/* Keeps the contacts of the program that the search ended with, and their forces. False if memory is out. */
 static bool keep_forces(shaking *k)
 {
     const sunder_i_quadratic *p = &k->search.program;
@@ -142,7 +144,8 @@ static bool keep_forces(shaking *k)
     return true;
 }
 
-/* Most of a group stands as it stood: programs begin with the forces there. False if memory is out. */
+/* Starts the program with the contacts that were kept, since most of the group keeps its place. False if memory is
+ * out. */
 static bool take_forces(shaking *k)
 {
     sunder_i_quadratic *p = &k->search.program;
@@ -152,7 +155,7 @@ static bool take_forces(shaking *k)
     return true;
 }
 
-/* Those about one body; true: it came to an end. */
+/* Perturbs the bodies around `middle` and descends. Returns whether the descent ended by itself. */
 static bool shake_about(shaking *k, uint32_t middle, bool turned)
 {
     sunder_i_search *s = &k->search;
@@ -173,7 +176,8 @@ static bool shake_about(shaking *k, uint32_t middle, bool turned)
 
 static uint64_t work_of(uint64_t steps, uint64_t each) { return steps < UINT64_MAX / each ? each * steps : UINT64_MAX; }
 
-/* Until this much work is done, or a good part of it without a gain; as long again if no descent ended by then. */
+/* Perturbs until `work` is done, or the share SHAKE_VAIN of it without a gain; SHAKE_AGAIN times as long if no descent
+ * has ended by then. */
 static void shake_within(shaking *k, uint64_t work)
 {
     sunder_i_search *s = &k->search;
@@ -190,7 +194,7 @@ static void shake_within(shaking *k, uint64_t work)
     }
 }
 
-/* With patience; until it has failed this often, or this much work is done. */
+/* Perturbs with patience, until SHAKEN_IN_VAIN descents gained little, or `work` is done. */
 static void shake_patiently(shaking *k, uint64_t work)
 {
     sunder_i_search *s = &k->search;
@@ -205,7 +209,8 @@ static void shake_patiently(shaking *k, uint64_t work)
     }
 }
 
-/* From the group's present layout, with every body looking at least this far; a cheaper result goes to the group. */
+/* Perturbs the group's present layout; about: a lower bound of how far each body looks around itself. A cheaper layout
+ * goes to the group. */
 static sunder_status shake_group(shaking *k, const sunder_i_model *model, const sunder_i_waived *waived,
                                  sunder_i_group *g, double about, uint64_t steps, sunder_error *err)
 {

@@ -31,14 +31,14 @@ void sunder_i_search_hand_over(sunder_i_search *search, sunder_i_cluster *cluste
 
 /* ---- Preconditions ----------------------------------------------------------------------------------------------- */
 
-/* What the stages of one cluster share. */
+/* The state of a solution that its stages share. */
 typedef struct solving {
     sunder_i_search *s;
     sunder_i_cluster *cluster;
-    const double *move; /* where the bodies began */
-    bool alone;         /* two features that need look at no other: their least translation is known */
+    const double *move; /* [2 n] moves at the beginning */
+    bool alone;         /* a lone pair, whose least translation is known */
     bool done;          /* nothing clashes */
-    bool given_up;      /* but for pairs that were given up */
+    bool given_up;      /* then: except for pairs that were given up */
     bool cheapest;      /* the solution is known to be the cheapest */
 } solving;
 
@@ -49,7 +49,7 @@ static bool has_limits(const sunder_i_search *s)
     return false;
 }
 
-/* Do all together go farther than within their limits they may? Then the sides that they found are of no use there. */
+/* Does the layout cost more than if all bodies were at their limits? Then its sides are of no use within limits. */
 static bool is_beyond_use(const sunder_i_search *s, const double *t)
 {
     double cost = 0, most = 0;
@@ -114,7 +114,7 @@ static sunder_status part_lone_pair(solving *x, int jumps, sunder_error *err)
     return status;
 }
 
-/* A crowd begins apart as far as its area needs it to be, and no body far from home by chance. */
+/* Moves the bodies of a crowd apart as far as their areas need, so that none is far from home by chance. */
 static sunder_status begin_crowd(solving *x, int jumps, sunder_error *err)
 {
     bool found;
@@ -138,7 +138,8 @@ static sunder_status give_up_at_home(solving *x, int jumps, sunder_error *err)
     return SUNDER_OK;
 }
 
-/* Descends, and where sides contradict each other jumps and descends again; as long as jumps help, or once more. */
+/* Descends; if sides contradict each other, bodies jump and all descend again, up to `jumps` times. If no jump clears
+ * the clashes, a limited cluster gives up, after one more descent if it may not relax pairs. */
 static bool find_free(solving *x, int jumps)
 {
     sunder_i_search *s = x->s;
@@ -159,7 +160,8 @@ static sunder_status descend_cluster(solving *x, int jumps, sunder_error *err)
     return SUNDER_OK;
 }
 
-/* Begins anew from where all began, with pairs that stood apart there, but not by the margin, held to that. */
+/* Starts again from the beginning. Pairs that were apart there by less than the gap plus the margin are relaxed to that
+ * distance. */
 static sunder_status waive_margins(solving *x, int jumps, sunder_error *err)
 {
     (void)err;
@@ -170,7 +172,7 @@ static sunder_status waive_margins(solving *x, int jumps, sunder_error *err)
     return SUNDER_OK;
 }
 
-/* The same from where the bodies stood when limits were lifted: the sides that they had found there. */
+/* The same from the layout without limits, whose sides may do within limits. */
 static sunder_status begin_from_lifted(solving *x, int jumps, sunder_error *err)
 {
     sunder_i_search *s = x->s;
@@ -190,8 +192,8 @@ static sunder_status spread_cluster(solving *x, int jumps, sunder_error *err)
     return SUNDER_OK;
 }
 
-/* One body alone among barriers and fixed features, without a limit, in the nearest free place in its sight, however
- * far that is: such as a symbol in a long arm of an area, whose room is where the arm begins. */
+/* For one movable body among fixed ones, without a limit: moves it to the nearest free position that it can see,
+ * however far away. An example is a symbol in a long arm of an area, with room only where the arm begins. */
 static sunder_status place_lone_body(solving *x, int jumps, sunder_error *err)
 {
     sunder_i_search *s = x->s;
@@ -228,9 +230,9 @@ static sunder_status give_up(solving *x, int jumps, sunder_error *err)
 
 typedef struct stage {
     const char *name;
-    bool (*applies)(const solving *x); /* the precondition; NULL: none */
+    bool (*applies)(const solving *x); /* the precondition; NULL: it always applies */
     sunder_status (*run)(solving *x, int jumps, sunder_error *err);
-    int jumps; /* budget: jumps out of clashes at most; the other stages have theirs in tuning.h */
+    int jumps; /* budget: the greatest number of jumps; other stages have theirs in tuning.h */
 } stage;
 
 static const stage stages[] = {
@@ -247,7 +249,7 @@ static const stage stages[] = {
     {"give up", may_give_up_pairs, give_up, 0},
 };
 
-/* A stage that changed anything is noted, where the layer is traced. */
+/* If the layer is traced: notes a stage that changed anything. */
 static sunder_status note_stage(const solving *before, const solving *x, const char *name, double cost,
                                 sunder_error *err)
 {

@@ -12,7 +12,7 @@
 #include <math.h>
 #include <string.h>
 
-/* The mean of its members' anchors, from the origin of the first body. */
+/* The mean of the anchors of the body's members, relative to the origin of the first body. */
 static void anchor_of(sunder_i_search *s, uint32_t k, double out[2])
 {
     const sunder_i_model *model = s->model;
@@ -30,8 +30,8 @@ static void anchor_of(sunder_i_search *s, uint32_t k, double out[2])
     for (int c = 0; c < 2; c++) out[c] = b->origin[c] - first->origin[c] + (n ? out[c] / n : 0);
 }
 
-/* A fixed body is the centre, if there is one; else the middle of the movable ones. False if a limit would hold some
- * back. */
+/* The centre is a fixed body, if there is one, or the mean of the movable bodies. False if a body has a limit, or none
+ * is movable. */
 static bool find_centre(sunder_i_search *s, double centre[2])
 {
     double sum[2] = {0, 0}, at[2];
@@ -52,8 +52,8 @@ static bool find_centre(sunder_i_search *s, double centre[2])
     return n > 0;
 }
 
-/* All by so large a share of their ways from the centre; those that clash look for places if there is room for that.
- * Returns whether it is a solution. */
+/* Moves each body by `share` times its vector from the centre. If there are still clashes and the share is large,
+ * clashing bodies jump. Returns whether a descent from there succeeds. */
 static bool try_share(sunder_i_search *s, const double centre[2], double share)
 {
     double at[2];
@@ -62,7 +62,7 @@ static bool try_share(sunder_i_search *s, const double centre[2], double share)
         anchor_of(s, k, at);
         for (uint32_t c = 0; c < 2; c++) s->t[2 * k + c] = share * (at[c] - centre[c]);
     }
-    s->program.n = 0; /* the forces belong to places that are left */
+    s->program.n = 0; /* its forces belong to the former places */
     const bool clear = sunder_i_search_find_clashes(s, s->t) <= s->tolerance;
     return (clear || (share >= ENOUGH_SPREAD && sunder_i_search_jump(s))) && sunder_i_search_descend(s);
 }

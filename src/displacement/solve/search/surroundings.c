@@ -10,7 +10,7 @@
 
 static double larger_coordinate(const double t[2]) { return sunder_i_max(fabs(t[0]), fabs(t[1])); }
 
-/* How far bodies of the cluster go, one with another. */
+/* The mean over the movable bodies of the larger coordinate of their moves. */
 static double mean_move(const sunder_i_model *model, const sunder_i_cluster *cluster, const double *own)
 {
     double sum = 0;
@@ -23,8 +23,8 @@ static double mean_move(const sunder_i_model *model, const sunder_i_cluster *clu
     return n ? sum / (double)n : 0;
 }
 
-/* Bodies within reach of the cluster that are not in it, ascending. Each member looks as far as its own move may send
- * it, or the typical move of the others: one that had to go far does not make all the others look that far. */
+/* Lists the bodies near the cluster that are not in it, ascending. Each member looks as far as its own move or the mean
+ * move suggests, so that one body that went far does not make all others look that far. False if memory is out. */
 static bool find_surroundings(const sunder_i_model *model, const sunder_i_cluster *cluster, const double *own,
                               sunder_i_list *hits)
 {

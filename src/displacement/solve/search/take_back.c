@@ -20,7 +20,7 @@
 
 #define HALF_WAY 0.70710678118654752440 /* cosine and sine of 45 degrees */
 
-/* Two bodies, i < j, and what it would take to resolve all that is given up between them. */
+/* Two bodies, i < j, the move that would resolve all relaxed pairs between them, and whether one overlaps. */
 typedef struct wish {
     uint32_t i, j;
     double missing;
@@ -42,7 +42,7 @@ static wish *wish_of(const sunder_i_search *s, const sunder_i_relaxations *all, 
     return &list[sunder_i_relaxations_between(all, body_of[t->a], body_of[t->b]) - all->relaxed];
 }
 
-/* One for each two bodies, in the order in which they are asked. */
+/* Lists one wish for each two bodies, in the order in which they are tried. */
 static void list_wishes(const sunder_i_search *s, const sunder_i_relaxations *all, wish *list)
 {
     for (size_t k = 0; k < all->relaxed_n; k++) list[k] = (wish){all->relaxed[k].i, all->relaxed[k].j, 0, false};
@@ -62,7 +62,7 @@ static bool is_between(const sunder_i_search *s, const sunder_i_relaxation *t, c
     return (p == w->i && q == w->j) || (p == w->j && q == w->i);
 }
 
-/* What is given up between the two does not count from now on; or it does again. */
+/* Ends the relaxations between the two bodies in this search; and restores them. */
 static void claim_pair(sunder_i_search *s, const sunder_i_relaxations *all, const wish *w)
 {
     for (size_t k = 0; k < all->n; k++)
@@ -76,7 +76,7 @@ static void waive_pair(sunder_i_search *s, const sunder_i_relaxations *all, cons
             s->failed = true;
 }
 
-/* All go down from where they stand. stand: [2 n] scratch. */
+/* Descends with all bodies from the present layout; on failure they return. stand: [2 n] scratch. */
 static bool settle_whole(sunder_i_search *s, double *stand)
 {
     const size_t size = 2 * s->n * sizeof *stand;
@@ -89,12 +89,13 @@ static bool settle_whole(sunder_i_search *s, double *stand)
     return done;
 }
 
-/* With a few about them. Returns how many are left: the first of the list, in order. */
+/* Tries each wish with a few bodies around the pair. Keeps the wishes that were not granted at the front of the list
+ * and returns their number. */
 static size_t ask_few(sunder_i_search *s, const sunder_i_relaxations *all, wish *list, size_t n)
 {
     sunder_i_neighbourhood about;
     size_t left = 0;
-    unsigned in_vain = 0; /* one after the other */
+    unsigned in_vain = 0; /* failures in a row */
     if (!sunder_i_neighbourhood_init(&about, s)) s->failed = true;
     for (size_t k = 0; k < n; k++) {
         const wish w = list[k];
@@ -113,12 +114,12 @@ static size_t ask_few(sunder_i_search *s, const sunder_i_relaxations *all, wish 
     return left;
 }
 
-/* All that move. Returns how many are left: the first of the list, in order. */
+/* The same with all bodies. */
 static size_t ask_whole(sunder_i_search *s, const sunder_i_relaxations *all, wish *list, size_t n, double *stand)
 {
     const uint64_t end = sunder_i_search_work(s) + TAKE_BACK_MOST;
     size_t left = 0;
-    unsigned in_vain = 0; /* one after the other */
+    unsigned in_vain = 0; /* failures in a row */
     for (size_t k = 0; k < n; k++) {
         const wish w = list[k];
         bool granted = false;
@@ -135,9 +136,8 @@ static size_t ask_whole(sunder_i_search *s, const sunder_i_relaxations *all, wis
 
 /* ---- By pushing -------------------------------------------------------------------------------------------------- */
 
-/* Separates a pair that misses at most `most`, if the bodies in the way can be pushed along: straight on, else at half
- * the angle to either side, which for two that meet corner to corner is along a row. Returns whether nothing is missed
- * then. */
+/* Separates a pair whose violation is at most `most` by pushing the bodies in its way: straight on, or at 45 degrees to
+ * either side, which is along a row if the two meet corner to corner. Returns whether no violation is left. */
 static bool push_pair(sunder_i_search *s, sunder_i_pushed *p, uint32_t i, uint32_t j, double most)
 {
     static const double turn[3][2] = {{1, 0}, {HALF_WAY, HALF_WAY}, {HALF_WAY, -HALF_WAY}};
@@ -152,8 +152,8 @@ static bool push_pair(sunder_i_search *s, sunder_i_pushed *p, uint32_t i, uint32
     return sunder_i_pushed_missing(p, i, j, n) <= s->tolerance;
 }
 
-/* Tries each pair that misses at most that once, within this amount of work. Returns how many remain: the first of the
- * list, in order. */
+/* Tries to separate each pair whose violation is at most `most`, until the work reaches `end`. Keeps the others at the
+ * front of the list and returns their number. */
 static size_t push_each(sunder_i_search *s, sunder_i_pushed *p, const sunder_i_relaxations *all, wish *list, size_t n,
                         double most, uint64_t end)
 {
@@ -172,9 +172,9 @@ static size_t push_each(sunder_i_search *s, sunder_i_pushed *p, const sunder_i_r
     return left;
 }
 
-/* What misses least now comes first: what a row was opened by for one of its pairs may be most of what another misses.
- * Where hardly any of a level was parted all that are left are asked at once, and for the last time.
- * Returns how many are left: the first of the list, in order. */
+/* Tries pairs with a small violation first: a row that is opened for one pair may be most of what another needs. If
+ * hardly any pair of a level succeeds, all remaining pairs are tried once more, and no more after that. Returns the
+ * number of remaining wishes. */
 static size_t ask_pushed(sunder_i_search *s, const sunder_i_relaxations *all, wish *list, size_t n)
 {
     sunder_i_pushed pushed;

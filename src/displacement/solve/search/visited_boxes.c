@@ -10,7 +10,8 @@
 
 #include <string.h>
 
-/* From the first body's origin, so that where the layer lies makes no difference. */
+/* The box of the straight path of body k, relative to the first body's origin, so that the layer's position does not
+ * matter. */
 static void box_of_path(const sunder_i_search *s, uint32_t k, double box[4])
 {
     const sunder_i_body *b = &s->model->body[s->body[k]], *first = &s->model->body[s->body[0]];
@@ -37,7 +38,7 @@ static bool build_index(sunder_i_search *s)
     return ok;
 }
 
-/* To where the bodies stand now. */
+/* Updates the index to the present moves. False if memory is out. */
 static bool bring_up_to_date(sunder_i_search *s)
 {
     if (!s->visited_at) {

@@ -5,13 +5,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A relaxation for pair (i, j), if there is none by this search yet. */
+/* Relaxes pair (i, j), unless this search has done so already. */
 bool sunder_i_search_relax(sunder_i_search *search, uint32_t i, uint32_t j)
 {
     const uint32_t p = search->body[i], q = search->body[j];
     if (sunder_i_relaxations_between(&search->relaxations, p, q)) return false;
     const size_t before = search->relaxations.n;
-    /* All that is within what the search asks for: the gap and its margin. */
+    /* All pairs of features within the distance that the search demands. */
     if (sunder_i_relaxations_make(search->model, p, q, search->gap + 2 * search->tolerance, &search->relaxations, NULL))
         search->failed = true;
     return search->relaxations.n > before;
@@ -24,13 +24,12 @@ bool sunder_i_search_send_home(sunder_i_search *search, uint32_t i)
     return true;
 }
 
-/* Which bodies may come near each other, each at its present or its original place: pairs, and for each body its
- * pairs. */
+/* Pairs of bodies that may come near each other, each at its present or its original place, and the same by bodies. */
 typedef struct neighbours {
     sunder_i_id_pair *pair;
     size_t pairs, capacity;
     size_t *first;   /* [n + 1] */
-    uint32_t *other; /* of body k from first[k] to first[k + 1] */
+    uint32_t *other; /* neighbours of body k, from first[k] to first[k + 1] */
 } neighbours;
 
 static void free_neighbours(neighbours *g)
@@ -58,14 +57,15 @@ static void find_neighbours(sunder_i_search *s, neighbours *g)
     s->failed = s->failed || !g->first || !g->other;
     if (s->failed) return;
     for (size_t k = 0; k < g->pairs; k++) g->first[g->pair[k].a]++, g->first[g->pair[k].b]++;
-    for (size_t k = 0, sum = 0; k <= s->n; k++) g->first[k] = sum += g->first[k]; /* the ends, for now */
+    /* the end of each, which becomes the start below */
+    for (size_t k = 0, sum = 0; k <= s->n; k++) g->first[k] = sum += g->first[k];
     for (size_t k = g->pairs; k-- > 0;) {
         g->other[--g->first[g->pair[k].a]] = g->pair[k].b;
         g->other[--g->first[g->pair[k].b]] = g->pair[k].a;
     }
 }
 
-/* The clashes of pairs with a body that changed: into s->clash. */
+/* Stores in s->clash the clashes of pairs with a changed body. */
 static void look_at_changed(sunder_i_search *s, const neighbours *g, const bool *changed)
 {
     s->clashes = 0;
@@ -78,7 +78,7 @@ static void look_at_changed(sunder_i_search *s, const neighbours *g, const bool 
     }
 }
 
-/* One pass over what clashes now by more than that. Marks what changed, and returns whether anything did. */
+/* One pass over the clashes of more than `hair`. Sets changed[] and returns whether anything changed. */
 static bool yield_once(sunder_i_search *s, const sunder_i_clash *at_home, size_t n, double hair, bool *changed)
 {
     bool any = false;
