@@ -1,5 +1,5 @@
-/* operands.c: see operands.h. Data sources are read before texts: their CRS gives lengths in the other operand their
- * meaning. */
+/* operands.c: see operands.h. Data sources are read before texts, since their CRS defines the units of lengths in the
+ * other operand. */
 #include "sum/operands.h"
 
 #include "geometry/wkt.h"
@@ -16,7 +16,7 @@ static bool check_crs(const gis_operands *operands, gis_error *error)
     return gis_crs_may_be_same(p, q) || gis_fail(error, "P and Q have different CRSs; reproject one of them first");
 }
 
-/* The SRID of PostGIS, which is the code of EPSG; 0: none is known. */
+/* Returns the SRID of an operand: the code of EPSG of a source's CRS, or the SRID before WKT; 0 if there is none. */
 static int srid_of(const char *text, const gis_source *source)
 {
     OGRSpatialReferenceH crs = source ? gis_source_crs(source) : NULL;

@@ -1,6 +1,6 @@
-/* planar_map_layers.c: the planar map beneath a sum, as layers for inspection. Every vertex is rounded once, so that
- * edges and faces that meet in the map meet in the layers; a face that rounding has broken is mended like a polygon
- * of a sum. */
+/* planar_map_layers.c: writes the planar map of a sum as layers for inspection. Each vertex is rounded once, so that
+ * edges and faces that meet in the map also meet in the layers; a face that rounding made invalid is repaired like a
+ * polygon of a sum. */
 #include "sum/sum_layers.h"
 
 #include "base/interrupt.h"
@@ -12,8 +12,8 @@
 
 typedef struct map_run {
     const sunder_map *map;
-    double *xy; /* of all vertices */
-    bool *done; /* [half-edges] */
+    double *xy; /* [2 * vertices] the rounded coordinates of all vertices */
+    bool *done; /* [half-edges] whether a half-edge is part of a ring already */
     gis_polygons face;
 } map_run;
 
@@ -26,13 +26,14 @@ static const double *half_edge_vertex(const map_run *run, uint32_t half)
 
 /* ---- Faces ------------------------------------------------------------------------------------------------------- */
 
-/* Is another face on the other side? (An antenna has the same one on both.) */
+/* Returns whether the half-edge separates two faces. (An antenna has the same face on both sides.) */
 static bool is_side(const sunder_map *map, uint32_t half)
 {
     return sunder_map_face(map, half) != sunder_map_face(map, sunder_map_twin(half));
 }
 
-/* The next side of the ring: what lies between the two at their vertex is not of the face, so rings meet in points. */
+/* Returns the next half-edge of a ring. At a vertex the ring turns so that the angle between the two half-edges is
+ * outside of the face; hence rings of a face meet in points only. */
 static uint32_t next_side(const sunder_map *map, uint32_t half)
 {
     uint32_t face = sunder_map_face(map, half), next = sunder_map_twin(half);
@@ -41,7 +42,7 @@ static uint32_t next_side(const sunder_map *map, uint32_t half)
     return next;
 }
 
-/* Appends the ring of a side, in doubles, unless it has fallen together. */
+/* Appends the ring that contains the half-edge `start`, in doubles, unless rounding leaves it without area. */
 static bool append_ring(map_run *run, uint32_t start, gis_error *error)
 {
     size_t first = run->face.vertices;
@@ -68,8 +69,8 @@ static bool append_cycle(map_run *run, uint32_t start, gis_error *error)
     return true;
 }
 
-/* The side of a cycle that leaves its smallest vertex: of an outer boundary, a side of the outer ring. NOWHERE: all are
- * antennas. */
+/* Returns the half-edge of a cycle that separates two faces and leaves the smallest vertex; on an outer boundary it
+ * belongs to the outer ring. Returns SUNDER_NOWHERE if the cycle has antennas only. */
 static uint32_t first_side(const map_run *run, uint32_t start)
 {
     uint32_t best = SUNDER_NOWHERE, half = start;
@@ -81,7 +82,7 @@ static uint32_t first_side(const map_run *run, uint32_t start)
     return best;
 }
 
-/* The rings of a face, the outer one first; rounding may have spoiled that, which mending sets right. */
+/* Sets run->face to the rings of a face, the outer one first. If rounding made it invalid it is repaired. */
 static bool gather_face(map_run *run, uint32_t face, gis_error *error)
 {
     run->face.vertices = run->face.rings = run->face.polygons = 0;

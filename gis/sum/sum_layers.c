@@ -1,6 +1,6 @@
-/* sum_layers.c: the layers of a sum: polygons, a feature each; degenerate segments; degenerate points. Polygons go
- * through rounding, which keeps them valid. Segments and points need no such care: their vertices go to the nearest
- * doubles, and may fall together there. */
+/* sum_layers.c: writes the layers of a sum: a feature for each polygon, degenerate segments, and degenerate points.
+ * Polygons are rounded so that they stay valid. The vertices of segments and points are rounded to the nearest doubles
+ * and may coincide afterwards. */
 #include "sum/sum_layers.h"
 
 #include "geometry/geometry.h"
@@ -17,7 +17,8 @@ bool gis_write_polygons(gis_sink_layer *layer, const gis_polygons *set, const gi
     return true;
 }
 
-/* An end of a degenerate segment, or a degenerate point, in doubles; *deviation is raised to what that moves. */
+/* Rounds a vertex of the sum to doubles; *deviation is raised to the distance from its exact position. Fails if a
+ * coordinate exceeds the range of doubles. */
 static bool to_doubles(const sunder_sum *sum, uint32_t vertex, double xy[2], double *deviation, gis_error *error)
 {
     double here;

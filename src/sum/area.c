@@ -1,8 +1,9 @@
-/* operands.c: see operands.h. Data sources are read before texts, since their CRS defines the units of lengths in the
- * other operand. */
+/* area.c: the exact area of a sum. Vertices have denominators of their own, so that terms are reduced, and summed in
+ * pairs of similar size. */
 #include "sum/sum_value.h"
 
-/* Returns the SRID of an operand: the code of EPSG of a source's CRS, or the SRID before WKT; 0 if there is none. */
+/* Returns twice the contribution of the edge uv to the area, x1 y2 - x2 y1, in lattice units: the origin cancels over a
+ * closed ring. */
 static sunder_i_ratio edge_term(sunder_i_arena *arena, const sunder_sum *sum, uint32_t u, uint32_t v)
 {
     const sunder_i_rational_point a = sunder_i_sum_point(arena, sum, u), b = sunder_i_sum_point(arena, sum, v);
@@ -10,7 +11,8 @@ static sunder_i_ratio edge_term(sunder_i_arena *arena, const sunder_sum *sum, ui
         arena, (sunder_i_ratio){sunder_i_rational_cross(arena, a, b), sunder_i_big_mul(arena, a.w, b.w)});
 }
 
-/* operands.h: the operands P and Q of the commands sum and pair. */
+/* Terms are added in pairs, pairs of pairs and so on, so that the operands of an addition have similar sizes: level k
+ * is the sum of 2^k terms, or empty. */
 typedef struct adder {
     sunder_i_ratio level[64];
     bool full[64];
@@ -35,7 +37,7 @@ static sunder_i_ratio total_of(sunder_i_arena *arena, const adder *a)
     return total;
 }
 
-/* The request of the operands. Strings and lists are borrowed during the call. */
+/* The number of edges in a group; the arena of a group is freed, and only its sum is kept. */
 #define EDGES 256
 
 static sunder_i_ratio area_twice(sunder_i_arena *arena, const sunder_sum *sum)

@@ -1,4 +1,5 @@
-/* P and Q: each a SHAPE in any form, or a data source */
+/* canonical_sum.c: the canonical form: all rings are sorted once and then assigned to their polygons in that order;
+ * segments and points are sorted directly. */
 #include "sum/canonical_sum.h"
 
 #include "base/sort.h"
@@ -13,7 +14,7 @@ int sunder_i_sum_vertex_cmp(void *context, uint32_t v, uint32_t w)
     return v == w ? 0 : sunder_i_hpoint_cmp(&sum->lattice, &sum->vertex[v], &sum->vertex[w]);
 }
 
-/* the selection from an operand that is a data source; the member path is set when it is read */
+/* ---- Rings ---- */
 
 static int compare_rings(void *context, uint32_t a, uint32_t b)
 {
@@ -27,7 +28,8 @@ static int compare_rings(void *context, uint32_t a, uint32_t b)
     return (m > n) - (m < n);
 }
 
-/* N of the scale 1:N; 0: not given */
+/* For the coordinates of two points, each with a relative error of at most 2^-50: returns true if b, which is not below
+ * a as a double, may be at most a. */
 static bool is_open(double a, double b) { return b - a <= SUNDER_I_DOUBT(0x1p-49 * (fabs(a) + fabs(b)) + DBL_MIN); }
 
 static const sunder_i_hpoint *first_place(const sunder_i_found *f, uint32_t ring)
@@ -35,14 +37,14 @@ static const sunder_i_hpoint *first_place(const sunder_i_found *f, uint32_t ring
     return &f->place[f->vertex[f->ring[ring].start]];
 }
 
-/* NULL if the operand is a text */
+/* Sorts n rings whose order the doubles do not decide. Returns false if out of memory. */
 static bool settle_rings(sunder_i_found *f, const sunder_i_valued *k, size_t n, uint32_t *order)
 {
     for (size_t i = 0; i < n; i++) order[i] = k[i].item;
     return n == 1 || sunder_i_sort_indices(order, n, compare_rings, f);
 }
 
-/* the units of the operands' CRS, if there is one */
+/* The same for rings whose first vertices have the same x and differ in y as doubles. */
 static bool sort_column(sunder_i_found *f, sunder_i_valued *k, size_t n, uint32_t *order)
 {
     for (size_t i = 0; i < n; i++) k[i].value = first_place(f, k[i].item)->ay;
@@ -61,11 +63,11 @@ static bool is_column(const sunder_i_found *f, sunder_i_lattice *l, const sunder
     return true;
 }
 
-/* By the doubles of the vertices where the rings start, as far as these tell them apart. */
+/* Sorts the rings by the doubles of their first vertices if these decide the order. Returns false if out of memory. */
 static bool sort_rings_by_places(sunder_i_found *f, sunder_i_lattice *l, uint32_t *order)
 {
     const size_t n = f->rings;
-    sunder_i_valued *k = sunder_i_alloc(4 * n, sizeof *k); /* seconds for building p and q from coordinates in memory */
+    sunder_i_valued *k = sunder_i_alloc(4 * n, sizeof *k); /* a column is sorted in the second half */
     bool ok = k != NULL;
     for (uint32_t r = 0; ok && r < n; r++) k[r] = (sunder_i_valued){first_place(f, r)->ax, r, 0};
     ok = ok && sunder_i_sort_valued(k, n);
@@ -82,7 +84,8 @@ static bool sort_rings_by_places(sunder_i_found *f, sunder_i_lattice *l, uint32_
     return ok;
 }
 
-/* Reads the operands; on failure *out is not changed and nothing must be cleared. */
+/* Sorts the rings by the numbers of their first vertices; rings with the same first vertex are sorted by their further
+ * vertices. Returns false if out of memory. */
 static bool sort_rings_by_numbers(sunder_i_found *f, uint32_t *order)
 {
     const size_t n = f->rings;
@@ -106,7 +109,10 @@ static bool sort_rings(sunder_i_found *f, sunder_i_lattice *l, uint32_t *order)
     return sunder_i_sort_indices(order, f->rings, compare_rings, f);
 }
 
-/* Returns the source that the output is compared with and whose CRS it gets; NULL if both operands are texts. */
+/* Assigns the outer rings to polygons in order, and then every ring, in order, to the next place in its polygon.
+ *
+ * place: [rings] becomes the result; hole: [rings] zeros, in the end used by polygon; polygon: [components] becomes the
+ * polygon of each component. */
 static void deal_rings(const sunder_i_found *f, const uint32_t *order, uint32_t *place, uint32_t *hole,
                        uint32_t *polygon, sunder_sum *out)
 {
@@ -116,7 +122,7 @@ static void deal_rings(const sunder_i_found *f, const uint32_t *order, uint32_t 
     size_t sum = 0;
     for (size_t p = 0; p < out->polygons; p++) {
         const uint32_t rings = hole[p];
-        hole[p] = (uint32_t)sum + 1; /* Fails if writing the output would replace one of the sources. */
+        hole[p] = (uint32_t)sum + 1; /* the place of its next hole, after the outer ring */
         sum += rings;
         out->poly_end[p] = sum;
     }
@@ -167,9 +173,7 @@ static bool put_rings(sunder_i_found *f, sunder_sum *out)
     return true;
 }
 
-/* planar_map_layers.c: writes the planar map of a sum as layers for inspection. Each vertex is rounded once, so that
- * edges and faces that meet in the map also meet in the layers; a face that rounding made invalid is repaired like a
- * polygon of a sum. */
+/* ---- Degenerate parts ---- */
 
 static int compare_segments(void *context, uint32_t a, uint32_t b)
 {
@@ -210,9 +214,9 @@ bool sunder_i_canonical(sunder_i_found *found, sunder_sum *out)
     return put_rings(found, out) && put_segments(found, out) && put_points(found, out);
 }
 
-/* [2 * vertices] the rounded coordinates of all vertices */
+/* ---- Tests of the canonical form ---- */
 
-/* [half-edges] whether a half-edge is part of a ring already */
+/* Compares two sequences of vertices lexicographically. */
 static int compare_rows(sunder_sum *sum, const uint32_t *v, size_t m, const uint32_t *w, size_t n)
 {
     for (size_t i = 0; i < m && i < n; i++) {
@@ -247,7 +251,7 @@ static const char *check_polygons(sunder_sum *sum)
 
 const char *sunder_i_canonical_check(sunder_sum *sum)
 {
-    const sunder_counts counts = sum->lattice.counts; /* checks do not count as work */
+    const sunder_counts counts = sum->lattice.counts; /* the tests are not counted as operations */
     const char *wrong = check_polygons(sum);
     for (size_t i = 0; i < sum->segments && !wrong; i++) {
         const uint32_t *s = sum->segment + 2 * i;
@@ -257,6 +261,5 @@ const char *sunder_i_canonical_check(sunder_sum *sum)
     for (size_t i = 1; i < sum->points && !wrong; i++)
         if (sunder_i_sum_vertex_cmp(sum, sum->point[i - 1], sum->point[i]) >= 0) wrong = "points are out of order";
     sum->lattice.counts = counts;
-    return sum->lattice.arena.failed ? NULL : wrong; /* Returns whether the half-edge separates two faces. (An antenna
-                                                      * has the same face on both sides.) */
+    return sum->lattice.arena.failed ? NULL : wrong; /* if out of memory, nothing can be tested */
 }

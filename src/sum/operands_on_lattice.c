@@ -1,4 +1,4 @@
-/* Both operands on one lattice, which becomes the sum's. */
+/* operands_on_lattice.c: places both operands on one lattice, which becomes that of the sum. */
 #include "sum/operands_on_lattice.h"
 
 #include <string.h>

@@ -1,4 +1,4 @@
-/* Sums of parts that are apart as one sum: what all of them have, put in canonical order together. */
+/* sum_of_parts.c: joins disjoint sums to one sum: their rings, segments and points are sorted together. */
 #include "sum/sum_of_parts.h"
 
 #include "base/invariant.h"
@@ -38,7 +38,7 @@ static bool make_room(gathering *g, sunder_sum *const *part, size_t n)
 static bool copy_vertices(sunder_sum *out, sunder_i_arena *arena, const sunder_sum *s)
 {
     for (uint32_t v = 0; v < s->vertices; v++) {
-        if (s->vertex[v].w != 0) { /* native numbers are the same on all lattices of one unit */
+        if (s->vertex[v].w != 0) { /* native numbers are the same on all lattices with one unit */
             out->vertex[out->vertices++] = s->vertex[v];
             continue;
         }
@@ -51,7 +51,7 @@ static bool copy_vertices(sunder_sum *out, sunder_i_arena *arena, const sunder_s
     return !out->lattice.arena.failed;
 }
 
-/* Appends what a part has; its vertices are numbered from `first` on. */
+/* Appends the rings, segments and points of a part; its vertices are numbered from `first` on. */
 static void add_part(gathering *g, const sunder_sum *s, uint32_t first)
 {
     const size_t corners = corners_of(s), before = g->corners;

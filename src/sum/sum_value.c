@@ -1,4 +1,4 @@
-/* The sum as a value: its parts, and what a caller may ask of it. */
+/* sum_value.c: frees a sum, and returns its parts and values. */
 #include "sum/sum_value.h"
 
 #include "sum/map_view.h"

@@ -1,5 +1,5 @@
-/* A sum as a shape: its rings are laid out as a shape is made from, so only corners have to be rounded. Rounded rings
- * may cross, which is for the validity that the caller asks for to judge. */
+/* to_shape.c: converts a sum to a shape: its rings have the layout from which a shape is made, so that only vertices
+ * are rounded. Rounded rings may cross; `validity` determines what happens then. */
 #include "sum/to_shape.h"
 
 sunder_status sunder_i_sum_to_shape(const sunder_sum *sum, bool exact, sunder_validity validity, sunder_shape **out,

@@ -1,5 +1,5 @@
-/* Vertices of a sum on the way out: exact rationals as texts, and the nearest doubles, one at a time
- * (nearest_doubles.c has many at once). */
+/* vertex_texts.c: vertices of a sum as exact rational texts, and as the nearest doubles, one at a time
+ * (nearest_doubles.c converts many at once). */
 #include "sum/sum_value.h"
 
 #include <math.h>
