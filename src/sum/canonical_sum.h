@@ -2,7 +2,7 @@
  * results here, except the sum of two convex operands, whose only ring is in order already
  * (minkowski/convex_operands.c).
  *
- *   rings      with the sum on their left; each starts at its lexicographically smallest vertex, none of which is straight
+ *   rings      with the sum on their left; each starts at its lexicographically smallest vertex; no vertex is straight
  *   polygons   in the lexicographic order of their outer rings, vertex by vertex; the holes of each likewise
  *   segments   from the smaller end to the greater, in lexicographic order
  *   points     in lexicographic order */
