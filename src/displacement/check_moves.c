@@ -84,8 +84,8 @@ static sunder_status check_feature(comparison *c, uint32_t f, sunder_error *err)
 
 /* ---- Pairs ------------------------------------------------------------------------------------------------------- */
 
-/* Records that feature f crossed a side of a barrier part with its side anchor. Of each barrier this is recorded once
- * for a feature. */
+/* Records that feature f crossed a side of a barrier part with its side anchor. For a feature and a barrier this is
+ * recorded once. */
 static sunder_status tell_side(comparison *c, uint32_t f, uint32_t part, sunder_error *err)
 {
     const size_t barrier = c->layer.number[part];

@@ -136,8 +136,8 @@ static sunder_status mark_for_retry(sunder_i_solver *s, bool *changed, sunder_er
     return SUNDER_OK;
 }
 
-/* Tries the pairs that were given up once more. In each round bodies that get their way run into others, and more pairs
- * are given up. */
+/* Tries the pairs that were given up once more. In each round bodies that may move again run into others, and more
+ * pairs are given up. */
 static sunder_status retry_pairs(sunder_i_solver *s, bool *changed, sunder_error *err)
 {
     const sunder_status status = sunder_i_solver_retry(s, err);

@@ -7,7 +7,7 @@
 /* Computes the edges of the shadow { s k : k in K, s >= 1 } of the convex polygon K of n corners, counter-clockwise; K
  * may be a point or a segment. The first and the last edge are rays that begin at K: seen outward, the shadow lies to
  * the right of the first and to the left of the last. Between them are the sides of K that face the origin. Returns the
- * number of edges, at most n + 1, or 0 if the origin is in K or too near to tell. edge: room for n + 1. */
+ * number of edges, at most n + 1, or 0 if the origin is in K or too near to decide. edge: room for n + 1. */
 size_t sunder_i_shadow_edges(const double *k, size_t n, sunder_i_obstacle_edge *edge);
 /* Returns the support line of such a shadow whose distance from u is greatest. */
 sunder_i_support sunder_i_shadow_support_at(const sunder_i_obstacle_edge *edge, size_t n, const double u[2]);

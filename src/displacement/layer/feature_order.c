@@ -1,8 +1,8 @@
 /* The order in which features are processed, independent of the order in which the caller lists them: by position, then
  * by corners, then by the other input. All later stages break ties by number (of bodies, of pieces, of pairs), so the
- * same features in another order get the same moves; only twins that are alike in everything are told apart by their
- * places in the list, and may swap roles. Numbers rise with y, independently of the other features: a feature far away
- * does not change the order of two others. At the end the report refers to features by the caller's numbers
+ * same features in another order get the same moves; only features that are alike in everything are distinguished by
+ * their places in the list, and may swap roles. Numbers rise with y, independently of the other features: a feature far
+ * away does not change the order of two others. At the end the report refers to features by the caller's numbers
  * (report/renumber.c). */
 #include "displacement/layer/barrier_parts.h"
 

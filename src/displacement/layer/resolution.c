@@ -3,7 +3,7 @@
  * The moves of Q that take it off P are the complement of an open set; the least of them is found by the separation of
  * two shapes. The moves that take Q into P are the erosion { x : Q + x in P }, also exact; with a tolerance, into P + D
  * (grown_shape.c). The pair is resolved by the union of three sets of moves (Q off P, Q into P, P into Q), so the least
- * length is the least of the three. Boxes tell beforehand where an erosion is empty or too far away. */
+ * length is the least of the three. Boxes show beforehand where an erosion is empty or too far away. */
 #include "displacement/layer/resolution.h"
 
 #include "separation/separation.h"

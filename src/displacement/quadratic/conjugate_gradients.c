@@ -108,15 +108,15 @@ static double largest_eigenvalue(dual *q)
  *
  * Contradicting constraints give a direction without curvature, along which the dual decreases without bound, so a step
  * could have any length and overflow. The diagonal of G is 1, so rounding errors of sums of n terms are at most n 2^-53
- * of the step's square; a chain of n contacts has a curvature of at least 5 / n^2 of it. The two can be told apart up
- * to 100,000 contacts. */
+ * of the step's square; a chain of n contacts has a curvature of at least 5 / n^2 of it. The two can be distinguished
+ * up to 100,000 contacts. */
 typedef struct direction {
     double curvature, slope, feasible;
 } direction;
 
 /* Sets q->gs to G times the step, and computes all sums along the step in the same pass, each in its own order, so that
  * none waits for another. A division is made only for a force that may limit the step; a product, raised slightly,
- * tells which those are. */
+ * shows which those are. */
 static direction measure_step(dual *q)
 {
     const double *step = q->step, *f = q->f, *g = q->g;

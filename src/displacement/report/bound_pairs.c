@@ -109,8 +109,8 @@ sunder_status sunder_i_report_bound(sunder_report *report, const sunder_i_solver
         for (size_t k = 0; k < n; k++)
             key[k] = (key_pair){bodies_of(model, report->bound_pair[k].a, report->bound_pair[k].b), k};
         qsort(key, n, sizeof *key, by_bodies);
-        /* Of the pairs of members with the same two bodies only the one with the longest move is kept; the others get
-         * least < 0 and are removed below. */
+        /* Among the pairs of members with the same two bodies only the one with the longest move is kept; the others
+         * get least < 0 and are removed below. */
         for (size_t k = 1; k < n; k++) {
             if (key[k].bodies != key[k - 1].bodies) continue;
             sunder_bound_pair *p = &report->bound_pair[key[k - 1].at], *q = &report->bound_pair[key[k].at];

@@ -252,8 +252,8 @@ static sunder_status keep_crowded(const asking *g, const matter *m, const sunder
 }
 
 /* Looks for a chain of features through the pair, each of which pushes the next, up to their limits. A chain of more
- * than REDUCED_LINKS links is irreducible as it is found, as far as such chains can tell. reducing: NULL, or the budget
- * for making proofs irreducible if the chain is to prove that the conflict is crowded. */
+ * than REDUCED_LINKS links is irreducible as it is found, as far as such chains can prove it. reducing: NULL, or the
+ * budget for making proofs irreducible if the chain is to prove that the conflict is crowded. */
 static sunder_status ask_chain(const asking *g, matter *m, sunder_i_subproblem *q, sunder_i_chains *chains,
                                uint64_t *reducing, sunder_error *err)
 {

@@ -5,7 +5,7 @@
  * Whether a limit is too short is decided exactly by the least translation that separates the pair. Whether every
  * relative move is forbidden is decided by branch and bound (prove/proofs/feasibility.c), which either proves it or
  * gives no answer. Its proof is kept, since it names the features whose shadows block the pair. For limits that are too
- * short the same branch and bound makes a proof, if proofs are wanted. Of two features that are shut in
+ * short the same branch and bound makes a proof, if proofs are wanted. If two features are shut in
  * (solve/clusters/shut_in_pairs.c) it is known beforehand that they have no solution; a proof is still searched for,
  * and if the effort does not suffice there is none. If only the names of the features are wanted, and these can be none
  * but the two themselves, no proof is searched for. */

@@ -25,7 +25,7 @@ static bool take_body(sunder_i_lagrangian *d, uint32_t at)
 }
 
 /* Returns the body outside the block with the greatest sum of forces from the block's bodies, over contacts that are in
- * no block yet. Of equals it is the first; SUNDER_I_GROUND if there is none. */
+ * no block yet. Among equal ones it is the first; SUNDER_I_GROUND if there is none. */
 static uint32_t most_pressed(sunder_i_lagrangian *d)
 {
     const sunder_i_contact_forces *c = &d->contacts;

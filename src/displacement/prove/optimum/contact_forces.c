@@ -2,7 +2,7 @@
  *
  * Each contact of two bodies is a half-plane of their relative move, tangent to the forbidden set at the present
  * relative move. A body at its limit is in contact with the ground. For a locally optimal layout, the least cost under
- * these half-planes is the layout's own cost, and the forces (multipliers) of that program tell which contacts matter.
+ * these half-planes is the layout's own cost, and the forces (multipliers) of that program show which contacts matter.
  * All of this is in doubles: bounds made from the forces (blocks.c) are proved separately. */
 #include "displacement/prove/optimum/blocks.h"
 #include "displacement/prove/optimum/tuning.h"

@@ -1,4 +1,4 @@
-/* The convex hull of the part of a region outside a forbidden set: it tells where a cut may go.
+/* The convex hull of the part of a region outside a forbidden set: it shows where a cut may go.
  *
  * Arcs of the pieces bulge into the free side, so the extreme points of that hull are among finitely many: corners of
  * the region outside the pieces, places where its sides enter or leave pieces, and reflex corners, where the boundaries

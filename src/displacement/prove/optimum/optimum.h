@@ -78,8 +78,8 @@ bool sunder_i_tight_place(const sunder_i_model *model, const sunder_i_waived *wa
 /* Sets *may if the coordinates of n bodies have a common step, so that such places are possible. Returns false if
  * memory is out. */
 bool sunder_i_may_be_tight(const sunder_i_model *model, const uint32_t *body, size_t n, bool *may);
-/* conflicted_group.c: are so many pairs of the group's bodies left in conflict that neither perturbation nor a tree
- * helps? */
+/* conflicted_group.c: returns whether a large share of the group's pairs is left in conflict, so that neither
+ * perturbation nor a tree helps. */
 bool sunder_i_group_has_many_conflicts(const sunder_i_model *model, const sunder_i_waived *waived,
                                        const sunder_i_group *group);
 /* Returns the number of pairs of the group's bodies that are left in conflict. */

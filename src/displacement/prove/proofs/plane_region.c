@@ -1,4 +1,4 @@
-/* Convex polygons of relative moves, in doubles: they decide nothing, and tell which claims to test. */
+/* Convex polygons of relative moves, in doubles: they decide nothing, and show which claims to test. */
 #include "displacement/prove/proofs/plane.h"
 
 #include "base/extremes.h"
