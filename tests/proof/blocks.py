@@ -16,6 +16,8 @@ from geopackage import value_of
 from nearly_in import lies_in_grown
 
 TOO_MANY = 60_000
+MANY_PLACES = 1500  # of a disc in an overlap: from there on those without room are left out before
+HALVINGS = 5        # of such places, lines of them, to tell where there is room
 
 
 class Blocks:
@@ -175,10 +177,13 @@ class Blocks:
 
         def has_room(x, y):
             """A disc within the disc, as a quick look."""
-            return all(near_square((x, y), e) >= least for edges in near for e in edges)
+            return all(near_square((x, y), e) >= least for e in edges)
+        edges = sorted({e for own in near for e in own})
         segments = sorted(segments)
-        ends = {p for s in segments for p in s}
+        if len(segments) > MANY_PLACES:
+            segments = [part for s in segments for part in with_room(s, p, q, edges, least, HALVINGS)]
         demand(len(segments) ** 2 <= TOO_MANY * 40, "whether the overlap of", a, "and", b, "is thin is not decided")
+        ends = {end for s in segments for end in s}
         if any(has_room(*at) and fits(disc, at, p, q) for at in ends):
             return True
         boxes = [plane.edge_box(s) for s in segments]
@@ -189,6 +194,21 @@ class Blocks:
                     if at is not None and has_room(*at) and fits(disc, at, p, q):
                         return True
         return False
+
+
+def with_room(segment, p, q, edges, least, halvings):
+    """Of a segment of places of the disc what a quick look leaves: parts inside p and q that are not all nearer to one of the edges than
+    the root of `least`. edges: of p and q, all that are where the two have places in common."""
+    if any(all(near_square(end, e) < least for end in segment) for e in edges):
+        return
+    if not halvings or all(plane.edges_square(segment, e) >= least for e in edges):
+        if any(all(plane.locate(o, end) > 0 for o in (p, q)) for end in segment) or any(plane.edges_meet(segment, e) for e in edges):
+            yield segment
+        return
+    (ax, ay), (bx, by) = segment
+    middle = Fraction(ax + bx) / 2, Fraction(ay + by) / 2
+    for part in ((segment[0], middle), (middle, segment[1])):
+        yield from with_room(part, p, q, edges, least, halvings - 1)
 
 
 def near_square(p, e):

@@ -127,7 +127,7 @@ class Problem:
         self.attributes = {fid: f[0] for fid, f in layer.features.items()}
         self.place = {fid: k for k, fid in enumerate(layer.features)}
         self.skipped = self.ignored | {fid for fid, thing in self.things.items() if not any(o.area for o in thing.outlines)}
-        self.owed, self.fixed = {}, fixed
+        self.owed, self.fixed, self.limits = {}, fixed, {}
         self.pairs, self.wholes = set(), {}
         self.listed = {}  # pairs: the kinds of their conflicts
         self.stood = {}   # pairs: see how_it_stood()
@@ -200,6 +200,11 @@ class Problem:
 
     def body_limit(self, fids):
         """Of a block, or of a barrier."""
+        if fids not in self.limits:
+            self.limits[fids] = self.least_limit(fids)
+        return self.limits[fids]
+
+    def least_limit(self, fids):
         limits = [v for v in map(self.limit, fids) if v is not None]
         return min(limits) if limits else None
 

@@ -230,6 +230,27 @@ assert corners_of((0, 0, 3, 3), (3, 3, 5, 5)) == [[4], [4]]  # a corner
 assert corners_of((0, 0, 3, 1), (0, 0, 1, 3), (2, 0, 3, 3), (0, 2, 3, 3)) == [[4, 4]]  # a yard
 END
 
+# Whether an overlap is thin: the same if places of the disc that have no room are left out before.
+PYTHONPATH=$here python3 - <<'END' || fail "thin overlaps"
+from math import cos, sin
+from random import Random
+import blocks, check_proof
+from drafts import ring, write_layer
+r, told, fits = Random(4), set(), blocks.Blocks.disc_fits_at_a_corner
+def both(*asked):
+    found = []
+    for blocks.MANY_PLACES in (0, 1500): found.append(fits(*asked))
+    assert found[0] == found[1]
+    told.add(found[0])
+    return found[0]
+def quarters(x, y): return ring(*[(x + 6 * cos(a), y + 6 * sin(a)) for a in sorted(r.uniform(0, 6.28) for _ in range(4))])
+blocks.Blocks.disc_fits_at_a_corner, blocks.proposed = both, lambda *_: ()
+for k in range(12):
+    write_layer("thin.gpkg", "buildings", {1: quarters(0, 0), 2: quarters(r.uniform(3, 8), r.uniform(-4, 4))})
+    check_proof.Checker(check_proof.read_options(["x", "thin.gpkg", "--gap", "19", "--touch-tolerance", str(r.choice([0.7, 1.2, 2.5]))]))
+assert told == {False, True}
+END
+
 # Whether one lies in another up to the tolerance, by the last digit of a corner of what that is grown to: as it is, and one unit beyond.
 make_hanging at
 make_hanging beyond
