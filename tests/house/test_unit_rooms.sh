@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Unit tests lie in folders named like the rooms of src/, and each is named for the file that it asks about: number/test_big.c
 # for number/big.c. What follows the name, as in displacement/test_separate_layer_memory.c, says which question it asks. Files
-# at the top ask the whole library.
+# at the top ask the whole library. A list of tests by name names unit tests that are there.
 set -euo pipefail
 cd "${SUNDER_SOURCE:?}/tests/unit"
 tests=0 wrong=0
@@ -15,5 +15,11 @@ while read -r file; do
         wrong=$((wrong + 1))
     fi
 done < <(find . -mindepth 2 -name '*.c' | sed 's|^\./||' | sort)
+while read -r name; do
+    if [[ ! -f ../$name.c ]]; then
+        echo "there is no tests/$name.c, which tests/CMakeLists.txt or tests/compilers/test_big_endian.sh names"
+        wrong=$((wrong + 1))
+    fi
+done < <(grep -ohE '\bunit/[a-z_0-9/]*\btest_[a-z_0-9]+' ../CMakeLists.txt ../compilers/test_big_endian.sh | sort -u)
 ((tests > 80)) || { echo "only $tests unit tests were found"; exit 1; }
 exit $((wrong > 0))
