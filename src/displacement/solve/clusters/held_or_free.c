@@ -112,11 +112,6 @@ static tally *tally_of(const comparing *c, const sunder_i_id_pair *pair)
     return &c->of[sunder_i_union_find(c->root, c->solver->model.body[pair->a].fixed ? pair->b : pair->a)];
 }
 
-static double cost_of(const sunder_i_body *body, const double t[2])
-{
-    return body->weight * (t[0] * t[0] + t[1] * t[1]);
-}
-
 static bool is_thrown(const comparing *c, uint32_t b)
 {
     const sunder_i_model *model = &c->solver->model;
@@ -148,8 +143,8 @@ static void compare_layouts(const comparing *c, const sunder_i_id_pair *now, siz
         const sunder_i_body *body = &model->body[b];
         tally *of = &c->of[sunder_i_union_find(c->root, b)];
         if (body->fixed) continue;
-        of->held_cost += cost_of(body, c->held->move + 2 * (size_t)b);
-        of->free_cost += cost_of(body, model->move + 2 * (size_t)b);
+        of->held_cost += sunder_i_move_cost(body, c->held->move + 2 * (size_t)b);
+        of->free_cost += sunder_i_move_cost(body, model->move + 2 * (size_t)b);
         of->was_held = of->was_held || c->held->held[b];
         of->breaks = of->breaks || is_thrown(c, b) || is_bent(c, b);
     }

@@ -94,9 +94,8 @@ static bool costs_more_than_limits(const sunder_i_solver *s, const sunder_i_clus
     for (size_t k = 0; k < c->n; k++) {
         const uint32_t b = c->body[k];
         const sunder_i_body *body = &s->model.body[b];
-        const double *t = s->model.move + 2 * (size_t)b;
         if (body->fixed) continue;
-        cost += body->weight * (t[0] * t[0] + t[1] * t[1]);
+        cost += sunder_i_move_cost(body, s->model.move + 2 * (size_t)b);
         most += body->weight * s->limit[b] * s->limit[b];
     }
     return cost > most;

@@ -93,6 +93,12 @@ typedef struct sunder_i_solver {
 /* NULL, or what is wrong with the states of bodies between two stages. In builds that assert. */
 const char *sunder_i_solver_check_states(const sunder_i_solver *solver);
 
+/* The cost of a body's move t. */
+static inline double sunder_i_move_cost(const sunder_i_body *body, const double t[2])
+{
+    return body->weight * (t[0] * t[0] + t[1] * t[1]);
+}
+
 /* A property of a body. */
 typedef bool (*sunder_i_body_test)(const sunder_i_solver *solver, uint32_t body);
 

@@ -192,8 +192,7 @@ static sunder_status demand_margin(sunder_i_solver *s, const sunder_i_relation *
 
 static double cost_of(const sunder_i_solver *s, uint32_t b)
 {
-    const double *t = s->model.move + 2 * (size_t)b;
-    return s->model.body[b].weight * (t[0] * t[0] + t[1] * t[1]);
+    return sunder_i_move_cost(&s->model.body[b], s->model.move + 2 * (size_t)b);
 }
 
 /* Pins the body of the two that can move and has the cheaper move. (If neither has moved, which cannot happen, either

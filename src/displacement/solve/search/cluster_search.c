@@ -132,3 +132,12 @@ uint32_t sunder_i_search_place_of(const sunder_i_search *search, uint32_t body)
     }
     return SUNDER_I_NOBODY;
 }
+
+void sunder_i_search_path_box(const sunder_i_search *search, const double *t, uint32_t k, double box[4])
+{
+    const sunder_i_body *b = &search->model->body[search->body[k]], *first = &search->model->body[search->body[0]];
+    for (uint32_t c = 0; c < 4; c++) {
+        const double home = b->box[c] + (b->origin[c & 1] - first->origin[c & 1]), at = t[2 * k + (c & 1)];
+        box[c] = home + (c < 2 ? sunder_i_min(at, 0) : sunder_i_max(at, 0));
+    }
+}

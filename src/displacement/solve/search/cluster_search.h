@@ -87,6 +87,9 @@ double sunder_i_search_excess(const sunder_i_search *search, uint32_t i, const d
 size_t sunder_i_search_movers(const sunder_i_search *search);
 /* The index in the search of a body of the model, or SUNDER_I_NOBODY. */
 uint32_t sunder_i_search_place_of(const sunder_i_search *search, uint32_t body);
+/* The box of body k's straight path from home to t, relative to the first body's origin, so that the layer's position
+ * does not matter. */
+void sunder_i_search_path_box(const sunder_i_search *search, const double *t, uint32_t k, double box[4]);
 /* The cost of the moves t: the sum of weight times squared move. */
 double sunder_i_search_cost(const sunder_i_search *search, const double *t);
 

@@ -123,16 +123,6 @@ void sunder_i_search_visit_shadows(sunder_i_search *search, const sunder_i_body 
 
 /* ---- Which bodies may have passed which -------------------------------------------------------------------------- */
 
-/* The box that contains body k at home and at t, relative to the first body's origin. */
-static void box_of_body(const sunder_i_search *s, const double *t, uint32_t k, double box[4])
-{
-    const sunder_i_body *b = &s->model->body[s->body[k]], *first = &s->model->body[s->body[0]];
-    for (uint32_t c = 0; c < 4; c++) {
-        const double home = b->box[c] + (b->origin[c & 1] - first->origin[c & 1]), at = t[2 * k + (c & 1)];
-        box[c] = home + (c < 2 ? sunder_i_min(at, 0) : sunder_i_max(at, 0));
-    }
-}
-
 /* Are the boxes of the two bodies at t within `reach` of each other? */
 static bool are_near(const sunder_i_search *s, const double *t, uint32_t i, uint32_t j, double reach)
 {
@@ -216,7 +206,7 @@ void sunder_i_search_visit_passing(sunder_i_search *search, const double *t, dou
     size_t n = 0;
     for (uint32_t k = 0; k < search->n; k++) {
         if (length_of(t, k) + most < least) continue;
-        box_of_body(search, t, k, list[n].box);
+        sunder_i_search_path_box(search, t, k, list[n].box);
         list[n++].body = k;
     }
     sunder_i_sort_few(list, n, sizeof *list, by_left);

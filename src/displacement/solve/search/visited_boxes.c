@@ -6,20 +6,7 @@
 #include "displacement/solve/search/search_stages.h"
 #include "displacement/solve/search/tuning.h"
 
-#include "base/extremes.h"
-
 #include <string.h>
-
-/* The box of the straight path of body k, relative to the first body's origin, so that the layer's position does not
- * matter. */
-static void box_of_path(const sunder_i_search *s, uint32_t k, double box[4])
-{
-    const sunder_i_body *b = &s->model->body[s->body[k]], *first = &s->model->body[s->body[0]];
-    for (uint32_t c = 0; c < 4; c++) {
-        const double home = b->box[c] + (b->origin[c & 1] - first->origin[c & 1]), at = s->t[2 * k + (c & 1)];
-        box[c] = home + (c < 2 ? sunder_i_min(at, 0) : sunder_i_max(at, 0));
-    }
-}
 
 static bool build_index(sunder_i_search *s)
 {
@@ -28,7 +15,7 @@ static bool build_index(sunder_i_search *s)
     bool ok = box && present;
     sunder_i_rtree_free(&s->visited);
     for (uint32_t k = 0; ok && k < s->n; k++) {
-        box_of_path(s, k, box + 4 * (size_t)k);
+        sunder_i_search_path_box(s, s->t, k, box + 4 * (size_t)k);
         present[k] = s->model->body[s->body[k]].pieces > 0;
     }
     ok = ok && sunder_i_rtree_build(box, present, s->n, &s->visited, NULL) == SUNDER_OK;
@@ -50,7 +37,7 @@ static bool bring_up_to_date(sunder_i_search *s)
         double box[4];
         if (memcmp(s->visited_at + 2 * k, s->t + 2 * k, 2 * sizeof *s->visited_at) == 0) continue;
         memcpy(s->visited_at + 2 * k, s->t + 2 * k, 2 * sizeof *s->visited_at);
-        box_of_path(s, k, box);
+        sunder_i_search_path_box(s, s->t, k, box);
         if (s->model->body[s->body[k]].pieces) sunder_i_rtree_move(&s->visited, k, box);
     }
     return !sunder_i_rtree_is_worn(&s->visited) || build_index(s);
