@@ -193,8 +193,21 @@ static void check_checker(void **state)
     sunder_i_body_states_free(&s.states);
 }
 
+/* States that exist are kept: bodies are held before and after the solver's other arrays are made. */
+static void check_second_init(void **state)
+{
+    (void)state;
+    sunder_i_body_states states = {0};
+    assert_true(sunder_i_body_states_init(&states, BODIES));
+    sunder_i_body_event(&states, 1, SUNDER_I_IS_HELD);
+    assert_true(sunder_i_body_states_init(&states, BODIES));
+    assert_int_equal(states.of[SUNDER_I_HOLDING][1], SUNDER_I_HELD);
+    sunder_i_body_states_free(&states);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(check_events), cmocka_unit_test(check_checker)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(check_events), cmocka_unit_test(check_checker),
+                                       cmocka_unit_test(check_second_init)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
