@@ -97,27 +97,64 @@ static sunder_status find_components(sunder_i_solver *s, components *out, sunder
 
 /* ---- Looking again ----------------------------------------------------------------------------------------------- */
 
+/* The question about a component: its bodies and those that the search found it to hang together with, ascending. Several
+ * components of one cluster can have the same question, which is asked once, for the first of them. */
+typedef struct question {
+    sunder_i_list body; /* empty: the component is not asked about */
+    size_t first;       /* the component whose question, and decision, this is */
+} question;
+
 typedef struct asking {
     const sunder_i_solver *solver;
     const component *component;
-    const bool *asked; /* [components] is it asked about? */
+    const question *question; /* [components] */
     const sunder_i_requirement *required;
     size_t required_n;
-    sunder_i_decision *decision;
+    sunder_i_decision *decision; /* [components] of those that are first */
 } asking;
 
-/* Lists the bodies of the component and of the cluster that its root is in now, ascending. */
-static sunder_status gather_bodies(const sunder_i_solver *s, const component *c, uint32_t **body, size_t *n,
-                                   sunder_error *err)
+/* Lists the bodies of the component and of the cluster that its root is in now, ascending. Returns false if memory is
+ * out. */
+static bool gather_bodies(const sunder_i_solver *s, const component *c, sunder_i_list *body)
 {
     size_t more;
     const uint32_t *member = sunder_i_solver_members(s, sunder_i_union_find(s->parent, c->root), &more);
-    *body = sunder_i_alloc(c->bodies + more, sizeof **body);
-    if (!*body) return sunder_i_failure_cause(err);
-    memcpy(*body, c->body, c->bodies * sizeof **body);
-    if (more) memcpy(*body + c->bodies, member, more * sizeof **body);
-    *n = sunder_i_set_make(*body, c->bodies + more);
-    return SUNDER_OK;
+    bool ok = true;
+    for (size_t k = 0; k < c->bodies && ok; k++) ok = sunder_i_list_push(body, c->body[k]);
+    for (size_t k = 0; k < more && ok; k++) ok = sunder_i_list_push(body, member[k]);
+    body->n = sunder_i_set_make(body->item, body->n);
+    return ok;
+}
+
+static bool are_alike(const sunder_i_list *a, const sunder_i_list *b)
+{
+    return a->n == b->n && memcmp(a->item, b->item, a->n * sizeof *a->item) == 0;
+}
+
+/* Makes the questions about the components that are asked about. Returns false if memory is out. */
+static bool make_questions(const sunder_i_solver *s, const components *all, const bool *asked, question *out)
+{
+    /* The last component of each cluster, plus one, that has a question of its own. */
+    size_t *last = sunder_i_calloc(s->model.bodies, sizeof *last);
+    bool ok = last != NULL;
+    for (size_t k = 0; k < all->n && ok; k++) {
+        out[k].first = k;
+        if (!asked[k]) continue;
+        ok = gather_bodies(s, &all->component[k], &out[k].body);
+        size_t *of_cluster = &last[sunder_i_union_find(s->parent, all->component[k].root)];
+        if (ok && *of_cluster && are_alike(&out[*of_cluster - 1].body, &out[k].body))
+            out[k].first = *of_cluster - 1;
+        else
+            *of_cluster = k + 1;
+    }
+    sunder_i_free(last);
+    return ok;
+}
+
+static void free_questions(question *list, size_t n)
+{
+    for (size_t k = 0; k < n && list; k++) sunder_i_free(list[k].body.item);
+    sunder_i_free(list);
 }
 
 static sunder_status decide_some(void *context, size_t begin, size_t end, sunder_error *err)
@@ -125,27 +162,23 @@ static sunder_status decide_some(void *context, size_t begin, size_t end, sunder
     const asking *g = context;
     sunder_status status = SUNDER_OK;
     for (size_t k = begin; k < end && !status; k++) {
-        const component *c = &g->component[k];
-        uint32_t *body = NULL;
-        size_t n = 0;
-        if (!g->asked[k]) continue;
-        status = gather_bodies(g->solver, c, &body, &n, err);
+        const sunder_i_list *body = &g->question[k].body;
+        if (!body->n || g->question[k].first != k) continue;
         const sunder_i_subproblem subproblem = {.model = &g->solver->model,
-                                                .body = body,
-                                                .bodies = n,
+                                                .body = body->item,
+                                                .bodies = body->n,
                                                 .a = SUNDER_I_NOBODY,
                                                 .b = SUNDER_I_NOBODY,
                                                 .required = g->required,
                                                 .required_n = g->required_n,
                                                 /* the plane finds proofs only, and a solution is looked for */
                                                 .no_plane = true,
-                                                .effort = EFFORT * (uint64_t)n,
+                                                .effort = EFFORT * (uint64_t)body->n,
                                                 .most = MOST_BODIES};
         sunder_i_reading reading;
-        sunder_i_reads_begin(&reading, subproblem.model, c->root);
-        if (!status) status = sunder_i_decide(&subproblem, &g->decision[k], err);
+        sunder_i_reads_begin(&reading, subproblem.model, g->component[k].root);
+        status = sunder_i_decide(&subproblem, &g->decision[k], err);
         sunder_i_reads_end(&reading);
-        sunder_i_free(body);
     }
     return status;
 }
@@ -235,7 +268,7 @@ static bool take_solution(sunder_i_solver *s, const component *c, const sunder_i
 }
 
 /* Traces the verdict. The line names all bodies that took part, since the component alone may well have a solution. */
-static sunder_status trace_verdict(const sunder_i_solver *s, const component *c, sunder_i_verdict verdict,
+static sunder_status trace_verdict(const sunder_i_solver *s, const question *q, sunder_i_verdict verdict,
                                    sunder_error *err)
 {
     if (!sunder_i_is_traced(&s->model)) return SUNDER_OK;
@@ -243,12 +276,7 @@ static sunder_status trace_verdict(const sunder_i_solver *s, const component *c,
                           : verdict == SUNDER_I_INFEASIBLE ? "proved: no solution of all pairs"
                                                            : "undecided within the budget";
     const sunder_i_trace_step step = {"branch and bound", outcome, NAN, NAN};
-    uint32_t *body = NULL;
-    size_t n = 0;
-    sunder_status status = gather_bodies(s, c, &body, &n, err);
-    if (!status) status = sunder_i_trace_emit(&s->model, "cluster", &step, body, n, err);
-    sunder_i_free(body);
-    return status;
+    return sunder_i_trace_emit(&s->model, "cluster", &step, q->body.item, q->body.n, err);
 }
 
 sunder_status sunder_i_solver_reconsider(sunder_i_solver *solver, bool *changed, sunder_error *err)
@@ -261,23 +289,29 @@ sunder_status sunder_i_solver_reconsider(sunder_i_solver *solver, bool *changed,
     bool *asked = sunder_i_calloc(all.n, sizeof *asked);
     sunder_i_decision *decision = sunder_i_calloc(all.n, sizeof *decision);
     sunder_i_requirement *required = sunder_i_alloc(solver->model.relaxations.n, sizeof *required);
-    if (!status && (!asked || !decision || !required)) status = sunder_i_failure_cause(err);
+    question *question_of = sunder_i_calloc(all.n, sizeof *question_of);
+    if (!status && (!asked || !decision || !required || !question_of)) status = sunder_i_failure_cause(err);
     if (!status) status = mark_asked(solver, &all, asked, err);
+    if (!status && !make_questions(solver, &all, asked, question_of)) status = sunder_i_failure_cause(err);
     if (!status) {
-        asking g = {solver, all.component, asked, required, list_requirements(&solver->model, required), decision};
+        asking g = {solver,  all.component, question_of, required, list_requirements(&solver->model, required),
+                    decision};
         status = sunder_i_parallel(solver->model.rules.threads, all.n, SUNDER_I_GRAIN_WHOLE, decide_some, &g, err);
     }
     if (!status) sunder_i_changes_clear(&solver->changes);
     for (size_t k = 0; k < all.n && !status; k++) {
-        if (asked[k]) status = trace_verdict(solver, &all.component[k], decision[k].verdict, err);
-        if (decision[k].verdict != SUNDER_I_FEASIBLE) {
+        const question *q = &question_of[k];
+        const sunder_i_decision *told = &decision[q->first];
+        if (asked[k] && q->first == k) status = trace_verdict(solver, q, told->verdict, err);
+        if (told->verdict != SUNDER_I_FEASIBLE) {
             if (asked[k]) sunder_i_body_event(&solver->states, all.component[k].root, SUNDER_I_IS_ASKED_IN_VAIN);
             continue;
         }
         *changed = true;
-        if (!take_solution(solver, &all.component[k], &decision[k].solution)) status = sunder_i_failure_cause(err);
+        if (!take_solution(solver, &all.component[k], &told->solution)) status = sunder_i_failure_cause(err);
     }
     for (size_t k = 0; k < all.n && decision; k++) sunder_i_decision_clear(&decision[k]);
+    free_questions(question_of, all.n);
     sunder_i_free(asked);
     sunder_i_free(decision);
     sunder_i_free(required);
