@@ -634,6 +634,9 @@ typedef struct sunder_conflict {
     /* For an unresolved one, proved: the pairs of its two features and those of blocked_by, listed or not, cannot all
      * be solved together, whatever else remains. So some of these have to remain, though it need not be this one. */
     bool crowded;
+    /* An upper bound, which is proved, of the gaps with such a solution: the gap asked for where nothing is proved, and
+     * NAN where need_gap is. For most conflicts it exceeds need_gap by at most a hundredth of the gap asked for. */
+    double need_gap_most;
 } sunder_conflict;
 
 typedef struct sunder_conflict_counts {

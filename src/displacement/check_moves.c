@@ -47,8 +47,14 @@ static void clear_comparison(comparison *c)
 static sunder_conflict *add_conflict(comparison *c, sunder_conflict_kind kind, size_t a, size_t b)
 {
     if (!sunder_i_reserve(&c->found, &c->capacity, c->n + 1, sizeof *c->found)) return NULL;
-    c->found[c->n] = (sunder_conflict){
-        .a = a, .b = b, .kind = kind, .missing = NAN, .need_shift = NAN, .need_gap = NAN, .need_gone = SIZE_MAX};
+    c->found[c->n] = (sunder_conflict){.a = a,
+                                       .b = b,
+                                       .kind = kind,
+                                       .missing = NAN,
+                                       .need_shift = NAN,
+                                       .need_gap = NAN,
+                                       .need_gone = SIZE_MAX,
+                                       .need_gap_most = NAN};
     return &c->found[c->n++];
 }
 

@@ -124,26 +124,25 @@ static sunder_status look_for_proof(sunder_i_solver *s, const sunder_i_spared *l
  * pair is given up, and no layout is improved. (If a contained feature has to leave its holder, this is found out only
  * by a search that fails, so work does not end then.) */
 static sunder_status answer_question(const sunder_layer *layer, const sunder_layer_options *options,
-                                     const sunder_i_id_pair *pair, size_t n, sunder_i_proof_found *proof,
-                                     sunder_i_solver *s, sunder_error *err)
+                                     const sunder_i_spared *spared, sunder_i_proof_found *proof, sunder_i_solver *s,
+                                     sunder_error *err)
 {
-    const sunder_i_spared list = {pair, n};
     sunder_report *report = NULL;
     sunder_status status = read_layer(s, layer, options, TO_ANSWER, &report, err);
     sunder_report_free(report);
-    if (!status && *proof == SUNDER_I_PROOF_LATER) return prepare_for_proofs(s, &list, err);
-    if (!status) status = sunder_i_solver_find_infeasible(s, &list, err);
+    if (!status && *proof == SUNDER_I_PROOF_LATER) return prepare_for_proofs(s, spared, err);
+    if (!status) status = sunder_i_solver_find_infeasible(s, spared, err);
     if (status) return status;
     s->refuted = options->gap;
     s->brief = s->model.inclusions == 0;
-    s->hopeless = s->brief && sunder_i_solver_is_beyond_limits(s, &list);
+    s->hopeless = s->brief && sunder_i_solver_is_beyond_limits(s, spared);
     if (s->hopeless) return SUNDER_OK;
-    status = sunder_i_solver_spare(s, &list, err);
+    status = sunder_i_solver_spare(s, spared, err);
     if (!status) status = prepare_search(s, err);
     /* Preparation may find that the two are shut in. */
-    s->hopeless = s->brief && sunder_i_solver_is_beyond_limits(s, &list);
+    s->hopeless = s->brief && sunder_i_solver_is_beyond_limits(s, spared);
     if (!status && s->brief && !s->hopeless && *proof == SUNDER_I_PROOF_WANTED)
-        status = look_for_proof(s, &list, proof, err);
+        status = look_for_proof(s, spared, proof, err);
     if (!status && !s->hopeless) status = sunder_i_solver_move_inside(s, err);
     if (!status && !s->hopeless) status = sunder_i_solver_choose_holders(s, err);
     if (!status && !s->hopeless) status = sunder_i_solver_settle(s, 0, 1, err);

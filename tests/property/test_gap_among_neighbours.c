@@ -1,7 +1,7 @@
-/* The gap that a conflict among neighbours is said to do with, against the largest one that there is: rows of tall
- * boxes between two walls, which limits let go along the row alone. Along a row the largest gap is a sum: with it the
- * pair that is asked about and all that are not listed keep it, and each that is listed stands no worse than it stood.
- */
+/* The interval that a conflict's largest gap is said to be in, need_gap to need_gap_most, against that gap: rows of
+ * tall boxes between two walls, which limits let go along the row alone. Along a row the largest gap is a sum: with it
+ * the pair that is asked about and all that are not listed keep it, and each that is listed stands no worse than it
+ * stood. / */
 #include "random.h"
 #include "scene.h"
 
@@ -92,12 +92,14 @@ static bool is_right(uint64_t i, size_t *asked)
         const double most = largest_gap(&r, pair, false), of_all = n == 2 ? largest_gap(&r, pair, true) : -1,
                      least = (of_all >= 0 ? of_all : most) - r.gap / 100;
         ++*asked;
-        const bool well = most < 0 ? isnan(c[k].need_gap)
-                                   : c[k].need_gap >= least - 1e-9 && c[k].need_gap <= most * (1 + 1e-9) + 1e-12;
+        const double told = c[k].need_gap, above = c[k].need_gap_most;
+        const bool well = most < 0 ? isnan(told)
+                                   : told >= least - 1e-9 && told <= most * (1 + 1e-9) + 1e-12 && above >= told &&
+                                         above <= told + r.gap / 100 && above >= least + r.gap / 100 - 1e-9;
         if (!well)
-            print_message(
-                "case %llu, boxes %zu and %zu: gap %.17g, need_gap %.17g, the largest is %.17g (of all %.17g)\n",
-                (unsigned long long)i, pair, pair + 1, r.gap, c[k].need_gap, most, of_all);
+            print_message("case %llu, boxes %zu and %zu: gap %.17g, need_gap %.17g to %.17g, the largest is %.17g (of "
+                          "all %.17g)\n",
+                          (unsigned long long)i, pair, pair + 1, r.gap, told, above, most, of_all);
         right = right && well;
     }
     scene_end(&s);

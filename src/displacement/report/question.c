@@ -400,6 +400,56 @@ static sunder_status make_layer(const sunder_i_questions *g, const sunder_i_surr
     return status ? status : set_barriers(g->solver, a, what->gone, *layer, err);
 }
 
+/* The names of a layer's features and barriers for the memo of relaxations: their numbers in the whole layer, where
+ * they stand as they do there at the start. NULL if memory is out. */
+static uint32_t *make_names(const sunder_i_questions *g, const sunder_i_surroundings *a, uint32_t gone)
+{
+    uint32_t *name = sunder_i_alloc(a->feature.n + a->part.n, sizeof *name);
+    if (!name) return NULL;
+    for (size_t k = 0; k < a->feature.n; k++) name[k] = a->standing[k] ? SUNDER_I_NOBODY : a->feature.item[k];
+    for (size_t k = 0, n = a->feature.n; k < a->part.n; k++)
+        if (sunder_i_whole_of(&g->solver->model, a->part.item[k]) != gone) name[n++] = a->part.item[k];
+    return name;
+}
+
+/* How the pair of features a < b stood at the start of the whole layer, as a clearance. */
+static sunder_status find_how_stood(const sunder_i_questions *g, uint32_t a, uint32_t b, double *clearance,
+                                    sunder_error *err)
+{
+    sunder_i_requirement_memo *memo = g->stood;
+    sunder_i_requirement found = {.a = a, .b = b};
+    const size_t at = sunder_i_lower_bound(&found, memo->item, memo->n, sizeof found, sunder_i_by_id_pair);
+    if (at < memo->n && sunder_i_by_id_pair(&found, &memo->item[at]) == 0) {
+        *clearance = memo->item[at].clearance;
+        return SUNDER_OK;
+    }
+    const sunder_status status = sunder_i_requirement_find(&g->solver->model, &g->solver->start, a, b, &found, err);
+    if (status) return status;
+    if (!sunder_i_reserve(&memo->item, &memo->capacity, memo->n + 1, sizeof found)) return sunder_i_failure_cause(err);
+    memmove(memo->item + at + 1, memo->item + at, (memo->n++ - at) * sizeof found);
+    memo->item[at] = found;
+    *clearance = found.clearance;
+    return SUNDER_OK;
+}
+
+/* What proofs hold the spared pairs to. A feature that stands and moved is elsewhere in this layer than at the start of
+ * the whole one: a pair of it may stand no worse than it stood there. */
+static sunder_status find_held(const sunder_i_questions *g, const sunder_i_surroundings *a,
+                               const sunder_i_id_pair *spared, size_t n, double **held, sunder_error *err)
+{
+    sunder_status status = SUNDER_OK;
+    *held = sunder_i_alloc(n, sizeof **held);
+    if (!*held) return sunder_i_failure_cause(err);
+    for (size_t k = 0; k < n && !status; k++) {
+        const uint32_t p = spared[k].a, q = spared[k].b;
+        (*held)[k] = NAN;
+        if (q >= a->feature.n || (!a->standing[p] && !a->standing[q])) continue;
+        const uint32_t f = a->feature.item[p], other = a->feature.item[q];
+        status = find_how_stood(g, f < other ? f : other, f < other ? other : f, &(*held)[k], err);
+    }
+    return status;
+}
+
 /* Returns the options with which the small layer is solved. */
 static sunder_layer_options options_for(const sunder_i_questions *g, double gap)
 {
@@ -418,15 +468,18 @@ static sunder_status ask_sparing(const sunder_i_questions *g, const sunder_i_sur
                                  const sunder_i_supposition *what, const sunder_i_id_pair *spared, size_t n,
                                  sunder_i_patience *proof, sunder_i_answer *answer, sunder_error *err)
 {
-    sunder_i_proof_found found = sunder_i_patience_asks(proof) ? SUNDER_I_PROOF_WANTED : SUNDER_I_PROOF_UNASKED;
+    const bool wanted = proof && sunder_i_patience_asks(proof);
+    sunder_i_proof_found found = wanted ? SUNDER_I_PROOF_WANTED : SUNDER_I_PROOF_UNASKED;
     const sunder_layer_options options = options_for(g, what->gap);
     sunder_i_solver x = {0};
     sunder_layer *layer = NULL;
     bool jumps = false;
+    uint32_t *name = make_names(g, a, what->gone);
     *answer = (sunder_i_answer){.refuted = what->gap};
-    sunder_status status = make_layer(g, a, what, &layer, err);
+    sunder_status status = name ? make_layer(g, a, what, &layer, err) : sunder_i_failure_cause(err);
+    const sunder_i_spared list = {spared, n, g->memo, name, NULL};
     if (!status) {
-        status = g->solve(layer, &options, spared, n, &found, &x, err);
+        status = g->solve(layer, &options, &list, &found, &x, err);
         if (!status) status = is_solved(g, a, c, &x, what, &answer->yes, &answer->longest, err);
         if (!status && answer->yes) status = find_jump(g, a, &x, what->gone, &jumps, err);
         answer->yes = answer->yes && !jumps;
@@ -434,6 +487,7 @@ static sunder_status ask_sparing(const sunder_i_questions *g, const sunder_i_sur
         sunder_i_solver_free(&x);
     }
     sunder_layer_free(layer);
+    sunder_i_free(name);
     /* A question with a solution does not count as a failed attempt to prove that there is none. */
     if (found == SUNDER_I_PROOF_FOUND || (found == SUNDER_I_PROOF_IN_VAIN && !answer->yes))
         sunder_i_patience_note(proof, found == SUNDER_I_PROOF_FOUND);
@@ -475,19 +529,23 @@ sunder_status sunder_i_ask(const sunder_i_questions *questions, const sunder_i_s
 
 sunder_status sunder_i_foresight_init(sunder_i_foresight *foresight, const sunder_i_questions *questions,
                                       const sunder_i_surroundings *surroundings, const sunder_conflict *conflict,
-                                      bool all, sunder_error *err)
+                                      double limit, sunder_error *err)
 {
     sunder_i_foresight *f = foresight;
-    const sunder_i_supposition what = {.gap = questions->options->gap, .gone = SUNDER_I_NOBODY};
+    const sunder_i_supposition what = {.limit = limit, .gap = questions->options->gap, .gone = SUNDER_I_NOBODY};
     const sunder_layer_options options = options_for(questions, what.gap);
     sunder_i_proof_found later = SUNDER_I_PROOF_LATER;
     *f = (sunder_i_foresight){.questions = questions, .about = surroundings};
     if (!list_spared(questions, surroundings, conflict, SUNDER_I_NOBODY, &f->spared, &f->n))
         return sunder_i_failure_cause(err);
-    if (all && f->n <= NEED_ALL) f->n = 0;
-    sunder_status status = make_layer(questions, surroundings, &what, &f->layer, err);
-    if (!status) status = questions->solve(f->layer, &options, f->spared, f->n, &later, &f->solver, err);
+    f->name = make_names(questions, surroundings, SUNDER_I_NOBODY);
+    sunder_status status =
+        f->name ? make_layer(questions, surroundings, &what, &f->layer, err) : sunder_i_failure_cause(err);
+    if (!status) status = find_held(questions, surroundings, f->spared, f->n, &f->held, err);
+    const sunder_i_spared spared = {f->spared, f->n, questions->memo, f->name, f->held};
+    if (!status) status = questions->solve(f->layer, &options, &spared, &later, &f->solver, err);
     if (status) return status;
+    f->hopeless = sunder_i_solver_is_beyond_limits(&f->solver, &spared);
     f->move = sunder_i_calloc(2 * f->solver.model.bodies, sizeof *f->move);
     f->next = sunder_i_calloc(2 * f->solver.model.bodies, sizeof *f->next);
     f->at = sunder_i_calloc(2 * surroundings->feature.n, sizeof *f->at);
@@ -500,9 +558,33 @@ void sunder_i_foresight_clear(sunder_i_foresight *foresight)
     sunder_i_solver_free(&foresight->solver);
     sunder_layer_free(foresight->layer);
     sunder_i_free(foresight->spared);
+    sunder_i_free(foresight->name);
+    sunder_i_free(foresight->held);
     sunder_i_free(foresight->move);
     sunder_i_free(foresight->next);
     sunder_i_free(foresight->at);
+}
+
+/* Sets the limits of the features that move, in a solver of the small layer. */
+static void set_limits(const sunder_i_surroundings *a, sunder_i_solver *x, double limit)
+{
+    for (size_t k = 0; k < x->model.features; k++) {
+        const size_t at = x->layer.number[k];
+        if (at >= a->moving) continue;
+        x->model.body[x->model.body_of[k]].limit = sunder_i_min(sunder_i_max(a->as[at].max_shift, limit), a->farthest);
+    }
+}
+
+void sunder_i_foresight_limit(sunder_i_foresight *foresight, double limit)
+{
+    set_limits(foresight->about, &foresight->solver, limit);
+}
+
+/* The pairs that an answer to `what` may leave as they stood: a few have to be solved, too, if it says so. */
+static sunder_i_spared spared_for(const sunder_i_foresight *f, const sunder_i_supposition *what, bool search)
+{
+    const size_t n = what->all && f->n <= NEED_ALL ? 0 : f->n;
+    return (sunder_i_spared){f->spared, n, f->questions->memo, f->name, search ? NULL : f->held};
 }
 
 /* Lists in `heeded` all features and barriers of the small layer except `gone`. Returns false if memory is out. */
@@ -517,18 +599,29 @@ static bool list_others(const sunder_i_foresight *f, uint32_t gone, sunder_i_lis
     return true;
 }
 
-sunder_status sunder_i_foresee(sunder_i_foresight *foresight, double gap, uint32_t gone, bool in_plane,
-                               sunder_i_verdict *verdict, double *refuted, sunder_error *err)
+sunder_status sunder_i_foresee(sunder_i_foresight *foresight, const sunder_i_supposition *what,
+                               sunder_i_foresight_mode mode, sunder_i_verdict *verdict, double *refuted,
+                               sunder_error *err)
 {
     sunder_i_foresight *f = foresight;
-    const sunder_i_spared list = {f->spared, f->n};
-    const bool all = gone == SUNDER_I_NOBODY;
+    const sunder_i_spared spared = spared_for(f, what, mode == SUNDER_I_FORESEE_SEARCH),
+                          relaxed = {.pair = f->spared, .n = f->n};
+    const bool nobody = what->gone == SUNDER_I_NOBODY;
     sunder_i_list heeded = {0};
-    *refuted = gap;
-    sunder_status status = all || list_others(f, gone, &heeded) ? SUNDER_OK : sunder_i_failure_cause(err);
+    *refuted = what->gap;
+    sunder_status status = nobody || list_others(f, what->gone, &heeded) ? SUNDER_OK : sunder_i_failure_cause(err);
     memset(f->next, 0, 2 * f->solver.model.bodies * sizeof *f->next);
-    const sunder_i_proving how = {&list, all ? NULL : &heeded, &f->planes, &f->precedents, in_plane, f->next};
+    const sunder_i_proving how = {.spared = &spared,
+                                  .relaxed = &relaxed,
+                                  .heeded = nobody ? NULL : &heeded,
+                                  .planes = &f->planes,
+                                  .precedents = &f->precedents,
+                                  .in_plane = mode == SUNDER_I_FORESEE_IN_PLANE,
+                                  .effort = NEED_PROOF_EFFORT,
+                                  .held_margin = mode == SUNDER_I_FORESEE_WITH_ROOM ? NEED_ROOM * what->gap : 0,
+                                  .move = f->next};
     if (!status) status = sunder_i_solver_prove(&f->solver, &how, verdict, refuted, err);
+    if (*verdict == SUNDER_I_INFEASIBLE && mode == SUNDER_I_FORESEE_WITH_ROOM) *verdict = SUNDER_I_UNKNOWN;
     sunder_i_free(heeded.item);
     if (status || *verdict != SUNDER_I_FEASIBLE) return status;
     double *solution = f->next;
@@ -550,24 +643,25 @@ static void carry_over(const sunder_i_foresight *f, const sunder_i_solver *x, do
             move[2 * (size_t)x->model.body_of[k] + e] = of[2 * (size_t)x->layer.number[k] + e] * (1 - NEED_SHORTER);
 }
 
-sunder_status sunder_i_foresight_holds(const sunder_i_foresight *foresight, const sunder_conflict *conflict, double gap,
-                                       bool *yes, sunder_error *err)
+sunder_status sunder_i_foresight_holds(const sunder_i_foresight *foresight, const sunder_conflict *conflict,
+                                       const sunder_i_supposition *what, bool *yes, sunder_error *err)
 {
     const sunder_i_foresight *f = foresight;
     const sunder_i_questions *g = f->questions;
-    const sunder_layer_options options = options_for(g, gap);
-    const sunder_i_supposition what = {.gap = gap, .gone = SUNDER_I_NOBODY};
+    const sunder_layer_options options = options_for(g, what->gap);
+    const sunder_i_spared spared = spared_for(f, what, false);
     sunder_i_proof_found later = SUNDER_I_PROOF_LATER;
     sunder_i_solver x = {0};
     bool jumps = false;
     double longest;
     *yes = false;
-    sunder_status status = g->solve(f->layer, &options, f->spared, f->n, &later, &x, err);
+    sunder_status status = g->solve(f->layer, &options, &spared, &later, &x, err);
+    if (!status) set_limits(f->about, &x, 0);
     double *move = status ? NULL : sunder_i_calloc(2 * x.model.bodies, sizeof *move);
     if (!status && !move) status = sunder_i_failure_cause(err);
     if (!status) carry_over(f, &x, move);
     if (!status) status = sunder_i_solver_place_all(&x, move, yes, err);
-    if (!status && *yes) status = is_solved(g, f->about, conflict, &x, &what, yes, &longest, err);
+    if (!status && *yes) status = is_solved(g, f->about, conflict, &x, what, yes, &longest, err);
     if (!status && *yes) status = find_jump(g, f->about, &x, SUNDER_I_NOBODY, &jumps, err);
     *yes = *yes && !jumps;
     sunder_i_free(move);

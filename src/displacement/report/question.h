@@ -5,6 +5,7 @@
 #include "base/patience.h"
 #include "displacement/prove/proofs/feasibility.h"
 #include "displacement/report/report.h"
+#include "displacement/solve/clusters/cluster_stages.h"
 
 /* The small layer around one conflict. The first `moving` features may move, all others are fixed. */
 typedef struct sunder_i_surroundings {
@@ -18,6 +19,12 @@ typedef struct sunder_i_surroundings {
     double farthest;         /* the longest move that a feature may make in it */
 } sunder_i_surroundings;
 
+/* Requirements of listed pairs of features in the whole layer, sorted. The caller frees the list. All zero: empty. */
+typedef struct sunder_i_requirement_memo {
+    sunder_i_requirement *item;
+    size_t n, capacity;
+} sunder_i_requirement_memo;
+
 typedef struct sunder_i_questions {
     const sunder_i_solver *solver;
     sunder_report *report;
@@ -25,6 +32,10 @@ typedef struct sunder_i_questions {
     sunder_i_solve_layer solve;
     int halvings;  /* how often an interval between a sufficient and an insufficient value is halved */
     size_t leaves; /* how many of the blocking features are removed, one at a time */
+    /* Caches of the cluster at hand: relaxations beside barriers, and how listed pairs of features stood in the whole
+     * layer. */
+    sunder_i_relaxation_memo *memo;
+    sunder_i_requirement_memo *stood;
 } sunder_i_questions;
 
 /* What a question changes: the limit of all movable features, the gap, and a feature or barrier that is removed. */
@@ -37,7 +48,8 @@ typedef struct sunder_i_supposition {
 typedef struct sunder_i_answer {
     bool yes;       /* whether there is a solution */
     double longest; /* the longest move of the solution, if yes */
-    double refuted; /* if not yes: about the least gap that is known to have no solution */
+    bool foreseen;  /* if not yes: whether a proof told so and no search was made */
+    double refuted; /* if not yes: about the least gap for which a search is known to fail */
 } sunder_i_answer;
 
 /* Collects the features and barriers of the small layer around a conflict. The caller calls
@@ -50,21 +62,24 @@ void sunder_i_surroundings_clear(sunder_i_surroundings *surroundings);
 sunder_status sunder_i_few_are_listed(const sunder_i_questions *questions, const sunder_i_surroundings *surroundings,
                                       const sunder_conflict *conflict, bool *few, sunder_error *err);
 /* Answers a question: whether there is a solution. `proof` decides whether a proof that there is none is attempted
- * first, which saves time if it succeeds. */
+ * first, which saves time if it succeeds; NULL: it is not. */
 sunder_status sunder_i_ask(const sunder_i_questions *questions, const sunder_i_surroundings *surroundings,
                            const sunder_conflict *conflict, const sunder_i_supposition *what, sunder_i_patience *proof,
                            sunder_i_answer *answer, sunder_error *err);
 
 /* ---- Proofs about smaller gaps ----------------------------------------------------------------------------------- */
 
-/* The small layer of a question with the layer's gap and limits, which is not solved but only used for proofs that
- * there is no solution with some gap, or without one of its features. Proofs take a small part of the time of solving,
- * and what is computed for one helps the next. */
+/* A small layer about one conflict that is prepared once, with the layer's gap, and not solved. It is used for proofs
+ * about all questions on that conflict: with larger limits, with a smaller gap, without one feature. Proofs take a
+ * small part of the time of solving, and what is computed for one helps the next. */
 typedef struct sunder_i_foresight {
     sunder_layer *layer;
     sunder_i_solver solver;
-    sunder_i_id_pair *spared;
+    sunder_i_id_pair *spared; /* [n] all other listed pairs, sorted */
     size_t n;
+    uint32_t *name; /* of features and barriers of that layer, for the memo */
+    double *held;   /* [n] what proofs hold the pairs to */
+    bool hopeless; /* a pair that has to be solved is proved to have no solution within the limits of init */
     const sunder_i_questions *questions;
     const sunder_i_surroundings *about;
     double *move; /* [2 * bodies] the moves of the last solution in real numbers */
@@ -74,21 +89,36 @@ typedef struct sunder_i_foresight {
     sunder_i_precedents precedents;
 } sunder_i_foresight;
 
-/* Makes the small layer. With `all`, a few other listed pairs may not remain in conflict. The caller calls
- * sunder_i_foresight_clear() even if this fails. */
+typedef enum sunder_i_foresight_mode {
+    SUNDER_I_FORESEE,          /* branch and bound, within NEED_PROOF_EFFORT */
+    SUNDER_I_FORESEE_IN_PLANE, /* only the plane of the pair's relative moves, which takes part of the time and can only
+                                * prove that there is no solution */
+    /* Pairs that may remain in conflict have to stand better than at the start by NEED_ROOM, so that rounding makes
+     * none of them worse. This finds solutions, and proves nothing. */
+    SUNDER_I_FORESEE_WITH_ROOM,
+    /* Whether a search of the small layer can succeed. Such a search demands more than a solution has to fulfil: pairs
+     * that may remain in conflict stand no worse than at the start of the small layer, in which some features stand
+     * where they moved to. */
+    SUNDER_I_FORESEE_SEARCH
+} sunder_i_foresight_mode;
+
+/* Makes the small layer. Each feature that moves may go as far as `limit`, or as its own limit if that is larger. The
+ * caller calls sunder_i_foresight_clear() even if this fails. */
 sunder_status sunder_i_foresight_init(sunder_i_foresight *foresight, const sunder_i_questions *questions,
                                       const sunder_i_surroundings *surroundings, const sunder_conflict *conflict,
-                                      bool all, sunder_error *err);
+                                      double limit, sunder_error *err);
 void sunder_i_foresight_clear(sunder_i_foresight *foresight);
-/* Decides whether the small layer has a solution with this gap: in real numbers, each conflict by itself and up to a
- * small tolerance. If it is proved that there is none, *refuted becomes about the least gap for which that is proved.
- * gone: SUNDER_I_NOBODY, or a feature or barrier to leave out, in the whole layer's numbers. in_plane: examine only the
- * plane of the pair's relative moves, which takes part of the time and can only prove that there is no solution. */
-sunder_status sunder_i_foresee(sunder_i_foresight *foresight, double gap, uint32_t gone, bool in_plane,
-                               sunder_i_verdict *verdict, double *refuted, sunder_error *err);
-/* Sets *yes to whether the last solution in real numbers, with a slightly smaller gap, is a solution in doubles that
- * meets all conditions of a question. */
-sunder_status sunder_i_foresight_holds(const sunder_i_foresight *foresight, const sunder_conflict *conflict, double gap,
-                                       bool *yes, sunder_error *err);
+/* Sets the limits for the next questions in the same way; `limit` is at most the one of sunder_i_foresight_init(). */
+void sunder_i_foresight_limit(sunder_i_foresight *foresight, double limit);
+/* Decides whether the small layer has a solution with what->gap and without what->gone, within the present limits
+ * (what->limit is not used): in real numbers, up to a small tolerance. If it is proved that there is none, *refuted
+ * becomes about the least gap for which that is proved. */
+sunder_status sunder_i_foresee(sunder_i_foresight *foresight, const sunder_i_supposition *what,
+                               sunder_i_foresight_mode mode, sunder_i_verdict *verdict, double *refuted,
+                               sunder_error *err);
+/* Sets *yes to whether the last solution in real numbers is a solution in doubles that meets all conditions of a
+ * question. what->gap is slightly smaller than the gap of that solution. */
+sunder_status sunder_i_foresight_holds(const sunder_i_foresight *foresight, const sunder_conflict *conflict,
+                                       const sunder_i_supposition *what, bool *yes, sunder_error *err);
 
 #endif

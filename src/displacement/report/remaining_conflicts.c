@@ -310,6 +310,7 @@ sunder_status sunder_i_report_conflicts(sunder_report *report, const sunder_i_mo
         report->conflict[k].required = sunder_i_owed_above(model, r.a, r.b);
         report->conflict[k].missing = report->conflict[k].need_shift = report->conflict[k].need_gap = NAN;
         report->conflict[k].need_gone = SIZE_MAX;
+        report->conflict[k].need_gap_most = NAN;
         report->conflict[k].inside_block = is_inside(model, &r);
         report->summary.inside_overlaps += is_inside(model, &r) && r.overlap;
         k++;

@@ -215,11 +215,12 @@ typedef enum sunder_i_proof_found {
     SUNDER_I_PROOF_FOUND
 } sunder_i_proof_found;
 
-/* Solves a small layer up to the point where its report would begin. The n pairs of spared[], sorted, may remain in
- * conflict. *proof says whether a proof is wanted, and becomes the outcome if one was attempted. The caller frees the
- * solver even if this fails. */
+struct sunder_i_spared;
+/* Solves a small layer up to the point where its report would begin. The spared pairs may remain in conflict. *proof
+ * says whether a proof is wanted, and becomes the outcome if one was attempted. The caller frees the solver even if
+ * this fails. */
 typedef sunder_status (*sunder_i_solve_layer)(const sunder_layer *layer, const sunder_layer_options *options,
-                                              const sunder_i_id_pair *spared, size_t n, sunder_i_proof_found *proof,
+                                              const struct sunder_i_spared *spared, sunder_i_proof_found *proof,
                                               sunder_i_solver *solver, sunder_error *err);
 /* Fills the conflicts' need_shift, need_gap and need_gone. To be called after sunder_i_report_blockers() and the
  * examination of dense clusters. */

@@ -53,6 +53,7 @@ typedef struct sunder_i_subproblem {
     size_t required_n;
     double less;             /* the gap is reduced by this: the answer is for a smaller gap */
     double margin;           /* extra distance beyond what is required; 0 if a proof is sought */
+    double held_margin;      /* the same beyond what `required` says */
     const uint32_t *feature; /* NULL, or the only things that count, a barrier by its first part; ascending */
     size_t features;
     /* Half-planes may demand less by this share of the two bodies' limits. Then proofs are smaller, but a solution need

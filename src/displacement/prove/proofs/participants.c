@@ -203,6 +203,7 @@ bool sunder_i_branching_owe(const sunder_i_branching *branching, uint32_t f, uin
     const bool is_asked = key.a == q->a && key.b == q->b;
     const sunder_i_requirement *required =
         is_asked || !q->required_n ? NULL : bsearch(&key, q->required, q->required_n, sizeof key, sunder_i_by_id_pair);
-    if (required) *clearance = q->less > 0 ? sunder_i_min(*clearance, required->clearance) : required->clearance;
+    const double held = required ? required->clearance + q->held_margin : INFINITY;
+    if (required) *clearance = q->less > 0 ? sunder_i_min(*clearance, held) : held;
     return *clearance > -INFINITY;
 }

@@ -9,7 +9,21 @@
 typedef struct sunder_i_spared {
     const sunder_i_id_pair *pair; /* [n] numbers of features and barriers in the layer of the caller */
     size_t n;
+    /* NULL, or what features and barriers were asked to before, by names that these have in all layers that share it:
+     * name[number], SUNDER_I_NOBODY: none. */
+    struct sunder_i_relaxation_memo *memo;
+    const uint32_t *name;
+    /* NULL, or [n] the clearances that proofs hold the pairs to, as in sunder_i_requirement; NAN: as in this layer. */
+    const double *held;
 } sunder_i_spared;
+
+/* Relaxations of features beside barriers, by the names of the two. The same pair is spared in each of a dozen small
+ * layers about the conflicts of one cluster, and a least translation out of a barrier is long to compute. The caller
+ * frees the list. All zero: empty. */
+typedef struct sunder_i_relaxation_memo {
+    sunder_i_relaxation *item; /* sorted by a and b, which are names */
+    size_t n, capacity;
+} sunder_i_relaxation_memo;
 
 /* ---- infeasible_pairs.c ------------------------------------------------------------------------------------------ */
 
@@ -168,12 +182,17 @@ bool sunder_i_solver_is_beyond_limits(const sunder_i_solver *solver, const sunde
 /* Input and output of sunder_i_solver_prove(). */
 typedef struct sunder_i_proving {
     const sunder_i_spared *spared;   /* pairs that stay in conflict */
+    const sunder_i_spared *relaxed;  /* the pairs that the model has relaxed; those of them that are not spared have
+                                      * to be solved all the same; or NULL */
     const sunder_i_list *heeded;     /* ascending; conflicts of other things are ignored; the first part stands for a
                                       * barrier. NULL: none is ignored */
     sunder_i_planes *planes;         /* planes of this solver, kept between calls */
     sunder_i_precedents *precedents; /* earlier proofs of this solver; or NULL */
-    bool in_plane;                   /* use the plane of relative moves of two bodies alone, which is quicker and proves
-                                      * less */
+    bool in_plane;                   /* use the plane of relative moves of two bodies alone, which is quicker and
+                                      * proves less */
+    double held_margin;              /* spared pairs have to stand better by this length; if it is not 0, the verdict
+                                      * infeasible is no proof */
+    uint64_t effort;                 /* for all conflicts together, in constraints examined; 0: EFFORT_BRIEFLY */
     double *move;                    /* [2 * bodies] receives the solutions found; or NULL */
 } sunder_i_proving;
 

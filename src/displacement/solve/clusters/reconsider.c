@@ -97,8 +97,8 @@ static sunder_status find_components(sunder_i_solver *s, components *out, sunder
 
 /* ---- Looking again ----------------------------------------------------------------------------------------------- */
 
-/* The question about a component: its bodies and those that the search found it to hang together with, ascending. Several
- * components of one cluster can have the same question, which is asked once, for the first of them. */
+/* The question about a component: its bodies and those that the search found it to hang together with, ascending.
+ * Several components of one cluster can have the same question, which is asked once, for the first of them. */
 typedef struct question {
     sunder_i_list body; /* empty: the component is not asked about */
     size_t first;       /* the component whose question, and decision, this is */

@@ -11,11 +11,55 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* NULL: it is not spared. */
+static const sunder_i_id_pair *spared_pair(const sunder_i_solver *s, const sunder_i_spared *spared, uint32_t a,
+                                           uint32_t b)
+{
+    const uint32_t p = s->layer.number[a], q = s->layer.number[b];
+    const sunder_i_id_pair key = {p < q ? p : q, p < q ? q : p};
+    return spared->n ? bsearch(&key, spared->pair, spared->n, sizeof key, sunder_i_by_id_pair) : NULL;
+}
+
 bool sunder_i_solver_is_spared(const sunder_i_solver *solver, const sunder_i_spared *spared, uint32_t a, uint32_t b)
 {
-    const uint32_t p = solver->layer.number[a], q = solver->layer.number[b];
-    const sunder_i_id_pair key = {p < q ? p : q, p < q ? q : p};
-    return spared->n && bsearch(&key, spared->pair, spared->n, sizeof key, sunder_i_by_id_pair);
+    return spared_pair(solver, spared, a, b) != NULL;
+}
+
+/* The relaxation of a feature and a barrier, if it is known; else it is found, and kept. */
+static sunder_status relax_beside_barrier(const sunder_i_model *model, const sunder_i_spared *spared,
+                                          const sunder_i_id_pair *named, sunder_i_relaxation *relaxation,
+                                          sunder_error *err)
+{
+    sunder_i_relaxation_memo *memo = spared->memo;
+    const uint32_t a = relaxation->a, b = relaxation->b;
+    const size_t at = sunder_i_lower_bound(named, memo->item, memo->n, sizeof *memo->item, sunder_i_by_id_pair);
+    if (at < memo->n && sunder_i_by_id_pair(named, &memo->item[at]) == 0) {
+        *relaxation = memo->item[at];
+        relaxation->a = a;
+        relaxation->b = b;
+        return SUNDER_OK;
+    }
+    const sunder_status status = sunder_i_relaxation_of(model, a, b, relaxation, err);
+    if (status) return status;
+    if (!sunder_i_reserve(&memo->item, &memo->capacity, memo->n + 1, sizeof *memo->item))
+        return sunder_i_failure_cause(err);
+    memmove(memo->item + at + 1, memo->item + at, (memo->n++ - at) * sizeof *memo->item);
+    memo->item[at] = *relaxation;
+    memo->item[at].a = named->a;
+    memo->item[at].b = named->b;
+    return SUNDER_OK;
+}
+
+static sunder_status relax(const sunder_i_solver *s, const sunder_i_spared *spared, const sunder_i_relation *r,
+                           sunder_i_relaxation *relaxation, sunder_error *err)
+{
+    const uint32_t *number = s->layer.number;
+    *relaxation = (sunder_i_relaxation){.a = r->a, .b = r->b};
+    if (spared->memo && sunder_i_is_barrier(&s->model, r->b) && spared->name[number[r->a]] != SUNDER_I_NOBODY) {
+        const sunder_i_id_pair named = {spared->name[number[r->a]], spared->name[number[r->b]]};
+        return relax_beside_barrier(&s->model, spared, &named, relaxation, err);
+    }
+    return sunder_i_relaxation_of(&s->model, r->a, r->b, relaxation, err);
 }
 
 sunder_status sunder_i_solver_spare(sunder_i_solver *solver, const sunder_i_spared *spared, sunder_error *err)
@@ -27,7 +71,7 @@ sunder_status sunder_i_solver_spare(sunder_i_solver *solver, const sunder_i_spar
         sunder_i_relaxation relaxation;
         if (!sunder_i_is_conflict_of_bodies(model, r) || !sunder_i_solver_is_spared(solver, spared, r->a, r->b))
             continue;
-        status = sunder_i_relaxation_of(model, r->a, r->b, &relaxation, err);
+        status = relax(solver, spared, r, &relaxation, err);
         relaxation.infeasible = true;
         if (!status && !sunder_i_relaxations_spread(&model->relaxations, model, &relaxation, model->rules.gap))
             status = sunder_i_failure_cause(err);
@@ -64,16 +108,46 @@ static sunder_status find_requirement(const sunder_i_solver *s, const sunder_i_r
     return SUNDER_OK;
 }
 
-/* Lists the demands on the spared pairs that are in conflict, sorted. All other pairs have to keep their full
- * distance. */
+/* The features of this layer, by their numbers in the order that `spared` uses. NULL if memory is out. */
+static uint32_t *features_by_number(const sunder_i_solver *s)
+{
+    uint32_t *feature = sunder_i_alloc(s->model.things, sizeof *feature);
+    for (uint32_t k = 0; k < s->model.things && feature; k++) feature[s->layer.number[k]] = k;
+    return feature;
+}
+
+/* Appends the pairs of features that `list` tells what to hold to, whether they are in conflict in this layer or
+ * not. */
+static sunder_status list_held(const sunder_i_solver *s, const sunder_i_spared *list, sunder_i_requirement *required,
+                               size_t *n, sunder_error *err)
+{
+    uint32_t *feature = features_by_number(s);
+    if (!feature) return sunder_i_failure_cause(err);
+    for (size_t k = 0; k < list->n; k++) {
+        if (isnan(list->held[k])) continue;
+        const uint32_t f = feature[list->pair[k].a], g = feature[list->pair[k].b];
+        required[(*n)++] = (sunder_i_requirement){f < g ? f : g, f < g ? g : f, list->held[k], {0, 0}};
+    }
+    sunder_i_free(feature);
+    return SUNDER_OK;
+}
+
+static bool is_held_otherwise(const sunder_i_solver *s, const sunder_i_spared *list, const sunder_i_relation *r)
+{
+    const sunder_i_id_pair *pair = spared_pair(s, list, r->a, r->b);
+    return !pair || (list->held && !isnan(list->held[pair - list->pair]));
+}
+
+/* Lists the demands on the spared pairs, sorted: those that are in conflict, and those for which `list` has a
+ * clearance. All other pairs have to keep their full distance. */
 static sunder_status find_requirements(const sunder_i_solver *s, const sunder_i_spared *list,
                                        sunder_i_requirement *required, size_t *n, sunder_error *err)
 {
-    sunder_status status = SUNDER_OK;
     *n = 0;
+    sunder_status status = list->held && list->n ? list_held(s, list, required, n, err) : SUNDER_OK;
     for (size_t k = 0; k < s->start.n && list->n && !status; k++) {
         const sunder_i_relation *r = &s->start.pair[k];
-        if (!sunder_i_is_conflict_of_bodies(&s->model, r) || !sunder_i_solver_is_spared(s, list, r->a, r->b)) continue;
+        if (!sunder_i_is_conflict_of_bodies(&s->model, r) || is_held_otherwise(s, list, r)) continue;
         status = find_requirement(s, r, &required[(*n)++], err);
     }
     if (!status && *n) qsort(required, *n, sizeof *required, sunder_i_by_id_pair);
@@ -86,66 +160,114 @@ static bool are_heeded(const sunder_i_subproblem *q, const sunder_i_relation *r)
            sunder_i_set_has(q->feature, q->features, sunder_i_whole_of(q->model, r->b));
 }
 
-/* Asks about each conflict that is not spared by itself: *verdict is infeasible if one provably has no solution,
- * feasible if each has one. Conflicts between the same two bodies are one question, since all of them have to be
- * resolved. *gap: see sunder_i_solver_prove(). */
-static sunder_status prove_conflicts(const sunder_i_solver *s, const sunder_i_proving *how, sunder_i_subproblem *q,
-                                     sunder_i_verdict *verdict, double *gap, sunder_error *err)
+/* Is r a conflict that is to be solved? What the model has relaxed is, if it is not spared this time. */
+static bool is_to_be_solved(const sunder_i_solver *s, const sunder_i_proving *how, const sunder_i_relation *r)
 {
+    if (sunder_i_solver_is_spared(s, how->spared, r->a, r->b)) return false;
+    if (how->relaxed && sunder_i_solver_is_spared(s, how->relaxed, r->a, r->b))
+        return sunder_i_is_conflict_of_bodies(&s->model, r);
+    return sunder_i_is_open_conflict(&s->model, r);
+}
+
+/* The questions about the conflicts of a small layer: the verdict so far, and the remaining effort. */
+typedef struct questioning {
+    const sunder_i_solver *solver;
+    const sunder_i_proving *how;
+    sunder_i_subproblem subproblem;
+    sunder_i_verdict verdict;
+    uint64_t left;
+    double *gap;         /* of a proof */
+    sunder_i_list asked; /* bodies that have a solution, each question by itself */
+    size_t questions;
+} questioning;
+
+/* Asks about `bodies` bodies. The moves of a solution are taken over. */
+static sunder_status ask_about(questioning *g, const uint32_t *body, size_t bodies, sunder_i_verdict *verdict,
+                               sunder_error *err)
+{
+    sunder_i_subproblem *q = &g->subproblem;
+    sunder_i_decision decision;
+    q->effort = g->how->in_plane ? 0 : g->left;
+    q->body = body;
+    q->bodies = bodies;
+    sunder_status status = sunder_i_decide(q, &decision, err);
+    *verdict = decision.verdict;
+    for (size_t m = 0; m < decision.solution.bodies && g->how->move; m++)
+        memcpy(g->how->move + 2 * (size_t)decision.solution.body[m], decision.solution.move + 2 * m,
+               2 * sizeof *g->how->move);
+    g->left -= decision.work < g->left ? decision.work : g->left;
+    if (!status && decision.proof) status = sunder_i_proof_least_gap(q, decision.proof, g->gap, err);
+    sunder_i_decision_clear(&decision);
+    return status;
+}
+
+/* Is there a conflict to be solved that provably has no solution, or has each one by itself? Conflicts of the same two
+ * bodies are one question, since all that are not spared have to hold. */
+static sunder_status prove_each(questioning *g, sunder_error *err)
+{
+    const sunder_i_solver *s = g->solver;
     const sunder_i_model *model = &s->model;
     sunder_i_id_pair last = {SUNDER_I_NOBODY, SUNDER_I_NOBODY};
     sunder_status status = SUNDER_OK;
-    uint64_t left = EFFORT_BRIEFLY;
-    *verdict = SUNDER_I_FEASIBLE;
-    for (size_t k = 0; k < s->start.n && left && *verdict != SUNDER_I_INFEASIBLE && !status; k++) {
+    g->verdict = SUNDER_I_FEASIBLE;
+    for (size_t k = 0; k < s->start.n && g->left && g->verdict != SUNDER_I_INFEASIBLE && !status; k++) {
         const sunder_i_relation *r = &s->start.pair[k];
         const uint32_t body[2] = {model->body_of[r->a], model->body_of[r->b]};
         const bool barrier = sunder_i_is_barrier(model, r->b);
         const sunder_i_id_pair asked = {body[0], barrier ? SUNDER_I_NOBODY : body[1]};
-        sunder_i_decision decision;
-        if (!sunder_i_is_open_conflict(model, r) || sunder_i_solver_is_spared(s, how->spared, r->a, r->b) ||
-            sunder_i_by_id_pair(&asked, &last) == 0 || (q->feature && !are_heeded(q, r)))
+        sunder_i_verdict verdict;
+        if (!is_to_be_solved(s, g->how, r) || sunder_i_by_id_pair(&asked, &last) == 0 ||
+            (g->subproblem.feature && !are_heeded(&g->subproblem, r)))
             continue;
         last = asked;
-        q->effort = how->in_plane ? 0 : left;
-        q->body = body;
-        q->bodies = barrier ? 1 : 2;
-        status = sunder_i_decide(q, &decision, err);
-        if (decision.verdict != SUNDER_I_FEASIBLE) *verdict = decision.verdict;
-        for (size_t m = 0; m < decision.solution.bodies && how->move; m++)
-            memcpy(how->move + 2 * (size_t)decision.solution.body[m], decision.solution.move + 2 * m,
-                   2 * sizeof *how->move);
-        left -= decision.work < left ? decision.work : left;
-        if (!status && decision.proof) status = sunder_i_proof_least_gap(q, decision.proof, gap, err);
-        sunder_i_decision_clear(&decision);
+        g->questions++;
+        status = ask_about(g, body, barrier ? 1 : 2, &verdict, err);
+        if (verdict != SUNDER_I_FEASIBLE) g->verdict = verdict;
+        for (size_t b = 0; b < (barrier ? 1u : 2u) && !status; b++)
+            if (!sunder_i_list_push(&g->asked, body[b])) status = sunder_i_failure_cause(err);
     }
-    const bool none = last.a == SUNDER_I_NOBODY;
-    if ((left == 0 || none) && *verdict == SUNDER_I_FEASIBLE) *verdict = SUNDER_I_UNKNOWN;
+    if ((g->left == 0 || g->questions == 0) && g->verdict == SUNDER_I_FEASIBLE) g->verdict = SUNDER_I_UNKNOWN;
+    return status;
+}
+
+/* Several conflicts with a solution each: have they one together? Undecided: the former verdict stands. */
+static sunder_status prove_together(questioning *g, sunder_error *err)
+{
+    sunder_i_verdict verdict;
+    g->asked.n = sunder_i_set_make(g->asked.item, g->asked.n);
+    const sunder_status status = ask_about(g, g->asked.item, g->asked.n, &verdict, err);
+    if (verdict == SUNDER_I_INFEASIBLE) g->verdict = verdict;
     return status;
 }
 
 sunder_status sunder_i_solver_prove(const sunder_i_solver *solver, const sunder_i_proving *how,
                                     sunder_i_verdict *verdict, double *gap, sunder_error *err)
 {
-    sunder_i_requirement *required = sunder_i_alloc(solver->start.n, sizeof *required);
+    sunder_i_requirement *required = sunder_i_alloc(solver->start.n + how->spared->n, sizeof *required);
     size_t n = 0;
     sunder_status status =
         required ? find_requirements(solver, how->spared, required, &n, err) : sunder_i_failure_cause(err);
-    *verdict = SUNDER_I_UNKNOWN;
-    if (!status) {
-        sunder_i_subproblem q = {.model = &solver->model,
-                                 .less = solver->model.rules.gap - *gap,
-                                 .a = SUNDER_I_NOBODY,
-                                 .b = SUNDER_I_NOBODY,
-                                 .required = required,
-                                 .required_n = n,
-                                 .feature = how->heeded ? how->heeded->item : NULL,
-                                 .features = how->heeded ? how->heeded->n : 0,
-                                 .planes = how->planes,
-                                 .precedents = how->precedents,
-                                 .most = MOST_BODIES};
-        status = prove_conflicts(solver, how, &q, verdict, gap, err);
-    }
+    questioning g = {.solver = solver,
+                     .how = how,
+                     .subproblem = {.model = &solver->model,
+                                    .less = solver->model.rules.gap - *gap,
+                                    .a = SUNDER_I_NOBODY,
+                                    .b = SUNDER_I_NOBODY,
+                                    .required = required,
+                                    .required_n = n,
+                                    .feature = how->heeded ? how->heeded->item : NULL,
+                                    .features = how->heeded ? how->heeded->n : 0,
+                                    .planes = how->planes,
+                                    .precedents = how->precedents,
+                                    .held_margin = how->held_margin,
+                                    .most = MOST_BODIES},
+                     .left = how->effort ? how->effort : EFFORT_BRIEFLY,
+                     .gap = gap};
+    if (!status) status = prove_each(&g, err);
+    const bool together = how->move && !how->in_plane && g.questions > 1;
+    if (!status && together && g.verdict == SUNDER_I_FEASIBLE) status = prove_together(&g, err);
+    *verdict = status ? SUNDER_I_UNKNOWN : g.verdict;
+    sunder_i_free(g.asked.item);
     sunder_i_free(required);
     return status;
 }

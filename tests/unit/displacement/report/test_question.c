@@ -83,16 +83,16 @@ static size_t asked_limit[2], asked_gap[2], asked_proof[2];
 
 /* No layer has a solution. */
 static sunder_status solve_in_vain(const sunder_layer *layer, const sunder_layer_options *options,
-                                   const sunder_i_id_pair *spared, size_t n, sunder_i_proof_found *proof,
-                                   sunder_i_solver *x, sunder_error *err)
+                                   const sunder_i_spared *spared, sunder_i_proof_found *proof, sunder_i_solver *x,
+                                   sunder_error *err)
 {
     double box[4];
-    (void)spared, (void)n, (void)err;
+    (void)spared, (void)err;
     x->hopeless = true;
-    if (*proof == SUNDER_I_PROOF_LATER) return SUNDER_OK;
     sunder_shape_box(layer->shape[0], box);
+    asked_proof[box[1] > 1000] += *proof == SUNDER_I_PROOF_WANTED || *proof == SUNDER_I_PROOF_LATER;
+    if (*proof == SUNDER_I_PROOF_LATER) return SUNDER_OK;
     (options->gap < 2 ? asked_gap : asked_limit)[box[1] > 1000]++;
-    asked_proof[box[1] > 1000] += *proof == SUNDER_I_PROOF_WANTED;
     if (*proof == SUNDER_I_PROOF_WANTED) *proof = SUNDER_I_PROOF_IN_VAIN;
     return SUNDER_OK;
 }

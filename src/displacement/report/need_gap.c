@@ -1,0 +1,345 @@
+/* Finds need_gap: the largest gap, up to that of the layer, with which a conflict and its neighbours have a solution.
+ *
+ * The largest gap is enclosed. The lower end is the gap of a layout of the small layer about the conflict that was
+ * checked exactly (question.c). The upper end is proved: a branch and bound that finds no solution for a gap also
+ * refutes some smaller gaps (prove/proofs/least_gap.c). Proofs take much less time than searches, so the interval is
+ * first narrowed to 1 / NEED_GAP_PARTS of the layer's gap by proofs alone, and one layout confirms its lower end. */
+#include "displacement/report/need_gap.h"
+#include "displacement/layer/barrier_pairs.h"
+#include "displacement/layer/resolution.h"
+#include "displacement/report/tuning.h"
+
+#include "base/extremes.h"
+
+#include <math.h>
+
+/* ---- A gap that there is in the result --------------------------------------------------------------------------- */
+
+/* Returns whether the conflict is about the layer's gap, and not about a gap that belongs to the barrier. */
+static bool is_about_gap(const sunder_i_solver *s, const sunder_conflict *c)
+{
+    return c->b < s->model.features || s->layer.barrier[sunder_i_barrier_of(&s->model, (uint32_t)c->b)].gap < 0;
+}
+
+/* Returns the gap that the pair of the conflict keeps in the result: the distance of two features that are nearer than
+ * the layer's gap, or the part of a feature's distance from a barrier that exceeds the drawn width. Returns -1 if there
+ * is none. */
+static double gap_of(const sunder_i_solver *s, const sunder_conflict *c)
+{
+    if (c->depth > 0 || !is_about_gap(s, c)) return -1;
+    if (c->kind == SUNDER_CONFLICT_TOO_CLOSE) return sunder_i_max(0, nextafter(c->distance, -INFINITY));
+    if (c->kind != SUNDER_CONFLICT_BARRIER_NEAR) return -1;
+    const double gap = s->model.rules.gap, width = c->required - gap;
+    /* The last term covers three roundings, and those of c->distance and c->required. */
+    return c->distance - width - 0x1p-50 * (c->distance + c->required + gap);
+}
+
+/* For each pair, takes the least gap that the pair and all remaining pairs of its two bodies keep in the result. With
+ * that gap the result itself is a solution for the pair and its neighbours, so it becomes need_gap without a question,
+ * if it is at least 0 and less than the requested gap. */
+sunder_status sunder_i_keep_gaps_there_are(const sunder_i_questions *questions, sunder_error *err)
+{
+    const sunder_i_model *model = &questions->solver->model;
+    sunder_report *report = questions->report;
+    double *least = sunder_i_alloc(model->bodies, sizeof *least);
+    if (!least) return sunder_i_failure_cause(err);
+    for (size_t b = 0; b < model->bodies; b++) least[b] = INFINITY;
+    for (int pass = 0; pass < 2; pass++)
+        for (size_t k = 0; k < report->conflicts; k++) {
+            sunder_conflict *c = &report->conflict[k];
+            if (!sunder_i_is_asked_about(c)) continue;
+            double gap = gap_of(questions->solver, c),
+                   *of[2] = {&least[model->body_of[c->a]], &least[model->body_of[c->b]]};
+            for (int e = 0; e < 2; e++) {
+                if (model->body[model->body_of[e ? c->b : c->a]].fixed) continue;
+                if (pass == 0)
+                    *of[e] = sunder_i_min(*of[e], gap);
+                else
+                    gap = sunder_i_min(gap, *of[e]);
+            }
+            if (pass == 0 || !(gap >= 0 && gap < questions->options->gap)) continue;
+            c->need_gap = gap;
+            c->need_gap_most = questions->options->gap;
+        }
+    sunder_i_free(least);
+    return SUNDER_OK;
+}
+
+/* ---- Two by themselves ------------------------------------------------------------------------------------------- */
+
+/* Returns the sum of the limits of the conflict's two features, or the limit of its feature if the other is a
+ * barrier. */
+static double reach_of(const sunder_i_model *model, const sunder_conflict *c)
+{
+    const double limit = sunder_i_limit_of(&model->body[model->body_of[c->a]]);
+    return c->b < model->features ? limit + sunder_i_limit_of(&model->body[model->body_of[c->b]]) : limit;
+}
+
+/* Computes the least relative move with which the pair keeps `gap`: *least is a proved lower bound of its length,
+ * *length the length found. */
+static sunder_status least_for_gap(const sunder_i_model *model, const sunder_conflict *c, double gap, double *least,
+                                   double *length, sunder_error *err)
+{
+    if (c->b < model->features) {
+        sunder_i_rules rules = model->rules;
+        sunder_i_resolution way;
+        rules.gap = gap;
+        const sunder_status status = sunder_i_resolve(&rules, sunder_i_thing_shape(model, c->a),
+                                                      sunder_i_thing_shape(model, c->b), INFINITY, &way, err);
+        *least = way.least;
+        *length = hypot(way.away[0], way.away[1]);
+        return status;
+    }
+    const uint32_t barrier = (uint32_t)c->b;
+    const sunder_i_translate home = sunder_i_at_home(model, (uint32_t)c->a);
+    const double owed = sunder_i_required_below(model->barriers, sunder_i_barrier_of(model, barrier));
+    sunder_separation way = {0};
+    bool beyond;
+    const sunder_status status = sunder_i_barrier_least(
+        model, &home, barrier, sunder_i_max(0, owed - model->rules.gap + gap), INFINITY, &way, &beyond, err);
+    *least = way.lower_bound;
+    *length = way.distance;
+    return status;
+}
+
+/* Finds the largest gap up to `most` that the pair could keep by itself within its limits. It can keep the gap *does
+ * (negative if none), and no gap larger than *above; the two differ by at most `step` if PAIR_GAP_ROUNDS rounds
+ * suffice. The least relative move for a gap g is usually longer than the one for gap 0 by g. The next gap tried is
+ * therefore the last one plus what the limits leave after its move; the second try is usually right. */
+static sunder_status gap_of_pair(const sunder_i_model *model, const sunder_conflict *c, double most, double step,
+                                 double *does, double *above, sunder_error *err)
+{
+    const double reach = reach_of(model, c);
+    double low = -1, high = most, gap = 0;
+    for (int k = 0; k < PAIR_GAP_ROUNDS && high - low > step; k++) {
+        double least, length;
+        const sunder_status status = least_for_gap(model, c, gap, &least, &length, err);
+        if (status) return status;
+        double next = gap + (reach - length);
+        if (least <= reach) {
+            low = gap;
+            next = sunder_i_max(next, low + step);
+        } else
+            high = gap;
+        if (low < 0) break;
+        gap = next > low && next < high ? next : low + (high - low) / 2;
+    }
+    *does = low;
+    *above = high;
+    return SUNDER_OK;
+}
+
+/* Returns whether the small layer contains no feature or barrier other than the two of the conflict. */
+static bool are_alone(const sunder_i_model *model, const sunder_i_surroundings *a, const sunder_conflict *c)
+{
+    bool alone = a->feature.n == (c->b < model->features ? 2 : 1);
+    for (size_t k = 0; k < a->part.n && alone; k++) alone = sunder_i_whole_of(model, a->part.item[k]) == c->b;
+    return alone;
+}
+
+/* ---- The interval ------------------------------------------------------------------------------------------------ */
+
+/* The search for the largest gap of one conflict. The lower end of the interval is need_gap of the conflict (NAN: no
+ * solution is known). */
+typedef struct gap_search {
+    sunder_i_inquiry *inquiry;
+    sunder_conflict *conflict;
+    double step;   /* the width of the interval that is aimed at */
+    double high;   /* larger gaps are not examined any more */
+    double proved; /* larger gaps are proved to have no solution; INFINITY if nothing is proved */
+    bool all;      /* answers also have to solve the other listed pairs in the small layer, if these are few */
+    bool tight;    /* a solution in real numbers did not hold in doubles */
+} gap_search;
+
+static sunder_i_supposition suppose(const gap_search *g, double gap)
+{
+    return (sunder_i_supposition){.gap = gap, .gone = SUNDER_I_NOBODY, .all = g->all};
+}
+
+static void refute(gap_search *g, double from)
+{
+    g->proved = sunder_i_min(g->proved, from);
+    g->high = sunder_i_min(g->high, from);
+}
+
+static bool is_narrow(const gap_search *g) { return g->high - g->conflict->need_gap <= g->step; }
+
+/* Asks whether a search finds a solution with this gap, and stores the answer: need_gap if there is one, otherwise the
+ * upper end `high`. */
+static sunder_status try_gap(gap_search *g, double gap, bool *yes, sunder_error *err)
+{
+    const sunder_i_supposition what = suppose(g, gap);
+    sunder_i_answer answer;
+    const sunder_status status = sunder_i_inquiry_search(g->inquiry, &what, &answer, err);
+    *yes = !status && answer.yes;
+    if (status) return status;
+    if (answer.yes)
+        g->conflict->need_gap = gap;
+    else
+        g->high = sunder_i_min(g->high, answer.refuted);
+    return SUNDER_OK;
+}
+
+/* Asks whether proofs refute this gap, or find a solution in real numbers. After a solution in real numbers that did
+ * not hold in doubles, one with room for rounding is asked for. */
+static sunder_status foresee(gap_search *g, double gap, bool in_plane, sunder_i_verdict *verdict, sunder_error *err)
+{
+    const sunder_i_supposition what = suppose(g, gap);
+    const sunder_i_foresight_mode mode = in_plane ? SUNDER_I_FORESEE_IN_PLANE : SUNDER_I_FORESEE;
+    sunder_i_foresight *f = g->inquiry->foresight;
+    double refuted;
+    sunder_status status = sunder_i_foresee(f, &what, mode, verdict, &refuted, err);
+    if (!status && *verdict == SUNDER_I_INFEASIBLE) refute(g, refuted);
+    if (!status && *verdict == SUNDER_I_FEASIBLE && g->tight)
+        status = sunder_i_foresee(f, &what, SUNDER_I_FORESEE_WITH_ROOM, verdict, &refuted, err);
+    return status;
+}
+
+/* Narrows the interval in which the largest gap lies to the step, by proofs. *low is raised to gaps for which there is
+ * a solution in real numbers (with `in_plane`: to gaps that are not refuted). The upper end, which begins at `high`, is
+ * lowered to gaps that are refuted, or of which nothing is known. */
+static sunder_status narrow_gap(gap_search *g, bool in_plane, double *low, double high, sunder_error *err)
+{
+    sunder_status status = SUNDER_OK;
+    while (!status && high > 0 && high - *low > g->step * NEED_GAP_AIM) {
+        const double next = *low < 0 ? 0 : *low + NEED_GAP_AT * (high - *low);
+        sunder_i_verdict verdict;
+        status = foresee(g, next, in_plane, &verdict, err);
+        if (verdict == SUNDER_I_FEASIBLE || (in_plane && verdict == SUNDER_I_UNKNOWN))
+            *low = next;
+        else
+            high = sunder_i_min(next, g->high);
+    }
+    return status;
+}
+
+/* Tests whether the solution in real numbers that was found for the gap `seen` is also one in doubles, with a gap that
+ * is smaller by the share NEED_LESS. If so, sets *yes, and need_gap to that gap. */
+static sunder_status try_foreseen(gap_search *g, double seen, bool *yes, sunder_error *err)
+{
+    const sunder_i_supposition what = suppose(g, seen * (1 - NEED_LESS));
+    const sunder_status status = sunder_i_foresight_holds(g->inquiry->foresight, g->conflict, &what, yes, err);
+    if (!status && *yes) g->conflict->need_gap = what.gap;
+    return status;
+}
+
+/* Asks the proofs about this gap, and tests in doubles what they find: at once, and once more with room for
+ * rounding. */
+static sunder_status confirm(gap_search *g, double gap, sunder_i_verdict *verdict, bool *yes, sunder_error *err)
+{
+    *yes = false;
+    for (;;) {
+        sunder_status status = foresee(g, gap, false, verdict, err);
+        if (!status && *verdict == SUNDER_I_FEASIBLE) status = try_foreseen(g, gap, yes, err);
+        if (status || *yes || *verdict != SUNDER_I_FEASIBLE || g->tight) return status;
+        g->tight = true;
+    }
+}
+
+/* Sets *yes to whether there is a solution with about this gap, by proofs or, if these tell nothing, by a search. If no
+ * solution at all is known, the search first looks for one without a gap. */
+static sunder_status settle_gap(gap_search *g, double gap, bool *yes, sunder_error *err)
+{
+    sunder_i_verdict verdict = SUNDER_I_UNKNOWN;
+    *yes = false;
+    sunder_status status = g->inquiry->foresight ? confirm(g, gap, &verdict, yes, err) : SUNDER_OK;
+    if (status || *yes || verdict == SUNDER_I_INFEASIBLE) return status;
+    if (isnan(g->conflict->need_gap) && gap > 0) {
+        bool any;
+        status = try_gap(g, 0, &any, err);
+        if (status || !any) return status;
+    }
+    return try_gap(g, gap * (1 - NEED_LESS), yes, err);
+}
+
+/* ---- The search -------------------------------------------------------------------------------------------------- */
+
+/* For a pair without neighbours: the largest gap that the two could keep within their limits is the answer, reduced by
+ * the small margin that the search keeps to limits, or by half a step if that is still too large. */
+static sunder_status try_gap_of_pair(gap_search *g, sunder_error *err)
+{
+    const sunder_i_solver *solver = g->inquiry->questions->solver;
+    const sunder_conflict *c = g->conflict;
+    double does, above;
+    bool yes = false;
+    if (reach_of(&solver->model, c) == INFINITY || !is_about_gap(solver, c)) return SUNDER_OK;
+    sunder_status status = gap_of_pair(&solver->model, c, g->high, g->step / 2, &does, &above, err);
+    if (status) return status;
+    refute(g, sunder_i_max(above, 0));
+    if (!(does > 0) || c->need_gap >= does) return SUNDER_OK;
+    status = try_gap(g, does * (1 - 0x1p-20), &yes, err);
+    if (!status && !yes && does > g->step / 2) status = try_gap(g, does - g->step / 2, &yes, err);
+    return status;
+}
+
+/* If there are few other listed pairs, asks whether a solution without a gap solves them as well. If it does, larger
+ * gaps have to do so too: g->all is set accordingly. */
+static sunder_status try_no_gap_of_all(gap_search *g, sunder_error *err)
+{
+    const gap_search before = *g;
+    const sunder_i_inquiry *q = g->inquiry;
+    bool few, yes = false;
+    sunder_status status = sunder_i_few_are_listed(q->questions, q->about, g->conflict, &few, err);
+    if (!status && few) status = try_gap(g, 0, &yes, err);
+    if (status || yes) return status;
+    *g = before; /* the answer was about a solution of all */
+    g->all = false;
+    return status;
+}
+
+/* Narrows the interval by proofs and confirms its lower end by a layout. First only the plane of the pair's relative
+ * moves is examined, as if nothing else could move, which is mostly right. */
+static sunder_status enclose(gap_search *g, sunder_error *err)
+{
+    const double first = isnan(g->conflict->need_gap) ? -g->step : g->conflict->need_gap, proved = g->proved;
+    sunder_i_patience *proof = &g->inquiry->left->proof;
+    double low = first;
+    bool yes = false;
+    if (!sunder_i_patience_asks(proof)) return SUNDER_OK;
+    sunder_status status = sunder_i_inquiry_look_ahead(g->inquiry, 0, err);
+    if (!status) status = narrow_gap(g, true, &low, g->high, err);
+    if (!status && low > first) status = settle_gap(g, low, &yes, err);
+    if (!status && low > first && !yes && g->high > 0) {
+        low = sunder_i_max(first, g->conflict->need_gap);
+        const double known = low;
+        status = narrow_gap(g, false, &low, g->high, err);
+        if (!status && low > known) status = settle_gap(g, low, &yes, err);
+    }
+    sunder_i_patience_note(proof, yes || g->proved < proved);
+    return status;
+}
+
+/* Halves the remaining interval a few times. */
+static sunder_status halve(gap_search *g, sunder_error *err)
+{
+    sunder_status status = SUNDER_OK;
+    for (int k = 0; !status && k < NEED_GAP_HALVINGS * g->inquiry->questions->halvings && !is_narrow(g); k++) {
+        const double gap = g->conflict->need_gap + (g->high - g->conflict->need_gap) / 2;
+        bool yes;
+        status = settle_gap(g, gap, &yes, err);
+    }
+    return status;
+}
+
+/* The result is also stored for a pair whose interval stays wide: need_gap and need_gap_most are then farther apart. */
+sunder_status sunder_i_find_need_gap(sunder_i_inquiry *inquiry, sunder_error *err)
+{
+    sunder_conflict *c = inquiry->conflict;
+    const sunder_i_questions *q = inquiry->questions;
+    const double before = c->need_gap;
+    const bool known = !isnan(before);
+    gap_search g = {inquiry, c, q->options->gap / NEED_GAP_PARTS, q->options->gap, INFINITY, true, false};
+    bool yes;
+    sunder_status status = SUNDER_OK;
+    if (!(g.step > 0) || (known && !sunder_i_patience_asks(&inquiry->left->gap))) return SUNDER_OK;
+    if (are_alone(&q->solver->model, inquiry->about, c)) status = try_gap_of_pair(&g, err);
+    if (!status && isnan(c->need_gap)) status = try_no_gap_of_all(&g, err);
+    if (!status) status = enclose(&g, err);
+    if (!status && isnan(c->need_gap) && g.high > 0) status = try_gap(&g, 0, &yes, err);
+    if (!status && isnan(c->need_gap)) sunder_i_inquiry_note_in_vain(inquiry);
+    if (status || isnan(c->need_gap)) return status;
+    status = halve(&g, err);
+    c->need_gap_most = sunder_i_max(c->need_gap, sunder_i_min(g.proved, q->options->gap));
+    if (known) sunder_i_patience_note(&inquiry->left->gap, c->need_gap > before);
+    return status;
+}
