@@ -216,7 +216,7 @@ typedef enum sunder_decomposition {
     SUNDER_DECOMPOSITION_HERTEL_MEHLHORN, /* a triangulation without its needless diagonals */
     SUNDER_DECOMPOSITION_OPTIMAL,         /* fewest pieces without new vertices; members with holes, or over 500
                                      vertices, fall back to Hertel and Mehlhorn's */
-    SUNDER_DECOMPOSITION_MIXED /* both operands: least total length of the subsums' boundaries; same
+    SUNDER_DECOMPOSITION_MIXED            /* both operands: least total length of the subsums' boundaries; same
                                 * fallback */
 } sunder_decomposition;
 
@@ -631,8 +631,9 @@ typedef struct sunder_conflict {
      * all of it, if one is known. */
     double need_shift, need_gap;
     size_t need_gone;
-    /* For an unresolved one, proved: the pairs of its two features and those of blocked_by, listed or not, cannot all
-     * be solved together, whatever else remains. So some of these have to remain, though it need not be this one. */
+    /* True only for a conflict with reason UNRESOLVED, and proved: a, b and the features in blocked_by cannot all
+     * keep their distances from one another at once, even if every other pair is left in conflict. So at least one
+     * pair among them stays in conflict, though not necessarily this one. */
     bool crowded;
     /* An upper bound, which is proved, of the gaps with such a solution: the gap asked for where nothing is proved, and
      * NAN where need_gap is. For most conflicts it exceeds need_gap by at most a hundredth of the gap asked for. */
@@ -647,7 +648,7 @@ typedef struct sunder_report sunder_report;
 
 typedef struct sunder_layer_summary {
     size_t features, vertices, blocks, clusters, pairs_tested;
-    size_t clusters_optimal; /* contact groups whose cost is proved to be least */
+    size_t clusters_optimal;              /* contact groups whose cost is proved to be least */
     sunder_conflict_counts before, after; /* of a check: both the same */
     size_t thin;                          /* pairs between blocks that overlap by no more than options.thin, before */
     size_t inside_overlaps;               /* pairs inside blocks that are listed as overlaps, after */

@@ -47,7 +47,8 @@ static bool resolve_invalid(const gis_options *options, gis_invalid_policy *out,
 
 /* ---- Parts that several requests have ---------------------------------------------------------------------------- */
 
-/* The largest number of threads that is used; a larger one is taken for a typing error. */
+/* The largest number of threads that is used. If an option asks for more, which is probably a typing error, this
+ * many are used, without a message. */
 static const double most_threads = 4096;
 
 static uint64_t seed_of(const gis_options *options)

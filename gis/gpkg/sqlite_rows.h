@@ -12,8 +12,9 @@
 /* A zeroed struct is empty. */
 typedef struct gis_sqlite_rows {
     void *database, *one, *many; /* one, many: statements for one row, and for AT_ONCE rows */
-    void *next;                  /* statement for AT_ONCE rows whose keys SQLite assigns; NULL: the next key is not
-                                  * known */
+    void *next;                  /* statement for AT_ONCE rows without keys, used if their keys are those that SQLite
+                                  * would assign; NULL: none was prepared, or a key did not ascend, so that the key
+                                  * that SQLite would assign next is not known */
     int64_t last;                /* the last key, if `any` */
     bool any;
     const char *what; /* for messages; borrowed */

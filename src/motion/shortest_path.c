@@ -32,8 +32,9 @@ typedef struct edge {
 typedef struct reached {
     double length;
     uint32_t before; /* the previous node of the path */
-    uint32_t news;   /* how often the path to this node has become shorter, */
-    uint32_t heard;  /* and the value of `news` of the node before when this node was last updated */
+    uint32_t news;   /* how often the path to this node has become shorter */
+    uint32_t heard;  /* the value of `news` of the node `before` when this node was last updated; if they differ, the
+                      * path to that node has become shorter since */
     bool known;
 } reached;
 

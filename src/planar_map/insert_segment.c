@@ -67,7 +67,8 @@ static bool leaves_by_edge(sunder_i_planar_map *map, uint32_t t, uint32_t e, con
 {
     if (e == NOWHERE) return false;
     const uint32_t end = map->edge[e].end[1], wall = map->trapezoid[t].right;
-    if (end == wall) return true; /* the edge ends at the wall's vertex, on the same side of the segment */
+    /* The edge ends at the wall's vertex, on the other side of the segment, so it crosses the segment before the wall. */
+    if (end == wall) return true;
     if (cache->sided != e) {
         cache->sided = e;
         cache->side = sunder_i_site_side(map, line, &map->vertex[end].site);

@@ -36,15 +36,16 @@ typedef struct search {
     const gis_layout *layout;
     double reach;
     bool by_shapes;
-    size_t patience;        /* shape comparisons left, for pairs whose boxes meet */
+    size_t patience;          /* shape comparisons left, for pairs whose boxes meet */
     gis_contact_group *group; /* [groups] sums are kept at the roots */
-    size_t *parent;         /* [groups] of the disjoint sets */
+    size_t *parent;           /* [groups] of the disjoint sets */
     size_t groups, group_room, parent_room, enough_groups;
     gis_contact_group largest; /* the largest of the groups that were dropped as complete */
     size_t *of_block;          /* [layout->blocks] a group of the block, or SIZE_MAX */
     size_t *beside;            /* [besides] numbers of the cells within reach of the current cell, ascending */
     size_t besides, beside_room;
-    size_t *last;  /* [cells] the last of the cells beside a cell, or that cell itself */
+    size_t *last;  /* [cells] of a cell and those beside it, the one that is visited last; after it
+                    * the members of the cell are dropped */
     members *cell; /* [cells] the members kept of each cell */
     members here;  /* members of the current cell */
     member **swept;

@@ -115,8 +115,8 @@ static bool add_feature(spooling *s, size_t i, char **copy, gis_error *error)
            id_text(input, i, copy, number, &feature.id, error) && gis_spool_add(to, &feature, error);
 }
 
-/* Is the feature written to a spool? A feature that conflicts with nothing is written only if it will be drawn, and
- * then to the spool aside. */
+/* Is the feature written to a spool? An ignored feature is written only if the report will draw all features and its
+ * shape is not empty; it then goes to the separate spool GIS_SPOOL_ASIDE. */
 static bool is_spooled(const spooling *s, size_t i)
 {
     const gis_layer_input *input = &s->input;

@@ -124,9 +124,9 @@ static sunder_status fill_answer(sunder_i_gap_problem *p, const sunder_i_gap_ans
     return texts ? sunder_i_answer_texts(g, &v, out, err) : SUNDER_OK;
 }
 
-/* Operands with this number of pairs of pieces, after pieces with many vertices are cut, are searched by squares. The
- * number is smaller than without a gap, since here a point is tested against all listed subsums, and all arcs are
- * intersected with each other. */
+/* Operands with at least this number of pairs of pieces, after pieces with many vertices are cut, are searched by
+ * squares. The number is smaller than without a gap, since here a point is tested against all listed subsums, and
+ * all arcs are intersected with each other. */
 #define SQUARES_FROM 4096
 
 /* Searches by squares, with pieces of few vertices. If the method does not suit the operands they are restored. Returns

@@ -259,7 +259,8 @@ static sunder_status ask_some(void *context, size_t begin, size_t end, sunder_er
     return SUNDER_OK;
 }
 
-/* Adds what all payers pay at least to *total. Returns false if memory is out. */
+/* Adds to *total, for each of the n payers, the lower bound on what it pays for a move and for the area that it then
+ * occupies. Returns false if memory is out. */
 static bool ask_all(const field *f, const sunder_i_payer *payer, size_t n, unsigned threads, sunder_total *total)
 {
     questions q = {f, payer, sunder_i_alloc(n, sizeof *q.paid)};

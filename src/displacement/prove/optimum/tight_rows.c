@@ -123,10 +123,12 @@ static bool draw_away(sunder_i_tight *f, const sunder_i_tight_meeting *m)
     return missing > f->margin / 2;
 }
 
-/* Brings body k back within its limit by moving its rows. If one coordinate uses the limit up, the other must be 0,
- * however slightly the limit was exceeded: a relative excess e of it is sqrt(2 e) of the other coordinate. Returns true
- * if the body was beyond by more than half of the margin, or by a part of the room that is to remain: another body's
- * limit may move a shared row outward again. */
+/* Brings body k back within its limit, less f->room, by moving the rows of its x and its y, and with them all bodies
+ * of these rows. If both rows can move, the whole move is scaled down; if one stays, only the other coordinate is
+ * cut, to 0 if the first uses up the limit, however slightly the limit was exceeded: a relative excess e of it is
+ * sqrt(2 e) of the other coordinate. Returns true if a row could move and the excess was more than a quarter of
+ * f->room or, if that is 0, more than half of f->margin; the rows then have to be examined again, since the limit of
+ * another body may move a shared row outward. */
 static bool draw_within(sunder_i_tight *f, size_t k)
 {
     const double limit = sunder_i_max(0, sunder_i_limit_of(&f->model->body[f->body[k]]) - f->room),

@@ -62,7 +62,8 @@ static bool are_parallel(const double m[2], const double n[2]) { return are_equa
 
 static double dot_product(const double p[2], const double q[2]) { return p[0] * q[0] + p[1] * q[1]; }
 
-/* Scales the normal by a factor such that it still consists of doubles and is about 1 long. */
+/* Scales the normal n to a length of about 1, by a factor for which both products are exact, so that its direction
+ * does not change. If there is no such factor, it is scaled by a power of two, to a length from 1 to 2. */
 static void scale_normal(double n[2])
 {
     const int e = ilogb(hypot(n[0], n[1]));

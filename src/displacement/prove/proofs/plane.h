@@ -86,7 +86,9 @@ struct sunder_i_plane_kept {
     sunder_i_plane_choices proofs[2]; /* the last proved questions: one with many obstacles and one with few */
     sunder_i_half_plane *half_plane;
     size_t half_planes, half_plane_capacity;
-    uint64_t looked[3]; /* the counted cost of finding pieces, anchors and sides, even if cached */
+    uint64_t looked[3]; /* [PIECES, JUMPS, SIDES] the cost of finding the obstacles that are pieces, shadows from
+                         * anchors, and shadows at sides of barriers; each question is charged for it, also if they are
+                         * known already */
 };
 
 typedef struct sunder_i_plane {
@@ -188,7 +190,8 @@ uint32_t sunder_i_plane_choices_below(const sunder_i_plane *plane, uint32_t regi
  * leave. Returns false if memory is out. */
 bool sunder_i_plane_choices_add(sunder_i_plane *plane, uint32_t region, uint32_t obstacle, size_t half_planes,
                                 double share, uint32_t *below);
-/* Keeps the choices if the question was proved. Returns false if memory is out. */
+/* If `proved`, moves plane->made, the obstacles chosen to divide the regions of this question, to the cache for
+ * later questions. Returns false if memory is out. */
 bool sunder_i_plane_choices_end(sunder_i_plane *plane, bool proved);
 void sunder_i_plane_choices_free(sunder_i_plane_choices *choices);
 

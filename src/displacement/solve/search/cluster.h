@@ -109,8 +109,9 @@ sunder_status sunder_i_cluster_fit(const sunder_i_model *model, const sunder_i_c
 
 /* ---- blocking_neighbours.c --------------------------------------------------------------------------------------- */
 
-/* Finds bodies of the cluster that have a nearer free place if movable bodies outside the cluster are ignored. The
- * pairs of the two go to cluster->guest. False if memory is out. */
+/* Finds bodies of the cluster that would have a nearer free place if no movable body outside the cluster were there.
+ * For each outside body that clashes with such a body at that place, the pair of the two is added to cluster->guest.
+ * Returns false if memory is out. */
 bool sunder_i_cluster_find_blocking(const sunder_i_model *model, sunder_i_cluster *cluster, const double *move);
 
 #endif

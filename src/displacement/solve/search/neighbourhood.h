@@ -35,7 +35,8 @@ double sunder_i_neighbourhood_descend(sunder_i_neighbourhood *neighbourhood, uin
 /* Moves the n bodies of `place` to the moves `to`, unless another body is in the way; returns whether they were moved.
  * The neighbourhood is empty after that. */
 bool sunder_i_neighbourhood_put(sunder_i_neighbourhood *neighbourhood, const double *to);
-/* Stores in `near`, ascending, the bodies within `reach` of body i. False if memory is out. */
+/* Stores in `near`, ascending, the bodies whose boxes come within `reach` of the box of body i, i itself included.
+ * Returns false if memory is out. */
 bool sunder_i_neighbourhood_look_about(sunder_i_neighbourhood *neighbourhood, uint32_t i, double reach);
 
 #endif
