@@ -67,7 +67,7 @@ static bool leaves_by_edge(sunder_i_planar_map *map, uint32_t t, uint32_t e, con
 {
     if (e == NOWHERE) return false;
     const uint32_t end = map->edge[e].end[1], wall = map->trapezoid[t].right;
-    /* The edge ends at the wall's vertex, on the other side of the segment, so it crosses the segment before the wall. */
+    /* The edge ends at the wall's vertex, on the segment's other side, so it crosses the segment before the wall. */
     if (end == wall) return true;
     if (cache->sided != e) {
         cache->sided = e;
