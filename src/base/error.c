@@ -6,8 +6,8 @@
 #include <stdarg.h>
 #include <stdio.h>
 
-static void fill(sunder_error *err, sunder_status status, size_t polygon, size_t ring, size_t vertex,
-                 const char *format, va_list args)
+static void fill_error(sunder_error *err, sunder_status status, size_t polygon, size_t ring, size_t vertex,
+                       const char *format, va_list args)
 {
     err->status = status;
     err->polygon = polygon;
@@ -21,7 +21,7 @@ sunder_status sunder_i_fail(sunder_error *err, sunder_status status, const char 
     if (err) {
         va_list args;
         va_start(args, format);
-        fill(err, status, SIZE_MAX, SIZE_MAX, SIZE_MAX, format, args);
+        fill_error(err, status, SIZE_MAX, SIZE_MAX, SIZE_MAX, format, args);
         va_end(args);
     }
     return status;
@@ -33,7 +33,7 @@ sunder_status sunder_i_fail_at(sunder_error *err, sunder_status status, size_t p
     if (err) {
         va_list args;
         va_start(args, format);
-        fill(err, status, polygon, ring, vertex, format, args);
+        fill_error(err, status, polygon, ring, vertex, format, args);
         va_end(args);
     }
     return status;

@@ -23,7 +23,7 @@ int sunder_i_by_number(const void *a, const void *b)
 /* Most sets have a dozen numbers, for which qsort() with its calls takes several times as long. */
 enum { FEW = 24 };
 
-static void sort(uint32_t *number, size_t n)
+static void sort_numbers(uint32_t *number, size_t n)
 {
     if (n > FEW) {
         qsort(number, n, sizeof *number, sunder_i_by_number);
@@ -40,7 +40,7 @@ static void sort(uint32_t *number, size_t n)
 size_t sunder_i_set_make(uint32_t *number, size_t n)
 {
     size_t out = 0;
-    sort(number, n);
+    sort_numbers(number, n);
     for (size_t k = 0; k < n; k++)
         if (k == 0 || number[k] != number[out - 1]) number[out++] = number[k];
     return out;

@@ -26,7 +26,7 @@ bool sunder_i_allocator_is_own(void) { return hook_alloc == malloc; }
 
 void sunder_free(void *memory) { sunder_i_free(memory); }
 
-static bool bytes(size_t n, size_t size, size_t *out)
+static bool bytes_of(size_t n, size_t size, size_t *out)
 {
     if (size != 0 && n > SIZE_MAX / 2 / size) return false;
     *out = n == 0 || size == 0 ? 1 : n * size;
@@ -36,13 +36,13 @@ static bool bytes(size_t n, size_t size, size_t *out)
 void *sunder_i_alloc(size_t n, size_t size)
 {
     size_t b;
-    return sunder_i_step() && bytes(n, size, &b) ? hook_alloc(b) : NULL;
+    return sunder_i_step() && bytes_of(n, size, &b) ? hook_alloc(b) : NULL;
 }
 
 void *sunder_i_calloc(size_t n, size_t size)
 {
     size_t b;
-    if (!sunder_i_step() || !bytes(n, size, &b)) return NULL;
+    if (!sunder_i_step() || !bytes_of(n, size, &b)) return NULL;
     /* New pages of the system are zero already, and calloc() does not clear them again. */
     if (hook_alloc == malloc) return calloc(b, 1);
     void *p = hook_alloc(b);
@@ -53,7 +53,7 @@ void *sunder_i_calloc(size_t n, size_t size)
 void *sunder_i_realloc(void *old, size_t n, size_t size)
 {
     size_t b;
-    if (!sunder_i_step() || !bytes(n, size, &b)) return NULL;
+    if (!sunder_i_step() || !bytes_of(n, size, &b)) return NULL;
     return old ? hook_realloc(old, b) : hook_alloc(b);
 }
 
@@ -64,7 +64,7 @@ void sunder_i_free(void *memory)
 
 /* Returns a capacity for at least `need` elements, which is more than the present capacity: the capacity is doubled; 0
  * if the size is too large. The first capacity is `need`, at least 16. */
-static size_t grown(size_t capacity, size_t need)
+static size_t grown_capacity(size_t capacity, size_t need)
 {
     size_t want = capacity ? capacity : need > 16 ? need : 16;
     while (want < need) {
@@ -76,7 +76,7 @@ static size_t grown(size_t capacity, size_t need)
 
 bool sunder_i_enlarge(void *array, size_t *capacity, size_t need, size_t size)
 {
-    const size_t want = grown(*capacity, need);
+    const size_t want = grown_capacity(*capacity, need);
     if (want == 0) return false;
     void *old;
     memcpy(&old, array, sizeof old);
@@ -132,7 +132,7 @@ static bool arena_grow(sunder_i_arena *arena, size_t need)
 static void *alloc_in_new_chunk(sunder_i_arena *arena, size_t n, size_t size)
 {
     size_t b;
-    if (!bytes(n, size, &b) || b > SIZE_MAX - 64) {
+    if (!bytes_of(n, size, &b) || b > SIZE_MAX - 64) {
         arena->failed = true;
         return NULL;
     }
@@ -164,7 +164,7 @@ void *sunder_i_arena_alloc(sunder_i_arena *arena, size_t n, size_t size)
 bool sunder_i_arena_reserve(sunder_i_arena *arena, void *array, size_t *capacity, size_t need, size_t size)
 {
     if (need <= *capacity) return true;
-    const size_t want = grown(*capacity, need);
+    const size_t want = grown_capacity(*capacity, need);
     void *old, *fresh = want ? sunder_i_arena_alloc(arena, want, size) : NULL;
     if (!fresh) return false;
     memcpy(&old, array, sizeof old);

@@ -31,7 +31,7 @@ typedef struct job {
 /* The job that the calling thread belongs to; NULL: none. */
 static _Thread_local job *here;
 
-static void fail(job *j, size_t begin, sunder_status status, const sunder_error *error)
+static void fail_job(job *j, size_t begin, sunder_status status, const sunder_error *error)
 {
     atomic_store(&j->failed, true);
     pthread_mutex_lock(&j->lock);
@@ -53,7 +53,7 @@ static size_t take_idle(job *j, size_t most)
     return taken;
 }
 
-static void *run(void *argument)
+static void *run_job(void *argument)
 {
     job *j = argument, *outer = here;
     sunder_i_watch_join(j->watch);
@@ -66,7 +66,7 @@ static void *run(void *argument)
         sunder_error error;
         memset(&error, 0, sizeof error);
         const sunder_status status = j->work(j->context, begin, end, &error);
-        if (status) fail(j, begin, status, &error);
+        if (status) fail_job(j, begin, status, &error);
     }
     here = outer;
     atomic_fetch_add(&j->idle, 1);
@@ -91,8 +91,8 @@ static sunder_status run_on(unsigned threads, job *j, sunder_error *err)
     atomic_init(&j->idle, most - helpers);
     pthread_t helper[MOST];
     /* If a thread cannot be started, this is no error: the others do its share. */
-    while (started < helpers && pthread_create(&helper[started], NULL, run, j) == 0) started++;
-    run(j);
+    while (started < helpers && pthread_create(&helper[started], NULL, run_job, j) == 0) started++;
+    run_job(j);
     for (size_t i = 0; i < started; i++) pthread_join(helper[i], NULL);
     if (outer) atomic_fetch_add(&outer->idle, most);
     pthread_mutex_destroy(&j->lock);

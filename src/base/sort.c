@@ -11,7 +11,7 @@
 
 typedef int (*comparison)(void *, uint32_t, uint32_t);
 
-static void insertion(uint32_t *index, size_t n, comparison compare, void *context)
+static void insert_indices(uint32_t *index, size_t n, comparison compare, void *context)
 {
     for (size_t i = 1; i < n; i++) {
         const uint32_t v = index[i];
@@ -21,8 +21,8 @@ static void insertion(uint32_t *index, size_t n, comparison compare, void *conte
     }
 }
 
-static void merge(const uint32_t *from, uint32_t *to, size_t left, size_t middle, size_t right, comparison compare,
-                  void *context)
+static void merge_runs(const uint32_t *from, uint32_t *to, size_t left, size_t middle, size_t right, comparison compare,
+                       void *context)
 {
     size_t i = left, j = middle;
     for (size_t k = left; k < right; k++)
@@ -31,7 +31,7 @@ static void merge(const uint32_t *from, uint32_t *to, size_t left, size_t middle
 
 bool sunder_i_sort_indices(uint32_t *index, size_t n, comparison compare, void *context)
 {
-    for (size_t i = 0; i < n; i += RUN) insertion(index + i, n - i < RUN ? n - i : RUN, compare, context);
+    for (size_t i = 0; i < n; i += RUN) insert_indices(index + i, n - i < RUN ? n - i : RUN, compare, context);
     if (n <= RUN) return true;
     uint32_t *scratch = sunder_i_alloc(n, sizeof *scratch);
     if (!scratch) return false;
@@ -44,7 +44,7 @@ bool sunder_i_sort_indices(uint32_t *index, size_t n, comparison compare, void *
                 sunder_i_free(scratch);
                 return false;
             }
-            merge(from, to, left, middle, right, compare, context);
+            merge_runs(from, to, left, middle, right, compare, context);
         }
         uint32_t *t = from;
         from = to;

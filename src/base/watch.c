@@ -5,7 +5,7 @@
 _Thread_local sunder_i_thread sunder_i_this_thread;
 
 /* If the lock is taken, the thread does not wait: the thread with the lock is calling the watch already. */
-static void ask(sunder_i_watch *watch)
+static void ask_watch(sunder_i_watch *watch)
 {
     if (pthread_mutex_trylock(&watch->lock) != 0) return;
     if (!atomic_load(&watch->stopped) &&
@@ -19,7 +19,7 @@ bool sunder_i_look(void)
     sunder_i_thread *t = &sunder_i_this_thread;
     t->left = 0; /* after a stop the thread looks at every step */
     for (sunder_i_watch *w = t->watch; w; w = w->outer) {
-        ask(w);
+        ask_watch(w);
         if (atomic_load(&w->stopped)) return false;
     }
     t->left = SUNDER_I_STEPS;
@@ -34,7 +34,7 @@ bool sunder_i_stopped(void)
 }
 
 /* A function of the type sunder_progress: user is the watch. */
-static bool tell(double fraction, void *user)
+static bool tell_watch(double fraction, void *user)
 {
     sunder_i_watch *watch = user;
     pthread_mutex_lock(&watch->lock);
@@ -44,7 +44,7 @@ static bool tell(double fraction, void *user)
     return !atomic_load(&watch->stopped);
 }
 
-static void init(sunder_i_watch *watch, sunder_progress progress, bool (*go_on)(void *), void *user)
+static void init_watch(sunder_i_watch *watch, sunder_progress progress, bool (*go_on)(void *), void *user)
 {
     *watch = (sunder_i_watch){.progress = progress, .go_on = go_on, .user = user};
     pthread_mutex_init(&watch->lock, NULL);
@@ -55,10 +55,10 @@ void sunder_i_watch_begin(sunder_i_watch *watch, sunder_progress *progress, void
 {
     watch->progress = *progress;
     if (!*progress) return;
-    init(watch, *progress, NULL, *user);
+    init_watch(watch, *progress, NULL, *user);
     watch->outer = sunder_i_this_thread.watch;
     sunder_i_watch_join(watch);
-    *progress = tell;
+    *progress = tell_watch;
     *user = watch;
 }
 
@@ -82,7 +82,7 @@ void sunder_watch(bool (*go_on)(void *user), void *user)
     sunder_i_watch *own = &sunder_i_this_thread.own;
     if (own->go_on) pthread_mutex_destroy(&own->lock);
     own->go_on = go_on;
-    if (go_on) init(own, NULL, go_on, user);
+    if (go_on) init_watch(own, NULL, go_on, user);
     sunder_i_watch_join(go_on ? own : NULL);
 }
 

@@ -65,8 +65,8 @@ static void number_classes(const keys *k, const uint32_t *order, size_t n, uint3
     out->classes = c;
 }
 
-static bool sort(sunder_i_lattice *l, sunder_i_point *side, size_t n, uint32_t *order, bool *turned, uint32_t *rank,
-                 sunder_i_directions *out)
+static bool sort_directions(sunder_i_lattice *l, sunder_i_point *side, size_t n, uint32_t *order, bool *turned,
+                            uint32_t *rank, sunder_i_directions *out)
 {
     keys k = {l, side};
     for (size_t i = 0; i < n; i++) {
@@ -87,7 +87,7 @@ bool sunder_i_directions_rank(sunder_i_lattice *lattice, sunder_i_point *side, s
     uint32_t *order = sunder_i_alloc(n, sizeof *order);
     bool *turned = sunder_i_alloc(n, sizeof *turned);
     *out = (sunder_i_directions){0, sunder_i_alloc(n, sizeof *out->vector)};
-    const bool ok = order && turned && out->vector && sort(lattice, side, n, order, turned, rank, out);
+    const bool ok = order && turned && out->vector && sort_directions(lattice, side, n, order, turned, rank, out);
     sunder_i_free(order);
     sunder_i_free(turned);
     if (!ok) sunder_i_directions_free(out);

@@ -27,7 +27,7 @@ static uint32_t slot_of(const mesh *m, uint32_t u, uint32_t v)
 
 static uint32_t end_of(const mesh *m, uint32_t h) { return m->origin[m->next[h]]; }
 
-static uint32_t find(const mesh *m, uint32_t u, uint32_t v)
+static uint32_t find_half_edge(const mesh *m, uint32_t u, uint32_t v)
 {
     for (uint32_t s = slot_of(m, u, v); m->slot[s] != NONE; s = (s + 1) & m->mask)
         if (m->origin[m->slot[s]] == u && end_of(m, m->slot[s]) == v) return m->slot[s];
@@ -79,7 +79,7 @@ static bool good_without(const mesh *m, uint32_t h, uint32_t g)
 
 /* Removes the diagonal with the half-edges h and g; their origins become NONE, so that find_half_edge() does not find
  * them again. */
-static void dissolve(mesh *m, uint32_t h, uint32_t g)
+static void dissolve_diagonal(mesh *m, uint32_t h, uint32_t g)
 {
     m->next[m->prev[h]] = m->next[g];
     m->prev[m->next[g]] = m->prev[h];
@@ -88,7 +88,7 @@ static void dissolve(mesh *m, uint32_t h, uint32_t g)
     m->origin[h] = m->origin[g] = NONE;
 }
 
-static void collect(mesh *m, const sunder_shape *shape, sunder_i_convex_pieces *out)
+static void collect_pieces(mesh *m, const sunder_shape *shape, sunder_i_convex_pieces *out)
 {
     for (uint32_t h = 0; h < m->n; h++) {
         if (m->origin[h] == NONE) continue;
@@ -116,13 +116,13 @@ bool sunder_i_hertel_mehlhorn(sunder_i_lattice *lattice, const sunder_shape *sha
     const bool ok = out->vertex && (corners == 0 || mesh_init(&m, shape));
     for (uint32_t h = 0; ok && h < m.n; h++) {
         if (m.origin[h] == NONE || sunder_i_is_boundary(shape, m.origin[h], end_of(&m, h))) continue;
-        const uint32_t g = find(&m, end_of(&m, h), m.origin[h]);
+        const uint32_t g = find_half_edge(&m, end_of(&m, h), m.origin[h]);
         /* A diagonal with the same piece on both sides must stay, since without it the boundary of the piece would have
          * two components; this is the case if its half-edges are adjacent. */
         if (g == NONE || m.next[h] == g || m.next[g] == h) continue;
-        if (good_without(&m, h, g) && good_without(&m, g, h)) dissolve(&m, h, g);
+        if (good_without(&m, h, g) && good_without(&m, g, h)) dissolve_diagonal(&m, h, g);
     }
-    if (ok) collect(&m, shape, out);
+    if (ok) collect_pieces(&m, shape, out);
     mesh_free(&m);
     if (!ok) sunder_i_convex_pieces_free(out);
     return ok;

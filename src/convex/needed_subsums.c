@@ -110,14 +110,14 @@ static sunder_i_window_place place_of(finder *f, uint32_t a, uint32_t b, const s
 
 /* ---- Pairs that meet a window ---- */
 
-static bool apart(const sunder_i_piece_group *a, const sunder_i_piece_group *b, const sunder_i_cell_window *w)
+static bool is_apart(const sunder_i_piece_group *a, const sunder_i_piece_group *b, const sunder_i_cell_window *w)
 {
     for (int k = 0; k < SUNDER_I_WAYS; k++)
         if (a->low[k] + b->low[k] > w->high[k] || a->high[k] + b->high[k] < w->low[k]) return true;
     return false;
 }
 
-static void push(finder *f, uint32_t a, uint32_t b)
+static void push_pair(finder *f, uint32_t a, uint32_t b)
 {
     if (f->pairs == f->capacity && !sunder_i_reserve(&f->pair, &f->capacity, f->pairs + 1, sizeof *f->pair)) {
         f->no_memory = true;
@@ -146,16 +146,16 @@ static void list_pair(finder *f, uint32_t a, uint32_t b, const sunder_i_cell_win
     const sunder_i_piece_group *ga = &f->p->group[a], *gb = &f->q->group[b];
     f->spent++;
     f->no_memory |= !sunder_i_step();
-    if (f->held || f->no_memory || apart(ga, gb, w)) return;
+    if (f->held || f->no_memory || is_apart(ga, gb, w)) return;
     if (ga->pieces == 1 && gb->pieces == 1) {
         const sunder_i_window_place place = place_of(f, a, b, w);
-        if (place == SUNDER_I_ACROSS) push(f, a, b);
+        if (place == SUNDER_I_ACROSS) push_pair(f, a, b);
         f->held = place == SUNDER_I_WITHIN;
         f->holder = subsum_of(f, a, b);
         return;
     }
     if (size_of(ga) + size_of(gb) <= size) {
-        push(f, a, b);
+        push_pair(f, a, b);
         return;
     }
     const bool first = opens_first(ga, gb);
@@ -206,7 +206,7 @@ static bool is_held(finder *f, const cell *c, const sunder_i_cell_window *w)
 
 /* ---- Needed subsums ---- */
 
-static void need(finder *f, uint64_t subsum)
+static void need_subsum(finder *f, uint64_t subsum)
 {
     sunder_i_subsum_list *l = f->out;
     f->no_memory |= !sunder_i_subsum_list_add(l, subsum);
@@ -219,14 +219,14 @@ static bool list_single(finder *f, const cell *c, const sunder_i_cell_window *w)
 {
     f->held = false;
     for (size_t i = c->from; i < c->to; i++) list_pair(f, f->pair[i].a, f->pair[i].b, w, -INFINITY);
-    if (f->held) need(f, f->holder);
+    if (f->held) need_subsum(f, f->holder);
     return !f->held && !f->no_memory;
 }
 
 static void need_listed(finder *f, const cell *c)
 {
     for (size_t i = c->to; i < f->pairs && !f->no_memory && !f->out->all; i++)
-        need(f, subsum_of(f, f->pair[i].a, f->pair[i].b));
+        need_subsum(f, subsum_of(f, f->pair[i].a, f->pair[i].b));
 }
 
 /* ---- Cells ---- */
@@ -244,7 +244,7 @@ static void put_half(finder *f, const cell *c, const double box[4])
     if (f->no_memory) return;
     if (f->held || f->pairs == from) {
         f->pairs = from;
-        if (f->held) need(f, f->holder);
+        if (f->held) need_subsum(f, f->holder);
         return;
     }
     if (!sunder_i_reserve(&f->stack, &f->cells_capacity, f->cells + 1, sizeof *f->stack)) {
@@ -256,7 +256,7 @@ static void put_half(finder *f, const cell *c, const double box[4])
 
 /* Halves the cell across its longer axis; the remaining credit is divided between the halves in proportion to the
  * subsums in their pairs. */
-static void halve(finder *f, const cell *c)
+static void halve_cell(finder *f, const cell *c)
 {
     const int axis = c->box[3] - c->box[1] > c->box[2] - c->box[0];
     const size_t first = f->cells;
@@ -275,7 +275,7 @@ static void halve(finder *f, const cell *c)
 /* ---- Loans ---- */
 
 /* Grants the cell, whose pieces are listed, a loan if the rules at ON_TRUST allow it. Returns true if it did. */
-static bool borrow(finder *f, cell *c)
+static bool borrow_looks(finder *f, cell *c)
 {
     size_t unlisted = 0;
     if (f->loan.on || f->balance + ON_TRUST * f->looks <= 0) return false;
@@ -304,7 +304,7 @@ static bool goes_on(finder *f, cell *c, const sunder_i_cell_window *w)
     const bool deep = c->depth > DEPTH;
     if (c->subsums > leaf && c->credit > 0 && !deep) return true;
     if (!list_single(f, c, w)) return false;
-    if (f->worth > 0 && c->subsums > FEW && !c->stubborn && !deep && borrow(f, c)) {
+    if (f->worth > 0 && c->subsums > FEW && !c->stubborn && !deep && borrow_looks(f, c)) {
         f->pairs = c->to;
         return true;
     }
@@ -312,7 +312,7 @@ static bool goes_on(finder *f, cell *c, const sunder_i_cell_window *w)
     return false;
 }
 
-static void descend(finder *f)
+static void descend_cells(finder *f)
 {
     while (f->cells > 0 && !f->no_memory && !f->out->all) {
         if (f->loan.on && f->cells == f->loan.cells) pay_back(f);
@@ -322,9 +322,9 @@ static void descend(finder *f)
         f->spent = 0;
         if (!goes_on(f, &c, &w)) continue;
         if (is_held(f, &c, &w))
-            need(f, f->holder);
+            need_subsum(f, f->holder);
         else
-            halve(f, &c);
+            halve_cell(f, &c);
         f->looks += f->spent;
     }
 }
@@ -376,7 +376,7 @@ static bool is_worth_it(const finder *f, const double box[4])
     return most >= LARGE_SHARE * area && count_held(f, largest) >= LEAST_HELD * SAMPLES;
 }
 
-static bool find(finder *f)
+static bool find_needed(finder *f)
 {
     const sunder_i_piece_group *a = f->p->group, *b = f->q->group;
     f->whole = (double)a->pieces * (double)b->pieces;
@@ -388,11 +388,11 @@ static bool find(finder *f)
     }
     f->out->all = !is_worth_it(f, root.box);
     if (f->out->all) return true;
-    push(f, 0, 0);
+    push_pair(f, 0, 0);
     f->no_memory |= !sunder_i_reserve(&f->stack, &f->cells_capacity, 1, sizeof *f->stack);
     if (!f->no_memory) {
         f->stack[f->cells++] = root;
-        descend(f);
+        descend_cells(f);
     }
     sunder_i_free(f->pair);
     sunder_i_free(f->stack);
@@ -408,7 +408,7 @@ bool sunder_i_needed_subsums(const sunder_i_convex_pieces *p, const sunder_i_con
     bool ok = sunder_i_piece_tree_build(q, &tq);
     if (ok) {
         finder f = {.p = &tp, .q = &tq, .worth = worth, .out = out};
-        ok = find(&f);
+        ok = find_needed(&f);
         sunder_i_piece_tree_free(&tq);
     }
     sunder_i_piece_tree_free(&tp);

@@ -22,7 +22,7 @@ static sunder_i_approx_side side_of(sunder_i_lattice *l, sunder_i_point from, su
     return s;
 }
 
-static void clear(sunder_i_piece_group *g)
+static void clear_group(sunder_i_piece_group *g)
 {
     for (int k = 0; k < SUNDER_I_WAYS; k++) {
         g->low[k] = INFINITY;
@@ -31,13 +31,13 @@ static void clear(sunder_i_piece_group *g)
 }
 
 /* Returns the group of one piece, and stores its sides in the tree. */
-static sunder_i_piece_group single(sunder_i_piece_tree *t, uint32_t piece)
+static sunder_i_piece_group single_group(sunder_i_piece_tree *t, uint32_t piece)
 {
     const sunder_i_convex_pieces *s = t->pieces;
     const uint32_t first = sunder_i_convex_pieces_first(s, piece), end = s->end[piece];
     sunder_i_piece_group g = {
         .pieces = 1, .piece = piece, .part = {SUNDER_I_NO_GROUP, SUNDER_I_NO_GROUP, SUNDER_I_NO_GROUP}};
-    clear(&g);
+    clear_group(&g);
     for (uint32_t k = first; k < end; k++) {
         const sunder_i_approx_side a = side_of(s->lattice, s->corner[k], s->corner[k + 1 < end ? k + 1 : first]);
         const double at[SUNDER_I_WAYS] = {a.x, a.y, a.x + a.y, a.x - a.y};
@@ -61,7 +61,7 @@ typedef struct maker {
     uint32_t *order;                    /* [pieces] the pieces in the order of the curve */
 } maker;
 
-static void join(sunder_i_piece_group *g, const sunder_i_piece_group *part)
+static void join_group(sunder_i_piece_group *g, const sunder_i_piece_group *part)
 {
     for (int k = 0; k < SUNDER_I_WAYS; k++) {
         g->low[k] = sunder_i_min(g->low[k], part->low[k]);
@@ -88,12 +88,12 @@ static uint32_t make_group(maker *m, uint32_t from, uint32_t to)
     m->order[from] = piece;
     const uint32_t middle = from + 1 + (to - from) / 2;
     sunder_i_piece_group g = {.piece = piece};
-    clear(&g);
+    clear_group(&g);
     g.part[0] = make_group(m, from, from + 1);
     g.part[1] = make_group(m, from + 1, middle);
     g.part[2] = middle < to ? make_group(m, middle, to) : SUNDER_I_NO_GROUP;
     for (int k = 0; k < 3; k++)
-        if (g.part[k] != SUNDER_I_NO_GROUP) join(&g, &t->group[g.part[k]]);
+        if (g.part[k] != SUNDER_I_NO_GROUP) join_group(&g, &t->group[g.part[k]]);
     t->group[number] = g;
     return number;
 }
@@ -112,7 +112,7 @@ bool sunder_i_piece_tree_build(const sunder_i_convex_pieces *pieces, sunder_i_pi
     double *centre = sunder_i_arena_alloc(&arena, 2 * (size_t)n, sizeof *centre);
     bool ok = out->side && out->group && !arena.failed;
     for (uint32_t i = 0; ok && i < n; i++) {
-        of[i] = single(out, i);
+        of[i] = single_group(out, i);
         order[i] = same[i] = i;
         for (int k = 0; k < 2; k++) centre[2 * (size_t)i + (size_t)k] = of[i].low[k] / 2 + of[i].high[k] / 2;
     }

@@ -101,7 +101,7 @@ static size_t side_vectors(sunder_i_lattice *l, const sunder_i_convex_pieces *li
     return sides;
 }
 
-static void rotate(void *array, size_t size, uint32_t n, uint32_t by, void *room)
+static void rotate_array(void *array, size_t size, uint32_t n, uint32_t by, void *room)
 {
     char *item = array;
     memcpy(room, item, by * size);
@@ -118,10 +118,10 @@ static void start_with_least(sunder_i_convex_pieces *list, uint32_t first, uint3
         if (rank[k] < rank[least]) least = k;
     while (rank[(least + n - 1) % n] == rank[least]) least = (least + n - 1) % n;
     if (least == 0) return;
-    rotate(rank, sizeof *rank, n, least, room);
-    rotate(list->corner + first, sizeof *list->corner, n, least, room);
-    rotate(list->candidate + first, sizeof *list->candidate, n, least, room);
-    if (list->vertex) rotate(list->vertex + first, sizeof *list->vertex, n, least, room);
+    rotate_array(rank, sizeof *rank, n, least, room);
+    rotate_array(list->corner + first, sizeof *list->corner, n, least, room);
+    rotate_array(list->candidate + first, sizeof *list->candidate, n, least, room);
+    if (list->vertex) rotate_array(list->vertex + first, sizeof *list->vertex, n, least, room);
 }
 
 /* Sets the ranks of the sides, and rotates each piece so that it starts with the least one. Returns the number of ranks

@@ -37,7 +37,7 @@ static void take_edge_ranks(operand *o)
 
 /* Returns true if the exterior angle at vertex v contains rank r. Then the vertex is convex, a left turn. If several
  * vertices have one position, each has a sector of its own (shape.h), and the union of their results is correct. */
-static bool holds(const operand *o, uint32_t v, uint32_t r, uint32_t classes)
+static bool angle_holds(const operand *o, uint32_t v, uint32_t r, uint32_t classes)
 {
     const sunder_shape *s = o->shape;
     const uint32_t full = 2 * classes, in = o->edge_rank[s->form->cleaned.prev[v]], out = o->edge_rank[v];
@@ -49,7 +49,7 @@ static bool holds(const operand *o, uint32_t v, uint32_t r, uint32_t classes)
 /* Returns true if side k of a is an edge whose direction is in the exterior angle of the vertex `vertex` of b. */
 static bool is_candidate(const operand *a, uint32_t k, const operand *b, uint32_t vertex, uint32_t classes)
 {
-    return a->pieces.candidate[k] && holds(b, vertex, a->pieces.rank[k], classes);
+    return a->pieces.candidate[k] && angle_holds(b, vertex, a->pieces.rank[k], classes);
 }
 
 static void add_subsum(const operand *p, uint32_t i, const operand *q, uint32_t j, sunder_i_convex_pieces *out)

@@ -87,7 +87,7 @@ static bool reflex_part(const bisector *b, uint32_t v, sector *s)
 }
 
 /* Returns true if d is in the cone that resolves the sector. */
-static bool resolves(sunder_i_lattice *l, const sector *s, sunder_i_point d)
+static bool resolves_sector(sunder_i_lattice *l, const sector *s, sunder_i_point d)
 {
     return sunder_i_cross_sign(l, s->low, d) >= 0 && sunder_i_cross_sign(l, d, s->high) >= 0;
 }
@@ -97,7 +97,7 @@ static bool resolves(sunder_i_lattice *l, const sector *s, sunder_i_point d)
 /* *box becomes a box around vertex v and vertex w, the edge that leaves w, or cut w, depending on `end`. Its bounds are
  * rounded coordinates, and rounding is monotone: objects in disjoint boxes are disjoint. A Steiner point is in the box
  * of the edge or cut that contains it. */
-static void hull(const bisector *b, uint32_t v, sunder_i_cut_end end, uint32_t w, double box[4])
+static void box_of_cut(const bisector *b, uint32_t v, sunder_i_cut_end end, uint32_t w, double box[4])
 {
     const sunder_i_rings *r = &b->m->rings;
     double other[4];
@@ -143,7 +143,7 @@ static bool is_hidden(const bisector *b, uint32_t v, uint32_t w)
     const sunder_i_fraction one = sunder_i_fraction_int(l, 1);
     sunder_i_fraction t;
     double box[4];
-    hull(b, v, SUNDER_I_AT_VERTEX, w, box);
+    box_of_cut(b, v, SUNDER_I_AT_VERTEX, w, box);
     for (uint32_t k = 0; k < b->cuts; k++)
         if (sunder_i_box_meet(box, b->box[k]) && meets_cut(b, v, b->m->rings.at[w], d, k, &t) &&
             sunder_i_fraction_cmp(l, &t, &one) < 0)
@@ -162,12 +162,12 @@ static void add_cut(bisector *b, const sunder_i_cut *cut)
 {
     const uint32_t k = b->cuts++;
     b->cut[k] = *cut;
-    hull(b, cut->from, cut->end, cut->at, b->box[k]);
+    box_of_cut(b, cut->from, cut->end, cut->at, b->box[k]);
     add_end(b, cut->from, 2 * k);
     if (cut->end == SUNDER_I_AT_VERTEX) add_end(b, cut->at, 2 * k + 1);
 }
 
-static void join(bisector *b, uint32_t v, uint32_t w)
+static void join_vertices(bisector *b, uint32_t v, uint32_t w)
 {
     const sunder_i_cut cut = {.from = v,
                               .toward = b->m->rings.at[w],
@@ -210,8 +210,8 @@ static bool find_pairs(bisector *b)
         for (uint32_t i = 0; i < b->rays.seen_n; i++) {
             const uint32_t w = b->rays.seen[i];
             if (!sunder_i_step()) return false;
-            if (w < v || !b->reflex[w - first] || !resolves(l, &s, to_vertex(b, v, w))) continue;
-            if (!reflex_part(b, w, &t) || !resolves(l, &t, to_vertex(b, w, v))) continue;
+            if (w < v || !b->reflex[w - first] || !resolves_sector(l, &s, to_vertex(b, v, w))) continue;
+            if (!reflex_part(b, w, &t) || !resolves_sector(l, &t, to_vertex(b, w, v))) continue;
             if (!sunder_i_reserve(&b->pair, &b->pair_room, (size_t)b->pairs + 1, sizeof *b->pair)) return false;
             b->pair[b->pairs++] = (reflex_pair){v, w, small_side(b, v, w)};
         }
@@ -239,7 +239,7 @@ static bool join_pairs(bisector *b)
         const reflex_pair *p = &b->pair[order[i]];
         bool *one = &b->paired[p->a - b->part->first], *other = &b->paired[p->b - b->part->first];
         if (*one || *other || is_hidden(b, p->a, p->b)) continue;
-        join(b, p->a, p->b);
+        join_vertices(b, p->a, p->b);
         *one = *other = true;
     }
     sunder_i_free(order);
@@ -263,7 +263,7 @@ static uint32_t choose_vertex(bisector *b, uint32_t v, const sector *s)
     for (uint32_t i = 0; i < b->rays.seen_n; i++) {
         const uint32_t w = b->rays.seen[i];
         const sunder_i_point d = to_vertex(b, v, w);
-        if (!resolves(l, s, d)) continue;
+        if (!resolves_sector(l, s, d)) continue;
         sunder_i_direction_unit(l, d, unit, &exponent);
         const bool reflex = b->reflex[w - b->part->first];
         /* the greatest value is nearest to the bisector */
@@ -285,7 +285,7 @@ static bool find_end(const bisector *b, sunder_i_cut *cut)
     const sunder_i_point from = r->at[cut->from];
     if (!sunder_i_cut_run(cut, &b->rays)) return false;
     double box[4];
-    hull(b, cut->from, cut->end, cut->at, box);
+    box_of_cut(b, cut->from, cut->end, cut->at, box);
     for (uint32_t k = 0; k < b->cuts; k++) {
         sunder_i_fraction t;
         if (!sunder_i_box_meet(box, b->box[k]) || !meets_cut(b, cut->from, cut->toward, cut->along, k, &t)) continue;
@@ -298,7 +298,7 @@ static bool find_end(const bisector *b, sunder_i_cut *cut)
     return true;
 }
 
-static bool resolve(bisector *b, uint32_t v)
+static bool resolve_vertex(bisector *b, uint32_t v)
 {
     sunder_i_lattice *l = b->m->lattice;
     sector s;
@@ -306,7 +306,7 @@ static bool resolve(bisector *b, uint32_t v)
     if (!look_in_cone(b, v, &s)) return false;
     const uint32_t w = choose_vertex(b, v, &s);
     if (w != SUNDER_I_NONE) {
-        join(b, v, w);
+        join_vertices(b, v, w);
         return true;
     }
     sunder_i_cut cut = {.from = v};
@@ -350,7 +350,7 @@ void sunder_i_make_bisector(sunder_i_maker *m, const sunder_i_member *member)
     if (!make_room(&b) || !sunder_i_ray_shooting_init(&b.rays, &m->rings, member, &m->scratch)) return;
     bool ok = join_pairs(&b);
     for (uint32_t i = 0; ok && i < member->n && !sunder_i_maker_failed(m); i++)
-        if (b.reflex[i] && !b.paired[i]) ok = resolve(&b, member->first + i);
+        if (b.reflex[i] && !b.paired[i]) ok = resolve_vertex(&b, member->first + i);
     if (!ok) m->scratch.failed = true;
     if (!sunder_i_maker_failed(m)) sunder_i_cuts_apply(m, member, b.cut, b.cuts);
     sunder_i_ray_shooting_free(&b.rays);

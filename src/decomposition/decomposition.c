@@ -22,7 +22,7 @@ static void make_optimal(sunder_i_maker *m, const sunder_i_member *member)
     sunder_i_program_free(program);
 }
 
-static void make(sunder_i_maker *m, sunder_decomposition kind)
+static void make_pieces(sunder_i_maker *m, sunder_decomposition kind)
 {
     if (kind == SUNDER_DECOMPOSITION_HERTEL_MEHLHORN) {
         sunder_i_make_shape_pieces(m);
@@ -45,8 +45,8 @@ static void make(sunder_i_maker *m, sunder_decomposition kind)
     }
 }
 
-static void sign(const sunder_i_maker *m, sunder_decomposition kind, const sunder_counts *before,
-                 sunder_i_decomposition *out)
+static void sign_result(const sunder_i_maker *m, sunder_decomposition kind, const sunder_counts *before,
+                        sunder_i_decomposition *out)
 {
     out->used = m->fallbacks ? SUNDER_DECOMPOSITION_HERTEL_MEHLHORN : kind;
     out->counts = sunder_i_counts_since(&m->lattice->counts, before);
@@ -61,10 +61,10 @@ sunder_status sunder_i_decompose(sunder_i_lattice *lattice, const sunder_shape *
     sunder_i_maker m;
     sunder_i_decomposition made;
     bool ok = sunder_i_maker_init(&m, lattice, shape, at);
-    if (ok) make(&m, kind);
+    if (ok) make_pieces(&m, kind);
     ok = ok && sunder_i_maker_finish(&m, &made);
     if (ok) {
-        sign(&m, kind, &before, &made);
+        sign_result(&m, kind, &before, &made);
         *out = made;
     }
     sunder_i_maker_free(&m);
@@ -90,7 +90,7 @@ static sunder_status decompose_mixed(sunder_i_lattice *lattice, const sunder_sha
     }
     for (int i = 0; i < 2 && ok; i++) {
         sunder_counts now = lattice->counts;
-        sign(&m[i], SUNDER_DECOMPOSITION_MIXED, i ? &now : &before, &made[i]);
+        sign_result(&m[i], SUNDER_DECOMPOSITION_MIXED, i ? &now : &before, &made[i]);
         *out[i] = made[i];
     }
     sunder_i_maker_free(&m[0]);

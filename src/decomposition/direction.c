@@ -38,7 +38,7 @@ double sunder_i_direction_unit(sunder_i_lattice *lattice, sunder_i_point u, doub
 }
 
 /* *out becomes the unit vector of the bisector of two unit vectors, from a counterclockwise to b by at most pi. */
-static void halve(const double a[2], const double b[2], double out[2])
+static void halve_angle(const double a[2], const double b[2], double out[2])
 {
     const double x = a[0] + b[0], y = a[1] + b[1], length = hypot(x, y);
     const bool straight = length < 0x1p-20;
@@ -52,9 +52,9 @@ sunder_i_point sunder_i_direction_within(sunder_i_lattice *lattice, sunder_i_poi
     long exponent;
     sunder_i_direction_unit(lattice, a, ua, &exponent);
     sunder_i_direction_unit(lattice, b, ub, &exponent);
-    halve(ua, ub, middle);
-    halve(ua, middle, low);
-    halve(middle, ub, high);
+    halve_angle(ua, ub, middle);
+    halve_angle(ua, middle, low);
+    halve_angle(middle, ub, high);
     const double top = sunder_i_max(fabs(middle[0]), fabs(middle[1]));
     for (double k = 1; top > 0 && k <= MOST && !lattice->arena.failed; k *= 2) {
         const double x = round(middle[0] / top * k), y = round(middle[1] / top * k);

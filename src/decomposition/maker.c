@@ -9,7 +9,7 @@
 
 /* Returns a coordinate as a double, by a monotone conversion: the order of doubles is that of the exact numbers. The
  * functions below need no more of rounded coordinates. */
-static double monotone(sunder_i_lattice *l, int64_t n, bool *rounded)
+static double monotone_double(sunder_i_lattice *l, int64_t n, bool *rounded)
 {
     if (!sunder_i_is_plain(n) || n > (int64_t)1 << 53 || n < -((int64_t)1 << 53) || l->approx_shift) *rounded = true;
     return sunder_i_approx(l, n);
@@ -36,8 +36,8 @@ bool sunder_i_maker_init(sunder_i_maker *m, sunder_i_lattice *lattice, const sun
     if (!r->at || !r->xy) return false;
     for (uint32_t i = 0; i < shape->vertices; i++) {
         r->at[i] = at[i];
-        r->xy[2 * (size_t)i] = monotone(lattice, at[i].x, &r->rounded);
-        r->xy[2 * (size_t)i + 1] = monotone(lattice, at[i].y, &r->rounded);
+        r->xy[2 * (size_t)i] = monotone_double(lattice, at[i].x, &r->rounded);
+        r->xy[2 * (size_t)i + 1] = monotone_double(lattice, at[i].y, &r->rounded);
     }
     return !lattice->arena.failed;
 }
@@ -78,7 +78,7 @@ void sunder_i_maker_add_side(sunder_i_maker *m, uint32_t corner, sunder_i_point 
     m->along[m->sides++] = along;
 }
 
-static void reverse(uint32_t *corner, sunder_i_point *along, uint32_t lo, uint32_t hi)
+static void reverse_sides(uint32_t *corner, sunder_i_point *along, uint32_t lo, uint32_t hi)
 {
     while (lo + 1 < hi) {
         const uint32_t c = corner[lo];
@@ -107,9 +107,9 @@ void sunder_i_maker_end_piece(sunder_i_maker *m)
     for (uint32_t k = 1; k < kept; k++)
         if (sunder_i_angle_cmp(m->lattice, along[k], along[least]) < 0) least = k;
     if (least) { /* rotated by three reversals */
-        reverse(corner, along, 0, least);
-        reverse(corner, along, least, kept);
-        reverse(corner, along, 0, kept);
+        reverse_sides(corner, along, 0, least);
+        reverse_sides(corner, along, least, kept);
+        reverse_sides(corner, along, 0, kept);
     }
     m->sides = first + kept;
     if (!sunder_i_reserve(&m->piece_end, &m->pieces_room, (size_t)m->pieces + 1, sizeof *m->piece_end) ||
@@ -150,7 +150,7 @@ uint32_t sunder_i_maker_add_steiner(sunder_i_maker *m, sunder_i_point a, sunder_
 }
 
 /* Returns a copy of n elements, allocated in the arena of the result. NULL if out of memory. */
-static void *keep(sunder_i_arena *arena, const void *from, size_t n, size_t size)
+static void *keep_copy(sunder_i_arena *arena, const void *from, size_t n, size_t size)
 {
     void *to = sunder_i_arena_alloc(arena, n, size);
     if (to && n) memcpy(to, from, n * size);
@@ -158,7 +158,7 @@ static void *keep(sunder_i_arena *arena, const void *from, size_t n, size_t size
 }
 
 /* Returns the corner of a Steiner point, or of a vertex that is a crossing, in lowest terms. */
-static sunder_i_corner reduced(sunder_i_arena *arena, sunder_i_arena *scratch, sunder_i_rational_point at)
+static sunder_i_corner reduced_corner(sunder_i_arena *arena, sunder_i_arena *scratch, sunder_i_rational_point at)
 {
     const sunder_i_mark mark = sunder_i_arena_mark(scratch);
     const sunder_i_corner c = {sunder_i_rational_copy(arena, sunder_i_rational_reduced(scratch, at)), UINT32_MAX};
@@ -182,10 +182,10 @@ bool sunder_i_maker_finish(sunder_i_maker *m, sunder_i_decomposition *out)
     out->corners = n + m->steiner_n;
     out->corner = sunder_i_arena_alloc(arena, out->corners, sizeof *out->corner);
     out->pieces = m->pieces;
-    out->piece_end = keep(arena, m->piece_end, m->pieces, sizeof *m->piece_end);
-    out->member = keep(arena, m->member, m->pieces, sizeof *m->member);
-    out->piece_corner = keep(arena, m->piece_corner, m->sides, sizeof *m->piece_corner);
-    out->along = keep(arena, m->along, m->sides, sizeof *m->along);
+    out->piece_end = keep_copy(arena, m->piece_end, m->pieces, sizeof *m->piece_end);
+    out->member = keep_copy(arena, m->member, m->pieces, sizeof *m->member);
+    out->piece_corner = keep_copy(arena, m->piece_corner, m->sides, sizeof *m->piece_corner);
+    out->along = keep_copy(arena, m->along, m->sides, sizeof *m->along);
     for (uint32_t i = 0; i < n && !arena->failed; i++) {
         sunder_i_corner *c = &out->corner[i];
         const sunder_i_point at = m->rings.at[i];
@@ -193,11 +193,11 @@ bool sunder_i_maker_finish(sunder_i_maker *m, sunder_i_decomposition *out)
             *c = (sunder_i_corner){{sunder_i_big_i64(arena, at.x), sunder_i_big_i64(arena, at.y), {&one, 1}}, i};
             continue;
         }
-        *c = reduced(arena, &m->scratch, sunder_i_rational_get(&m->scratch, m->lattice, at));
+        *c = reduced_corner(arena, &m->scratch, sunder_i_rational_get(&m->scratch, m->lattice, at));
         c->vertex = i;
     }
     for (uint32_t i = 0; i < m->steiner_n && !arena->failed; i++)
-        out->corner[n + i] = reduced(arena, &m->scratch, m->steiner[i]);
+        out->corner[n + i] = reduced_corner(arena, &m->scratch, m->steiner[i]);
     if (!arena->failed && !sunder_i_maker_failed(m))
         SUNDER_I_CHECK(sunder_i_decomposition_check(m->lattice, m->shape, m->rings.at, out), out->corners);
     if (!arena->failed && !sunder_i_maker_failed(m)) return true; /* the tests may have run out of memory, too */

@@ -44,7 +44,7 @@ static double boundary_of(const sunder_i_rings *r)
     return sum;
 }
 
-static void total(side *s)
+static void total_side(side *s)
 {
     s->pieces = 0;
     s->perimeters = s->boundary;
@@ -55,7 +55,7 @@ static void total(side *s)
     }
 }
 
-static bool prepare(side *s, sunder_i_maker *m)
+static bool prepare_side(side *s, sunder_i_maker *m)
 {
     const uint32_t polygons = m->rings.polygons;
     s->m = m;
@@ -83,30 +83,33 @@ static bool prepare(side *s, sunder_i_maker *m)
     return !sunder_i_maker_failed(m);
 }
 
-static bool solve(side *s, double each, double by_length)
+static bool solve_side(side *s, double each, double by_length)
 {
     for (uint32_t i = 0; i < s->m->rings.polygons; i++)
         if (s->program[i] && !sunder_i_program_solve(s->program[i], each, by_length, &s->diagonals[i], &s->lengths[i]))
             return false;
-    total(s);
+    total_side(s);
     return true;
 }
 
-static double objective(const side *p, const side *q) { return q->pieces * p->perimeters + p->pieces * q->perimeters; }
+static double objective_of(const side *p, const side *q)
+{
+    return q->pieces * p->perimeters + p->pieces * q->perimeters;
+}
 
 static bool solve_both(side *p, side *q)
 {
     double weight[2][2] = {{1, 0}, {1, 0}}; /* the weights of the diagonals of p and of q: `each`, and by length */
-    if (!solve(p, 1, 0) || !solve(q, 1, 0)) return false;
-    double least = objective(p, q);
+    if (!solve_side(p, 1, 0) || !solve_side(q, 1, 0)) return false;
+    double least = objective_of(p, q);
     for (int i = 0; i < ROUNDS; i++) {
         const double for_p[2] = {q->perimeters, 2 * q->pieces};
-        if (!solve(p, for_p[0], for_p[1])) return false;
+        if (!solve_side(p, for_p[0], for_p[1])) return false;
         const double for_q[2] = {p->perimeters, 2 * p->pieces};
-        if (!solve(q, for_q[0], for_q[1])) return false;
-        const double now = objective(p, q);
+        if (!solve_side(q, for_q[0], for_q[1])) return false;
+        const double now = objective_of(p, q);
         /* The best solution is computed again, with its weights. */
-        if (now > least) return solve(p, weight[0][0], weight[0][1]) && solve(q, weight[1][0], weight[1][1]);
+        if (now > least) return solve_side(p, weight[0][0], weight[0][1]) && solve_side(q, weight[1][0], weight[1][1]);
         if (now == least) break;
         least = now;
         memcpy(weight[0], for_p, sizeof for_p);
@@ -115,7 +118,7 @@ static bool solve_both(side *p, side *q)
     return true;
 }
 
-static void emit(side *s)
+static void emit_pieces(side *s)
 {
     sunder_i_maker *m = s->m;
     for (; m->polygon < m->rings.polygons; m->polygon++) {
@@ -132,7 +135,7 @@ static void emit(side *s)
     }
 }
 
-static void release(side *s)
+static void release_side(side *s)
 {
     for (uint32_t i = 0; s->program && i < s->m->rings.polygons; i++) sunder_i_program_free(s->program[i]);
 }
@@ -140,18 +143,18 @@ static void release(side *s)
 void sunder_i_make_mixed(sunder_i_maker *p, sunder_i_maker *q)
 {
     side a = {0}, b = {0};
-    if (prepare(&a, p) && prepare(&b, q) && p->rings.polygons && q->rings.polygons) {
+    if (prepare_side(&a, p) && prepare_side(&b, q) && p->rings.polygons && q->rings.polygons) {
         if (solve_both(&a, &b)) {
-            emit(&a);
-            emit(&b);
+            emit_pieces(&a);
+            emit_pieces(&b);
         }
         /* one operand is empty: the other is decomposed alone */
     } else if (!sunder_i_maker_failed(p) && !sunder_i_maker_failed(q)) {
-        if (solve(&a, 1, 0) && solve(&b, 1, 0)) {
-            emit(&a);
-            emit(&b);
+        if (solve_side(&a, 1, 0) && solve_side(&b, 1, 0)) {
+            emit_pieces(&a);
+            emit_pieces(&b);
         }
     }
-    release(&a);
-    release(&b);
+    release_side(&a);
+    release_side(&b);
 }

@@ -65,7 +65,7 @@ struct sunder_i_program {
     size_t front_room;
 };
 
-static int turn(const sunder_i_program *p, uint32_t a, uint32_t b, uint32_t c)
+static int turn_of_corners(const sunder_i_program *p, uint32_t a, uint32_t b, uint32_t c)
 {
     return sunder_i_rings_orient(&p->m->rings, p->first + a, p->first + b, p->first + c);
 }
@@ -122,7 +122,7 @@ static void find_allowed(sunder_i_program *p, const uint32_t *down_first, const 
     for (uint32_t u = 0; u < p->n; u++) {
         uint32_t t = down_first[u];
         for (uint32_t e = p->up_first[u]; e < p->up_first[u + 1]; e++) {
-            while (t < down_first[u + 1] && turn(p, down[t], u, p->up[e]) >= 0) t++;
+            while (t < down_first[u + 1] && turn_of_corners(p, down[t], u, p->up[e]) >= 0) t++;
             p->allowed[e] = t > down_first[u] ? down[t - 1] + 1 : 0;
         }
     }
@@ -251,7 +251,7 @@ static uint32_t least_start(sunder_i_program *p, uint32_t i, uint32_t v)
     uint32_t lo = p->up_first[i], hi = p->up_first[i + 1];
     while (lo < hi) {
         const uint32_t middle = lo + (hi - lo) / 2;
-        if (p->up[middle] >= v || turn(p, v, i, p->up[middle]) >= 0)
+        if (p->up[middle] >= v || turn_of_corners(p, v, i, p->up[middle]) >= 0)
             hi = middle;
         else
             lo = middle + 1;
@@ -260,10 +260,10 @@ static uint32_t least_start(sunder_i_program *p, uint32_t i, uint32_t v)
 }
 
 /* Extends the n chains of the front from u by link e. Returns false if out of memory. */
-static bool extend(sunder_i_program *p, uint32_t i, uint32_t u, uint32_t e, uint32_t n)
+static bool extend_front(sunder_i_program *p, uint32_t i, uint32_t u, uint32_t e, uint32_t n)
 {
     const uint32_t v = p->up[e];
-    if (n == 0 || turn(p, u, v, i) < 0) return true;
+    if (n == 0 || turn_of_corners(p, u, v, i) < 0) return true;
     const uint32_t least = least_start(p, i, v);
     for (uint32_t k = 0; k < n; k++) {
         const chain *c = &p->chain[p->front[k]];
@@ -275,7 +275,7 @@ static bool extend(sunder_i_program *p, uint32_t i, uint32_t u, uint32_t e, uint
 }
 
 /* Returns the lightest chain that arrives at u, or SUNDER_I_NONE. */
-static uint32_t lightest(const sunder_i_program *p, uint32_t u)
+static uint32_t lightest_chain(const sunder_i_program *p, uint32_t u)
 {
     uint32_t best = SUNDER_I_NONE;
     for (uint32_t c = p->head[u]; c != SUNDER_I_NONE; c = p->chain[c].next)
@@ -285,7 +285,7 @@ static uint32_t lightest(const sunder_i_program *p, uint32_t u)
 
 /* Extends all chains from i up to vertex `last`, and sets W of the links from i. Returns the lightest chain that
  * arrives at `last`, or SUNDER_I_NONE. */
-static uint32_t grow(sunder_i_program *p, uint32_t i, uint32_t last)
+static uint32_t grow_chains(sunder_i_program *p, uint32_t i, uint32_t last)
 {
     p->chains = 0;
     for (uint32_t v = i; v <= last; v++) p->head[v] = p->least[v] = SUNDER_I_NONE;
@@ -297,7 +297,7 @@ static uint32_t grow(sunder_i_program *p, uint32_t i, uint32_t last)
         /* The chain that is the link from i only: the first to arrive, since i is the least vertex. */
         uint32_t alone = SUNDER_I_NONE;
         if (linked) {
-            const uint32_t c = lightest(p, u);
+            const uint32_t c = lightest_chain(p, u);
             if (u > i + 1) p->within[link] = c == SUNDER_I_NONE ? INFINITY : p->chain[c].weight;
             const chain single = {p->within[link] + weight_of(p, i, link), i, p->reflex[i] ? u : 0, SUNDER_I_NONE,
                                   SUNDER_I_NONE};
@@ -316,10 +316,10 @@ static uint32_t grow(sunder_i_program *p, uint32_t i, uint32_t last)
         }
         for (uint32_t e = p->up_first[u]; e < p->up_first[u + 1] && p->up[e] <= last; e++) {
             for (; c != SUNDER_I_NONE && p->chain[c].from < p->allowed[e]; c = p->chain[c].next) n = front_add(p, n, c);
-            if (!extend(p, i, u, e, n)) return SUNDER_I_NONE;
+            if (!extend_front(p, i, u, e, n)) return SUNDER_I_NONE;
         }
     }
-    const uint32_t best = lightest(p, last);
+    const uint32_t best = lightest_chain(p, last);
     if (link < link_end && p->up[link] == last && last > i + 1)
         p->within[link] = best == SUNDER_I_NONE ? INFINITY : p->chain[best].weight;
     return best;
@@ -342,7 +342,7 @@ static uint32_t find_link(const sunder_i_program *p, uint32_t u, uint32_t v)
 
 /* Finds the pieces of the best solution, from the link (0, n - 1) inwards; chains are extended again, which costs less
  * than storing all of them. Returns false if out of memory. */
-static bool trace(sunder_i_program *p, uint32_t *diagonals, double *length)
+static bool trace_pieces(sunder_i_program *p, uint32_t *diagonals, double *length)
 {
     both_ways *stack = sunder_i_alloc(p->n, sizeof *stack);
     if (!stack) return false;
@@ -353,7 +353,7 @@ static bool trace(sunder_i_program *p, uint32_t *diagonals, double *length)
     *length = 0;
     while (depth) {
         const both_ways base = stack[--depth];
-        uint32_t c = grow(p, base.u, base.v), above = base.v;
+        uint32_t c = grow_chains(p, base.u, base.v), above = base.v;
         if (c == SUNDER_I_NONE) break; /* out of memory */
         /* The chain is followed from its upper end down, that is clockwise; the corners are reversed afterwards. */
         const uint32_t start = corners;
@@ -387,9 +387,9 @@ bool sunder_i_program_solve(sunder_i_program *program, double each, double by_le
     for (uint32_t e = 0; e < program->up_first[program->n]; e++) program->within[e] = 0;
     for (uint32_t i = program->n - 1; i-- > 0 && !sunder_i_maker_failed(program->m);) {
         const uint32_t first = program->up_first[i], end = program->up_first[i + 1];
-        if (end - first > 1 || program->up[first] > i + 1) grow(program, i, program->up[end - 1]);
+        if (end - first > 1 || program->up[first] > i + 1) grow_chains(program, i, program->up[end - 1]);
     }
-    if (!sunder_i_maker_failed(program->m) && trace(program, diagonals, length)) return true;
+    if (!sunder_i_maker_failed(program->m) && trace_pieces(program, diagonals, length)) return true;
     program->m->scratch.failed = true;
     return false;
 }

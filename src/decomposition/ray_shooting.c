@@ -69,7 +69,7 @@ sunder_i_hit sunder_i_ray_shooting_shoot(const sunder_i_ray_shooting *s, uint32_
     }
 }
 
-static bool see(sunder_i_ray_shooting *s, uint32_t w)
+static bool see_vertex(sunder_i_ray_shooting *s, uint32_t w)
 {
     if (!sunder_i_reserve(&s->seen, &s->seen_room, (size_t)s->seen_n + 1, sizeof *s->seen)) return false;
     s->seen[s->seen_n++] = w;
@@ -87,7 +87,8 @@ static bool is_outside(const sunder_i_rings *r, uint32_t v, const sunder_i_windo
     return sunder_i_cross_sign(l, a, cone[1]) < 0 && sunder_i_cross_sign(l, b, cone[1]) < 0;
 }
 
-static bool push(sunder_i_ray_shooting *s, size_t *depth, uint32_t v, const sunder_i_point *cone, sunder_i_window w)
+static bool push_window(sunder_i_ray_shooting *s, size_t *depth, uint32_t v, const sunder_i_point *cone,
+                        sunder_i_window w)
 {
     if (s->mesh.twin[w.h] == SUNDER_I_NONE || (cone && is_outside(s->r, v, &w, cone))) return true;
     if (!sunder_i_reserve(&s->stack, &s->stack_room, *depth + 1, sizeof *s->stack)) return false;
@@ -107,10 +108,10 @@ static bool look_through(sunder_i_ray_shooting *s, size_t *depth, uint32_t v, co
     const int from_right = sunder_i_orient(l, r->at[v], r->at[w.right], r->at[apex]);
     const int from_left = sunder_i_orient(l, r->at[v], r->at[w.left], r->at[apex]);
     sunder_i_window right = {m->next[g], w.right, w.left}, left = {m->prev[g], w.right, w.left};
-    if (from_right <= 0) return push(s, depth, v, cone, left);
-    if (from_left >= 0) return push(s, depth, v, cone, right);
+    if (from_right <= 0) return push_window(s, depth, v, cone, left);
+    if (from_left >= 0) return push_window(s, depth, v, cone, right);
     right.left = left.right = apex;
-    return see(s, apex) && push(s, depth, v, cone, left) && push(s, depth, v, cone, right);
+    return see_vertex(s, apex) && push_window(s, depth, v, cone, left) && push_window(s, depth, v, cone, right);
 }
 
 bool sunder_i_ray_shooting_visible(sunder_i_ray_shooting *s, uint32_t v, const sunder_i_point *cone)
@@ -120,9 +121,9 @@ bool sunder_i_ray_shooting_visible(sunder_i_ray_shooting *s, uint32_t v, const s
     s->seen_n = 0;
     for (uint32_t h = s->start[v - s->first]; h != SUNDER_I_NONE; h = turn_left(m, h)) {
         const uint32_t b = m->origin[m->next[h]], c = m->origin[m->prev[h]];
-        if (!see(s, b) || !push(s, &depth, v, cone, (sunder_i_window){m->next[h], b, c})) return false;
+        if (!see_vertex(s, b) || !push_window(s, &depth, v, cone, (sunder_i_window){m->next[h], b, c})) return false;
     }
-    if (!see(s, s->r->prev[v])) return false;
+    if (!see_vertex(s, s->r->prev[v])) return false;
     while (depth && !s->r->lattice->arena.failed)
         if (!sunder_i_step() || !look_through(s, &depth, v, cone, s->stack[--depth])) return false;
     return !s->r->lattice->arena.failed;

@@ -10,7 +10,7 @@
 #include "convex/merge.h"
 #include "predicate/narrow.h"
 
-static uint32_t smallest(sunder_i_lattice *l, const sunder_shape *shape, const sunder_i_point *at)
+static uint32_t smallest_corner(sunder_i_lattice *l, const sunder_shape *shape, const sunder_i_point *at)
 {
     uint32_t least = 0;
     for (uint32_t v = 1; v < shape->vertices; v++)
@@ -30,7 +30,7 @@ static side side_from(sunder_i_lattice *l, const sunder_shape *shape, const sund
 }
 
 /* Compares two sides in the order of the traversal; 0: they have the same direction. */
-static int order(sunder_i_lattice *l, const side *s, const side *t)
+static int compare_sides(sunder_i_lattice *l, const side *s, const side *t)
 {
     if (s->back != t->back) return s->back ? 1 : -1;
     return -sunder_i_cross_sign_inline(l, s->along, t->along);
@@ -48,10 +48,10 @@ sunder_status sunder_i_convex_operands_sum(sunder_sum *sum, const sunder_shape *
     sum->ring_end = sunder_i_alloc(1, sizeof *sum->ring_end);
     sum->poly_end = sunder_i_alloc(1, sizeof *sum->poly_end);
     if (!sum->vertex || !sum->ring_vertex || !sum->ring_end || !sum->poly_end) return sunder_i_failure_cause(err);
-    uint32_t n = 0, i = smallest(l, p, at_p), j = smallest(l, q, at_q);
+    uint32_t n = 0, i = smallest_corner(l, p, at_p), j = smallest_corner(l, q, at_q);
     sunder_i_merge m = sunder_i_merge_of(p->vertices, q->vertices);
     side s = side_from(l, p, at_p, i), t = side_from(l, q, at_q, j);
-    while (SUNDER_I_MERGE_NEXT(&m, order(l, &s, &t))) {
+    while (SUNDER_I_MERGE_NEXT(&m, compare_sides(l, &s, &t))) {
         sunder_i_hpoint_of_sum(l, at_p[i], at_q[j], &sum->vertex[n++]);
         if (m.of_a) s = side_from(l, p, at_p, i = p->form->cleaned.next[i]);
         if (m.of_b) t = side_from(l, q, at_q, j = q->form->cleaned.next[j]);

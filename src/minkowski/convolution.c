@@ -168,7 +168,7 @@ static bool add_vertex(walker *w, sunder_i_hpoint at, uint32_t leaves)
 
 /* Follows the boundary from piece k of link i until it closes: at a crossing it continues on the other link, which
  * comes from the left and has the free side on its right as well. Returns false if out of memory. */
-static bool follow(walker *w, uint32_t i, uint32_t k)
+static bool follow_boundary(walker *w, uint32_t i, uint32_t k)
 {
     const sunder_i_convolution *c = w->curve;
     for (;;) {
@@ -191,7 +191,7 @@ static bool follow(walker *w, uint32_t i, uint32_t k)
     }
 }
 
-static sunder_i_point along(const walker *w, uint32_t vertex)
+static sunder_i_point vector_of_link(const walker *w, uint32_t vertex)
 {
     const sunder_i_convolution *c = w->curve;
     const uint32_t link = w->leaves[vertex - w->first];
@@ -210,7 +210,8 @@ static bool add_ring(walker *w, uint32_t start)
     if (!sunder_i_reserve(&t->ring, &t->ring_room, t->rings + 1, sizeof *t->ring) ||
         !sunder_i_reserve(&t->vertex, &t->vertex_room, end, sizeof *t->vertex))
         return false;
-    const sunder_i_det bend = sunder_i_narrow_cross(along(w, least > start ? least - 1 : end - 1), along(w, least));
+    const sunder_i_det bend =
+        sunder_i_narrow_cross(vector_of_link(w, least > start ? least - 1 : end - 1), vector_of_link(w, least));
     t->ring[t->rings++] = (sunder_i_found_ring){start, end, t->components, bend > 0};
     for (uint32_t v = start, k = least; v < end; v++, k = k + 1 < end ? k + 1 : start) t->vertex[v] = k;
     return true;
@@ -224,7 +225,7 @@ static bool follow_all(walker *w)
         for (uint32_t k = 0; k <= c->stop_end[i] - stop_begin(c, i); k++) {
             const uint32_t piece = stop_begin(c, i) + i + k, start = sum->vertices;
             if (w->right[piece] != 0 || w->done[piece]) continue;
-            if (!follow(w, i, k) || (w->tame && !add_ring(w, start))) return false;
+            if (!follow_boundary(w, i, k) || (w->tame && !add_ring(w, start))) return false;
         }
     return true;
 }
@@ -233,7 +234,7 @@ static bool follow_all(walker *w)
 
 /* Returns true if ring r contains the position of a vertex of another ring. Then an odd number of the sides of r is to
  * the left of that vertex. */
-static bool holds(const walker *w, const sunder_i_found_ring *r, uint32_t vertex)
+static bool ring_holds(const walker *w, const sunder_i_found_ring *r, uint32_t vertex)
 {
     const sunder_i_convolution *c = w->curve;
     const sunder_sum *sum = w->to->sum;
@@ -266,7 +267,7 @@ static void find_components(walker *w, size_t first_ring)
         if (!sunder_i_steps(t->rings - first_ring)) w->tame = false; /* cancelled: the next allocation fails */
         size_t best = t->rings;
         for (size_t o = first_ring; o < t->rings; o++)
-            if (t->ring[o].outer && holds(w, &t->ring[o], t->vertex[t->ring[r].start]) &&
+            if (t->ring[o].outer && ring_holds(w, &t->ring[o], t->vertex[t->ring[r].start]) &&
                 (best == t->rings ||
                  sunder_i_sum_vertex_cmp(t->sum, t->vertex[t->ring[o].start], t->vertex[t->ring[best].start]) > 0))
                 best = o;
@@ -279,7 +280,7 @@ static void find_components(walker *w, size_t first_ring)
 
 /* ---- The whole computation ---- */
 
-static bool walk(sunder_i_convolution *c, sunder_i_traced *to, bool *done)
+static bool walk_curve(sunder_i_convolution *c, sunder_i_traced *to, bool *done)
 {
     const size_t pieces = c->links + c->stops, most = c->links + c->stops / 2, rings = to->rings;
     const uint32_t vertices = to->sum->vertices, components = to->components;
@@ -308,13 +309,13 @@ static bool walk(sunder_i_convolution *c, sunder_i_traced *to, bool *done)
     return ok;
 }
 
-static sunder_status trace(sunder_i_convolution *c, sunder_i_traced *to, bool *done, sunder_error *err)
+static sunder_status trace_curve(sunder_i_convolution *c, sunder_i_traced *to, bool *done, sunder_error *err)
 {
     bool fits;
     sunder_status status = sunder_i_convolution_build(c, &fits, err);
     if (status == SUNDER_OK && fits) status = sunder_i_convolution_cross(c, &fits, err);
     if (status != SUNDER_OK || !fits) return status;
-    return walk(c, to, done) ? SUNDER_OK : sunder_i_failure_cause(err);
+    return walk_curve(c, to, done) ? SUNDER_OK : sunder_i_failure_cause(err);
 }
 
 /* The size of the stack memory, enough for a building and a disc. */
@@ -327,7 +328,7 @@ sunder_status sunder_i_convolution_trace(sunder_i_traced *to, const sunder_i_rou
     alignas(16) char lent[LENT];
     *done = false;
     sunder_i_arena_init_on(&c.memory, lent, sizeof lent);
-    const sunder_status status = trace(&c, to, done, err);
+    const sunder_status status = trace_curve(&c, to, done, err);
     sunder_i_arena_free(&c.memory);
     return status;
 }

@@ -42,20 +42,20 @@ static bool are_neighbours(const sunder_i_convolution *c, const sunder_i_chain *
     return side->vertex == joint->vertex || next[side->vertex] == joint->vertex;
 }
 
-static inline int64_t least(int64_t a, int64_t b) { return a < b ? a : b; }
-static inline int64_t most(int64_t a, int64_t b) { return a < b ? b : a; }
+static inline int64_t lesser(int64_t a, int64_t b) { return a < b ? a : b; }
+static inline int64_t greater(int64_t a, int64_t b) { return a < b ? b : a; }
 
 static bool link_apart(sunder_i_point a, sunder_i_point b, const sunder_i_chain *c)
 {
-    const bool left = most(a.x, b.x)<c->low[0], right = least(a.x, b.x)> c->high[0];
-    const bool below = most(a.y, b.y)<c->low[1], above = least(a.y, b.y)> c->high[1];
+    const bool left = greater(a.x, b.x)<c->low[0], right = lesser(a.x, b.x)> c->high[0];
+    const bool below = greater(a.y, b.y)<c->low[1], above = lesser(a.y, b.y)> c->high[1];
     return left | right | below | above;
 }
 
 static bool links_apart(sunder_i_point a, sunder_i_point b, sunder_i_point c, sunder_i_point d)
 {
-    const bool left = most(a.x, b.x)<least(c.x, d.x), right = least(a.x, b.x)> most(c.x, d.x);
-    const bool below = most(a.y, b.y)<least(c.y, d.y), above = least(a.y, b.y)> most(c.y, d.y);
+    const bool left = greater(a.x, b.x)<lesser(c.x, d.x), right = lesser(a.x, b.x)> greater(c.x, d.x);
+    const bool below = greater(a.y, b.y)<lesser(c.y, d.y), above = lesser(a.y, b.y)> greater(c.y, d.y);
     return left | right | below | above;
 }
 

@@ -22,16 +22,16 @@ typedef struct mover {
 } mover;
 
 static sunder_i_point sum_of(sunder_i_point a, sunder_i_point b) { return (sunder_i_point){a.x + b.x, a.y + b.y}; }
-static bool same(sunder_i_point a, sunder_i_point b) { return a.x == b.x && a.y == b.y; }
-static uint32_t after(const mover *t, uint32_t j) { return j + 1 < t->m ? j + 1 : 0; }
-static uint32_t before(const mover *t, uint32_t j) { return j ? j - 1 : t->m - 1; }
+static bool is_same_point(sunder_i_point a, sunder_i_point b) { return a.x == b.x && a.y == b.y; }
+static uint32_t corner_after(const mover *t, uint32_t j) { return j + 1 < t->m ? j + 1 : 0; }
+static uint32_t corner_before(const mover *t, uint32_t j) { return j ? j - 1 : t->m - 1; }
 static uint32_t next_of(const mover *t, uint32_t v) { return t->next[v] - t->start; }
 static uint32_t prev_of(const mover *t, uint32_t v) { return t->round->p->form->cleaned.prev[t->start + v] - t->start; }
 
 /* Returns the sign of the turn from d to the side of Q that ends at corner j. */
 static int turn_to(const mover *t, sunder_i_point d, uint32_t j)
 {
-    const sunder_i_det c = sunder_i_narrow_cross(d, sunder_i_narrow_sub(t->q[j], t->q[before(t, j)]));
+    const sunder_i_det c = sunder_i_narrow_cross(d, sunder_i_narrow_sub(t->q[j], t->q[corner_before(t, j)]));
     return (c > 0) - (c < 0);
 }
 
@@ -40,9 +40,9 @@ static int turn_to(const mover *t, sunder_i_point d, uint32_t j)
 static uint32_t walk_to(const mover *t, uint32_t j, sunder_i_point d, bool backwards)
 {
     if (backwards)
-        while (turn_to(t, d, j) > 0) j = before(t, j);
+        while (turn_to(t, d, j) > 0) j = corner_before(t, j);
     else
-        while (turn_to(t, d, after(t, j)) <= 0) j = after(t, j);
+        while (turn_to(t, d, corner_after(t, j)) <= 0) j = corner_after(t, j);
     return j;
 }
 
@@ -119,7 +119,7 @@ static bool find_corners(mover *t, uint32_t start)
         t->reflex[v] = bend < 0;
         j = walk_to(t, j, e, bend < 0);
         t->last[v] = j;
-        t->first[v] = turn_to(t, e, j) == 0 ? before(t, j) : j;
+        t->first[v] = turn_to(t, e, j) == 0 ? corner_before(t, j) : j;
         d = e;
         v = next_of(t, v);
     } while (v != start);
@@ -138,7 +138,7 @@ static bool move_sides(mover *t, uint32_t begin, uint32_t end)
         const uint32_t w = next_of(t, v);
         t->from[v] = sum_of(t->at[v], t->q[reflex[v] ? t->last[v] : t->first[v]]);
         t->to[v] = sum_of(t->at[w], t->q[reflex[w] ? t->first[v] : t->last[v]]);
-        if (same(t->from[v], t->to[v])) return false;
+        if (is_same_point(t->from[v], t->to[v])) return false;
         const sunder_i_point d = sunder_i_narrow_sub(t->at[w], t->at[v]);
         t->backwards[v] = t->first[v] != t->last[v] && reflex[v] && reflex[w] &&
                           sunder_i_narrow_dot(d, sunder_i_narrow_sub(t->to[v], t->from[v])) < 0;
@@ -179,10 +179,10 @@ static void add_joint(mover *t, uint32_t v)
 {
     sunder_i_convolution *c = t->curve;
     const uint32_t u = prev_of(t, v), first = c->links;
-    t->joined[v] = same(t->to[u], t->from[v]);
+    t->joined[v] = is_same_point(t->to[u], t->from[v]);
     if (t->joined[v]) return;
     const uint32_t n = t->reflex[v] ? 1 : arc_length(t, v);
-    for (uint32_t k = 0, j = t->last[u]; k < n; k++, j = after(t, j)) {
+    for (uint32_t k = 0, j = t->last[u]; k < n; k++, j = corner_after(t, j)) {
         c->chord[c->links] = t->reflex[v];
         c->corner[c->links++] = t->reflex[v] ? t->to[u] : sum_of(t->at[v], t->q[j]);
     }

@@ -155,7 +155,7 @@ static sunder_status trace_groups(const grouper *g, sunder_i_traced *traced, sun
     return SUNDER_OK;
 }
 
-static sunder_status trace(const grouper *g, sunder_sum *sum, sunder_error *err)
+static sunder_status trace_members(const grouper *g, sunder_sum *sum, sunder_error *err)
 {
     sunder_i_traced traced = {.sum = sum};
     const sunder_status status = trace_groups(g, &traced, err);
@@ -190,7 +190,7 @@ sunder_status sunder_i_members_sum(sunder_sum *sum, const sunder_shape *many, co
     if (status == SUNDER_OK && fits) {
         left->polygon = sunder_i_alloc(n, sizeof *left->polygon);
         left->n = 0;
-        status = left->polygon && order_members(&g) ? trace(&g, sum, err) : sunder_i_failure_cause(err);
+        status = left->polygon && order_members(&g) ? trace_members(&g, sum, err) : sunder_i_failure_cause(err);
     }
     sunder_i_arena_free(&arena);
     return status;

@@ -118,8 +118,8 @@ static sunder_status try_special(sunder_sum *sum, const operands *o, bool *done,
     return status;
 }
 
-static sunder_status build(sunder_sum *sum, const sunder_shape *p, const sunder_shape *q, bool force_wide,
-                           const sunder_sum_options *options, sunder_error *err)
+static sunder_status build_sum(sunder_sum *sum, const sunder_shape *p, const sunder_shape *q, bool force_wide,
+                               const sunder_sum_options *options, sunder_error *err)
 {
     const double start = sunder_i_now();
     sunder_i_placed at;
@@ -162,7 +162,7 @@ sunder_status sunder_i_minkowski_sum(const sunder_shape *p, const sunder_shape *
     sunder_i_watch watch;
     sunder_i_watch_begin(&watch, &o.progress, &o.progress_user);
     if (sum->method.algorithm == SUNDER_ALGORITHM_CONVOLUTION)
-        status = build(sum, p, q, force_wide, &o, err);
+        status = build_sum(sum, p, q, force_wide, &o, err);
     else
         status = sunder_i_union_sum(sum, p, q, force_wide, &o, err);
     sunder_i_watch_end(&watch);

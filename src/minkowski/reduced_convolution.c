@@ -68,7 +68,7 @@ static uint32_t first_link(const sunder_i_reduced *r, uint32_t segment)
     return sunder_i_reduced_stop_begin(r, segment) + segment;
 }
 
-static bool rises(const sunder_i_reduced *r, uint32_t end)
+static bool first_rises_at(const sunder_i_reduced *r, uint32_t end)
 {
     return r->crossing[end / 2].first_rises != (end % 2 == 1);
 }
@@ -81,7 +81,7 @@ static void find_next(tracer *t)
         for (; stop < r->stop_end[a]; stop++, link++) {
             const uint32_t end = r->stop[stop].item, other = r->crossing[end / 2].segment[end % 2 == 0];
             t->segment[link] = a;
-            t->next[link] = rises(r, end) ? r->place[end ^ 1] + other + 1 : NO_LINK;
+            t->next[link] = first_rises_at(r, end) ? r->place[end ^ 1] + other + 1 : NO_LINK;
         }
         const uint32_t next = r->segment[a].next;
         t->segment[link] = a;
@@ -143,7 +143,7 @@ static double middle_of(const tracer *t, uint32_t link)
 }
 
 /* Returns whether the current cycle is in O. The links are tested one after the other until the answer is certain. */
-static sunder_i_place_in_sum ask(tracer *t)
+static sunder_i_place_in_sum ask_cycle(tracer *t)
 {
     for (uint32_t i = 0; i < t->n; i++) {
         const uint32_t link = t->cycle[i];
@@ -155,7 +155,7 @@ static sunder_i_place_in_sum ask(tracer *t)
 
 /* Follows successors from a link until there is none or the next one was reached before. Returns true if that one was
  * reached in this traversal: then the links from there on form the current cycle. */
-static bool walk(tracer *t, uint32_t link, uint32_t number)
+static bool walk_links(tracer *t, uint32_t link, uint32_t number)
 {
     uint32_t n = 0;
     for (; link != NO_LINK && t->visit[link] == 0; link = t->next[link]) {
@@ -172,7 +172,7 @@ static bool walk(tracer *t, uint32_t link, uint32_t number)
 
 /* Returns the segment that begins at the smallest vertex of the sum, which is the sum of the operands' smallest
  * vertices; SUNDER_I_NO_SEGMENT: none. */
-static uint32_t outermost(const sunder_i_reduced *r)
+static uint32_t outermost_segment(const sunder_i_reduced *r)
 {
     uint32_t least[2] = {0, 0};
     for (int k = 0; k < 2; k++) {
@@ -185,18 +185,18 @@ static uint32_t outermost(const sunder_i_reduced *r)
 
 /* Finds all cycles and makes rings of those on the boundary. *fits becomes false if a decision is not certain. Returns
  * false if out of memory. */
-static bool trace(tracer *t, bool *fits)
+static bool trace_cycles(tracer *t, bool *fits)
 {
-    const uint32_t links = t->r->segments + 2 * (uint32_t)t->r->crossings, first = outermost(t->r);
+    const uint32_t links = t->r->segments + 2 * (uint32_t)t->r->crossings, first = outermost_segment(t->r);
     uint32_t number = 1;
-    *fits = first != SUNDER_I_NO_SEGMENT && walk(t, first_link(t->r, first), number) &&
+    *fits = first != SUNDER_I_NO_SEGMENT && walk_links(t, first_link(t->r, first), number) &&
             t->cycle[0] == first_link(t->r, first);
     if (!*fits) return true;
     if (!add_ring(t, true)) return false;
     for (uint32_t link = 0; link < links; link++) {
-        if (t->visit[link] || !walk(t, link, ++number)) continue;
+        if (t->visit[link] || !walk_links(t, link, ++number)) continue;
         if (!sunder_i_steps(t->n)) return false;
-        const sunder_i_place_in_sum is = ask(t);
+        const sunder_i_place_in_sum is = ask_cycle(t);
         *fits = is != SUNDER_I_UNCERTAIN;
         if (!*fits) return true;
         if (is == SUNDER_I_NOT_INSIDE && !add_ring(t, false)) return false;
@@ -204,7 +204,7 @@ static bool trace(tracer *t, bool *fits)
     return true;
 }
 
-static bool finish(tracer *t)
+static bool finish_sum(tracer *t)
 {
     sunder_sum *sum = t->sum;
     sunder_i_found found = {.vertex = t->vertex,
@@ -231,8 +231,8 @@ static bool trace_sum(sunder_i_reduced *r, sunder_sum *sum, bool *done)
     if (!sunder_i_place_query_init(&t.inside, r)) return false;
     memset(t.visit, 0, links * sizeof *t.visit);
     find_next(&t);
-    bool ok = trace(&t, done);
-    if (ok && *done) ok = finish(&t);
+    bool ok = trace_cycles(&t, done);
+    if (ok && *done) ok = finish_sum(&t);
     sunder_i_free(t.ring);
     sunder_i_free(t.vertex);
     if (ok && *done) return true;

@@ -61,7 +61,7 @@ static meeting narrow_meeting(sunder_i_point s, sunder_i_point t, sunder_i_point
 
 /* Adds the crossing of segments a and b, if they cross; the list must have room for it. Returns false if they meet in
  * another way. */
-static bool cross(sunder_i_reduced *r, uint32_t a, uint32_t b)
+static bool cross_segments(sunder_i_reduced *r, uint32_t a, uint32_t b)
 {
     const sunder_i_point s = r->segment[a].along, t = r->segment[b].along;
     const sunder_i_point way = sunder_i_narrow_sub(r->segment[b].from, r->segment[a].from);
@@ -151,7 +151,7 @@ static bool cross_strip(sunder_i_reduced *r, const member *list, size_t n, uint3
              !sunder_i_arena_reserve(&r->memory, &r->crossing, &r->crossings_capacity, need, sizeof *r->crossing)))
             return false;
         r->lattice->counts.orientation_tests += 4 * found;
-        for (size_t k = 0; k < found && *fits; k++) *fits = cross(r, list[i].segment, near[k]);
+        for (size_t k = 0; k < found && *fits; k++) *fits = cross_segments(r, list[i].segment, near[k]);
         *fits = *fits && r->crossings <= most;
     }
     return true;
@@ -160,7 +160,7 @@ static bool cross_strip(sunder_i_reduced *r, const member *list, size_t n, uint3
 /* ---- Stops in the order of their segments ---- */
 
 /* Sorts the stops of one segment. Returns false if cancelled. */
-static bool order(sunder_i_valued *stop, uint32_t n, sunder_i_valued *scratch)
+static bool sort_stops(sunder_i_valued *stop, uint32_t n, sunder_i_valued *scratch)
 {
     if (n > FEW_STOPS) {
         memcpy(scratch, stop, n * sizeof *stop);
@@ -214,7 +214,7 @@ static bool order_stops(sunder_i_reduced *r, bool *fits)
     if (!scratch) return false;
     bool certain = true;
     for (uint32_t a = 0, begin = 0; a < r->segments; begin = r->stop_end[a++]) {
-        if (!order(r->stop + begin, r->stop_end[a] - begin, scratch)) return false;
+        if (!sort_stops(r->stop + begin, r->stop_end[a] - begin, scratch)) return false;
         for (uint32_t i = begin + 1; i < r->stop_end[a]; i++)
             certain &= r->stop[i].value - r->stop[i - 1].value > CERTAIN;
     }

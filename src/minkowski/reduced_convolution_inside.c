@@ -81,7 +81,7 @@ static double side_of_q(const sunder_i_place_query *in, uint32_t i, uint32_t j, 
     return dx * (x.y - (double)q->at[j].y - (double)p->at[i].y) - dy * (x.x - (double)q->at[j].x - (double)p->at[i].x);
 }
 
-static double doubt(const sunder_i_place_query *in, sunder_i_point along)
+static double doubt_of_side(const sunder_i_place_query *in, sunder_i_point along)
 {
     return in->error * (fabs((double)along.x) + fabs((double)along.y));
 }
@@ -95,9 +95,9 @@ static bool sides_cross(const sunder_i_place_query *in, uint32_t i, uint32_t j, 
 {
     const sunder_i_chain_operand *p = &in->reduced->operand[0], *q = &in->reduced->operand[1];
     return on_both_sides(side_of_p(in, i, j, x), side_of_p(in, i, sunder_i_vertex_after(q, j), x),
-                         doubt(in, p->along[i])) &&
+                         doubt_of_side(in, p->along[i])) &&
            on_both_sides(side_of_q(in, i, j, x), side_of_q(in, sunder_i_vertex_after(p, i), j, x),
-                         doubt(in, q->along[j]));
+                         doubt_of_side(in, q->along[j]));
 }
 
 /* Stores in in->value the values of side_of_p() for side i of P and all vertices of x - Q. */
@@ -121,7 +121,7 @@ static bool some_sides_cross(sunder_i_place_query *in, place x)
     for (uint32_t at = 0; at < p->n && in->left >= q->n; at++) {
         const uint32_t i = in->order[at];
         in->left -= q->n;
-        const double error = doubt(in, p->along[i]);
+        const double error = doubt_of_side(in, p->along[i]);
         sides_of_p(in, i, x);
         for (uint32_t j = 0, k = q->n - 1; j < q->n; k = j++) {
             if (!on_both_sides(in->value[k], in->value[j], error) || !sides_cross(in, i, k, x)) continue;
@@ -138,19 +138,21 @@ static bool some_sides_cross(sunder_i_place_query *in, place x)
 /* Returns the contribution of one segment of the curve to the winding number at x, counted along the ray to the left: 1
  * if the segment crosses the ray downwards, -1 if upwards, else 0. *certain becomes false if doubles do not decide
  * it. */
-static int passes(const sunder_i_place_query *in, place x, sunder_i_point from, sunder_i_point along, bool *certain)
+static int winding_by_segment(const sunder_i_place_query *in, place x, sunder_i_point from, sunder_i_point along,
+                              bool *certain)
 {
     const double low = (double)from.y - x.y, high = (double)(from.y + along.y) - x.y;
     *certain &= fabs(low) > in->error && fabs(high) > in->error;
     if ((low > 0) == (high > 0)) return 0;
     const double side = (double)along.x * (x.y - (double)from.y) - (double)along.y * (x.x - (double)from.x);
-    *certain &= fabs(side) > doubt(in, along);
+    *certain &= fabs(side) > doubt_of_side(in, along);
     return high > 0 ? (side < 0 ? -1 : 0) : (side > 0 ? 1 : 0);
 }
 
 /* Returns the contribution of the sides of operand a, translated by the vertices of the other operand, except for the
  * segment `without`: at a reflex vertex the sides between its own two are traversed in the opposite direction. */
-static int wind(const sunder_i_place_query *in, int a, place x, const sunder_i_reduced_segment *without, bool *certain)
+static int winding_by_operand(const sunder_i_place_query *in, int a, place x, const sunder_i_reduced_segment *without,
+                              bool *certain)
 {
     const sunder_i_reduced *r = in->reduced;
     const sunder_i_chain_operand *o = &r->operand[a], *b = &r->operand[!a];
@@ -167,7 +169,7 @@ static int wind(const sunder_i_place_query *in, int a, place x, const sunder_i_r
                 if (convex && from.x == without->from.x && from.y == without->from.y && along.x == without->along.x &&
                     along.y == without->along.y)
                     continue;
-                const int by = passes(in, x, from, along, certain);
+                const int by = winding_by_segment(in, x, from, along, certain);
                 winding += convex ? by : -by;
             }
     }
@@ -181,7 +183,7 @@ static sunder_i_place_in_sum winding_says(const sunder_i_place_query *in, place 
     const double low = (double)s->from.y - x.y, high = (double)(s->from.y + s->along.y) - x.y;
     bool certain = fabs(low) > in->error && fabs(high) > in->error && (low > 0) != (high > 0);
     int winding = high > 0 ? -1 : 0; /* a segment that goes up is to the left of the points on its right side */
-    for (int a = 0; a < 2 && certain; a++) winding += wind(in, a, x, s, &certain);
+    for (int a = 0; a < 2 && certain; a++) winding += winding_by_operand(in, a, x, s, &certain);
     return !certain ? SUNDER_I_UNCERTAIN : winding == 0 ? SUNDER_I_NOT_INSIDE : SUNDER_I_INSIDE;
 }
 

@@ -105,7 +105,7 @@ static bool rank_sides(sunder_i_reduced *r)
 /* ---- Segments ---- */
 
 /* Returns the sides of a that the convex vertex j of b carries. */
-static sunder_i_rank_range carried(const sunder_i_chain_operand *a, const sunder_i_chain_operand *b, uint32_t j)
+static sunder_i_rank_range carried_sides(const sunder_i_chain_operand *a, const sunder_i_chain_operand *b, uint32_t j)
 {
     return sunder_i_sides_between(a, b->rank[sunder_i_vertex_before(b, j)], b->rank[j]);
 }
@@ -117,13 +117,13 @@ static uint32_t sides_in(sunder_i_rank_range range)
 
 /* Numbers the segments that the vertices of operand b carry, from n on. Returns the next free number, or MOST_SEGMENTS
  * if there are too many. */
-static uint32_t number(sunder_i_reduced *r, int b, uint32_t n)
+static uint32_t number_segments(sunder_i_reduced *r, int b, uint32_t n)
 {
     sunder_i_chain_operand *o = &r->operand[b], *a = &r->operand[!b];
     for (uint32_t j = 0; j < o->n && n < MOST_SEGMENTS; j++) {
         const bool convex = sunder_i_is_convex(o, j, r->classes);
         o->first[j] = convex ? n : SUNDER_I_NO_SEGMENT;
-        n += convex ? sides_in(carried(a, o, j)) : 0;
+        n += convex ? sides_in(carried_sides(a, o, j)) : 0;
     }
     return n < MOST_SEGMENTS ? n : MOST_SEGMENTS;
 }
@@ -132,7 +132,7 @@ uint32_t sunder_i_reduced_segment_of(const sunder_i_reduced *r, int a, uint32_t 
 {
     const sunder_i_chain_operand *o = &r->operand[a], *b = &r->operand[!a];
     if (b->first[j] == SUNDER_I_NO_SEGMENT) return SUNDER_I_NO_SEGMENT;
-    const sunder_i_rank_range range = carried(o, b, j);
+    const sunder_i_rank_range range = carried_sides(o, b, j);
     const uint32_t at = o->position[i];
     if (at >= range.first[0] && at < range.end[0]) return r->order[b->first[j] + at - range.first[0]];
     if (at >= range.end[1]) return SUNDER_I_NO_SEGMENT;
@@ -147,12 +147,12 @@ typedef struct made {
 } made;
 
 /* Makes the segments that the vertices of operand b carry; of all segments only every step-th, from number 0 on. */
-static void make(const sunder_i_reduced *r, int b, uint32_t step, made *out)
+static void make_segments(const sunder_i_reduced *r, int b, uint32_t step, made *out)
 {
     const sunder_i_chain_operand *o = &r->operand[b], *a = &r->operand[!b];
     for (uint32_t j = 0; j < o->n; j++) {
         if (o->first[j] == SUNDER_I_NO_SEGMENT) continue;
-        const sunder_i_rank_range range = carried(a, o, j);
+        const sunder_i_rank_range range = carried_sides(a, o, j);
         uint32_t number = (o->first[j] + step - 1) / step, skip = number * step - o->first[j];
         for (int k = 0; k < 2; k++) {
             uint32_t at = range.first[k] + skip;
@@ -186,9 +186,9 @@ static span span_of(int64_t from, int64_t along)
 static span x_of(const made *s) { return span_of(s->from.x, s->along.x); }
 static span y_of(const made *s) { return span_of(s->from.y, s->along.y); }
 
-static bool overlap(span a, span b) { return (a.low <= b.high) & (b.low <= a.high); }
+static bool spans_overlap(span a, span b) { return (a.low <= b.high) & (b.low <= a.high); }
 
-static void extend(span *all, span by)
+static void extend_span(span *all, span by)
 {
     if (by.low < all->low) all->low = by.low;
     if (by.high > all->high) all->high = by.high;
@@ -217,17 +217,17 @@ static bool are_too_many(const sunder_i_reduced *r, uint32_t n)
     span x[SAMPLES], y[SAMPLES];
     const uint32_t p = r->operand[0].n, q = r->operand[1].n, step = (n + SAMPLES - 1) / SAMPLES;
     const uint32_t samples = (n + step - 1) / step;
-    make(r, 0, step, sample);
-    make(r, 1, step, sample);
+    make_segments(r, 0, step, sample);
+    make_segments(r, 1, step, sample);
     span all_x = x_of(&sample[0]), all_y = y_of(&sample[0]);
     uint32_t found = 0;
     for (uint32_t a = 0; a < samples; a++) {
         x[a] = x_of(&sample[a]);
         y[a] = y_of(&sample[a]);
-        extend(&all_x, x[a]);
-        extend(&all_y, y[a]);
+        extend_span(&all_x, x[a]);
+        extend_span(&all_y, y[a]);
         for (uint32_t b = 0; b < a; b++) {
-            const bool across = overlap(x[a], x[b]), up = overlap(y[a], y[b]);
+            const bool across = spans_overlap(x[a], x[b]), up = spans_overlap(y[a], y[b]);
             found += across & up;
         }
     }
@@ -235,15 +235,15 @@ static bool are_too_many(const sunder_i_reduced *r, uint32_t n)
 }
 
 /* Sorts the segments from left to right, and sets the successor of each. Returns false if out of memory. */
-static bool arrange(sunder_i_reduced *r, const made *s)
+static bool arrange_segments(sunder_i_reduced *r, const made *s)
 {
     const uint32_t n = r->segments;
     uint64_t *key = sunder_i_arena_alloc(&r->memory, n, sizeof *key);
     if (!key) return false;
     span x = x_of(&s[0]), y = y_of(&s[0]);
     for (uint32_t k = 1; k < n; k++) {
-        extend(&x, x_of(&s[k]));
-        extend(&y, y_of(&s[k]));
+        extend_span(&x, x_of(&s[k]));
+        extend_span(&y, y_of(&s[k]));
     }
     const int shift_x = shift_of(x), shift_y = shift_of(y);
     r->brief = is_brief(x, y);
@@ -291,7 +291,7 @@ bool sunder_i_reduced_build(sunder_i_reduced *r, const sunder_i_point *at[2], bo
         (along_axes(&r->operand[0]) & along_axes(&r->operand[1])) == 0;
     if (!*fits) return true;
     if (!rank_sides(r)) return false;
-    const uint32_t n = number(r, 1, number(r, 0, 0));
+    const uint32_t n = number_segments(r, 1, number_segments(r, 0, 0));
     *fits = n < MOST_SEGMENTS && n / MOST_FOR_EACH <= p->vertices + q->vertices && !share_direction(r) &&
             (n <= FEW_SEGMENTS || !are_too_many(r, n));
     if (!*fits) return true;
@@ -303,7 +303,7 @@ bool sunder_i_reduced_build(sunder_i_reduced *r, const sunder_i_point *at[2], bo
     r->y = sunder_i_arena_alloc(m, n, sizeof *r->y);
     r->order = sunder_i_arena_alloc(m, n, sizeof *r->order);
     if (m->failed) return false;
-    make(r, 0, 1, s);
-    make(r, 1, 1, s);
-    return arrange(r, s);
+    make_segments(r, 0, 1, s);
+    make_segments(r, 1, 1, s);
+    return arrange_segments(r, s);
 }

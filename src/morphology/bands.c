@@ -12,7 +12,7 @@ typedef struct heading {
     bool plain;
 } heading;
 
-static bool fits(sunder_i_big a, int64_t *v)
+static bool is_plain_big(sunder_i_big a, int64_t *v)
 {
     return sunder_i_big_fits_i64(a, v) && *v < (int64_t)1 << SUNDER_I_PLAIN_BITS &&
            *v > -((int64_t)1 << SUNDER_I_PLAIN_BITS);
@@ -26,7 +26,7 @@ bool sunder_i_heading(sunder_i_arena *arena, sunder_i_rational_point u, sunder_i
         u.x = sunder_i_big_div_floor(arena, u.x, g);
         u.y = sunder_i_big_div_floor(arena, u.y, g);
     }
-    const bool ok = !arena->failed && fits(u.x, &out->x) && fits(u.y, &out->y);
+    const bool ok = !arena->failed && is_plain_big(u.x, &out->x) && is_plain_big(u.y, &out->y);
     sunder_i_arena_release(arena, mark);
     return ok;
 }

@@ -105,7 +105,7 @@ static sunder_status draw_region(fit *f, int i, const sunder_shape *shape, const
 }
 
 /* Sets *in to whether the region contains the point, which is not on its boundary. */
-static sunder_status holds(sunder_i_planar_map *region, sunder_i_rational_point at, bool *in, sunder_error *err)
+static sunder_status region_holds(sunder_i_planar_map *region, sunder_i_rational_point at, bool *in, sunder_error *err)
 {
     sunder_i_location where;
     const sunder_status status = sunder_i_planar_map_locate(region, at, &where, err);
@@ -202,8 +202,8 @@ static sunder_status look_at_vertices(fit *f, bool *fits, sunder_error *err)
         sunder_i_arena_release(&f->scratch, mark);
         const double box[4] = {at[0], at[1], at[0], at[1]};
         if (!boxes_meet(box, f->window, 4 * f->slack)) continue;
-        status = holds(f->region[0], *point, &in[0], err);
-        if (status == SUNDER_OK && in[0]) status = holds(f->region[1], *point, &in[1], err);
+        status = region_holds(f->region[0], *point, &in[0], err);
+        if (status == SUNDER_OK && in[0]) status = region_holds(f->region[1], *point, &in[1], err);
         *fits = in[0] && in[1];
     }
     return f->scratch.failed ? sunder_i_failure_cause(err) : status;

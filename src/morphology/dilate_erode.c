@@ -117,7 +117,7 @@ static void ends_of(const sunder_i_figure *f, const uint32_t *next, uint64_t i, 
 }
 
 /* Returns the next side of each side; NULL if out of memory. */
-static uint32_t *successors(const sunder_i_figure *f)
+static uint32_t *next_sides(const sunder_i_figure *f)
 {
     uint32_t *next = sunder_i_alloc(f->sides, sizeof *next);
     for (size_t r = 0; next && r < f->rings; r++) {
@@ -130,7 +130,7 @@ static uint32_t *successors(const sunder_i_figure *f)
 /* ---- Point location in the figure ---- */
 
 /* Returns a bound of the error of coordinates in doubles, if `most` is the largest one. */
-static double margin(double most) { return most * 0x1p-50 + 0x1p-900; }
+static double margin_of_doubles(double most) { return most * 0x1p-50 + 0x1p-900; }
 
 /* Sorts the figure's sides by height, with vertices as doubles, scaled by a power of two so that all fit. Returns false
  * if out of memory. */
@@ -140,7 +140,7 @@ static bool solid_init(solid *s, const sunder_i_figure *f, const sunder_i_lattic
     sunder_i_arena scratch = {0};
     double(*span)[2] = sunder_i_alloc(f->sides, sizeof *span);
     s->xy = sunder_i_alloc(f->sides, sizeof *s->xy);
-    s->next = successors(f);
+    s->next = next_sides(f);
     for (size_t i = 0; span && s->xy && i < f->sides; i++) {
         const sunder_i_mark mark = sunder_i_arena_mark(&scratch);
         sunder_i_rational_doubles(&scratch, f->at[f->ring[i]], s->shift, &s->xy[i][0], &s->xy[i][1]);
@@ -150,8 +150,8 @@ static bool solid_init(solid *s, const sunder_i_figure *f, const sunder_i_lattic
     bool ok = span && s->xy && s->next && !scratch.failed;
     for (size_t i = 0; ok && i < f->sides; i++) {
         const double y[2] = {s->xy[i][1], s->xy[s->next[i]][1]};
-        span[i][0] = sunder_i_min(y[0], y[1]) - 4 * margin(s->most);
-        span[i][1] = sunder_i_max(y[0], y[1]) + 4 * margin(s->most);
+        span[i][0] = sunder_i_min(y[0], y[1]) - 4 * margin_of_doubles(s->most);
+        span[i][1] = sunder_i_max(y[0], y[1]) + 4 * margin_of_doubles(s->most);
     }
     ok = ok && sunder_i_strips_build(&s->strips, (const double(*)[2])span, f->sides, f->sides);
     sunder_i_arena_free(&scratch);
@@ -170,7 +170,7 @@ static void solid_free(solid *s)
 static bool is_above(const solid *s, sunder_i_arena *scratch, size_t i, const sunder_i_rational_point *at, double y)
 {
     const double gap = s->xy[i][1] - y;
-    if (fabs(gap) > margin(s->most) + margin(y < 0 ? -y : y)) return gap > 0;
+    if (fabs(gap) > margin_of_doubles(s->most) + margin_of_doubles(y < 0 ? -y : y)) return gap > 0;
     return sunder_i_rational_cmp(scratch, &s->figure->at[s->figure->ring[i]], at, 1) > 0;
 }
 
@@ -182,7 +182,7 @@ static bool is_in_figure(const solid *s, sunder_i_arena *scratch, sunder_i_ratio
     size_t from, to;
     double x, y;
     sunder_i_rational_doubles(scratch, at, s->shift, &x, &y);
-    const double error = margin(s->most) + margin(fabs(x));
+    const double error = margin_of_doubles(s->most) + margin_of_doubles(fabs(x));
     sunder_i_strips_at(&s->strips, y, &from, &to);
     for (; from < to && !scratch->failed; from++) {
         const uint32_t a = s->strips.item[from], b = s->next[a];
@@ -230,7 +230,7 @@ static sunder_status unite_bands(stage *g, sunder_error *err)
 {
     const sunder_i_figure *f = g->figure;
     const uint64_t all = (f->sides + f->segments + f->points) * (uint64_t)g->element->pieces;
-    uint32_t *next = successors(f);
+    uint32_t *next = next_sides(f);
     uint64_t *order = biased_order(&g->random, all);
     sunder_status status = next && order ? SUNDER_OK : sunder_i_failure_cause(err);
     for (uint64_t i = 0; i < all && status == SUNDER_OK; i++)

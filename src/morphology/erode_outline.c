@@ -83,13 +83,16 @@ static uint32_t rank_along(const eroder *e, const uint32_t *start, uint32_t i)
     return e->side.rank[2 * i + start[i]];
 }
 
-static uint32_t opposite(uint32_t rank, uint32_t classes) { return rank < classes ? rank + classes : rank - classes; }
+static uint32_t opposite_rank(uint32_t rank, uint32_t classes)
+{
+    return rank < classes ? rank + classes : rank - classes;
+}
 
 /* Returns whether the complement's exterior angle, at the end of side `in` and the beginning of side `out`, contains
  * the rank r. The complement's own sides have the opposite direction. */
-static bool holds(uint32_t in, uint32_t out, uint32_t r, uint32_t classes)
+static bool angle_holds(uint32_t in, uint32_t out, uint32_t r, uint32_t classes)
 {
-    const uint32_t full = 2 * classes, from = opposite(out, classes), to = opposite(in, classes);
+    const uint32_t full = 2 * classes, from = opposite_rank(out, classes), to = opposite_rank(in, classes);
     const uint32_t turn = to >= from ? to - from : to + full - from;
     const uint32_t step = r >= from ? r - from : r + full - from;
     return turn < classes && step <= turn;
@@ -110,15 +113,15 @@ static void add_band(const eroder *e, const uint32_t *start, const uint32_t *aft
                      sunder_i_convex_pieces *out)
 {
     const sunder_i_convex_pieces *a = &e->side, *b = &e->piece;
-    const uint32_t along = rank_along(e, start, i), back = opposite(along, out->classes);
+    const uint32_t along = rank_along(e, start, i), back = opposite_rank(along, out->classes);
     const uint32_t in = rank_along(e, start, e->before[i]), next = rank_along(e, start, after[i]);
     sunder_i_merge m = sunder_i_merge_of(2, b->corners);
     while (SUNDER_I_MERGE_NEXT(&m, sunder_i_rank_cmp(a->rank[2 * i + m.next_a], b->rank[m.next_b]))) {
         const sunder_i_point u = a->corner[2 * i + m.a], v = b->corner[m.b];
         const uint32_t rank = m.of_a ? a->rank[2 * i + m.a] : b->rank[m.b];
         const bool candidate = m.of_a            ? rank == back
-                               : m.a == start[i] ? holds(in, along, rank, out->classes)
-                                                 : holds(along, next, rank, out->classes);
+                               : m.a == start[i] ? angle_holds(in, along, rank, out->classes)
+                                                 : angle_holds(along, next, rank, out->classes);
         out->rank[out->corners] = rank;
         sunder_i_convex_pieces_add_corner(out, (sunder_i_point){u.x + v.x, u.y + v.y}, candidate);
     }

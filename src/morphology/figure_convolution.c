@@ -209,7 +209,7 @@ static bool number_all(walker *w)
 
 /* Returns the link on which the boundary continues at the end of link i: the first one after it, counterclockwise
  * across the free sector. */
-static uint32_t onward(walker *w, uint32_t i)
+static uint32_t next_link(walker *w, uint32_t i)
 {
     const sunder_i_figure_convolution *c = w->curve;
     const uint32_t next = c->link[i].next, place = c->link[next].place;
@@ -222,7 +222,7 @@ static uint32_t onward(walker *w, uint32_t i)
 
 /* Follows the boundary from piece k of link i until it closes: at a crossing it continues on the link that comes from
  * the left, which has the free side on its right as well. */
-static void follow(walker *w, uint32_t i, uint32_t k)
+static void follow_boundary(walker *w, uint32_t i, uint32_t k)
 {
     const sunder_i_figure_convolution *c = w->curve;
     for (;;) {
@@ -237,7 +237,7 @@ static void follow(walker *w, uint32_t i, uint32_t k)
             i = c->stop[stop->partner].link;
             k = stop->partner - stop_begin(c, i) + 1;
         } else {
-            i = onward(w, i);
+            i = next_link(w, i);
             k = 0;
             at = &c->link[i].from;
         }
@@ -272,7 +272,7 @@ static bool follow_all(walker *w)
         for (uint32_t k = 0; k <= c->stop_end[i] - stop_begin(c, i); k++) {
             const uint32_t piece = stop_begin(c, i) + i + k, start = w->bends;
             if (w->right[piece] != 0 || w->done[piece]) continue;
-            follow(w, i, k);
+            follow_boundary(w, i, k);
             if (w->tame && !add_ring(w, start)) return false;
         }
     return true;
@@ -400,7 +400,7 @@ static bool fill_sum(const walker *w, sunder_sum *sum)
     return ok;
 }
 
-static bool walk(sunder_i_figure_convolution *c, sunder_sum *sum, bool *done)
+static bool walk_curve(sunder_i_figure_convolution *c, sunder_sum *sum, bool *done)
 {
     const size_t pieces = c->links + c->stops;
     walker w = {.curve = c,
@@ -431,7 +431,7 @@ sunder_status sunder_i_sum_by_convolution(const sunder_i_figure *figure, const s
     sunder_status status = sunder_i_figure_convolution_build(&c, &fits, err);
     if (status == SUNDER_OK && fits) status = sunder_i_figure_convolution_cross(&c, &fits, err);
     if (status == SUNDER_OK && fits) status = sunder_i_figure_convolution_places(&c, &fits, err);
-    if (status == SUNDER_OK && fits && !walk(&c, sum, done)) status = sunder_i_failure_cause(err);
+    if (status == SUNDER_OK && fits && !walk_curve(&c, sum, done)) status = sunder_i_failure_cause(err);
     sum->lattice.counts.comparisons += c.counts.comparisons;
     sum->lattice.counts.orientation_tests += c.counts.orientation_tests;
     sum->lattice.counts.segment_intersections += c.counts.segment_intersections;

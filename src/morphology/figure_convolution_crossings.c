@@ -65,14 +65,14 @@ typedef struct crosser {
 
 /* Returns cross(d, p) times p's denominator, for the line through p with the direction d: cross(d, X - p) is 0 on that
  * line. */
-static sunder_i_big offset(sunder_i_arena *s, const sunder_i_curve_link *l)
+static sunder_i_big line_offset(sunder_i_arena *s, const sunder_i_curve_link *l)
 {
     return sunder_i_big_sub(s, sunder_i_big_mul(s, sunder_i_big_i64(s, l->along.x), l->from.at.y),
                             sunder_i_big_mul(s, sunder_i_big_i64(s, l->along.y), l->from.at.x));
 }
 
 /* Returns k m - l n, where m and n are coordinates of plain vectors. */
-static sunder_i_big difference(sunder_i_arena *s, sunder_i_big k, int64_t m, sunder_i_big l, int64_t n)
+static sunder_i_big difference_of_products(sunder_i_arena *s, sunder_i_big k, int64_t m, sunder_i_big l, int64_t n)
 {
     return sunder_i_big_sub(s, sunder_i_big_mul(s, k, sunder_i_big_i64(s, m)),
                             sunder_i_big_mul(s, l, sunder_i_big_i64(s, n)));
@@ -80,13 +80,15 @@ static sunder_i_big difference(sunder_i_arena *s, sunder_i_big k, int64_t m, sun
 
 /* Returns the intersection of two lines with the directions d and e that are not parallel: cross(d, X) = k / v and
  * cross(e, X) = l / w result in X = (k w e - l v d) / (v w cross(d, e)). */
-static sunder_i_rational_point meeting(sunder_i_arena *s, const sunder_i_curve_link *a, const sunder_i_curve_link *b)
+static sunder_i_rational_point meeting_point(sunder_i_arena *s, const sunder_i_curve_link *a,
+                                             const sunder_i_curve_link *b)
 {
     const sunder_i_point d = a->along, e = b->along;
     const sunder_i_big det = sunder_i_big_i128(s, sunder_i_plain_cross(d, e));
-    const sunder_i_big kw = sunder_i_times(s, offset(s, a), b->from.at.w);
-    const sunder_i_big lv = sunder_i_times(s, offset(s, b), a->from.at.w);
-    sunder_i_rational_point x = {difference(s, kw, e.x, lv, d.x), difference(s, kw, e.y, lv, d.y),
+    const sunder_i_big kw = sunder_i_times(s, line_offset(s, a), b->from.at.w);
+    const sunder_i_big lv = sunder_i_times(s, line_offset(s, b), a->from.at.w);
+    sunder_i_rational_point x = {difference_of_products(s, kw, e.x, lv, d.x),
+                                 difference_of_products(s, kw, e.y, lv, d.y),
                                  sunder_i_times(s, sunder_i_times(s, det, a->from.at.w), b->from.at.w)};
     if (sunder_i_big_sign(x.w) < 0) {
         x = sunder_i_rational_neg(x);
@@ -106,7 +108,7 @@ static void add_crossing(crosser *x, uint32_t i, uint32_t j, bool rises)
     }
     const sunder_i_mark mark = sunder_i_arena_mark(&c->scratch);
     sunder_i_curve_corner *at = &c->crossing[c->crossings];
-    at->at = sunder_i_rational_copy(&c->memory, meeting(&c->scratch, &c->link[i], &c->link[j]));
+    at->at = sunder_i_rational_copy(&c->memory, meeting_point(&c->scratch, &c->link[i], &c->link[j]));
     if (!c->scratch.failed && !c->memory.failed)
         sunder_i_rational_doubles(&c->scratch, at->at, c->shift, &at->xy[0], &at->xy[1]);
     sunder_i_arena_release(&c->scratch, mark);

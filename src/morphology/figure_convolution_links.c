@@ -36,8 +36,8 @@ typedef struct mover {
 
 static size_t next_of(const mover *t, size_t k) { return k + 1 < t->end ? k + 1 : t->begin; }
 static size_t prev_of(const mover *t, size_t k) { return (k > t->begin ? k : t->end) - 1; }
-static uint32_t after(const mover *t, uint32_t j) { return j + 1 < t->m ? j + 1 : 0; }
-static uint32_t before(const mover *t, uint32_t j) { return j ? j - 1 : t->m - 1; }
+static uint32_t corner_after(const mover *t, uint32_t j) { return j + 1 < t->m ? j + 1 : 0; }
+static uint32_t corner_before(const mover *t, uint32_t j) { return j ? j - 1 : t->m - 1; }
 
 static sunder_i_rational_point corner_of(const mover *t, size_t k)
 {
@@ -109,7 +109,7 @@ static bool find_direction(const mover *t, size_t k, sunder_i_point *out)
 /* Returns the sign of the turn from d to the side of C that ends in corner j. */
 static int turn_to(const mover *t, sunder_i_point d, uint32_t j)
 {
-    const sunder_i_i128 turn = sunder_i_plain_cross(d, t->c->along[before(t, j)]);
+    const sunder_i_i128 turn = sunder_i_plain_cross(d, t->c->along[corner_before(t, j)]);
     return (turn > 0) - (turn < 0);
 }
 
@@ -118,9 +118,9 @@ static int turn_to(const mover *t, sunder_i_point d, uint32_t j)
 static uint32_t walk_to(const mover *t, uint32_t j, sunder_i_point d, bool backwards)
 {
     if (backwards)
-        while (turn_to(t, d, j) > 0) j = before(t, j);
+        while (turn_to(t, d, j) > 0) j = corner_before(t, j);
     else
-        while (turn_to(t, d, after(t, j)) <= 0) j = after(t, j);
+        while (turn_to(t, d, corner_after(t, j)) <= 0) j = corner_after(t, j);
     return j;
 }
 
@@ -146,7 +146,7 @@ static bool find_corners(mover *t)
         t->reflex[k] = bend < 0;
         d = t->d[k];
         j = t->last[k] = walk_to(t, j, d, bend < 0);
-        t->first[k] = turn_to(t, d, j) == 0 ? before(t, j) : j;
+        t->first[k] = turn_to(t, d, j) == 0 ? corner_before(t, j) : j;
     }
     return sunder_i_steps(t->end - t->begin);
 }
@@ -206,7 +206,7 @@ static size_t count_links(const mover *t)
 }
 
 /* Returns the sum of corner k and corner j of C. */
-static sunder_i_curve_corner moved(const mover *t, size_t k, uint32_t j)
+static sunder_i_curve_corner moved_corner(const mover *t, size_t k, uint32_t j)
 {
     sunder_i_arena *s = &t->curve->scratch;
     const sunder_i_mark mark = sunder_i_arena_mark(s);
@@ -220,7 +220,8 @@ static sunder_i_curve_corner moved(const mover *t, size_t k, uint32_t j)
 static void add_link(mover *t, size_t k, uint32_t j, sunder_i_point along, bool chord)
 {
     sunder_i_figure_convolution *c = t->curve;
-    c->link[c->links] = (sunder_i_curve_link){.from = moved(t, k, j), .along = along, .ring = c->rings, .chord = chord};
+    c->link[c->links] =
+        (sunder_i_curve_link){.from = moved_corner(t, k, j), .along = along, .ring = c->rings, .chord = chord};
     c->links++;
 }
 
@@ -239,7 +240,7 @@ static bool add_joint(mover *t, size_t k)
     const uint32_t from = joint_begin(t, k), to = joint_end(t, k);
     if (from == to) return true;
     if (!t->reflex[k]) {
-        for (uint32_t j = from; j != to; j = after(t, j)) add_link(t, k, j, t->c->along[j], false);
+        for (uint32_t j = from; j != to; j = corner_after(t, j)) add_link(t, k, j, t->c->along[j], false);
         return true;
     }
     sunder_i_arena *s = &t->curve->scratch;
@@ -254,7 +255,7 @@ static bool add_joint(mover *t, size_t k)
 /* Adds what remains of a side between two reflex ends. */
 static what_is_left add_shortened(mover *t, size_t k)
 {
-    const sunder_i_curve_corner from = moved(t, k, t->last[k]), to = moved(t, next_of(t, k), t->first[k]);
+    const sunder_i_curve_corner from = moved_corner(t, k, t->last[k]), to = moved_corner(t, next_of(t, k), t->first[k]);
     const int way = sunder_i_curve_cmp(t->curve, &to, &from);
     const sunder_i_point d = t->d[k];
     const bool backwards = (way > 0) != (d.x ? d.x > 0 : d.y > 0);
@@ -317,7 +318,7 @@ static bool make_room(mover *t)
 }
 
 /* Decides which rings take part, and returns an upper bound of the number of links. */
-static size_t survey(mover *t, bool *fits)
+static size_t survey_rings(mover *t, bool *fits)
 {
     size_t links = 0;
     for (size_t r = 0; *fits && r < t->figure->rings; r++) {
@@ -347,7 +348,7 @@ sunder_status sunder_i_figure_convolution_build(sunder_i_figure_convolution *cur
     mover t = {.curve = curve, .figure = curve->figure, .c = curve->element, .m = (uint32_t)curve->element->end[0]};
     if (!make_room(&t) || !round_corners(&t)) return sunder_i_failure_cause(err);
     *fits = true;
-    const size_t links = survey(&t, fits);
+    const size_t links = survey_rings(&t, fits);
     *fits = *fits && links < UINT32_MAX / 4;
     if (*fits && !add_rings(&t, links, fits)) return sunder_i_failure_cause(err);
     if (curve->memory.failed || curve->scratch.failed || sunder_i_stopped()) return sunder_i_failure_cause(err);

@@ -36,7 +36,7 @@ typedef struct teller {
     double from, to; /* the interval of the island's progress that the current stage takes */
 } teller;
 
-static bool tell(double fraction, void *user)
+static bool tell_progress(double fraction, void *user)
 {
     const teller *t = user;
     islands *all = t->all;
@@ -73,8 +73,8 @@ static sunder_status dilate_again(const islands *all, const sunder_sum_options *
 
 /* Erodes one island, trying the fastest method first: after a dilation most of the boundary is arcs, which vanish along
  * the convolution. */
-static sunder_status erode(const islands *all, const sunder_i_figure *figure, const sunder_sum_options *options,
-                           sunder_sum *eroded, sunder_error *err)
+static sunder_status erode_island(const islands *all, const sunder_i_figure *figure, const sunder_sum_options *options,
+                                  sunder_sum *eroded, sunder_error *err)
 {
     const sunder_i_structuring_element *element = &all->operands->reflected;
     bool done = false;
@@ -92,12 +92,12 @@ static sunder_status one_island(islands *all, const sunder_i_figure *figure, sun
     teller t = {all, figure->sides, 0, all->open ? 0.5 : 1};
     sunder_sum_options options = {.size = sizeof options, .seed = all->asked->seed};
     if (all->asked->progress) {
-        options.progress = tell;
+        options.progress = tell_progress;
         options.progress_user = &t;
     }
     sunder_sum *eroded = sunder_i_morphology_operands_sum(all->operands, -1);
     if (!eroded) return sunder_i_failure_cause(err);
-    sunder_status status = erode(all, figure, &options, eroded, err);
+    sunder_status status = erode_island(all, figure, &options, eroded, err);
     if (status == SUNDER_OK && !all->open) {
         *out = eroded;
         return SUNDER_OK;
@@ -109,7 +109,7 @@ static sunder_status one_island(islands *all, const sunder_i_figure *figure, sun
     return status;
 }
 
-static sunder_status work(void *context, size_t begin, size_t end, sunder_error *err)
+static sunder_status work_on_islands(void *context, size_t begin, size_t end, sunder_error *err)
 {
     islands *all = context;
     sunder_status status = SUNDER_OK;
@@ -130,7 +130,7 @@ static sunder_status work(void *context, size_t begin, size_t end, sunder_error 
     return status;
 }
 
-static sunder_status run(islands *all, sunder_sum **out, sunder_error *err)
+static sunder_status run_islands(islands *all, sunder_sum **out, sunder_error *err)
 {
     all->part = sunder_i_calloc(all->n + 1, sizeof *all->part);
     /* in a closing the dilation has added B's origin already */
@@ -138,7 +138,7 @@ static sunder_status run(islands *all, sunder_sum **out, sunder_error *err)
     sunder_status status = all->part && sum ? SUNDER_OK : sunder_i_failure_cause(err);
     if (status == SUNDER_OK) {
         pthread_mutex_init(&all->lock, NULL);
-        status = sunder_i_parallel(all->asked->threads, all->n, SUNDER_I_GRAIN_WHOLE, work, all, err);
+        status = sunder_i_parallel(all->asked->threads, all->n, SUNDER_I_GRAIN_WHOLE, work_on_islands, all, err);
         pthread_mutex_destroy(&all->lock);
     }
     if (status == SUNDER_OK && !sunder_i_gather(all->part, all->n, sum)) status = sunder_i_failure_cause(err);
@@ -163,5 +163,5 @@ sunder_status sunder_i_islands(const sunder_i_morphology_operands *operands, con
                    .dilated = operation == SUNDER_OPERATION_CLOSE};
     all.n = whole && connected ? whole->polygons : 1;
     all.sides = !whole ? operands->figure.sides : whole->rings ? whole->ring_end[whole->rings - 1] : 0;
-    return run(&all, out, err);
+    return run_islands(&all, out, err);
 }

@@ -19,17 +19,17 @@ typedef struct stage {
     sunder_sum_options options;
 } stage;
 
-static bool tell(double fraction, void *user)
+static bool tell_progress(double fraction, void *user)
 {
     const stage *s = user;
     return s->asked->progress(s->from + (s->to - s->from) * fraction, s->asked->progress_user);
 }
 
-static const sunder_sum_options *begin(stage *s, const sunder_sum_options *asked, double from, double to)
+static const sunder_sum_options *begin_stage(stage *s, const sunder_sum_options *asked, double from, double to)
 {
     *s = (stage){asked, from, to, {.size = sizeof s->options, .seed = asked->seed, .threads = asked->threads}};
     if (asked->progress) {
-        s->options.progress = tell;
+        s->options.progress = tell_progress;
         s->options.progress_user = s;
     }
     return &s->options;
@@ -45,8 +45,8 @@ static sunder_status first_stage(const sunder_shape *p, const sunder_shape *b, b
 }
 
 /* Performs an erosion, opening or closing. */
-static sunder_status shrink(const sunder_shape *p, const sunder_shape *b, sunder_operation operation,
-                            const sunder_sum_options *asked, sunder_sum **out, sunder_error *err)
+static sunder_status shrink_shape(const sunder_shape *p, const sunder_shape *b, sunder_operation operation,
+                                  const sunder_sum_options *asked, sunder_sum **out, sunder_error *err)
 {
     const double ready = 0.2;
     const bool connected = b->form->cleaned.polygons == 1;
@@ -54,11 +54,11 @@ static sunder_status shrink(const sunder_shape *p, const sunder_shape *b, sunder
     sunder_sum *whole;
     sunder_i_morphology_operands operands;
     const bool close = operation == SUNDER_OPERATION_CLOSE;
-    sunder_status status = first_stage(p, b, close, begin(&s, asked, 0, ready), &whole, err);
+    sunder_status status = first_stage(p, b, close, begin_stage(&s, asked, 0, ready), &whole, err);
     if (status != SUNDER_OK) return status;
     status = sunder_i_morphology_operands_make(p, b, &operands, err);
     if (status == SUNDER_OK) {
-        status = sunder_i_islands(&operands, whole, connected, operation, begin(&s, asked, ready, 1), out, err);
+        status = sunder_i_islands(&operands, whole, connected, operation, begin_stage(&s, asked, ready, 1), out, err);
         sunder_i_morphology_operands_free(&operands);
     }
     sunder_sum_free(whole);
@@ -78,7 +78,7 @@ sunder_status sunder_morphology(const sunder_shape *p, const sunder_shape *b, su
     if (status != SUNDER_OK) return status;
     sunder_i_watch watch;
     sunder_i_watch_begin(&watch, &o.progress, &o.progress_user);
-    status = shrink(p, b, operation, &o, out, err);
+    status = shrink_shape(p, b, operation, &o, out, err);
     sunder_i_watch_end(&watch);
     return status;
 }

@@ -9,8 +9,8 @@ static sunder_i_lattice empty_like(const sunder_i_lattice *from)
     return (sunder_i_lattice){.exponent = from->exponent, .scale = from->scale, .approx_shift = from->approx_shift};
 }
 
-static bool fill(const sunder_shape *p, const sunder_shape *b, sunder_i_placed *placed,
-                 sunder_i_morphology_operands *operands)
+static bool fill_operands(const sunder_shape *p, const sunder_shape *b, sunder_i_placed *placed,
+                          sunder_i_morphology_operands *operands)
 {
     memcpy(operands->origin_p, placed->origin_p, sizeof operands->origin_p);
     memcpy(operands->origin_q, placed->origin_q, sizeof operands->origin_q);
@@ -29,7 +29,7 @@ sunder_status sunder_i_morphology_operands_make(const sunder_shape *p, const sun
     const sunder_i_place_options how = {.force_wide = true};
     sunder_status status = sunder_i_place(p, b, &how, &placed, err);
     if (status != SUNDER_OK) return status;
-    if (!fill(p, b, &placed, out)) status = sunder_i_failure_cause(err);
+    if (!fill_operands(p, b, &placed, out)) status = sunder_i_failure_cause(err);
     sunder_i_placed_free(&placed);
     if (status != SUNDER_OK) sunder_i_morphology_operands_free(out);
     return status;

@@ -17,8 +17,8 @@
 
 /* Returns the intersection of the horizontal line through v with the line ab. The segment ab must reach the height of v
  * and not be horizontal. */
-static sunder_i_filtered_point meeting(sunder_i_lattice *l, const sunder_i_filtered_point *v,
-                                       const sunder_i_filtered_point *a, const sunder_i_filtered_point *b)
+static sunder_i_filtered_point meeting_point(sunder_i_lattice *l, const sunder_i_filtered_point *v,
+                                             const sunder_i_filtered_point *a, const sunder_i_filtered_point *b)
 {
     sunder_i_arena *m = &l->arena;
     const sunder_i_rational_point rise = sunder_i_rational_sub(m, v->at, a->at);
@@ -65,7 +65,7 @@ static bool meet_left(const sunder_i_free_space *s, const sunder_i_filtered_poin
         *hit = sunder_i_filtered_cmp_x(g, right, v) > 0 ? *v : *right; /* v itself is on the stretch */
         return true;
     }
-    *hit = meeting(g->lattice, v, a, b);
+    *hit = meeting_point(g->lattice, v, a, b);
     return sunder_i_filtered_cmp_x(g, hit, v) <= 0;
 }
 
@@ -89,8 +89,8 @@ static bool make_strips(const sunder_i_free_space *s, const sunder_i_corners *c,
 
 /* Shoots a ray from v to the left and joins v with the stretch that it reaches. The stretches of the curve with the
  * root `own` are not tested. */
-static void shoot(const sunder_i_free_space *s, sunder_i_corners *c, const sunder_i_strips *t, uint32_t v,
-                  const uint32_t *curve, uint32_t own)
+static void shoot_ray(const sunder_i_free_space *s, sunder_i_corners *c, const sunder_i_strips *t, uint32_t v,
+                      const uint32_t *curve, uint32_t own)
 {
     const sunder_i_filtered_point *p = &c->place[v];
     size_t from, to;
@@ -131,9 +131,9 @@ bool sunder_i_components_find(const sunder_i_free_space *space, sunder_i_corners
     }
     /* Vertices without stretches are degenerate points: no path leads there, so a ray from them has no effect. */
     for (uint32_t v = 0; ok && v < corners->vertices; v++)
-        if (curve[v] == v) shoot(space, corners, &t, least[v], curve, v);
+        if (curve[v] == v) shoot_ray(space, corners, &t, least[v], curve, v);
     for (uint32_t v = corners->vertices; ok && v < corners->vertices + 2; v++)
-        shoot(space, corners, &t, v, curve, SUNDER_I_NO_PLACE);
+        shoot_ray(space, corners, &t, v, curve, SUNDER_I_NO_PLACE);
     sunder_i_free(curve);
     sunder_i_free(least);
     sunder_i_strips_free(&t);

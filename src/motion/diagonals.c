@@ -109,7 +109,8 @@ void sunder_i_diagonals_free(sunder_i_diagonals *diagonals)
 
 /* Returns u + uv / 2 + (w - m) / 2^j with w - m = (2 uw - uv) / 2, that is (u + v) / 2 + (2 w - u - v) / 2^(j + 1). The
  * point is on the lattice if the lattice's unit is fine enough. */
-static sunder_i_point towards(sunder_i_lattice *l, sunder_i_point u, sunder_i_point v, sunder_i_point w, unsigned j)
+static sunder_i_point point_towards(sunder_i_lattice *l, sunder_i_point u, sunder_i_point v, sunder_i_point w,
+                                    unsigned j)
 {
     if (l->arena.failed) return u;
     const sunder_i_mark mark = sunder_i_lattice_begin(l);
@@ -145,7 +146,7 @@ void sunder_i_diagonals_add(const sunder_i_diagonals *diagonals, sunder_i_lattic
         sunder_i_point quad[4] = {u, u, v, u};
         /* The loop ends: near enough to the diagonal the quadrilateral is convex. */
         for (unsigned j = 1; !lattice->arena.failed; j++) {
-            for (int k = 1; k < 4; k += 2) quad[k] = towards(lattice, u, v, at[corner[k]], j);
+            for (int k = 1; k < 4; k += 2) quad[k] = point_towards(lattice, u, v, at[corner[k]], j);
             if (is_convex(lattice, quad)) break;
         }
         for (int k = 0; k < 4; k++) sunder_i_convex_pieces_add_corner(list, quad[k], false);

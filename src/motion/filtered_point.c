@@ -73,7 +73,7 @@ sunder_i_filtered_point sunder_i_filtered_of_double(const sunder_sum *sum, sunde
 
 /* ---- Order ---- */
 
-static int filter(const sunder_i_filter *g, double a, double b)
+static int filter_cmp(const sunder_i_filter *g, double a, double b)
 {
     const double d = a - b, bound = 2 * g->error;
     return d > bound ? 1 : d < -bound ? -1 : 0;
@@ -82,7 +82,7 @@ static int filter(const sunder_i_filter *g, double a, double b)
 static int coordinate_cmp(const sunder_i_filter *g, const sunder_i_filtered_point *a, const sunder_i_filtered_point *b,
                           int axis)
 {
-    const int c = axis ? filter(g, a->ay, b->ay) : filter(g, a->ax, b->ax);
+    const int c = axis ? filter_cmp(g, a->ay, b->ay) : filter_cmp(g, a->ax, b->ax);
     if (c) return c;
     sunder_i_arena *arena = &g->lattice->arena;
     const sunder_i_mark mark = sunder_i_arena_mark(arena);
@@ -137,7 +137,7 @@ int sunder_i_filtered_orient(const sunder_i_filter *g, const sunder_i_filtered_p
     return e;
 }
 
-static sunder_i_rational_point exactly(const sunder_i_filter *g, sunder_i_lattice_corner p)
+static sunder_i_rational_point exact_point(const sunder_i_filter *g, sunder_i_lattice_corner p)
 {
     return sunder_i_rational_get(&g->lattice->arena, g->lattice, p.point);
 }
@@ -149,7 +149,7 @@ int sunder_i_filtered_side(const sunder_i_filter *g, sunder_i_lattice_corner a, 
     const int s = filter_orient(g, a.at, b.at, pc);
     if (s) return s;
     const sunder_i_mark mark = sunder_i_arena_mark(&g->lattice->arena);
-    const int e = sunder_i_rational_orient(&g->lattice->arena, exactly(g, a), exactly(g, b), c->at);
+    const int e = sunder_i_rational_orient(&g->lattice->arena, exact_point(g, a), exact_point(g, b), c->at);
     if (!g->lattice->arena.failed) sunder_i_arena_release(&g->lattice->arena, mark);
     return e;
 }
@@ -161,7 +161,7 @@ int sunder_i_filtered_corner_side(const sunder_i_filter *g, const sunder_i_filte
     const int s = filter_orient(g, pa, pb, c.at);
     if (s) return s;
     const sunder_i_mark mark = sunder_i_arena_mark(&g->lattice->arena);
-    const int e = sunder_i_rational_orient(&g->lattice->arena, a->at, b->at, exactly(g, c));
+    const int e = sunder_i_rational_orient(&g->lattice->arena, a->at, b->at, exact_point(g, c));
     if (!g->lattice->arena.failed) sunder_i_arena_release(&g->lattice->arena, mark);
     return e;
 }

@@ -64,7 +64,7 @@ static void grow_extent(sunder_i_extent *e, const sunder_i_extent *by)
     if (by->low_bit < e->low_bit) e->low_bit = by->low_bit;
 }
 
-static bool clamp(sunder_i_extent *e)
+static bool clamp_extent(sunder_i_extent *e)
 {
     bool inside = true;
     for (int k = 0; k < 2; k++) {
@@ -97,7 +97,7 @@ static void choose_lattice(maker *m)
         extent[2] = sunder_i_shape_extent(m->disc);
         grow_extent(&extent[1], &extent[2]);
     }
-    const bool inside = clamp(&extent[1]);
+    const bool inside = clamp_extent(&extent[1]);
     double origin[3][2];
     sunder_i_lattice *l = m->lattice;
     sunder_i_lattice_init(l, extent, 3, inside, origin, !inside);
@@ -224,7 +224,7 @@ static bool make_parts(maker *m)
 
 /* Sets the approximate doubles of the corners of parts, and the error bound of the filter. Returns false if out of
  * memory. */
-static bool measure(maker *m)
+static bool measure_parts(maker *m)
 {
     sunder_i_lattice *l = m->lattice;
     const sunder_i_convex_pieces *part = &m->out->part;
@@ -264,24 +264,24 @@ static sunder_status find_outline(maker *m, sunder_error *err)
     return sunder_i_outline_find(part, m->options, keep_stretches, m->out, m->out->sum, err);
 }
 
-static sunder_status make(maker *m, sunder_error *err)
+static sunder_status make_space(maker *m, sunder_error *err)
 {
     sunder_status status = SUNDER_OK;
     choose_lattice(m);
-    if (!make_pieces(m) || !make_parts(m) || !measure(m)) status = sunder_i_failure_cause(err);
+    if (!make_pieces(m) || !make_parts(m) || !measure_parts(m)) status = sunder_i_failure_cause(err);
     if (status == SUNDER_OK) status = find_outline(m, err);
     if (status == SUNDER_OK && (!sunder_i_part_tree_build(m->out) || m->lattice->arena.failed))
         status = sunder_i_failure_cause(err);
     return status;
 }
 
-static sunder_status build(maker *m, sunder_error *err)
+static sunder_status build_space(maker *m, sunder_error *err)
 {
     m->out->sum = sunder_i_calloc(1, sizeof *m->out->sum);
     if (!m->out->sum) return sunder_i_failure_cause(err);
     m->out->sum->method.algorithm = SUNDER_ALGORITHM_CONVOLUTION;
     m->lattice = &m->out->sum->lattice;
-    const sunder_status status = make(m, err);
+    const sunder_status status = make_space(m, err);
     sunder_i_convex_pieces_free(&m->obstacles);
     sunder_i_convex_pieces_free(&m->robots);
     sunder_i_convex_pieces_free(&m->discs);
@@ -296,7 +296,7 @@ static sunder_status build_with_lines(maker *m, sunder_error *err)
     sunder_status status = sunder_i_without_seams(m->robot, &whole, err);
     if (status != SUNDER_OK) return status;
     if (whole) m->robot = whole;
-    status = sunder_i_diagonals_find(m->robot, &m->diagonals) ? build(m, err) : sunder_i_failure_cause(err);
+    status = sunder_i_diagonals_find(m->robot, &m->diagonals) ? build_space(m, err) : sunder_i_failure_cause(err);
     sunder_i_diagonals_free(&m->diagonals);
     sunder_shape_free(whole);
     return status;
@@ -315,7 +315,7 @@ sunder_status sunder_i_free_space_build(const sunder_obstacle *obstacles, size_t
     maker m = {.obstacle = obstacles, .n = n, .robot = robot, .disc = disc, .options = options, .out = out};
     bool lines = false;
     for (size_t i = 0; i < n && !lines; i++) lines = obstacles[i].lines > 0;
-    const sunder_status status = lines && !disc ? build_with_lines(&m, err) : build(&m, err);
+    const sunder_status status = lines && !disc ? build_with_lines(&m, err) : build_space(&m, err);
     sunder_shape_free(disc);
     if (status != SUNDER_OK) sunder_i_free_space_free(out);
     return status;

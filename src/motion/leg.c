@@ -66,8 +66,8 @@ bool sunder_i_part_tree_build(sunder_i_free_space *space)
 
 /* Returns true if the closed segment pq meets the part: unless both ends are on or beyond the line of one side of the
  * part, or all of the part is on one side of the line pq. */
-static bool meets(const sunder_i_free_space *s, uint32_t part, const sunder_i_filtered_point *p,
-                  const sunder_i_filtered_point *q)
+static bool meets_part(const sunder_i_free_space *s, uint32_t part, const sunder_i_filtered_point *p,
+                       const sunder_i_filtered_point *q)
 {
     const sunder_i_convex_pieces *c = &s->part;
     const uint32_t first = sunder_i_convex_pieces_first(c, part), end = c->end[part];
@@ -137,7 +137,7 @@ bool sunder_i_leg_is_free(const sunder_i_free_space *space, const sunder_i_filte
         }
         const size_t end = sunder_i_box_tree_end(t, i);
         for (size_t k = sunder_i_box_tree_first(t, i); k < end; k++) {
-            if (in[k] > found || !meets(space, in[k], p, q)) continue;
+            if (in[k] > found || !meets_part(space, in[k], p, q)) continue;
             found = in[k];
             if (!least) {
                 if (part) *part = found;

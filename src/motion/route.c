@@ -73,7 +73,7 @@ static sunder_status check_obstacles(const sunder_obstacle *obstacles, size_t n,
 
 /* Returns true if the robot at the point `at` collides with an obstacle; then `reason` and the number of the obstacle
  * are stored in r. */
-static bool collides(sunder_route *r, const sunder_i_filtered_point *at, sunder_route_status reason)
+static bool robot_collides(sunder_route *r, const sunder_i_filtered_point *at, sunder_route_status reason)
 {
     uint32_t part;
     if (sunder_i_leg_is_free(&r->space, at, at, true, &part)) return false;
@@ -98,8 +98,8 @@ static sunder_status take_stop(sunder_route *r, const sunder_i_filtered_point *a
 
 /* Proves that every leg of the path is free, and tests whether the legs are free, too, if the vertices are rounded to
  * doubles. Fails with SUNDER_EFAULT if a leg is not free. */
-static sunder_status prove(sunder_route *r, const sunder_i_filtered_point *place, const uint32_t *path,
-                           sunder_error *err)
+static sunder_status prove_path(sunder_route *r, const sunder_i_filtered_point *place, const uint32_t *path,
+                                sunder_error *err)
 {
     sunder_i_lattice *l = r->space.filter.lattice;
     r->rounded_is_free = true;
@@ -124,7 +124,7 @@ static sunder_status keep_path(sunder_route *r, const sunder_i_filtered_point *p
     r->stop = sunder_i_calloc(n, sizeof *r->stop);
     sunder_status status = r->stop ? SUNDER_OK : sunder_i_failure_cause(err);
     for (size_t i = 0; status == SUNDER_OK && i < n; i++) status = take_stop(r, &place[path[i]], err);
-    if (status == SUNDER_OK) status = prove(r, place, path, err);
+    if (status == SUNDER_OK) status = prove_path(r, place, path, err);
     if (status != SUNDER_OK) return status;
     const sunder_i_path of_places = {place, NULL, path, n};
     r->length = sunder_i_path_length(&r->space.filter, &of_places);
@@ -148,14 +148,15 @@ static sunder_status find_path(sunder_route *r, sunder_i_corners *corners, const
     return status;
 }
 
-static sunder_status find(sunder_route *r, const sunder_place *from, const sunder_place *to,
-                          const sunder_sum_options *how, sunder_error *err)
+static sunder_status find_route(sunder_route *r, const sunder_place *from, const sunder_place *to,
+                                const sunder_sum_options *how, sunder_error *err)
 {
     sunder_i_filtered_point end[2];
     sunder_status status = read_place(&r->space, from, "the start", &end[0], err);
     if (status == SUNDER_OK) status = read_place(&r->space, to, "the goal", &end[1], err);
     if (status != SUNDER_OK) return status;
-    if (collides(r, &end[0], SUNDER_ROUTE_START_COLLIDES) || collides(r, &end[1], SUNDER_ROUTE_GOAL_COLLIDES))
+    if (robot_collides(r, &end[0], SUNDER_ROUTE_START_COLLIDES) ||
+        robot_collides(r, &end[1], SUNDER_ROUTE_GOAL_COLLIDES))
         return SUNDER_OK;
     if (sunder_i_filtered_cmp(&r->space.filter, &end[0], &end[1]) == 0)
         return keep_path(r, end, (uint32_t[]){0}, 1, err);
@@ -192,7 +193,7 @@ sunder_status sunder_route_find(const sunder_obstacle *obstacles, size_t n, cons
     sunder_i_watch watch;
     sunder_i_watch_begin(&watch, &how.progress, &how.progress_user);
     status = sunder_i_free_space_build(obstacles, n, robot, o.gap, &how, &r->space, err);
-    if (status == SUNDER_OK) status = find(r, from, to, &how, err);
+    if (status == SUNDER_OK) status = find_route(r, from, to, &how, err);
     if (status == SUNDER_OK && r->space.filter.lattice->arena.failed) status = sunder_i_failure_cause(err);
     sunder_i_watch_end(&watch);
     if (status == SUNDER_OK)

@@ -16,13 +16,13 @@
 #define BINS_ALL_ROUND 128
 #define BINS_LEAST 16
 
-static double wrap(double turn) { return turn < 0 ? turn + 4 : turn >= 4 ? turn - 4 : turn; }
+static double wrap_turn(double turn) { return turn < 0 ? turn + 4 : turn >= 4 ? turn - 4 : turn; }
 
-double sunder_i_turn_between(double a, double b) { return wrap(wrap(b) - wrap(a)); }
+double sunder_i_turn_between(double a, double b) { return wrap_turn(wrap_turn(b) - wrap_turn(a)); }
 
 static void ray_at(double turn, double out[2])
 {
-    const double p = wrap(turn);
+    const double p = wrap_turn(turn);
     out[0] = p < 2 ? 1 - p : p - 3;
     out[1] = p < 1 ? p : p < 3 ? 2 - p : p - 4;
 }
@@ -45,7 +45,7 @@ bool sunder_i_sector_of(const double (*point)[2], int n, double error, bool at_e
         high = off > high ? off : high;
     }
     if (isnan(first)) return false;
-    *out = (sunder_i_sector){wrap(first + low - margin), high - low + 2 * margin};
+    *out = (sunder_i_sector){wrap_turn(first + low - margin), high - low + 2 * margin};
     return out->width < 2;
 }
 
@@ -54,7 +54,7 @@ void sunder_i_shadow_start(sunder_i_shadow *shadow, sunder_i_sector sector)
     shadow->bins = sector.width >= 4
                        ? BINS_ALL_ROUND
                        : (int)sunder_i_min(SUNDER_I_BINS, sunder_i_max(BINS_LEAST, sector.width * SUNDER_I_BINS));
-    shadow->sector = (sunder_i_sector){wrap(sector.low), sunder_i_min(sector.width, 4)};
+    shadow->sector = (sunder_i_sector){wrap_turn(sector.low), sunder_i_min(sector.width, 4)};
     shadow->per_turn = shadow->bins / shadow->sector.width;
     for (int k = 0; k <= shadow->bins; k++) ray_at(shadow->sector.low + k / shadow->per_turn, shadow->ray[k]);
     for (int k = 0; k < shadow->bins; k++) shadow->depth[k] = INFINITY;
@@ -85,7 +85,7 @@ typedef struct caster {
 } caster;
 
 /* Sets *c from the corners of a part. Returns false if products might leave the range of doubles. */
-static bool prepare(caster *c, const double (*corner)[2], int n, double error)
+static bool prepare_caster(caster *c, const double (*corner)[2], int n, double error)
 {
     double reach = 0;
     for (int i = 0; i < n; i++) reach = sunder_i_max(reach, fabs(corner[i][0]) + fabs(corner[i][1]));
@@ -106,7 +106,7 @@ static bool prepare(caster *c, const double (*corner)[2], int n, double error)
 }
 
 /* Returns the parameter of the first point of the ray that is clearly inside the part; infinity if there is none. */
-static double entry(const caster *c, const double ray[2])
+static double entry_of_ray(const caster *c, const double ray[2])
 {
     double low = 0, high = INFINITY;
     for (int i = 0; i < c->n; i++) {
@@ -124,7 +124,7 @@ static double entry(const caster *c, const double ray[2])
 }
 
 /* Returns a lower bound of the distance (in |dx| + |dy|) of the hull of the corners from the eye. */
-static double nearest(const double (*corner)[2], int n, double error)
+static double least_distance(const double (*corner)[2], int n, double error)
 {
     double gap = 0;
     for (int axis = 0; axis < 2; axis++) {
@@ -146,15 +146,16 @@ void sunder_i_shadow_cast(sunder_i_shadow *shadow, const double (*corner)[2], in
     double piece[2][2];
     /* The rays to test; if the eye is a corner of the part, only the rays to the other corners. */
     if (!sunder_i_sector_of(corner, n, error, true, &sector)) sector = shadow->sector;
-    if (!sunder_i_shadow_takes(shadow, sector) || sunder_i_shadow_hides(shadow, sector, nearest(corner, n, error)))
+    if (!sunder_i_shadow_takes(shadow, sector) ||
+        sunder_i_shadow_hides(shadow, sector, least_distance(corner, n, error)))
         return;
-    if (!prepare(&c, corner, n, error)) return;
+    if (!prepare_caster(&c, corner, n, error)) return;
     const int pieces = pieces_of(shadow, sector, piece);
     for (int i = 0; i < pieces; i++) {
         double before = INFINITY;
         const int first = (int)ceil(piece[i][0]), last = (int)sunder_i_min(floor(piece[i][1]), shadow->bins);
         for (int k = first; k <= last; k++) {
-            const double at = entry(&c, shadow->ray[k]);
+            const double at = entry_of_ray(&c, shadow->ray[k]);
             const double depth = at > before ? at : before;
             if (k > first && depth < shadow->depth[k - 1]) shadow->depth[k - 1] = depth;
             before = at;

@@ -71,33 +71,33 @@ static const sunder_i_filtered_point *place_of(const search *s, uint32_t node)
 /* ---- The queue ---- */
 
 /* A total order of the edges. */
-static bool before(const void *x, const void *y)
+static bool edge_before(const void *x, const void *y)
 {
     const edge *a = x, *b = y;
     if (a->key != b->key) return a->key < b->key;
     return a->from != b->from ? a->from < b->from : a->to < b->to;
 }
 
-static void push(search *s, edge e)
+static void push_edge(search *s, edge e)
 {
     if (s->heap_n == s->heap_capacity &&
         !sunder_i_reserve(&s->heap, &s->heap_capacity, s->heap_n + 1, sizeof *s->heap)) {
         s->no_memory = true;
         return;
     }
-    sunder_i_heap_push(s->heap, &s->heap_n, sizeof e, &e, before);
+    sunder_i_heap_push(s->heap, &s->heap_n, sizeof e, &e, edge_before);
 }
 
-static edge pop(search *s)
+static edge pop_edge(search *s)
 {
     edge top;
-    sunder_i_heap_pop(s->heap, &s->heap_n, sizeof top, &top, before);
+    sunder_i_heap_pop(s->heap, &s->heap_n, sizeof top, &top, edge_before);
     return top;
 }
 
 /* Queues the edges from v. The first search does not reach nodes by shortest paths, so that in it the direction of the
  * last leg does not restrict the next one if all_round is set. */
-static void expand(search *s, uint32_t v)
+static void expand_node(search *s, uint32_t v)
 {
     const double so_far = s->at[v].length;
     const uint32_t before = s->all_round || v == s->start ? SUNDER_I_NO_NODE : s->at[v].before;
@@ -106,7 +106,8 @@ static void expand(search *s, uint32_t v)
         const uint32_t w = s->view.seen[i];
         const double length = so_far + sunder_i_visibility_distance(&s->view, v, w);
         const double key = length + s->haste * sunder_i_visibility_distance(&s->view, w, s->goal);
-        if (key <= s->limit && !(s->at[w].known && s->at[w].length < length - s->slack)) push(s, (edge){key, v, w});
+        if (key <= s->limit && !(s->at[w].known && s->at[w].length < length - s->slack))
+            push_edge(s, (edge){key, v, w});
     }
 }
 
@@ -124,7 +125,7 @@ static size_t path_to(const search *s, uint32_t from, uint32_t v, uint32_t *out)
 
 /* Returns the last common node of the paths to v and to w. Both are followed back alternately, so that the time depends
  * only on the parts in which they differ. */
-static uint32_t parting(search *s, uint32_t v, uint32_t w)
+static uint32_t parting_node(search *s, uint32_t v, uint32_t w)
 {
     uint32_t at[2] = {v, w};
     s->stamp += 2;
@@ -138,7 +139,7 @@ static uint32_t parting(search *s, uint32_t v, uint32_t w)
 
 /* Removes the nodes at which the path does not bend, and returns the number of nodes left. A path never turns back, so
  * that it does not bend at a node that is collinear with its neighbours. */
-static size_t straighten(const search *s, uint32_t *path, size_t n)
+static size_t straighten_path(const search *s, uint32_t *path, size_t n)
 {
     size_t m = 0;
     for (size_t i = 0; i < n; i++) {
@@ -185,14 +186,14 @@ static int compare_paths(const search *s, const uint32_t *p, size_t m, const uin
  * of the two may not bend. */
 static int compare_ways(search *s, uint32_t v, uint32_t w)
 {
-    uint32_t *p = s->way[0], *q = s->way[1], from = parting(s, v, w);
+    uint32_t *p = s->way[0], *q = s->way[1], from = parting_node(s, v, w);
     if (from == w) return 2; /* w is on the path to v: no path */
     if (from != s->start) from = s->at[from].before;
     size_t m = path_to(s, from, v, p);
     size_t n = path_to(s, from, w, q);
     p[m++] = w;
-    m = straighten(s, p, m);
-    n = straighten(s, q, n);
+    m = straighten_path(s, p, m);
+    n = straighten_path(s, q, n);
     return compare_paths(s, p, m, q, n);
 }
 
@@ -206,11 +207,11 @@ static bool edge_is_free(const search *s, uint32_t v, uint32_t w)
 /* The path to e.to has become shorter, by its own last edge or by the path to the node before. The edges from e.to are
  * queued again, so that edges which lost to it by less than the tolerance are compared again, and the nodes after it
  * are updated. */
-static void shorten(search *s, edge e)
+static void shorten_path(search *s, edge e)
 {
     s->at[e.to].heard = s->at[e.from].news;
     s->at[e.to].news++;
-    if (e.to != s->goal) expand(s, e.to);
+    if (e.to != s->goal) expand_node(s, e.to);
 }
 
 /* Takes another edge to a node that has been reached. If the path through it is shorter, it replaces the known one; if
@@ -220,7 +221,7 @@ static void take_again(search *s, edge e)
     const int c = compare_ways(s, e.from, e.to);
     if (c == -2 && edge_is_free(s, e.from, e.to)) {
         s->at[e.to].before = e.from;
-        shorten(s, e);
+        shorten_path(s, e);
     }
     if (c < -1 || c > 1) return;
     if (sunder_i_reserve(&s->tie, &s->tie_capacity, s->ties + 1, sizeof *s->tie))
@@ -229,7 +230,7 @@ static void take_again(search *s, edge e)
         s->no_memory = true;
 }
 
-static void take(search *s, edge e)
+static void take_edge(search *s, edge e)
 {
     const double length = s->at[e.from].length + sunder_i_visibility_distance(&s->view, e.from, e.to);
     reached *to = &s->at[e.to];
@@ -241,27 +242,27 @@ static void take(search *s, edge e)
         if (s->haste == 1 && to->before != e.from)
             take_again(s, e);
         else if (s->haste == 1 && to->heard != s->at[e.from].news)
-            shorten(s, e);
+            shorten_path(s, e);
         return;
     }
     if (!edge_is_free(s, e.from, e.to)) return;
     *to = (reached){.length = length, .before = e.from, .heard = s->at[e.from].news, .known = true};
-    if (e.to != s->goal) expand(s, e.to);
+    if (e.to != s->goal) expand_node(s, e.to);
 }
 
-static void run(search *s, double haste, double limit)
+static void run_search(search *s, double haste, double limit)
 {
     memset(s->at, 0, s->corners->nodes * sizeof *s->at);
     s->heap_n = 0;
     s->haste = haste;
     s->limit = limit;
     s->at[s->start] = (reached){.before = s->start, .known = true};
-    expand(s, s->start);
+    expand_node(s, s->start);
     while (s->heap_n && !s->no_memory && !s->cancelled && !s->space->filter.lattice->arena.failed) {
-        const edge e = pop(s);
+        const edge e = pop_edge(s);
         const reached *goal = &s->at[s->goal];
         if (goal->known && (haste > 1 || e.key > goal->length + s->slack)) break;
-        take(s, e);
+        take_edge(s, e);
     }
 }
 
@@ -333,7 +334,7 @@ static void settle_ties(search *s)
 }
 
 /* Runs the fast search and then the exact one. Sets no_memory if out of memory. */
-static void find(search *s)
+static void find_path(search *s)
 {
     const size_t nodes = s->corners->nodes;
     s->at = sunder_i_calloc(nodes, sizeof *s->at);
@@ -342,11 +343,11 @@ static void find(search *s)
     s->no_memory =
         !sunder_i_visibility_init(&s->view, s->space, s->corners) || !s->at || !s->way[0] || !s->way[1] || !s->mark;
     if (s->no_memory) return;
-    run(s, HASTE, INFINITY);
+    run_search(s, HASTE, INFINITY);
     /* The first search does not reach nodes by shortest paths, so that if it finds no path with restricted directions,
      * this does not prove that there is none. */
     s->all_round = !s->at[s->goal].known;
-    if (s->all_round) run(s, HASTE, INFINITY);
+    if (s->all_round) run_search(s, HASTE, INFINITY);
     s->all_round = false;
     /* Lengths are computed from coordinates relative to the start. No position on a path of at most this length is
      * farther from the start. Each leg has two such coordinates, each with an error of 2^-51 of its size or below the
@@ -355,7 +356,7 @@ static void find(search *s)
     const double some = s->at[s->goal].length;
     s->slack = (0x1p-46 * some + 0x1p-1060) * ((double)nodes + 4);
     if (!s->at[s->goal].known) return;
-    run(s, 1, some + s->slack);
+    run_search(s, 1, some + s->slack);
     if (s->at[s->goal].known && !s->no_memory && !s->cancelled) settle_ties(s);
 }
 
@@ -367,7 +368,7 @@ sunder_status sunder_i_shortest_path(const sunder_i_free_space *space, sunder_i_
                 .options = options,
                 .start = corners->nodes - 2,
                 .goal = corners->nodes - 1};
-    find(&s);
+    find_path(&s);
     sunder_status status = SUNDER_OK;
     if (s.no_memory || space->filter.lattice->arena.failed || (!s.cancelled && !s.at[s.goal].known))
         status = sunder_i_failure_cause(err);
@@ -375,7 +376,7 @@ sunder_status sunder_i_shortest_path(const sunder_i_free_space *space, sunder_i_
         status = sunder_i_cancelled(err);
     if (status == SUNDER_OK) {
         SUNDER_I_ASSERT(s.at[s.goal].length <= s.limit + s.slack);
-        *n = straighten(&s, s.way[0], path_to(&s, s.start, s.goal, s.way[0]));
+        *n = straighten_path(&s, s.way[0], path_to(&s, s.start, s.goal, s.way[0]));
         for (size_t i = 0; i < *n; i++) s.way[0][i] = corners->node[s.way[0][i]];
         *path = s.way[0];
         s.way[0] = NULL;

@@ -9,7 +9,8 @@
 #include "base/extremes.h"
 
 /* Returns cross(b - a, c - a) times the positive w of c and a positive number that depends only on the side ab. */
-static sunder_i_big height(sunder_i_lattice *l, sunder_i_point a, sunder_i_point b, const sunder_i_filtered_point *c)
+static sunder_i_big scaled_height(sunder_i_lattice *l, sunder_i_point a, sunder_i_point b,
+                                  const sunder_i_filtered_point *c)
 {
     sunder_i_arena *m = &l->arena;
     const sunder_i_rational_point o = sunder_i_rational_get(m, l, a);
@@ -28,8 +29,8 @@ typedef struct bound {
 static int bound_cmp(sunder_i_arena *m, const bound *a, const bound *b) { return sunder_i_ratio_cmp(m, a->at, b->at); }
 
 /* Returns true if some point of the closed segment pq is strictly left of every side of the part. */
-static bool passes(const sunder_i_free_space *s, uint32_t part, const sunder_i_filtered_point *p,
-                   const sunder_i_filtered_point *q)
+static bool passes_part(const sunder_i_free_space *s, uint32_t part, const sunder_i_filtered_point *p,
+                        const sunder_i_filtered_point *q)
 {
     sunder_i_lattice *l = s->filter.lattice;
     sunder_i_arena *m = &l->arena;
@@ -40,8 +41,8 @@ static bool passes(const sunder_i_free_space *s, uint32_t part, const sunder_i_f
     for (uint32_t k = first; k < end; k++) {
         const sunder_i_point a = c->corner[k], b = c->corner[k + 1 < end ? k + 1 : first];
         /* f(p) and f(q) over the common denominator p.w q.w. */
-        const sunder_i_big fp = sunder_i_big_mul(m, height(l, a, b, p), q->at.w);
-        const sunder_i_big fq = sunder_i_big_mul(m, height(l, a, b, q), p->at.w);
+        const sunder_i_big fp = sunder_i_big_mul(m, scaled_height(l, a, b, p), q->at.w);
+        const sunder_i_big fq = sunder_i_big_mul(m, scaled_height(l, a, b, q), p->at.w);
         const int sp = sunder_i_big_sign(fp), sq = sunder_i_big_sign(fq);
         if (sp <= 0 && sq <= 0) return false;
         if (sp > 0 && sq > 0) continue;
@@ -83,7 +84,7 @@ bool sunder_i_leg_verified(const sunder_i_free_space *space, const sunder_i_filt
     for (uint32_t part = 0; part < space->part.n; part++) {
         if (box_apart(space, part, low, high)) continue;
         const sunder_i_mark mark = sunder_i_arena_mark(m);
-        const bool meets = passes(space, part, p, q);
+        const bool meets = passes_part(space, part, p, q);
         if (m->failed) return false;
         sunder_i_arena_release(m, mark);
         if (meets) return false;

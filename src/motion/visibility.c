@@ -165,7 +165,7 @@ static bool leg_span(const double p[2], const double q[2], sunder_i_sector *out)
 /* Returns the directions in which a shortest path that reaches v from `before` can continue. At a plain corner a path
  * bends only around O: with O on its left it continues between the direction of the last leg and the side of O that
  * leaves v, and with O on its right likewise. Returns all directions if doubles do not decide. */
-static sunder_i_sector directions(const sunder_i_visibility *view, uint32_t v, uint32_t before)
+static sunder_i_sector directions_from(const sunder_i_visibility *view, uint32_t v, uint32_t before)
 {
     const sunder_i_sector all = {0, 4};
     const uint32_t place = view->corners->node[v], *beside = view->corners->beside[place];
@@ -334,7 +334,7 @@ void sunder_i_visibility_look(sunder_i_visibility *view, uint32_t v, uint32_t be
     /* Distances have an error of about 2^-49 of their sum, which is at most `room`, and of the eye's coordinates. */
     k.room += 0x1p-46 * (room + size_of(eye) + size_of(k.goal));
     view->seen_n = 0;
-    sunder_i_shadow_start(&view->shadow, directions(view, v, before));
+    sunder_i_shadow_start(&view->shadow, directions_from(view, v, before));
     cast_shadows(&k);
     see_nodes(&k, v);
     size_t n = 0;

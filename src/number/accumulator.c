@@ -20,7 +20,7 @@ static uint64_t take_apart(double v, int *e)
     return field ? fraction | (uint64_t)1 << 52 : fraction;
 }
 
-static void accumulate(sunder_i_accumulator *t, double a, double b, bool minus)
+static void accumulate_product(sunder_i_accumulator *t, double a, double b, bool minus)
 {
     int ea, eb;
     const uint64_t ma = take_apart(a, &ea), mb = take_apart(b, &eb);
@@ -48,8 +48,8 @@ static void accumulate(sunder_i_accumulator *t, double a, double b, bool minus)
     }
 }
 
-void sunder_i_accumulator_add(sunder_i_accumulator *sum, double a, double b) { accumulate(sum, a, b, false); }
-void sunder_i_accumulator_sub(sunder_i_accumulator *sum, double a, double b) { accumulate(sum, a, b, true); }
+void sunder_i_accumulator_add(sunder_i_accumulator *sum, double a, double b) { accumulate_product(sum, a, b, false); }
+void sunder_i_accumulator_sub(sunder_i_accumulator *sum, double a, double b) { accumulate_product(sum, a, b, true); }
 
 int sunder_i_accumulator_sign(const sunder_i_accumulator *sum)
 {

@@ -18,7 +18,7 @@
 static const sunder_i_ball ANYTHING = {0, INFINITY, 0};
 
 /* Returns the ball in canonical form: both numbers are scaled by a power of two, exactly. */
-static sunder_i_ball canonical(double middle, double radius, long exponent)
+static sunder_i_ball canonical_ball(double middle, double radius, long exponent)
 {
     const double size = fabs(middle) > radius ? fabs(middle) : radius;
     if (!(size < INFINITY && radius < INFINITY)) return ANYTHING;
@@ -39,7 +39,7 @@ sunder_i_ball sunder_i_ball_big(sunder_i_big v)
     const mp_limb_t below = shift && n > 1 ? v.limb[n - 2] >> (64 - shift) : 0, top = v.limb[n - 1] << shift | below;
     const double middle = (double)top * 0x1p-64;
     const bool exact = n == 1 && (top & 0x7ff) == 0;
-    return canonical(v.size < 0 ? -middle : middle, exact ? 0 : U, 64 * n - shift);
+    return canonical_ball(v.size < 0 ? -middle : middle, exact ? 0 : U, 64 * n - shift);
 }
 
 sunder_i_ball sunder_i_ball_add(sunder_i_ball a, sunder_i_ball b)
@@ -53,7 +53,7 @@ sunder_i_ball sunder_i_ball_add(sunder_i_ball a, sunder_i_ball b)
     const double scale = sunder_i_power_of_two(down > FAR ? -FAR + 1 : -down);
     const double middle = down > FAR ? large.middle : large.middle + small.middle * scale;
     const double radius = large.radius + (down > FAR ? scale : small.radius * scale) + fabs(middle) * U;
-    return canonical(middle, radius * MORE, large.exponent);
+    return canonical_ball(middle, radius * MORE, large.exponent);
 }
 
 sunder_i_ball sunder_i_ball_sub(sunder_i_ball a, sunder_i_ball b)
@@ -67,7 +67,7 @@ sunder_i_ball sunder_i_ball_mul(sunder_i_ball a, sunder_i_ball b)
     const double middle = a.middle * b.middle;
     const double radius =
         fabs(a.middle) * b.radius + fabs(b.middle) * a.radius + a.radius * b.radius + fabs(middle) * U;
-    return canonical(middle, radius * MORE, a.exponent + b.exponent);
+    return canonical_ball(middle, radius * MORE, a.exponent + b.exponent);
 }
 
 /* With q = a / b of the middles: (a + s) / (b + t) - q = (s - q t) / (b + t). */
@@ -76,7 +76,7 @@ sunder_i_ball sunder_i_ball_div(sunder_i_ball a, sunder_i_ball b)
     const double least = fabs(b.middle) - b.radius;
     if (!(least > 0.25)) return ANYTHING;
     const double q = a.middle / b.middle, radius = (a.radius + fabs(q) * b.radius) / least + fabs(q) * U;
-    return canonical(q, radius * MORE, a.exponent - b.exponent);
+    return canonical_ball(q, radius * MORE, a.exponent - b.exponent);
 }
 
 /* |sqrt(m + s) - sqrt(m)| <= |s| / sqrt(m). If the radius is at least the middle: from zero to the largest root. */
@@ -86,7 +86,7 @@ sunder_i_ball sunder_i_ball_sqrt(sunder_i_ball a)
     const double m = odd ? 2 * a.middle : a.middle, r = odd ? 2 * a.radius : a.radius;
     const long half = (a.exponent - odd) / 2;
     if (m == 0 && r == 0) return a;
-    if (!(m > r)) return canonical(0, sqrt(sunder_i_max(m + r, 0) * MORE) * MORE, half);
+    if (!(m > r)) return canonical_ball(0, sqrt(sunder_i_max(m + r, 0) * MORE) * MORE, half);
     const double root = sqrt(m);
-    return canonical(root, (r / root + root * U) * MORE, half);
+    return canonical_ball(root, (r / root + root * U) * MORE, half);
 }

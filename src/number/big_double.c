@@ -35,7 +35,7 @@ static double round_positive(sunder_i_arena *arena, sunder_i_big q, bool inexact
 }
 
 /* Returns m * 2^exponent, which must neither underflow nor overflow. */
-static double scaled(uint64_t m, long exponent)
+static double scaled_word(uint64_t m, long exponent)
 {
     const uint64_t bits = (uint64_t)(exponent + 1023) << 52;
     double power;
@@ -44,7 +44,7 @@ static double scaled(uint64_t m, long exponent)
 }
 
 /* Returns the 64 highest bits of |a| > 0, the first of them set. */
-static uint64_t highest(sunder_i_big a)
+static uint64_t highest_bits(sunder_i_big a)
 {
     const mp_size_t n = sunder_i_limbs(a);
     const int up = __builtin_clzll(a.limb[n - 1]);
@@ -60,21 +60,21 @@ static bool quick_ratio(sunder_i_big num, sunder_i_big den, long exponent, doubl
 {
     const long e = (long)sunder_i_big_bits(num) - (long)sunder_i_big_bits(den) - 63 + exponent;
     if (e < -1000 || e > 900) return false;
-    const uint64_t q = (uint64_t)(((sunder_i_u128)highest(num) << 63) / highest(den));
+    const uint64_t q = (uint64_t)(((sunder_i_u128)highest_bits(num) << 63) / highest_bits(den));
     const int drop = q >> 63 ? 11 : 10;
     const uint64_t half = (uint64_t)1 << (drop - 1), low = q & (2 * half - 1);
     if (low + 2 >= half && low <= half + 2) return false;
-    *v = scaled((q >> drop) + (low > half), e + drop);
+    *v = scaled_word((q >> drop) + (low > half), e + drop);
     return true;
 }
 
-static double ratio(sunder_i_arena *arena, sunder_i_big num, sunder_i_big den, long exponent, direction dir)
+static double rounded_ratio(sunder_i_arena *arena, sunder_i_big num, sunder_i_big den, long exponent, direction dir)
 {
     if (num.size == 0) return 0;
     const bool negative = num.size < 0, whole = sunder_i_big_is_one(den);
     double v = 0;
     if (whole && dir == NEAREST && sunder_i_limbs(num) == 1 && exponent > -1000 && exponent < 900) {
-        v = scaled(num.limb[0], exponent); /* there is no underflow, so that it is rounded once */
+        v = scaled_word(num.limb[0], exponent); /* there is no underflow, so that it is rounded once */
         return negative ? -v : v;
     }
     if (dir == NEAREST && !whole && den.size && quick_ratio(num, den, exponent, &v)) return negative ? -v : v;
@@ -104,15 +104,15 @@ static double ratio(sunder_i_arena *arena, sunder_i_big num, sunder_i_big den, l
 
 double sunder_i_big_ratio(sunder_i_arena *arena, sunder_i_big num, sunder_i_big den, long exponent)
 {
-    return ratio(arena, num, den, exponent, NEAREST);
+    return rounded_ratio(arena, num, den, exponent, NEAREST);
 }
 
 double sunder_i_big_ratio_down(sunder_i_arena *arena, sunder_i_big num, sunder_i_big den, long exponent)
 {
-    return ratio(arena, num, den, exponent, DOWN);
+    return rounded_ratio(arena, num, den, exponent, DOWN);
 }
 
 double sunder_i_big_ratio_up(sunder_i_arena *arena, sunder_i_big num, sunder_i_big den, long exponent)
 {
-    return ratio(arena, num, den, exponent, UP);
+    return rounded_ratio(arena, num, den, exponent, UP);
 }

@@ -37,13 +37,13 @@ static bool lehmer_steps(uint64_t u, uint64_t v, lehmer *m)
 }
 
 /* r becomes x u - y v, with n limbs; the result must not be negative, and must fit. */
-static void combine(mp_limb_t *r, const mp_limb_t *u, uint64_t x, const mp_limb_t *v, uint64_t y, mp_size_t n)
+static void combine_limbs(mp_limb_t *r, const mp_limb_t *u, uint64_t x, const mp_limb_t *v, uint64_t y, mp_size_t n)
 {
     mpn_mul_1(r, u, n, x);
     mpn_submul_1(r, v, n, y);
 }
 
-static uint64_t leading(sunder_i_big a, unsigned long bits)
+static uint64_t leading_bits(sunder_i_big a, unsigned long bits)
 {
     /* Bits [bits - 62, bits). */
     const unsigned long low = bits - 62, at = low / 64, shift = low % 64;
@@ -82,11 +82,11 @@ static bool take_lehmer_steps(euclid *e, sunder_i_arena *arena, const lehmer *m)
     mpn_zero(v, n);
     mpn_copyi(v, e->b.limb, e->b.size);
     if (m->odd) {
-        combine(e->spare[0], v, m->b, u, m->a, n);
-        combine(e->spare[1], u, m->d, v, m->c, n);
+        combine_limbs(e->spare[0], v, m->b, u, m->a, n);
+        combine_limbs(e->spare[1], u, m->d, v, m->c, n);
     } else {
-        combine(e->spare[0], u, m->a, v, m->b, n);
-        combine(e->spare[1], v, m->c, u, m->d, n);
+        combine_limbs(e->spare[0], u, m->a, v, m->b, n);
+        combine_limbs(e->spare[1], v, m->c, u, m->d, n);
     }
     e->a = sunder_i_limbs_value(e->spare[0], n, 1);
     e->b = sunder_i_limbs_value(e->spare[1], n, 1);
@@ -117,7 +117,7 @@ static sunder_i_big gcd_long(sunder_i_arena *arena, sunder_i_big a, sunder_i_big
         const sunder_i_mark mark = sunder_i_arena_mark(arena);
         const unsigned long bits = sunder_i_big_bits(e.a);
         lehmer m;
-        const bool many = lehmer_steps(leading(e.a, bits), leading(e.b, bits), &m);
+        const bool many = lehmer_steps(leading_bits(e.a, bits), leading_bits(e.b, bits), &m);
         if (arena->failed || !(many ? take_lehmer_steps(&e, arena, &m) : take_division_step(&e, arena)))
             return SUNDER_I_BIG_ZERO;
         for (int i = 0; i < 2; i++) {

@@ -6,14 +6,14 @@
 #include <string.h>
 
 /* Returns a 2^(64 k) + b. */
-static sunder_i_big join(sunder_i_arena *arena, sunder_i_big a, mp_size_t k, sunder_i_big b)
+static sunder_i_big join_limbs(sunder_i_arena *arena, sunder_i_big a, mp_size_t k, sunder_i_big b)
 {
     return sunder_i_big_add(arena, sunder_i_big_shl(arena, a, 64 * (unsigned long)k), b);
 }
 
 /* Copies a result to `to`, which was allocated before the mark, and releases the memory allocated since. Returns the
  * copy. */
-static sunder_i_big settle(sunder_i_arena *arena, sunder_i_mark mark, mp_limb_t *to, sunder_i_big v)
+static sunder_i_big settle_result(sunder_i_arena *arena, sunder_i_mark mark, mp_limb_t *to, sunder_i_big v)
 {
     if (arena->failed) return SUNDER_I_BIG_ZERO;
     if (v.size) memmove(to, v.limb, (size_t)v.size * sizeof *to);
@@ -40,7 +40,7 @@ static sunder_i_big mul_pieces(sunder_i_arena *arena, sunder_i_big a, sunder_i_b
 
 /* a = a1 B + a0 and b likewise: with the middle term (a0 + a1) (b0 + b1) - a0 b0 - a1 b1 three products are sufficient
  * [KO62]. */
-static sunder_i_big karatsuba(sunder_i_arena *arena, sunder_i_big a, sunder_i_big b)
+static sunder_i_big multiply_karatsuba(sunder_i_arena *arena, sunder_i_big a, sunder_i_big b)
 {
     const mp_size_t k = (a.size + 1) / 2;
     const sunder_i_big a0 = sunder_i_limbs_slice(a, 0, k), a1 = sunder_i_limbs_slice(a, k, a.size),
@@ -48,7 +48,7 @@ static sunder_i_big karatsuba(sunder_i_arena *arena, sunder_i_big a, sunder_i_bi
     const sunder_i_big low = sunder_i_big_mul(arena, a0, b0), high = sunder_i_big_mul(arena, a1, b1);
     sunder_i_big middle = sunder_i_big_mul(arena, sunder_i_big_add(arena, a0, a1), sunder_i_big_add(arena, b0, b1));
     middle = sunder_i_big_sub(arena, middle, sunder_i_big_add(arena, low, high));
-    return join(arena, join(arena, high, k, middle), k, low);
+    return join_limbs(arena, join_limbs(arena, high, k, middle), k, low);
 }
 
 /* Returns the product of two magnitudes. */
@@ -64,7 +64,7 @@ static sunder_i_big multiply_long(sunder_i_arena *arena, sunder_i_big a, sunder_
     if (!p) return SUNDER_I_BIG_ZERO;
     if (b.size <= SUNDER_I_GMP_LIMBS) return mul_pieces(arena, a, b, SUNDER_I_GMP_LIMBS, p);
     if (2 * b.size <= a.size + 1) return mul_pieces(arena, a, b, b.size, p);
-    return settle(arena, mark, p, karatsuba(arena, a, b));
+    return settle_result(arena, mark, p, multiply_karatsuba(arena, a, b));
 }
 
 sunder_i_big sunder_i_big_mul(sunder_i_arena *arena, sunder_i_big a, sunder_i_big b)
@@ -108,9 +108,10 @@ static sunder_i_big divide_3_by_2(sunder_i_arena *arena, sunder_i_big a, sunder_
     else { /* the largest number of k limbs */
         q = sunder_i_big_sub(arena, sunder_i_big_shl(arena, sunder_i_big_one(), 64 * (unsigned long)k),
                              sunder_i_big_one());
-        rest = sunder_i_big_sub(arena, upper, sunder_i_big_sub(arena, join(arena, b1, k, SUNDER_I_BIG_ZERO), b1));
+        rest = sunder_i_big_sub(arena, upper, sunder_i_big_sub(arena, join_limbs(arena, b1, k, SUNDER_I_BIG_ZERO), b1));
     }
-    rest = sunder_i_big_sub(arena, join(arena, rest, k, sunder_i_limbs_slice(a, 0, k)), sunder_i_big_mul(arena, q, b0));
+    rest = sunder_i_big_sub(arena, join_limbs(arena, rest, k, sunder_i_limbs_slice(a, 0, k)),
+                            sunder_i_big_mul(arena, q, b0));
     while (rest.size < 0 && !arena->failed) {
         q = sunder_i_big_sub(arena, q, sunder_i_big_one());
         rest = sunder_i_big_add(arena, rest, b);
@@ -128,8 +129,8 @@ static sunder_i_big divide_2_by_1(sunder_i_arena *arena, sunder_i_big a, sunder_
     const mp_size_t k = n / 2;
     sunder_i_big rest;
     const sunder_i_big high = divide_3_by_2(arena, sunder_i_limbs_slice(a, k, a.size), b, k, &rest);
-    const sunder_i_big low = divide_3_by_2(arena, join(arena, rest, k, sunder_i_limbs_slice(a, 0, k)), b, k, r);
-    return join(arena, high, k, low);
+    const sunder_i_big low = divide_3_by_2(arena, join_limbs(arena, rest, k, sunder_i_limbs_slice(a, 0, k)), b, k, r);
+    return join_limbs(arena, high, k, low);
 }
 
 /* Divides digit by digit, where a digit is as long as b: both are shifted so that b's top bit is set and its length can
@@ -153,11 +154,11 @@ static sunder_i_big divide_long(sunder_i_arena *arena, sunder_i_big a, sunder_i_
     sunder_i_big rest = SUNDER_I_BIG_ZERO;
     for (mp_size_t at = (u.size - 1) / n * n; at >= 0 && !arena->failed; at -= n) {
         const sunder_i_big digit =
-            divide_2_by_1(arena, join(arena, rest, n, sunder_i_limbs_slice(u, at, at + n)), v, n, &rest);
+            divide_2_by_1(arena, join_limbs(arena, rest, n, sunder_i_limbs_slice(u, at, at + n)), v, n, &rest);
         if (digit.size) mpn_copyi(q + at, digit.limb, digit.size);
-        rest = settle(arena, mark, r, rest);
+        rest = settle_result(arena, mark, r, rest);
     }
-    *remainder = settle(arena, all, r, sunder_i_big_shr(arena, rest, shift));
+    *remainder = settle_result(arena, all, r, sunder_i_big_shr(arena, rest, shift));
     return arena->failed ? SUNDER_I_BIG_ZERO : sunder_i_limbs_slice((sunder_i_big){q, room}, 0, room);
 }
 

@@ -50,7 +50,7 @@ static size_t digits_by_halves(sunder_i_arena *arena, sunder_i_big a, const sund
 
 /* Writes the decimal digits of a >= 0 to text, which must have room for them and for 20 more. Returns their number; 0
  * if out of memory. */
-static size_t digits(sunder_i_arena *arena, sunder_i_big a, char *text)
+static size_t decimal_digits(sunder_i_arena *arena, sunder_i_big a, char *text)
 {
     static const mp_limb_t ten[] = {UINT64_C(10000000000000000000)};
     if (a.size == 0) {
@@ -88,10 +88,10 @@ char *sunder_i_big_ratio_text(sunder_i_arena *arena, sunder_i_big num, sunder_i_
     }
     size_t n = 0;
     if (negative) text[n++] = '-';
-    n += digits(arena, num, text + n);
+    n += decimal_digits(arena, num, text + n);
     if (!(den.size == 1 && den.limb[0] == 1)) {
         text[n++] = '/';
-        n += digits(arena, den, text + n);
+        n += decimal_digits(arena, den, text + n);
     }
     text[n] = '\0';
     if (arena->failed) {

@@ -173,7 +173,7 @@ int64_t sunder_i_lattice_ratio(sunder_i_lattice *lattice, sunder_i_big num, sund
 }
 
 /* *out becomes v / 2^unit; v must be a multiple of 2^unit. Returns false if that needs more than 123 bits. */
-static bool units(double v, long unit, sunder_i_i128 *out)
+static bool units_of(double v, long unit, sunder_i_i128 *out)
 {
     *out = 0;
     if (v == 0) return true;
@@ -191,7 +191,7 @@ static int64_t narrow_int(const sunder_i_lattice *lattice, double v, double o)
     const double sv = v * lattice->scale, so = o * lattice->scale;
     if (lattice->scale > 0 && fabs(sv) < 0x1p62 && fabs(so) < 0x1p62) return (int64_t)sv - (int64_t)so;
     sunder_i_i128 a, b;
-    if (units(v, lattice->exponent, &a) && units(o, lattice->exponent, &b)) return (int64_t)(a - b);
+    if (units_of(v, lattice->exponent, &a) && units_of(o, lattice->exponent, &b)) return (int64_t)(a - b);
     /* One is above 2^122 units and they differ by less than 2^60: their ratio is less than two, so that the difference
      * is exact (Sterbenz). */
     return (int64_t)ldexp(v - o, (int)-lattice->exponent);

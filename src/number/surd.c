@@ -19,7 +19,7 @@ static sunder_i_big *new_parts(sunder_i_arena *arena, int height, sunder_i_surd 
     return part;
 }
 
-static sunder_i_surd half(sunder_i_surd a, bool high)
+static sunder_i_surd half_of(sunder_i_surd a, bool high)
 {
     return (sunder_i_surd){a.height - 1, a.part + (high ? PARTS(a.height - 1) : 0)};
 }
@@ -32,9 +32,9 @@ static bool is_zero(sunder_i_surd a)
 }
 
 /* Returns the number without the highest roots if their coefficients are zero. */
-static sunder_i_surd trimmed(sunder_i_surd a)
+static sunder_i_surd trimmed_surd(sunder_i_surd a)
 {
-    while (a.height && is_zero(half(a, true))) a = half(a, false);
+    while (a.height && is_zero(half_of(a, true))) a = half_of(a, false);
     return a;
 }
 
@@ -57,7 +57,7 @@ sunder_i_surd sunder_i_surd_big(sunder_i_arena *arena, sunder_i_big v)
 
 bool sunder_i_surd_root(sunder_i_arena *arena, sunder_i_roots *roots, sunder_i_surd square, sunder_i_surd *out)
 {
-    square = trimmed(square);
+    square = trimmed_surd(square);
     const int sign = sunder_i_surd_sign(arena, roots, square);
     if (sign <= 0) {
         *out = sunder_i_surd_big(arena, ZERO);
@@ -77,7 +77,7 @@ bool sunder_i_surd_root(sunder_i_arena *arena, sunder_i_roots *roots, sunder_i_s
     return true;
 }
 
-static sunder_i_surd combine(sunder_i_arena *arena, sunder_i_surd a, sunder_i_surd b, bool minus)
+static sunder_i_surd combine_surds(sunder_i_arena *arena, sunder_i_surd a, sunder_i_surd b, bool minus)
 {
     sunder_i_surd out;
     const int height = a.height > b.height ? a.height : b.height;
@@ -91,12 +91,12 @@ static sunder_i_surd combine(sunder_i_arena *arena, sunder_i_surd a, sunder_i_su
 
 sunder_i_surd sunder_i_surd_add(sunder_i_arena *arena, sunder_i_surd a, sunder_i_surd b)
 {
-    return combine(arena, a, b, false);
+    return combine_surds(arena, a, b, false);
 }
 
 sunder_i_surd sunder_i_surd_sub(sunder_i_arena *arena, sunder_i_surd a, sunder_i_surd b)
 {
-    return combine(arena, a, b, true);
+    return combine_surds(arena, a, b, true);
 }
 
 sunder_i_surd sunder_i_surd_scale(sunder_i_arena *arena, sunder_i_surd a, sunder_i_big f)
@@ -118,16 +118,16 @@ sunder_i_surd sunder_i_surd_shl(sunder_i_arena *arena, sunder_i_surd a, unsigned
 
 sunder_i_surd sunder_i_surd_mul(sunder_i_arena *arena, const sunder_i_roots *roots, sunder_i_surd a, sunder_i_surd b)
 {
-    a = trimmed(a);
-    b = trimmed(b);
+    a = trimmed_surd(a);
+    b = trimmed_surd(b);
     if (a.height == 0) return sunder_i_surd_scale(arena, b, a.part[0]);
     if (b.height == 0) return sunder_i_surd_scale(arena, a, b.part[0]);
     if (a.height != b.height) {
         const sunder_i_surd tall = a.height > b.height ? a : b, other = a.height > b.height ? b : a;
-        return join_halves(arena, sunder_i_surd_mul(arena, roots, half(tall, false), other),
-                           sunder_i_surd_mul(arena, roots, half(tall, true), other), tall.height);
+        return join_halves(arena, sunder_i_surd_mul(arena, roots, half_of(tall, false), other),
+                           sunder_i_surd_mul(arena, roots, half_of(tall, true), other), tall.height);
     }
-    const sunder_i_surd a0 = half(a, false), a1 = half(a, true), b0 = half(b, false), b1 = half(b, true);
+    const sunder_i_surd a0 = half_of(a, false), a1 = half_of(a, true), b0 = half_of(b, false), b1 = half_of(b, true);
     const sunder_i_surd twice = sunder_i_surd_mul(arena, roots, a1, b1);
     const sunder_i_surd low = sunder_i_surd_add(arena, sunder_i_surd_mul(arena, roots, a0, b0),
                                                 sunder_i_surd_mul(arena, roots, twice, roots->square[a.height - 1]));
@@ -152,9 +152,9 @@ sunder_i_ball sunder_i_surd_ball(const sunder_i_roots *roots, sunder_i_surd a)
 
 int sunder_i_surd_sign(sunder_i_arena *arena, const sunder_i_roots *roots, sunder_i_surd a)
 {
-    a = trimmed(a);
+    a = trimmed_surd(a);
     if (a.height == 0) return sunder_i_big_sign(a.part[0]);
-    const sunder_i_surd low = half(a, false), high = half(a, true);
+    const sunder_i_surd low = half_of(a, false), high = half_of(a, true);
     const int u = sunder_i_surd_sign(arena, roots, low), v = sunder_i_surd_sign(arena, roots, high);
     if (v == 0 || u == v) return u;
     if (u == 0) return v;
@@ -199,13 +199,13 @@ static sunder_i_big scaled_root(sunder_i_arena *arena, const sunder_i_roots *roo
 sunder_i_big sunder_i_surd_scaled(sunder_i_arena *arena, const sunder_i_roots *roots, sunder_i_surd a,
                                   unsigned long bits)
 {
-    a = trimmed(a);
+    a = trimmed_surd(a);
     if (a.height == 0) return sunder_i_big_shl(arena, a.part[0], bits);
     /* Four additional binary digits are computed. The root has an error of 3 * 2^-m, m = bits + 6 + the bits of hi, and
      * hi one of 2 * 2^-n, n = bits + 6 + the bits of the root, so that the product has an error below (3 + 2 + 1) / 64,
      * that is 6 / 4 with the additional digits; the shift adds 1 and lo 2. These 4.5 / 16, and 1 for the last shift,
      * are below 2. */
-    const sunder_i_surd low = half(a, false), high = half(a, true);
+    const sunder_i_surd low = half_of(a, false), high = half_of(a, true);
     const unsigned long m = bits + 6 + value_bits(roots, high), n = bits + 6 + root_bits(roots, a.height - 1);
     const sunder_i_big product = sunder_i_big_mul(arena, scaled_root(arena, roots, a.height - 1, m),
                                                   sunder_i_surd_scaled(arena, roots, high, n));
@@ -218,7 +218,7 @@ sunder_i_big sunder_i_surd_scaled(sunder_i_arena *arena, const sunder_i_roots *r
 
 sunder_i_surd sunder_i_surd_lift(sunder_i_arena *arena, sunder_i_surd a, const int place[SUNDER_I_SURD_ROOTS])
 {
-    a = trimmed(a);
+    a = trimmed_surd(a);
     int height = 0;
     for (int i = 0; i < a.height; i++)
         if (place[i] >= height) height = place[i] + 1;

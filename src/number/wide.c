@@ -10,7 +10,7 @@ typedef struct magnitude {
     int sign;
 } magnitude;
 
-static magnitude product(int64_t a, sunder_i_i128 b)
+static magnitude product_of(int64_t a, sunder_i_i128 b)
 {
     magnitude m;
     const int sign = (a > 0) - (a < 0);
@@ -22,7 +22,7 @@ static magnitude product(int64_t a, sunder_i_i128 b)
 
 sunder_i_i256 sunder_i_mul_add_long(int64_t a, sunder_i_i128 b, int64_t c, sunder_i_i128 d)
 {
-    magnitude s = product(a, b), t = product(c, d);
+    magnitude s = product_of(a, b), t = product_of(c, d);
     sunder_i_i256 r;
     if (s.sign == 0) s = t, t.sign = 0;
     if (t.sign == 0) {

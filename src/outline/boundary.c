@@ -18,7 +18,7 @@ typedef struct tracer {
 } tracer;
 
 /* Returns whether edge f continues edge e in the same direction. */
-static bool straight(const sunder_i_graph *g, uint32_t e, uint32_t f)
+static bool is_straight(const sunder_i_graph *g, uint32_t e, uint32_t f)
 {
     return g->edge[e].line == g->edge[f].line && g->edge[e].rank == g->edge[f].rank;
 }
@@ -63,7 +63,7 @@ static void trace_ring(tracer *t, uint32_t start)
         t->done[e] = true;
         const uint32_t f = sunder_i_graph_next_free(g, e);
         if (f == first) break;
-        if (!straight(g, e, f)) t->vertex[at++] = g->edge[f].from;
+        if (!is_straight(g, e, f)) t->vertex[at++] = g->edge[f].from;
         e = f;
     }
     ring->end = at;
@@ -119,7 +119,7 @@ static bool gather_points(tracer *t, const sunder_i_coverage *c)
     return t->point != NULL;
 }
 
-static bool trace(const sunder_i_graph *g, const sunder_i_coverage *coverage, sunder_sum *out)
+static bool trace_outline(const sunder_i_graph *g, const sunder_i_coverage *coverage, sunder_sum *out)
 {
     tracer t = {.g = g, .out = out};
     bool ok = trace_rings(&t) && gather_segments(&t, coverage) && gather_points(&t, coverage);
@@ -156,7 +156,7 @@ sunder_status sunder_i_boundary_build(sunder_i_lattice *lattice, uint32_t classe
                         .classes = classes,
                         .vertices = out->vertices,
                         .sorted = coverage->sorted};
-    const bool ok = sunder_i_graph_build(&g, coverage) && trace(&g, coverage, out);
+    const bool ok = sunder_i_graph_build(&g, coverage) && trace_outline(&g, coverage, out);
     sunder_i_graph_free(&g);
     return ok && !lattice->arena.failed ? SUNDER_OK : sunder_i_failure_cause(err);
 }

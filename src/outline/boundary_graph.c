@@ -56,7 +56,7 @@ static bool make_rays(sunder_i_graph *g)
 
 /* Returns the first outgoing edge after the arrival of `edge`, turning clockwise (across the covered wedge) or
  * counterclockwise (across the free one); with same_component, among the edges of that edge's component. */
-static uint32_t turn(const sunder_i_graph *g, uint32_t edge, bool clockwise, bool same_component)
+static uint32_t turn_at_end(const sunder_i_graph *g, uint32_t edge, bool clockwise, bool same_component)
 {
     const uint32_t v = g->edge[edge].to, first = sunder_i_first_ray(g, v), n = g->ray_end[v] - first;
     if (n == 2) return g->ray[g->ray[first] & 1 ? first + 1 : first] >> 1;
@@ -73,10 +73,13 @@ static uint32_t turn(const sunder_i_graph *g, uint32_t edge, bool clockwise, boo
 
 uint32_t sunder_i_graph_next_covered(const sunder_i_graph *graph, uint32_t edge)
 {
-    return turn(graph, edge, true, false);
+    return turn_at_end(graph, edge, true, false);
 }
 
-uint32_t sunder_i_graph_next_free(const sunder_i_graph *graph, uint32_t edge) { return turn(graph, edge, false, true); }
+uint32_t sunder_i_graph_next_free(const sunder_i_graph *graph, uint32_t edge)
+{
+    return turn_at_end(graph, edge, false, true);
+}
 
 /* Assigns the edges from `start` on to a walk; returns its lexicographically smallest vertex. */
 static uint32_t number_walk(sunder_i_graph *g, uint32_t walk, uint32_t start)

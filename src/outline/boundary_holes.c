@@ -16,7 +16,7 @@ typedef struct finder {
 } finder;
 
 /* Returns a bound of the error of heights, if y is the largest one. */
-static double margin(double y) { return y * 0x1p-47 + 0x1p-900; }
+static double margin_of_height(double y) { return y * 0x1p-47 + 0x1p-900; }
 
 static bool sort_edges(finder *f)
 {
@@ -29,8 +29,8 @@ static bool sort_edges(finder *f)
     for (uint32_t e = 0; e < g->edges; e++) {
         if (!g->walk_outer[g->walk[e]]) continue;
         const double a = g->vertex[g->edge[e].from].ay, b = g->vertex[g->edge[e].to].ay;
-        span[n][0] = (a < b ? a : b) - margin(most);
-        span[n][1] = (a < b ? b : a) + margin(most);
+        span[n][0] = (a < b ? a : b) - margin_of_height(most);
+        span[n][1] = (a < b ? b : a) + margin_of_height(most);
         f->edge[n++] = e;
     }
     const bool ok = sunder_i_strips_build(&f->strips, (const double(*)[2])span, n, g->walks - g->components);

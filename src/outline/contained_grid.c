@@ -37,7 +37,7 @@ static bool take_corners(grid *g, bool *no_memory)
     return true;
 }
 
-static void measure(grid *g)
+static void measure_parts(grid *g)
 {
     const sunder_i_convex_pieces *s = g->parts;
     for (size_t i = 0; i < s->n; i++) {
@@ -95,7 +95,7 @@ static void choose_squares(grid *g)
 }
 
 /* Visits the squares of a part's box: counts it in end[] or, with `fill`, writes it to the list. */
-static void visit(grid *g, uint32_t part, bool fill)
+static void visit_cells(grid *g, uint32_t part, bool fill)
 {
     const box *b = &g->reach[part];
     for (uint32_t y = sunder_i_part_grid_column(g, 1, b->low[1]); y <= sunder_i_part_grid_column(g, 1, b->high[1]); y++)
@@ -125,7 +125,7 @@ static bool make_lists(grid *g)
     g->end = sunder_i_calloc(squares, sizeof *g->end);
     g->list = sunder_i_alloc((size_t)entries, sizeof *g->list);
     if (!g->end || !g->list) return false;
-    for (uint32_t i = 0; i < n; i++) visit(g, i, false);
+    for (uint32_t i = 0; i < n; i++) visit_cells(g, i, false);
     uint32_t sum = 0;
     for (size_t q = 0; q < squares; q++) {
         const uint32_t count = g->end[q];
@@ -133,7 +133,7 @@ static bool make_lists(grid *g)
         sum += count;
     }
     if (!order_by_extent(g)) return false;
-    for (uint32_t i = 0; i < n; i++) visit(g, g->order[i], true);
+    for (uint32_t i = 0; i < n; i++) visit_cells(g, g->order[i], true);
     return true;
 }
 
@@ -145,7 +145,7 @@ bool sunder_i_part_grid_build(grid *g, const sunder_i_convex_pieces *parts)
                 .order = sunder_i_alloc(parts->n, sizeof *g->order)};
     if (!g->reach || !g->order) return false;
     if (!take_corners(g, &no_memory)) return !no_memory;
-    measure(g);
+    measure_parts(g);
     choose_squares(g);
     return make_lists(g);
 }

@@ -32,7 +32,7 @@ typedef struct dropper {
  * products and their difference once more: the error is below 4 ulps of the products' magnitudes. If coordinates have
  * an error e, the differences u, v have one of 2 e, and the product one of at most 2 e (|ux| + |uy| + |vx| + |vy|) + 8
  * e^2; the bound is twice that. */
-static double turn(const sunder_i_part_grid *g, sunder_i_point a, sunder_i_point b, sunder_i_point p)
+static double turn_of_points(const sunder_i_part_grid *g, sunder_i_point a, sunder_i_point b, sunder_i_point p)
 {
     const double ux = (double)(b.x - a.x), uy = (double)(b.y - a.y), vx = (double)(p.x - a.x), vy = (double)(p.y - a.y);
     const double s = ux * vy, t = uy * vx, c = s - t, e = (double)g->error;
@@ -44,33 +44,34 @@ static double turn(const sunder_i_part_grid *g, sunder_i_point a, sunder_i_point
 /* Returns whether p, which is inside the part's box, is certainly strictly inside the part. In the fan of triangles
  * about the first corner, the triangle that contains p is found by bisection; if p is on a diagonal, or too close to it
  * to decide, the two triangles beside it are tested. */
-static bool holds(const sunder_i_part_grid *g, uint32_t part, sunder_i_point p)
+static bool holds_point(const sunder_i_part_grid *g, uint32_t part, sunder_i_point p)
 {
     const sunder_i_convex_pieces *s = g->parts;
     const uint32_t first = sunder_i_convex_pieces_first(s, part);
     const sunder_i_point *c = g->corner + first;
     uint32_t low = 1, high = s->end[part] - first - 1;
-    if (turn(g, c[0], c[low], p) <= 0 || turn(g, c[0], c[high], p) >= 0) return false;
+    if (turn_of_points(g, c[0], c[low], p) <= 0 || turn_of_points(g, c[0], c[high], p) >= 0) return false;
     while (high - low > 1) {
         const uint32_t middle = (low + high) / 2;
-        const double where = turn(g, c[0], c[middle], p);
+        const double where = turn_of_points(g, c[0], c[middle], p);
         if (where == 0)
-            return turn(g, c[0], c[middle - 1], p) > 0 && turn(g, c[middle - 1], c[middle], p) > 0 &&
-                   turn(g, c[middle], c[middle + 1], p) > 0 && turn(g, c[middle + 1], c[0], p) > 0;
+            return turn_of_points(g, c[0], c[middle - 1], p) > 0 &&
+                   turn_of_points(g, c[middle - 1], c[middle], p) > 0 &&
+                   turn_of_points(g, c[middle], c[middle + 1], p) > 0 && turn_of_points(g, c[middle + 1], c[0], p) > 0;
         if (where > 0)
             low = middle;
         else
             high = middle;
     }
-    return turn(g, c[low], c[high], p) > 0;
+    return turn_of_points(g, c[low], c[high], p) > 0;
 }
 
 /* ---- Sides ---- */
 
 static bool holds_both(const sunder_i_part_grid *g, uint32_t part, sunder_i_point a, sunder_i_point b)
 {
-    return sunder_i_part_grid_reaches(g, part, a) && sunder_i_part_grid_reaches(g, part, b) && holds(g, part, b) &&
-           holds(g, part, a);
+    return sunder_i_part_grid_reaches(g, part, a) && sunder_i_part_grid_reaches(g, part, b) &&
+           holds_point(g, part, b) && holds_point(g, part, a);
 }
 
 /* Returns a part that contains the segment ab; NONE if none is found. The part that contained the previous side is
@@ -118,7 +119,7 @@ static bool holds_part(const dropper *d, uint32_t part, uint32_t other)
     const sunder_i_convex_pieces *s = d->parts;
     if (!sunder_i_part_grid_encloses(&d->grid, part, other)) return false;
     for (uint32_t k = sunder_i_convex_pieces_first(s, other); k < s->end[other]; k++)
-        if (!holds(&d->grid, part, d->grid.corner[k])) return false;
+        if (!holds_point(&d->grid, part, d->grid.corner[k])) return false;
     return true;
 }
 
@@ -148,7 +149,7 @@ static bool is_contained(dropper *d, uint32_t part)
  * but none alone, soon exhaust it, and the rest is left to the cells. The smallest parts come first: among nested
  * features only the outermost, which no part contains, is then searched in vain. Parts that are dropped may still
  * contain others: what is inside one of them is also inside the part that contains it. */
-static void drop(dropper *d)
+static void drop_sides_and_parts(dropper *d)
 {
     sunder_i_convex_pieces *s = d->parts;
     d->sides.allowed = SIDES_ON_TRUST * LOOKS + LOOKS_ON_TRUST * (size_t)s->n;
@@ -174,7 +175,7 @@ static sunder_status drop_contained(sunder_i_convex_pieces *parts, bool whole, s
     if (ok && d.grid.list) {
         d.gone = whole ? sunder_i_calloc(parts->n, sizeof *d.gone) : NULL;
         ok = d.gone || !whole;
-        if (ok) drop(&d);
+        if (ok) drop_sides_and_parts(&d);
         if (d.gone) sunder_i_convex_pieces_remove(parts, d.gone);
     }
     sunder_i_free(d.gone);

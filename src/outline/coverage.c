@@ -45,7 +45,7 @@ typedef struct polygon {
 } polygon;
 
 /* Returns corner i, cyclically; i < 2 n. */
-static sunder_i_point corner(const polygon *p, uint32_t i)
+static sunder_i_point corner_of(const polygon *p, uint32_t i)
 {
     return p->s->corner[p->first + (i < p->n ? i : i - p->n)];
 }
@@ -76,21 +76,22 @@ typedef struct stand {
 static stand stand_of(const polygon *p, const sunder_i_supporting_line *line, uint32_t i)
 {
     sunder_i_lattice *l = p->s->lattice;
-    if (!l->narrow) return (stand){sunder_i_orient(l, line->a, line->b, corner(p, i)), 0};
+    if (!l->narrow) return (stand){sunder_i_orient(l, line->a, line->b, corner_of(p, i)), 0};
     l->counts.orientation_tests++;
     const sunder_i_det height =
-        sunder_i_narrow_cross(p->s->direction[line->class], sunder_i_narrow_sub(corner(p, i), line->a));
+        sunder_i_narrow_cross(p->s->direction[line->class], sunder_i_narrow_sub(corner_of(p, i), line->a));
     return (stand){sunder_i_det_sign(height), height};
 }
 
 /* Returns the crossing of the line with the side between two corners of different heights. */
-static sunder_i_fraction crossing(const polygon *p, const sunder_i_supporting_line *line, uint32_t i, stand at_i,
-                                  uint32_t j, stand at_j)
+static sunder_i_fraction crossing_of_side(const polygon *p, const sunder_i_supporting_line *line, uint32_t i,
+                                          stand at_i, uint32_t j, stand at_j)
 {
     sunder_i_lattice *l = p->s->lattice;
-    if (!l->narrow) return sunder_i_crossing(l, line->a, line->b, corner(p, i), corner(p, j));
+    if (!l->narrow) return sunder_i_crossing(l, line->a, line->b, corner_of(p, i), corner_of(p, j));
     l->counts.segment_intersections++;
-    const sunder_i_point c = sunder_i_narrow_sub(corner(p, i), line->a), d = sunder_i_narrow_sub(corner(p, j), line->a);
+    const sunder_i_point c = sunder_i_narrow_sub(corner_of(p, i), line->a),
+                         d = sunder_i_narrow_sub(corner_of(p, j), line->a);
     return sunder_i_narrow_fraction(sunder_i_narrow_cross(c, d), at_j.height - at_i.height);
 }
 
@@ -109,7 +110,7 @@ static void cross_chain(finder *f, const polygon *p, const sunder_i_supporting_l
         else
             high = middle, at_high = at;
     }
-    add_event(f, crossing(p, line, low, at_low, high, at_high), (state){change, 0, 0, 0}, NO_CORNER,
+    add_event(f, crossing_of_side(p, line, low, at_low, high, at_high), (state){change, 0, 0, 0}, NO_CORNER,
               p->first + (low < p->n ? low : low - p->n));
 }
 
@@ -147,7 +148,7 @@ static void rest_on(finder *f, const polygon *p, const sunder_i_supporting_line 
     for (; p->s->rank[side] == rank; side = side_before(p, side)) rest_side(f, p, line, side, left);
 }
 
-static void meet(finder *f, const sunder_i_supporting_line *line, uint32_t part)
+static void meet_part(finder *f, const sunder_i_supporting_line *line, uint32_t part)
 {
     const sunder_i_convex_pieces *s = f->parts;
     const uint32_t first = sunder_i_convex_pieces_first(s, part), forward = line->class, back = forward + s->classes;
@@ -168,9 +169,9 @@ static void meet(finder *f, const sunder_i_supporting_line *line, uint32_t part)
 
 /* ---- Along one line ---- */
 
-static bool uncovered(const state *s) { return s->domain > 0 && s->cover == 0; }
+static bool is_uncovered(const state *s) { return s->domain > 0 && s->cover == 0; }
 
-static uint8_t banks(const state *s)
+static uint8_t covered_banks(const state *s)
 {
     return (uint8_t)((s->left > 0 ? SUNDER_I_BANK_LEFT : 0) | (s->right > 0 ? SUNDER_I_BANK_RIGHT : 0));
 }
@@ -246,7 +247,7 @@ static place pass_place(const finder *f, uint32_t line, size_t from, state *s)
 }
 
 /* Processes the events of one line, position by position. */
-static void sweep(finder *f, uint32_t number)
+static void sweep_over_line(finder *f, uint32_t number)
 {
     state s = {0, 0, 0, 0};
     uint32_t last = 0; /* the vertex at which the open stretch begins, while uncovered(&s) */
@@ -260,7 +261,8 @@ static void sweep(finder *f, uint32_t number)
         if (point_free) {
             const uint32_t vertex = add_vertex(f, &here->at, p.corner, &p.lines);
             if (f->no_memory) return;
-            if (uncovered(&before)) add_stretch(f, (sunder_i_outline_stretch){number, last, vertex, banks(&before)});
+            if (is_uncovered(&before))
+                add_stretch(f, (sunder_i_outline_stretch){number, last, vertex, covered_banks(&before)});
             last = vertex;
         }
         i = p.end;
@@ -274,11 +276,11 @@ static void sweep_line(finder *f, uint32_t number, const uint32_t *part, size_t 
     f->line = sunder_i_lines_get(f->lines, number);
     for (size_t i = 0; i < n && !f->no_memory; i++) {
         if (!sunder_i_step()) f->no_memory = true;
-        if (i == 0 || part[i] != part[i - 1]) meet(f, &f->line, part[i]);
+        if (i == 0 || part[i] != part[i - 1]) meet_part(f, &f->line, part[i]);
     }
     if (!f->no_memory && !sunder_i_events_sort(&f->events, f->parts->lattice)) f->no_memory = true;
     if (f->parts->lattice->arena.failed) f->no_memory = true; /* the order of the events is then undefined */
-    if (!f->no_memory) sweep(f, number);
+    if (!f->no_memory) sweep_over_line(f, number);
 }
 
 /* ---- Sides that are boundary completely ---- */

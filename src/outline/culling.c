@@ -52,7 +52,7 @@ static bool find_two(const builder *b, const cell *c, const box *where_to, uint3
 
 /* Shrinks the cell to the box of its candidates, and chooses the axis across which it is divided. Returns the number of
  * lines of the candidates. */
-static size_t shrink(builder *b, cell *c, const box *whole)
+static size_t shrink_cell(builder *b, cell *c, const box *whole)
 {
     size_t lines = 0;
     double span[2] = {0, 0}; /* the sum of the extents of all candidates along each axis */
@@ -61,7 +61,7 @@ static size_t shrink(builder *b, cell *c, const box *whole)
     sunder_i_cells_gather(b, c->run_from, c->run_to, whole);
     for (size_t i = 0; i < b->crossing_n; i++) {
         const crossing *x = &b->crossing[i];
-        grow(&need, &x->clipped);
+        grow_box(&need, &x->clipped);
         span[0] += x->clipped.high[0] - x->clipped.low[0];
         span[1] += x->clipped.high[1] - x->clipped.low[1];
         lines += b->stamp[x->line] != b->cells;
@@ -225,8 +225,8 @@ static void filter_one(builder *b, half *h, const run *runs, const entry *source
 static bool keep_whole(const builder *b, half h[2], const run *runs, const entry *source)
 {
     const box *reach = &b->reach[source->part];
-    const int k = apart(reach, &h[0].b);
-    if (h[k].held || !within(reach, &h[k].b) || !apart(reach, &h[1 - k].b)) return false;
+    const int k = boxes_apart(reach, &h[0].b);
+    if (h[k].held || !box_within(reach, &h[k].b) || !boxes_apart(reach, &h[1 - k].b)) return false;
     run *out = h[k].runs + h[k].runs_n;
     uint32_t sides = 0;
     for (uint32_t i = 0; i < source->runs; i++) {
@@ -246,8 +246,8 @@ static void filter_part(builder *b, half h[2], const run *runs, const entry *sou
     run *out0 = h[0].runs + h[0].runs_n, *out1 = h[1].runs + h[1].runs_n;
     const run single_most = b->single_most;
     uint32_t i = 0, n0 = 0, n1 = 0, more0 = 0, more1 = 0;
-    bool miss0 = h[0].held || apart(&b->reach[source->part], &h[0].b);
-    bool miss1 = h[1].held || apart(&b->reach[source->part], &h[1].b);
+    bool miss0 = h[0].held || boxes_apart(&b->reach[source->part], &h[0].b);
+    bool miss1 = h[1].held || boxes_apart(&b->reach[source->part], &h[1].b);
     for (; i < source->runs && !miss0 && !miss1; i++) {
         const run r = runs[i];
         if (r > single_most) {
@@ -276,7 +276,7 @@ static void filter_part(builder *b, half h[2], const run *runs, const entry *sou
 }
 
 /* Chooses the longer axis for a cell with many sides that divides well, without examining its candidates. */
-static size_t halve(cell *c, const half *h)
+static size_t choose_longer_axis(cell *c, const half *h)
 {
     c->axis = h->b.high[1] - h->b.low[1] > h->b.high[0] - h->b.low[0];
     return h->sides;
@@ -340,7 +340,7 @@ static void settle_half(builder *b, const cell *parent, const half *h, double gr
     const bool grown = growth > MOST_GROWTH && !b->trial.on;
     const bool stubborn = c.stubborn >= STUBBORN_SPLITS + h->entries_n / STUBBORN_SHARE;
     const bool at_once = h->sides > MANY_SIDES && c.stubborn == 0 && !grown && !stubborn && choose_axis(b, &c);
-    const size_t lines = at_once ? halve(&c, h) : shrink(b, &c, &h->b);
+    const size_t lines = at_once ? choose_longer_axis(&c, h) : shrink_cell(b, &c, &h->b);
     c.trial = grown && pairs_of(lines, h->entries_n) >= TRIAL_PAIRS ? pairs_of(lines, h->entries_n) : 0;
     const bool enough = stubborn || (grown && !(c.trial > 0));
     const size_t few = h->entries_n == 2 ? LEAF_PAIRS_OF_TWO : LEAF_PAIRS;
@@ -386,7 +386,7 @@ static void take_place(builder *b, const cell *c, size_t waiting)
     }
 }
 
-static void split(builder *b, const cell *c)
+static void split_cell(builder *b, const cell *c)
 {
     if (!reserve_halves(b, c)) return;
     b->trial.spent += (double)c->sides;
@@ -422,11 +422,11 @@ static void split(builder *b, const cell *c)
     if (!(b->trial.on && c->trial > 0)) take_place(b, c, waiting);
 }
 
-static sunder_status descend(builder *b, sunder_error *err)
+static sunder_status descend_cells(builder *b, sunder_error *err)
 {
     cell root;
     if (!sunder_i_cells_root(b, &root)) return sunder_i_failure_cause(err);
-    split(b, &root);
+    split_cell(b, &root);
     unsigned tick = 0;
     while (b->stack_n > 0 && !b->no_memory) {
         if (b->stack_n == b->trial.stack_n) b->trial.on = false; /* the trial was successful */
@@ -437,7 +437,7 @@ static sunder_status descend(builder *b, sunder_error *err)
             !b->options->progress(b->done, b->options->progress_user))
             return sunder_i_cancelled(err);
         if (c.trial > 0) b->trial = (trial){true, c, b->stack_n, sunder_i_pairs_mark_here(&b->out->pairs), b->done, 0};
-        split(b, &c);
+        split_cell(b, &c);
         if (b->trial.on) sunder_i_cells_end_trial(b);
     }
     return b->no_memory ? sunder_i_failure_cause(err) : SUNDER_OK;
@@ -465,7 +465,7 @@ sunder_status sunder_i_cull(const sunder_i_convex_pieces *parts, const sunder_i_
     b.recent = sunder_i_alloc((size_t)1 << b.recent_bits, sizeof *b.recent);
     const bool ok = out->fate && out->live_line && b.stamp && b.widest && b.shared && b.recent;
     if (ok) sunder_i_cells_forget_pairs(&b);
-    sunder_status status = ok ? descend(&b, err) : sunder_i_failure_cause(err);
+    sunder_status status = ok ? descend_cells(&b, err) : sunder_i_failure_cause(err);
     if (status == SUNDER_OK && !sunder_i_cells_fates(&b)) status = sunder_i_failure_cause(err);
     sunder_i_free(b.side);
     sunder_i_free(b.before);

@@ -41,12 +41,12 @@ void sunder_i_cells_gather(builder *b, size_t from, size_t to, const box *c)
             const approx_side *s = &b->side[first], *t = &b->side[end - 1];
             const approx_side whole = {s->ax, s->ay, t->ax + t->dx - s->ax, t->ay + t->dy - s->ay};
             box clipped;
-            if (!clip(b, &whole, c, &clipped)) continue;
+            if (!clip_by_side(b, &whole, c, &clipped)) continue;
         }
         for (uint32_t k = first; k < end; k++) {
             if (of[k] == SUNDER_I_NO_LINE) continue;
             crossing *x = &b->crossing[b->crossing_n];
-            if (!clip(b, &b->side[k], c, &x->clipped)) continue;
+            if (!clip_by_side(b, &b->side[k], c, &x->clipped)) continue;
             x->side = k;
             x->line = of[k];
             b->crossing_n++;
@@ -109,7 +109,7 @@ void sunder_i_cells_open_leaf(builder *b, const cell *c)
         b->stamp[line] = pushed;
         for (size_t e = c->entry_from; e < c->entry_to; e++) {
             const uint32_t part = b->entries[e].part;
-            if (alone && apart(&b->reach[part], &b->crossing[i].clipped)) continue;
+            if (alone && boxes_apart(&b->reach[part], &b->crossing[i].clipped)) continue;
             if (!push_pair(b, line, part)) return;
         }
     }

@@ -108,7 +108,7 @@ static inline uint32_t run_end(const builder *b, run r)
 
 static const box nothing = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
 
-static inline void grow(box *all, const box *by)
+static inline void grow_box(box *all, const box *by)
 {
     for (int k = 0; k < 2; k++) {
         all->low[k] = sunder_i_lesser(all->low[k], by->low[k]);
@@ -116,7 +116,7 @@ static inline void grow(box *all, const box *by)
     }
 }
 
-static inline void widen(box *b, double by)
+static inline void widen_box(box *b, double by)
 {
     for (int k = 0; k < 2; k++) {
         b->low[k] -= by;
@@ -124,18 +124,18 @@ static inline void widen(box *b, double by)
     }
 }
 
-static inline bool apart(const box *a, const box *b)
+static inline bool boxes_apart(const box *a, const box *b)
 {
     return a->low[0] > b->high[0] || a->high[0] < b->low[0] || a->low[1] > b->high[1] || a->high[1] < b->low[1];
 }
 
-static inline bool within(const box *a, const box *b)
+static inline bool box_within(const box *a, const box *b)
 {
     return a->low[0] >= b->low[0] && a->high[0] <= b->high[0] && a->low[1] >= b->low[1] && a->high[1] <= b->high[1];
 }
 
 /* Sets *clipped to the intersection of a box with the segment's box. Returns false if it is empty. */
-static inline bool clip(const builder *b, const approx_side *s, const box *c, box *clipped)
+static inline bool clip_by_side(const builder *b, const approx_side *s, const box *c, box *clipped)
 {
     const double x2 = s->ax + s->dx, y2 = s->ay + s->dy, e = b->error;
     clipped->low[0] = sunder_i_greater(c->low[0], sunder_i_lesser(s->ax, x2) - e);

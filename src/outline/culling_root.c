@@ -30,7 +30,7 @@ static bool make_room(builder *b)
 
 /* Computes the doubles of all sides, the boxes of the parts, and the box of all. Returns false if out of memory.
  * Vectors are computed from exact differences, so that their error is relative to their length. */
-static bool approximate(builder *b, box *all)
+static bool approximate_corners(builder *b, box *all)
 {
     const sunder_i_convex_pieces *s = b->parts;
     sunder_i_lattice *l = s->lattice;
@@ -60,7 +60,7 @@ static bool approximate(builder *b, box *all)
             most = sunder_i_greater(most, sunder_i_greater(fabs(x), fabs(y)));
         }
         b->reach[i] = own;
-        grow(all, &own);
+        grow_box(all, &own);
     }
     /* With u = 2^-53 and all coordinates and box corners within `most` (cells are within the box of all): the start
      * point has an error of 2u * most (conversion), differences of coordinates as much again, products and their
@@ -70,8 +70,8 @@ static bool approximate(builder *b, box *all)
     b->error = 0x1p-48 * most + 0x1p-900;
     b->out->most = most;
     /* a candidate exactly on the boundary must not be missed */
-    widen(all, b->error);
-    for (size_t i = 0; i < s->n; i++) widen(&b->reach[i], b->error);
+    widen_box(all, b->error);
+    for (size_t i = 0; i < s->n; i++) widen_box(&b->reach[i], b->error);
     return !l->arena.failed;
 }
 
@@ -138,5 +138,5 @@ static bool list_all(builder *b, const box *all, cell *root)
 bool sunder_i_cells_root(builder *b, cell *root)
 {
     box all;
-    return make_room(b) && approximate(b, &all) && list_all(b, &all, root);
+    return make_room(b) && approximate_corners(b, &all) && list_all(b, &all, root);
 }

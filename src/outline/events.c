@@ -16,7 +16,7 @@ typedef struct context {
     sunder_i_lattice *lattice;
 } context;
 
-static int compare(void *user, uint32_t a, uint32_t b)
+static int compare_events(void *user, uint32_t a, uint32_t b)
 {
     const context *c = user;
     return sunder_i_fraction_cmp(c->lattice, &c->events->event[a].at, &c->events->event[b].at);
@@ -24,10 +24,10 @@ static int compare(void *user, uint32_t a, uint32_t b)
 
 /* Sorts n keys whose order doubles leave open, and marks the first one at each position. Returns false if out of
  * memory. */
-static bool settle(context *c, sunder_i_valued *k, size_t n)
+static bool settle_order(context *c, sunder_i_valued *k, size_t n)
 {
     if (n == 2) {
-        const int order = compare(c, k[0].item, k[1].item);
+        const int order = compare_events(c, k[0].item, k[1].item);
         if (order > 0) {
             const sunder_i_valued swap = k[0];
             k[0] = k[1];
@@ -40,10 +40,10 @@ static bool settle(context *c, sunder_i_valued *k, size_t n)
     uint32_t few[FEW], *index = n <= FEW ? few : sunder_i_alloc(n, sizeof *index);
     if (!index) return false;
     for (size_t i = 0; i < n; i++) index[i] = k[i].item;
-    const bool ok = sunder_i_sort_indices(index, n, compare, c);
+    const bool ok = sunder_i_sort_indices(index, n, compare_events, c);
     for (size_t i = 0; ok && i < n; i++)
         k[i] = (sunder_i_valued){c->events->event[index[i]].at.value, index[i],
-                                 i == 0 || compare(c, index[i - 1], index[i]) != 0};
+                                 i == 0 || compare_events(c, index[i - 1], index[i]) != 0};
     if (index != few) sunder_i_free(index);
     return ok;
 }
@@ -63,7 +63,7 @@ bool sunder_i_events_sort(sunder_i_events *events, sunder_i_lattice *lattice)
     context c = {events, lattice};
     for (size_t i = 0, j; i < n; i = j) {
         for (j = i + 1; j < n && is_open(k[j - 1].value, k[j].value);) j++;
-        if (j - i > 1 && !settle(&c, k + i, j - i)) return false;
+        if (j - i > 1 && !settle_order(&c, k + i, j - i)) return false;
     }
     lattice->counts.comparisons += n;
     return true;

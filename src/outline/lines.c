@@ -23,7 +23,7 @@ typedef struct table {
     key *keys; /* [lines] */
 } table;
 
-static uint64_t mix(uint64_t h, uint64_t v)
+static uint64_t mix_hash(uint64_t h, uint64_t v)
 {
     h = (h ^ v) * 0x9e3779b97f4a7c15u;
     return h ^ h >> 29;
@@ -31,7 +31,7 @@ static uint64_t mix(uint64_t h, uint64_t v)
 
 static uint64_t mix_big(uint64_t h, sunder_i_big v)
 {
-    for (long i = 0; i < (v.size < 0 ? -v.size : v.size); i++) h = mix(h, v.limb[i]);
+    for (long i = 0; i < (v.size < 0 ? -v.size : v.size); i++) h = mix_hash(h, v.limb[i]);
     return h;
 }
 
@@ -57,7 +57,7 @@ static uint64_t pooled_offset(sunder_i_lattice *l, sunder_i_point d, sunder_i_po
         const uint64_t low = num.size ? num.limb[0] : 0, high = num.size > 1 || num.size < -1 ? num.limb[1] : 0;
         k->offset = (sunder_i_i128)((sunder_i_u128)high << 64 | low);
         if (num.size < 0) k->offset = -k->offset;
-        hash = mix(mix(hash, (uint64_t)k->offset), (uint64_t)(k->offset >> 64));
+        hash = mix_hash(mix_hash(hash, (uint64_t)k->offset), (uint64_t)(k->offset >> 64));
     }
     sunder_i_lattice_end(l, mark);
     return hash;
@@ -68,10 +68,10 @@ static key make_key(const sunder_i_convex_pieces *s, uint32_t side)
     const uint32_t rank = s->rank[side];
     key k = {0, false, rank < s->classes ? rank : rank - s->classes, 0};
     const sunder_i_point d = s->direction[k.class], a = s->corner[side];
-    uint64_t hash = mix(0, k.class);
+    uint64_t hash = mix_hash(0, k.class);
     if (s->lattice->narrow || (sunder_i_point_is_plain(d) && sunder_i_point_is_plain(a))) {
         k.offset = sunder_i_det_i128(sunder_i_narrow_cross(d, a));
-        hash = mix(mix(hash, (uint64_t)k.offset), (uint64_t)(k.offset >> 64));
+        hash = mix_hash(mix_hash(hash, (uint64_t)k.offset), (uint64_t)(k.offset >> 64));
     } else {
         hash = pooled_offset(s->lattice, d, a, hash, &k);
     }

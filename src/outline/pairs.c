@@ -10,7 +10,7 @@
 
 /* Makes room for two more words. The capacity grows by an eighth: doubled, it would soon be the largest array of all.
  * Returns false if out of memory. */
-static bool reserve(sunder_i_pairs *p)
+static bool reserve_pair(sunder_i_pairs *p)
 {
     const size_t need = p->n + 2;
     if (need <= p->capacity) return true;
@@ -37,7 +37,7 @@ static bool goes_on(sunder_i_pairs *p, uint32_t line, uint32_t part)
 
 bool sunder_i_pairs_begin(sunder_i_pairs *pairs, uint32_t line, uint32_t part)
 {
-    if (!reserve(pairs)) return false;
+    if (!reserve_pair(pairs)) return false;
     if (goes_on(pairs, line, part)) return sunder_i_pairs_add(pairs, line, part);
     pairs->row = pairs->n;
     pairs->word[pairs->n++] = part;

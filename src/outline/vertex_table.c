@@ -16,7 +16,7 @@ typedef struct square {
     int64_t x, y;
 } square;
 
-static uint32_t hash(square q)
+static uint32_t hash_of_square(square q)
 {
     uint64_t h = (uint64_t)q.x * 0x9e3779b97f4a7c15u ^ (uint64_t)q.y * 0xc2b2ae3d27d4eb4fu;
     h ^= h >> 32;
@@ -49,7 +49,7 @@ static uint32_t find_lines(const sunder_i_vertex_table *g, uint32_t h, const sun
     return SUNDER_I_NO_VERTEX;
 }
 
-static uint32_t find(const sunder_i_vertex_table *g, uint32_t h, const sunder_i_hpoint *p, bool *crowded)
+static uint32_t find_slot(const sunder_i_vertex_table *g, uint32_t h, const sunder_i_hpoint *p, bool *crowded)
 {
     const size_t start = h & g->mask;
     size_t at = start;
@@ -75,7 +75,7 @@ static uint32_t find_near(const sunder_i_vertex_table *g, const sunder_i_hpoint 
     const squares s = squares_near(g, p->ax, p->ay);
     for (int64_t x = s.low.x; x <= s.high.x; x++)
         for (int64_t y = s.low.y; y <= s.high.y; y++) {
-            const uint32_t v = find(g, hash((square){x, y}), p, crowded);
+            const uint32_t v = find_slot(g, hash_of_square((square){x, y}), p, crowded);
             if (v != SUNDER_I_NO_VERTEX) return v;
         }
     return SUNDER_I_NO_VERTEX;
@@ -89,13 +89,13 @@ uint32_t sunder_i_vertex_table_find(const sunder_i_vertex_table *table, double a
     const squares s = squares_near(table, ax, ay);
     for (int64_t x = s.low.x; x <= s.high.x; x++)
         for (int64_t y = s.low.y; y <= s.high.y; y++) {
-            const uint32_t v = find_lines(table, hash((square){x, y}), lines, is_new);
+            const uint32_t v = find_lines(table, hash_of_square((square){x, y}), lines, is_new);
             if (v != SUNDER_I_NO_VERTEX) return v;
         }
     return SUNDER_I_NO_VERTEX;
 }
 
-static void insert(sunder_i_vertex_table *g, sunder_i_vertex_slot s)
+static void insert_slot(sunder_i_vertex_table *g, sunder_i_vertex_slot s)
 {
     size_t at = s.hash & g->mask;
     while (g->slot[at].number) at = (at + 1) & g->mask;
@@ -104,7 +104,7 @@ static void insert(sunder_i_vertex_table *g, sunder_i_vertex_slot s)
 
 static uint32_t hash_of(const sunder_i_vertex_table *g, const sunder_i_hpoint *p)
 {
-    return g->exact ? (uint32_t)sunder_i_hpoint_hash(g->lattice, p) : hash(square_of(g, p->ax, p->ay));
+    return g->exact ? (uint32_t)sunder_i_hpoint_hash(g->lattice, p) : hash_of_square(square_of(g, p->ax, p->ay));
 }
 
 /* Makes a table with room for `places` vertices, at most half full; known vertices are entered again, with exact hashes
@@ -121,7 +121,7 @@ static bool make_table(sunder_i_vertex_table *g, size_t places, bool other_hashe
     for (size_t i = 0; i < old_size; i++) {
         if (!old[i].number) continue;
         if (other_hashes) old[i].hash = hash_of(g, &g->point[old[i].number - 1]);
-        insert(g, old[i]);
+        insert_slot(g, old[i]);
     }
     sunder_i_free(old);
     return true;
@@ -155,7 +155,7 @@ uint32_t sunder_i_vertex_table_add(sunder_i_vertex_table *table, const sunder_i_
     bool crowded = false;
     if (!is_new) {
         const uint32_t known =
-            table->exact ? find(table, hash_of(table, p), p, &crowded) : find_near(table, p, &crowded);
+            table->exact ? find_slot(table, hash_of(table, p), p, &crowded) : find_near(table, p, &crowded);
         if (known != SUNDER_I_NO_VERTEX) return known;
     }
     if (crowded && !table->exact) {
@@ -167,8 +167,8 @@ uint32_t sunder_i_vertex_table_add(sunder_i_vertex_table *table, const sunder_i_
     const uint32_t number = sunder_i_vertex_table_append(table, p);
     if (number == SUNDER_I_NO_VERTEX) return number;
     const bool met = lines && lines->others > 0;
-    insert(table,
-           (sunder_i_vertex_slot){number + 1, hash_of(table, p), met ? lines->line : 0, met ? lines->other[0] : 0});
+    insert_slot(
+        table, (sunder_i_vertex_slot){number + 1, hash_of(table, p), met ? lines->line : 0, met ? lines->other[0] : 0});
     table->entered++;
     return number;
 }

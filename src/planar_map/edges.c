@@ -72,7 +72,7 @@ uint32_t sunder_i_edge_isolated(sunder_i_planar_map *map, uint32_t t, const sund
 }
 
 /* Returns the trapezoid above (else below) edge e whose walls have v between them. */
-static uint32_t beside(sunder_i_planar_map *map, uint32_t e, uint32_t v, bool above)
+static uint32_t trapezoid_beside(sunder_i_planar_map *map, uint32_t e, uint32_t v, bool above)
 {
     uint32_t t = above ? map->edge[e].up : map->edge[e].down;
     const uint32_t end = map->edge[e].end[1];
@@ -83,7 +83,7 @@ static uint32_t beside(sunder_i_planar_map *map, uint32_t e, uint32_t v, bool ab
 }
 
 /* Sets the edge of the trapezoids along e, from t to the one that ends at vertex `end`, to g. */
-static void relabel(sunder_i_planar_map *map, uint32_t t, uint32_t g, uint32_t end, bool above)
+static void relabel_row(sunder_i_planar_map *map, uint32_t t, uint32_t g, uint32_t end, bool above)
 {
     for (;;) {
         sunder_i_trapezoid *z = &map->trapezoid[t];
@@ -98,17 +98,17 @@ uint32_t sunder_i_edge_split(sunder_i_planar_map *map, uint32_t e, const sunder_
     if (!sunder_i_map_room(map, 1, 1, 2, 4)) return NOWHERE;
     const uint32_t v = sunder_i_map_new_vertex(map, site), g = sunder_i_map_new_edge(map);
     const uint32_t end = map->edge[e].end[1];
-    const uint32_t t = hint != NOWHERE && map->trapezoid[hint].bottom == e ? hint : beside(map, e, v, true);
+    const uint32_t t = hint != NOWHERE && map->trapezoid[hint].bottom == e ? hint : trapezoid_beside(map, e, v, true);
     const uint32_t upper = sunder_i_trapezoid_split(map, t, v, SUNDER_I_WALL_ON_BOTTOM);
-    const uint32_t b = hint != NOWHERE && map->trapezoid[hint].top == e ? hint : beside(map, e, v, false);
+    const uint32_t b = hint != NOWHERE && map->trapezoid[hint].top == e ? hint : trapezoid_beside(map, e, v, false);
     const uint32_t lower = sunder_i_trapezoid_split(map, b, v, SUNDER_I_WALL_ON_TOP);
     sunder_i_map_edge *old = &map->edge[e], *part = &map->edge[g];
     *part = *old;
     part->end[0] = old->end[1] = v;
     part->up = upper;
     part->down = lower;
-    relabel(map, upper, g, end, true);
-    relabel(map, lower, g, end, false);
+    relabel_row(map, upper, g, end, true);
+    relabel_row(map, lower, g, end, false);
     ring_replace(map, 2 * e + 1, 2 * g + 1, end);
     map->vertex[v].out = 2 * g;
     ring_add(map, 2 * g, NOWHERE);
@@ -171,8 +171,8 @@ void sunder_i_edge_merge(sunder_i_planar_map *map, uint32_t v)
 {
     const uint32_t g = map->vertex[v].out >> 1, e = *ccw_of(map, 2 * g) >> 1, end = map->edge[g].end[1];
     const uint32_t upper = map->trapezoid[map->edge[g].up].lu, lower = map->trapezoid[map->edge[g].down].ll;
-    relabel(map, map->edge[g].up, e, end, true);
-    relabel(map, map->edge[g].down, e, end, false);
+    relabel_row(map, map->edge[g].up, e, end, true);
+    relabel_row(map, map->edge[g].down, e, end, false);
     sunder_i_trapezoid_join(map, upper, map->edge[g].up);
     sunder_i_trapezoid_join(map, lower, map->edge[g].down);
     map->edge[e].end[1] = end;

@@ -54,7 +54,7 @@ static bool leftmost_corner(const sunder_i_planar_map *map, uint32_t h)
     return !(h & 1) && sunder_i_planar_map_ccw(map, h) == map->vertex[sunder_i_planar_map_origin(map, h)].out;
 }
 
-static cycle trace(sunder_i_planar_map *map, uint32_t start, uint8_t *seen)
+static cycle trace_cycle(sunder_i_planar_map *map, uint32_t start, uint8_t *seen)
 {
     uint32_t least = sunder_i_planar_map_origin(map, start), h = start;
     bool inner = false;
@@ -96,7 +96,7 @@ static bool find_boundaries(sunder_i_planar_map *map, uint8_t *seen, sunder_i_li
     memset(map->face_outer, 0xff, map->faces * sizeof *map->face_outer);
     for (uint32_t h = 0; h < 2 * map->edges; h++) {
         if (map->edge[h >> 1].end[0] == NOWHERE || seen[h]) continue;
-        const cycle c = trace(map, h, seen);
+        const cycle c = trace_cycle(map, h, seen);
         if (!c.inner)
             map->face_outer[c.face] = c.h;
         else if (!sunder_i_map_push(map, item, c.h) || !sunder_i_map_push(map, of, c.face))
@@ -134,7 +134,7 @@ uint32_t sunder_i_planar_map_face_covered(const sunder_i_planar_map *map, uint32
 
 uint32_t sunder_i_planar_map_face_outer(const sunder_i_planar_map *map, uint32_t f) { return map->face_outer[f]; }
 
-static const uint32_t *slice(const uint32_t *item, const size_t *end, uint32_t f, size_t *n)
+static const uint32_t *slice_of_face(const uint32_t *item, const size_t *end, uint32_t f, size_t *n)
 {
     const size_t first = f ? end[f - 1] : 0;
     *n = end[f] - first;
@@ -143,12 +143,12 @@ static const uint32_t *slice(const uint32_t *item, const size_t *end, uint32_t f
 
 const uint32_t *sunder_i_planar_map_face_inner(const sunder_i_planar_map *map, uint32_t f, size_t *n)
 {
-    return slice(map->inner, map->inner_end, f, n);
+    return slice_of_face(map->inner, map->inner_end, f, n);
 }
 
 const uint32_t *sunder_i_planar_map_face_isolated(const sunder_i_planar_map *map, uint32_t f, size_t *n)
 {
-    return slice(map->isolated, map->isolated_end, f, n);
+    return slice_of_face(map->isolated, map->isolated_end, f, n);
 }
 
 uint32_t sunder_i_planar_map_face(const sunder_i_planar_map *map, uint32_t h)

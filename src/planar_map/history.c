@@ -13,35 +13,35 @@
  * everywhere. */
 #include "planar_map/map.h"
 
-static uint32_t add(sunder_i_planar_map *map, unsigned kind, uint32_t of, uint32_t a, uint32_t b)
+static uint32_t add_node(sunder_i_planar_map *map, unsigned kind, uint32_t of, uint32_t a, uint32_t b)
 {
     map->node[map->nodes] = (sunder_i_history_node){.kind = kind & 3, .of = of & 0x3fffffff, .a = a, .b = b};
     return map->nodes++;
 }
 
-static void set(sunder_i_planar_map *map, uint32_t node, unsigned kind, uint32_t of, uint32_t a, uint32_t b)
+static void set_node(sunder_i_planar_map *map, uint32_t node, unsigned kind, uint32_t of, uint32_t a, uint32_t b)
 {
     map->node[node] = (sunder_i_history_node){.kind = kind & 3, .of = of & 0x3fffffff, .a = a, .b = b};
 }
 
 uint32_t sunder_i_history_leaf(sunder_i_planar_map *map, uint32_t trapezoid)
 {
-    return map->trapezoid[trapezoid].node = add(map, SUNDER_I_LEAF, 0, trapezoid, NOWHERE);
+    return map->trapezoid[trapezoid].node = add_node(map, SUNDER_I_LEAF, 0, trapezoid, NOWHERE);
 }
 
 void sunder_i_history_at(sunder_i_planar_map *map, uint32_t node, uint32_t vertex, uint32_t smaller, uint32_t greater)
 {
-    set(map, node, SUNDER_I_AT, vertex, smaller, greater);
+    set_node(map, node, SUNDER_I_AT, vertex, smaller, greater);
 }
 
 void sunder_i_history_by(sunder_i_planar_map *map, uint32_t node, uint32_t line, uint32_t below, uint32_t above)
 {
-    set(map, node, SUNDER_I_BY, line, below, above);
+    set_node(map, node, SUNDER_I_BY, line, below, above);
 }
 
 void sunder_i_history_alias(sunder_i_planar_map *map, uint32_t node, uint32_t to)
 {
-    set(map, node, SUNDER_I_ALIAS, 0, to, NOWHERE);
+    set_node(map, node, SUNDER_I_ALIAS, 0, to, NOWHERE);
 }
 
 /* A tree over t[low .. high): its root is `node`; a half that is a single trapezoid is that trapezoid's leaf. Pending
@@ -63,9 +63,10 @@ void sunder_i_history_row(sunder_i_planar_map *map, uint32_t node, const uint32_
         const uint32_t root = top->node;
         const size_t low = top->low, high = top->high, middle = low + (high - low) / 2;
         const bool left_single = middle - low == 1, right_single = high - middle == 1;
-        const uint32_t left = left_single ? map->trapezoid[t[low]].node : add(map, SUNDER_I_LEAF, 0, NOWHERE, NOWHERE);
+        const uint32_t left =
+            left_single ? map->trapezoid[t[low]].node : add_node(map, SUNDER_I_LEAF, 0, NOWHERE, NOWHERE);
         const uint32_t right =
-            right_single ? map->trapezoid[t[middle]].node : add(map, SUNDER_I_LEAF, 0, NOWHERE, NOWHERE);
+            right_single ? map->trapezoid[t[middle]].node : add_node(map, SUNDER_I_LEAF, 0, NOWHERE, NOWHERE);
         sunder_i_history_at(map, root, map->trapezoid[t[middle]].left, left, right);
         if (!left_single) *top++ = (range){left, low, middle};
         if (!right_single) *top++ = (range){right, middle, high};

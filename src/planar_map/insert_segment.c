@@ -50,8 +50,8 @@ typedef struct crossing_cache {
 
 static const sunder_i_map_line *line_of(sunder_i_planar_map *map, uint32_t e) { return &map->line[map->edge[e].line]; }
 
-static const sunder_i_site *crossing(sunder_i_planar_map *map, uint32_t e, const sunder_i_map_line *line,
-                                     crossing_cache *cache)
+static const sunder_i_site *crossing_of_edge(sunder_i_planar_map *map, uint32_t e, const sunder_i_map_line *line,
+                                             crossing_cache *cache)
 {
     if (cache->edge != e) {
         cache->edge = e;
@@ -74,7 +74,7 @@ static bool leaves_by_edge(sunder_i_planar_map *map, uint32_t t, uint32_t e, con
         cache->side = sunder_i_site_side(map, line, &map->vertex[end].site);
     }
     if (cache->side != (above ? 1 : -1)) return false;
-    return sunder_i_site_cmp(map, crossing(map, e, line, cache), &map->vertex[wall].site) < 0;
+    return sunder_i_site_cmp(map, crossing_of_edge(map, e, line, cache), &map->vertex[wall].site) < 0;
 }
 
 static void stop_crossing(sunder_i_planar_map *map, uint32_t e, const sunder_i_map_line *line, crossing_cache *cache,
@@ -82,7 +82,7 @@ static void stop_crossing(sunder_i_planar_map *map, uint32_t e, const sunder_i_m
 {
     s->kind = ON_EDGE;
     s->id = e;
-    s->site = *crossing(map, e, line, cache);
+    s->site = *crossing_of_edge(map, e, line, cache);
     s->done = false;
 }
 
@@ -111,8 +111,8 @@ static void stop_before_wall(sunder_i_planar_map *map, uint32_t t, const sunder_
 
 /* Follows the segment from trapezoid t, in which it begins at the left wall's vertex, to its next stop *s; map->crossed
  * becomes the list of the trapezoids through which it passes. Returns false if out of memory. */
-static bool follow(sunder_i_planar_map *map, uint32_t t, const sunder_i_site *target, const sunder_i_map_line *line,
-                   stop *s)
+static bool follow_segment(sunder_i_planar_map *map, uint32_t t, const sunder_i_site *target,
+                           const sunder_i_map_line *line, stop *s)
 {
     crossing_cache low = {.edge = NOWHERE, .sided = NOWHERE}, high = low;
     map->crossed.n = 0;
@@ -199,7 +199,7 @@ uint32_t sunder_i_map_walk(sunder_i_planar_map *map, uint32_t v, const sunder_i_
             map->edge[e].sides[1] += down;
         } else {
             stop s;
-            if (!follow(map, t, target, &map->line[line], &s)) return NOWHERE;
+            if (!follow_segment(map, t, target, &map->line[line], &s)) return NOWHERE;
             done = s.done;
             w = vertex_at_stop(map, &s);
             if (w == NOWHERE) return NOWHERE;

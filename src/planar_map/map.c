@@ -51,7 +51,7 @@ sunder_status sunder_i_map_status(sunder_i_planar_map *map, sunder_error *err)
 
 /* ---- Memory ---- */
 
-static bool grow(void *array, size_t *capacity, uint32_t used, size_t more, size_t size, size_t most)
+static bool grow_array(void *array, size_t *capacity, uint32_t used, size_t more, size_t size, size_t most)
 {
     return used + more <= most && sunder_i_reserve(array, capacity, used + more, size);
 }
@@ -60,11 +60,11 @@ bool sunder_i_map_room(sunder_i_planar_map *map, size_t vertices, size_t edges, 
 {
     /* Half-edges have 32 bits, vertices in the history 30, trapezoids with a flag 32. */
     const size_t most = (size_t)1 << 30;
-    if (!grow(&map->vertex, &map->vertex_capacity, map->vertices, vertices, sizeof *map->vertex, most) ||
-        !grow(&map->edge, &map->edge_capacity, map->edges, edges, sizeof *map->edge, most) ||
-        !grow(&map->trapezoid, &map->trapezoid_capacity, map->trapezoids, trapezoids, sizeof *map->trapezoid,
-              2 * most - 1) ||
-        !grow(&map->node, &map->node_capacity, map->nodes, nodes, sizeof *map->node, 4 * most - 2))
+    if (!grow_array(&map->vertex, &map->vertex_capacity, map->vertices, vertices, sizeof *map->vertex, most) ||
+        !grow_array(&map->edge, &map->edge_capacity, map->edges, edges, sizeof *map->edge, most) ||
+        !grow_array(&map->trapezoid, &map->trapezoid_capacity, map->trapezoids, trapezoids, sizeof *map->trapezoid,
+                    2 * most - 1) ||
+        !grow_array(&map->node, &map->node_capacity, map->nodes, nodes, sizeof *map->node, 4 * most - 2))
         map->failed = true;
     return !map->failed;
 }
@@ -134,7 +134,7 @@ void sunder_i_map_free_trapezoid(sunder_i_planar_map *map, uint32_t t)
 
 uint32_t sunder_i_map_new_line(sunder_i_planar_map *map, const sunder_i_map_line *line)
 {
-    if (!grow(&map->line, &map->line_capacity, map->lines, 1, sizeof *map->line, (size_t)1 << 30)) {
+    if (!grow_array(&map->line, &map->line_capacity, map->lines, 1, sizeof *map->line, (size_t)1 << 30)) {
         map->failed = true;
         return NOWHERE;
     }

@@ -25,7 +25,7 @@ static bool collect_rows(sunder_i_planar_map *map, uint32_t e)
     return sunder_i_map_room(map, 0, 0, n, 3 * n);
 }
 
-static uint32_t begin(sunder_i_planar_map *map, uint32_t u, uint32_t d, uint32_t left, uint32_t covered)
+static uint32_t begin_trapezoid(sunder_i_planar_map *map, uint32_t u, uint32_t d, uint32_t left, uint32_t covered)
 {
     const uint32_t m = sunder_i_map_new_trapezoid(map);
     map->trapezoid[m] = (sunder_i_trapezoid){.top = map->trapezoid[u].top,
@@ -53,7 +53,7 @@ static void wall_across(sunder_i_planar_map *map, uint32_t t, uint32_t after, ui
 
 /* Makes the old trapezoids of a row lead, in the history, to those of the new row between the same walls, and frees
  * them. */
-static void succeed(sunder_i_planar_map *map, const sunder_i_list *old)
+static void link_successors(sunder_i_planar_map *map, const sunder_i_list *old)
 {
     size_t first = 0;
     for (size_t i = 0; i < old->n; i++) {
@@ -73,7 +73,7 @@ bool sunder_i_trapezoid_erase(sunder_i_planar_map *map, uint32_t e)
     const size_t un = map->above.n, dn = map->beneath.n;
     uint32_t covered = map->trapezoid[u[0]].covered - map->edge[e].sides[0];
     if (map->edge[e].sides[0] > map->trapezoid[u[0]].covered) covered = 0; /* the counts are not valid yet */
-    uint32_t m = begin(map, u[0], d[0], map->edge[e].end[0], covered);
+    uint32_t m = begin_trapezoid(map, u[0], d[0], map->edge[e].end[0], covered);
     sunder_i_trapezoid *z = map->trapezoid;
     sunder_i_trapezoid_link(map, z[u[0]].lu, m, true);
     sunder_i_trapezoid_link(map, z[d[0]].ll, m, false);
@@ -84,7 +84,8 @@ bool sunder_i_trapezoid_erase(sunder_i_planar_map *map, uint32_t e)
         const bool upper =
             j + 1 == dn || (i + 1 < un && sunder_i_site_cmp(map, &map->vertex[p].site, &map->vertex[q].site) < 0);
         z[m].right = upper ? p : q;
-        const uint32_t next = begin(map, upper ? u[i + 1] : u[i], upper ? d[j] : d[j + 1], z[m].right, covered);
+        const uint32_t next =
+            begin_trapezoid(map, upper ? u[i + 1] : u[i], upper ? d[j] : d[j + 1], z[m].right, covered);
         if (upper) {
             wall_across(map, u[i], u[i + 1], m, next, true);
             i++;
@@ -98,8 +99,8 @@ bool sunder_i_trapezoid_erase(sunder_i_planar_map *map, uint32_t e)
     sunder_i_trapezoid_link(map, m, z[u[i]].ru, true);
     sunder_i_trapezoid_link(map, m, z[d[j]].rl, false);
     for (size_t k = 0; k < map->made.n; k++) sunder_i_trapezoid_install(map, map->made.item[k]);
-    succeed(map, &map->above);
-    succeed(map, &map->beneath);
+    link_successors(map, &map->above);
+    link_successors(map, &map->beneath);
     return true;
 }
 

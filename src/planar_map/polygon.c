@@ -13,15 +13,15 @@ typedef struct boundary {
 } boundary;
 
 /* Returns the corner after i along a chain; *side becomes the side between the two. */
-static size_t step(const boundary *b, bool upper, size_t i, size_t *side)
+static size_t next_corner(const boundary *b, bool upper, size_t i, size_t *side)
 {
     const size_t j = upper ? (i + b->n - 1) % b->n : (i + 1) % b->n;
     *side = upper ? j : i;
     return j;
 }
 
-static bool prepare(sunder_i_planar_map *map, const sunder_i_rational_point *corner, const sunder_i_point *along,
-                    boundary *b)
+static bool prepare_boundary(sunder_i_planar_map *map, const sunder_i_rational_point *corner,
+                             const sunder_i_point *along, boundary *b)
 {
     b->site = sunder_i_arena_alloc(&map->scratch, b->n, sizeof *b->site);
     b->line = sunder_i_arena_alloc(&map->scratch, b->n, sizeof *b->line);
@@ -50,7 +50,7 @@ static bool glide_chain(sunder_i_planar_map *map, const boundary *b, bool upper,
 {
     list->n = 0;
     for (size_t i = b->least, side; i != b->most;) {
-        const size_t j = step(b, upper, i, &side);
+        const size_t j = next_corner(b, upper, i, &side);
         if (!b->empty[side] && !sunder_i_map_glide(map, &t, &b->site[j], &b->line[side], list)) return false;
         i = j;
     }
@@ -78,7 +78,7 @@ static bool is_redundant(sunder_i_planar_map *map, const boundary *b, uint32_t t
 static bool walk_chain(sunder_i_planar_map *map, const boundary *b, bool upper, uint32_t v)
 {
     for (size_t i = b->least, side; i != b->most;) {
-        const size_t j = step(b, upper, i, &side);
+        const size_t j = next_corner(b, upper, i, &side);
         if (!b->empty[side]) {
             const sunder_i_map_line kept = sunder_i_line_copy(&b->line[side], &map->arena);
             if (sunder_i_map_broken(map)) return false;
@@ -93,7 +93,7 @@ static bool walk_chain(sunder_i_planar_map *map, const boundary *b, bool upper, 
     return true;
 }
 
-static bool draw(sunder_i_planar_map *map, boundary *b, uint32_t t)
+static bool draw_polygon(sunder_i_planar_map *map, boundary *b, uint32_t t)
 {
     for (size_t i = 0; i < b->n; i++) b->site[i] = sunder_i_site_copy(&b->site[i], &map->arena);
     if (sunder_i_map_broken(map)) return false;
@@ -108,11 +108,11 @@ sunder_status sunder_i_map_polygon(sunder_i_planar_map *map, const sunder_i_rati
     map->ring.n = 0;
     const sunder_i_mark mark = sunder_i_arena_mark(&map->scratch);
     boundary b = {.n = n, .unite = unite};
-    if (prepare(map, corner, along, &b)) {
+    if (prepare_boundary(map, corner, along, &b)) {
         const uint32_t t = sunder_i_history_find(map, &b.site[b.least]);
         if (!unite || !is_redundant(map, &b, t)) {
             map->marked = false;
-            if (!sunder_i_map_broken(map) && !draw(map, &b, t)) map->failed = true;
+            if (!sunder_i_map_broken(map) && !draw_polygon(map, &b, t)) map->failed = true;
         }
     } else
         map->failed = true;

@@ -27,7 +27,7 @@ typedef struct sum {
     mp_size_t n;
 } sum;
 
-static void accumulate(sum *s, const mp_limb_t *p, mp_size_t n)
+static void accumulate_product(sum *s, const mp_limb_t *p, mp_size_t n)
 {
     while (n > 0 && p[n - 1] == 0) n--;
     if (n == 0) return;
@@ -53,25 +53,25 @@ static int sum_cmp(const sum *a, const sum *b)
     return (c > 0) - (c < 0);
 }
 
-static mp_size_t limbs(sunder_i_big a) { return (mp_size_t)labs(a.size); }
+static mp_size_t limbs_of(sunder_i_big a) { return (mp_size_t)labs(a.size); }
 
 /* Returns the sign of the sum of a[i] * b[i], n <= 3. */
 static int dot_sign(sunder_i_planar_map *map, const sunder_i_big *a, const sunder_i_big *b, int n)
 {
     bool small = true;
-    for (int i = 0; i < n; i++) small = small && limbs(a[i]) <= STACK_LIMBS && limbs(b[i]) <= STACK_LIMBS;
+    for (int i = 0; i < n; i++) small = small && limbs_of(a[i]) <= STACK_LIMBS && limbs_of(b[i]) <= STACK_LIMBS;
     if (small) {
         sum s[2];
         s[0].n = s[1].n = 0;
         for (int i = 0; i < n; i++) {
-            const mp_size_t la = limbs(a[i]), lb = limbs(b[i]);
+            const mp_size_t la = limbs_of(a[i]), lb = limbs_of(b[i]);
             if (la == 0 || lb == 0) continue;
             mp_limb_t p[2 * STACK_LIMBS];
             if (la >= lb)
                 mpn_mul(p, a[i].limb, la, b[i].limb, lb);
             else
                 mpn_mul(p, b[i].limb, lb, a[i].limb, la);
-            accumulate(&s[(a[i].size < 0) != (b[i].size < 0)], p, la + lb);
+            accumulate_product(&s[(a[i].size < 0) != (b[i].size < 0)], p, la + lb);
         }
         return sum_cmp(&s[0], &s[1]);
     }
@@ -140,7 +140,7 @@ int sunder_i_line_turn(sunder_i_planar_map *map, const sunder_i_map_line *f, con
     return dot_sign(map, a, b, 2);
 }
 
-static void approximate(sunder_i_planar_map *map, sunder_i_site *s)
+static void approximate_site(sunder_i_planar_map *map, sunder_i_site *s)
 {
     s->ax = s->ay = 0;
     if (sunder_i_map_broken(map) || s->at.w.size == 0) return;
@@ -152,13 +152,13 @@ static void approximate(sunder_i_planar_map *map, sunder_i_site *s)
 sunder_i_site sunder_i_site_of(sunder_i_planar_map *map, sunder_i_rational_point at)
 {
     sunder_i_site s = {.at = at};
-    approximate(map, &s);
+    approximate_site(map, &s);
     return s;
 }
 
 /* Returns a b - c d; only the result remains in the arena. */
-static sunder_i_big minor(sunder_i_planar_map *map, sunder_i_arena *arena, sunder_i_big a, sunder_i_big b,
-                          sunder_i_big c, sunder_i_big d)
+static sunder_i_big minor_2x2(sunder_i_planar_map *map, sunder_i_arena *arena, sunder_i_big a, sunder_i_big b,
+                              sunder_i_big c, sunder_i_big d)
 {
     sunder_i_arena *s = &map->scratch;
     const sunder_i_mark mark = sunder_i_arena_mark(s);
@@ -174,15 +174,16 @@ sunder_i_site sunder_i_line_crossing(sunder_i_planar_map *map, const sunder_i_ma
 {
     map->lattice->counts.segment_intersections++;
     const sunder_i_big *p = f->abc, *q = g->abc;
-    sunder_i_site s = {.at = {minor(map, arena, p[1], q[2], p[2], q[1]), minor(map, arena, p[2], q[0], p[0], q[2]),
-                              minor(map, arena, p[0], q[1], p[1], q[0])}};
+    sunder_i_site s = {.at = {minor_2x2(map, arena, p[1], q[2], p[2], q[1]),
+                              minor_2x2(map, arena, p[2], q[0], p[0], q[2]),
+                              minor_2x2(map, arena, p[0], q[1], p[1], q[0])}};
     if (sunder_i_big_sign(s.at.w) < 0)
         s.at = (sunder_i_rational_point){sunder_i_big_neg(s.at.x), sunder_i_big_neg(s.at.y), sunder_i_big_neg(s.at.w)};
-    approximate(map, &s);
+    approximate_site(map, &s);
     return s;
 }
 
-static sunder_i_big divided(sunder_i_arena *arena, sunder_i_big a, sunder_i_big by)
+static sunder_i_big big_quotient(sunder_i_arena *arena, sunder_i_big a, sunder_i_big by)
 {
     return sunder_i_big_div_floor(arena, a, by); /* `by` divides a, so that nothing is rounded */
 }
@@ -202,8 +203,8 @@ static sunder_i_map_line line_along(sunder_i_planar_map *map, const sunder_i_sit
     if (!sunder_i_big_is_one(w)) {
         const sunder_i_big g = sunder_i_big_gcd(s, w, c);
         if (!s->failed && !sunder_i_big_is_one(g)) {
-            w = divided(s, w, g);
-            c = divided(s, c, g);
+            w = big_quotient(s, w, g);
+            c = big_quotient(s, c, g);
         }
     }
     const double a = -(double)dy, b = (double)dx, scale = ldexp(1, -ilogb(sunder_i_max(fabs(a), b)) - 1);
@@ -225,11 +226,11 @@ static sunder_i_map_line line_between(sunder_i_planar_map *map, const sunder_i_s
         const sunder_i_big dx = d.x, dy = d.y;
         abc[0] = sunder_i_big_neg(sunder_i_big_mul(s, dy, p->at.w));
         abc[1] = sunder_i_big_mul(s, dx, p->at.w);
-        abc[2] = minor(map, s, dy, p->at.x, dx, p->at.y);
+        abc[2] = minor_2x2(map, s, dy, p->at.x, dx, p->at.y);
     } else {
-        abc[0] = minor(map, s, p->at.y, q->at.w, q->at.y, p->at.w);
-        abc[1] = minor(map, s, q->at.x, p->at.w, p->at.x, q->at.w);
-        abc[2] = minor(map, s, p->at.x, q->at.y, q->at.x, p->at.y);
+        abc[0] = minor_2x2(map, s, p->at.y, q->at.w, q->at.y, p->at.w);
+        abc[1] = minor_2x2(map, s, q->at.x, p->at.w, p->at.x, q->at.w);
+        abc[2] = minor_2x2(map, s, p->at.x, q->at.y, q->at.x, p->at.y);
     }
     const int b = sunder_i_big_sign(abc[1]);
     if (b < 0 || (b == 0 && sunder_i_big_sign(abc[0]) > 0))
@@ -237,7 +238,7 @@ static sunder_i_map_line line_between(sunder_i_planar_map *map, const sunder_i_s
     if (sunder_i_big_bits(p->at.w) > 1 || along || sunder_i_big_bits(q->at.w) > 1) {
         const sunder_i_big g = sunder_i_big_gcd(s, sunder_i_big_gcd(s, abc[0], abc[1]), abc[2]);
         if (!map->scratch.failed && sunder_i_big_bits(g) > 1)
-            for (int i = 0; i < 3; i++) abc[i] = divided(s, abc[i], g);
+            for (int i = 0; i < 3; i++) abc[i] = big_quotient(s, abc[i], g);
     }
     const unsigned long bits0 = sunder_i_big_bits(abc[0]), bits1 = sunder_i_big_bits(abc[1]);
     const long bits = (long)(bits0 > bits1 ? bits0 : bits1);

@@ -6,7 +6,7 @@
  * both sides as before. */
 #include "planar_map/map.h"
 
-static bool see(sunder_i_planar_map *map, uint32_t t, uint32_t stamp)
+static bool see_trapezoid(sunder_i_planar_map *map, uint32_t t, uint32_t stamp)
 {
     sunder_i_trapezoid *z = &map->trapezoid[t];
     if (z->stamp == stamp) return true;
@@ -16,18 +16,18 @@ static bool see(sunder_i_planar_map *map, uint32_t t, uint32_t stamp)
 
 /* Lists the trapezoids, edges and vertices strictly inside the ring. The edges and vertices of the ring must have the
  * stamp already. Returns false if out of memory. */
-static bool flood(sunder_i_planar_map *map, uint32_t stamp)
+static bool flood_ring(sunder_i_planar_map *map, uint32_t stamp)
 {
     map->inside.n = map->edges_inside.n = map->vertices_inside.n = 0;
     for (size_t i = 0; i < map->ring.n; i++)
-        if (!see(map, sunder_i_map_left_of(map, map->ring.item[i]), stamp)) return false;
+        if (!see_trapezoid(map, sunder_i_map_left_of(map, map->ring.item[i]), stamp)) return false;
     for (size_t i = 0; i < map->inside.n; i++) { /* the list is also the queue */
         const uint32_t t = map->inside.item[i];
         uint32_t to[6];
         int64_t step[6];
         const size_t n = sunder_i_map_around(map, t, stamp, to, step);
         for (size_t k = 0; k < n; k++)
-            if (!see(map, to[k], stamp)) return false;
+            if (!see_trapezoid(map, to[k], stamp)) return false;
         const uint32_t e = map->trapezoid[t].bottom, v = map->trapezoid[t].left;
         if (map->edge[e].up == t && map->edge[e].stamp != stamp && !sunder_i_map_push(map, &map->edges_inside, e))
             return false;
@@ -47,7 +47,7 @@ static bool clean_ring(sunder_i_planar_map *map)
         map->edge[h >> 1].stamp = stamp;
         map->vertex[sunder_i_planar_map_origin(map, h)].stamp = stamp;
     }
-    if (!flood(map, stamp)) return false;
+    if (!flood_ring(map, stamp)) return false;
     for (size_t i = 0; i < map->inside.n; i++) map->trapezoid[map->inside.item[i]].covered++;
     /* Each vertex of the ring is the origin of one of its half-edges. The vertices that remain are put on the stack;
      * `ring` keeps its edges that remain. */

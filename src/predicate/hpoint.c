@@ -15,14 +15,14 @@
 
 static double scaled(const sunder_i_lattice *l, double v) { return l->approx_shift ? ldexp(v, -l->approx_shift) : v; }
 
-static sunder_i_hpoint native(const sunder_i_lattice *l, sunder_i_i256 x, sunder_i_i256 y, sunder_i_i128 w)
+static sunder_i_hpoint native_point(const sunder_i_lattice *l, sunder_i_i256 x, sunder_i_i256 y, sunder_i_i128 w)
 {
     const double d = sunder_i_i128_double(w);
     return (sunder_i_hpoint){x, y, w, scaled(l, sunder_i_i256_double(&x) / d), scaled(l, sunder_i_i256_double(&y) / d)};
 }
 
 /* Returns the point v, whose numbers are in the scratch arena, with handles. */
-static sunder_i_hpoint pooled(sunder_i_lattice *l, sunder_i_rational_point v)
+static sunder_i_hpoint pooled_point(sunder_i_lattice *l, sunder_i_rational_point v)
 {
     sunder_i_hpoint p;
     memset(&p, 0, sizeof p);
@@ -44,7 +44,7 @@ sunder_i_hpoint sunder_i_hpoint_at(sunder_i_lattice *lattice, sunder_i_point a, 
         (t->den != 0 && sunder_i_point_is_plain(a) && sunder_i_point_is_plain(b) && !lattice->pooled)) {
         const sunder_i_point u = sunder_i_narrow_sub(b, a);
         const sunder_i_i128 num = sunder_i_det_i128(t->num), den = sunder_i_det_i128(t->den);
-        return native(lattice, sunder_i_mul_add(a.x, den, u.x, num), sunder_i_mul_add(a.y, den, u.y, num), den);
+        return native_point(lattice, sunder_i_mul_add(a.x, den, u.x, num), sunder_i_mul_add(a.y, den, u.y, num), den);
     }
     /* a + (num / den) u with a over v, u = b - a over w: (a w den + u v num) / (v w den), and less if w = v. */
     const sunder_i_mark mark = sunder_i_lattice_begin(lattice);
@@ -55,7 +55,7 @@ sunder_i_hpoint sunder_i_hpoint_at(sunder_i_lattice *lattice, sunder_i_point a, 
     const bool same = sunder_i_big_cmp(o.w, u.w) == 0;
     const sunder_i_big num = same ? f.num : sunder_i_times(m, f.num, o.w);
     const sunder_i_big by = same ? f.den : sunder_i_times(m, f.den, u.w);
-    const sunder_i_hpoint p = pooled(
+    const sunder_i_hpoint p = pooled_point(
         lattice,
         (sunder_i_rational_point){sunder_i_big_add(m, sunder_i_big_mul(m, o.x, by), sunder_i_big_mul(m, u.x, num)),
                                   sunder_i_big_add(m, sunder_i_big_mul(m, o.y, by), sunder_i_big_mul(m, u.y, num)),
@@ -84,7 +84,7 @@ sunder_i_hpoint sunder_i_hpoint_of(sunder_i_lattice *lattice, sunder_i_point a)
         p.x.limb[0] = (uint64_t)a.x;
         p.y.limb[0] = (uint64_t)a.y;
     } else {
-        p = pooled(lattice, v);
+        p = pooled_point(lattice, v);
     }
     sunder_i_lattice_end(lattice, mark);
     return p;
@@ -110,11 +110,11 @@ sunder_i_hpoint sunder_i_hpoint_make(sunder_i_lattice *lattice, sunder_i_rationa
     SUNDER_I_ASSERT(lattice->arena.failed || lattice->scratch.failed || sunder_i_big_sign(v.w) > 0);
     if (is_native(lattice, v)) {
         const sunder_i_i256 d = big_i256(v.w);
-        return native(lattice, big_i256(v.x), big_i256(v.y),
-                      (sunder_i_i128)((sunder_i_u128)d.limb[1] << 64 | d.limb[0]));
+        return native_point(lattice, big_i256(v.x), big_i256(v.y),
+                            (sunder_i_i128)((sunder_i_u128)d.limb[1] << 64 | d.limb[0]));
     }
     const sunder_i_mark mark = sunder_i_lattice_begin(lattice);
-    const sunder_i_hpoint p = pooled(lattice, v);
+    const sunder_i_hpoint p = pooled_point(lattice, v);
     sunder_i_lattice_end(lattice, mark);
     return p;
 }
@@ -177,7 +177,7 @@ static int coordinate_cmp(sunder_i_lattice *l, const sunder_i_hpoint *a, const s
 }
 
 /* Returns 0 if doubles do not decide. */
-static int filter(double a, double b)
+static int filter_cmp(double a, double b)
 {
     const double d = a - b, bound = bound_of(a, b);
     return d > bound ? 1 : d < -bound ? -1 : 0;
@@ -186,32 +186,32 @@ static int filter(double a, double b)
 int sunder_i_hpoint_cmp(sunder_i_lattice *lattice, const sunder_i_hpoint *a, const sunder_i_hpoint *b)
 {
     lattice->counts.comparisons++;
-    int c = filter(a->ax, b->ax);
+    int c = filter_cmp(a->ax, b->ax);
     if (c) return c;
     c = coordinate_cmp(lattice, a, b, 0);
     if (c) return c;
-    c = filter(a->ay, b->ay);
+    c = filter_cmp(a->ay, b->ay);
     return c ? c : coordinate_cmp(lattice, a, b, 1);
 }
 
 int sunder_i_hpoint_cmp_x(sunder_i_lattice *lattice, const sunder_i_hpoint *a, const sunder_i_hpoint *b)
 {
     lattice->counts.comparisons++;
-    const int c = filter(a->ax, b->ax);
+    const int c = filter_cmp(a->ax, b->ax);
     return c ? c : coordinate_cmp(lattice, a, b, 0);
 }
 
 int sunder_i_hpoint_cmp_y(sunder_i_lattice *lattice, const sunder_i_hpoint *a, const sunder_i_hpoint *b)
 {
     lattice->counts.comparisons++;
-    const int c = filter(a->ay, b->ay);
+    const int c = filter_cmp(a->ay, b->ay);
     return c ? c : coordinate_cmp(lattice, a, b, 1);
 }
 
 bool sunder_i_hpoint_equal(sunder_i_lattice *lattice, const sunder_i_hpoint *a, const sunder_i_hpoint *b)
 {
     lattice->counts.comparisons++;
-    if (filter(a->ax, b->ax) || filter(a->ay, b->ay)) return false;
+    if (filter_cmp(a->ax, b->ax) || filter_cmp(a->ay, b->ay)) return false;
     return coordinate_cmp(lattice, a, b, 0) == 0 && coordinate_cmp(lattice, a, b, 1) == 0;
 }
 
@@ -228,7 +228,7 @@ static int filter_side(const sunder_i_lattice *l, sunder_i_point a, sunder_i_poi
     return most < 0x1p-200 ? 0 : det > bound ? 1 : det < -bound ? -1 : 0;
 }
 
-static uint64_t mix(uint64_t h, uint64_t v)
+static uint64_t mix_hash(uint64_t h, uint64_t v)
 {
     h = (h ^ v) * 0x9e3779b97f4a7c15u;
     return h ^ h >> 32;
@@ -244,8 +244,8 @@ uint64_t sunder_i_hpoint_hash(sunder_i_lattice *lattice, const sunder_i_hpoint *
     uint64_t h = 0;
     for (int k = 0; k < 2; k++) {
         const sunder_i_big v = sunder_i_big_div_floor(m, sunder_i_big_shl(m, sunder_i_rational_axis(&at, k), 64), at.w);
-        for (long i = 0; i < labs(v.size); i++) h = mix(h, v.limb[i]);
-        h = mix(h, (uint64_t)v.size);
+        for (long i = 0; i < labs(v.size); i++) h = mix_hash(h, v.limb[i]);
+        h = mix_hash(h, (uint64_t)v.size);
     }
     sunder_i_lattice_end(lattice, mark);
     return h;

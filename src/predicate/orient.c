@@ -71,7 +71,7 @@ static bool stays_plain(int64_t n)
 }
 
 /* Returns a + b if sign is 1, a - b if it is -1. */
-static sunder_i_point combine(sunder_i_lattice *l, sunder_i_point a, sunder_i_point b, int sign)
+static sunder_i_point combine_points(sunder_i_lattice *l, sunder_i_point a, sunder_i_point b, int sign)
 {
     if (!l->pooled && both_plain(a, b)) {
         const sunder_i_point s = {a.x + sign * b.x, a.y + sign * b.y};
@@ -89,15 +89,15 @@ static sunder_i_point combine(sunder_i_lattice *l, sunder_i_point a, sunder_i_po
 
 sunder_i_point sunder_i_point_add(sunder_i_lattice *lattice, sunder_i_point a, sunder_i_point b)
 {
-    return lattice->narrow ? (sunder_i_point){a.x + b.x, a.y + b.y} : combine(lattice, a, b, 1);
+    return lattice->narrow ? (sunder_i_point){a.x + b.x, a.y + b.y} : combine_points(lattice, a, b, 1);
 }
 
 sunder_i_point sunder_i_point_sub(sunder_i_lattice *lattice, sunder_i_point a, sunder_i_point b)
 {
-    return lattice->narrow ? (sunder_i_point){a.x - b.x, a.y - b.y} : combine(lattice, a, b, -1);
+    return lattice->narrow ? (sunder_i_point){a.x - b.x, a.y - b.y} : combine_points(lattice, a, b, -1);
 }
 
-static int64_t negated(sunder_i_lattice *l, int64_t n)
+static int64_t negated_number(sunder_i_lattice *l, int64_t n)
 {
     if (sunder_i_is_plain(n)) return -n;
     const sunder_i_ratio r = l->pool[n - INT64_MIN].ratio;
@@ -106,7 +106,7 @@ static int64_t negated(sunder_i_lattice *l, int64_t n)
 
 sunder_i_point sunder_i_point_neg(sunder_i_lattice *lattice, sunder_i_point a)
 {
-    return (sunder_i_point){negated(lattice, a.x), negated(lattice, a.y)};
+    return (sunder_i_point){negated_number(lattice, a.x), negated_number(lattice, a.y)};
 }
 
 void sunder_i_point_difference(sunder_i_lattice *lattice, sunder_i_point a, sunder_i_point b, double *dx, double *dy)

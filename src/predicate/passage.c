@@ -111,7 +111,7 @@ typedef struct meeting {
 } meeting;
 
 /* Returns the sign of coordinate k of c minus that of the passage's start, or, if `end`, minus that of its end. */
-static int order(const sunder_i_passage *p, const double c[2], int k, bool end)
+static int coordinate_sign(const sunder_i_passage *p, const double c[2], int k, bool end)
 {
     if (!end) return (c[k] > p->from[k]) - (c[k] < p->from[k]);
     sunder_i_accumulator sum = {{0}};
@@ -128,8 +128,8 @@ static bool share_coordinates(const void *context)
 {
     const meeting *m = context;
     for (int k = 0; k < 2; k++) {
-        const int c = order(m->passage, m->c, k, false), d = order(m->passage, m->d, k, false),
-                  ce = order(m->passage, m->c, k, true), de = order(m->passage, m->d, k, true);
+        const int c = coordinate_sign(m->passage, m->c, k, false), d = coordinate_sign(m->passage, m->d, k, false),
+                  ce = coordinate_sign(m->passage, m->c, k, true), de = coordinate_sign(m->passage, m->d, k, true);
         if ((c > 0 && d > 0 && ce > 0 && de > 0) || (c < 0 && d < 0 && ce < 0 && de < 0)) return false;
     }
     return true;

@@ -6,7 +6,7 @@
 
 #include <stdlib.h>
 
-static bool equal(sunder_i_big a, sunder_i_big b)
+static bool big_equal(sunder_i_big a, sunder_i_big b)
 {
     if (a.size != b.size) return false;
     return a.size == 1 ? a.limb[0] == b.limb[0] : a.limb == b.limb || sunder_i_big_cmp(a, b) == 0;
@@ -15,14 +15,14 @@ static bool equal(sunder_i_big a, sunder_i_big b)
 sunder_i_rational_point sunder_i_rational_get(sunder_i_arena *arena, const sunder_i_lattice *lattice, sunder_i_point a)
 {
     const sunder_i_ratio x = sunder_i_lattice_read(arena, lattice, a.x), y = sunder_i_lattice_read(arena, lattice, a.y);
-    if (equal(x.den, y.den)) return (sunder_i_rational_point){x.num, y.num, x.den};
+    if (big_equal(x.den, y.den)) return (sunder_i_rational_point){x.num, y.num, x.den};
     /* One of the two is an integer, or they were computed separately. */
     return (sunder_i_rational_point){sunder_i_times(arena, x.num, y.den), sunder_i_times(arena, y.num, x.den),
                                      sunder_i_times(arena, x.den, y.den)};
 }
 
 /* Divides *x and *y by w. Returns true if w divides both; otherwise they are unchanged. */
-static bool divides(sunder_i_arena *arena, sunder_i_big w, sunder_i_big *x, sunder_i_big *y)
+static bool divides_point(sunder_i_arena *arena, sunder_i_big w, sunder_i_big *x, sunder_i_big *y)
 {
     const sunder_i_big p = sunder_i_big_div_floor(arena, *x, w), q = sunder_i_big_div_floor(arena, *y, w);
     if (arena->failed || sunder_i_big_cmp(sunder_i_big_mul(arena, p, w), *x) != 0 ||
@@ -38,7 +38,7 @@ sunder_i_point sunder_i_rational_put(sunder_i_lattice *lattice, sunder_i_rationa
     sunder_i_arena *arena = &lattice->arena;
     /* Both corners of a side may have the denominator of one intersection, while their difference is a lattice
      * vector. */
-    const bool whole = sunder_i_big_is_one(u.w) || divides(&lattice->scratch, u.w, &u.x, &u.y);
+    const bool whole = sunder_i_big_is_one(u.w) || divides_point(&lattice->scratch, u.w, &u.x, &u.y);
     const sunder_i_big x = sunder_i_big_copy(arena, u.x), y = sunder_i_big_copy(arena, u.y);
     if (whole) return (sunder_i_point){sunder_i_lattice_big(lattice, x), sunder_i_lattice_big(lattice, y)};
     const sunder_i_big w = sunder_i_big_copy(arena, u.w);
@@ -56,7 +56,7 @@ sunder_i_rational_point sunder_i_rational_reduced(sunder_i_arena *arena, sunder_
 sunder_i_rational_point sunder_i_rational_add(sunder_i_arena *arena, sunder_i_rational_point u,
                                               sunder_i_rational_point v)
 {
-    if (equal(u.w, v.w))
+    if (big_equal(u.w, v.w))
         return (sunder_i_rational_point){sunder_i_big_add(arena, u.x, v.x), sunder_i_big_add(arena, u.y, v.y), u.w};
     return (sunder_i_rational_point){
         sunder_i_big_add(arena, sunder_i_times(arena, u.x, v.w), sunder_i_times(arena, v.x, u.w)),
@@ -98,7 +98,7 @@ typedef struct rough_point {
     sunder_i_ball x, y, w;
 } rough_point;
 
-static rough_point roughly(const sunder_i_rational_point *u)
+static rough_point rough_of(const sunder_i_rational_point *u)
 {
     return (rough_point){sunder_i_ball_big(u->x), sunder_i_ball_big(u->y), sunder_i_ball_big(u->w)};
 }
@@ -119,7 +119,7 @@ static int rough_cross_sign(const rough_point *u, const rough_point *v)
 static int rough_orient(const sunder_i_rational_point *a, const sunder_i_rational_point *b,
                         const sunder_i_rational_point *c)
 {
-    const rough_point p = roughly(a), q = roughly(b), r = roughly(c);
+    const rough_point p = rough_of(a), q = rough_of(b), r = rough_of(c);
     const rough_point u = rough_way(&p, &q), v = rough_way(&p, &r);
     return rough_cross_sign(&u, &v);
 }
@@ -127,7 +127,7 @@ static int rough_orient(const sunder_i_rational_point *a, const sunder_i_rationa
 int sunder_i_rational_cross_sign(sunder_i_arena *arena, sunder_i_rational_point u, sunder_i_rational_point v)
 {
     if (is_long(&u) || is_long(&v)) {
-        const rough_point p = roughly(&u), q = roughly(&v);
+        const rough_point p = rough_of(&u), q = rough_of(&v);
         const int sign = rough_cross_sign(&p, &q);
         if (sign) return sign;
     }

@@ -3,7 +3,7 @@
 #include "predicate/rational_point.h"
 
 /* Returns true if c is on the closed segment ab; c must be on the line ab (or a == b). */
-static bool within(sunder_i_lattice *l, sunder_i_point a, sunder_i_point b, sunder_i_point c)
+static bool is_within_ends(sunder_i_lattice *l, sunder_i_point a, sunder_i_point b, sunder_i_point c)
 {
     /* On a line the lexicographic order is monotone. */
     return sunder_i_point_cmp(l, a, c) * sunder_i_point_cmp(l, b, c) <= 0;
@@ -13,7 +13,7 @@ static bool within(sunder_i_lattice *l, sunder_i_point a, sunder_i_point b, sund
 static sunder_i_meeting point_meets(sunder_i_lattice *l, sunder_i_point c, sunder_i_point a, sunder_i_point b)
 {
     if (sunder_i_point_equal(l, a, c) || sunder_i_point_equal(l, b, c)) return SUNDER_I_ENDS_EQUAL;
-    if (sunder_i_orient(l, a, b, c) != 0 || !within(l, a, b, c)) return SUNDER_I_APART;
+    if (sunder_i_orient(l, a, b, c) != 0 || !is_within_ends(l, a, b, c)) return SUNDER_I_APART;
     return sunder_i_point_equal(l, a, b) ? SUNDER_I_APART : SUNDER_I_END_INSIDE;
 }
 

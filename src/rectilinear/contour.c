@@ -96,7 +96,7 @@ static void add_free(finder *f, uint32_t line, range r, uint32_t sides)
 }
 
 /* Unites the ranges of some rectangles that stand in order; returns how many remain. */
-static size_t unite(const finder *f, const uint32_t *item, size_t n, range *out)
+static size_t unite_ranges(const finder *f, const uint32_t *item, size_t n, range *out)
 {
     size_t ranges = 0;
     for (size_t i = 0; i < n; i++) {
@@ -138,7 +138,7 @@ static void stand_on(finder *f, uint32_t line)
         const range r = range_of(f, ending[i]);
         sunder_i_cover_tree_remove(&f->tree, r.from, r.to);
     }
-    go_along(f, line, unite(f, ending, ends, f->ended), unite(f, beginning, begins, f->begun));
+    go_along(f, line, unite_ranges(f, ending, ends, f->ended), unite_ranges(f, beginning, begins, f->begun));
     for (size_t i = 0; i < begins; i++) {
         const range r = range_of(f, beginning[i]);
         sunder_i_cover_tree_add(&f->tree, r.from, r.to);

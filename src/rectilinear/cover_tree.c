@@ -78,7 +78,7 @@ static void tell_above(sunder_i_cover_tree *t, uint32_t level, uint32_t i)
 }
 
 /* Children from..last of node i of a level have one range of their own more, or one less. */
-static void change(sunder_i_cover_tree *t, uint32_t level, uint32_t i, uint32_t from, uint32_t last, bool more)
+static void change_ranges(sunder_i_cover_tree *t, uint32_t level, uint32_t i, uint32_t from, uint32_t last, bool more)
 {
     node *v = &t->level[level][i];
     const uint64_t before = v->own;
@@ -90,9 +90,9 @@ static void change_range(sunder_i_cover_tree *t, uint32_t from, uint32_t to, boo
 {
     for (uint32_t level = 0; from < to; level++) {
         const uint32_t a = from >> CHILD_BITS, b = (to - 1) >> CHILD_BITS, last = (to - 1) % CHILDREN;
-        change(t, level, a, from % CHILDREN, a == b ? last : CHILDREN - 1, more);
+        change_ranges(t, level, a, from % CHILDREN, a == b ? last : CHILDREN - 1, more);
         if (a == b) return;
-        change(t, level, b, 0, last, more);
+        change_ranges(t, level, b, 0, last, more);
         from = a + 1;
         to = b;
     }
@@ -133,7 +133,7 @@ static void add_run(finder *f, uint32_t from, uint32_t to)
 }
 
 /* The number of trailing one bits; there is at least one. */
-static uint32_t ones(uint64_t bits) { return ~bits ? (uint32_t)__builtin_ctzll(~bits) : CHILDREN; }
+static uint32_t trailing_ones(uint64_t bits) { return ~bits ? (uint32_t)__builtin_ctzll(~bits) : CHILDREN; }
 
 /* The children of a node that are asked for: `low` is the first of them all, from..last are asked for of the level. */
 static uint64_t asked_for(uint32_t low, uint32_t from, uint32_t last)
@@ -147,14 +147,14 @@ static void find_elements(finder *f, uint32_t i)
     const uint32_t low = i << CHILD_BITS;
     uint64_t free = asked_for(low, f->from, f->last) & ~f->tree->level[0][i].own;
     while (free) {
-        const uint32_t at = (uint32_t)__builtin_ctzll(free), next = at + ones(free >> at);
+        const uint32_t at = (uint32_t)__builtin_ctzll(free), next = at + trailing_ones(free >> at);
         add_run(f, low + at, low + next);
         free = next < CHILDREN ? free & ALL << next : 0;
     }
 }
 
 /* Visits node i of a level, some elements of which are in the query. */
-static void find(finder *f, uint32_t level, uint32_t i)
+static void visit_node(finder *f, uint32_t level, uint32_t i)
 {
     if (level == 0) {
         find_elements(f, i);
@@ -166,12 +166,12 @@ static void find(finder *f, uint32_t level, uint32_t i)
     for (uint64_t rest = asked & ~(v->own | v->full); rest && !f->no_memory;) {
         const uint32_t at = (uint32_t)__builtin_ctzll(rest);
         if (free >> at & 1) {
-            const uint32_t next = at + ones(free >> at), start = (low + at) << shift;
+            const uint32_t next = at + trailing_ones(free >> at), start = (low + at) << shift;
             const uint64_t end = (uint64_t)(low + next) << shift;
             add_run(f, start > f->from ? start : f->from, end <= f->last ? (uint32_t)end : f->last + 1);
             rest = next < CHILDREN ? rest & ALL << next : 0;
         } else {
-            find(f, level - 1, low + at);
+            visit_node(f, level - 1, low + at);
             rest &= rest - 1;
         }
     }
@@ -186,6 +186,6 @@ bool sunder_i_cover_tree_free_runs(const sunder_i_cover_tree *tree, uint32_t fro
     for (uint32_t last = f.last >> CHILD_BITS; top != last; level++) top >>= CHILD_BITS, last >>= CHILD_BITS;
     for (uint32_t k = level + 1, i = top; k < tree->levels; k++, i >>= CHILD_BITS)
         if (tree->level[k][i >> CHILD_BITS].own >> i % CHILDREN & 1) return true;
-    find(&f, level, top);
+    visit_node(&f, level, top);
     return !f.no_memory;
 }

@@ -25,7 +25,7 @@ typedef struct cutter {
     bool no_memory;
 } cutter;
 
-static int64_t coordinate(const sunder_i_point *p, int axis) { return axis ? p->y : p->x; }
+static int64_t coordinate_of(const sunder_i_point *p, int axis) { return axis ? p->y : p->x; }
 
 bool sunder_i_is_rectilinear(const sunder_shape *shape, const sunder_i_point *at)
 {
@@ -36,23 +36,23 @@ bool sunder_i_is_rectilinear(const sunder_shape *shape, const sunder_i_point *at
     return true;
 }
 
-static int64_t place_of(const cutter *c, uint32_t edge) { return coordinate(&c->at[edge], c->axis); }
+static int64_t place_of(const cutter *c, uint32_t edge) { return coordinate_of(&c->at[edge], c->axis); }
 
 static int64_t low_of(const cutter *c, uint32_t edge)
 {
-    const int64_t a = coordinate(&c->at[edge], !c->axis),
-                  b = coordinate(&c->at[c->shape->form->cleaned.next[edge]], !c->axis);
+    const int64_t a = coordinate_of(&c->at[edge], !c->axis),
+                  b = coordinate_of(&c->at[c->shape->form->cleaned.next[edge]], !c->axis);
     return a < b ? a : b;
 }
 
 static int64_t high_of(const cutter *c, uint32_t edge)
 {
-    const int64_t a = coordinate(&c->at[edge], !c->axis),
-                  b = coordinate(&c->at[c->shape->form->cleaned.next[edge]], !c->axis);
+    const int64_t a = coordinate_of(&c->at[edge], !c->axis),
+                  b = coordinate_of(&c->at[c->shape->form->cleaned.next[edge]], !c->axis);
     return a < b ? b : a;
 }
 
-static int compare(void *context, uint32_t e, uint32_t f)
+static int compare_edges(void *context, uint32_t e, uint32_t f)
 {
     const cutter *c = context;
     const int64_t a = place_of(c, e), b = place_of(c, f);
@@ -92,7 +92,7 @@ static size_t find_ends(cutter *c, size_t marks)
 }
 
 /* Moves past the line at `here`; edges that stand on it have `marks` ends. */
-static void pass(cutter *c, int64_t here, size_t marks)
+static void pass_line(cutter *c, int64_t here, size_t marks)
 {
     const size_t n = find_ends(c, marks) / 2;
     size_t old = 0;
@@ -123,7 +123,7 @@ static void cut_polygon(cutter *c, uint32_t first, uint32_t end)
     size_t n = 0;
     for (uint32_t v = first; v < end; v++)
         if (place_of(c, v) == place_of(c, c->shape->form->cleaned.next[v])) c->edge[n++] = v;
-    c->no_memory |= !sunder_i_sort_indices(c->edge, n, compare, c);
+    c->no_memory |= !sunder_i_sort_indices(c->edge, n, compare_edges, c);
     c->spans = 0;
     for (size_t i = 0; i < n && !c->no_memory && c->looks < MOST_LOOKS;) {
         const int64_t here = place_of(c, c->edge[i]);
@@ -132,7 +132,7 @@ static void cut_polygon(cutter *c, uint32_t first, uint32_t end)
             marks = add_mark(c, marks, low_of(c, c->edge[i]));
             marks = add_mark(c, marks, high_of(c, c->edge[i]));
         }
-        pass(c, here, marks);
+        pass_line(c, here, marks);
         c->no_memory |= !sunder_i_steps(c->spans / 16 + 1);
     }
 }

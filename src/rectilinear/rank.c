@@ -24,13 +24,13 @@ typedef struct keys {
     int tag; /* bits of the numbers, or 0 where there is no room */
 } keys;
 
-static int64_t coordinate(const sunder_i_rectangle_list *list, size_t i, int axis)
+static int64_t coordinate_of(const sunder_i_rectangle_list *list, size_t i, int axis)
 {
     const sunder_i_rectangle *r = &list->item[i / 2];
     return i % 2 ? r->high[axis] : r->low[axis];
 }
 
-static uint32_t *rank(const sunder_i_ranked_rectangles *ranked, size_t i, int axis)
+static uint32_t *rank_slot(const sunder_i_ranked_rectangles *ranked, size_t i, int axis)
 {
     sunder_i_ranked_rectangle *r = &ranked->item[i / 2];
     return i % 2 ? &r->high[axis] : &r->low[axis];
@@ -51,7 +51,7 @@ static bool make_keys(const sunder_i_rectangle_list *list, int axis, keys *k)
     const int bits = 64 - __builtin_clzll(k->n - 1); /* n is two at least */
     k->tag = ((uint64_t)most - (uint64_t)k->least) >> (64 - bits) ? 0 : bits;
     for (size_t i = 0; i < k->n; i++) {
-        const uint64_t key = (uint64_t)coordinate(list, i, axis) - (uint64_t)k->least;
+        const uint64_t key = (uint64_t)coordinate_of(list, i, axis) - (uint64_t)k->least;
         k->key[i] = k->tag ? key << k->tag | i : key;
     }
     return sunder_i_sort_keys(k->key, k->n);
@@ -68,11 +68,11 @@ static bool rank_axis(const sunder_i_rectangle_list *list, int axis, sunder_i_ra
         const uint64_t key = k.key[i];
         const int64_t v = (int64_t)((key >> k.tag) + (uint64_t)k.least);
         if (n == 0 || at[n - 1] != v) at[n++] = v;
-        if (k.tag) *rank(out, key & (((uint64_t)1 << k.tag) - 1), axis) = n - 1;
+        if (k.tag) *rank_slot(out, key & (((uint64_t)1 << k.tag) - 1), axis) = n - 1;
     }
     out->places[axis] = n;
     for (size_t i = 0; k.tag == 0 && i < k.n; i++)
-        *rank(out, i, axis) = rank_of(at, n, coordinate(list, i, axis), &out->comparisons);
+        *rank_slot(out, i, axis) = rank_of(at, n, coordinate_of(list, i, axis), &out->comparisons);
     return sunder_i_steps(list->n / 8 + 1);
 }
 

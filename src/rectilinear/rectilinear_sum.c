@@ -79,7 +79,8 @@ static bool make_sums(const sunder_i_rectangle_list *a, const sunder_i_rectangle
     return ok;
 }
 
-static sunder_status unite(sunder_sum *sum, const sunder_i_rectangle_list *rectangles, bool *done, sunder_error *err)
+static sunder_status unite_rectangles(sunder_sum *sum, const sunder_i_rectangle_list *rectangles, bool *done,
+                                      sunder_error *err)
 {
     sunder_i_ranked_rectangles ranked;
     if (rectangles->n == 0) return SUNDER_OK;
@@ -103,7 +104,7 @@ sunder_status sunder_i_rectilinear_sum(sunder_sum *sum, const sunder_shape *p, c
                     make_sums(&a, &b, &sum->lattice, &sums);
     sunder_i_free(a.item);
     sunder_i_free(b.item);
-    const sunder_status status = ok ? unite(sum, &sums, done, err) : sunder_i_failure_cause(err);
+    const sunder_status status = ok ? unite_rectangles(sum, &sums, done, err) : sunder_i_failure_cause(err);
     sunder_i_free(sums.item);
     return status;
 }

@@ -71,7 +71,7 @@ static bool add_vertex(const joiner *j, sunder_i_coverage *to, sunder_i_lattice 
     return sunder_i_vertex_table_append(&to->vertices, &h) != SUNDER_I_NO_VERTEX;
 }
 
-static bool before(place p, place q) { return p.x != q.x ? p.x < q.x : p.y < q.y; }
+static bool place_before(place p, place q) { return p.x != q.x ? p.x < q.x : p.y < q.y; }
 
 /* Gives every end its vertex: ends on rows in j->vertex, ends on columns one after the other in `column`. */
 static bool number_vertices(joiner *j, sunder_i_coverage *to, sunder_i_lattice *lattice, uint32_t *column)
@@ -79,8 +79,8 @@ static bool number_vertices(joiner *j, sunder_i_coverage *to, sunder_i_lattice *
     const uint32_t rows = j->ends[ROWS], columns = j->ends[COLUMNS];
     for (uint32_t i = 0, k = 0; i < rows || k < columns;) {
         const uint32_t row = i < rows ? j->order[i] : 0, vertex = (uint32_t)to->vertices.n;
-        const bool first = i < rows && (k == columns || !before(j->end[COLUMNS][k], j->end[ROWS][row]));
-        const bool second = k < columns && (i == rows || !before(j->end[ROWS][row], j->end[COLUMNS][k]));
+        const bool first = i < rows && (k == columns || !place_before(j->end[COLUMNS][k], j->end[ROWS][row]));
+        const bool second = k < columns && (i == rows || !place_before(j->end[ROWS][row], j->end[COLUMNS][k]));
         if (!add_vertex(j, to, lattice, first ? j->end[ROWS][row] : j->end[COLUMNS][k])) return false;
         if (first) j->vertex[row] = vertex, i++;
         if (second) column[k++] = vertex;
@@ -111,7 +111,7 @@ static void add_stretches(const joiner *j, int kind, const uint32_t *vertex, sun
     }
 }
 
-static bool join(joiner *j, sunder_i_lattice *lattice, sunder_i_coverage *to)
+static bool join_ends(joiner *j, sunder_i_lattice *lattice, sunder_i_coverage *to)
 {
     if (!list_ends(j, ROWS) || !list_ends(j, COLUMNS) || !sort_rows(j)) return false;
     const size_t stretches = j->contour[ROWS].stretches + j->contour[COLUMNS].stretches;
@@ -180,8 +180,8 @@ sunder_status sunder_i_rectangles_unite(const sunder_i_ranked_rectangles *rectan
     sunder_i_lines lines = {0};
     grid_lines g = {0};
     const bool ok = sunder_i_contour_find(rectangles, 1, &j.contour[ROWS]) &&
-                    sunder_i_contour_find(rectangles, 0, &j.contour[COLUMNS]) && join(&j, &sum->lattice, &coverage) &&
-                    make_lines(rectangles, &lines, &g);
+                    sunder_i_contour_find(rectangles, 0, &j.contour[COLUMNS]) &&
+                    join_ends(&j, &sum->lattice, &coverage) && make_lines(rectangles, &lines, &g);
     for (int kind = 0; kind < KINDS; kind++) {
         sunder_i_contour_free(&j.contour[kind]);
         sunder_i_free(j.end[kind]);

@@ -9,7 +9,7 @@
 #include <string.h>
 
 /* Interleaves the bits of two 16-bit numbers (Morton order). */
-static uint32_t interleave(uint32_t x, uint32_t y)
+static uint32_t interleave_bits(uint32_t x, uint32_t y)
 {
     const uint32_t mask[4] = {0x00ff00ff, 0x0f0f0f0f, 0x33333333, 0x55555555};
     for (int i = 0; i < 4; i++) {
@@ -19,7 +19,7 @@ static uint32_t interleave(uint32_t x, uint32_t y)
     return x | y << 1;
 }
 
-static uint32_t cell(double v, double low, double high)
+static uint32_t cell_of(double v, double low, double high)
 {
     const double t = (v - low) / (high - low) * 65535;
     return t >= 0 && t <= 65535 ? (uint32_t)t : 0;
@@ -39,7 +39,8 @@ void sunder_i_curve_sort(const double *xy, const uint32_t *vertex, uint32_t *lis
         }
     for (size_t i = 0; i < n; i++) {
         const double *at = xy + 2 * (size_t)vertex[list[i]];
-        key[i] = (uint64_t)interleave(cell(at[0], low[0], high[0]), cell(at[1], low[1], high[1])) << 32 | list[i];
+        key[i] =
+            (uint64_t)interleave_bits(cell_of(at[0], low[0], high[0]), cell_of(at[1], low[1], high[1])) << 32 | list[i];
     }
     if (!sunder_i_sort_keys(key, n)) {
         arena->failed = true;

@@ -18,7 +18,7 @@
 #define WORN 1.5
 
 /* The position of cell (x, y) of a 65536 x 65536 grid on the Hilbert curve; by halving the square. */
-static uint32_t hilbert(uint32_t x, uint32_t y)
+static uint32_t hilbert_index(uint32_t x, uint32_t y)
 {
     uint32_t d = 0;
     for (uint32_t s = 1u << 15; s > 0; s >>= 1) {
@@ -38,7 +38,7 @@ static uint32_t hilbert(uint32_t x, uint32_t y)
 }
 
 /* The column, one of 65536, that holds the middle of [low, high]; halves prevent overflow. */
-static uint32_t cell(double low, double high, double all_low, double all_high)
+static uint32_t cell_of(double low, double high, double all_low, double all_high)
 {
     const double width = all_high / 2 - all_low / 2;
     if (!(width > 0)) return 0;
@@ -59,7 +59,7 @@ static sunder_status sort_places(const double *box, const bool *present, size_t 
     for (size_t i = 0; i < n; i++) {
         if (present && !present[i]) continue;
         const double *b = box + 4 * i;
-        const uint32_t along = hilbert(cell(b[0], b[2], all[0], all[2]), cell(b[1], b[3], all[1], all[3]));
+        const uint32_t along = hilbert_index(cell_of(b[0], b[2], all[0], all[2]), cell_of(b[1], b[3], all[1], all[3]));
         places[k++] = (uint64_t)along << 32 | i;
     }
     if (!sunder_i_sort_keys(places, k)) {
@@ -193,7 +193,7 @@ static inline bool take_leaves(const sunder_i_rtree *tree, size_t first, size_t 
 }
 
 /* Depth first, children in their order. */
-static inline bool query(const sunder_i_rtree *tree, const double box[4], bool items, sunder_i_list *hits)
+static inline bool query_box(const sunder_i_rtree *tree, const double box[4], bool items, sunder_i_list *hits)
 {
     if (tree->leaves == 0) return true;
     if (tree->levels == 1) return take_leaves(tree, 0, 1, box, items, hits);
@@ -224,12 +224,12 @@ static inline bool query(const sunder_i_rtree *tree, const double box[4], bool i
 
 bool sunder_i_rtree_query(const sunder_i_rtree *tree, const double box[4], sunder_i_list *hits)
 {
-    return query(tree, box, true, hits);
+    return query_box(tree, box, true, hits);
 }
 
 bool sunder_i_rtree_query_leaves(const sunder_i_rtree *tree, const double box[4], sunder_i_list *hits)
 {
-    return query(tree, box, false, hits);
+    return query_box(tree, box, false, hits);
 }
 
 /* A tree of one leaf has no other node. */

@@ -74,7 +74,7 @@ static uint32_t component_of(const outline *o, uint32_t h)
 
 /* ---- Rings ---- */
 
-static bool bounds(const outline *o, uint32_t h)
+static bool is_outline(const outline *o, uint32_t h)
 {
     return left_inside(o, h) && !left_inside(o, sunder_i_planar_map_twin(h));
 }
@@ -83,17 +83,17 @@ static uint32_t next_of_ring(const outline *o, uint32_t h, uint32_t component)
 {
     uint32_t g = sunder_i_planar_map_twin(h);
     do g = sunder_i_planar_map_ccw(o->map, g);
-    while (!bounds(o, g) || component_of(o, g) != component);
+    while (!is_outline(o, g) || component_of(o, g) != component);
     return g;
 }
 
 /* Do h and g have one direction? */
-static bool straight(sunder_i_planar_map *map, uint32_t h, uint32_t g)
+static bool is_straight(sunder_i_planar_map *map, uint32_t h, uint32_t g)
 {
     return ((h ^ g) & 1) == 0 && sunder_i_planar_map_turn(map, h >> 1, g >> 1) == 0;
 }
 
-static bool push(outline *o, uint32_t v)
+static bool push_vertex(outline *o, uint32_t v)
 {
     if (o->vertices == UINT32_MAX ||
         !sunder_i_reserve(&o->vertex, &o->vertex_capacity, o->vertices + 1, sizeof *o->vertex))
@@ -125,12 +125,12 @@ static bool trace_ring(outline *o, uint32_t start)
     r->component = component_of(o, start);
     r->start = o->vertices;
     const uint32_t first = first_of_ring(o, start, r->component, &r->outer);
-    if (!push(o, sunder_i_planar_map_origin(o->map, first))) return false;
+    if (!push_vertex(o, sunder_i_planar_map_origin(o->map, first))) return false;
     for (uint32_t h = first;;) {
         o->done[h] = true;
         const uint32_t g = next_of_ring(o, h, r->component);
         if (g == first) break;
-        if (!straight(o->map, h, g) && !push(o, sunder_i_planar_map_origin(o->map, g))) return false;
+        if (!is_straight(o->map, h, g) && !push_vertex(o, sunder_i_planar_map_origin(o->map, g))) return false;
         h = g;
     }
     r->end = o->vertices;
@@ -143,7 +143,7 @@ static bool trace_rings(outline *o)
     o->done = sunder_i_calloc(halves, sizeof *o->done);
     if (!o->done || !sunder_i_reserve(&o->vertex, &o->vertex_capacity, 1, sizeof *o->vertex)) return false;
     for (uint32_t h = 0; h < halves; h++)
-        if (sunder_i_planar_map_edge_alive(o->map, h >> 1) && bounds(o, h) && !o->done[h] && !trace_ring(o, h))
+        if (sunder_i_planar_map_edge_alive(o->map, h >> 1) && is_outline(o, h) && !o->done[h] && !trace_ring(o, h))
             return false;
     return true;
 }
@@ -163,7 +163,7 @@ static uint32_t slit_after(const outline *o, uint32_t h)
     sunder_i_planar_map *map = o->map;
     const uint32_t back = sunder_i_planar_map_twin(h);
     for (uint32_t g = sunder_i_planar_map_ccw(map, back); g != back; g = sunder_i_planar_map_ccw(map, g))
-        if (is_slit(o, g >> 1) && straight(map, h, g)) return g;
+        if (is_slit(o, g >> 1) && is_straight(map, h, g)) return g;
     return SUNDER_I_NOWHERE;
 }
 
@@ -174,8 +174,8 @@ static bool gather_segments(outline *o)
         if (!is_slit(o, e) || slit_after(o, 2 * e + 1) != SUNDER_I_NOWHERE) continue;
         uint32_t last = 2 * e;
         for (uint32_t g = last; g != SUNDER_I_NOWHERE; g = slit_after(o, g)) last = g;
-        if (!push(o, sunder_i_planar_map_origin(o->map, 2 * e)) ||
-            !push(o, sunder_i_planar_map_origin(o->map, sunder_i_planar_map_twin(last))))
+        if (!push_vertex(o, sunder_i_planar_map_origin(o->map, 2 * e)) ||
+            !push_vertex(o, sunder_i_planar_map_origin(o->map, sunder_i_planar_map_twin(last))))
             return false;
     }
     o->segment_end = o->vertices;
@@ -199,7 +199,7 @@ static bool is_point(const outline *o, uint32_t v)
 static bool gather_points(outline *o)
 {
     for (uint32_t v = 0; v < sunder_i_planar_map_vertex_end(o->map); v++)
-        if (!sunder_i_step() || (is_point(o, v) && !push(o, v))) return false;
+        if (!sunder_i_step() || (is_point(o, v) && !push_vertex(o, v))) return false;
     return true;
 }
 
@@ -220,7 +220,7 @@ static bool put_in_order(outline *o, sunder_sum *sum)
 
 /* ---- Vertices of the sum's own ---- */
 
-static void renumber(uint32_t *vertex, size_t n, uint32_t *number, uint32_t *next, uint32_t *of)
+static void renumber_vertices(uint32_t *vertex, size_t n, uint32_t *number, uint32_t *next, uint32_t *of)
 {
     for (size_t i = 0; i < n; i++) {
         if (number[vertex[i]] == UINT32_MAX) {
@@ -234,8 +234,8 @@ static void renumber(uint32_t *vertex, size_t n, uint32_t *number, uint32_t *nex
 /* In lowest terms, as the other roads give them. Every vertex of a sum is a corner of the convolution or a crossing of
  * two of its sides, which lie on lines through lattice points along lattice vectors: so it fits where crossings of such
  * lines do, though here it may have come from Steiner points. */
-static bool reduced(sunder_i_lattice *lattice, sunder_i_arena *arena, const sunder_i_planar_map *map, uint32_t v,
-                    sunder_i_hpoint *out)
+static bool reduced_vertex(sunder_i_lattice *lattice, sunder_i_arena *arena, const sunder_i_planar_map *map, uint32_t v,
+                           sunder_i_hpoint *out)
 {
     const sunder_i_mark mark = sunder_i_arena_mark(arena);
     const sunder_i_rational_point at = sunder_i_rational_reduced(arena, *sunder_i_planar_map_vertex_point(map, v));
@@ -252,14 +252,14 @@ static bool make_vertices(outline *o, sunder_sum *sum)
     bool ok = number && of;
     if (ok) {
         memset(number, 0xff, end * sizeof *number);
-        renumber(sum->ring_vertex, sum->rings ? sum->ring_end[sum->rings - 1] : 0, number, &n, of);
-        renumber(sum->segment, 2 * sum->segments, number, &n, of);
-        renumber(sum->point, sum->points, number, &n, of);
+        renumber_vertices(sum->ring_vertex, sum->rings ? sum->ring_end[sum->rings - 1] : 0, number, &n, of);
+        renumber_vertices(sum->segment, 2 * sum->segments, number, &n, of);
+        renumber_vertices(sum->point, sum->points, number, &n, of);
         sum->vertex = sunder_i_alloc(n, sizeof *sum->vertex);
         ok = sum->vertex != NULL;
     }
     sunder_i_arena arena = {0};
-    for (uint32_t i = 0; ok && i < n; i++) ok = reduced(&sum->lattice, &arena, o->map, of[i], &sum->vertex[i]);
+    for (uint32_t i = 0; ok && i < n; i++) ok = reduced_vertex(&sum->lattice, &arena, o->map, of[i], &sum->vertex[i]);
     sum->vertices = ok ? n : 0;
     sunder_i_arena_free(&arena);
     sunder_i_free(number);

@@ -12,8 +12,9 @@ struct sunder_map {
 };
 
 /* Numbers what is alive; of[] and back[] are new arrays. */
-static bool number(const sunder_i_planar_map *map, uint32_t end, bool (*alive)(const sunder_i_planar_map *, uint32_t),
-                   uint32_t **of, uint32_t **back, uint32_t *n)
+static bool number_alive(const sunder_i_planar_map *map, uint32_t end,
+                         bool (*alive)(const sunder_i_planar_map *, uint32_t), uint32_t **of, uint32_t **back,
+                         uint32_t *n)
 {
     *of = sunder_i_alloc(end, sizeof **of);
     *back = sunder_i_alloc(end, sizeof **back);
@@ -61,10 +62,10 @@ sunder_status sunder_i_map_view_take(sunder_i_planar_map *map, const sunder_sum 
     const sunder_status status = sunder_i_planar_map_faces(map, err);
     if (status == SUNDER_OK) {
         m->faces = sunder_i_planar_map_face_end(map);
-        if (number(map, sunder_i_planar_map_vertex_end(map), sunder_i_planar_map_vertex_alive, &m->vertex,
-                   &m->vertex_of, &m->vertices) &&
-            number(map, sunder_i_planar_map_edge_end(map), sunder_i_planar_map_edge_alive, &m->edge, &m->edge_of,
-                   &m->edges) &&
+        if (number_alive(map, sunder_i_planar_map_vertex_end(map), sunder_i_planar_map_vertex_alive, &m->vertex,
+                         &m->vertex_of, &m->vertices) &&
+            number_alive(map, sunder_i_planar_map_edge_end(map), sunder_i_planar_map_edge_alive, &m->edge, &m->edge_of,
+                         &m->edges) &&
             list_inner(m)) {
             *out = m;
             return SUNDER_OK;
@@ -123,28 +124,28 @@ uint32_t sunder_map_around(const sunder_map *map, uint32_t vertex)
     return isolated ? sunder_i_planar_map_vertex_face(map->map, v) : SUNDER_NOWHERE;
 }
 
-static uint32_t inside(const sunder_map *map, uint32_t half) { return 2 * map->edge[half >> 1] + (half & 1); }
+static uint32_t half_inside(const sunder_map *map, uint32_t half) { return 2 * map->edge[half >> 1] + (half & 1); }
 
 uint32_t sunder_map_origin(const sunder_map *map, uint32_t half)
 {
-    return map->vertex_of[sunder_i_planar_map_origin(map->map, inside(map, half))];
+    return map->vertex_of[sunder_i_planar_map_origin(map->map, half_inside(map, half))];
 }
 
 uint32_t sunder_map_twin(uint32_t half) { return half ^ 1; }
 
 uint32_t sunder_map_next(const sunder_map *map, uint32_t half)
 {
-    return half_of(map, sunder_i_planar_map_next(map->map, inside(map, half)));
+    return half_of(map, sunder_i_planar_map_next(map->map, half_inside(map, half)));
 }
 
 uint32_t sunder_map_turn(const sunder_map *map, uint32_t half)
 {
-    return half_of(map, sunder_i_planar_map_ccw(map->map, inside(map, half)));
+    return half_of(map, sunder_i_planar_map_ccw(map->map, half_inside(map, half)));
 }
 
 uint32_t sunder_map_face(const sunder_map *map, uint32_t half)
 {
-    return sunder_i_planar_map_face(map->map, inside(map, half));
+    return sunder_i_planar_map_face(map->map, half_inside(map, half));
 }
 
 uint32_t sunder_map_outer(const sunder_map *map, uint32_t face)

@@ -38,8 +38,8 @@ static void whole_double(sunder_i_i128 n, double unit, double *x, double *off)
 }
 
 /* floor(n / w) in *whole, and the rest, 0 <= rest < w; false if that is not below 2^63. */
-static bool divide(const sunder_i_i256 *n, const mp_limb_t w[2], mp_size_t limbs, sunder_i_i128 *whole,
-                   mp_limb_t rest[2])
+static bool divide_limbs(const sunder_i_i256 *n, const mp_limb_t w[2], mp_size_t limbs, sunder_i_i128 *whole,
+                         mp_limb_t rest[2])
 {
     mp_limb_t q[4] = {0};
     mp_size_t size = 4;
@@ -73,7 +73,7 @@ static bool ratio_double(const sunder_i_i256 *n, sunder_i_i128 denominator, sund
     const mp_size_t limbs = w[1] ? 2 : 1;
     mp_limb_t rest[2];
     sunder_i_i128 i;
-    if (!divide(n, w, limbs, &i, rest)) return false;
+    if (!divide_limbs(n, w, limbs, &i, rest)) return false;
     i += origin;
     if (i > -large && i < large) {
         const sunder_i_i256 finer = {{0, rest[0], rest[1], 0}, 1};

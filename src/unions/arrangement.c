@@ -14,7 +14,7 @@
 #include "base/random.h"
 #include "unions/unions.h"
 
-static sunder_status arrange(sunder_i_uniting *u, uint32_t *subsum, sunder_i_planar_map *map, sunder_error *err)
+static sunder_status arrange_subsums(sunder_i_uniting *u, uint32_t *subsum, sunder_i_planar_map *map, sunder_error *err)
 {
     for (uint32_t k = 0; k < u->subsums; k++) subsum[k] = k;
     if (!sunder_i_order_subsums(u, subsum, u->subsums)) return sunder_i_failure_cause(err);
@@ -28,7 +28,7 @@ sunder_status sunder_i_unite_by_arrangement(sunder_i_uniting *u, sunder_i_planar
     sunder_status status = sunder_i_planar_map_new(u->lattice, sunder_i_draw(&u->random), &map, err);
     if (status != SUNDER_OK) return status;
     uint32_t *subsum = sunder_i_alloc(u->subsums, sizeof *subsum);
-    status = subsum ? arrange(u, subsum, map, err) : sunder_i_failure_cause(err);
+    status = subsum ? arrange_subsums(u, subsum, map, err) : sunder_i_failure_cause(err);
     sunder_i_free(subsum);
     if (status == SUNDER_OK)
         *out = map;

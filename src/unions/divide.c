@@ -35,7 +35,7 @@ static sunder_status unite_pair(sunder_i_planar_map **a, sunder_i_planar_map *b,
 }
 
 /* Map i is then the union of maps 2 i and 2 i + 1, *n of them; an odd one out waits. */
-static sunder_status halve(sunder_i_planar_map **map, uint32_t *n, sunder_error *err)
+static sunder_status halve_maps(sunder_i_planar_map **map, uint32_t *n, sunder_error *err)
 {
     const uint32_t before = *n;
     sunder_status status = SUNDER_OK;
@@ -61,7 +61,7 @@ sunder_status sunder_i_unite_by_halves(sunder_i_uniting *u, sunder_i_planar_map 
     sunder_status status = SUNDER_OK;
     for (uint32_t j = 0; j < n && status == SUNDER_OK; j++)
         status = sunder_i_unite_some(u, j * u->p.pieces, u->p.pieces, &map[j], err);
-    while (n > 1 && status == SUNDER_OK) status = halve(map, &n, err);
+    while (n > 1 && status == SUNDER_OK) status = halve_maps(map, &n, err);
     if (status == SUNDER_OK)
         *out = map[0];
     else

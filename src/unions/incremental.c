@@ -13,8 +13,8 @@
 #include "base/random.h"
 #include "unions/unions.h"
 
-static sunder_status unite(sunder_i_uniting *u, uint32_t *subsum, uint32_t first, uint32_t n, sunder_i_planar_map *map,
-                           sunder_error *err)
+static sunder_status unite_subsums(sunder_i_uniting *u, uint32_t *subsum, uint32_t first, uint32_t n,
+                                   sunder_i_planar_map *map, sunder_error *err)
 {
     for (uint32_t k = 0; k < n; k++) subsum[k] = first + k;
     if (!sunder_i_order_subsums(u, subsum, n)) return sunder_i_failure_cause(err);
@@ -28,7 +28,7 @@ sunder_status sunder_i_unite_some(sunder_i_uniting *u, uint32_t first, uint32_t 
     sunder_status status = sunder_i_planar_map_new(u->lattice, sunder_i_draw(&u->random), &map, err);
     if (status != SUNDER_OK) return status;
     uint32_t *subsum = sunder_i_alloc(n, sizeof *subsum);
-    status = subsum ? unite(u, subsum, first, n, map, err) : sunder_i_failure_cause(err);
+    status = subsum ? unite_subsums(u, subsum, first, n, map, err) : sunder_i_failure_cause(err);
     sunder_i_free(subsum);
     if (status == SUNDER_OK)
         *out = map;

@@ -19,7 +19,7 @@
 #include <math.h>
 
 /* The corner's offset from the first one, near enough. */
-static void offset(sunder_i_uniting *u, const sunder_i_convex_sum *s, uint32_t k, double xy[2])
+static void corner_offset(sunder_i_uniting *u, const sunder_i_convex_sum *s, uint32_t k, double xy[2])
 {
     const long shift = -(long)u->lattice->approx_shift;
     double first[2];
@@ -36,7 +36,7 @@ static double fatness_of(sunder_i_uniting *u, uint32_t subsum)
     if (!sunder_i_make_subsum(u, subsum, &s)) return 0;
     for (uint32_t k = 1; k <= s.corners && !u->arena.failed; k++) {
         double to[2];
-        offset(u, &s, k < s.corners ? k : 0, to);
+        corner_offset(u, &s, k < s.corners ? k : 0, to);
         area += from[0] * to[1] - from[1] * to[0];
         perimeter += hypot(to[0] - from[0], to[1] - from[1]);
         from[0] = to[0];

@@ -10,8 +10,8 @@
 #include <inttypes.h>
 #include <string.h>
 
-static sunder_status unite(sunder_i_uniting *u, sunder_algorithm algorithm, sunder_i_planar_map **map,
-                           sunder_error *err)
+static sunder_status unite_by_algorithm(sunder_i_uniting *u, sunder_algorithm algorithm, sunder_i_planar_map **map,
+                                        sunder_error *err)
 {
     const uint64_t subsums = (uint64_t)u->p.pieces * u->q.pieces;
     if (subsums >= UINT32_MAX)
@@ -29,7 +29,7 @@ static sunder_status unite(sunder_i_uniting *u, sunder_algorithm algorithm, sund
 }
 
 /* The map goes to the sum, or is freed. */
-static sunder_status finish(sunder_sum *sum, sunder_i_planar_map *map, bool keep, sunder_error *err)
+static sunder_status finish_sum(sunder_sum *sum, sunder_i_planar_map *map, bool keep, sunder_error *err)
 {
     const sunder_status status = sunder_i_sum_from_map(map, sum, err);
     if (status == SUNDER_OK && keep) return sunder_i_map_view_take(map, sum, &sum->map, err);
@@ -42,8 +42,8 @@ static sunder_status unite_pieces(sunder_sum *sum, sunder_i_uniting *u, sunder_e
     const double start = sunder_i_now();
     const sunder_counts before = sum->lattice.counts;
     sunder_i_planar_map *map;
-    sunder_status status = unite(u, sum->method.algorithm, &map, err);
-    if (status == SUNDER_OK) status = finish(sum, map, u->options->keep_map, err);
+    sunder_status status = unite_by_algorithm(u, sum->method.algorithm, &map, err);
+    if (status == SUNDER_OK) status = finish_sum(sum, map, u->options->keep_map, err);
     if (status != SUNDER_OK) return status;
     const sunder_counts all = sunder_i_counts_since(&sum->lattice.counts, &before);
     sum->phase[SUNDER_PHASE_SUBSUMS] = u->counts;
