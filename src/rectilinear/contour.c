@@ -1,11 +1,12 @@
-/* A sweep line moves over the rectangles and keeps the ranges that it cuts out of them in a segment tree [LP80]. Where
- * rectangles begin and end on the line, those that end are removed first: then the tree covers what rectangles cover on
- * the line itself, and a free place beside one that ended, or that is about to begin, is contour.
+/* contour.c: a sweep line moves over the rectangles; a segment tree contains the ranges in which it intersects them
+ * [LP80]. If rectangles begin and end on the line, those that end are removed first: then the tree covers what
+ * rectangles cover on the line itself, and a free place beside a rectangle that ended, or that is about to begin, is
+ * contour.
  *
  * Ranks and the stretches between them alternate as elements of the tree: rank r is element 2 r, and the stretch above
  * it 2 r + 1. An open rectangle covers only the elements between its ends, so that single free places are found like
- * stretches, and seams where rectangles meet end to end stay free. A free place between covered stretches, below a
- * rectangle that ended and one that begins, is a degenerate point: nothing else comes near it. */
+ * stretches, and common boundaries of rectangles that meet end to end remain free. A free place between covered
+ * stretches, below a rectangle that ended and one that begins, is a degenerate point: no other rectangle is near it. */
 #include "rectilinear/contour.h"
 
 #include "base/watch.h"
@@ -18,9 +19,10 @@ typedef struct finder {
     const sunder_i_ranked_rectangles *in;
     int axis;
     sunder_i_cover_tree tree;
-    uint32_t *ending, *beginning;    /* rectangles by where they do, and along the line */
-    uint32_t *end_of, *beginning_of; /* [places] past the last of each line */
-    range *ended, *begun;            /* ranges of the line at hand, united */
+    uint32_t *ending, *beginning;    /* the rectangles sorted by their end, and by their beginning; on equal lines along
+                                      * the line */
+    uint32_t *end_of, *beginning_of; /* [places] the index after the last rectangle of each line */
+    range *ended, *begun;            /* the united ranges of the rectangles that end, begin, on the current line */
     sunder_i_element_runs runs;
     sunder_i_contour *out;
     bool no_memory;
@@ -34,8 +36,8 @@ static range range_of(const finder *f, uint32_t i)
 
 static uint32_t key_of(const rectangle *r, int axis, bool high) { return high ? r->high[axis] : r->low[axis]; }
 
-/* Stable counting sort of rectangles that stand in the order `from` (NULL: as they are); end[p] becomes the index past
- * the last rectangle of place p. */
+/* Stable counting sort of the rectangles in the order `from` (NULL: the order of their numbers); end[p] becomes the
+ * index after the last rectangle of place p. */
 static void sort_by(const sunder_i_ranked_rectangles *in, const uint32_t *from, int axis, bool high, uint32_t *to,
                     uint32_t *end)
 {
@@ -53,7 +55,7 @@ static void sort_by(const sunder_i_ranked_rectangles *in, const uint32_t *from, 
     }
 }
 
-/* ---- On one line ---- */
+/* ---- One line ---- */
 
 static void add_stretch(finder *f, sunder_i_contour_stretch s)
 {
@@ -80,8 +82,8 @@ static void add_point(finder *f, sunder_i_contour_point p)
     o->point[o->points++] = p;
 }
 
-/* Lists the free elements among those that rectangles cover on these sides of the line. Where both sides are covered,
- * the elements begin and end with a stretch, so that a single free place has covered elements beside it. */
+/* Lists the free elements of the range r, which rectangles cover on the given sides of the line. If both sides are
+ * covered, the range begins and ends with a stretch, so that a single free place has covered elements beside it. */
 static void add_free(finder *f, uint32_t line, range r, uint32_t sides)
 {
     f->runs.n = 0;
@@ -95,7 +97,7 @@ static void add_free(finder *f, uint32_t line, range r, uint32_t sides)
     }
 }
 
-/* Unites the ranges of some rectangles that stand in order; returns how many remain. */
+/* Unites the ranges of n rectangles that are sorted along the line. Returns the number of ranges. */
 static size_t unite_ranges(const finder *f, const uint32_t *item, size_t n, range *out)
 {
     size_t ranges = 0;
@@ -109,7 +111,7 @@ static size_t unite_ranges(const finder *f, const uint32_t *item, size_t n, rang
     return ranges;
 }
 
-/* Goes along the line from one beginning or end of a range to the next. */
+/* Processes the line from one beginning or end of a range to the next. */
 static void go_along(finder *f, uint32_t line, size_t ended, size_t begun)
 {
     const range none = {UINT32_MAX, UINT32_MAX};

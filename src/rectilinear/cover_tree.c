@@ -1,6 +1,6 @@
-/* A range is entered from the elements upwards: the part of it that shares a node with one of its ends is counted
- * there, child by child. The nodes between are covered as a whole, and are in turn children of nodes one level up,
- * where the same is done. */
+/* cover_tree.c: a range is added from the elements upwards: the part of it that is in the same node as one of its ends
+ * is counted there, child by child. The nodes between the two are covered completely, and are in turn children of nodes
+ * one level up, where the same is done. */
 #include "rectilinear/cover_tree.h"
 
 #include <string.h>
@@ -31,11 +31,10 @@ void sunder_i_cover_tree_free(sunder_i_cover_tree *tree)
     tree->levels = 0;
 }
 
-/* The bits from..to, both inclusive. */
+/* Returns the bits from .. to, both inclusive. */
 static uint64_t bits_of(uint32_t from, uint32_t to) { return ALL << from & ALL >> (CHILDREN - 1 - to); }
 
-/* Adds one to, or subtracts one from, the count of each child that has a bit in `by`: carries go on to the next
- * digit. */
+/* Adds one to, or subtracts one from, the count of each child that has a bit in `by`: carries go to the next digit. */
 static void change_children(sunder_i_cover_tree *t, node *v, uint64_t by, bool more)
 {
     uint64_t carry = by;
@@ -49,7 +48,7 @@ static void change_children(sunder_i_cover_tree *t, node *v, uint64_t by, bool m
         if (i > t->digits) t->digits = i;
         v->own |= by;
     } else {
-        uint64_t left = 0; /* bits of these children in any digit */
+        uint64_t left = 0; /* the children with a set bit in any digit */
         for (; carry; i++) {
             v->digit[i] ^= carry;
             carry &= v->digit[i];
@@ -60,7 +59,7 @@ static void change_children(sunder_i_cover_tree *t, node *v, uint64_t by, bool m
     }
 }
 
-/* Updates the ancestors of node i, as far up as anything changes. */
+/* Updates the ancestors of node i, as far up as something changes. */
 static void tell_above(sunder_i_cover_tree *t, uint32_t level, uint32_t i)
 {
     const node *v = &t->level[level][i];
@@ -77,7 +76,7 @@ static void tell_above(sunder_i_cover_tree *t, uint32_t level, uint32_t i)
     }
 }
 
-/* Children from..last of node i of a level have one range of their own more, or one less. */
+/* Adds one to, or subtracts one from, the number of own ranges of the children from .. last of node i of a level. */
 static void change_ranges(sunder_i_cover_tree *t, uint32_t level, uint32_t i, uint32_t from, uint32_t last, bool more)
 {
     node *v = &t->level[level][i];
@@ -113,7 +112,7 @@ void sunder_i_cover_tree_remove(sunder_i_cover_tree *tree, uint32_t from, uint32
 typedef struct finder {
     const sunder_i_cover_tree *tree;
     uint32_t from, last; /* elements, both inclusive */
-    size_t first;        /* run of this question */
+    size_t first;        /* the first run of this query */
     sunder_i_element_runs *out;
     bool no_memory;
 } finder;
@@ -132,10 +131,11 @@ static void add_run(finder *f, uint32_t from, uint32_t to)
     o->item[o->n++] = (sunder_i_element_run){from, to};
 }
 
-/* The number of trailing one bits; there is at least one. */
+/* Returns the number of trailing one bits; there must be at least one. */
 static uint32_t trailing_ones(uint64_t bits) { return ~bits ? (uint32_t)__builtin_ctzll(~bits) : CHILDREN; }
 
-/* The children of a node that are asked for: `low` is the first of them all, from..last are asked for of the level. */
+/* Returns the bits of the children of a node that are in the query: `low` is the first child of the node, from .. last
+ * are the children of the level in the query. */
 static uint64_t asked_for(uint32_t low, uint32_t from, uint32_t last)
 {
     return bits_of(from > low ? from - low : 0, last - low < CHILDREN ? last - low : CHILDREN - 1);
@@ -153,7 +153,7 @@ static void find_elements(finder *f, uint32_t i)
     }
 }
 
-/* Visits node i of a level, some elements of which are in the query. */
+/* Visits node i of a level, which has elements in the query. */
 static void visit_node(finder *f, uint32_t level, uint32_t i)
 {
     if (level == 0) {

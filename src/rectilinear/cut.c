@@ -1,25 +1,25 @@
-/* A line sweeps over a polygon, along the axis that makes fewer rectangles. The inside part of the line is a list of
- * spans, between ends where inside and outside change; ends of edges on the line are changes too, and two changes at
- * one place cancel. A span with the ends of an earlier one continues it; every other earlier span is cut off as a
- * rectangle. */
+/* cut.c: a line sweeps over a polygon, along the axis that results in fewer rectangles. The part of the line inside the
+ * polygon is a list of spans, between positions where inside and outside change; ends of edges on the line are changes,
+ * too, and two changes at one position cancel. A span with the ends of an earlier one continues it; every other earlier
+ * span becomes a rectangle. */
 #include "base/sort.h"
 #include "base/watch.h"
 #include "rectilinear/rectangles.h"
 
-/* The limit on spans looked at: teeth of n different lengths make a number quadratic in n. */
+/* The largest number of spans that are processed: teeth of n different lengths result in a number quadratic in n. */
 #define MOST_LOOKS ((size_t)1 << 24)
 
 typedef struct span {
-    int64_t low, high, since; /* the rectangle that is growing starts there */
+    int64_t low, high, since; /* since: the beginning of the rectangle that is growing */
 } span;
 
 typedef struct cutter {
     const sunder_shape *shape;
     const sunder_i_point *at;
-    int axis;       /* along which the line moves */
-    uint32_t *edge; /* that stand on the line, in the order in which they are met */
+    int axis;       /* the axis along which the line moves */
+    uint32_t *edge; /* the edges on the lines, in the order in which the sweep reaches them */
     span *span, *next;
-    int64_t *end, *mark; /* of the spans that come; of the edges on the line */
+    int64_t *end, *mark; /* end: the ends of the next spans; mark: the ends of the edges on the line */
     size_t spans, looks;
     sunder_i_rectangle_list *out;
     bool no_memory;
@@ -75,8 +75,8 @@ static void add_rectangle(cutter *c, const span *s, int64_t until)
     r->high[!c->axis] = s->high;
 }
 
-/* The ends of the spans beyond the line: an end of a span before it or of an edge on it, but not of both. Returns how
- * many. */
+/* Stores the ends of the spans beyond the line in c->end: an end of a span before it or of an edge on it, but not of
+ * both. Returns their number. */
 static size_t find_ends(cutter *c, size_t marks)
 {
     size_t n = 0, m = 0;
@@ -91,7 +91,7 @@ static size_t find_ends(cutter *c, size_t marks)
     return n;
 }
 
-/* Moves past the line at `here`; edges that stand on it have `marks` ends. */
+/* Moves past the line at `here`; the edges on the line have `marks` ends. */
 static void pass_line(cutter *c, int64_t here, size_t marks)
 {
     const size_t n = find_ends(c, marks) / 2;
@@ -110,7 +110,8 @@ static void pass_line(cutter *c, int64_t here, size_t marks)
     c->spans = n;
 }
 
-/* Where rings touch, an edge of one line may continue one of another; both ends at the common place then cancel. */
+/* Adds the end `at` of an edge. If rings touch, an edge on the line may continue another one; then both ends at the
+ * common position cancel. Returns the number of marks. */
 static size_t add_mark(cutter *c, size_t marks, int64_t at)
 {
     if (marks > 0 && c->mark[marks - 1] == at) return marks - 1;

@@ -1,4 +1,5 @@
-/* Coordinates sorted as keys. */
+/* rank.c: sorts coordinates as keys. The function below returns the index of a coordinate by binary search, and counts
+ * comparisons. */
 #include "base/sort.h"
 #include "base/watch.h"
 #include "rectilinear/rectangles.h"
@@ -15,13 +16,13 @@ static uint32_t rank_of(const int64_t *at, uint32_t n, int64_t what, uint64_t *c
     return (uint32_t)(low - at);
 }
 
-/* Keys are coordinates less the least one: they have its order, and are as short as possible, whatever the signs. The
- * number of the coordinate is appended to each key if there is room: then ranks can be read off. */
+/* Keys are coordinates minus the least one: they have the same order, and are as short as possible, whatever the signs.
+ * The number of the coordinate is appended to each key if there is room: then ranks follow directly. */
 typedef struct keys {
     uint64_t *key; /* [n] */
     size_t n;
     int64_t least;
-    int tag; /* bits of the numbers, or 0 where there is no room */
+    int tag; /* the bits of the numbers, or 0 if there is no room */
 } keys;
 
 static int64_t coordinate_of(const sunder_i_rectangle_list *list, size_t i, int axis)
@@ -48,7 +49,7 @@ static bool make_keys(const sunder_i_rectangle_list *list, int axis, keys *k)
     k->n = 2 * list->n;
     k->key = sunder_i_alloc(k->n, sizeof *k->key);
     if (!k->key) return false;
-    const int bits = 64 - __builtin_clzll(k->n - 1); /* n is two at least */
+    const int bits = 64 - __builtin_clzll(k->n - 1); /* n is at least two */
     k->tag = ((uint64_t)most - (uint64_t)k->least) >> (64 - bits) ? 0 : bits;
     for (size_t i = 0; i < k->n; i++) {
         const uint64_t key = (uint64_t)coordinate_of(list, i, axis) - (uint64_t)k->least;
@@ -61,7 +62,7 @@ static bool rank_axis(const sunder_i_rectangle_list *list, int axis, sunder_i_ra
 {
     keys k;
     const bool ok = make_keys(list, axis, &k);
-    int64_t *at = out->at[axis] = (int64_t *)k.key; /* there is a coordinate for each key at most */
+    int64_t *at = out->at[axis] = (int64_t *)k.key; /* there are at most as many coordinates as keys */
     if (!ok) return false;
     uint32_t n = 0;
     for (size_t i = 0; i < k.n; i++) {

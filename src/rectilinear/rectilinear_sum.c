@@ -1,5 +1,5 @@
-/* Both operands are cut into rectangles, the sum of one of each is a rectangle, and these are united. As with all
- * convex pieces, the sum is the closure of the union of the open ones [AFH00]. */
+/* rectilinear_sum.c: both operands are divided into rectangles, the sum of one of each is a rectangle, and these are
+ * united. As with all convex pieces, the sum is the closure of the union of the open ones [AFH00]. */
 #include "rectilinear/rectilinear_sum.h"
 
 #include "base/watch.h"
@@ -7,13 +7,18 @@
 #include "rectilinear/rectangles.h"
 #include "rectilinear/rectilinear_union.h"
 
-#define MOST_RECTANGLES ((size_t)1 << 24) /* beyond this the general road may need fewer pieces */
-#define RECTANGLE_WORTH 0                 /* looks on credit cost more than uniting (fat covers: 1.4 times in all) */
-#define FEW_RECTANGLES 512                /* below this all sums are made: choosing costs more */
+#define MOST_RECTANGLES ((size_t)1 << 24) /* with more the general method may need fewer pieces */
+#define RECTANGLE_WORTH                                                                                                \
+    0 /* tests on credit take longer than uniting (covers sorted by fatness: 1.4
+                                           * times in total) */
+#define FEW_RECTANGLES                                                                                                 \
+    512 /* if there are fewer, all sums are computed: selecting them would take
+                                           * longer */
 
 static const sunder_i_point axis_direction[2] = {{1, 0}, {0, 1}};
 
-/* As convex pieces, each beginning with the side of direction (1, 0). */
+/* Converts the rectangles to convex pieces, each beginning with the side of direction (1, 0). Returns false if out of
+ * memory. */
 static bool to_pieces(const sunder_i_rectangle_list *list, sunder_i_lattice *lattice, sunder_i_convex_pieces *out)
 {
     if (!sunder_i_convex_pieces_init(out, list->n, 4 * list->n)) return false;
@@ -33,7 +38,7 @@ static bool to_pieces(const sunder_i_rectangle_list *list, sunder_i_lattice *lat
     return true;
 }
 
-/* Which sums are needed: all, unless there are many. */
+/* *out becomes the list of the needed sums: all, unless there are many. Returns false if out of memory. */
 static bool list_needed(const sunder_i_rectangle_list *a, const sunder_i_rectangle_list *b, sunder_i_lattice *lattice,
                         sunder_i_subsum_list *out)
 {
@@ -57,7 +62,7 @@ static void add_sum(const sunder_i_rectangle *a, const sunder_i_rectangle *b, su
     }
 }
 
-/* The sums that are needed; an empty list if there are too many. */
+/* *out becomes the list of the needed sums; an empty list if there are too many. Returns false if out of memory. */
 static bool make_sums(const sunder_i_rectangle_list *a, const sunder_i_rectangle_list *b, sunder_i_lattice *lattice,
                       sunder_i_rectangle_list *out)
 {

@@ -1,13 +1,13 @@
-/* Contours along both axes are joined at their ends and traced like all outlines (outline/boundary.h). Ends on rows
- * come in order of y, then x, ends on columns in order of x, then y; a counting sort brings the former into the order
- * of the latter, and one walk along both numbers the vertices, lexicographically. */
+/* rectilinear_union.c: the contours along both axes are joined at their ends and traced like all outlines
+ * (outline/boundary.h). Ends on rows are sorted by y, then x, ends on columns by x, then y; a counting sort converts
+ * the former order to the latter, and the vertices are then numbered lexicographically in one pass over both. */
 #include "rectilinear/rectilinear_union.h"
 
 #include "base/watch.h"
 #include "outline/boundary.h"
 #include "rectilinear/contour.h"
 
-enum { ROWS, COLUMNS, KINDS }; /* lines along x, which are lines across y; lines along y */
+enum { ROWS, COLUMNS, KINDS }; /* rows: lines along x, perpendicular to the y axis; columns: lines along y */
 
 typedef struct place {
     uint32_t x, y;
@@ -16,10 +16,10 @@ typedef struct place {
 typedef struct joiner {
     const sunder_i_ranked_rectangles *in;
     sunder_i_contour contour[KINDS];
-    place *end[KINDS]; /* of stretches, each once along its line */
+    place *end[KINDS]; /* the ends of stretches, each once along its line */
     uint32_t ends[KINDS];
-    uint32_t *order;  /* [ends[ROWS]] these by columns */
-    uint32_t *vertex; /* [ends[ROWS]] of each */
+    uint32_t *order;  /* [ends[ROWS]] the ends on rows, sorted by column */
+    uint32_t *vertex; /* [ends[ROWS]] the vertex of each */
 } joiner;
 
 static place place_at(int kind, uint32_t line, uint32_t at)
@@ -27,7 +27,7 @@ static place place_at(int kind, uint32_t line, uint32_t at)
     return kind == ROWS ? (place){at, line} : (place){line, at};
 }
 
-/* Does a stretch begin where the one before it ends? */
+/* Returns true if stretch i begins where the previous one ends. */
 static bool goes_on(const sunder_i_contour *c, size_t i)
 {
     return i > 0 && c->stretch[i - 1].line == c->stretch[i].line && c->stretch[i - 1].to == c->stretch[i].from;
@@ -49,7 +49,7 @@ static bool list_ends(joiner *j, int kind)
     return true;
 }
 
-/* The ends on rows, sorted by columns. */
+/* Sorts the ends on rows by column. Returns false if out of memory. */
 static bool sort_rows(joiner *j)
 {
     const uint32_t n = j->ends[ROWS], columns = j->in->places[0];
@@ -73,7 +73,8 @@ static bool add_vertex(const joiner *j, sunder_i_coverage *to, sunder_i_lattice 
 
 static bool place_before(place p, place q) { return p.x != q.x ? p.x < q.x : p.y < q.y; }
 
-/* Gives every end its vertex: ends on rows in j->vertex, ends on columns one after the other in `column`. */
+/* Sets the vertex of every end: ends on rows in j->vertex, ends on columns, in their order, in `column`. Returns false
+ * if out of memory. */
 static bool number_vertices(joiner *j, sunder_i_coverage *to, sunder_i_lattice *lattice, uint32_t *column)
 {
     const uint32_t rows = j->ends[ROWS], columns = j->ends[COLUMNS];
@@ -97,7 +98,7 @@ static uint8_t banks_of(int kind, uint32_t sides)
     return (uint8_t)((left ? SUNDER_I_BANK_LEFT : 0) | (right ? SUNDER_I_BANK_RIGHT : 0));
 }
 
-/* Lines are numbered as they are ranked, columns after rows. */
+/* Adds the stretches. Lines are numbered by their ranks, columns after rows. */
 static void add_stretches(const joiner *j, int kind, const uint32_t *vertex, sunder_i_coverage *to)
 {
     const sunder_i_contour *c = &j->contour[kind];
@@ -141,7 +142,7 @@ static bool join_ends(joiner *j, sunder_i_lattice *lattice, sunder_i_coverage *t
 
 static const sunder_i_point along[KINDS] = {{1, 0}, {0, 1}};
 
-/* One side stands in for each line: its start and the rank of its direction. */
+/* One side represents each line: its beginning and the rank of its direction. */
 typedef struct grid_lines {
     sunder_i_point *at;
     uint32_t *rank;

@@ -1,4 +1,4 @@
-/* Boxes: closed, with sides parallel to the axes, as four doubles xmin, ymin, xmax, ymax. */
+/* box.h: boxes: closed, with sides parallel to the axes, as four doubles xmin, ymin, xmax, ymax. */
 #ifndef SUNDER_I_BOX_H
 #define SUNDER_I_BOX_H
 
@@ -10,14 +10,14 @@
 #include <emmintrin.h>
 #endif
 
-/* The empty box: it meets no other box, and the hull of it and another box is that box. */
+/* Makes the empty box: it meets no other box, and the hull of it and another box is that box. */
 static inline void sunder_i_box_clear(double box[4])
 {
     box[0] = box[1] = INFINITY;
     box[2] = box[3] = -INFINITY;
 }
 
-/* The box of a segment. */
+/* *out becomes the box of the segment ab. */
 static inline void sunder_i_box_of_segment(const double a[2], const double b[2], double out[4])
 {
     for (int k = 0; k < 2; k++) {
@@ -26,8 +26,8 @@ static inline void sunder_i_box_of_segment(const double a[2], const double b[2],
     }
 }
 
-/* The least box that holds this one and the box from `low` to `high`. Without branches, since branch prediction fails
- * here. */
+/* Enlarges the box to the least one that contains it and the box from `low` to `high`. Without branches, since branch
+ * prediction fails here. */
 static inline void sunder_i_box_widen(double box[4], const double low[2], const double high[2])
 {
 #ifdef __SSE2__
@@ -53,7 +53,7 @@ static inline bool sunder_i_box_meet(const double a[4], const double b[4])
     return a[0] <= b[2] && b[0] <= a[2] && a[1] <= b[3] && b[1] <= a[3];
 }
 
-/* The same without branches, for many boxes where branch prediction fails. */
+/* sunder_i_box_meet() without branches, for many boxes for which branch prediction fails. */
 static inline bool sunder_i_box_meet_any(const double a[4], const double b[4])
 {
 #ifdef __SSE2__
@@ -65,13 +65,13 @@ static inline bool sunder_i_box_meet_any(const double a[4], const double b[4])
 #endif
 }
 
-/* The same with a tolerance: are they within `reach` of each other in both axes? */
+/* Returns true if the boxes are within `reach` of each other along both axes. */
 static inline bool sunder_i_box_near(const double a[4], const double b[4], double reach)
 {
     return a[0] <= b[2] + reach && b[0] <= a[2] + reach && a[1] <= b[3] + reach && b[1] <= a[3] + reach;
 }
 
-/* Is a point within `reach` of the box in both axes? True for NaN. */
+/* Returns true if the point (x, y) is within `reach` of the box along both axes, or if a coordinate is NaN. */
 static inline bool sunder_i_box_near_point(const double box[4], double x, double y, double reach)
 {
 #ifdef __SSE2__
@@ -84,13 +84,13 @@ static inline bool sunder_i_box_near_point(const double box[4], double x, double
 #endif
 }
 
-/* The Minkowski sum of two boxes. */
+/* *out becomes the Minkowski sum of two boxes. */
 static inline void sunder_i_box_sum(const double a[4], const double b[4], double out[4])
 {
     for (int k = 0; k < 4; k++) out[k] = a[k] + b[k];
 }
 
-/* Is a point within `reach` of the sum in both axes? */
+/* Returns true if the point (x, y) is within `reach` of the Minkowski sum of the two boxes along both axes. */
 static inline bool sunder_i_box_sum_near_point(const double a[4], const double b[4], double x, double y, double reach)
 {
     double sum[4];
@@ -98,10 +98,10 @@ static inline bool sunder_i_box_sum_near_point(const double a[4], const double b
     return sunder_i_box_near_point(sum, x, y, reach);
 }
 
-/* How far the box is from the origin, in either coordinate. */
+/* *out becomes the distance of the box from the origin along each axis. */
 static inline void sunder_i_box_distance(const double box[4], double out[2])
 {
-#ifdef __SSE2__ /* without branches, which compilers put in */
+#ifdef __SSE2__ /* without branches, which compilers insert */
     const __m128d low = _mm_loadu_pd(box), high = _mm_loadu_pd(box + 2), none = _mm_setzero_pd();
     _mm_storeu_pd(out, _mm_max_pd(_mm_max_pd(low, _mm_sub_pd(none, high)), none));
 #else
@@ -112,7 +112,8 @@ static inline void sunder_i_box_distance(const double box[4], double out[2])
 #endif
 }
 
-/* nextafter() downwards, or (up) upwards: adjacent doubles of one sign have adjacent bit patterns. */
+/* Returns the next double downwards, or (up) upwards, like nextafter(): adjacent doubles of one sign have adjacent bit
+ * patterns. */
 static inline double sunder_i_box_step(double x, bool up)
 {
     uint64_t bits;
@@ -123,7 +124,8 @@ static inline double sunder_i_box_step(double x, bool up)
     return x;
 }
 
-/* The box grown by reach; one step outward covers the rounding of the sum. */
+/* *out becomes the box enlarged by `reach` on each side; a step to the next double outward covers the rounding of the
+ * sum. */
 static inline void sunder_i_box_grow(const double box[4], double reach, double out[4])
 {
     out[0] = sunder_i_box_step(box[0] - reach, false);

@@ -1,12 +1,12 @@
-/* A packed tree of boxes over items in a good order.
+/* box_tree.h: a packed tree of boxes over items in a suitable order.
  *
  * The perfect binary tree over blocks of consecutive items, in heap order and without pointers: node 1 is the root, the
  * children of node i are 2 i and 2 i + 1, and the leaves are the last half. A node's box is the hull of the boxes below
  * it. Nothing is sorted here: the caller supplies an order in which neighbours are close to each other (along a ring,
  * along a space-filling curve), and the tree keeps it. The order affects speed only.
  *
- * Callers write their walks as loops, since they differ in the boxes that they skip and in the child that they visit
- * first:
+ * Callers traverse the tree in loops of their own, since they differ in the boxes that they skip and in the child that
+ * they visit first:
  *
  *     sunder_i_box_walk_start(&walk, tree);
  *     for (size_t node; sunder_i_box_walk_next(&walk, &node);) {
@@ -27,13 +27,13 @@
 #include <string.h>
 
 typedef struct sunder_i_box_tree {
-    size_t n;         /* items */
-    size_t block;     /* items in a block */
-    size_t leaves;    /* a power of two; blocks * leaves >= n */
+    size_t n;         /* the number of items */
+    size_t block;     /* the number of items in a block */
+    size_t leaves;    /* a power of two; block * leaves >= n */
     double (*box)[4]; /* [2 * leaves] the first is unused */
 } sunder_i_box_tree;
 
-/* A tree over n items, with uninitialised boxes: room for 2 * leaves of them. */
+/* Returns a tree over n items without boxes; the caller allocates 2 * leaves of them. */
 static inline sunder_i_box_tree sunder_i_box_tree_of(size_t n, size_t block)
 {
     sunder_i_box_tree tree = {n, block, 1, NULL};
@@ -41,7 +41,7 @@ static inline sunder_i_box_tree sunder_i_box_tree_of(size_t n, size_t block)
     return tree;
 }
 
-/* The items of a leaf. */
+/* Return the index of the first item of a leaf, and the index after its last one. */
 static inline size_t sunder_i_box_tree_first(const sunder_i_box_tree *tree, size_t leaf)
 {
     return (leaf - tree->leaves) * tree->block;
@@ -53,7 +53,7 @@ static inline size_t sunder_i_box_tree_end(const sunder_i_box_tree *tree, size_t
     return end < tree->n ? end : tree->n;
 }
 
-/* Fills in all boxes. add(of, i, box) extends the box by item i. */
+/* Sets all boxes. add(of, i, box) extends the box by item i. */
 static inline __attribute__((always_inline)) void
 sunder_i_box_tree_fill(sunder_i_box_tree *tree, void (*add)(const void *of, size_t i, double box[4]), const void *of)
 {
@@ -68,7 +68,7 @@ sunder_i_box_tree_fill(sunder_i_box_tree *tree, void (*add)(const void *of, size
     }
 }
 
-/* The stack of a walk: one node on each level, and the tree is less than 64 levels deep. */
+/* The stack of a traversal: at most one node on each level, and the tree has fewer than 64 levels. */
 typedef struct sunder_i_box_walk {
     size_t node[64];
     unsigned n;

@@ -1,5 +1,5 @@
-/* Order along a space-filling curve: neighbours in the order are mostly neighbours in the plane, so that trees over it
- * have small boxes. It affects speed only, so doubles are good enough. */
+/* curve.c: sorts along a space-filling curve: neighbours in the order are mostly neighbours in the plane, so that trees
+ * over it have small boxes. The order affects speed only, so that doubles are sufficient. */
 #include "spatial/curve.h"
 
 #include "base/extremes.h"

@@ -1,5 +1,4 @@
-/* SIMD-style helpers: four whole numbers or two doubles at a time, as vector types that every compiler target
- * lowers. */
+/* lanes.h: vectors of four integers or two doubles, as vector types of the compiler that exist on every target. */
 #ifndef SUNDER_I_LANES_H
 #define SUNDER_I_LANES_H
 
@@ -27,14 +26,14 @@ static inline sunder_i_signed_lanes sunder_i_signed_lanes_at(const int32_t *v)
     return l;
 }
 
-/* Where a <= b: -1, else 0. For machines that only compare signed numbers. */
+/* Returns -1 in the lanes where a <= b, else 0. For machines that only compare signed numbers. */
 static inline sunder_i_signed_lanes sunder_i_lanes_up_to(sunder_i_lanes a, sunder_i_lanes b)
 {
     const uint32_t half = 0x80000000u;
     return (sunder_i_signed_lanes)(a ^ half) <= (sunder_i_signed_lanes)(b ^ half);
 }
 
-/* A mask of four bits: bit i is set where lane i is -1, clear where it is 0. */
+/* Returns a mask of four bits: bit i is set if lane i is -1, and clear if it is 0. */
 static inline uint32_t sunder_i_lanes_set(sunder_i_signed_lanes l)
 {
 #ifdef __SSE2__
@@ -64,7 +63,7 @@ static inline uint32_t sunder_i_doubles_set(sunder_i_double_masks m)
 #endif
 }
 
-/* t clamped to [0, 1]; 0 for NaN. Written so that compilers emit no branches. */
+/* Returns t clamped to [0, 1]; 0 for NaN. Written so that compilers emit no branches. */
 static inline double sunder_i_clamped(double t)
 {
 #ifdef __SSE2__

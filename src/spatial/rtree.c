@@ -1,8 +1,8 @@
-/* A packed R-tree: boxes sorted along a Hilbert curve, sixteen to a node, level upon level [KF93]. Boxes are closed,
- * and a query misses nothing: the boxes of nodes are the exact hulls of those below, also when a box moves, since then
- * they are recomputed from the leaf to the root. Leaves stay in their nodes, so nodes sprawl as their members move
- * apart; once they have grown by half the tree is worn, and a caller that moves boxes rebuilds it. Where the curve's
- * grid is too coarse to tell centres apart only speed suffers. */
+/* rtree.c: a packed R-tree: boxes sorted along a Hilbert curve, sixteen in a node, level by level [KF93]. Boxes are
+ * closed, and a query misses nothing: the boxes of nodes are the exact hulls of those below, also when a box moves,
+ * since they are then recomputed from the leaf to the root. Leaves stay in their nodes, so that nodes become larger as
+ * their leaves move apart; when they have grown by half, the tree is worn, and a caller that moves boxes builds it
+ * again. If the curve's grid is too coarse to distinguish centres, only speed is affected. */
 #include "spatial/rtree.h"
 
 #include "base/sort.h"
@@ -11,13 +11,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Children of a node: many, so that there are few levels to update when a box moves. */
+/* The number of children of a node: large, so that few levels must be updated when a box moves. */
 #define FANOUT SUNDER_I_RTREE_RUN
 /* The tree is worn when its nodes have grown by this factor since it was packed: queries then visit about that many
- * times the nodes, and rebuilding costs about as much as one query for each box. */
+ * times the nodes, and building it again costs about as much as one query for each box. */
 #define WORN 1.5
 
-/* The position of cell (x, y) of a 65536 x 65536 grid on the Hilbert curve; by halving the square. */
+/* Returns the position of cell (x, y) of a 65536 x 65536 grid on the Hilbert curve, by halving the square. */
 static uint32_t hilbert_index(uint32_t x, uint32_t y)
 {
     uint32_t d = 0;
@@ -37,7 +37,7 @@ static uint32_t hilbert_index(uint32_t x, uint32_t y)
     return d;
 }
 
-/* The column, one of 65536, that holds the middle of [low, high]; halves prevent overflow. */
+/* Returns the column, one of 65536, that contains the middle of [low, high]; halves prevent overflow. */
 static uint32_t cell_of(double low, double high, double all_low, double all_high)
 {
     const double width = all_high / 2 - all_low / 2;
@@ -46,7 +46,7 @@ static uint32_t cell_of(double low, double high, double all_low, double all_high
     return v <= 0 ? 0 : v >= 65535 ? 65535 : (uint32_t)v;
 }
 
-/* Sort keys: the place along the curve in the upper half, the item's number in the lower. */
+/* Makes the sort keys: the position along the curve in the upper half, the item's number in the lower. */
 static sunder_status sort_places(const double *box, const bool *present, size_t n, uint64_t **out, size_t *leaves)
 {
     uint64_t *places = sunder_i_alloc(n, sizeof *places);
@@ -176,7 +176,8 @@ void sunder_i_rtree_free(sunder_i_rtree *tree)
     memset(tree, 0, sizeof *tree);
 }
 
-/* Appends the leaves, or their items (`items`), of a lowest-level node that meet the box. */
+/* Appends the leaves, or their items (`items`), of a lowest-level node that meet the box. Returns false if out of
+ * memory. */
 static inline bool take_leaves(const sunder_i_rtree *tree, size_t first, size_t end, const double box[4], bool items,
                                sunder_i_list *hits)
 {
@@ -192,12 +193,12 @@ static inline bool take_leaves(const sunder_i_rtree *tree, size_t first, size_t 
     return true;
 }
 
-/* Depth first, children in their order. */
+/* Searches depth-first, children in their order. Returns false if out of memory. */
 static inline bool query_box(const sunder_i_rtree *tree, const double box[4], bool items, sunder_i_list *hits)
 {
     if (tree->leaves == 0) return true;
     if (tree->levels == 1) return take_leaves(tree, 0, 1, box, items, hits);
-    /* The stack holds at most 16 siblings on each of at most 16 levels; rejected children are written above the top. */
+    /* The stack has at most 16 siblings on each of at most 16 levels; rejected children are written above the top. */
     struct {
         size_t node;
         unsigned level;

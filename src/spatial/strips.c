@@ -1,4 +1,4 @@
-/* Strips: a counting sort of spans by the strips that they reach into. */
+/* strips.c: a counting sort of spans by the strips that they meet. */
 #include "spatial/strips.h"
 
 #include "base/memory.h"
@@ -6,19 +6,19 @@
 #include <math.h>
 #include <string.h>
 
-/* The largest number of strips: beyond it the array of their ends costs more than shorter lists save. */
+/* The largest number of strips: with more the array of their ends costs more than shorter lists save. */
 #define MOST_STRIPS (1u << 20)
-/* An item is in at most this many strips on average, which bounds the memory. */
+/* An item is in at most this number of strips on average, which bounds the memory. */
 #define ENTRIES_EACH 8
 
-/* Monotone in the height: comparisons of heights carry over to strips. */
+/* Returns the strip of a height. Monotone: the order of heights is that of strips. */
 static uint32_t strip_of(const sunder_i_strips *s, double height)
 {
     const double k = (height - s->low) * s->per_unit;
     return !(k > 0) ? 0 : k < s->n ? (uint32_t)k : s->n - 1;
 }
 
-/* Chooses the number of strips: the most allowed, or half of that, and so on; returns the number of entries. */
+/* Chooses the number of strips: the largest permitted, or half of that, and so on. Returns the number of entries. */
 static size_t choose_count(sunder_i_strips *s, const double (*span)[2], size_t n, size_t most, double high)
 {
     size_t entries;
@@ -45,7 +45,8 @@ bool sunder_i_strips_build(sunder_i_strips *strips, const double (*span)[2], siz
     strips->end = sunder_i_calloc((size_t)strips->n + 1, sizeof *strips->end);
     strips->item = sunder_i_alloc(entries, sizeof *strips->item);
     if (!strips->end || !strips->item) return false;
-    /* Counts, one place up; a prefix sum then gives the start of each strip, which filling turns into its end. */
+    /* Counts are stored one index higher; the prefix sum gives the beginning of each strip, which filling increases to
+     * its end. */
     for (size_t i = 0; i < n; i++)
         for (uint32_t k = strip_of(strips, span[i][0]), last = strip_of(strips, span[i][1]); k <= last; k++)
             strips->end[k + 1]++;

@@ -20,7 +20,7 @@ static size_t edges_of(const sunder_i_planar_map *map)
     return size.edges;
 }
 
-/* Both become *a, the smaller going into the larger; b is freed in any case. */
+/* *a becomes the union of both, the smaller one inserted into the larger; b is freed in any case. */
 static sunder_status unite_pair(sunder_i_planar_map **a, sunder_i_planar_map *b, sunder_error *err)
 {
     if (edges_of(*a) < edges_of(b)) {
@@ -34,7 +34,8 @@ static sunder_status unite_pair(sunder_i_planar_map **a, sunder_i_planar_map *b,
     return status == SUNDER_OK ? sunder_i_planar_map_clean(*a, err) : status;
 }
 
-/* Map i is then the union of maps 2 i and 2 i + 1, *n of them; an odd one out waits. */
+/* Map i becomes the union of maps 2 i and 2 i + 1, *n of them in the end; the last of an odd number remains as it
+ * is. */
 static sunder_status halve_maps(sunder_i_planar_map **map, uint32_t *n, sunder_error *err)
 {
     const uint32_t before = *n;

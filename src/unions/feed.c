@@ -1,5 +1,5 @@
-/* Subsums are made one at a time, when their turn comes, and forgotten when they are in the map: so memory is the
- * map's. Their time and operations are booked apart from the map's. */
+/* Subsums are made one at a time when they are needed, and discarded when they are in the map: so the memory is that of
+ * the map. Their time and operations are counted separately from the map's. */
 #include "unions/unions.h"
 
 #include "base/clock.h"
@@ -16,7 +16,7 @@ bool sunder_i_make_subsum(sunder_i_uniting *u, uint32_t subsum, sunder_i_convex_
     return ok;
 }
 
-/* Each subsum counts as much, though later ones tend to cost more. */
+/* Reports progress: each subsum counts equally, though later ones usually take longer. Returns false if cancelled. */
 static bool go_on(const sunder_i_uniting *u)
 {
     const sunder_sum_options *o = u->options;

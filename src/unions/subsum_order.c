@@ -18,7 +18,7 @@
 
 #include <math.h>
 
-/* The corner's offset from the first one, near enough. */
+/* *xy becomes the corner's approximate offset from the first corner. */
 static void corner_offset(sunder_i_uniting *u, const sunder_i_convex_sum *s, uint32_t k, double xy[2])
 {
     const long shift = -(long)u->lattice->approx_shift;
@@ -52,7 +52,7 @@ static double fatness_of(sunder_i_uniting *u, uint32_t subsum)
     return area;
 }
 
-/* Equal items, common among translates of pieces, stay in random order: the sort is stable. */
+/* Equal items, common among translates of pieces, remain in random order: the sort is stable. */
 static bool sort_by_fatness(sunder_i_uniting *u, uint32_t *subsum, uint32_t n)
 {
     const uint32_t first = n ? subsum[0] : 0;

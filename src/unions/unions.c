@@ -1,4 +1,4 @@
-/* The stages of a sum by union: operands on one lattice, pieces, the union, the outline read off its map. */
+/* unions.c: the stages of a sum by union: operands on one lattice, pieces, the union, the outline from its map. */
 #include "unions/unions.h"
 
 #include "base/clock.h"
@@ -28,7 +28,7 @@ static sunder_status unite_by_algorithm(sunder_i_uniting *u, sunder_algorithm al
     return sunder_i_unite_by_arrangement(u, map, err);
 }
 
-/* The map goes to the sum, or is freed. */
+/* Makes the outline of the sum from the map. The map is moved to the sum if `keep`, else freed. */
 static sunder_status finish_sum(sunder_sum *sum, sunder_i_planar_map *map, bool keep, sunder_error *err)
 {
     const sunder_status status = sunder_i_sum_from_map(map, sum, err);
@@ -68,7 +68,8 @@ sunder_status sunder_i_union_sum(sunder_sum *sum, const sunder_shape *p, const s
     if (status != SUNDER_OK) return status;
     sum->phase[SUNDER_PHASE_DECOMPOSE] = sunder_i_counts_since(&sum->lattice.counts, &before);
     sum->seconds[SUNDER_PHASE_DECOMPOSE] = sunder_i_now() - start;
-    sum->method.decomposition = u.p.fallbacks ? u.p.used : u.q.used; /* whichever fell back, if one did */
+    /* that of the operand with fallbacks, if there is one */
+    sum->method.decomposition = u.p.fallbacks ? u.p.used : u.q.used;
     sum->method.order = options->order;
     sum->method.pieces_p = u.p.pieces;
     sum->method.pieces_q = u.q.pieces;
