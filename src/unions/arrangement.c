@@ -1,16 +1,18 @@
-/* Union by arrangement [AFH00, section 2].
+/* arrangement.c: union by arrangement [AFH00, section 2].
  *
- * All subsums go into one arrangement, whole polygons in random order. Its vertical decomposition is kept as they go
- * in, so the first corner of each is found in expected logarithmic time and its sides are walked from trapezoid to
- * trapezoid. When all are in, one traversal from the outermost face marks every cell with the number of subsums that
- * cover it: it differs across an edge by the subsums that end there, known from the edge. What no subsum covers and
- * what some do tells the sum; an edge or vertex that none covers between faces that some do is a degenerate hole.
+ * All subsums are inserted into one arrangement, whole polygons in random order. Its vertical decomposition is updated
+ * at each insertion, so that the first corner of each subsum is found in expected logarithmic time and its sides are
+ * followed from trapezoid to trapezoid. After the last insertion, one traversal from the outermost face marks every
+ * cell with the number of subsums that cover it: it differs across an edge by the subsums bounded by it, a number
+ * stored with the edge. The sum is the union of the covered cells; an edge or vertex that no subsum covers, between
+ * covered faces, is a degenerate hole.
  *
- * Invariant: the map is the arrangement of the subsums fed so far, and each half-edge counts those on its left that it
- * bounds, coincident sides with their multiplicity. So nothing is lost where sides overlap or many cross in a point.
+ * Invariant: the map is the arrangement of the subsums inserted so far, and each half-edge counts those on its left
+ * that it bounds, coincident sides with their multiplicity. So nothing is lost if sides overlap or many cross in one
+ * point.
  *
- * Cost: expected O(I + k log k) for k sides of subsums and I crossings, whatever the sum is like: I may be of order k^2
- * for a sum of a few vertices. The insertion order bears on the search and on walls cut, never on I. */
+ * Time: expected O(I + k log k) for k sides of subsums and I crossings, whatever the sum is: I may be of order k^2 for
+ * a sum of a few vertices. The insertion order affects the search and the number of walls that are cut, never I. */
 #include "base/random.h"
 #include "unions/unions.h"
 

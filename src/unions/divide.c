@@ -1,16 +1,16 @@
-/* Union by divide and conquer [AFH00, section 2].
+/* divide.c: union by divide and conquer [AFH00, section 2].
  *
- * First P + Q_j for each of the t pieces Q_j, by increments: translates of P's pieces side by side, each grown by the
- * same Q_j, so that unions stay near the size of P. Then pairs of these maps are united, and pairs of pairs, log t
- * rounds: one map goes into the other, edge by edge in random order, as subsums do on the arrangement road; cells are
- * marked; what is covered goes.
+ * First P + Q_j is computed incrementally for each of the t pieces Q_j: the subsums are neighbouring pieces of P, each
+ * enlarged by the same Q_j, so that the unions have about the size of P. Then pairs of these maps are united, and pairs
+ * of the results, in log t rounds: one map is inserted into the other, edge by edge in random order, as subsums are in
+ * arrangement.c; cells are marked; covered elements are removed.
  *
- * Invariant: after each round the maps are those of the unions of equal runs of subsums, degenerate holes kept. A map
- * counts as one open region with its boundary, so what holds of subsums in an arrangement holds of maps: an edge or
- * vertex uncovered by both between covered faces stays.
+ * Invariant: after each round the maps are those of the unions of equally long sequences of subsums, including
+ * degenerate holes. A map counts as one open region with its boundary, so that the rules for subsums in an arrangement
+ * hold for maps: an edge or vertex between covered faces that neither map covers remains.
  *
- * Cost: the sum over rounds of the sizes of the maps and of what crosses within pairs. Where Q has one piece this is
- * the incremental union; where P has one, P + Q_j is a single subsum and rounds are all there is. */
+ * Time: the sum, over the rounds, of the sizes of the maps and of the crossings within pairs. If Q has one piece, this
+ * is the incremental union; if P has one, P + Q_j is a single subsum and there are only the rounds. */
 #include "unions/unions.h"
 
 static size_t edges_of(const sunder_i_planar_map *map)

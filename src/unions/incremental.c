@@ -1,15 +1,15 @@
-/* Incremental union [AFH00, section 2].
+/* incremental.c: incremental union [AFH00, section 2].
  *
- * Subsums are united one at a time with the union so far. Each is inserted into the map of the union; then whatever of
- * the map lies inside it, and whatever of its own boundary lies inside the union, is redundant and goes.
+ * Subsums are united one at a time with the union so far. Each is inserted into the map of the union; then all elements
+ * of the map inside it, and all parts of its own boundary inside the union, are redundant and are removed.
  *
- * Invariant: the map is that of the union of the subsums fed so far, with its degenerate holes and nothing else. An
- * edge or vertex is redundant only if it lies in the interior of some subsum: one between two covered faces that no
- * subsum covers is a degenerate hole, and stays until some later subsum covers it.
+ * Invariant: the map is that of the union of the subsums inserted so far, with its degenerate holes and nothing else.
+ * An edge or vertex is redundant only if it is in the interior of some subsum: one between two covered faces that no
+ * subsum covers is a degenerate hole, and remains until a later subsum covers it.
  *
- * Cost: what is inserted and what is removed. Good where the union stays small, and better where fat subsums come first
- * (subsum_order.c); where no subsum covers much of another's crossings, nothing is gained over the arrangement and
- * removal is paid besides. */
+ * Time: the number of elements that are inserted and removed. The method is good if the union remains small, and better
+ * if fat subsums come first (subsum_order.c); if no subsum covers many crossings of others, it computes as much as the
+ * arrangement, and the removals in addition. */
 #include "base/random.h"
 #include "unions/unions.h"
 

@@ -1,17 +1,18 @@
-/* In what order are subsums inserted?
+/* subsum_order.c: the order in which subsums are inserted.
  *
- * Random order is what the expected costs of the vertical decomposition are based on. Fat first, i.e. the largest
- * first, is for unions that drop covered parts: a large subsum inserted early swallows small ones before they cross
- * each other, so that the cost follows the output and not the arrangement beneath it. The paper does not define "fat".
- * Three measures are reasonable:
+ * The expected times of the vertical decomposition assume a random order. The order by fatness, the largest first, is
+ * for unions that remove covered parts: a large subsum inserted early covers small ones before they cross each other,
+ * so that the time depends on the result and not on the whole arrangement. The paper does not define "fat". Three
+ * measures are reasonable:
  *
- *     area       the expected amount that the subsum swallows, if later ones are spread evenly
- *     breadth    area by perimeter, which for a convex set is from a half to one times the radius of its largest disc:
- *                a long thin subsum swallows little whatever its area
- *     round      area by the square of the perimeter, fatness as the literature on fat objects has it, without a size
+ *     area       the expected part that the subsum covers, if later ones are distributed evenly
+ *     breadth    area divided by perimeter, which for a convex set is from a half to one times the radius of its
+ *                largest disc: a long thin subsum covers little whatever its area
+ *     round      area divided by the square of the perimeter, the fatness of the literature on fat objects, which does
+ *                not depend on size
  *
- * README.md has the counts of each. The measure is taken in doubles: it chooses an order, and every order gives the
- * same union. */
+ * README.md has the counts of each. The measure is computed in doubles: it determines the order only, and every order
+ * gives the same union. */
 #include "base/random.h"
 #include "base/sort.h"
 #include "unions/unions.h"

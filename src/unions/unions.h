@@ -1,13 +1,16 @@
-/* Sums as unions of convex subsums, the three roads of Agarwal, Flato and Halperin [AFH00]. README.md tells of each.
+/* unions.h: sums as unions of convex subsums, the three methods of Agarwal, Flato and Halperin [AFH00]. README.md
+ * describes each.
  *
  *   P = union of P_i,  Q = union of Q_j,  R_ij = P_i + Q_j,  int P + int Q = union of the open R_ij
  *
- * What the files hand each other:
- * unions.c       the stages: decompose, unite, read the outline off the map
- * subsum_order.c        in what order the subsums go in
- * feed.c         subsums made one at a time and put into a map
- * arrangement.c, incremental.c, divide.c    the three unions
- * and sum/from_map.c, sum/map_view.c         from a marked map to the canonical sum; the map, for users */
+ * Declarations shared by the files of this folder:
+ *
+ *   unions.c                                 the stages: decompose, unite, make the outline from the map
+ *   subsum_order.c                           the order in which subsums are inserted
+ *   feed.c                                   makes subsums one at a time and inserts them into a map
+ *   arrangement.c, incremental.c, divide.c   the three unions
+ *
+ * sum/from_map.c makes the canonical sum from a marked map, sum/map_view.c the map for users. */
 #ifndef SUNDER_I_UNIONS_H
 #define SUNDER_I_UNIONS_H
 
