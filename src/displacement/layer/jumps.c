@@ -3,8 +3,9 @@
  * A feature's anchor a moves straight from a to a + (t - s) relative to another feature, where t and s are the moves of
  * the two. It must not meet the other feature's original outline, unless the other feature contained it at the start.
  * If it does, then at some moment of both moves, made at constant speed, the anchor lies in the other feature, so the
- * boxes of the two paths meet. A tree of these boxes gives candidate pairs, and separation/passes.c decides. For the
- * rule of sides the model's tree gives the parts of barriers near the path of a side anchor, and sides.c decides. */
+ * boxes of the two paths meet. A tree of these boxes gives candidate pairs, and separation/straight_path.c decides. For
+ * the rule of sides the model's tree gives the parts of barriers near the path of a side anchor, and sides.c
+ * decides. */
 #include "displacement/layer/jumps.h"
 
 #include "base/invariant.h"

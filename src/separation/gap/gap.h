@@ -105,7 +105,7 @@ bool sunder_i_gap_position(const sunder_i_gap_problem *problem, const sunder_i_g
 int sunder_i_gap_cmp_side(const sunder_i_gap_problem *problem, const sunder_i_subsum *subsum, uint32_t k,
                           const sunder_i_surd_point *at, bool *inward, bool *flat);
 /* Does the same in interval arithmetic with the highest bits. Returns false if they do not decide, also if two of the
- * compared numbers are equal (roughly.c). */
+ * compared numbers are equal (ball_test.c). */
 bool sunder_i_gap_roughly_side(const sunder_i_gap_problem *problem, const sunder_i_subsum *subsum, uint32_t k,
                                const sunder_i_surd_point *at, int *order, bool *inward, bool *flat);
 /* Does the same for the whole closed subsum; *k becomes the nearest side unless the result is 1. */

@@ -1,7 +1,7 @@
-/* surely_apart.c: tests whether the distance of two sets certainly exceeds a length. It looks for a line that separates
- * them by more than all rounding errors: for disjoint convex sets there is one parallel to an edge of either, or nearly
- * so. This decides most pairs with neighbouring boxes at a tenth of the cost of an exact answer; for all others the
- * result is "unknown". */
+/* separating_line.c: tests whether the distance of two sets certainly exceeds a length. It looks for a line that
+ * separates them by more than all rounding errors: for disjoint convex sets there is one parallel to an edge of either,
+ * or nearly so. This decides most pairs with neighbouring boxes at a tenth of the cost of an exact answer; for all
+ * others the result is "unknown". */
 #include "separation/separation.h"
 
 #include "shape/shape.h"

@@ -1,5 +1,5 @@
-/* apart.c: tests whether two sets keep the gap: their interiors are disjoint, and no two points of them are closer than
- * the gap.
+/* gap_test.c: tests whether two sets keep the gap: their interiors are disjoint, and no two points of them are closer
+ * than the gap.
  *
  * If the interiors are disjoint, the distance of the sets is that of two boundary edges, and since no two edges cross
  * properly, that of an end of one edge from the other. Doubles decide all pairs of edges except those whose distance

@@ -1,5 +1,5 @@
-/* separation/surely_apart: what is said to be apart by a length is, by the exact distance; and of convex sets that are
- * clearly farther apart it mostly is said. */
+/* separation/separating_line: what is said to be apart by a length is, by the exact distance; and of convex sets that
+ * are clearly farther apart it mostly is said. */
 #include "random.h"
 #include "separation/separation.h"
 

@@ -1,4 +1,4 @@
-/* roughly.c: tests the gap from a side by the highest bits of a point, in ball arithmetic. If coordinates span the
+/* ball_test.c: tests the gap from a side by the highest bits of a point, in ball arithmetic. If coordinates span the
  * range of doubles, exact numbers have ten thousand bits, and nearly all comparisons are clear. */
 #include "separation/gap/gap.h"
 

@@ -1,4 +1,4 @@
-/* contained.c: tests whether a closed set lies in another.
+/* containment.c: tests whether a closed set lies in another.
  *
  * P lies in Q exactly if no convex piece C of P has interior points outside Q. If C has some, then the interior of C is
  * either disjoint from Q, or it contains a part of the boundary of Q of positive length, since each part of the

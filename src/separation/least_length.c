@@ -1,5 +1,5 @@
-/* within.c: tests whether two lengths suffice to separate a pair, by the squared length of the least translation, which
- * is rational, as the lengths are. Rounded numbers would leave cases open that differ by one bit. */
+/* least_length.c: tests whether two lengths suffice to separate a pair, by the squared length of the least translation,
+ * which is rational, as the lengths are. Rounded numbers would leave cases open that differ by one bit. */
 #include "separation/separation.h"
 
 #include "number/ratio.h"

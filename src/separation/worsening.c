@@ -1,4 +1,4 @@
-/* worsened.c: tests exactly whether a pair of shapes is worse than before.
+/* worsening.c: tests exactly whether a pair of shapes is worse than before.
  *
  * The measure is the squared distance or, if the interiors meet, the squared length of the least translation that
  * separates them; disjoint interiors are better than overlapping ones. Both numbers are rational. Doubles decide if

@@ -1,4 +1,5 @@
-/* passes.c: tests whether a point on its straight path meets a set, and whether the set contains the start of the path.
+/* straight_path.c: tests whether a point on its straight path meets a set, and whether the set contains the start of
+ * the path.
  *
  * A closed set that does not contain the start of the path is met exactly if one of its boundary edges is. So the edges
  * whose boxes meet the path's box are tested (predicate/passage.c, first in doubles). Only if one is met is the start
