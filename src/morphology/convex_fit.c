@@ -20,6 +20,7 @@
 #include "base/extremes.h"
 #include "base/random.h"
 #include "predicate/rational_point.h"
+#include "spatial/box.h"
 
 #include <math.h>
 
@@ -39,11 +40,6 @@ typedef struct fit {
 typedef struct side {
     uint32_t region, half_edge;
 } side;
-
-static bool boxes_meet(const double a[4], const double b[4], double slack)
-{
-    return a[0] <= b[2] + slack && b[0] <= a[2] + slack && a[1] <= b[3] + slack && b[1] <= a[3] + slack;
-}
 
 /* Computes window and slack. Numbers of magnitude at most M result from fewer than eight roundings each, of at most
  * 2^-53 M; 2^-46 M is far more. Whatever is omitted is farther than several times that from where it would matter.
@@ -82,7 +78,7 @@ static bool piece_is_near(const fit *f, const sunder_shape *shape, const double 
             box[c + 2] = sunder_i_max(box[c + 2], v);
         }
     for (int k = 0; k < 4; k++) near[k] = f->window[k] + f->reach[k];
-    return boxes_meet(box, near, 16 * f->slack);
+    return sunder_i_box_near(box, near, 16 * f->slack);
 }
 
 /* Draws the near pieces of a shape as open regions of a map, and counts how many cover each cell. */
@@ -144,7 +140,7 @@ static bool band_is_near(fit *f, const side *s)
         box[c] = sunder_i_min(a[c], b[c]) - f->reach[c + 2];
         box[c + 2] = sunder_i_max(a[c], b[c]) - f->reach[c];
     }
-    return boxes_meet(box, f->window, 8 * f->slack);
+    return sunder_i_box_near(box, f->window, 8 * f->slack);
 }
 
 /* Lists the sides of both regions whose bands matter, in random order. */
@@ -201,7 +197,7 @@ static sunder_status look_at_vertices(fit *f, bool *fits, sunder_error *err)
         place_of(f, point, at);
         sunder_i_arena_release(&f->scratch, mark);
         const double box[4] = {at[0], at[1], at[0], at[1]};
-        if (!boxes_meet(box, f->window, 4 * f->slack)) continue;
+        if (!sunder_i_box_near(box, f->window, 4 * f->slack)) continue;
         status = region_holds(f->region[0], *point, &in[0], err);
         if (status == SUNDER_OK && in[0]) status = region_holds(f->region[1], *point, &in[1], err);
         *fits = in[0] && in[1];

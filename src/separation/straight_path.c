@@ -9,7 +9,7 @@
  * done in big integers. */
 #include "separation/separation.h"
 
-#include "predicate/rational_point.h"
+#include "shape/rational_corners.h"
 #include "spatial/box.h"
 
 #include <limits.h>
@@ -61,17 +61,10 @@ typedef struct rationals {
     sunder_i_rational_point *corner, from, to;
 } rationals;
 
-static sunder_i_big units_of(sunder_i_arena *arena, double v, long unit)
-{
-    int e;
-    const sunder_i_big m = sunder_i_big_double(arena, v, &e);
-    return m.size ? sunder_i_big_shl(arena, m, (unsigned long)(e - unit)) : m;
-}
-
 static sunder_i_rational_point put_double(sunder_i_arena *arena, const double xy[2], long unit)
 {
-    return (sunder_i_rational_point){units_of(arena, xy[0], unit), units_of(arena, xy[1], unit),
-                                     sunder_i_big_i64(arena, 1)};
+    return (sunder_i_rational_point){sunder_i_big_in_units(arena, xy[0], unit),
+                                     sunder_i_big_in_units(arena, xy[1], unit), sunder_i_big_i64(arena, 1)};
 }
 
 static sunder_i_rational_point put_corner(sunder_i_arena *arena, const sunder_shape *p, uint32_t v, long unit)

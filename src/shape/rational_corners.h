@@ -5,6 +5,8 @@
 #include "predicate/rational_point.h"
 #include "shape/shape.h"
 
+/* Returns v in units of 2^unit; unit must not be above v's lowest bit. */
+sunder_i_big sunder_i_big_in_units(sunder_i_arena *arena, double v, long unit);
 /* Returns u * 2^exponent + (add[0], add[1]) in lowest terms. */
 sunder_i_exact sunder_i_exact_make(sunder_i_arena *arena, sunder_i_rational_point u, long exponent,
                                    const double add[2]);

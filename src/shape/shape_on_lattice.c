@@ -4,10 +4,9 @@
  * - s is split into a double c and an exact remainder d (two-sum), so that x - c is small and all integers fit. The
  * size of the remainder is part of the extent that the lattice must contain. On other lattices the three are simply
  * added. Vertices that are not doubles (crossings of a repaired shape) keep their denominators. */
-#include "shape/shape.h"
+#include "shape/rational_corners.h"
 
 #include "predicate/predicate.h"
-#include "predicate/rational_point.h"
 
 #include "base/extremes.h"
 
@@ -91,14 +90,6 @@ static int64_t common_part(sunder_i_lattice *l, double s, double o, double *from
 
 /* ---- Vertices that are not doubles ---- */
 
-/* Returns v in units of 2^unit; unit is not above v's lowest bit. */
-static sunder_i_big units_of(sunder_i_arena *arena, double v, long unit)
-{
-    int e;
-    const sunder_i_big m = sunder_i_big_double(arena, v, &e);
-    return m.size ? sunder_i_big_shl(arena, m, (unsigned long)(e - unit)) : m;
-}
-
 sunder_i_point sunder_i_place_exact(sunder_i_lattice *lattice, const sunder_i_exact *corner, const double *shift,
                                     const double origin[2])
 {
@@ -111,8 +102,8 @@ sunder_i_point sunder_i_place_exact(sunder_i_lattice *lattice, const sunder_i_ex
     const sunder_i_big den = sunder_i_big_shl(m, corner->den, (unsigned long)(lattice->exponent - unit));
     sunder_i_big at[2];
     for (int k = 0; k < 2; k++) {
-        sunder_i_big add = sunder_i_big_neg(units_of(m, origin[k], unit));
-        if (shift) add = sunder_i_big_add(m, add, units_of(m, shift[k], unit));
+        sunder_i_big add = sunder_i_big_neg(sunder_i_big_in_units(m, origin[k], unit));
+        if (shift) add = sunder_i_big_add(m, add, sunder_i_big_in_units(m, shift[k], unit));
         at[k] = sunder_i_big_shl(m, corner->num[k], (unsigned long)(corner->exponent - unit));
         at[k] = sunder_i_big_add(m, at[k], sunder_i_big_mul(m, add, corner->den));
     }

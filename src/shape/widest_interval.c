@@ -18,6 +18,7 @@
 #include "base/extremes.h"
 #include "number/accumulator.h"
 #include "predicate/predicate.h"
+#include "shape/rational_corners.h"
 
 #include <math.h>
 
@@ -30,27 +31,20 @@ typedef struct search {
 
 /* ---- Numbers ----------------------------------------------------------------------------------------------------- */
 
-static sunder_i_big in_units(sunder_i_arena *arena, double v, int unit)
-{
-    int e;
-    const sunder_i_big m = sunder_i_big_double(arena, v, &e);
-    return m.size ? sunder_i_big_shl(arena, m, (unsigned long)(e - unit)) : m;
-}
-
 static sunder_i_rational_point point_of(const sunder_i_boundary *b, uint32_t v, sunder_i_arena *arena)
 {
     if (!b->xy) return b->point[v];
     const double *xy = b->xy + 2 * (size_t)v;
-    return (sunder_i_rational_point){in_units(arena, xy[0], b->unit), in_units(arena, xy[1], b->unit),
-                                     sunder_i_big_i64(arena, 1)};
+    return (sunder_i_rational_point){sunder_i_big_in_units(arena, xy[0], b->unit),
+                                     sunder_i_big_in_units(arena, xy[1], b->unit), sunder_i_big_i64(arena, 1)};
 }
 
 static sunder_i_ratio height_of(const sunder_i_boundary *b, const sunder_i_widest_interval *i, sunder_i_arena *arena)
 {
     if (!b->xy) return i->height;
-    return (sunder_i_ratio){
-        sunder_i_big_add(arena, in_units(arena, i->low, b->unit), in_units(arena, i->high, b->unit)),
-        sunder_i_big_i64(arena, 2)};
+    return (sunder_i_ratio){sunder_i_big_add(arena, sunder_i_big_in_units(arena, i->low, b->unit),
+                                             sunder_i_big_in_units(arena, i->high, b->unit)),
+                            sunder_i_big_i64(arena, 2)};
 }
 
 /* Returns x of the crossing. With the heights p and q of the ends above the line, times the denominators of both, it is
