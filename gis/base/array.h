@@ -9,8 +9,8 @@
 bool gis_array_grow(void *array, size_t *capacity, size_t needed, size_t size);
 
 /* Reserves room for `needed` elements of `size` bytes in an array, given by the address of the pointer to it. The
- * capacity at least doubles, so appending takes constant time on average. False if memory is out; then the array is
- * unchanged. */
+ * capacity at least doubles, so that appending takes constant time on average. Returns false if out of memory; then the
+ * array is unchanged. */
 static inline bool gis_array_reserve(void *array, size_t *capacity, size_t needed, size_t size)
 {
     return needed <= *capacity || gis_array_grow(array, capacity, needed, size);

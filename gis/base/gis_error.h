@@ -28,7 +28,7 @@ typedef struct gis_error {
 bool gis_fail(gis_error *error, const char *format, ...) __attribute__((format(printf, 2, 3)));
 bool gis_fail_usage(gis_error *error, const char *format, ...) __attribute__((format(printf, 2, 3)));
 bool gis_no_memory(gis_error *error);
-/* Is it the error of an interruption? */
+/* Returns true if this is the error of an interruption. */
 bool gis_is_interruption(const gis_error *error);
 
 /* A list of distinct sentences in the order of their first appearance. A zeroed struct is an empty list. */
@@ -37,7 +37,7 @@ typedef struct gis_sentences {
     size_t n, capacity;
 } gis_sentences;
 
-/* Appends a sentence unless the list contains it; false if memory is out. */
+/* Appends a sentence unless the list contains it. Returns false if out of memory. */
 bool gis_sentences_add(gis_sentences *list, const char *format, ...) __attribute__((format(printf, 2, 3)));
 void gis_sentences_clear(gis_sentences *list);
 
@@ -53,7 +53,7 @@ void gis_listen_begin(gis_listener *listener);
 /* Stops listening. The collected reports stay readable until gis_listener_clear(). */
 void gis_listen_end(void);
 void gis_listener_clear(gis_listener *listener);
-/* The text of the first failure; `otherwise` if there was none. */
+/* Returns the text of the first failure; `otherwise` if there was none. */
 const char *gis_listener_reason(const gis_listener *listener, const char *otherwise);
 
 #endif

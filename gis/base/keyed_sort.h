@@ -11,7 +11,7 @@ typedef struct gis_keyed {
     uint64_t key, with;
 } gis_keyed;
 
-/* Sorts by ascending keys; elements with equal keys keep their order. False if memory is out; then the list is
+/* Sorts by ascending keys; elements with equal keys keep their order. Returns false if out of memory; then the list is
  * unchanged. */
 bool gis_keyed_sort(gis_keyed *list, size_t n);
 

@@ -4,11 +4,11 @@
 
 #include <stdint.h>
 
-/* The time in seconds on a clock that never goes back. */
+/* Returns the time in seconds of a clock that never goes back. */
 double gis_clock(void);
-/* The number of threads to use: `asked`, or for 0 the number of processors. */
+/* Returns the number of threads to use: `asked`, or for 0 the number of processors. */
 unsigned gis_threads(unsigned asked);
-/* The largest resident memory of the process, in bytes; 0: not known. */
+/* Returns the largest resident memory of the process, in bytes; 0: not known. */
 uint64_t gis_peak_rss(void);
 /* Sets up allocation; call it before anything is allocated. Large arrays are then taken from the system one by one, and
  * returned to it when they are freed. */

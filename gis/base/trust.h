@@ -10,15 +10,15 @@
 
 #include "base/gis_error.h"
 
-/* Is it a directory of the effective user with mode 0700 (the setgid bit may be set)? */
+/* Returns true if the descriptor is of a directory of the effective user with mode 0700 (the setgid bit may be set). */
 bool gis_is_private_directory(int descriptor);
 /* Opens the directory `name` in an open directory if gis_is_private_directory(); -1 otherwise, or if it cannot be
  * opened. */
 int gis_open_private_directory(int directory, const char *name);
-/* Does the open file, of any kind, belong to the effective user? */
+/* Returns true if the open file, of any kind, belongs to the effective user. */
 bool gis_is_own(int descriptor);
 
-/* Can it be the name of a directory's entry: not empty, ".", or "..", and without a slash? */
+/* Returns true if `name` can be the name of a directory's entry: not empty, ".", or "..", and without a slash. */
 bool gis_is_plain_name(const char *name);
 
 /* May another user have put the file there? True if the last component of the path is in a directory where all users
@@ -29,7 +29,8 @@ bool gis_may_be_planted(const char *path);
 /* Fails if the path is a link that another user may have put there; `what` names it in the message. */
 bool gis_link_may_be_followed(const char *path, const char *what, gis_error *error);
 
-/* Opens a directory for use with openat() and the like; -1: errno says why. */
+/* Opens a directory for use with openat() and similar functions. Returns its descriptor; -1: failed, errno has the
+ * reason. */
 int gis_open_directory(const char *path);
 
 #endif

@@ -16,7 +16,7 @@ typedef struct gis_disk_file {
     gis_leftover *leftover; /* for a temporary file, so that a signal removes it */
 } gis_disk_file;
 
-/* The path of `name` in a directory; NULL if memory is out. Freed with free(). */
+/* Returns the path of `name` in a directory, which the caller frees with free(); NULL if out of memory. */
 char *gis_disk_path(const char *directory, const char *name);
 
 /* Creates a file, in place of one that an earlier run left under this name. It is removed when it is closed, unless

@@ -26,12 +26,12 @@ typedef enum gis_content {
 } gis_content;
 enum { GIS_CONTENTS = GIS_BROKEN + 1 };
 
-/* The content of a geometry; NULL is allowed. */
+/* Returns the kind of content of a geometry; NULL is allowed. */
 gis_content gis_geometry_content(OGRGeometryH geometry);
 
 /* Extracts the polygons of a geometry of any kind (NULL: none), in their order; Z and M are ignored, and arcs are
  * linearised by GDAL with its default step. Coordinates are copied without change, even if they are not finite. Fails
- * if memory is out or GDAL cannot linearise an arc. */
+ * if out of memory or GDAL cannot linearise an arc. */
 bool gis_geometry_polygonal_part(OGRGeometryH geometry, gis_polygonal_part *part, gis_error *error);
 void gis_polygonal_part_clear(gis_polygonal_part *part);
 
@@ -39,25 +39,26 @@ void gis_polygonal_part_clear(gis_polygonal_part *part);
  * in *xy, to be freed with CPLFree(). */
 bool gis_geometry_points(OGRGeometryH geometry, double **xy, size_t *n, gis_error *error);
 
-/* Are all X and Y of the geometry, including control points of arcs, finite? True for NULL and empty geometries. */
+/* Returns true if all X and Y of the geometry, including control points of arcs, are finite; also for NULL and empty
+ * geometries. */
 bool gis_geometry_is_finite(OGRGeometryH geometry);
 
-/* Adds (dx, dy) to every vertex, in place: x becomes the double nearest to x + dx. Z and M stay, and so do the order,
- * orientation and start of rings, arcs (their control points move) and the type. dx == dy == 0 changes nothing. Fails
- * only if memory is out. */
+/* Adds (dx, dy) to every vertex, in place: x becomes the double nearest to x + dx. Z and M do not change, nor do the
+ * order, orientation and start of rings, arcs (their control points move) and the type. dx == dy == 0 changes nothing.
+ * Fails only if out of memory. */
 bool gis_geometry_translate(OGRGeometryH geometry, double dx, double dy, gis_error *error);
 
 /* Orients the rings of all polygons (except curved ones) as Shapefiles require: outer rings clockwise, holes
  * counter-clockwise. The orientation is determined exactly, at the lowest vertex. Z and M are kept. */
 bool gis_geometry_wind_clockwise(OGRGeometryH geometry, gis_error *error);
 
-/* Make new geometries, which the caller owns (gis_sink_write() takes them over). NULL if memory is out. A set becomes a
- * Polygon if it has one member and `multi` is false, else a MultiPolygon; rings may lack the closing vertex. A line
- * with from == to has two equal points. */
+/* Make new geometries, which the caller owns (gis_sink_write() takes them over). Return NULL if out of memory. A set
+ * becomes a Polygon if it has one polygon and `multi` is false, else a MultiPolygon; rings may lack the closing vertex.
+ * A line with from == to has two equal points. */
 OGRGeometryH gis_geometry_line(const double from[2], const double to[2]);
 OGRGeometryH gis_geometry_point(const double xy[2]);
 OGRGeometryH gis_geometry_polygons(const gis_polygons *set, bool multi);
-/* Makes a Polygon of member p of a set. */
+/* Makes a Polygon of polygon p of a set. */
 OGRGeometryH gis_geometry_polygon(const gis_polygons *set, size_t p);
 
 #endif

@@ -77,7 +77,7 @@ static size_t next_chunk(const gis_packed *packed)
     return chunk;
 }
 
-/* Reserves `size` bytes behind the last record; NULL if memory is out. */
+/* Reserves `size` bytes behind the last record. Returns NULL if out of memory. */
 static unsigned char *reserve_record(gis_packed *packed, size_t size)
 {
     if (packed->room - packed->used < size) {
@@ -105,7 +105,8 @@ static bool has_points(OGRGeometryH polygon)
     return rings > 0;
 }
 
-/* Is it a Polygon or MultiPolygon in two dimensions, without empty rings, in the layer's CRS? */
+/* Returns true if the geometry is a Polygon or MultiPolygon in two dimensions, without empty rings, in the layer's
+ * CRS. */
 static bool is_plain(const gis_packed *packed, OGRGeometryH geometry)
 {
     if (!geometry || OGR_G_GetSpatialReference(geometry) != packed->crs) return false;
@@ -213,7 +214,7 @@ static uint32_t number_at(const unsigned char **at)
     return number;
 }
 
-/* The parts of a record behind the FID. */
+/* The parts of a record after the FID. */
 typedef struct place {
     const unsigned char *geometry; /* well-known binary; NULL: the vertices are borrowed */
     const unsigned char *values;   /* the values of the fields */
@@ -239,7 +240,7 @@ static place place_of(const unsigned char *record)
     return p;
 }
 
-/* Skips the byte order and the type, which it returns. */
+/* Skips the byte order and the type of a geometry, and returns the type. */
 static uint32_t begin_geometry(const unsigned char **at)
 {
     ++*at;
@@ -298,8 +299,8 @@ static const unsigned char *pass_value(OGRFieldType type, const unsigned char *f
 
 /* ---- Vertices of shapes ------------------------------------------------------------------------------------------ */
 
-/* The geometry of a record as well-known binary. If its vertices are borrowed, the result is valid until the next call.
- * NULL if memory is out. */
+/* Returns the geometry of a record as well-known binary. If its vertices are borrowed, the result is valid until the
+ * next call. Returns NULL if out of memory. */
 static const unsigned char *geometry_of(gis_packed *packed, const unsigned char *record, size_t *bytes)
 {
     const place p = place_of(record);
@@ -337,7 +338,7 @@ bool gis_packed_polygons(gis_packed *packed, const unsigned char *record, gis_po
     return geometry ? gis_packed_visit(geometry, visit_appending, &to) : gis_no_memory(error);
 }
 
-/* Sets *same to whether the shape was made from exactly this geometry; false if memory is out. */
+/* Sets *same to whether the shape was made from exactly this geometry. Returns false if out of memory. */
 static bool is_given(gis_packed *packed, const place *p, bool multi, const sunder_shape *shape, bool *same)
 {
     *same = gis_shape_wkb_bytes(shape, multi) == p->bytes;
@@ -388,7 +389,7 @@ static const unsigned char *set_value(OGRFeatureH feature, int i, OGRFieldType t
     }
 }
 
-/* Sets the FID, geometry and fields of a feature from the record. False if memory is out. */
+/* Sets the FID, geometry and fields of a feature from the record. Returns false if out of memory. */
 static bool set_feature(gis_packed *packed, const unsigned char *record, OGRFeatureH feature)
 {
     size_t bytes;

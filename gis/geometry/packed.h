@@ -16,7 +16,7 @@
 /* The memory of records, and the feature that was made last. A zeroed struct is empty. */
 typedef struct gis_packed {
     OGRFeatureDefnH definition; /* NULL: features of the layer cannot be packed */
-    OGRSpatialReferenceH crs;   /* that all geometries must have */
+    OGRSpatialReferenceH crs;   /* the CRS that all geometries must have */
     OGRFieldType *type;         /* [fields] */
     int fields;
     unsigned char **chunk;
@@ -29,42 +29,44 @@ typedef struct gis_packed {
 } gis_packed;
 
 /* Prepares packing for a layer. Features can be packed if all fields are integers, reals or texts without subtypes, and
- * there is one geometry column; otherwise packed->definition is NULL. Fails if memory is out. */
+ * there is one geometry column; otherwise packed->definition is NULL. Fails if out of memory. */
 bool gis_packed_begin(gis_packed *packed, OGRLayerH layer, gis_error *error);
-/* Makes the record of a feature. *record = NULL if it must be kept as a feature: its geometry is null, empty, curved or
- * three-dimensional, or it has a style or format-specific data. Fails if memory is out. */
+/* Makes the record of a feature. *record becomes NULL if the feature must be stored in another way: its geometry is
+ * null, empty, curved or three-dimensional, or it has a style or format-specific data. Fails if out of memory. */
 bool gis_packed_add(gis_packed *packed, OGRFeatureH feature, const unsigned char **record, gis_error *error);
 /* Makes the record of a feature that is given as a Polygon or MultiPolygon in well-known binary, in the machine's byte
- * order (as gis_packed_add() accepts it), and a value for each field, of its type or null. NULL if memory is out. */
+ * order (as gis_packed_add() accepts it), and a value for each field, of its type or null. Returns NULL if out of
+ * memory. */
 const unsigned char *gis_packed_add_row(gis_packed *packed, GIntBig fid, const unsigned char *geometry, size_t bytes,
                                         const gis_value *values);
 /* Copies a record of the same layer that contains its geometry. If packed->shape[i] (which may be NULL) was made from
  * exactly this geometry, the copy contains no vertices, and takes them from the shape, which must outlive it: vertices
- * are most of a layer's memory. NULL if memory is out. */
+ * are most of a layer's memory. Returns NULL if out of memory. */
 const unsigned char *gis_packed_add_borrowing(gis_packed *packed, const unsigned char *record, size_t i);
 /* Moves the records of `from`, which are of the same layer, to `packed`, without changing their addresses; `from` is
- * cleared. False if memory is out; then nothing has changed. */
+ * cleared. Returns false if out of memory; then nothing has changed. */
 bool gis_packed_join(gis_packed *packed, gis_packed *from);
 void gis_packed_clear(gis_packed *packed);
 
 GIntBig gis_packed_fid(const unsigned char *record);
-/* Is the geometry a MultiPolygon? Otherwise it is a Polygon. */
+/* Returns true if the geometry is a MultiPolygon, false if it is a Polygon. */
 bool gis_packed_is_multi(const unsigned char *record);
-/* Are all coordinates finite? */
+/* Returns true if all coordinates of the record's geometry are finite. */
 bool gis_packed_is_finite(const unsigned char *record);
 /* Gets the polygons of a record, as gis_geometry_polygonal_part() does. */
 bool gis_packed_polygons(gis_packed *packed, const unsigned char *record, gis_polygonal_part *part, gis_error *error);
-/* The GDAL feature of a record, valid until the next call. NULL if memory is out. */
+/* Returns the GDAL feature of a record, valid until the next call; NULL if out of memory. */
 OGRFeatureH gis_packed_feature(gis_packed *packed, const unsigned char *record);
-/* A new GDAL feature of a record, which the caller owns. */
+/* Returns a new GDAL feature of a record, which the caller owns; NULL if out of memory. */
 OGRFeatureH gis_packed_copy(gis_packed *packed, const unsigned char *record);
-/* The geometry as well-known binary, translated as by gis_geometry_translate(); valid until the next call. NULL if
- * memory is out. */
+/* Returns the geometry as well-known binary, translated as by gis_geometry_translate(); valid until the next call. NULL
+ * if out of memory. */
 const unsigned char *gis_packed_moved(gis_packed *packed, const unsigned char *record, double dx, double dy,
                                       size_t *bytes);
 /* Sets to[map[i]] to the value of field i, unless map[i] is -1; texts point into the record. */
 void gis_packed_values(const gis_packed *packed, const unsigned char *record, const int *map, gis_value *to);
-/* Called for a ring of n points (not aligned); last: it is the polygon's last ring. Returning false ends the loop. */
+/* The type of a function that is called for a ring of n points (not aligned); last: it is the polygon's last ring. If
+ * the function returns false, the loop ends. */
 typedef bool gis_packed_ring(void *user, const unsigned char *points, size_t n, bool last);
 /* Visits all rings of a geometry that is given as well-known binary. */
 bool gis_packed_visit(const unsigned char *geometry, gis_packed_ring *visit, void *user);

@@ -21,7 +21,7 @@ static void *prepare_statement(void *database, const char *sql)
     return sqlite && sqlite->prepare(database, sql, -1, &statement, NULL) == GIS_SQLITE_OK ? statement : NULL;
 }
 
-/* A statement that inserts n rows; NULL if SQLite rejects it. */
+/* Returns a statement that inserts n rows; NULL if SQLite rejects it. */
 static void *prepare_rows(const gis_sqlite_inserts *rows, const char *sql, size_t n)
 {
     const size_t start = strlen(sql);
@@ -97,9 +97,9 @@ static int send_rows(const gis_sqlite_batch *batch, void *statement, size_t firs
     return stepped == GIS_SQLITE_DONE ? reset : reset != GIS_SQLITE_OK ? reset : stepped;
 }
 
-/* Did a single row violate a constraint? Then no row of the statement was inserted, and the transaction continues; each
- * row is inserted separately, to identify the one at fault. After any other failure SQLite may have rolled the
- * transaction back, and no further statement is run. */
+/* Returns true if a single row violated a constraint. Then no row of the statement was inserted, and the transaction
+ * continues; each row is inserted separately, to identify the one at fault. After any other failure SQLite may have
+ * rolled the transaction back, and no further statement is run. */
 static bool is_of_one_row(int outcome) { return (outcome & GIS_SQLITE_KIND) == GIS_SQLITE_CONSTRAINT; }
 
 /* Inserts n rows from *done on: with one statement if it is for n rows, else one by one. *done is advanced by the
@@ -136,7 +136,7 @@ static void send_all(void *context)
     batch->refused = true;
 }
 
-/* Waits until all batches handed over are inserted. False, with *key and *reason, if a row was rejected. */
+/* Waits until all batches handed over are inserted. Returns false, with *key and *reason, if a row was rejected. */
 static bool await_batches(gis_sqlite_inserts *rows, int64_t *key, const char **reason)
 {
     gis_side_thread_wait(rows->beside, 0);
@@ -177,7 +177,7 @@ static bool hold_bytes(gis_sqlite_batch *batch, gis_sqlite_held *held, const voi
     return true;
 }
 
-/* Appends a row to the batch; false if memory is out. */
+/* Appends a row to the batch. Returns false if out of memory. */
 static bool hold_row(gis_sqlite_batch *batch, size_t columns, int64_t key, const void *bytes, size_t size,
                      const gis_value *values)
 {

@@ -13,21 +13,21 @@ bool gis_field_find(const gis_source *source, const char *option, const char *na
 bool gis_field_find_numbers(const gis_source *source, const char *option, const char *name, int *field,
                             gis_error *error);
 
-/* Is the value null, or a text of blanks only? Formats without null have empty texts instead. */
+/* Returns true if the value is null, or a text of blanks only. Formats without null have empty texts instead. */
 bool gis_field_is_blank(OGRFeatureH feature, int field);
 
-/* A copy of a field's value as text, which the caller frees; NULL if memory is out. Equal values give equal texts, and
- * different values different texts. Not for lists, whose texts GDAL cuts. */
+/* Returns a copy of a field's value as text, which the caller frees; NULL if out of memory. Equal values give equal
+ * texts, and different values different texts. Not for lists, whose texts GDAL truncates. */
 char *gis_field_key(OGRFeatureH feature, int field);
 
-/* Is it the type of a list? gis_field_list() writes a list that is not null as a JSON array. */
+/* Returns true for the types of lists. gis_field_list() writes a list that is not null as a JSON array. */
 bool gis_field_type_is_list(OGRFieldType type);
 void gis_field_list(OGRFeatureH feature, int field, gis_json *out);
 
-/* The value as a number, also if it is in a text; NAN if it is not a number. */
+/* Returns the value as a number, also if it is in a text; NAN if it is not a number. */
 double gis_field_number(OGRFeatureH feature, int field);
 
-/* The value for messages; long texts are cut. */
+/* The size of a buffer for a value in messages; longer texts are truncated. */
 enum { GIS_FIELD_TEXT_SIZE = 64 };
 void gis_field_text(OGRFeatureH feature, int field, char text[GIS_FIELD_TEXT_SIZE]);
 

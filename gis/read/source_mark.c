@@ -95,7 +95,7 @@ static int compare_ranges(const void *a, const void *b)
     return (p[0] > q[0]) - (p[0] < q[0]);
 }
 
-/* The result of the condition; the layer is queried at the first use. NULL: *error says why. */
+/* Returns the result of the condition; the layer is queried at the first use. NULL: failed, *error has the reason. */
 static const gis_marked *find_marked(gis_source *source, const char *where, gis_error *error)
 {
     gis_source_marks *all = gis_source_marks_of(source);
@@ -113,7 +113,7 @@ static const gis_marked *find_marked(gis_source *source, const char *where, gis_
     return marked;
 }
 
-/* Is the FID before the range, in it, or behind it? */
+/* Returns whether the FID is before the range, in it, or behind it: -1, 0 or 1. */
 static int compare_with_range(const void *fid, const void *range)
 {
     const GIntBig key = *(const GIntBig *)fid, *r = range;

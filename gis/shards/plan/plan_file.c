@@ -21,7 +21,7 @@ enum { MOST_BYTES = 1 << 26 };
 
 typedef struct plan_head {
     char what[8];
-    char version[24]; /* of the program */
+    char version[24]; /* the version of the program */
 } plan_head;
 
 static plan_head head_of_ours(void)
@@ -132,7 +132,7 @@ static bool take_bytes(plan_bytes *from, void *to, size_t n)
     return true;
 }
 
-/* Takes a length and a text from the bytes. NULL: they end too early, or memory is out. */
+/* Takes a length and a text from the bytes. Returns NULL if they end too early, or if out of memory. */
 static char *take_text(plan_bytes *from)
 {
     uint64_t n;
