@@ -4,13 +4,6 @@
 
 #include <limits.h>
 
-sunder_i_big sunder_i_big_in_units(sunder_i_arena *arena, double v, long unit)
-{
-    int e;
-    const sunder_i_big m = sunder_i_big_double(arena, v, &e);
-    return m.size ? sunder_i_big_shl(arena, m, (unsigned long)(e - unit)) : m;
-}
-
 /* Adds v times den to num[k], which is in units of 2^*exponent; the unit becomes finer if v requires it. */
 static void add_double(sunder_i_arena *arena, sunder_i_big num[2], int k, sunder_i_big den, double v, long *exponent)
 {

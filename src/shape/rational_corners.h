@@ -6,7 +6,13 @@
 #include "shape/shape.h"
 
 /* Returns v in units of 2^unit; unit must not be above v's lowest bit. */
-sunder_i_big sunder_i_big_in_units(sunder_i_arena *arena, double v, long unit);
+static inline sunder_i_big sunder_i_big_in_units(sunder_i_arena *arena, double v, long unit)
+{
+    int e;
+    const sunder_i_big m = sunder_i_big_double(arena, v, &e);
+    return m.size ? sunder_i_big_shl(arena, m, (unsigned long)(e - unit)) : m;
+}
+
 /* Returns u * 2^exponent + (add[0], add[1]) in lowest terms. */
 sunder_i_exact sunder_i_exact_make(sunder_i_arena *arena, sunder_i_rational_point u, long exponent,
                                    const double add[2]);
