@@ -141,7 +141,7 @@ class Blocks:
             if x * x + y * y <= square:
                 places.add((x * x + y * y, x, y))
         close = [s for s in segments if sum(v * v for v in plane.foot(s)) <= square]
-        demand(len(close) ** 2 < TOO_MANY * 8, "two features meet along too many edges")
+        demand(len(close) ** 2 < TOO_MANY * 32, "two features meet along too many edges")
         for i, s in enumerate(close):
             box = plane.edge_box(s)
             for r in close[:i]:
