@@ -94,20 +94,22 @@ class Verdict:
             demand(self.problem.is_barrier(k) or self.body_of(k) in own, "the way of a bystander:", k)
 
     def check_within(self):
-        """Apart by more than they owe, however far beyond: the two, a feature and a barrier with a side, or all of two blocks."""
+        """Apart by more than they owe, however far beyond: the two, a feature and a barrier with a side, all of two blocks, or
+        all of a block and the barriers that are named."""
         a, b = self.told["a"], self.told["b"]
         sided = self.told["reason"] == "side" and self.problem.is_barrier(b)
         demand(sided or self.told["reason"] in ("jump", "no_room"), "a length for those without a limit, with the reason",
                self.told["reason"])
         pairs = [(a, b)]
         if self.told["reason"] == "no_room":
-            demand(not self.problem.is_barrier(a) and not self.problem.is_barrier(b), "a barrier, where there is no limit")
+            among = self.problem.is_barrier(b)
             bodies = {self.body_of(a), self.body_of(b)}
-            for node in self.nodes:
-                for k in (node["a"], node["b"], node.get("c", node["b"])) if "ways" in node else ():
-                    demand(not self.problem.is_barrier(k) and self.body_of(k) in bodies,
-                           "a bystander, where there is no limit:", k)
-            pairs = [(k, l) for k in self.body_of(a) for l in self.body_of(b)]
+            named = {k for node in self.nodes if "ways" in node for k in (node["a"], node["b"], node.get("c", node["b"]))} | {b}
+            for k in named:
+                demand(among if self.problem.is_barrier(k) else self.body_of(k) in bodies,
+                       "a bystander, where there is no limit:", k)
+            others = [k for k in named if self.problem.is_barrier(k)] if among else self.body_of(b)
+            pairs = [(k, l) for k in self.body_of(a) for l in others]
         within = Fraction(self.within) * self.unit
         for k, l in pairs:
             (p, q), owed = (self.problem.whole(x).box for x in (k, l)), self.problem.required(k, l)

@@ -152,6 +152,7 @@ static void offer_place(place_search *h, const double x[2])
         if (hypot(x[0] - h->place[k][0], x[1] - h->place[k][1]) <= h->spread) return;
     const span point = span_of(x, x);
     if (is_held(h, &point, x, SUNDER_I_NO_ENTRY)) return;
+    if (h->obstacles->admits && !h->obstacles->admits(h->obstacles->user, x)) return;
     size_t k = 0;
     while (k < h->n && h->distance[k] <= d) k++;
     /* Farther places that are too near to the new one are removed. */

@@ -31,6 +31,8 @@ typedef struct sunder_i_obstacles {
     size_t walls, wall_capacity;
     sunder_i_obstacle_line *line; /* [walls] the line of each wall */
     size_t line_capacity;
+    bool (*admits)(void *user, const double place[2]); /* NULL, or asked of each place outside the union, besides */
+    void *user;
     bool failed;
 } sunder_i_obstacles;
 
@@ -38,7 +40,7 @@ typedef struct sunder_i_obstacles {
 double sunder_i_obstacle_slack(const sunder_i_obstacle *obstacle);
 
 void sunder_i_obstacles_free(sunder_i_obstacles *obstacles);
-/* Removes all obstacles and keeps the memory. */
+/* Removes all obstacles, and what else is asked of a place; keeps the memory. */
 void sunder_i_obstacles_clear(sunder_i_obstacles *obstacles);
 /* Adds the convex polygon d of n corners, grown by `gap`. Its round corners are replaced by tangents, so that the grown
  * polygon is contained. */

@@ -22,6 +22,7 @@ void sunder_i_obstacles_free(sunder_i_obstacles *obstacles)
 void sunder_i_obstacles_clear(sunder_i_obstacles *obstacles)
 {
     obstacles->n = obstacles->walls = 0;
+    obstacles->admits = NULL;
     obstacles->failed = false;
 }
 

@@ -166,6 +166,16 @@ double sunder_i_farthest_near(const sunder_i_model *model, uint32_t p, uint32_t 
     return reach + 2 * model->rules.gap;
 }
 
+double sunder_i_far_from_barrier(const sunder_i_model *model, uint32_t body, uint32_t part)
+{
+    const uint32_t features = (uint32_t)model->features, first = sunder_i_whole_of(model, part),
+                   end = features + model->barriers->part_end[sunder_i_barrier_of(model, part)];
+    double far = 0;
+    for (uint32_t k = first; k < end; k++)
+        far = sunder_i_max(far, sunder_i_farthest_near(model, body, model->body_of[k]));
+    return 2 * (far + sunder_i_owed_above(model, first, first));
+}
+
 typedef struct unions_task {
     sunder_i_model *model;
     const uint32_t *body;

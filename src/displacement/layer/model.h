@@ -313,6 +313,8 @@ sunder_status sunder_i_model_cut(sunder_i_model *model, sunder_error *err);
 uint32_t sunder_i_body_of_piece(const sunder_i_model *model, uint32_t piece);
 /* Returns a length such that any relative move of bodies p and q that is longer leaves them more than the gap apart. */
 double sunder_i_farthest_near(const sunder_i_model *model, uint32_t p, uint32_t q);
+/* Returns twice such a length for a body and a whole barrier, of which `part` is one part. */
+double sunder_i_far_from_barrier(const sunder_i_model *model, uint32_t body, uint32_t part);
 /* Makes the unions of the members of these n bodies, if they are blocks and have none yet. */
 sunder_status sunder_i_model_unite(sunder_i_model *model, const uint32_t *body, size_t n, sunder_error *err);
 /* Returns the shape of a body: that of its only member, or the union of all members. Returns NULL if the union was not

@@ -338,6 +338,52 @@ static sunder_status ask_without_limit(const asking *g, matter *m, const sunder_
     return status;
 }
 
+/* Is the conflict between a body without a limit and a barrier? */
+static bool has_barrier_and_no_limit(const asking *g, const matter *m)
+{
+    const sunder_i_model *model = &g->solver->model;
+    const sunder_conflict *c = &g->report->conflict[m->conflict];
+    const sunder_i_body *body = &model->body[model->body_of[c->a]];
+    return sunder_i_is_barrier(model, (uint32_t)c->b) && sunder_i_limit_of(body) == INFINITY;
+}
+
+/* Examines a conflict of a body without a limit and a barrier: with all barriers no farther from the body than `reach`
+ * times its size, and nothing else (barriers_about.c). The conflict stays open until there is a proof. */
+static sunder_status ask_among_barriers(const asking *g, matter *m, const sunder_i_subproblem *q, double reach,
+                                        uint64_t *pool, sunder_error *err)
+{
+    const sunder_i_model *model = q->model;
+    const uint32_t body = model->body_of[g->report->conflict[m->conflict].a];
+    const sunder_i_body *b = &model->body[body];
+    const double size = sunder_i_max(b->box[2] - b->box[0], b->box[3] - b->box[1]) + model->barriers->farthest;
+    sunder_i_subproblem among = *q;
+    sunder_i_list thing = {0};
+    sunder_status status = SUNDER_OK;
+    bool ok = sunder_i_barriers_about(model, body, reach * size, &thing, &among.instead);
+    for (uint32_t k = 0; k < b->members && ok; k++) ok = sunder_i_list_push(&thing, model->member[b->member + k]);
+    if (ok && among.instead > 0) {
+        thing.n = sunder_i_set_make(thing.item, thing.n);
+        among.feature = thing.item;
+        among.features = thing.n;
+        among.reserves = 0;
+        *m = (matter){.root = m->root, .conflict = m->conflict, .open = true};
+        status = ask_conflict(g, m, &among, pool, err);
+        m->open = g->report->proof[m->conflict] == NULL;
+    }
+    m->still = false; /* a body without a limit has other places on any line */
+    sunder_i_free(thing.item);
+    return ok ? status : sunder_i_failure_cause(err);
+}
+
+/* Examines one open conflict with the effort of q. */
+static sunder_status ask_one(const asking *g, matter *m, sunder_i_subproblem *q, double reach, uint64_t *pool,
+                             sunder_error *err)
+{
+    if (has_no_limit(g, m)) return ask_without_limit(g, m, q, pool, err);
+    if (has_barrier_and_no_limit(g, m)) return ask_among_barriers(g, m, q, reach, pool, err);
+    return ask_conflict(g, m, q, pool, err);
+}
+
 /* Examines all open conflicts of a cluster with one effort, then those still open with a larger effort, and so on. If
  * `patience` questions in a row get no answer, the cluster is too intertwined for proofs, and that effort is the last.
  * The number is halved with each larger effort, since each question costs more, and starts smaller if the first effort
@@ -349,6 +395,7 @@ static sunder_status ask_cluster(const asking *g, matter *first, const matter *l
     bool in_vain = false;
     unsigned patience = PROOFS_IN_VAIN_AT_FIRST;
     uint64_t pool = EFFORT * g->times + EFFORT_EACH * (uint64_t)(q->reserves + 2);
+    double reach = 1;
     for (uint64_t effort = FIRST_EFFORT; effort <= MOST_EFFORT * g->times && pool && !in_vain && !status;
          effort *= GROWTH) {
         unsigned open = 0, asked = 0;
@@ -356,7 +403,7 @@ static sunder_status ask_cluster(const asking *g, matter *first, const matter *l
             if (!m->open) continue;
             asked++;
             q->effort = effort < pool ? effort : pool;
-            status = has_no_limit(g, m) ? ask_without_limit(g, m, q, &pool, err) : ask_conflict(g, m, q, &pool, err);
+            status = ask_one(g, m, q, reach, &pool, err);
             open = m->open ? open + 1 : 0;
             in_vain = open >= patience;
         }
@@ -365,6 +412,7 @@ static sunder_status ask_cluster(const asking *g, matter *first, const matter *l
             patience = nothing ? PROOFS_IN_VAIN_OF_CROWD : PROOFS_IN_VAIN;
         else if (patience > 2)
             patience /= 2;
+        reach *= GROWTH;
     }
     return status;
 }

@@ -14,7 +14,6 @@
 #include "displacement/report/report.h"
 #include "displacement/report/tuning.h"
 
-#include "base/extremes.h"
 #include "base/memory.h"
 #include "base/parallel.h"
 
@@ -69,19 +68,6 @@ static sunder_status prove_alone(const sunder_i_model *model, const sunder_confl
     return status;
 }
 
-/* Returns a length of relative moves beyond which the two certainly are not in conflict; if c->b is a barrier, this
- * holds for all of its parts. */
-static double far_enough(const sunder_i_model *model, const sunder_conflict *c)
-{
-    const uint32_t b = (uint32_t)c->b, body = model->body_of[c->a];
-    const bool barrier = sunder_i_is_barrier(model, b);
-    const uint32_t features = (uint32_t)model->features,
-                   end = barrier ? features + model->barriers->part_end[sunder_i_barrier_of(model, b)] : b + 1;
-    double far = 0;
-    for (uint32_t k = b; k < end; k++) far = sunder_i_max(far, sunder_i_farthest_near(model, body, model->body_of[k]));
-    return 2 * far;
-}
-
 /* Finds the reason if one of the two has no limit. Beyond the distance at which the two certainly are not in conflict
  * only shadows forbid a relative move, and a shadow has no end: each direction that enters one there stays in it. So a
  * pair without a solution up to slightly more than that distance has none at all. For two features the sides of
@@ -91,8 +77,10 @@ static sunder_status reason_without_limit(const sunder_i_model *model, sunder_co
 {
     const bool barrier = c->b >= model->features;
     if (barrier ? model->sides == 0 : model->rules.jumps) return SUNDER_OK;
-    const sunder_status status =
-        prove_alone(model, c, barrier ? SIDES : SIDES_AND_JUMPS, far_enough(model, c), both, proof, err);
+    const uint32_t a = model->body_of[c->a];
+    const double far = barrier ? sunder_i_far_from_barrier(model, a, (uint32_t)c->b)
+                               : 2 * sunder_i_farthest_near(model, a, model->body_of[c->b]);
+    const sunder_status status = prove_alone(model, c, barrier ? SIDES : SIDES_AND_JUMPS, far, both, proof, err);
     if (*proof) c->reason = barrier ? SUNDER_REASON_SIDE : SUNDER_REASON_JUMP;
     return status;
 }

@@ -84,6 +84,13 @@ void sunder_i_count_relations(const sunder_i_model *model, const sunder_i_relati
  * called before any such question. */
 sunder_status sunder_i_report_cover_diagonals(sunder_i_solver *solver, sunder_error *err);
 
+/* ---- barriers_about.c -------------------------------------------------------------------------------------------- */
+
+/* The barriers that come within reach of a body at home, each by its first part, ascending: into `whole`. *far: a
+ * length such that farther out the body is apart from all of them; 0: there is none. False if memory is out. */
+bool sunder_i_barriers_about(const sunder_i_model *model, uint32_t body, double reach, sunder_i_list *whole,
+                             double *far);
+
 /* ---- pair_reasons.c ---------------------------------------------------------------------------------------------- */
 
 /* Determines why conflicts between blocks remain, as far as each pair alone shows it: `fixed`, `max_shift`, `side` and

@@ -257,7 +257,7 @@ static sunder_status search_cases(sunder_i_branching *c, const sunder_i_violatio
 }
 
 /* Finds the violations of the candidate. If there seem to be none, and an exact answer is wanted, half-planes made for
- * the candidate are used. Returns their number. */
+ * the candidate are used, and then a chord. Returns their number. */
 static size_t find_violations(sunder_i_branching *c, sunder_i_violation deepest[SUNDER_I_CHOICES])
 {
     size_t n = sunder_i_branching_violations(c, deepest);
@@ -265,7 +265,7 @@ static size_t find_violations(sunder_i_branching *c, sunder_i_violation deepest[
     c->closely = true;
     n = sunder_i_branching_violations(c, deepest);
     c->closely = false;
-    return n;
+    return n || c->failed ? n : sunder_i_branching_find_chord(c, &deepest[0]);
 }
 
 /* Searches the branches of a wall, with all bodies at their original positions. */

@@ -114,7 +114,7 @@ typedef struct sunder_i_branching {
     size_t half_planes, half_plane_capacity;
     sunder_proof_force *force;
     size_t forces, force_capacity;
-    sunder_i_chord *chord;
+    sunder_i_chord *chord, across; /* across: the chord of a violation that is no node yet */
     size_t chords, chord_capacity;
     sunder_i_half_plane *scratch;
     size_t scratch_capacity;
@@ -255,6 +255,8 @@ bool sunder_i_branching_make_chord(const double a[2], const double b[2], const d
 size_t sunder_i_branching_chord_half_planes(sunder_i_branching *branching, const sunder_i_body *p,
                                             const sunder_i_body_piece *anchor, const sunder_i_body *q,
                                             const double chord[4]);
+/* Looks for a chord that excludes the place of a candidate, which the half-planes of no side exclude. */
+bool sunder_i_branching_find_chord(sunder_i_branching *branching, sunder_i_violation *violation);
 
 /* ---- corridor.c -------------------------------------------------------------------------------------------------- */
 

@@ -4,6 +4,7 @@
 #include "displacement/prove/proofs/branching.h"
 #include "displacement/prove/proofs/tuning.h"
 
+#include "base/extremes.h"
 #include "base/stage_switch.h"
 
 #include <string.h>
@@ -109,4 +110,15 @@ const sunder_i_half_plane *sunder_i_branching_kept_half_planes(sunder_i_branchin
     }
     *n = here->n;
     return here->half_plane;
+}
+
+double sunder_i_branching_depth(const sunder_i_branching *branching, size_t half_planes, const double u[2])
+{
+    double at = -INFINITY;
+    for (size_t k = 0; k < half_planes; k++) {
+        sunder_i_half_plane *w = &branching->scratch[k];
+        w->at = w->n[0] * u[0] + w->n[1] * u[1] - w->d;
+        at = sunder_i_max(at, w->at);
+    }
+    return half_planes ? -at : -INFINITY;
 }

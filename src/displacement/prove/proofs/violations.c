@@ -23,17 +23,6 @@ static const sunder_i_body_pieces *pieces_of(sunder_i_branching *c, const sunder
     return pieces;
 }
 
-double sunder_i_branching_depth(const sunder_i_branching *branching, size_t half_planes, const double u[2])
-{
-    double at = -INFINITY;
-    for (size_t k = 0; k < half_planes; k++) {
-        sunder_i_half_plane *w = &branching->scratch[k];
-        w->at = w->n[0] * u[0] + w->n[1] * u[1] - w->d;
-        at = sunder_i_max(at, w->at);
-    }
-    return half_planes ? -at : -INFINITY;
-}
-
 /* Returns how deep the pieces of two bodies are in each other at the relative move u, or how deep an anchor is in a
  * shadow. */
 static double find_depth(sunder_i_branching *c, const sunder_i_body *p, const sunder_i_body_piece *a,
@@ -362,7 +351,9 @@ size_t sunder_i_branching_half_planes(sunder_i_branching *branching, const sunde
     if (violation->slack) move_of_slack(branching, violation->slack, s.t, u);
     const double clearance = violation->slack ? 0 : violation->clearance;
     size_t n;
-    if (violation->closely)
+    if (violation->chord)
+        n = sunder_i_branching_chord_half_planes(branching, s.body, violation->a, r.body, violation->chord->at);
+    else if (violation->closely)
         n = sunder_i_branching_fill_half_planes(branching, s.body, violation->a, r.body, violation->b, clearance,
                                                 violation->shadow, u);
     else

@@ -93,16 +93,19 @@ static void list_questions(const sunder_i_solver *s, const bool *wanted, questio
     first[*clusters] = n;
 }
 
-/* A limit for bodies that have none: the summed size of the n bodies, which lets each move past all others. */
-static double far_for(const sunder_i_model *model, const uint32_t *body, size_t n)
+/* A limit for bodies that have none: the summed size of the n bodies, which lets each move past all others, or how far
+ * body `first` has to move past the barriers among them. */
+static double far_for(const sunder_i_model *model, uint32_t first, const uint32_t *body, size_t n)
 {
-    double far = 0;
+    double far = 0, beyond = 0;
     for (size_t k = 0; k < n; k++) {
-        const double *box = model->body[body[k]].box;
-        if (!sunder_i_is_barrier_body(model, &model->body[body[k]]))
-            far += box[2] - box[0] + box[3] - box[1] + model->rules.gap;
+        const sunder_i_body *b = &model->body[body[k]];
+        if (sunder_i_is_barrier_body(model, b))
+            beyond = sunder_i_max(beyond, sunder_i_far_from_barrier(model, first, model->member[b->member]));
+        else
+            far += b->box[2] - b->box[0] + b->box[3] - b->box[1] + model->rules.gap;
     }
-    return far;
+    return sunder_i_max(far, beyond);
 }
 
 /* Asks for a solution with a margin for rounding. If there is none, asks again without the margin, since a place may
@@ -192,7 +195,7 @@ static sunder_status ask_clusters(void *context, size_t begin, size_t end, sunde
                                      .most = MOST_BODIES};
             p.reserve = member;
             p.reserves = members;
-            p.instead = far_for(model, p.reserve, p.reserves);
+            p.instead = far_for(model, body[0], p.reserve, p.reserves);
             for (size_t m = 0; m < p.reserves; m++)
                 if (isfinite(sunder_i_limit_of(&model->body[p.reserve[m]])))
                     p.farthest = sunder_i_max(p.farthest, sunder_i_limit_of(&model->body[p.reserve[m]]));

@@ -399,38 +399,47 @@ static void add_shadows_of_others(const others *all, sunder_i_obstacles *o, cons
     }
 }
 
-/* At most `most` free positions within `reach`, the nearest to `home` first. Shadows are only added if the nearest
- * position is in one. */
-static size_t find_among(others *all, const double home[2], double reach, size_t most, double (*place)[2])
+/* Is body i free of clashes at this move, against all prepared obstacles? user: the others about it. */
+static bool is_clear_at(void *user, const double place[2])
+{
+    const others *all = user;
+    sunder_i_search *s = all->search;
+    double *t = s->t + 2 * (size_t)all->i;
+    const double stood[2] = {t[0], t[1]};
+    memcpy(t, place, sizeof stood);
+    const bool clear = sunder_i_search_find_clashes(s, s->t) <= s->tolerance;
+    memcpy(t, stood, sizeof stood);
+    return clear;
+}
+
+/* The free position nearest to `home` within `reach`. Shadows are only added if the position is in one. clear: each
+ * position is tested for clashes as it is found, since between two shadows with a common corner there is a ray that is
+ * in neither. */
+static bool find_among(others *all, const double home[2], double reach, bool clear, double place[2])
 {
     sunder_i_search *s = all->search;
     size_t n = 0;
     sunder_i_obstacles *o = &s->obstacles;
+    double found[1][2];
     sunder_i_obstacles_clear(o);
     add_surroundings(all, o, home, reach);
-    for (int shadows = 0; shadows < 2; shadows++) {
-        n = sunder_i_free_places(o, home, reach, 0, most, place, &s->steps, &s->failed);
-        if (n == 0 && o->n && outside_all(o, home, reach, place[0])) n = 1;
-        if (n == 0 || shadows || s->failed || !is_shaded_by_others(all, place[0])) break;
+    if (clear) {
+        add_shadows_of_others(all, o, home, reach);
+        o->admits = is_clear_at;
+        o->user = all;
+    }
+    for (int shadows = clear; shadows < 2; shadows++) {
+        n = sunder_i_free_places(o, home, reach, 0, 1, found, &s->steps, &s->failed);
+        if (n == 0 && o->n && outside_all(o, home, reach, found[0])) n = !clear || is_clear_at(all, found[0]);
+        if (n == 0 || shadows || s->failed || !is_shaded_by_others(all, found[0])) break;
         add_shadows_of_others(all, o, home, reach);
     }
     s->failed = s->failed || o->failed;
-    return n;
+    if (n) memcpy(place, found[0], sizeof found[0]);
+    return n > 0;
 }
 
-/* Is body i free of clashes at this move, against all prepared obstacles? */
-static bool is_clear_at(sunder_i_search *s, uint32_t i, const double place[2])
-{
-    const double stood[2] = {s->t[2 * i], s->t[2 * i + 1]};
-    memcpy(s->t + 2 * (size_t)i, place, sizeof stood);
-    const bool clear = sunder_i_search_find_clashes(s, s->t) <= s->tolerance;
-    memcpy(s->t + 2 * (size_t)i, stood, sizeof stood);
-    return clear;
-}
-
-/* The free position of body i that is nearest to its original one, within `limit` and about within `all`. clear: of
- * several positions the nearest one without clashes is chosen, since between two shadows with a common corner there is
- * a ray that is in neither. */
+/* The free position of body i that is nearest to its original one, within `limit` and about within `all`. */
 static bool find_free_place(sunder_i_search *s, uint32_t i, double limit, double all, bool clear, double place[2])
 {
     const sunder_i_body *p = &s->model->body[s->body[i]];
@@ -440,11 +449,7 @@ static bool find_free_place(sunder_i_search *s, uint32_t i, double limit, double
         others about = {.search = s, .i = i};
         const double r = reach + s->gap, box[4] = {p->box[0] - r, p->box[1] - r, p->box[2] + r, p->box[3] + r};
         if (!find_others(s, p, box, &about.foreign) || !sunder_i_search_find_about(s, i, r)) s->failed = true;
-        double places[MOST_PLACES][2];
-        size_t n = s->failed ? 0 : find_among(&about, home, reach, clear ? MOST_PLACES : 1, places), k = 0;
-        while (clear && k < n && !s->failed && !is_clear_at(s, i, places[k])) k++;
-        const bool found = k < n;
-        if (found) memcpy(place, places[k], sizeof places[k]);
+        const bool found = !s->failed && find_among(&about, home, reach, clear, place);
         sunder_i_free(about.foreign.item);
         if (!sunder_i_look()) s->failed = true;
         if (found || s->failed) return found && !s->failed;

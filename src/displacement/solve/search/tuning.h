@@ -6,7 +6,7 @@
 #define SUNDER_I_SEARCH_TUNING_H
 
 /* The version of these values; raised with each change of one, so that a record can name it (tests/house/TUNING). */
-#define SUNDER_I_SEARCH_TUNING_VERSION 1
+#define SUNDER_I_SEARCH_TUNING_VERSION 2
 
 /* ---- One descent (descend.c) ------------------------------------------------------------------------------------- */
 
@@ -197,8 +197,6 @@
 #define BODY_GROWTH 2
 /* A distance beyond everything, as a multiple of the total size. */
 #define BEYOND_ALL 4
-/* Places tried for a body that is alone among fixed things. */
-#define MOST_PLACES 16 /* fixed: the size of an array */
 /* Where jumps are not allowed, the visible part of the plane between a body's neighbours narrows with the distance:
  * places are searched up to this many times the body, or the mean body of the cluster, plus the gap. */
 #define FARTHEST_LEAP 8

@@ -1,0 +1,27 @@
+# shellcheck shell=bash disable=SC1091
+# Symbols without a limit, each alone among barriers with sides and without (alone_in_rooms.py): each goes to the nearest
+# free place, or is left with a proof that there is none, which a checker follows.
+. "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
+command -v python3 >/dev/null || { echo "skipped: no python3"; exit 77; }
+
+printf 'id,WKT\n' >empty.csv
+for layer in symbols {line,area,boundary}_{yes,no}; do
+    ogr2ogr -q empty_$layer.gpkg empty.csv -nln $layer -a_srs EPSG:25832 -nlt GEOMETRY -lco SPATIAL_INDEX=NO
+done
+python3 "$SUNDER_SOURCE/tests/cli/alone_in_rooms.py" make || fail "alone_in_rooms.py"
+for symbol in *.symbol; do
+    name=${symbol%.symbol}
+    options=(--symbol "$(cat "$symbol")")
+    for side in yes no; do
+        for kind in line area boundary; do
+            as=$kind
+            [ $kind != line ] || as=area
+            options+=(--barrier "${name}_${kind}_$side.gpkg,side=$side,as=$as")
+        done
+    done
+    expect 3 separate "$name.gpkg" "$name.out.gpkg" --quiet "${options[@]}" --proof "$name.jsonl" --layers main,displacement,conflicts
+    python3 "$SUNDER_SOURCE/tests/proof/check_proof.py" "$name.jsonl" "$name.gpkg" --result "$name.out.gpkg" "${options[@]}" \
+        >checked 2>&1 || fail "the proofs of $name: $(tail -n 1 checked)"
+done
+python3 "$SUNDER_SOURCE/tests/cli/alone_in_rooms.py" check || fail "places"
+finish
