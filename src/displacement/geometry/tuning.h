@@ -59,8 +59,8 @@
 /* The cache is emptied when it would have more than MOST_GROWN walls, which take about a megabyte. */
 #define MOST_GROWN 16384u
 /* FEWEST_GROWN is the initial number of slots of the cache, and FEWEST_GROWN_WALLS its initial capacity in walls. With
- * an eighth of FEWEST_GROWN_WALLS, copying the walls to larger arrays took a hundredth of the instructions for a town.
- * */
+ * an eighth of FEWEST_GROWN_WALLS, copying the walls to larger arrays took a hundredth of the instructions for a
+ * town. */
 #define FEWEST_GROWN 64u
 #define FEWEST_GROWN_WALLS 2048u
 

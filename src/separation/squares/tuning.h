@@ -55,8 +55,8 @@
 
 /* ---- Boxes inside an operand (quadtree.c, inner_convex.c) -------------------------------------------------------- */
 
-/* The quadtree has at most DEEPEST_BOX levels; a box at the last has 2^-14 of the operand's width and contains little.
- * */
+/* The quadtree has at most DEEPEST_BOX levels; a box at the last has 2^-14 of the operand's width and contains
+ * little. */
 #define DEEPEST_BOX 14 /* fixed: the size of an array */
 /* The quadtree ends at the depth at which the boundary passes through more than BOXES_EACH boxes for each edge: edges
  * that are long in proportion to the operand, such as those of a star, pass through nearly all boxes. */

@@ -1,102 +1,114 @@
-/* Numbers of this room that are no error bounds: they decide which proofs are found, and in which time, never
- * whether one is right. (Those are derived in half_planes.c and program.c.) */
+/* These constants decide which proofs are found and how long that takes, and never whether a proof is right. None of
+ * them is an error bound; error bounds are derived in half_planes.c and program.c. */
 #ifndef SUNDER_I_PROOFS_TUNING_H
 #define SUNDER_I_PROOFS_TUNING_H
 
-/* The version of these values; raised with each change of one, so that a record can name it (tests/house/TUNING). */
+/* SUNDER_I_PROOFS_TUNING_VERSION is the version of the values below. It is raised with each change of a value, so that
+ * a record can name the values by their version (tests/house/TUNING). */
 #define SUNDER_I_PROOFS_TUNING_VERSION 1
 
 /* ---- A node's program (program.c) -------------------------------------------------------------------------------- */
 
-/* The program is solved to this part of a hair, with at most this many rounds of tangents. */
+/* The program of a node is solved to the tolerance hair / SOLVED_TO, with at most ROUNDS rounds of added tangents
+ * (solve_program()). */
 #define SOLVED_TO 4
 #define ROUNDS 48
-/* Two tangents count as one up to this cosine: they differ by less than a hair. A body this close to its limit has a
- * tangent from the start. */
+/* Two tangents of a body count as one if the cosine of the angle between them is greater than SAME_TANGENT: they differ
+ * by less than a hair. A body that has moved more than the share AT_LIMIT of its limit has a tangent from the start. */
 #define SAME_TANGENT (1 - 0x1p-40)
 #define AT_LIMIT 0.999
 
-/* ---- The branches (branches.c, violations.c) --------------------------------------------------------------------- */
+/* ---- Branches (branches.c, violations.c) ------------------------------------------------------------------------- */
 
-/* Only violations of at least this share of the deepest are weighed: shallow ones tell little. */
+/* choose_violation() considers only violations of at least the share DEEP of the deepest one: shallow violations tell
+ * little. */
 #define DEEP 0.5
-/* What a look at two bodies' pieces costs, in constraints looked at. */
+/* LOOK_WORK is the cost of looking at the pieces of two bodies, in constraints looked at. */
 #define LOOK_WORK 16
-/* Sides of the polygon that approximates the disc of limits in measurements, and the most corners that cuts of it may
- * make; further cuts are skipped, which only makes an estimate worse. */
+/* room_of() approximates the disc of the moves that the limits allow by a polygon of DISC_SIDES sides. Cuts of the
+ * polygon may give it at most MOST_CORNERS corners; further cuts are skipped, which only makes an estimate worse. */
 #define DISC_SIDES 16
 #define MOST_CORNERS 96 /* fixed: the size of an array */
 
 /* ---- Chains (chain.c, chain_links.c) ----------------------------------------------------------------------------- */
 
-/* Lines may fall short by this share of how far two bodies may move, which is lost at each link; without it, walls that
- * are nearly straight would have a way for each part of them. */
+/* In chains a line may be short of the exact one by the share CHAIN_COARSE of how far the two bodies may move, and each
+ * link loses that much. Without this tolerance, walls that are nearly straight would have one half-plane for each of
+ * their parts. */
 #define CHAIN_COARSE 0x1p-14
-/* Ways that miss by less than this share are open; and what a chain has to win, as a share of what its pair misses: far
- * more than is added for rounding to a sum of a thousand forces. */
+/* A half-plane counts as open if it is out of reach by at most the share CHAIN_HAIR. A chain has to gain more than the
+ * share CHAIN_MARGIN of what its pair misses; this is far more than rounding can add to a sum of a thousand forces. */
 #define CHAIN_HAIR 0x1p-36
 #define CHAIN_MARGIN 0x1p-20
-/* A common line lies this much, as a share of reach, inside the chord of all open ways; and half the arc, as an angle,
- * up to which a common line is used: for larger arcs it says little. */
+/* make_chord() replaces the open half-planes by one whose line lies the share CHAIN_CHORD of the reach inside the chord
+ * of all their arcs. It does so if half the arc is at most CHAIN_WIDEST (radians), since for a larger arc the common
+ * half-plane says little. */
 #define CHAIN_CHORD 0x1p-30
 #define CHAIN_WIDEST 2.1
-/* What it costs to look about a body, in links looked at; the most for one conflict, and links of one chain. */
+/* CHAIN_LOOK is the cost of looking at the surroundings of a body, in links looked at. The search for one end of a
+ * chain takes at most CHAIN_EFFORT links looked at, and a chain has at most CHAIN_MOST links. */
 #define CHAIN_LOOK 16
 #define CHAIN_EFFORT 400000u
 #define CHAIN_MOST 1024
 
-/* If every pair owes its full distance (chain_fewest.c): the most links besides the pair's, and for each length the
- * number of best chains that are extended. */
+/* If every pair owes its full distance (chain_fewest.c), a chain has at most FEWEST_MOST links besides the pair's, and
+ * for each end and length the FEWEST_KEPT best chains are extended. */
 #define FEWEST_MOST 32 /* fixed: the size of an array */
-#define FEWEST_KEPT 8 /* fixed: the size of an array */
-/* Links of a straight chain follow the pair's line up to this cosine. */
+#define FEWEST_KEPT 8  /* fixed: the size of an array */
+/* A chain is straight if the cosine of the angle between each link's normal and the pair's exceeds CHAIN_STRAIGHT
+ * (is_straight()). */
 #define CHAIN_STRAIGHT 0.9
 
-/* ---- Ways that are kept (half_planes_kept.c) --------------------------------------------------------------------- */
+/* ---- Cached half-planes (half_planes_kept.c) --------------------------------------------------------------------- */
 
-/* Of two to the power of this many pairs of pieces: a question of a dozen houses between roads meets some hundred. */
+/* The cache has 2^WAYS_KEPT_BITS slots, each for the half-planes of one pair of pieces: a question about a dozen houses
+ * between roads meets some hundred pairs. */
 #define WAYS_KEPT_BITS 10
 
 /* ---- Corners that two sides share (corner_chord.c) --------------------------------------------------------------- */
 
-/* A chord cuts off this share of the sides, and passes beyond the corner by this share of its distance: far more than
- * rounding and the gaps between the shadows, and too little to matter. */
+/* A chord cuts off the share CHORD of the two sides, and passes beyond the corner by the share BEYOND of the corner's
+ * distance. Both are far more than rounding and the gaps between the shadows, and too small to matter. */
 #define CHORD 0x1p-16
 #define BEYOND 0x1p-24
-/* How far from the way through the corner, as a share of it, a move may be that a chord is looked for. */
+/* A chord is looked for if the anchor's path passes the corner at no more than the share BESIDE of the path's length to
+ * it. */
 #define BESIDE 0x1p-20
-/* At most this many sides with an end there are examined. */
+/* At most SPOKES sides with an end near the path are examined. */
 #define SPOKES 32 /* fixed: the size of an array */
 
 /* ---- Between two lines (corridor.c) ------------------------------------------------------------------------------ */
 
-/* Parts of more corners are passed by. */
+/* Parts with more than WALL_CORNERS corners are skipped. */
 #define WALL_CORNERS 64 /* fixed: the size of an array */
-/* No other edge turns by less from one that is taken for a line. */
+/* An edge is taken for a line only if the sine of the angle between it and each edge that is not exactly parallel is at
+ * least NEARLY_PARALLEL. */
 #define NEARLY_PARALLEL 0x1p-14
 
-/* ---- One relative move (plane.c) --------------------------------------------------------------------------------- */
+/* ---- One relative move (plane.c, plane_region.c, plane_choose.c, plane_choices.c, plane_index.c) ----------------- */
 
-/* Sides of the polygon around the limits, and the most corners of a region. */
+/* The polygon around the disc of limits has PLANE_SIDES sides, and a region has at most PLANE_CORNERS corners. */
 #define PLANE_SIDES 24
 #define PLANE_CORNERS 48 /* fixed: the size of an array */
-/* The search ends after this much work: some ten milliseconds. Finding what covers a place counts as this much, plus
- * this part of a constraint for each obstacle. */
+/* The search ends after PLANE_EFFORT constraints looked at, which takes some ten milliseconds. Finding the obstacles
+ * that cover a place counts as PLACE_LOOK of these, plus one for every BOXES_A_STEP obstacles. */
 #define PLANE_EFFORT 4000000u
 #define PLACE_LOOK 64
 #define BOXES_A_STEP 8
-/* Earlier choices help if at most one in this many obstacles is newly forbidden. */
+/* The choices of an earlier proof are used if at most one in PLANE_FRESH obstacles was not known then. */
 #define PLANE_FRESH 8
-/* The tree of boxes over all obstacles: items in a leaf; the share, and the number, of unsorted ones before it is
- * rebuilt; a question that considers at most this many, or less than this share, tests each of them. */
+/* The tree of boxes over all obstacles has PLANE_LEAF items in a leaf. It is rebuilt if more than PLANE_FEW items, plus
+ * one for every PLANE_LATE in the tree, were added since it was built. A question with at most PLANE_FEW obstacles, or
+ * with fewer than one in PLANE_PART of all, tests each obstacle and does not use the tree. */
 #define PLANE_LEAF 4
 #define PLANE_LATE 8
 #define PLANE_FEW 512
 #define PLANE_PART 4
-/* Boxes about what is forbidden are wider by this share of the limits: far above rounding. */
+/* The box of what an obstacle forbids is enlarged by the share BOX_MARGIN of the limits, far above rounding. */
 #define BOX_MARGIN 0x1p-40
-/* The assumed width of the seam between two claims, as a share of the limits, halved each time that a seam is found
- * inside another: wider than rounding, narrower than what covers it. And how often it is halved. */
+/* keep_side() assumes that the seam between two claims is wide by the share SLIVER of the limits, which is more than
+ * rounding and less than the size of the piece that covers the seam. The width is halved each time a seam is found
+ * inside another, and at most MOST_SLIVERS seams are widened. */
 #define SLIVER 0x1p-24
 #define MOST_SLIVERS 4
 
