@@ -21,8 +21,8 @@
 #define OPTIMAL_MORE 1e-7
 /* A layout replaces the group's layout if it is cheaper by at least the share CHEAPER. */
 #define CHEAPER 0x1p-40
-/* goal_of() neglects moves of the share SMALL_LENGTH of the gap or, if that is 0, of the share SMALL_EXTENT of the
- * smallest movable body's extent. */
+/* goal_of() neglects moves of the share SMALL_LENGTH of a length. The length is the gap or, if that is 0, the share
+ * SMALL_EXTENT of the smallest movable body's extent. */
 #define SMALL_LENGTH 0x1p-17
 #define SMALL_EXTENT 0x1p-4
 /* A group with more than BRANCHED movable bodies is bounded by blocks, too; for a smaller group only branching is used
@@ -54,8 +54,8 @@
 #define AGAIN 4
 /* A group without limits gets neither a tree nor blocks if more than LARGE_FREE_CROWD of its bodies can move. For no
  * such group of Germany's or Italy's symbols did a tree prove 11 %; for smaller groups it proves the more, the smaller
- * they are. Trees of larger groups made one part in ten thousand of the layer's bound, which prices make, in a tenth of
- * the time. With 96 Europe's bound is 0.5 % less. */
+ * they are. Trees of larger groups made one part in ten thousand of the layer's bound, which prices make, and took a
+ * tenth of the time. With 96 Europe's bound is 0.5 % less. */
 #define LARGE_FREE_CROWD 128
 /* A group that is too large for a tree is crowded if it leaves at least one pair in conflict for every CROWDED of its
  * bodies; no large group of real layers within limits leaves one for ten. A crowded group gets one in CROWD_LOOK of its
