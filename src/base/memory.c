@@ -62,6 +62,11 @@ void sunder_i_free(void *memory)
     if (memory) hook_free(memory);
 }
 
+void sunder_i_free_list(void *const *memory, size_t n)
+{
+    for (size_t k = 0; k < n; k++) sunder_i_free(memory[k]);
+}
+
 /* Returns a capacity for at least `need` elements, which is more than the present capacity: the capacity is doubled; 0
  * if the size is too large. The first capacity is `need`, at least 16. */
 static size_t grown_capacity(size_t capacity, size_t need)

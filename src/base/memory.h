@@ -18,6 +18,11 @@ void *sunder_i_calloc(size_t n, size_t size);
 /* Resizes a block to n * size bytes; NULL: failed, and the old block is unchanged. */
 void *sunder_i_realloc(void *old, size_t n, size_t size);
 void sunder_i_free(void *memory);
+/* Frees n pointers, in order; NULL is allowed. */
+void sunder_i_free_list(void *const *memory, size_t n);
+/* Frees each of the pointers given, in order; NULL is allowed. */
+#define sunder_i_free_all(...)                                                                                         \
+    sunder_i_free_list((void *const[]){__VA_ARGS__}, sizeof((void *const[]){__VA_ARGS__}) / sizeof(void *))
 
 /* Enlarges an array for sunder_i_reserve(), if need > *capacity. */
 bool sunder_i_enlarge(void *array, size_t *capacity, size_t need, size_t size);

@@ -88,8 +88,7 @@ bool sunder_i_directions_rank(sunder_i_lattice *lattice, sunder_i_point *side, s
     bool *turned = sunder_i_alloc(n, sizeof *turned);
     *out = (sunder_i_directions){0, sunder_i_alloc(n, sizeof *out->vector)};
     const bool ok = order && turned && out->vector && sort_directions(lattice, side, n, order, turned, rank, out);
-    sunder_i_free(order);
-    sunder_i_free(turned);
+    sunder_i_free_all(order, turned);
     if (!ok) sunder_i_directions_free(out);
     return ok;
 }

@@ -62,13 +62,7 @@ static bool mesh_init(mesh *m, const sunder_shape *shape)
     return true;
 }
 
-static void mesh_free(mesh *m)
-{
-    sunder_i_free(m->origin);
-    sunder_i_free(m->next);
-    sunder_i_free(m->prev);
-    sunder_i_free(m->slot);
-}
+static void mesh_free(mesh *m) { sunder_i_free_all(m->origin, m->next, m->prev, m->slot); }
 
 /* Returns true if the corner at the origin of half-edge h would be convex or straight without h and its twin g. */
 static bool good_without(const mesh *m, uint32_t h, uint32_t g)

@@ -394,8 +394,7 @@ static bool find_needed(finder *f)
         f->stack[f->cells++] = root;
         descend_cells(f);
     }
-    sunder_i_free(f->pair);
-    sunder_i_free(f->stack);
+    sunder_i_free_all(f->pair, f->stack);
     return !f->no_memory && (f->out->all || sunder_i_subsum_list_finish(f->out));
 }
 

@@ -126,8 +126,7 @@ bool sunder_i_piece_tree_build(const sunder_i_convex_pieces *pieces, sunder_i_pi
 
 void sunder_i_piece_tree_free(sunder_i_piece_tree *tree)
 {
-    sunder_i_free(tree->side);
-    sunder_i_free(tree->group);
+    sunder_i_free_all(tree->side, tree->group);
     memset(tree, 0, sizeof *tree);
 }
 

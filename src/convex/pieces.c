@@ -23,11 +23,7 @@ bool sunder_i_convex_pieces_init(sunder_i_convex_pieces *list, size_t n, size_t 
 
 void sunder_i_convex_pieces_free(sunder_i_convex_pieces *list)
 {
-    sunder_i_free(list->end);
-    sunder_i_free(list->corner);
-    sunder_i_free(list->rank);
-    sunder_i_free(list->candidate);
-    sunder_i_free(list->vertex);
+    sunder_i_free_all(list->end, list->corner, list->rank, list->candidate, list->vertex);
     memset(list, 0, sizeof *list);
 }
 
@@ -157,8 +153,7 @@ bool sunder_i_convex_pieces_rank(sunder_i_lattice *lattice, sunder_i_convex_piec
         list[i]->direction = out->vector;
         SUNDER_I_ASSERT(!sunder_i_convex_pieces_check(list[i]));
     }
-    sunder_i_free(side);
-    sunder_i_free(rank);
+    sunder_i_free_all(side, rank);
     return ok;
 }
 

@@ -54,7 +54,6 @@ bool sunder_i_subsum_list_finish(sunder_i_subsum_list *list)
 
 void sunder_i_subsum_list_free(sunder_i_subsum_list *list)
 {
-    sunder_i_free(list->pair);
-    sunder_i_free(list->slot);
+    sunder_i_free_all(list->pair, list->slot);
     memset(list, 0, sizeof *list);
 }

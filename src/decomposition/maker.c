@@ -44,13 +44,7 @@ bool sunder_i_maker_init(sunder_i_maker *m, sunder_i_lattice *lattice, const sun
 
 void sunder_i_maker_free(sunder_i_maker *m)
 {
-    sunder_i_free(m->rings.at);
-    sunder_i_free(m->rings.xy);
-    sunder_i_free(m->piece_end);
-    sunder_i_free(m->piece_corner);
-    sunder_i_free(m->member);
-    sunder_i_free(m->along);
-    sunder_i_free(m->steiner);
+    sunder_i_free_all(m->rings.at, m->rings.xy, m->piece_end, m->piece_corner, m->member, m->along, m->steiner);
     sunder_i_arena_free(&m->scratch);
     memset(m, 0, sizeof *m);
 }

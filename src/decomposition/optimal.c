@@ -403,6 +403,5 @@ void sunder_i_program_emit(const sunder_i_program *program, sunder_i_maker *m)
 void sunder_i_program_free(sunder_i_program *program)
 {
     if (!program) return;
-    sunder_i_free(program->chain);
-    sunder_i_free(program->front);
+    sunder_i_free_all(program->chain, program->front);
 }

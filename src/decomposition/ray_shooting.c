@@ -34,8 +34,7 @@ bool sunder_i_ray_shooting_init(sunder_i_ray_shooting *s, const sunder_i_rings *
 
 void sunder_i_ray_shooting_free(sunder_i_ray_shooting *s)
 {
-    sunder_i_free(s->seen);
-    sunder_i_free(s->stack);
+    sunder_i_free_all(s->seen, s->stack);
     s->seen = NULL;
     s->stack = NULL;
     s->seen_room = s->stack_room = 0;

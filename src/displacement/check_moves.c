@@ -37,11 +37,7 @@ static void clear_comparison(comparison *c)
     sunder_i_model_free(&c->model);
     sunder_i_barriers_free(&c->barriers);
     sunder_i_ordered_clear(&c->layer);
-    sunder_i_free(c->start.pair);
-    sunder_i_free(c->now.pair);
-    sunder_i_free(c->move);
-    sunder_i_free(c->translated);
-    sunder_i_free(c->found);
+    sunder_i_free_all(c->start.pair, c->now.pair, c->move, c->translated, c->found);
 }
 
 static sunder_conflict *add_conflict(comparison *c, sunder_conflict_kind kind, size_t a, size_t b)

@@ -344,8 +344,7 @@ sunder_status sunder_i_traced_end(sunder_i_traced *traced, bool keep, sunder_err
                             .context = sum,
                             .place = sum->vertex};
     const bool ok = !keep || sunder_i_canonical(&found, sum);
-    sunder_i_free(traced->vertex);
-    sunder_i_free(traced->ring);
+    sunder_i_free_all(traced->vertex, traced->ring);
     if (keep && ok) return SUNDER_OK;
     sunder_i_free(sum->vertex);
     sum->vertex = NULL;

@@ -233,8 +233,7 @@ static bool trace_sum(sunder_i_reduced *r, sunder_sum *sum, bool *done)
     find_next(&t);
     bool ok = trace_cycles(&t, done);
     if (ok && *done) ok = finish_sum(&t);
-    sunder_i_free(t.ring);
-    sunder_i_free(t.vertex);
+    sunder_i_free_all(t.ring, t.vertex);
     if (ok && *done) return true;
     sunder_i_free(sum->vertex);
     sum->vertex = NULL;

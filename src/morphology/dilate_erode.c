@@ -162,8 +162,7 @@ static bool solid_init(solid *s, const sunder_i_figure *f, const sunder_i_lattic
 static void solid_free(solid *s)
 {
     sunder_i_strips_free(&s->strips);
-    sunder_i_free(s->xy);
-    sunder_i_free(s->next);
+    sunder_i_free_all(s->xy, s->next);
 }
 
 /* Returns whether vertex i of the rings is above the point. */
@@ -235,8 +234,7 @@ static sunder_status unite_bands(stage *g, sunder_error *err)
     sunder_status status = next && order ? SUNDER_OK : sunder_i_failure_cause(err);
     for (uint64_t i = 0; i < all && status == SUNDER_OK; i++)
         status = go_on(g->options, &of_bands, i, all) ? add_band(g, next, order[i], err) : sunder_i_cancelled(err);
-    sunder_i_free(next);
-    sunder_i_free(order);
+    sunder_i_free_all(next, order);
     return status;
 }
 
@@ -301,9 +299,7 @@ static sunder_status read_cells(stage *g, sunder_sum *sum, sunder_error *err)
     status = face && edge && vertex ? sort_faces(g, face, err) : sunder_i_failure_cause(err);
     if (status == SUNDER_OK && g->erode) status = sort_rest(g, edge, vertex, err);
     if (status == SUNDER_OK) status = sunder_i_sum_from_cells(g->bands, &inside, sum, err);
-    sunder_i_free(face);
-    sunder_i_free(edge);
-    sunder_i_free(vertex);
+    sunder_i_free_all(face, edge, vertex);
     return status;
 }
 

@@ -136,8 +136,7 @@ static bool add_bands(const eroder *e, const sunder_i_point *begin, sunder_i_con
         start && after && sunder_i_convex_pieces_init_sum(&e->side, &e->piece, out) && find_starts(e, begin, start);
     for (uint32_t i = 0; ok && i < n; i++) after[e->before[i]] = i;
     for (uint32_t i = 0; ok && i < n; i++) add_band(e, start, after, i, out);
-    sunder_i_free(start);
-    sunder_i_free(after);
+    sunder_i_free_all(start, after);
     return ok;
 }
 
@@ -245,9 +244,7 @@ static bool drop_outside(const eroder *e, sunder_i_coverage *c)
     }
     if (ok) keep_inside(c, parent, inside, number);
     sunder_i_strips_free(&l.strips);
-    sunder_i_free(parent);
-    sunder_i_free(number);
-    sunder_i_free(inside);
+    sunder_i_free_all(parent, number, inside);
     return ok && !l.lattice->arena.failed;
 }
 

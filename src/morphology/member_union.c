@@ -39,8 +39,7 @@ static bool drop_degenerate(sunder_sum *sum)
         sum->vertices = n;
         sum->segments = sum->points = 0;
     }
-    sunder_i_free(number);
-    sunder_i_free(vertex);
+    sunder_i_free_all(number, vertex);
     return ok;
 }
 

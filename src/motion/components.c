@@ -134,8 +134,7 @@ bool sunder_i_components_find(const sunder_i_free_space *space, sunder_i_corners
         if (curve[v] == v) shoot_ray(space, corners, &t, least[v], curve, v);
     for (uint32_t v = corners->vertices; ok && v < corners->vertices + 2; v++)
         shoot_ray(space, corners, &t, v, curve, SUNDER_I_NO_PLACE);
-    sunder_i_free(curve);
-    sunder_i_free(least);
+    sunder_i_free_all(curve, least);
     sunder_i_strips_free(&t);
     return ok;
 }

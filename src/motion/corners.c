@@ -10,10 +10,7 @@
 
 void sunder_i_corners_free(sunder_i_corners *corners)
 {
-    sunder_i_free(corners->place);
-    sunder_i_free(corners->beside);
-    sunder_i_free(corners->node);
-    sunder_i_free(corners->parent);
+    sunder_i_free_all(corners->place, corners->beside, corners->node, corners->parent);
     memset(corners, 0, sizeof *corners);
 }
 

@@ -93,8 +93,7 @@ bool sunder_i_diagonals_find(const sunder_shape *shape, sunder_i_diagonals *out)
         const unsigned bits = has_exact(shape, corner) ? 0 : bits_of(shape->xy, corner);
         if (bits > out->bits) out->bits = bits;
     }
-    sunder_i_free(sides);
-    sunder_i_free(order);
+    sunder_i_free_all(sides, order);
     if (!ok) sunder_i_diagonals_free(out);
     return ok;
 }

@@ -326,10 +326,6 @@ void sunder_i_free_space_free(sunder_i_free_space *space)
     sunder_sum_free(space->sum);
     sunder_i_convex_pieces_free(&space->part);
     sunder_i_directions_free(&space->directions);
-    sunder_i_free(space->corner);
-    sunder_i_free(space->piece_obstacle);
-    sunder_i_free(space->stretch);
-    sunder_i_free(space->tree.part);
-    sunder_i_free(space->tree.boxes.box);
+    sunder_i_free_all(space->corner, space->piece_obstacle, space->stretch, space->tree.part, space->tree.boxes.box);
     memset(space, 0, sizeof *space);
 }

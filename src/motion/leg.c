@@ -57,8 +57,7 @@ bool sunder_i_part_tree_build(sunder_i_free_space *space)
         sunder_i_arena_free(&arena);
     }
     if (ok) sunder_i_box_tree_fill(&t->boxes, add_part, space);
-    sunder_i_free(middle);
-    sunder_i_free(self);
+    sunder_i_free_all(middle, self);
     return ok;
 }
 

@@ -207,8 +207,7 @@ void sunder_route_free(sunder_route *route)
 {
     if (!route) return;
     for (size_t i = 0; i < route->n; i++) {
-        sunder_i_free(route->stop[i].text[0]);
-        sunder_i_free(route->stop[i].text[1]);
+        sunder_i_free_all(route->stop[i].text[0], route->stop[i].text[1]);
     }
     sunder_i_free(route->stop);
     sunder_i_free_space_free(&route->space);

@@ -326,11 +326,7 @@ static void settle_ties(search *s)
         const uint32_t v = k ? t.from[first + k - 1] : s->at[w].before;
         if (mark[v] == 0) mark[stack[n++] = v] = ENTERED;
     }
-    sunder_i_free(t.end);
-    sunder_i_free(t.from);
-    sunder_i_free(mark);
-    sunder_i_free(next);
-    sunder_i_free(stack);
+    sunder_i_free_all(t.end, t.from, mark, next, stack);
 }
 
 /* Runs the fast search and then the exact one. Sets no_memory if out of memory. */
@@ -382,11 +378,6 @@ sunder_status sunder_i_shortest_path(const sunder_i_free_space *space, sunder_i_
         s.way[0] = NULL;
     }
     sunder_i_visibility_free(&s.view);
-    sunder_i_free(s.way[0]);
-    sunder_i_free(s.way[1]);
-    sunder_i_free(s.mark);
-    sunder_i_free(s.at);
-    sunder_i_free(s.heap);
-    sunder_i_free(s.tie);
+    sunder_i_free_all(s.way[0], s.way[1], s.mark, s.at, s.heap, s.tie);
     return status;
 }

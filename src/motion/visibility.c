@@ -115,11 +115,7 @@ bool sunder_i_visibility_init(sunder_i_visibility *view, const sunder_i_free_spa
 
 void sunder_i_visibility_free(sunder_i_visibility *view)
 {
-    sunder_i_free(view->at);
-    sunder_i_free(view->corner);
-    sunder_i_free(view->order);
-    sunder_i_free(view->seen);
-    sunder_i_free(view->tree.box);
+    sunder_i_free_all(view->at, view->corner, view->order, view->seen, view->tree.box);
     memset(view, 0, sizeof *view);
 }
 

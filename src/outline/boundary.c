@@ -136,11 +136,7 @@ static bool trace_outline(const sunder_i_graph *g, const sunder_i_coverage *cove
                             .place = g->vertex,
                             .sorted = g->sorted};
     ok = ok && sunder_i_canonical(&found, out);
-    sunder_i_free(t.vertex);
-    sunder_i_free(t.ring);
-    sunder_i_free(t.done);
-    sunder_i_free(t.segment);
-    sunder_i_free(t.point);
+    sunder_i_free_all(t.vertex, t.ring, t.done, t.segment, t.point);
     return ok;
 }
 

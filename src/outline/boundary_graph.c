@@ -136,12 +136,6 @@ bool sunder_i_graph_build(sunder_i_graph *graph, const sunder_i_coverage *covera
 
 void sunder_i_graph_free(sunder_i_graph *graph)
 {
-    sunder_i_free(graph->edge);
-    sunder_i_free(graph->ray_end);
-    sunder_i_free(graph->ray);
-    sunder_i_free(graph->walk);
-    sunder_i_free(graph->walk_start);
-    sunder_i_free(graph->walk_outer);
-    sunder_i_free(graph->walk_plain);
-    sunder_i_free(graph->component);
+    sunder_i_free_all(graph->edge, graph->ray_end, graph->ray, graph->walk, graph->walk_start, graph->walk_outer,
+                      graph->walk_plain, graph->component);
 }

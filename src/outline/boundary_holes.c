@@ -105,9 +105,7 @@ static bool find_owners(sunder_i_graph *g, const uint32_t *walk)
     for (uint32_t w = 0; ok && w < g->walks; w++)
         if (!g->walk_outer[w]) g->component[w] = owner_of(&f, w);
     sunder_i_strips_free(&f.strips);
-    sunder_i_free(f.edge);
-    sunder_i_free(f.odd);
-    sunder_i_free(f.holds);
+    sunder_i_free_all(f.edge, f.odd, f.holds);
     return ok;
 }
 

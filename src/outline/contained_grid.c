@@ -150,11 +150,4 @@ bool sunder_i_part_grid_build(grid *g, const sunder_i_convex_pieces *parts)
     return make_lists(g);
 }
 
-void sunder_i_part_grid_free(grid *g)
-{
-    sunder_i_free(g->rounded);
-    sunder_i_free(g->reach);
-    sunder_i_free(g->order);
-    sunder_i_free(g->end);
-    sunder_i_free(g->list);
-}
+void sunder_i_part_grid_free(grid *g) { sunder_i_free_all(g->rounded, g->reach, g->order, g->end, g->list); }

@@ -467,15 +467,7 @@ sunder_status sunder_i_cull(const sunder_i_convex_pieces *parts, const sunder_i_
     if (ok) sunder_i_cells_forget_pairs(&b);
     sunder_status status = ok ? descend_cells(&b, err) : sunder_i_failure_cause(err);
     if (status == SUNDER_OK && !sunder_i_cells_fates(&b)) status = sunder_i_failure_cause(err);
-    sunder_i_free(b.side);
-    sunder_i_free(b.before);
-    sunder_i_free(b.entries);
-    sunder_i_free(b.runs);
-    sunder_i_free(b.stack);
-    sunder_i_free(b.stamp);
-    sunder_i_free(b.widest);
-    sunder_i_free(b.shared);
-    sunder_i_free(b.recent);
+    sunder_i_free_all(b.side, b.before, b.entries, b.runs, b.stack, b.stamp, b.widest, b.shared, b.recent);
     if (status != SUNDER_OK) sunder_i_culled_free(out);
     return status;
 }
@@ -483,7 +475,6 @@ sunder_status sunder_i_cull(const sunder_i_convex_pieces *parts, const sunder_i_
 void sunder_i_culled_free(sunder_i_culled *culled)
 {
     sunder_i_pairs_free(&culled->pairs);
-    sunder_i_free(culled->fate);
-    sunder_i_free(culled->live_line);
+    sunder_i_free_all(culled->fate, culled->live_line);
     memset(culled, 0, sizeof *culled);
 }

@@ -130,8 +130,7 @@ static bool list_all(builder *b, const box *all, cell *root)
     }
     *root = (cell){*all, 0, b->entries_n, 0, b->runs_n, s->corners, 0, 0, 1, 1, 0};
     root->axis = all->high[1] - all->low[1] > all->high[0] - all->low[0];
-    sunder_i_free(extent);
-    sunder_i_free(order);
+    sunder_i_free_all(extent, order);
     return ok;
 }
 

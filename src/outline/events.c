@@ -71,7 +71,6 @@ bool sunder_i_events_sort(sunder_i_events *events, sunder_i_lattice *lattice)
 
 void sunder_i_events_free(sunder_i_events *events)
 {
-    sunder_i_free(events->event);
-    sunder_i_free(events->order);
+    sunder_i_free_all(events->event, events->order);
     memset(events, 0, sizeof *events);
 }

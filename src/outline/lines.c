@@ -125,8 +125,7 @@ sunder_status sunder_i_lines_group(const sunder_i_convex_pieces *parts, sunder_i
         ok = sunder_i_step();
         out->of[k] = parts->candidate[k] ? find_or_add(&t, k, out) : SUNDER_I_NO_LINE;
     }
-    sunder_i_free(t.slot);
-    sunder_i_free(t.keys);
+    sunder_i_free_all(t.slot, t.keys);
     if (ok && !parts->lattice->arena.failed) return SUNDER_OK;
     sunder_i_lines_free(out);
     return sunder_i_failure_cause(err);
@@ -134,8 +133,6 @@ sunder_status sunder_i_lines_group(const sunder_i_convex_pieces *parts, sunder_i
 
 void sunder_i_lines_free(sunder_i_lines *lines)
 {
-    sunder_i_free(lines->side);
-    sunder_i_free(lines->second);
-    sunder_i_free(lines->of);
+    sunder_i_free_all(lines->side, lines->second, lines->of);
     memset(lines, 0, sizeof *lines);
 }

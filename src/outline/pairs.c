@@ -132,14 +132,12 @@ bool sunder_i_pairs_by_line(const sunder_i_pairs *pairs, const bool *wanted, uin
         if (ok) list_lines(pairs, wanted, &of_part);
     }
     ok = ok && turn_over(&of_part, parts, lines, out);
-    sunder_i_free(of_part.end);
-    sunder_i_free(of_part.item);
+    sunder_i_free_all(of_part.end, of_part.item);
     return ok;
 }
 
 void sunder_i_line_parts_free(sunder_i_line_parts *by_line)
 {
-    sunder_i_free(by_line->end);
-    sunder_i_free(by_line->part);
+    sunder_i_free_all(by_line->end, by_line->part);
     memset(by_line, 0, sizeof *by_line);
 }

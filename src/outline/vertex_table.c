@@ -175,7 +175,6 @@ uint32_t sunder_i_vertex_table_add(sunder_i_vertex_table *table, const sunder_i_
 
 void sunder_i_vertex_table_free(sunder_i_vertex_table *table)
 {
-    sunder_i_free(table->point);
-    sunder_i_free(table->slot);
+    sunder_i_free_all(table->point, table->slot);
     memset(table, 0, sizeof *table);
 }

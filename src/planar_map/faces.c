@@ -119,9 +119,7 @@ sunder_status sunder_i_planar_map_faces(sunder_i_planar_map *map, sunder_error *
     sunder_i_list item = {0}, of = {0};
     uint8_t *seen = sunder_i_calloc(2 * (size_t)map->edges, 1);
     const bool ok = seen && label_faces(map) && find_boundaries(map, seen, &item, &of);
-    sunder_i_free(seen);
-    sunder_i_free(item.item);
-    sunder_i_free(of.item);
+    sunder_i_free_all(seen, item.item, of.item);
     if (!ok) map->failed = true;
     map->faces_valid = ok;
     SUNDER_I_CHECK(sunder_i_planar_map_sound(map), map->trapezoids);

@@ -34,11 +34,7 @@ void sunder_i_planar_map_free(sunder_i_planar_map *map)
     sunder_i_list *const lists[] = {&map->crossed, &map->ring,   &map->above,        &map->beneath,        &map->made,
                                     &map->stack,   &map->inside, &map->edges_inside, &map->vertices_inside};
     for (size_t i = 0; i < sizeof lists / sizeof *lists; i++) sunder_i_free(lists[i]->item);
-    sunder_i_free(map->vertex);
-    sunder_i_free(map->edge);
-    sunder_i_free(map->line);
-    sunder_i_free(map->trapezoid);
-    sunder_i_free(map->node);
+    sunder_i_free_all(map->vertex, map->edge, map->line, map->trapezoid, map->node);
     sunder_i_arena_free(&map->arena);
     sunder_i_arena_free(&map->scratch);
     sunder_i_free(map);
@@ -145,13 +141,8 @@ uint32_t sunder_i_map_new_line(sunder_i_planar_map *map, const sunder_i_map_line
 
 void sunder_i_map_drop_faces(sunder_i_planar_map *map)
 {
-    sunder_i_free(map->face_of_trapezoid);
-    sunder_i_free(map->face_outer);
-    sunder_i_free(map->face_covered);
-    sunder_i_free(map->inner);
-    sunder_i_free(map->isolated);
-    sunder_i_free(map->inner_end);
-    sunder_i_free(map->isolated_end);
+    sunder_i_free_all(map->face_of_trapezoid, map->face_outer, map->face_covered, map->inner, map->isolated,
+                      map->inner_end, map->isolated_end);
     map->face_of_trapezoid = map->face_outer = map->face_covered = map->inner = map->isolated = NULL;
     map->inner_end = map->isolated_end = NULL;
     map->faces_valid = false;

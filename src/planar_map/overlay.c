@@ -71,9 +71,7 @@ sunder_status sunder_i_planar_map_overlay(sunder_i_planar_map *map, const sunder
         memset(n.line, 0xff, other->lines * sizeof(uint32_t));
         ok = add_all(map, other, &n, order);
     }
-    sunder_i_free(n.vertex);
-    sunder_i_free(n.line);
-    sunder_i_free(order);
+    sunder_i_free_all(n.vertex, n.line, order);
     if (!ok) map->failed = true;
     return sunder_i_map_status(map, err);
 }

@@ -180,7 +180,6 @@ bool sunder_i_contour_find(const sunder_i_ranked_rectangles *rectangles, int axi
 
 void sunder_i_contour_free(sunder_i_contour *contour)
 {
-    sunder_i_free(contour->stretch);
-    sunder_i_free(contour->point);
+    sunder_i_free_all(contour->stretch, contour->point);
     memset(contour, 0, sizeof *contour);
 }

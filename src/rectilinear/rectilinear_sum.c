@@ -107,8 +107,7 @@ sunder_status sunder_i_rectilinear_sum(sunder_sum *sum, const sunder_shape *p, c
         return SUNDER_OK;
     const bool ok = sunder_i_rectangles_cut(p, at_p, &a) && sunder_i_rectangles_cut(q, at_q, &b) &&
                     make_sums(&a, &b, &sum->lattice, &sums);
-    sunder_i_free(a.item);
-    sunder_i_free(b.item);
+    sunder_i_free_all(a.item, b.item);
     const sunder_status status = ok ? unite_rectangles(sum, &sums, done, err) : sunder_i_failure_cause(err);
     sunder_i_free(sums.item);
     return status;

@@ -187,13 +187,11 @@ sunder_status sunder_i_rectangles_unite(const sunder_i_ranked_rectangles *rectan
         sunder_i_contour_free(&j.contour[kind]);
         sunder_i_free(j.end[kind]);
     }
-    sunder_i_free(j.order);
-    sunder_i_free(j.vertex);
+    sunder_i_free_all(j.order, j.vertex);
     const sunder_status status =
         ok ? sunder_i_boundary_build(&sum->lattice, 2, &lines, &coverage, sum, err) : sunder_i_failure_cause(err);
     sunder_i_coverage_free(&coverage);
     sunder_i_lines_free(&lines);
-    sunder_i_free(g.at);
-    sunder_i_free(g.rank);
+    sunder_i_free_all(g.at, g.rank);
     return status;
 }

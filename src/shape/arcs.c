@@ -200,7 +200,6 @@ bool sunder_i_arcs_find(const sunder_i_rings *r, sunder_i_arena *arena, sunder_i
     finder f = {.r = r};
     memset(out, 0, sizeof *out);
     const bool found = find_arcs(&f, arena, out);
-    sunder_i_free(f.meets);
-    sunder_i_free(f.made);
+    sunder_i_free_all(f.meets, f.made);
     return found;
 }

@@ -171,8 +171,7 @@ sunder_status sunder_shape_disc(double radius, unsigned segments, bool inside, s
     sunder_status status = d.xy && d.proved ? prove_corners(&d, &arena, err) : sunder_i_failure_cause(err);
     sunder_i_arena_free(&arena);
     if (!status) status = from_ring(d.xy, segments, out, err);
-    sunder_i_free(d.xy);
-    sunder_i_free(d.proved);
+    sunder_i_free_all(d.xy, d.proved);
     /* doubles at the lower end of their range may coincide */
     if (status != SUNDER_EINVALID) return status;
     return sunder_i_fail(err, SUNDER_ERANGE, "a disc of radius %.17g with %u segments is too small for doubles", radius,

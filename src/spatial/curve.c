@@ -68,10 +68,7 @@ bool sunder_i_curve_sort_records(void *record, size_t n, size_t bytes, size_t bo
     ok = ok && !arena.failed;
     for (size_t k = 0; ok && k < n; k++) memcpy(sorted + k * bytes, from + list[k] * bytes, bytes);
     if (ok && n) memcpy(from, sorted, n * bytes);
-    sunder_i_free(middle);
-    sunder_i_free(number);
-    sunder_i_free(list);
-    sunder_i_free(sorted);
+    sunder_i_free_all(middle, number, list, sorted);
     sunder_i_arena_free(&arena);
     return ok;
 }

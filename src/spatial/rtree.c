@@ -170,8 +170,7 @@ void sunder_i_rtree_free(sunder_i_rtree *tree)
 {
     if (!tree->unmoved) sunder_i_free(tree->box);
     if (!tree->borrows) {
-        sunder_i_free(tree->item);
-        sunder_i_free(tree->leaf);
+        sunder_i_free_all(tree->item, tree->leaf);
     }
     memset(tree, 0, sizeof *tree);
 }

@@ -59,8 +59,7 @@ bool sunder_i_strips_build(sunder_i_strips *strips, const double (*span)[2], siz
 
 void sunder_i_strips_free(sunder_i_strips *strips)
 {
-    sunder_i_free(strips->end);
-    sunder_i_free(strips->item);
+    sunder_i_free_all(strips->end, strips->item);
     memset(strips, 0, sizeof *strips);
 }
 

@@ -262,8 +262,7 @@ static bool make_vertices(outline *o, sunder_sum *sum)
     for (uint32_t i = 0; ok && i < n; i++) ok = reduced_vertex(&sum->lattice, &arena, o->map, of[i], &sum->vertex[i]);
     sum->vertices = ok ? n : 0;
     sunder_i_arena_free(&arena);
-    sunder_i_free(number);
-    sunder_i_free(of);
+    sunder_i_free_all(number, of);
     return ok;
 }
 
@@ -273,10 +272,7 @@ sunder_status sunder_i_sum_from_cells(sunder_i_planar_map *map, const sunder_i_i
     outline o = {.map = map, .inside = inside};
     const bool ok = connect_faces(&o) && trace_rings(&o) && gather_segments(&o) && gather_points(&o) &&
                     put_in_order(&o, sum) && make_vertices(&o, sum);
-    sunder_i_free(o.component);
-    sunder_i_free(o.done);
-    sunder_i_free(o.vertex);
-    sunder_i_free(o.ring);
+    sunder_i_free_all(o.component, o.done, o.vertex, o.ring);
     return ok && !sunder_i_planar_map_failed(map) ? SUNDER_OK : sunder_i_failure_cause(err);
 }
 

@@ -79,13 +79,7 @@ void sunder_i_map_view_free(sunder_map *map)
 {
     if (!map) return;
     sunder_i_planar_map_free(map->map);
-    sunder_i_free(map->vertex);
-    sunder_i_free(map->edge);
-    sunder_i_free(map->vertex_of);
-    sunder_i_free(map->edge_of);
-    sunder_i_free(map->inner);
-    sunder_i_free(map->inner_end);
-    sunder_i_free(map);
+    sunder_i_free_all(map->vertex, map->edge, map->vertex_of, map->edge_of, map->inner, map->inner_end, map);
 }
 
 const sunder_map *sunder_sum_map(const sunder_sum *sum) { return sum->map; }

@@ -94,9 +94,6 @@ bool sunder_i_gather(sunder_sum *const *part, size_t n, sunder_sum *out)
     ok = ok && put_in_order(&g);
     SUNDER_I_ASSERT(!ok || !sunder_i_canonical_check(out));
     sunder_i_arena_free(&arena);
-    sunder_i_free(g.vertex);
-    sunder_i_free(g.ring);
-    sunder_i_free(g.segment);
-    sunder_i_free(g.point);
+    sunder_i_free_all(g.vertex, g.ring, g.segment, g.point);
     return ok;
 }

@@ -8,13 +8,7 @@ void sunder_sum_free(sunder_sum *sum)
     if (!sum) return;
     sunder_i_map_view_free(sum->map);
     sunder_i_lattice_free(&sum->lattice);
-    sunder_i_free(sum->vertex);
-    sunder_i_free(sum->ring_vertex);
-    sunder_i_free(sum->ring_end);
-    sunder_i_free(sum->poly_end);
-    sunder_i_free(sum->segment);
-    sunder_i_free(sum->point);
-    sunder_i_free(sum);
+    sunder_i_free_all(sum->vertex, sum->ring_vertex, sum->ring_end, sum->poly_end, sum->segment, sum->point, sum);
 }
 
 void sunder_sum_get_size(const sunder_sum *sum, sunder_sum_size *size)

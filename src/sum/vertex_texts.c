@@ -47,8 +47,7 @@ sunder_status sunder_i_sum_texts(sunder_i_arena *arena, const sunder_sum *sum, s
         if (!arena->failed) text[k] = sunder_i_big_ratio_text(arena, num, den, e);
     }
     if (!text[0] || !text[1]) {
-        sunder_i_free(text[0]);
-        sunder_i_free(text[1]);
+        sunder_i_free_all(text[0], text[1]);
         return sunder_i_failure_cause(err);
     }
     *x = text[0];

@@ -155,8 +155,6 @@ bool sunder_i_cells_make(const sunder_i_obstacles *obstacles, const double targe
 
 void sunder_i_cells_free(sunder_i_cells *cells)
 {
-    sunder_i_free(cells->cell);
-    sunder_i_free(cells->entry);
-    sunder_i_free(cells->entered);
+    sunder_i_free_all(cells->cell, cells->entry, cells->entered);
     memset(cells, 0, sizeof *cells);
 }

@@ -17,8 +17,7 @@ typedef struct sunder_i_grown {
 
 void sunder_i_grown_cache_free(sunder_i_grown_cache *cache)
 {
-    sunder_i_free(cache->slot);
-    sunder_i_free(cache->wall);
+    sunder_i_free_all(cache->slot, cache->wall);
     memset(cache, 0, sizeof *cache);
 }
 

@@ -13,9 +13,7 @@
 
 void sunder_i_obstacles_free(sunder_i_obstacles *obstacles)
 {
-    sunder_i_free(obstacles->obstacle);
-    sunder_i_free(obstacles->wall);
-    sunder_i_free(obstacles->line);
+    sunder_i_free_all(obstacles->obstacle, obstacles->wall, obstacles->line);
     memset(obstacles, 0, sizeof *obstacles);
 }
 

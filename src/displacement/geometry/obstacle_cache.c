@@ -16,8 +16,7 @@ typedef struct sunder_i_cached_obstacle {
 
 void sunder_i_obstacle_cache_free(sunder_i_obstacle_cache *cache)
 {
-    sunder_i_free(cache->slot);
-    sunder_i_free(cache->edge);
+    sunder_i_free_all(cache->slot, cache->edge);
     memset(cache, 0, sizeof *cache);
 }
 

@@ -154,9 +154,7 @@ static sunder_status find_holders_of_batches(void *context, size_t begin, size_t
         for (size_t run = batch * RUNS_OF_A_BATCH; run < (batch + 1) * RUNS_OF_A_BATCH && run < runs && !status; run++)
             status = find_holders_of_run(&l, run, err);
     }
-    sunder_i_free(l.near.item);
-    sunder_i_free(l.about.item);
-    sunder_i_free(l.outline);
+    sunder_i_free_all(l.near.item, l.about.item, l.outline);
     return status;
 }
 

@@ -27,13 +27,8 @@
 void sunder_i_barriers_free(sunder_i_barriers *barriers)
 {
     for (uint32_t k = 0; barriers->shape && k < barriers->parts; k++) sunder_shape_free(barriers->shape[k]);
-    sunder_i_free(barriers->shape);
-    sunder_i_free(barriers->piece);
-    sunder_i_free(barriers->piece_end);
-    sunder_i_free(barriers->barrier);
-    sunder_i_free(barriers->part_end);
-    sunder_i_free(barriers->half);
-    sunder_i_free(barriers->required);
+    sunder_i_free_all(barriers->shape, barriers->piece, barriers->piece_end, barriers->barrier, barriers->part_end,
+                      barriers->half, barriers->required);
     memset(barriers, 0, sizeof *barriers);
 }
 
@@ -106,9 +101,7 @@ static bool add_shape(parts_maker *m, uint32_t barrier, const sunder_shape *shap
     for (uint32_t i = 0; ok && i < n; i++)
         ok = add_piece(m, &(sunder_i_piece_of){.shape = shape, .piece = order[i]}) && end_full_part(m, barrier);
     sunder_i_arena_free(&arena);
-    sunder_i_free(middle);
-    sunder_i_free(order);
-    sunder_i_free(number);
+    sunder_i_free_all(middle, order, number);
     return ok && end_part(m, barrier);
 }
 
@@ -199,7 +192,6 @@ sunder_status sunder_i_barrier_near(const sunder_i_barriers *barriers, const sun
     }
     sunder_status status = ok ? SUNDER_OK : sunder_i_failure_cause(err);
     if (!status && n) status = sunder_i_shape_of_pieces(piece, n, out, err);
-    sunder_i_free(piece);
-    sunder_i_free(near.item);
+    sunder_i_free_all(piece, near.item);
     return status;
 }

@@ -149,9 +149,7 @@ static sunder_status unite_members(sunder_i_model *model, uint32_t b, sunder_err
     if (!status)
         status =
             sunder_shape_from_rings(xy, ring_end, poly_end, polygons, SUNDER_VALIDITY_EVEN_ODD, &model->whole[b], err);
-    sunder_i_free(xy);
-    sunder_i_free(ring_end);
-    sunder_i_free(poly_end);
+    sunder_i_free_all(xy, ring_end, poly_end);
     return status;
 }
 

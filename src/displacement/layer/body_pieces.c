@@ -298,8 +298,7 @@ void sunder_i_pieces_end(sunder_i_model *model)
         forget_pieces(model);
         pthread_mutex_destroy(&model->store->lock);
     }
-    sunder_i_free(model->made);
-    sunder_i_free(model->store);
+    sunder_i_free_all(model->made, model->store);
 }
 
 /* ---- Corners as they were given ---------------------------------------------------------------------------------- */

@@ -113,8 +113,7 @@ static void append_parts(const sunder_i_barriers *barriers, sunder_layer *out)
 
 void sunder_i_ordered_clear(sunder_layer *ordered)
 {
-    sunder_i_free(ordered->number);
-    sunder_i_free(ordered->part);
+    sunder_i_free_all(ordered->number, ordered->part);
     *ordered = (sunder_layer){0};
 }
 

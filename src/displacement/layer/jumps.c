@@ -202,8 +202,7 @@ sunder_status sunder_i_jumps_update(sunder_i_jumps *jumps, const sunder_i_model 
     if (!status) status = sunder_i_parallel(model->rules.threads, n, SUNDER_I_GRAIN_TESTS, find_partners, &s, err);
     if (!status && !collect_pairs(jumps, &s, n)) status = sunder_i_failure_cause(err);
     for (size_t k = 0; k < n && found; k++) sunder_i_free(found[k].item);
-    sunder_i_free(found);
-    sunder_i_free(asked);
+    sunder_i_free_all(found, asked);
     return status;
 }
 

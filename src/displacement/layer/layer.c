@@ -112,10 +112,5 @@ sunder_status sunder_layer_set_side_anchors(sunder_layer *layer, const double *x
 void sunder_layer_free(sunder_layer *layer)
 {
     if (!layer) return;
-    sunder_i_free((void *)layer->shape);
-    sunder_i_free(layer->demand);
-    sunder_i_free(layer->demands);
-    sunder_i_free(layer->barrier);
-    sunder_i_free(layer->side_anchor);
-    sunder_i_free(layer);
+    sunder_i_free_all((void *)layer->shape, layer->demand, layer->demands, layer->barrier, layer->side_anchor, layer);
 }

@@ -15,41 +15,20 @@
 void sunder_i_model_free(sunder_i_model *model)
 {
     sunder_shape_free(model->disc);
-    sunder_i_free(model->read);
-    sunder_i_free(model->went);
+    sunder_i_free_all(model->read, model->went);
     sunder_i_pieces_end(model);
-    sunder_i_free(model->body_of);
-    sunder_i_free(model->member);
-    sunder_i_free(model->body);
+    sunder_i_free_all(model->body_of, model->member, model->body);
     sunder_i_arena_free(&model->extras);
-    sunder_i_free(model->anchor_at);
-    sunder_i_free(model->held);
-    sunder_i_free(model->clear);
-    sunder_i_free(model->diagonal_cover);
-    sunder_i_free(model->diagonal_cover_vertices);
-    sunder_i_free(model->diagonal_cover_corner);
-    sunder_i_free(model->wall_cover);
-    sunder_i_free(model->side);
-    sunder_i_free(model->side_anchor);
-    sunder_i_free(model->side_at);
-    sunder_i_free(model->side_anchors);
+    sunder_i_free_all(model->anchor_at, model->held, model->clear, model->diagonal_cover,
+                      model->diagonal_cover_vertices, model->diagonal_cover_corner, model->wall_cover, model->side,
+                      model->side_anchor, model->side_at, model->side_anchors);
     for (size_t b = 0; model->whole && b < model->bodies; b++) sunder_shape_free(model->whole[b]);
-    sunder_i_free(model->whole);
-    sunder_i_free(model->present);
+    sunder_i_free_all(model->whole, model->present);
     for (size_t f = 0; model->interior_cover && f < model->features; f++)
         sunder_i_interior_cover_free(&model->interior_cover[f]);
-    sunder_i_free(model->interior_cover);
-    sunder_i_free(model->inclusion);
-    sunder_i_free(model->nested);
-    sunder_i_free(model->wall);
-    sunder_i_free(model->wall_corner);
+    sunder_i_free_all(model->interior_cover, model->inclusion, model->nested, model->wall, model->wall_corner);
     sunder_i_relaxations_free(&model->relaxations);
-    sunder_i_free(model->given_up);
-    sunder_i_free(model->shut_in);
-    sunder_i_free(model->confined);
-    sunder_i_free(model->move);
-    sunder_i_free(model->lifted);
-    sunder_i_free(model->inexact);
+    sunder_i_free_all(model->given_up, model->shut_in, model->confined, model->move, model->lifted, model->inexact);
     sunder_i_rtree_free(&model->tree);
     memset(model, 0, sizeof *model);
 }

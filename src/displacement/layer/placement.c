@@ -35,10 +35,7 @@ void sunder_i_placement_free(const sunder_i_model *model, sunder_i_placement *pl
     for (size_t f = 0; placement->rounded && f < model->features; f++) sunder_shape_free(placement->rounded[f]);
     for (size_t f = 0; placement->interior_cover && f < model->features; f++)
         sunder_i_interior_cover_free(&placement->interior_cover[f]);
-    sunder_i_free(placement->rounded);
-    sunder_i_free(placement->interior_cover);
-    sunder_i_free(placement->was_rounded);
-    sunder_i_free(placement->move);
+    sunder_i_free_all(placement->rounded, placement->interior_cover, placement->was_rounded, placement->move);
     sunder_i_rtree_free(&placement->tree);
     memset(placement, 0, sizeof *placement);
 }
@@ -179,8 +176,7 @@ static sunder_status find_partners(void *context, size_t begin, size_t end, sund
         ok = ok && sunder_i_list_copy(&kept, &near);
         s->partner[run] = kept.item;
     }
-    sunder_i_free(near.item);
-    sunder_i_free(leaves.item);
+    sunder_i_free_all(near.item, leaves.item);
     return ok ? SUNDER_OK : sunder_i_failure_cause(err);
 }
 
@@ -335,16 +331,13 @@ static sunder_status find_pairs(const sunder_i_model *model, const sunder_i_plac
     sunder_status status = ok ? SUNDER_OK : sunder_i_failure_cause(err);
     if (!status)
         status = sunder_i_parallel(model->rules.threads, runs, SUNDER_I_GRAIN_TESTS, find_partners, &search, err);
-    sunder_i_free(first);
-    sunder_i_free(place);
+    sunder_i_free_all(first, place);
     if (!status) {
         *pair = collect_pairs(&search, n, pairs);
         if (!*pair) status = sunder_i_failure_cause(err);
     }
     for (size_t run = 0; run < runs && search.partner; run++) sunder_i_free(search.partner[run]);
-    sunder_i_free(search.partner);
-    sunder_i_free(found);
-    sunder_i_free(asked);
+    sunder_i_free_all(search.partner, found, asked);
     return status;
 }
 

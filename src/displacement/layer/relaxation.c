@@ -36,9 +36,7 @@
 
 void sunder_i_relaxations_free(sunder_i_relaxations *relaxations)
 {
-    sunder_i_free(relaxations->item);
-    sunder_i_free(relaxations->relaxed);
-    sunder_i_free(relaxations->mark);
+    sunder_i_free_all(relaxations->item, relaxations->relaxed, relaxations->mark);
     memset(relaxations, 0, sizeof *relaxations);
 }
 

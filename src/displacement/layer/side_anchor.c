@@ -135,8 +135,7 @@ static sunder_status point_of(sunder_i_side_cut *c, const sunder_i_cut_part *p, 
     sunder_status status = SUNDER_OK;
     if (!order || l.failed || !sunder_i_sort_indices(order, l.n, by_x, &s)) status = sunder_i_failure_cause(err);
     if (!status) status = widest_interval(c, p, &l, order, out, err);
-    sunder_i_free(order);
-    sunder_i_free(l.at);
+    sunder_i_free_all(order, l.at);
     return status;
 }
 

@@ -278,8 +278,7 @@ sunder_status sunder_i_side_cut_make(const sunder_shape *shape, const sunder_i_s
 void sunder_i_side_cut_free(sunder_i_side_cut *cut)
 {
     for (uint32_t k = 0; cut->map && k < cut->shape->form->cleaned.polygons; k++) sunder_i_planar_map_free(cut->map[k]);
-    sunder_i_free(cut->map);
-    sunder_i_free(cut->part);
+    sunder_i_free_all(cut->map, cut->part);
     sunder_i_arena_free(&cut->arena);
     sunder_i_lattice_free(&cut->lattice);
 }

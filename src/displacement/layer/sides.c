@@ -113,11 +113,7 @@ typedef struct line_list {
     uint32_t body; /* the body on whose behalf lines beyond the feature's box are read */
 } line_list;
 
-static void free_lines(line_list *l)
-{
-    sunder_i_free(l->line);
-    sunder_i_free(l->near.item);
-}
+static void free_lines(line_list *l) { sunder_i_free_all(l->line, l->near.item); }
 
 /* Finds the lines whose boxes meet `box`. Returns false if memory is out. */
 static bool find_lines(line_list *l, const double box[4])

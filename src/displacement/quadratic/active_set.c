@@ -154,10 +154,6 @@ bool sunder_i_quadratic_equations(sunder_i_quadratic *program, double softness, 
         sunder_i_quadratic_sweep(program, softness);
         sunder_i_quadratic_sweep(program, softness);
     }
-    sunder_i_free(e.set);
-    sunder_i_free(e.force);
-    sunder_i_free(e.half);
-    sunder_i_free(e.row);
-    sunder_i_free(e.factor);
+    sunder_i_free_all(e.set, e.force, e.half, e.row, e.factor);
     return ok;
 }

@@ -118,9 +118,7 @@ static bool rank_all(const sunder_i_elimination *e, const double *place, bool *r
     const bool ok = d.spot && d.scratch && d.half;
     for (size_t k = 0; k < e->n && ok; k++) d.spot[k] = (spot){0, (uint32_t)k};
     *ranked = ok && rank_part(&d, d.spot, e->n);
-    sunder_i_free(d.spot);
-    sunder_i_free(d.scratch);
-    sunder_i_free(d.half);
+    sunder_i_free_all(d.spot, d.scratch, d.half);
     return ok;
 }
 
@@ -183,8 +181,7 @@ static bool fill_all(const sunder_i_elimination *e)
     }
     bool ok = true;
     for (size_t r = 0; r < e->n && ok; r++) ok = fill_column(&c, c.by_rank[r]);
-    sunder_i_free(c.column.item);
-    sunder_i_free(memory);
+    sunder_i_free_all(c.column.item, memory);
     return ok;
 }
 

@@ -58,10 +58,7 @@ static bool rank_in_postorder(const sunder_i_elimination *g)
         *from -= below[r] + 1;
         rank[by_rank[r]] = end[r];
     }
-    sunder_i_free(by_rank);
-    sunder_i_free(parent);
-    sunder_i_free(below);
-    sunder_i_free(end);
+    sunder_i_free_all(by_rank, parent, below, end);
     return ok;
 }
 

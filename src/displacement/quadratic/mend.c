@@ -29,13 +29,7 @@ typedef struct mending {
 
 static void mending_free(mending *m)
 {
-    sunder_i_free(m->ring);
-    sunder_i_free(m->place);
-    sunder_i_free(m->body);
-    sunder_i_free(m->which);
-    sunder_i_free(m->mass);
-    sunder_i_free(m->part.t);
-    sunder_i_free(m->part.constraint);
+    sunder_i_free_all(m->ring, m->place, m->body, m->which, m->mass, m->part.t, m->part.constraint);
 }
 
 static bool mending_init(mending *m, sunder_i_quadratic *p)

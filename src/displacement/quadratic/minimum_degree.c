@@ -61,14 +61,7 @@ static bool graph_init(graph *g, const sunder_i_elimination *e)
     return true;
 }
 
-static void graph_free(graph *g)
-{
-    sunder_i_free(g->head);
-    sunder_i_free(g->tail);
-    sunder_i_free(g->next);
-    sunder_i_free(g->prev);
-    sunder_i_free(g->merged.item);
-}
+static void graph_free(graph *g) { sunder_i_free_all(g->head, g->tail, g->next, g->prev, g->merged.item); }
 
 /* Adds the neighbours of v to those of u, and removes v from them. Returns false if memory is out. */
 static bool join_neighbours(graph *g, uint32_t u, uint32_t v)

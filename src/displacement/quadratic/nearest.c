@@ -33,13 +33,8 @@
 
 void sunder_i_nearest_free(sunder_i_nearest *nearest)
 {
-    sunder_i_free(nearest->set);
-    sunder_i_free(nearest->force);
-    sunder_i_free(nearest->axis);
-    sunder_i_free(nearest->factor);
-    sunder_i_free(nearest->part);
-    sunder_i_free(nearest->share);
-    sunder_i_free(nearest->rest);
+    sunder_i_free_all(nearest->set, nearest->force, nearest->axis, nearest->factor, nearest->part, nearest->share,
+                      nearest->rest);
 }
 
 bool sunder_i_nearest_begin(sunder_i_nearest *nearest, sunder_i_quadratic *program)

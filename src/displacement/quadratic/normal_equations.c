@@ -8,9 +8,7 @@
 void sunder_i_normal_free(sunder_i_normal *q)
 {
     sunder_i_sparse_free(&q->matrix);
-    sunder_i_free(q->unknown);
-    sunder_i_free(q->h);
-    sunder_i_free(q->row);
+    sunder_i_free_all(q->unknown, q->h, q->row);
 }
 
 static void number_unknowns(sunder_i_normal *q, const sunder_i_quadratic *p)
@@ -41,8 +39,7 @@ static bool shape_matrix(sunder_i_normal *q, const sunder_i_quadratic *p)
         if (q->row[c].i < q->n && q->row[c].j < q->n)
             pair[pairs++] = (sunder_i_id_pair){q->row[c].i / 2, q->row[c].j / 2};
     const bool ok = pair && (place || !p->place) && sunder_i_sparse_init(&q->matrix, q->n / 2, pair, pairs, place);
-    sunder_i_free(pair);
-    sunder_i_free(place);
+    sunder_i_free_all(pair, place);
     return ok;
 }
 

@@ -13,17 +13,8 @@
 
 void sunder_i_sparse_free(sunder_i_sparse *matrix)
 {
-    sunder_i_free(matrix->rank);
-    sunder_i_free(matrix->column);
-    sunder_i_free(matrix->row);
-    sunder_i_free(matrix->diagonal);
-    sunder_i_free(matrix->block);
-    sunder_i_free(matrix->first);
-    sunder_i_free(matrix->link);
-    sunder_i_free(matrix->at);
-    sunder_i_free(matrix->y);
-    sunder_i_free(matrix->panel);
-    sunder_i_free(matrix->across);
+    sunder_i_free_all(matrix->rank, matrix->column, matrix->row, matrix->diagonal, matrix->block, matrix->first,
+                      matrix->link, matrix->at, matrix->y, matrix->panel, matrix->across);
     memset(matrix, 0, sizeof *matrix);
 }
 

@@ -159,11 +159,7 @@ sunder_status sunder_i_report_area_bounds(sunder_i_solver *solver, sunder_i_inde
     parts->area = sunder_i_alloc(n / AREAS_FEWEST + 1, sizeof *parts->area);
     const bool ok = p.cost && p.joint && p.member && p.left_out && p.body && parts->area;
     const sunder_status status = ok ? bound_all_joint(&p, err) : sunder_i_failure_cause(err);
-    sunder_i_free(p.cost);
-    sunder_i_free(p.joint);
-    sunder_i_free(p.member);
-    sunder_i_free(p.left_out);
-    sunder_i_free(p.body);
+    sunder_i_free_all(p.cost, p.joint, p.member, p.left_out, p.body);
     return status;
 }
 

@@ -105,7 +105,6 @@ sunder_status sunder_i_report_blockers(sunder_report *report, const sunder_i_sol
             next += report->conflict[k].n_blocked_by;
         }
     }
-    sunder_i_free(blockers.item);
-    sunder_i_free(near.item);
+    sunder_i_free_all(blockers.item, near.item);
     return status;
 }

@@ -142,9 +142,7 @@ sunder_status sunder_i_bound(const sunder_i_model *model, sunder_bound_pair *pai
         *proved = value;
     else
         sunder_i_free(value);
-    sunder_i_free(load);
-    sunder_i_free(root);
-    sunder_i_free(which);
+    sunder_i_free_all(load, root, which);
     return ok ? SUNDER_OK : sunder_i_failure_cause(err);
 }
 

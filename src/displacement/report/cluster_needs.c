@@ -240,10 +240,6 @@ sunder_status sunder_i_report_cluster_needs(sunder_report *report, sunder_i_solv
     }
     sunder_i_changes_clear(&solver->changes);
     sunder_i_trial_free(&g.trial);
-    sunder_i_free(g.body.item);
-    sunder_i_free(item);
-    sunder_i_free(spread);
-    sunder_i_free(g.taken);
-    sunder_i_free(g.stays);
+    sunder_i_free_all(g.body.item, item, spread, g.taken, g.stays);
     return status;
 }

@@ -163,8 +163,7 @@ static bool press_group(pressing *p, const sunder_i_group *g)
     }
     if (ok && p->program.n && size > 0)
         ok = sunder_i_quadratic_solve(&p->program, 0, PRESSED * size, size) >= 0 && list_forces(p);
-    sunder_i_free(mass);
-    sunder_i_free(t);
+    sunder_i_free_all(mass, t);
     return ok;
 }
 
@@ -186,10 +185,7 @@ static sunder_status press_batches(void *context, size_t begin, size_t end, sund
         for (size_t k = first; k < first + GROUPS_OF_A_BATCH && k < groups->n && ok; k++)
             ok = press_group(&p, &groups->group[k]);
     }
-    sunder_i_free(p.program.constraint);
-    sunder_i_free(p.push);
-    sunder_i_free(p.near.item);
-    sunder_i_free(p.touch.item);
+    sunder_i_free_all(p.program.constraint, p.push, p.near.item, p.touch.item);
     return ok ? SUNDER_OK : sunder_i_failure_cause(err);
 }
 

@@ -166,8 +166,6 @@ sunder_status sunder_i_report_cover_diagonals(sunder_i_solver *solver, sunder_er
     if (!status) enter_remaining(&l);
     if (!status && !enter_given_up(&l)) status = sunder_i_failure_cause(err);
     if (!status && l.any) status = find_some(&l, &solver->model, err);
-    sunder_i_free(l.far);
-    sunder_i_free(l.met);
-    sunder_i_free(l.gathered);
+    sunder_i_free_all(l.far, l.met, l.gathered);
     return status;
 }

@@ -60,14 +60,9 @@ sunder_status sunder_i_independent_parts_find(sunder_i_independent_parts *parts,
 
 void sunder_i_independent_parts_free(sunder_i_independent_parts *parts)
 {
-    sunder_i_free(parts->root);
-    sunder_i_free(parts->by_pairs);
-    sunder_i_free(parts->by_trees);
-    sunder_i_free(parts->by_groups);
-    sunder_i_free(parts->by_areas);
+    sunder_i_free_all(parts->root, parts->by_pairs, parts->by_trees, parts->by_groups, parts->by_areas);
     for (size_t k = 0; k < parts->areas; k++) {
-        sunder_i_free(parts->area[k].body);
-        sunder_i_free(parts->area[k].prices.price);
+        sunder_i_free_all(parts->area[k].body, parts->area[k].prices.price);
     }
     sunder_i_free(parts->area);
     memset(parts, 0, sizeof *parts);

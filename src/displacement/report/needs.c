@@ -155,8 +155,7 @@ static sunder_status ask_clusters(void *context, size_t begin, size_t end, sunde
         for (size_t m = g->first[k]; m < g->first[k + 1] && left.left && !status; m++)
             status = find_needs(&questions, &questions.report->conflict[g->matter[m].conflict], &left, err);
         sunder_i_reads_end(&reading);
-        sunder_i_free(memo.item);
-        sunder_i_free(stood.item);
+        sunder_i_free_all(memo.item, stood.item);
     }
     return status;
 }
@@ -215,7 +214,6 @@ sunder_status sunder_i_report_needs(sunder_report *report, const sunder_i_solver
         status = sunder_i_parallel(solver->model.rules.threads, groups, SUNDER_I_GRAIN_WHOLE, ask_clusters, &h, err);
     }
     if (!status && sunder_i_is_traced(&solver->model)) trace_gaps(&g);
-    sunder_i_free(list);
-    sunder_i_free(first);
+    sunder_i_free_all(list, first);
     return status;
 }

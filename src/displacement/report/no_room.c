@@ -101,9 +101,7 @@ static sunder_status reduce_proof(const sunder_i_subproblem *subproblem, sunder_
         sunder_i_decision_clear(&decision);
         if (*budget == 0) break;
     }
-    sunder_i_free(all);
-    sunder_i_free(set);
-    sunder_i_free(body);
+    sunder_i_free_all(all, set, body);
     return status;
 }
 
@@ -494,9 +492,6 @@ sunder_status sunder_i_report_proofs(sunder_report *report, const sunder_i_solve
         asking g = {solver, report, decide, list, first, required, n, times};
         if (!status) status = sunder_i_parallel(threads, groups, SUNDER_I_GRAIN_WHOLE, ask_clusters, &g, err);
     }
-    sunder_i_free(listed);
-    sunder_i_free(list);
-    sunder_i_free(first);
-    sunder_i_free(required);
+    sunder_i_free_all(listed, list, first, required);
     return status;
 }

@@ -68,8 +68,7 @@ static sunder_status count_groups(sunder_layer_summary *summary, sunder_i_solver
     for (size_t k = 0; k < s->groups.n && ok; k++)
         if (!claim_bodies(&s->model, &s->groups.group[k], owner)) s->groups.group[k].bound = 0;
     if (ok) void_bounds(s, owner, listed);
-    sunder_i_free(owner);
-    sunder_i_free(listed);
+    sunder_i_free_all(owner, listed);
     for (size_t k = 0; k < s->groups.n && ok; k++) {
         sunder_i_group *g = &s->groups.group[k];
         g->cost = cost_of(&s->model, g);

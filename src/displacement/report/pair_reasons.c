@@ -207,7 +207,6 @@ sunder_status sunder_i_report_reasons(sunder_report *report, const sunder_i_mode
         const size_t pairs = list_matters(report, model, list, first);
         status = sunder_i_parallel(model->rules.threads, pairs, SUNDER_I_GRAIN_WHOLE, find_reasons, (void *)&g, err);
     }
-    sunder_i_free(list);
-    sunder_i_free(first);
+    sunder_i_free_all(list, first);
     return status;
 }

@@ -138,7 +138,6 @@ sunder_status sunder_i_report_pair_trees(const sunder_report *report, sunder_i_s
     if (!status && n) status = sunder_i_solver_list_waivers(solver, err);
     for (size_t b = 0; b < solver->model.bodies; b++) parts->by_trees[b] = 0;
     if (!status && n) status = prove_all(report, solver, which, n, load, parts->by_trees, trees, err);
-    sunder_i_free(which);
-    sunder_i_free(load);
+    sunder_i_free_all(which, load);
     return status;
 }

@@ -32,10 +32,7 @@ void sunder_i_surroundings_clear(sunder_i_surroundings *surroundings)
 {
     for (size_t k = 0; surroundings->standing && k < surroundings->feature.n; k++)
         sunder_shape_free(surroundings->standing[k]);
-    sunder_i_free(surroundings->standing);
-    sunder_i_free(surroundings->as);
-    sunder_i_free(surroundings->feature.item);
-    sunder_i_free(surroundings->part.item);
+    sunder_i_free_all(surroundings->standing, surroundings->as, surroundings->feature.item, surroundings->part.item);
 }
 
 /* Returns the length by which the conflict violates what is required: by how far its features have to move apart. */
@@ -94,8 +91,7 @@ static bool choose_moving(const sunder_i_solver *s, const sunder_conflict *c, do
     }
     body.n = sunder_i_set_make(body.item, body.n);
     for (size_t k = 0; k < body.n && ok; k++) ok = take_in(model, body.item[k], moving);
-    sunder_i_free(near.item);
-    sunder_i_free(body.item);
+    sunder_i_free_all(near.item, body.item);
     return ok;
 }
 
@@ -154,8 +150,7 @@ sunder_status sunder_i_surround(const sunder_i_solver *solver, const sunder_conf
         if (!sunder_i_set_has(moving.item, moving.n, model->body_of[near.item[k]]))
             ok = sunder_i_list_push(
                 sunder_i_is_barrier(model, near.item[k]) ? &surroundings->part : &surroundings->feature, near.item[k]);
-    sunder_i_free(moving.item);
-    sunder_i_free(near.item);
+    sunder_i_free_all(moving.item, near.item);
     surroundings->as = sunder_i_alloc(surroundings->feature.n, sizeof *surroundings->as);
     surroundings->standing = sunder_i_calloc(surroundings->feature.n, sizeof *surroundings->standing);
     sunder_status status = ok && surroundings->as && surroundings->standing ? SUNDER_OK : sunder_i_failure_cause(err);
@@ -557,12 +552,8 @@ void sunder_i_foresight_clear(sunder_i_foresight *foresight)
     sunder_i_planes_clear(&foresight->planes);
     sunder_i_solver_free(&foresight->solver);
     sunder_layer_free(foresight->layer);
-    sunder_i_free(foresight->spared);
-    sunder_i_free(foresight->name);
-    sunder_i_free(foresight->held);
-    sunder_i_free(foresight->move);
-    sunder_i_free(foresight->next);
-    sunder_i_free(foresight->at);
+    sunder_i_free_all(foresight->spared, foresight->name, foresight->held, foresight->move, foresight->next,
+                      foresight->at);
 }
 
 /* Sets the limits of the features that move, in a solver of the small layer. */

@@ -152,9 +152,7 @@ static sunder_status inside_overlap(const sunder_shape *a, const sunder_shape *b
     const double origin[2] = {box[0], box[1]};
     sunder_shape_anchor(b, point);
     if (!p || !q || !c) {
-        sunder_i_free(p);
-        sunder_i_free(q);
-        sunder_i_free(c);
+        sunder_i_free_all(p, q, c);
         return sunder_i_failure_cause(err);
     }
     for (uint32_t j = 0; j < b->pieces; j++) {
@@ -179,9 +177,7 @@ static sunder_status inside_overlap(const sunder_shape *a, const sunder_shape *b
             point[1] = origin[1] + y / (double)n;
         }
     }
-    sunder_i_free(p);
-    sunder_i_free(q);
-    sunder_i_free(c);
+    sunder_i_free_all(p, q, c);
     return sunder_i_stopped() ? sunder_i_failure_cause(err) : SUNDER_OK;
 }
 

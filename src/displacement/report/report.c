@@ -103,28 +103,13 @@ void sunder_i_report_moves(sunder_report *report, const sunder_i_model *model)
 void sunder_report_free(sunder_report *report)
 {
     if (!report) return;
-    sunder_i_free(report->move);
-    sunder_i_free(report->status);
-    sunder_i_free(report->block);
-    sunder_i_free(report->conflict);
-    sunder_i_free(report->blocker);
+    sunder_i_free_all(report->move, report->status, report->block, report->conflict, report->blocker);
     for (size_t k = 0; report->proof && k < report->conflicts; k++) sunder_i_proof_free(report->proof[k]);
-    sunder_i_free(report->proof);
-    sunder_i_free(report->bound_pair);
+    sunder_i_free_all(report->proof, report->bound_pair);
     for (size_t k = 0; k < report->bound_trees; k++) sunder_i_bound_tree_free(&report->bound_tree[k]);
-    sunder_i_free(report->bound_tree);
-    sunder_i_free(report->push);
-    sunder_i_free(report->world);
-    sunder_i_free(report->world_of);
-    sunder_i_free(report->stands);
-    sunder_i_free(report->inside);
-    sunder_i_free(report->inexact);
-    sunder_i_free(report->footprint);
-    sunder_i_free(report->world_bound);
-    sunder_i_free(report->thin);
-    sunder_i_free(report->proved);
-    sunder_i_free(report->by_pairs);
-    sunder_i_free(report);
+    sunder_i_free_all(report->bound_tree, report->push, report->world, report->world_of, report->stands, report->inside,
+                      report->inexact, report->footprint, report->world_bound, report->thin, report->proved,
+                      report->by_pairs, report);
 }
 
 void sunder_i_count(sunder_conflict_counts *counts, const sunder_conflict *conflict)

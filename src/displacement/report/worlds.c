@@ -135,8 +135,7 @@ static sunder_status meet_readers(gathering *g, uint32_t *world, sunder_error *e
                 sunder_i_union_join(world, b, hits.item[k]);
     }
     sunder_i_rtree_free(&tree);
-    sunder_i_free(hits.item);
-    sunder_i_free(there);
+    sunder_i_free_all(hits.item, there);
     return status;
 }
 
@@ -167,8 +166,7 @@ static sunder_status number_worlds(sunder_report *report, const gathering *g, ui
         }
         report->world_of[k] = *name;
     }
-    sunder_i_free(named);
-    sunder_i_free(thing);
+    sunder_i_free_all(named, thing);
     return status;
 }
 
@@ -324,12 +322,7 @@ sunder_status sunder_i_report_worlds(sunder_report *report, const sunder_i_solve
     if (!status) status = list_footprints(report, &g, err);
     if (!status) status = count_pairs(report, &g, err);
     if (!status) status = count_proved(report, &g, err);
-    sunder_i_free(g.root);
-    sunder_i_free(g.active);
-    sunder_i_free(g.read);
-    sunder_i_free(g.seen);
-    sunder_i_free(g.wrote);
-    sunder_i_free(world);
+    sunder_i_free_all(g.root, g.active, g.read, g.seen, g.wrote, world);
     return status;
 }
 

@@ -222,8 +222,7 @@ bool sunder_i_gap_by_squares(sunder_i_gap_problem *problem, sunder_i_gap_quadtre
         .p = problem, .q = sunder_i_squares_new(problem->operands, reach, problem->gap_units), .to = quadtree};
     const bool ok = c.q && look_at_all(&c, done) && (!*done || take_all(&c));
     sunder_i_squares_free(c.q);
-    sunder_i_free(c.pair);
-    sunder_i_free(c.segment);
+    sunder_i_free_all(c.pair, c.segment);
     if (ok && *done)
         problem->quadtree = quadtree;
     else

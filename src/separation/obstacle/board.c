@@ -178,8 +178,7 @@ bool sunder_i_board_build(sunder_i_operands *operands, double reach)
     board b = {.g = operands, .h = h};
     const bool ok =
         h->holder && h->open_below && h->list_end && start && divide_board(&b, start) && arrange_lists(h, start);
-    sunder_i_free(b.near);
-    sunder_i_free(start);
+    sunder_i_free_all(b.near, start);
     if (!ok) sunder_i_board_free(operands);
     return ok;
 }
@@ -188,11 +187,7 @@ void sunder_i_board_free(sunder_i_operands *operands)
 {
     sunder_i_board *h = operands->board;
     if (!h) return;
-    sunder_i_free(h->holder);
-    sunder_i_free(h->open_below);
-    sunder_i_free(h->list_end);
-    sunder_i_free(h->list);
-    sunder_i_free(h);
+    sunder_i_free_all(h->holder, h->open_below, h->list_end, h->list, h);
     operands->board = NULL;
 }
 

@@ -192,14 +192,12 @@ bool sunder_i_dop_tree_build(sunder_i_dop_tree *tree, const sunder_i_dop *extent
     for (uint32_t i = 0; ok && i < n; i++) p.list[i] = i;
     ok = ok && plant_node(&p, 1, 0, n);
     SUNDER_I_CHECK(ok ? check_tree(tree, extent, n) : NULL, n);
-    sunder_i_free(p.list);
-    sunder_i_free(p.key);
+    sunder_i_free_all(p.list, p.key);
     return ok;
 }
 
 void sunder_i_dop_tree_free(sunder_i_dop_tree *tree)
 {
-    sunder_i_free(tree->piece);
-    sunder_i_free(tree->extent);
+    sunder_i_free_all(tree->piece, tree->extent);
     *tree = (sunder_i_dop_tree){0};
 }

@@ -197,10 +197,7 @@ bool sunder_i_inner_convex_build(sunder_i_inner_convex *inner, const sunder_i_op
 
 void sunder_i_inner_convex_free(sunder_i_inner_convex *inner)
 {
-    sunder_i_free(inner->end);
-    sunder_i_free(inner->block);
-    sunder_i_free(inner->vague);
-    sunder_i_free(inner->box);
+    sunder_i_free_all(inner->end, inner->block, inner->vague, inner->box);
     sunder_i_dop_tree_free(&inner->pieces);
     sunder_i_dop_tree_free(&inner->all);
     sunder_i_free(inner->node);

@@ -174,8 +174,7 @@ bool sunder_i_quadtree_build(sunder_i_quadtree *quadtree, const sunder_i_operand
     builder b = {.out = quadtree, .g = operands, .side = side, .deepest = depth_for(operands, side)};
     const bool ok = quarter_all(&b);
     if (ok) drop_rest(quadtree);
-    sunder_i_free(b.edges);
-    sunder_i_free(b.pieces);
+    sunder_i_free_all(b.edges, b.pieces);
     return ok;
 }
 

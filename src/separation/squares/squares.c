@@ -169,12 +169,7 @@ void sunder_i_squares_free(sunder_i_squares *squares)
     for (int k = 0; k < 2; k++) {
         sunder_i_quadtree_free(&squares->quadtree[k]);
         sunder_i_inner_convex_free(&squares->inner[k]);
-        sunder_i_free(squares->first_piece[k]);
-        sunder_i_free(squares->corner[k]);
-        sunder_i_free(squares->state[k]);
+        sunder_i_free_all(squares->first_piece[k], squares->corner[k], squares->state[k]);
     }
-    sunder_i_free(squares->heap);
-    sunder_i_free(squares->pair);
-    sunder_i_free(squares->node);
-    sunder_i_free(squares);
+    sunder_i_free_all(squares->heap, squares->pair, squares->node, squares);
 }

@@ -158,12 +158,7 @@ bool sunder_i_masses_make(const sunder_i_outline *outline, const sunder_i_grid *
     double far = 0;
     for (int k = 0; k < 4; k++) far = sunder_i_max(far, fabs(outline->box[k]) / side);
     if (ok) round_masses(&s, CORNER_DOUBT + far * 0x1p-30, masses);
-    sunder_i_free(s.whole.xy);
-    sunder_i_free(s.row.xy);
-    sunder_i_free(s.square.xy);
-    sunder_i_free(s.half.xy);
-    sunder_i_free(s.mass);
-    sunder_i_free(s.doubt);
+    sunder_i_free_all(s.whole.xy, s.row.xy, s.square.xy, s.half.xy, s.mass, s.doubt);
     return ok;
 }
 

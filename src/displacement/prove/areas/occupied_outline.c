@@ -81,7 +81,6 @@ sunder_status sunder_i_outline_make(const sunder_i_model *model, uint32_t body, 
 
 void sunder_i_outline_free(sunder_i_outline *outline)
 {
-    sunder_i_free(outline->xy);
-    sunder_i_free(outline->ring_end);
+    sunder_i_free_all(outline->xy, outline->ring_end);
     *outline = (sunder_i_outline){0};
 }

@@ -96,9 +96,7 @@ void sunder_i_price_grids_free(sunder_i_price_grids *grids)
 {
     for (size_t k = 0; k < grids->n && grids->outline; k++) sunder_i_outline_free(&grids->outline[k]);
     free_masses(grids);
-    sunder_i_free(grids->outline);
-    sunder_i_free(grids->payer);
-    sunder_i_free(grids->price);
+    sunder_i_free_all(grids->outline, grids->payer, grids->price);
 }
 
 static bool spans_too_much(const sunder_i_outline *o, double side)

@@ -364,12 +364,9 @@ static bool ask_blocks(sunder_i_lagrangian *d, double *bound, sunder_i_bound_tre
         sunder_i_bound_trees_free(&made);
     }
     if (ok) *bound = sunder_i_max(*bound, value);
-    sunder_i_free(best);
-    sunder_i_free(centre);
-    sunder_i_free(x);
+    sunder_i_free_all(best, centre, x);
     sunder_i_bundle_free(&d->bundle);
-    sunder_i_free(d->member);
-    sunder_i_free(d->others);
+    sunder_i_free_all(d->member, d->others);
     d->member = NULL;
     d->others = NULL;
     return ok;
@@ -385,13 +382,6 @@ sunder_status sunder_i_blocks_bound(const sunder_i_model *model, const sunder_i_
     for (d.size = BLOCK; ok && larger && d.steps < d.most; d.size += d.size / 2)
         ok = ask_blocks(&d, bound, trees, &larger);
     sunder_i_contact_forces_free(&d.contacts);
-    sunder_i_free(d.weight);
-    sunder_i_free(d.mass);
-    sunder_i_free(d.anchor);
-    sunder_i_free(d.home);
-    sunder_i_free(d.count);
-    sunder_i_free(d.item);
-    sunder_i_free(d.first);
-    sunder_i_free(d.pressure);
+    sunder_i_free_all(d.weight, d.mass, d.anchor, d.home, d.count, d.item, d.first, d.pressure);
     return ok ? SUNDER_OK : sunder_i_failure_cause(err);
 }

@@ -35,11 +35,7 @@ bool sunder_i_bundle_init(sunder_i_bundle *bundle)
 
 void sunder_i_bundle_free(sunder_i_bundle *bundle)
 {
-    sunder_i_free(bundle->cut);
-    sunder_i_free(bundle->t);
-    sunder_i_free(bundle->mix);
-    sunder_i_free(bundle->mean);
-    sunder_i_free(bundle->last);
+    sunder_i_free_all(bundle->cut, bundle->t, bundle->mix, bundle->mean, bundle->last);
     *bundle = (sunder_i_bundle){0};
 }
 

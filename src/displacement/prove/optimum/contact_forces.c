@@ -114,9 +114,7 @@ bool sunder_i_contact_forces_find(sunder_i_contact_forces *contacts, const sunde
 
 void sunder_i_contact_forces_free(sunder_i_contact_forces *contacts)
 {
-    sunder_i_free(contacts->cut);
-    sunder_i_free(contacts->force);
-    sunder_i_free(contacts->touch.item);
+    sunder_i_free_all(contacts->cut, contacts->force, contacts->touch.item);
     sunder_i_dual_free(&contacts->program);
     memset(contacts, 0, sizeof *contacts);
 }

@@ -43,11 +43,7 @@ bool sunder_i_dual_init(sunder_i_dual_program *program, size_t bodies)
 
 void sunder_i_dual_free(sunder_i_dual_program *program)
 {
-    sunder_i_free(program->acting);
-    sunder_i_free(program->factor);
-    sunder_i_free(program->t);
-    sunder_i_free(program->net);
-    sunder_i_free(program->scratch);
+    sunder_i_free_all(program->acting, program->factor, program->t, program->net, program->scratch);
     memset(program, 0, sizeof *program);
 }
 

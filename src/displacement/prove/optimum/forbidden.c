@@ -32,9 +32,7 @@
 
 void sunder_i_forbidden_free(sunder_i_forbidden *forbidden)
 {
-    sunder_i_free(forbidden->piece);
-    sunder_i_free(forbidden->edge);
-    sunder_i_free(forbidden->tree.box);
+    sunder_i_free_all(forbidden->piece, forbidden->edge, forbidden->tree.box);
     *forbidden = (sunder_i_forbidden){0};
 }
 
@@ -385,9 +383,7 @@ static bool begin_listing(listing *l, uint32_t p, uint32_t q)
 static void end_listing(listing *l, double reach)
 {
     sunder_i_forbidden *f = l->out;
-    sunder_i_free(l->scratch.xy);
-    sunder_i_free(l->drawn);
-    sunder_i_free(l->hull);
+    sunder_i_free_all(l->scratch.xy, l->drawn, l->hull);
     f->size = 2 * reach;
     for (size_t k = 0; k < f->pieces; k++)
         for (size_t c = 0; c < 4; c++) f->size = sunder_i_max(f->size, fabs(f->piece[k].box[c]));

@@ -23,10 +23,7 @@ bool sunder_i_group_is_optimal(const sunder_i_group *group)
 
 void sunder_i_group_free(sunder_i_group *group)
 {
-    sunder_i_free(group->body);
-    sunder_i_free(group->move);
-    sunder_i_free(group->guests.item);
-    sunder_i_free(group->joins.item);
+    sunder_i_free_all(group->body, group->move, group->guests.item, group->joins.item);
     sunder_i_bound_trees_free(&group->trees);
     sunder_i_trace_log_free(&group->log);
     *group = (sunder_i_group){0};
@@ -101,8 +98,7 @@ static sunder_status attempt_layout(const sunder_i_model *model, const sunder_i_
         double cost;
         status = settle_layout(model, waived, g, list, n, tight, move, &cost, err);
         if (!status && cost < g->cost * (1 - CHEAPER)) {
-            sunder_i_free(g->body);
-            sunder_i_free(g->move);
+            sunder_i_free_all(g->body, g->move);
             g->body = list;
             g->move = move;
             g->n = n;
@@ -113,9 +109,7 @@ static sunder_status attempt_layout(const sunder_i_model *model, const sunder_i_
             move = NULL;
         }
     }
-    sunder_i_free(at);
-    sunder_i_free(list);
-    sunder_i_free(move);
+    sunder_i_free_all(at, list, move);
     return status;
 }
 

@@ -30,17 +30,8 @@
 
 static void free_tight(sunder_i_tight *f)
 {
-    sunder_i_free(f->body);
-    sunder_i_free(f->t);
-    sunder_i_free(f->row);
-    sunder_i_free(f->base);
-    sunder_i_free(f->ahead);
-    sunder_i_free(f->stays);
-    sunder_i_free(f->alone);
-    sunder_i_free(f->touch.item);
-    sunder_i_free(f->meeting);
-    sunder_i_free(f->near.item);
-    sunder_i_free(f->corner);
+    sunder_i_free_all(f->body, f->t, f->row, f->base, f->ahead, f->stays, f->alone, f->touch.item, f->meeting,
+                      f->near.item, f->corner);
 }
 
 /* Moves rows of bodies that rounding brought beyond their limits back by one unit towards home. Returns false if there

@@ -84,32 +84,13 @@ void sunder_i_tree_free(sunder_i_tree *tree)
 {
     for (size_t k = 0; k < tree->pairs; k++) {
         sunder_i_forbidden_free(&tree->pair[k].forbidden);
-        sunder_i_free(tree->pair[k].reflex.place);
-        sunder_i_free(tree->pair[k].sides.place);
+        sunder_i_free_all(tree->pair[k].reflex.place, tree->pair[k].sides.place);
     }
     for (size_t k = 0; k < tree->nodes; k++) sunder_i_free(tree->node[k].regions);
-    sunder_i_free(tree->body);
-    sunder_i_free(tree->weight);
-    sunder_i_free(tree->anchor);
-    sunder_i_free(tree->mass);
-    sunder_i_free(tree->limit);
-    sunder_i_free(tree->pair_at);
-    sunder_i_free(tree->pair);
-    sunder_i_free(tree->cut);
-    sunder_i_free(tree->note);
-    sunder_i_free(tree->force);
-    sunder_i_free(tree->node);
-    sunder_i_free(tree->open);
-    sunder_i_free(tree->path.item);
-    sunder_i_free(tree->touched.item);
-    sunder_i_free(tree->near.item);
-    sunder_i_free(tree->joins.item);
-    sunder_i_free(tree->named.item);
-    sunder_i_free(tree->used);
-    sunder_i_free(tree->conflict);
-    sunder_i_free(tree->tried.place);
-    sunder_i_free(tree->kept);
-    sunder_i_free(tree->kept_factor);
+    sunder_i_free_all(tree->body, tree->weight, tree->anchor, tree->mass, tree->limit, tree->pair_at, tree->pair,
+                      tree->cut, tree->note, tree->force, tree->node, tree->open, tree->path.item, tree->touched.item,
+                      tree->near.item, tree->joins.item, tree->named.item, tree->used, tree->conflict,
+                      tree->tried.place, tree->kept, tree->kept_factor);
     sunder_i_dual_free(&tree->program);
     memset(tree, 0, sizeof *tree);
 }

@@ -11,14 +11,8 @@
 
 void sunder_i_bound_tree_free(sunder_bound_tree *tree)
 {
-    sunder_i_free((void *)tree->body);
-    sunder_i_free((void *)tree->piece);
-    sunder_i_free((void *)tree->cut);
-    sunder_i_free((void *)tree->force);
-    sunder_i_free((void *)tree->node);
-    sunder_i_free((void *)tree->named);
-    sunder_i_free((void *)tree->corner);
-    sunder_i_free((void *)tree->prices.price);
+    sunder_i_free_all((void *)tree->body, (void *)tree->piece, (void *)tree->cut, (void *)tree->force,
+                      (void *)tree->node, (void *)tree->named, (void *)tree->corner, (void *)tree->prices.price);
     *tree = (sunder_bound_tree){0};
 }
 
@@ -176,8 +170,7 @@ bool sunder_i_tree_record(const sunder_i_tree *tree, sunder_bound_tree *out)
         r.force[k] = (sunder_bound_force){tree->force[k].cut, tree->force[k].force};
     for (size_t k = 0; ok && k < tree->named.n; k++) r.named[k] = 0;
     ok = ok && record_cuts(&r) && record_nodes(&r);
-    sunder_i_free(r.place);
-    sunder_i_free(r.as);
+    sunder_i_free_all(r.place, r.as);
     if (!ok) {
         sunder_i_bound_tree_free(out);
         return false;

@@ -325,11 +325,9 @@ sunder_status sunder_i_chains_decide(sunder_i_chains *chains, const sunder_i_sub
     if (decision->proof) decision->verdict = SUNDER_I_INFEASIBLE;
     decision->work = chains->work + sunder_i_branching_work(&chains->branching) - before;
     for (size_t e = 0; e < 2; e++) {
-        sunder_i_free(f.half[e].link);
-        sunder_i_free(f.half[e].end);
+        sunder_i_free_all(f.half[e].link, f.half[e].end);
     }
-    sunder_i_free(f.half_plane);
-    sunder_i_free(f.chain);
+    sunder_i_free_all(f.half_plane, f.chain);
     return ok && sunder_i_look() ? SUNDER_OK : sunder_i_failure_cause(err);
 }
 
@@ -354,11 +352,6 @@ sunder_i_chains *sunder_i_chains_new(const sunder_i_subproblem *cluster, bool al
 void sunder_i_chains_free(sunder_i_chains *chains)
 {
     if (!chains) return;
-    sunder_i_free(chains->branching.scratch);
-    sunder_i_free(chains->branching.near.item);
-    sunder_i_free(chains->body);
-    sunder_i_free(chains->link);
-    sunder_i_free(chains->step);
-    sunder_i_free(chains->heap);
-    sunder_i_free(chains);
+    sunder_i_free_all(chains->branching.scratch, chains->branching.near.item, chains->body, chains->link, chains->step,
+                      chains->heap, chains);
 }

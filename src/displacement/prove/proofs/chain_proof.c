@@ -139,17 +139,8 @@ static bool build_tree(builder *b, const sunder_i_chains *g, const sunder_i_chai
 
 static void clear_branching(sunder_i_branching *c)
 {
-    sunder_i_free(c->body);
-    sunder_i_free(c->t);
-    sunder_i_free(c->limit);
-    sunder_i_free(c->shift);
-    sunder_i_free(c->net);
-    sunder_i_free(c->weight);
-    sunder_i_free(c->claim);
-    sunder_i_free(c->node);
-    sunder_i_free(c->half_plane);
-    sunder_i_free(c->force);
-    sunder_i_free(c->scratch);
+    sunder_i_free_all(c->body, c->t, c->limit, c->shift, c->net, c->weight, c->claim, c->node, c->half_plane, c->force,
+                      c->scratch);
 }
 
 sunder_proof *sunder_i_chain_prove(sunder_i_chains *chains, const sunder_i_subproblem *subproblem,

@@ -17,19 +17,9 @@
 
 static void clear_branching(sunder_i_branching *c)
 {
-    sunder_i_free(c->slack);
-    sunder_i_free(c->limit);
-    sunder_i_free(c->shift);
-    sunder_i_free(c->net);
-    sunder_i_free(c->weight);
-    sunder_i_free(c->claim);
-    sunder_i_free(c->program.constraint);
+    sunder_i_free_all(c->slack, c->limit, c->shift, c->net, c->weight, c->claim, c->program.constraint);
     sunder_i_nearest_free(&c->nearest);
-    sunder_i_free(c->node);
-    sunder_i_free(c->half_plane);
-    sunder_i_free(c->chord);
-    sunder_i_free(c->force);
-    sunder_i_free(c->scratch);
+    sunder_i_free_all(c->node, c->half_plane, c->chord, c->force, c->scratch);
     sunder_i_branching_forget_half_planes(c);
     sunder_i_free(c->near.item);
 }
@@ -95,8 +85,7 @@ static sunder_status decide_in_plane(const sunder_i_subproblem *subproblem, cons
     if (!status && answer.verdict == SUNDER_I_FEASIBLE)
         status = take_plane_solution(&c, &answer, &decision->solution, err);
     decision->work += sunder_i_branching_work(&c);
-    sunder_i_free(c.body);
-    sunder_i_free(c.t);
+    sunder_i_free_all(c.body, c.t);
     clear_branching(&c);
     return status;
 }
@@ -112,8 +101,7 @@ static sunder_status ask_all(const sunder_i_subproblem *subproblem, sunder_i_dec
     closely.coarse = 0;
     if (coarsely) status = decide_in_plane(subproblem, NULL, 0, decision, told, err);
     if (!status && coarsely && told->free) {
-        sunder_i_free(decision->solution.body);
-        sunder_i_free(decision->solution.move);
+        sunder_i_free_all(decision->solution.body, decision->solution.move);
         decision->solution = (sunder_i_solution){0};
         decision->fine_plane = true;
     }
@@ -138,8 +126,7 @@ static sunder_status ask_precedent(const sunder_i_subproblem *subproblem, const 
     status = decide_in_plane(&some, NULL, 0, decision, told, err);
     decision->fine_plane = precedent->fine;
     if (decision->verdict == SUNDER_I_INFEASIBLE) return status;
-    sunder_i_free(decision->solution.body);
-    sunder_i_free(decision->solution.move);
+    sunder_i_free_all(decision->solution.body, decision->solution.move);
     decision->solution = (sunder_i_solution){0};
     decision->verdict = SUNDER_I_UNKNOWN;
     told->free = false;
@@ -196,8 +183,7 @@ sunder_status sunder_i_decide(const sunder_i_subproblem *subproblem, sunder_i_de
     if (!status && limited && c.longest > 0 && !subproblem->slack && !subproblem->still && !subproblem->no_plane)
         status = ask_plane(&c, decision, err);
     if (status || decision->verdict != SUNDER_I_UNKNOWN || subproblem->effort == 0) {
-        sunder_i_free(c.body);
-        sunder_i_free(c.t);
+        sunder_i_free_all(c.body, c.t);
         clear_branching(&c);
         return status;
     }
@@ -211,8 +197,7 @@ sunder_status sunder_i_decide(const sunder_i_subproblem *subproblem, sunder_i_de
     if (!status && decision->verdict == SUNDER_I_FEASIBLE) {
         decision->solution = take_solution(&c);
     } else {
-        sunder_i_free(c.body);
-        sunder_i_free(c.t);
+        sunder_i_free_all(c.body, c.t);
     }
     clear_branching(&c);
     return status;
@@ -220,8 +205,7 @@ sunder_status sunder_i_decide(const sunder_i_subproblem *subproblem, sunder_i_de
 
 void sunder_i_decision_clear(sunder_i_decision *decision)
 {
-    sunder_i_free(decision->solution.body);
-    sunder_i_free(decision->solution.move);
+    sunder_i_free_all(decision->solution.body, decision->solution.move);
     sunder_i_proof_free(decision->proof);
     memset(decision, 0, sizeof *decision);
 }

@@ -283,10 +283,7 @@ static void end_plane(sunder_i_branching *c, sunder_i_plane *g, sunder_i_planes 
     answer->free = answer->verdict == SUNDER_I_FEASIBLE;
     if (answer->free && !is_all(c, g)) answer->verdict = SUNDER_I_UNKNOWN;
     sunder_i_planes_clear(own);
-    sunder_i_free(g->run);
-    sunder_i_free(g->place);
-    sunder_i_free(g->few);
-    sunder_i_free(g->fresh);
+    sunder_i_free_all(g->run, g->place, g->few, g->fresh);
     sunder_i_plane_choices_free(&g->made);
 }
 

@@ -15,9 +15,7 @@ enum { MANY, FEW };
 
 void sunder_i_plane_choices_free(sunder_i_plane_choices *choices)
 {
-    sunder_i_free(choices->choice);
-    sunder_i_free(choices->region);
-    sunder_i_free(choices->asked);
+    sunder_i_free_all(choices->choice, choices->region, choices->asked);
     memset(choices, 0, sizeof *choices);
 }
 

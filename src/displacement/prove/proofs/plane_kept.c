@@ -11,14 +11,9 @@
 static void free_kept(struct sunder_i_plane_kept *kept)
 {
     if (!kept) return;
-    sunder_i_free(kept->obstacle);
-    sunder_i_free(kept->box);
-    sunder_i_free(kept->run);
-    sunder_i_free(kept->item);
-    sunder_i_free(kept->tree.box);
+    sunder_i_free_all(kept->obstacle, kept->box, kept->run, kept->item, kept->tree.box);
     for (size_t k = 0; k < 2; k++) sunder_i_plane_choices_free(&kept->proofs[k]);
-    sunder_i_free(kept->half_plane);
-    sunder_i_free(kept);
+    sunder_i_free_all(kept->half_plane, kept);
 }
 
 void sunder_i_planes_clear(sunder_i_planes *planes)

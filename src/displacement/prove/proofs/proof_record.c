@@ -145,8 +145,7 @@ sunder_proof *sunder_i_proof_of(const sunder_i_branching *branching, size_t root
         copy_subtree(&g, root, 0);
         SUNDER_I_ASSERT(proof->nodes == size.nodes && proof->ways == size.ways && proof->forces == size.forces);
     }
-    sunder_i_free(g.path);
-    sunder_i_free(g.path_copy);
+    sunder_i_free_all(g.path, g.path_copy);
     if (ok) return proof;
     sunder_i_proof_free(proof);
     return NULL;
@@ -155,11 +154,7 @@ sunder_proof *sunder_i_proof_of(const sunder_i_branching *branching, size_t root
 void sunder_i_proof_free(sunder_proof *proof)
 {
     if (!proof) return;
-    sunder_i_free((void *)proof->node);
-    sunder_i_free((void *)proof->way);
-    sunder_i_free((void *)proof->force);
-    sunder_i_free((void *)proof->corner);
-    sunder_i_free(proof);
+    sunder_i_free_all((void *)proof->node, (void *)proof->way, (void *)proof->force, (void *)proof->corner, proof);
 }
 
 size_t sunder_i_proof_things(const sunder_i_model *model, const sunder_proof *proof, uint32_t *set)
@@ -197,8 +192,6 @@ void sunder_i_proof_strip(sunder_proof *proof)
     for (size_t k = 0; k < inner; k++)
         if (k == 0 || by_things(&node[k - 1], &node[k])) node[n++] = node[k];
     sunder_proof_node *less = sunder_i_realloc(node, n, sizeof *node);
-    sunder_i_free((void *)proof->way);
-    sunder_i_free((void *)proof->force);
-    sunder_i_free((void *)proof->corner);
+    sunder_i_free_all((void *)proof->way, (void *)proof->force, (void *)proof->corner);
     *proof = (sunder_proof){.node = less ? less : node, .nodes = n};
 }

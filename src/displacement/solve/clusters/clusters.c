@@ -19,8 +19,7 @@ static void free_clusters(sunder_i_solver *s)
 {
     for (size_t k = 0; k < s->clusters; k++) {
         sunder_i_relaxations_free(&s->cluster[k].relaxations);
-        sunder_i_free(s->cluster[k].restored);
-        sunder_i_free(s->cluster[k].guest);
+        sunder_i_free_all(s->cluster[k].restored, s->cluster[k].guest);
         sunder_i_trace_log_free(&s->cluster[k].log);
     }
     s->clusters = 0;
@@ -31,28 +30,15 @@ void sunder_i_solver_free(sunder_i_solver *solver)
     sunder_i_jumps_free(&solver->jumps);
     sunder_i_placement_free(&solver->model, &solver->placement);
     sunder_i_model_free(&solver->model);
-    sunder_i_free(solver->start.pair);
-    sunder_i_free(solver->depth);
-    sunder_i_free(solver->depth_at);
-    sunder_i_free(solver->now.pair);
-    sunder_i_free(solver->entry);
-    sunder_i_free(solver->edge);
-    sunder_i_free(solver->conflict_root);
-    sunder_i_free(solver->parent);
+    sunder_i_free_all(solver->start.pair, solver->depth, solver->depth_at, solver->now.pair, solver->entry,
+                      solver->edge, solver->conflict_root, solver->parent);
     sunder_i_body_states_free(&solver->states);
     sunder_i_free(solver->widened);
     sunder_i_changes_free(&solver->changes);
-    sunder_i_free(solver->asked);
-    sunder_i_free(solver->asked_work);
-    sunder_i_free(solver->crowd_size);
-    sunder_i_free(solver->measured);
-    sunder_i_free(solver->limit);
-    sunder_i_free(solver->went);
+    sunder_i_free_all(solver->asked, solver->asked_work, solver->crowd_size, solver->measured, solver->limit,
+                      solver->went);
     sunder_i_relaxations_free(&solver->waiting);
-    sunder_i_free(solver->carrier);
-    sunder_i_free(solver->member);
-    sunder_i_free(solver->body);
-    sunder_i_free(solver->move);
+    sunder_i_free_all(solver->carrier, solver->member, solver->body, solver->move);
     free_clusters(solver);
     sunder_i_free(solver->cluster);
     sunder_i_groups_free(&solver->groups);
@@ -189,8 +175,7 @@ static const char *check_clusters(const sunder_i_solver *s)
 void sunder_i_solver_forget_clusters(sunder_i_solver *solver)
 {
     free_clusters(solver);
-    sunder_i_free(solver->cluster);
-    sunder_i_free(solver->move);
+    sunder_i_free_all(solver->cluster, solver->move);
     solver->cluster = NULL;
     solver->move = NULL;
 }
@@ -200,10 +185,7 @@ void sunder_i_solver_forget_clusters(sunder_i_solver *solver)
 static bool reserve_clusters(sunder_i_solver *s)
 {
     if (s->edge_room >= s->edges && s->cluster) return true;
-    sunder_i_free(s->member);
-    sunder_i_free(s->body);
-    sunder_i_free(s->move);
-    sunder_i_free(s->cluster);
+    sunder_i_free_all(s->member, s->body, s->move, s->cluster);
     s->edge_room = s->edges + s->edges / SPARE_ROOM;
     s->member = sunder_i_alloc(2 * s->edge_room, sizeof *s->member);
     s->body = sunder_i_alloc(2 * s->edge_room, sizeof *s->body);
@@ -311,7 +293,6 @@ sunder_status sunder_i_solver_unite_blocks(sunder_i_solver *solver, sunder_error
         seen[solver->body[k]] = true;
     }
     if (!status) status = sunder_i_model_unite(&solver->model, body, n, err);
-    sunder_i_free(seen);
-    sunder_i_free(body);
+    sunder_i_free_all(seen, body);
     return status;
 }

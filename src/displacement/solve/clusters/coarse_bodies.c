@@ -211,8 +211,7 @@ sunder_status sunder_i_solver_let_go(sunder_i_solver *solver, bool *any, sunder_
     }
     if (!status && !keep_infeasible(solver)) status = sunder_i_failure_cause(err);
     if (!status) status = sunder_i_solver_begin_again(solver, back, err);
-    sunder_i_free(root);
-    sunder_i_free(back);
+    sunder_i_free_all(root, back);
     return status;
 }
 

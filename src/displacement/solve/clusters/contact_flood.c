@@ -172,8 +172,6 @@ sunder_status sunder_i_flood_contacts(sunder_i_solver *solver, sunder_i_flood *o
 
 void sunder_i_flood_free(sunder_i_flood *flood)
 {
-    sunder_i_free(flood->parent);
-    sunder_i_free(flood->body.item);
-    sunder_i_free(flood->touch);
+    sunder_i_free_all(flood->parent, flood->body.item, flood->touch);
     memset(flood, 0, sizeof *flood);
 }

@@ -17,11 +17,7 @@
 void sunder_i_groups_free(sunder_i_groups *groups)
 {
     for (size_t k = 0; k < groups->n; k++) sunder_i_group_free(&groups->group[k]);
-    sunder_i_free(groups->group);
-    sunder_i_free(groups->of);
-    sunder_i_free(groups->waived);
-    sunder_i_free(groups->joined);
-    sunder_i_free(groups->spent);
+    sunder_i_free_all(groups->group, groups->of, groups->waived, groups->joined, groups->spent);
     memset(groups, 0, sizeof *groups);
 }
 

@@ -73,8 +73,7 @@ static sunder_status align_to_steps(const sunder_i_model *model, const sunder_i_
     for (size_t k = 0, moved = 0; k < f.n && ok; k++)
         if (moved < t->n && t->body[moved] == f.body[k])
             memcpy(t->goal + 2 * moved++, f.move + 2 * k, 2 * sizeof *f.move);
-    sunder_i_free(f.body);
-    sunder_i_free(f.move);
+    sunder_i_free_all(f.body, f.move);
     return ok ? SUNDER_OK : sunder_i_failure_cause(err);
 }
 
@@ -204,7 +203,6 @@ sunder_status sunder_i_solver_fit_exactly(sunder_i_solver *solver, sunder_error 
     if (!status && (!in_vain || !pair)) status = sunder_i_failure_cause(err);
     if (!status) memcpy(pair, solver->model.given_up, n * sizeof *pair);
     if (!status) status = fit_all(solver, pair, n, in_vain, err);
-    sunder_i_free(in_vain);
-    sunder_i_free(pair);
+    sunder_i_free_all(in_vain, pair);
     return status;
 }

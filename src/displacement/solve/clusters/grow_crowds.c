@@ -152,9 +152,6 @@ sunder_status sunder_i_solver_grow_crowds(sunder_i_solver *solver, sunder_error 
     sunder_status status = g.placed && g.box && g.unabsorbable ? SUNDER_OK : sunder_i_failure_cause(err);
     bool any = true;
     for (int k = 0; k < CROWDS_GROWN && any && !status; k++) status = grow_once(&g, &any, err);
-    sunder_i_free(g.placed);
-    sunder_i_free(g.box);
-    sunder_i_free(g.unabsorbable);
-    sunder_i_free(g.near.item);
+    sunder_i_free_all(g.placed, g.box, g.unabsorbable, g.near.item);
     return status;
 }

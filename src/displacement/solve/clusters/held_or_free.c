@@ -18,14 +18,8 @@
 
 void sunder_i_held_layout_free(sunder_i_held_layout *layout)
 {
-    sunder_i_free(layout->move);
-    sunder_i_free(layout->held);
-    sunder_i_free(layout->widened);
-    sunder_i_free(layout->improved);
-    sunder_i_free(layout->edge);
-    sunder_i_free(layout->conflict);
-    sunder_i_free(layout->given_up);
-    sunder_i_free(layout->state);
+    sunder_i_free_all(layout->move, layout->held, layout->widened, layout->improved, layout->edge, layout->conflict,
+                      layout->given_up, layout->state);
     sunder_i_relaxations_free(&layout->relaxations);
     memset(layout, 0, sizeof *layout);
 }
@@ -176,9 +170,7 @@ static bool find_better_held(const sunder_i_solver *solver, const sunder_i_held_
             *any = *any || back[b];
         }
     }
-    sunder_i_free(now);
-    sunder_i_free(c.root);
-    sunder_i_free(c.of);
+    sunder_i_free_all(now, c.root, c.of);
     return ok;
 }
 

@@ -102,7 +102,6 @@ sunder_status sunder_i_solver_find_infeasible(sunder_i_solver *solver, const sun
         status = take_judgement(solver, &solver->start.pair[k], &g.relaxation[k], &g.resolution[k], err);
     if (!status && !sunder_i_relaxations_index(&solver->model.relaxations, &solver->model))
         status = sunder_i_failure_cause(err);
-    sunder_i_free(g.relaxation);
-    sunder_i_free(g.resolution);
+    sunder_i_free_all(g.relaxation, g.resolution);
     return status;
 }

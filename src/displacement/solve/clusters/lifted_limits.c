@@ -168,10 +168,7 @@ sunder_status sunder_i_solver_set_far_aside(sunder_i_solver *solver, sunder_erro
             status = sunder_i_solver_relate(solver, err);
         }
     }
-    sunder_i_free(root);
-    sunder_i_free(size);
-    sunder_i_free(running);
-    sunder_i_free(back);
+    sunder_i_free_all(root, size, running, back);
     return status;
 }
 
@@ -279,7 +276,6 @@ sunder_status sunder_i_solver_restore_limits(sunder_i_solver *solver, sunder_err
         }
         status = sunder_i_solver_begin_again(solver, back, err);
     }
-    sunder_i_free(root);
-    sunder_i_free(back);
+    sunder_i_free_all(root, back);
     return status;
 }

@@ -448,11 +448,6 @@ sunder_status sunder_i_solver_ask_one_by_one(sunder_i_solver *solver, bool *chan
         if (!status) status = resume_from_solutions(solver, &g, clusters, changed, err);
     }
     for (size_t k = 0; k < clusters && decision; k++) sunder_i_decision_clear(&decision[k]);
-    sunder_i_free(list);
-    sunder_i_free(first);
-    sunder_i_free(required);
-    sunder_i_free(asked);
-    sunder_i_free(wanted);
-    sunder_i_free(decision);
+    sunder_i_free_all(list, first, required, asked, wanted, decision);
     return status;
 }

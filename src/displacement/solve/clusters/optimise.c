@@ -354,9 +354,7 @@ static sunder_status take_over(sunder_i_solver *s, bool *any, sunder_error *err)
         *any = *any || (is_group_wanted(s, g) && g->state != SUNDER_I_IS_PROVED);
         if (sunder_i_group_is_cheaper(g)) g->state = SUNDER_I_IS_PROVED;
     }
-    sunder_i_free(t.budget);
-    sunder_i_free(t.by);
-    sunder_i_free(t.before);
+    sunder_i_free_all(t.budget, t.by, t.before);
     return status;
 }
 

@@ -62,12 +62,7 @@ static size_t list_pairs(const sunder_i_solver *s, const uint32_t *root_of, root
     return out;
 }
 
-static void free_components(components *c)
-{
-    sunder_i_free(c->component);
-    sunder_i_free(c->pair);
-    sunder_i_free(c->body);
-}
+static void free_components(components *c) { sunder_i_free_all(c->component, c->pair, c->body); }
 
 static sunder_status find_components(sunder_i_solver *s, components *out, sunder_error *err)
 {
@@ -214,8 +209,7 @@ static sunder_status mark_asked(const sunder_i_solver *s, const components *all,
     bool *root = sunder_i_calloc(model->bodies, sizeof *root);
     bool *doubtful = sunder_i_solver_connected_with(s, sunder_i_is_doubtful);
     if (!root || !doubtful) {
-        sunder_i_free(root);
-        sunder_i_free(doubtful);
+        sunder_i_free_all(root, doubtful);
         return sunder_i_failure_cause(err);
     }
     for (size_t k = 0; k < model->given_up_n; k++) {
@@ -225,8 +219,7 @@ static sunder_status mark_asked(const sunder_i_solver *s, const components *all,
     for (size_t k = 0; k < all->n; k++)
         asked[k] =
             root[all->component[k].root] && doubtful[all->component[k].root] && !was_asked(s, all->component[k].root);
-    sunder_i_free(doubtful);
-    sunder_i_free(root);
+    sunder_i_free_all(doubtful, root);
     return SUNDER_OK;
 }
 
@@ -312,9 +305,7 @@ sunder_status sunder_i_solver_reconsider(sunder_i_solver *solver, bool *changed,
     }
     for (size_t k = 0; k < all.n && decision; k++) sunder_i_decision_clear(&decision[k]);
     free_questions(question_of, all.n);
-    sunder_i_free(asked);
-    sunder_i_free(decision);
-    sunder_i_free(required);
+    sunder_i_free_all(asked, decision, required);
     free_components(&all);
     return !status && *changed ? sunder_i_solver_relate(solver, err) : status;
 }

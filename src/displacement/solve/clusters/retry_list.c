@@ -216,8 +216,7 @@ static bool join_neighbours(sunder_i_solver *s, const bool *asked)
         ok = join_about(s, alone, i, sunder_i_min(missing, sunder_i_limit_of(&model->body[i])), &near) &&
              join_about(s, alone, j, sunder_i_min(missing, sunder_i_limit_of(&model->body[j])), &near);
     }
-    sunder_i_free(near.item);
-    sunder_i_free(alone);
+    sunder_i_free_all(near.item, alone);
     return ok;
 }
 
@@ -241,8 +240,7 @@ sunder_status sunder_i_solver_retry(sunder_i_solver *solver, sunder_error *err)
     if (!status)
         status = sunder_i_parallel(solver->model.rules.threads, solver->clusters, SUNDER_I_GRAIN_WHOLE, retry_clusters,
                                    &g, err);
-    sunder_i_free(all.retry);
-    sunder_i_free(all.relaxation);
+    sunder_i_free_all(all.retry, all.relaxation);
     if (!status) status = sunder_i_solver_trace_clusters(solver, err);
     if (!status) status = sunder_i_solver_commit(solver, err);
     if (!status) status = sunder_i_solver_take_relaxations(solver, err);

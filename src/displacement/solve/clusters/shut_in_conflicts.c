@@ -76,7 +76,6 @@ sunder_status sunder_i_find_unsolvable(const sunder_i_model *model, const sunder
         sunder_i_decision_clear(&decision);
     }
     sunder_i_planes_clear(&planes);
-    sunder_i_free(members);
-    sunder_i_free(required);
+    sunder_i_free_all(members, required);
     return status;
 }

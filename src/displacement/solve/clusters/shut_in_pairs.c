@@ -99,9 +99,7 @@ static sunder_status judge_features(const sunder_i_model *model, shut_in_conflic
     }
     if (!status) status = sunder_i_find_unsolvable(model, &list->bodies, relaxation, n, err);
     for (size_t k = 0; k < n && !status; k++) list[k].relaxation = relaxation[k];
-    sunder_i_free(pair);
-    sunder_i_free(relaxation);
-    sunder_i_free(shut);
+    sunder_i_free_all(pair, relaxation, shut);
     return status;
 }
 
@@ -184,8 +182,7 @@ static sunder_status relax_conflicts(sunder_i_solver *s, const sunder_i_id_pair 
     for (size_t k = 0; k < more.n && !status; k++)
         if (!sunder_i_relaxations_add(&model->relaxations, &more.item[k])) status = sunder_i_failure_cause(err);
     sunder_i_relaxations_free(&more);
-    sunder_i_free(found);
-    sunder_i_free(first);
+    sunder_i_free_all(found, first);
     if (model->shut_in_n) qsort(model->shut_in, model->shut_in_n, sizeof *model->shut_in, sunder_i_by_id_pair);
     sunder_i_sort_given_up(model);
     if (!status && !sunder_i_relaxations_index(&model->relaxations, model)) status = sunder_i_failure_cause(err);
@@ -226,7 +223,6 @@ sunder_status sunder_i_solver_find_shut_in(sunder_i_solver *solver, sunder_error
         model->confined_n = out;
         pair = NULL;
     }
-    sunder_i_free(g.shut);
-    sunder_i_free(pair);
+    sunder_i_free_all(g.shut, pair);
     return status;
 }

@@ -267,8 +267,7 @@ sunder_status sunder_i_solver_prove(const sunder_i_solver *solver, const sunder_
     const bool together = how->move && !how->in_plane && g.questions > 1;
     if (!status && together && g.verdict == SUNDER_I_FEASIBLE) status = prove_together(&g, err);
     *verdict = status ? SUNDER_I_UNKNOWN : g.verdict;
-    sunder_i_free(g.asked.item);
-    sunder_i_free(required);
+    sunder_i_free_all(g.asked.item, required);
     return status;
 }
 

@@ -131,10 +131,5 @@ bool sunder_i_trial_take_moved(sunder_i_trial *trial, const sunder_i_cluster *cl
 
 void sunder_i_trial_free(sunder_i_trial *trial)
 {
-    sunder_i_free(trial->body);
-    sunder_i_free(trial->stood);
-    sunder_i_free(trial->goal);
-    sunder_i_free(trial->taken);
-    sunder_i_free(trial->near.item);
-    sunder_i_free(trial->about.item);
+    sunder_i_free_all(trial->body, trial->stood, trial->goal, trial->taken, trial->near.item, trial->about.item);
 }

@@ -240,13 +240,7 @@ static bool waiting_init(waiting *w, size_t bodies)
     return w->body && w->cluster && w->vain && w->size;
 }
 
-static void waiting_free(waiting *w)
-{
-    sunder_i_free(w->body);
-    sunder_i_free(w->cluster);
-    sunder_i_free(w->vain);
-    sunder_i_free(w->size);
-}
+static void waiting_free(waiting *w) { sunder_i_free_all(w->body, w->cluster, w->vain, w->size); }
 
 /* Begins a pass: no pair waits. */
 static void begin_pass(const sunder_i_solver *s, waiting *w)

@@ -367,10 +367,7 @@ static double find_left(sunder_i_search *s, double enough)
     const bool ok = b.acting && b.program.constraint && b.program.t;
     if (!ok) s->failed = true;
     const double left = ok && find_acting(&b) ? raise_bound(&b, enough) : 1;
-    sunder_i_free(b.about.edge);
-    sunder_i_free(b.acting);
-    sunder_i_free(b.program.constraint);
-    sunder_i_free(b.program.t);
+    sunder_i_free_all(b.about.edge, b.acting, b.program.constraint, b.program.t);
     s->steps = steps;
     return left;
 }
@@ -404,8 +401,7 @@ static bool is_cheapest_below(sunder_i_search *s)
             s->tangents = tangents;
         }
     }
-    sunder_i_free(stood);
-    sunder_i_free(constraint);
+    sunder_i_free_all(stood, constraint);
     return cheapest;
 }
 

@@ -77,23 +77,12 @@ const char *sunder_i_search_check(const sunder_i_search *search)
 
 void sunder_i_search_free(sunder_i_search *search)
 {
-    sunder_i_free(search->listed);
-    sunder_i_free(search->mass);
-    sunder_i_free(search->place);
-    sunder_i_free(search->away);
-    sunder_i_free(search->t);
-    sunder_i_free(search->next);
-    sunder_i_free(search->box);
-    sunder_i_free(search->order);
-    sunder_i_free(search->program.constraint);
-    sunder_i_free(search->old);
-    sunder_i_free(search->clash);
+    sunder_i_free_all(search->listed, search->mass, search->place, search->away, search->t, search->next, search->box,
+                      search->order, search->program.constraint, search->old, search->clash);
     sunder_i_relaxations_free(&search->relaxations);
     sunder_i_free(search->restored);
     sunder_i_rtree_free(&search->visited);
-    sunder_i_free(search->visited_at);
-    sunder_i_free(search->about.item);
-    sunder_i_free(search->scratch.xy);
+    sunder_i_free_all(search->visited_at, search->about.item, search->scratch.xy);
     sunder_i_grown_cache_free(&search->grown);
     sunder_i_obstacle_cache_free(&search->cache);
     sunder_i_measures_free(&search->measures);

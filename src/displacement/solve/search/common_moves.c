@@ -56,6 +56,5 @@ void sunder_i_search_equalise_moves(sunder_i_search *search)
             memcpy(search->t + 2 * (size_t)k, stood + 2 * (size_t)sunder_i_union_find(root, k), 2 * sizeof *search->t);
         if (!search->failed && !push_apart(search)) memcpy(search->t, stood, size);
     }
-    sunder_i_free(root);
-    sunder_i_free(stood);
+    sunder_i_free_all(root, stood);
 }

@@ -144,8 +144,7 @@ static double solve_compromise(sunder_i_search *s, double softness)
             full = v;
         }
     }
-    sunder_i_free(constraint);
-    sunder_i_free(next);
+    sunder_i_free_all(constraint, next);
     return full;
 }
 
@@ -221,11 +220,7 @@ static bool descends_coarsely(const sunder_i_search *s)
     return true;
 }
 
-static void descent_free(descent *d)
-{
-    sunder_i_free(d->best);
-    sunder_i_free(d->lead);
-}
+static void descent_free(descent *d) { sunder_i_free_all(d->best, d->lead); }
 
 static bool descent_init(descent *d, sunder_i_search *s)
 {
@@ -420,8 +415,7 @@ void sunder_i_search_settle_components(sunder_i_search *search)
             if (search->mass[k] > 0 && !unsolved[sunder_i_union_find(root, k)])
                 memcpy(search->t + 2 * k, search->next + 2 * k, 2 * sizeof *search->t);
     }
-    sunder_i_free(root);
-    sunder_i_free(unsolved);
+    sunder_i_free_all(root, unsolved);
 }
 
 void sunder_i_search_descend_or_stay(sunder_i_search *search)

@@ -81,10 +81,7 @@ static bool relax_cheapest(sunder_i_search *s, const sunder_i_clash *at_home, si
         if (best[c->i] == &list[k] && best[c->j] == &list[k]) sunder_i_search_relax(s, c->i, c->j);
     }
     if (s->relaxations.n > before && !sunder_i_relaxations_index(&s->relaxations, s->model)) s->failed = true;
-    sunder_i_free(root);
-    sunder_i_free(worst);
-    sunder_i_free(list);
-    sunder_i_free(best);
+    sunder_i_free_all(root, worst, list, best);
     return s->relaxations.n > before;
 }
 

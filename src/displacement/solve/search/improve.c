@@ -323,9 +323,7 @@ sunder_status sunder_i_cluster_improve(const sunder_i_model *model, const sunder
     }
     ok = ok && best && near && order && !s.failed;
     sunder_i_search_free(&s);
-    sunder_i_free(best);
-    sunder_i_free(near);
-    sunder_i_free(order);
+    sunder_i_free_all(best, near, order);
     return ok ? SUNDER_OK : sunder_i_failure_cause(err);
 }
 

@@ -34,19 +34,15 @@ bool sunder_i_neighbourhood_init(sunder_i_neighbourhood *neighbourhood, sunder_i
         present[i] = all->model->body[all->body[i]].pieces > 0;
     }
     ok = ok && !sunder_i_rtree_build(box, present, all->n, &neighbourhood->tree, NULL);
-    sunder_i_free(box);
-    sunder_i_free(present);
+    sunder_i_free_all(box, present);
     return ok;
 }
 
 void sunder_i_neighbourhood_free(sunder_i_neighbourhood *neighbourhood)
 {
     sunder_i_rtree_free(&neighbourhood->tree);
-    sunder_i_free(neighbourhood->place);
-    sunder_i_free(neighbourhood->moves);
-    sunder_i_free(neighbourhood->body);
-    sunder_i_free(neighbourhood->t);
-    sunder_i_free(neighbourhood->near.item);
+    sunder_i_free_all(neighbourhood->place, neighbourhood->moves, neighbourhood->body, neighbourhood->t,
+                      neighbourhood->near.item);
     memset(neighbourhood, 0, sizeof *neighbourhood);
 }
 

@@ -54,13 +54,10 @@ void sunder_i_pushed_free(sunder_i_pushed *pushed)
     for (size_t k = 0; pushed->of && pushed->about.all && k < pushed->about.all->n; k++)
         sunder_i_free(pushed->of[k].line);
     for (size_t e = 0; e < 2; e++) {
-        sunder_i_free(pushed->front[e].spare);
-        sunder_i_free(pushed->front[e].reached);
-        sunder_i_free(pushed->front[e].heap);
+        sunder_i_free_all(pushed->front[e].spare, pushed->front[e].reached, pushed->front[e].heap);
     }
     for (size_t w = 0; w < PUSHED_DIRECTIONS; w++) sunder_i_free(pushed->survey[w].next);
-    sunder_i_free(pushed->of);
-    sunder_i_free(pushed->to);
+    sunder_i_free_all(pushed->of, pushed->to);
     sunder_i_neighbourhood_free(&pushed->about);
     memset(pushed, 0, sizeof *pushed);
 }

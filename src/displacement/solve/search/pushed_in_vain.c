@@ -107,8 +107,7 @@ static void survey_direction(sunder_i_pushed *p, size_t direction)
         if (g.most <= v.most[g.body]) lower_pushers(&v, g.body);
     }
     w->in_vain = 0;
-    sunder_i_free(v.most);
-    sunder_i_free(v.heap);
+    sunder_i_free_all(v.most, v.heap);
 }
 
 /* ---- One pair ---------------------------------------------------------------------------------------------------- */

@@ -68,8 +68,7 @@ static bool find_doubtful(reordering *r)
         if (r->doubtfuls) qsort(r->doubtful, r->doubtfuls, sizeof *r->doubtful, by_rank);
     }
     const bool ok = home && deep;
-    sunder_i_free(home);
-    sunder_i_free(deep);
+    sunder_i_free_all(home, deep);
     return ok;
 }
 
@@ -203,7 +202,5 @@ void sunder_i_search_reorder(sunder_i_search *search, double *best, double *cost
         try_orders(&r, r.moving, SURE_USELESS, work + work / SURE_SHARE);
     }
     *cost = r.cost;
-    sunder_i_free(r.doubtful);
-    sunder_i_free(r.near);
-    sunder_i_free(r.out);
+    sunder_i_free_all(r.doubtful, r.near, r.out);
 }

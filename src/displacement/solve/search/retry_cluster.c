@@ -345,9 +345,7 @@ static void retry_all(sunder_i_search *s, const sunder_i_retry *retry, size_t n)
     if (!s->failed && s->model->rules.gap > 0) trade_pairs(&p);
     if (p.any && p.moving > FEW) sunder_i_search_descend_or_stay(s);
     sunder_i_neighbourhood_free(&p.neighbourhood);
-    sunder_i_free(p.settled);
-    sunder_i_free(p.in_vain);
-    sunder_i_free(p.stand);
+    sunder_i_free_all(p.settled, p.in_vain, p.stand);
 }
 
 sunder_status sunder_i_cluster_retry(const sunder_i_model *model, sunder_i_cluster *cluster,

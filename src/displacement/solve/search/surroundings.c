@@ -69,7 +69,6 @@ bool sunder_i_search_init_about(sunder_i_search *search, const sunder_i_model *m
     search->listed = body;
     search->own = own;
     for (size_t k = own; ok && k < n; k++) search->mass[k] = 0;
-    sunder_i_free(stand);
-    sunder_i_free(hits.item);
+    sunder_i_free_all(stand, hits.item);
     return ok;
 }

@@ -20,8 +20,7 @@ static bool build_index(sunder_i_search *s)
     }
     ok = ok && sunder_i_rtree_build(box, present, s->n, &s->visited, NULL) == SUNDER_OK;
     if (ok) memcpy(s->visited_at, s->t, 2 * s->n * sizeof *s->visited_at);
-    sunder_i_free(box);
-    sunder_i_free(present);
+    sunder_i_free_all(box, present);
     return ok;
 }
 

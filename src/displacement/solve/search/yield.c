@@ -32,12 +32,7 @@ typedef struct neighbours {
     uint32_t *other; /* neighbours of body k, from first[k] to first[k + 1] */
 } neighbours;
 
-static void free_neighbours(neighbours *g)
-{
-    sunder_i_free(g->pair);
-    sunder_i_free(g->first);
-    sunder_i_free(g->other);
-}
+static void free_neighbours(neighbours *g) { sunder_i_free_all(g->pair, g->first, g->other); }
 
 static void add_pair(sunder_i_search *s, uint32_t i, uint32_t j, void *context)
 {
