@@ -62,9 +62,8 @@ static void end(crowd *c)
     free(c->feature);
 }
 
-/* Of report/tuning.h: no more features than these take part in questions about a cluster that are in vain; so many
- * pairs are asked a question in vain before fewer are, and of so many it is looked for a proof in vain; the least
- * effort for a proof; and so many of a cluster, one after the other, are not proved by more, or by that. */
+/* Copies of the constants of report/tuning.h, which says what each of them limits: patience and efforts of questions
+ * and proofs about one cluster. */
 enum {
     NEED_IN_VAIN = 200000,
     NEED_PATIENCE = 32,
