@@ -32,8 +32,9 @@ typedef struct sunder_i_vertex_table {
 
 #define SUNDER_I_NO_VERTEX UINT32_MAX
 
-/* Starts an empty table. most: a bound of the approximate coordinates; expected: an estimate of the number of vertices
- * added, and `appended` of those appended. Returns false if out of memory. */
+/* Starts an empty table. most: an upper bound of the absolute values of the approximate coordinates. expected,
+ * appended: estimates of the numbers of vertices that sunder_i_vertex_table_add() and sunder_i_vertex_table_append()
+ * will add. Returns false if out of memory. */
 bool sunder_i_vertex_table_init(sunder_i_vertex_table *table, sunder_i_lattice *lattice, double most, size_t expected,
                                 size_t appended);
 /* Returns the vertex near (ax, ay), whose errors are less than three quarters of table->error, at which two of these

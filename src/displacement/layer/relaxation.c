@@ -289,8 +289,8 @@ sunder_status sunder_i_relaxation_of(const sunder_i_model *model, uint32_t f, ui
     return SUNDER_OK;
 }
 
-/* Sets `way` to the least translation of b that separates the two, moved by ta and tb, if it is no longer than `upper`;
- * otherwise sets *beyond. */
+/* Sets `shift` to the least translation of t->b that separates it from t->a, where the two are moved by tb and ta (a
+ * barrier stays in place), if it is no longer than `upper`; otherwise sets *beyond. */
 static sunder_status find_separating_shift(const sunder_i_model *model, const sunder_i_relaxation *t,
                                            const double ta[2], const double tb[2], double upper, double shift[2],
                                            bool *beyond, sunder_error *err)

@@ -51,7 +51,7 @@ static void leave_corner(const sunder_i_gap_state *s, const moved *m, const sund
     const double off = fabs(m->dx * vy - m->dy * vx) / m->length, in = s->gap - off;
     if (in < 0) return;
     const double half = sqrt(in * (s->gap + off)), t = middle + (forwards ? half : -half) / m->length;
-    /* an error e of `in` causes an error e g / half of half the chord */
+    /* An error e of `in` changes half the chord by at most e * gap / half, to first order. */
     if (!w->any || (forwards ? t > w->t : t < w->t))
         *w = (way_out){true, t, half > 0 ? 1 + 4 * s->gap / half : INFINITY, true, i};
 }

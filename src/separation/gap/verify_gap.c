@@ -37,7 +37,8 @@ static side side_of(const checking *c, const sunder_i_operand_piece *p, uint32_t
     return s;
 }
 
-/* Returns the signed distance of vertex m of q from the line of side s, positive on the outer (right) side. */
+/* Returns the signed distance of t - c, where c is vertex m of q, from the line of side s, positive on the outer
+ * (right) side. */
 static double height_over(const checking *c, const side *s, const sunder_i_operand_piece *q, uint32_t m)
 {
     const double *b = c->g->xy[q->side] + 2 * q->corner[m];

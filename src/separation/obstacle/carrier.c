@@ -293,7 +293,8 @@ static stretch leaving_sides(const sunder_i_operands *g, const sunder_i_carrier 
 {
     const stretch all = {0, s->sides};
     if (s->sides < SUNDER_I_SIDES_MANY) return all;
-    /* the vertices approximately farthest on the right and on the left; the bound is derived as that of a side */
+    /* The vertices approximately farthest on the right and on the left; `bound` is the error bound of height_over(), by
+     * the same formula as s->bound[] of a side (bounds_of() in subsum.c). */
     const uint32_t lowest = sunder_i_subsum_lowest(s, line->dx, line->dy);
     const uint32_t highest = sunder_i_subsum_lowest(s, -line->dx, -line->dy);
     const double sign = forwards ? 1 : -1;

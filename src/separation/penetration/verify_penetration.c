@@ -55,9 +55,9 @@ static inline side_line line_of(const sunder_i_operands *g, const sunder_i_free_
  * vertex is on its left. */
 #define CORNERS_AT_ONCE 8
 
-/* Returns the set of those vertices c = corner[0] .. corner[n - 1] for which it is uncertain whether x - c is on the
- * left of the side; the last one may be included twice. *left becomes whether one is certainly on the left. Two at a
- * time. */
+/* Returns a number whose bit k is set if it is uncertain whether x - corner[k] is on the left of the side. If n is
+ * odd bit n may be set, too; it stands for the last vertex again, since two vertices are compared at a time. *left
+ * becomes whether one is certainly on the left. */
 static inline uint32_t compare_corners(const side_line *s, const double *xy, const uint32_t *corner, uint32_t n,
                                        bool *left)
 {

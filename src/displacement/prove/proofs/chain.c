@@ -223,7 +223,9 @@ static bool is_straight(const sunder_i_chains *g, const sunder_i_half_plane *hal
     return is;
 }
 
-/* Tests two pieces of the pair: each open half-plane needs a chain. Returns false if memory is out. */
+/* Tries to prove by chains that the pieces pair->a and pair->b of the pair cannot be separated: a chain has to
+ * refute each half-plane of their obstacle that moves within the limits can reach (is_open()). Sets
+ * f->decision->proof if each is refuted. Returns false if memory is out. */
 static bool ask_pieces(finding *f, const sunder_i_chain_link *pair)
 {
     sunder_i_chains *g = f->g;

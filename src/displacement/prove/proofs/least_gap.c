@@ -45,7 +45,8 @@ static double limit_of(const shrinking *g, uint32_t body)
     return isfinite(b->limit) ? b->limit : g->proof->within;
 }
 
-/* Returns the loss by the limit of a thing's body, and resets its sum so that it is counted once. */
+/* Returns what the limit of the body of `thing` takes from the contradiction of a leaf: the limit times the length
+ * of the net force on the body. Resets that net force, so that a body is counted once. */
 static double take_lost(shrinking *g, size_t thing)
 {
     const uint32_t body = g->model->body_of[thing];

@@ -9,8 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Updates the lengths that decide what is small: a hair is 2^-40 of the longest limit, and exceeds the rounding errors
- * of places (half_planes.c). */
+/* Raises the lengths that decide what is small: a hair is at least 2^-40 of the longest limit, and at least 2^-47 of
+ * the size of the coordinates plus the gap, which exceeds the rounding errors of positions (half_planes.c). */
 static void set_scale(sunder_i_branching *c, const sunder_i_body *b, double limit)
 {
     const sunder_i_body *first = &c->model->body[c->subproblem->body[0]];

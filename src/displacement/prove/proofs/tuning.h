@@ -51,8 +51,9 @@
 #define CHAIN_EFFORT 400000u
 #define CHAIN_MOST 1024
 
-/* If every pair owes its full distance (chain_fewest.c), a chain has at most FEWEST_MOST links besides the pair's, and
- * for each end and length the FEWEST_KEPT best chains are extended. */
+/* In the search for a shortest chain, in which every pair has to keep its full distance, listed or not
+ * (chain_fewest.c), a chain has at most FEWEST_MOST links besides that of the pair. For each end of the pair and
+ * each number of links, the FEWEST_KEPT best chains are extended. */
 #define FEWEST_MOST 32 /* fixed: the size of an array */
 #define FEWEST_KEPT 8  /* fixed: the size of an array */
 /* A chain is straight if the cosine of the angle between each link's normal and the pair's exceeds CHAIN_STRAIGHT
@@ -74,7 +75,8 @@
 /* A chord is looked for if the anchor's path passes the corner at no more than the share BESIDE of the path's length to
  * it. */
 #define BESIDE 0x1p-20
-/* At most SPOKES sides with an end near the path are examined. */
+/* For one move of an anchor, at most SPOKES sides of barriers with an end near its path (BESIDE) are compared to
+ * find a corner that two of them share. */
 #define SPOKES 32 /* fixed: the size of an array */
 
 /* ---- Between two lines (corridor.c) ------------------------------------------------------------------------------ */

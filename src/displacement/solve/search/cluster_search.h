@@ -48,7 +48,7 @@ typedef struct sunder_i_search {
     double cap;                                   /* an upper bound of all moves, besides limits; INFINITY: none */
     struct sunder_i_neighbourhood *neighbourhood; /* changes are tried with these bodies alone; NULL: with all; lent */
     sunder_i_rtree visited;   /* boxes of the paths from home, of a large cluster (visited_boxes.c) */
-    double *visited_at;       /* [2 n] moves that `visited` holds for; NULL: there is no index yet */
+    double *visited_at;       /* [2 n] the moves at which `visited` was computed; NULL: it was not yet */
     double least_passing;     /* a body that passed another has moved farther than this plus the gap (shadows.c) */
     bool least_passing_known; /* it was computed */
     sunder_i_list about;      /* indices found by sunder_i_search_find_about() */

@@ -251,7 +251,8 @@ static void lead_on(descent *d, bool is_free)
     for (size_t k = 0; k < 2 * s->n && d->is_led; k++) d->lead[k] = s->next[k] + (s->next[k] - s->t[k]);
 }
 
-/* A round with `lead` failed: the next NOT_LED rounds take their sides at the present layout. */
+/* To be called after a round that took its sides at d->lead (lead_on()) and failed or gained too little: at least
+ * the next NOT_LED rounds take them at the present layout. */
 static void lead_no_more(descent *d)
 {
     d->is_led = false;
