@@ -36,8 +36,9 @@ static double box_area(const sunder_i_model *model, uint32_t body)
     return (box[2] - box[0]) * (box[3] - box[1]);
 }
 
-/* Marks, for each listed conflict of two bodies, the body with the smaller box in left_out[]; of equal boxes the body
- * of the feature with the larger number, r->b. */
+/* For each conflict of two bodies that remains in the result, marks the body with the smaller box in left_out[], unless
+ * one of the two is marked already. If the boxes have the same area it is the body of r->b, the feature with the larger
+ * number. */
 static void leave_out_listed(payers *p)
 {
     const sunder_i_model *model = &p->s->model;
@@ -50,8 +51,8 @@ static void leave_out_listed(payers *p)
     }
 }
 
-/* Returns whether the part with this root needs no bound by areas, since at least the share AREAS_ASKED of its cost is
- * proved. */
+/* Returns whether the part with this root needs no bound by areas, since it has a cost of which at least the share
+ * AREAS_ASKED is proved. */
 static bool is_settled(const payers *p, uint32_t root)
 {
     return p->cost[root] > 0 && sunder_i_independent_part_bound(p->parts, root) >= AREAS_ASKED * p->cost[root];
@@ -84,7 +85,8 @@ static void list_members(payers *p)
     qsort(p->member, p->members, sizeof *p->member, sunder_i_by_id_pair);
 }
 
-/* Sets *cost to the cost of the n members of a joint part, and *proved to what is proved of their parts so far. */
+/* Sets *cost to the cost of the parts whose bodies are the n members of a joint part, and *proved to what is proved of
+ * these parts so far. */
 static void measure_joint(const payers *p, const sunder_i_id_pair *member, size_t n, double *cost, double *proved)
 {
     sunder_total costs = {0}, bounds = {0};

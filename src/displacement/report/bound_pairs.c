@@ -85,8 +85,9 @@ static bool is_left(const sunder_i_solver *s, const sunder_i_relation *r)
     return false;
 }
 
-/* For each pair of bodies in conflict at the start and resolved in the result, keeps the pair of members with the
- * longest least relative move. */
+/* Uses the pairs of features of different bodies, or of a feature and a barrier, that were in conflict at the start and
+ * are not in conflict in the result. If several of them belong to the same two bodies, only the one with the longest
+ * least relative move is kept. */
 sunder_status sunder_i_report_bound(sunder_report *report, const sunder_i_solver *solver, sunder_error *err)
 {
     const sunder_i_model *model = &solver->model;

@@ -46,7 +46,7 @@ static sunder_status put_body(cluster_trial *g, uint32_t body, const double *mov
 }
 
 /* Moves a body to its place in the layout. Sets *done to whether it did so: the body must be movable, must not have
- * been moved before, and must have had another place. */
+ * been moved by this layout before, and its place in the layout must differ from its present one. */
 static sunder_status take_body(cluster_trial *g, uint32_t body, bool *done, sunder_error *err)
 {
     const sunder_i_model *model = &g->trial.solver->model;

@@ -115,8 +115,8 @@ static bool add_pairs_of(pressing *p, size_t i)
     return true;
 }
 
-/* If body i is at its limit, adds the constraint -t.n >= -|t|, with n in the direction of its move. Returns false if
- * memory is out. */
+/* If body i is at its limit, adds the constraint that its move does not get longer in the direction n of its present
+ * move t: -n.v >= -|t| for its new move v. Returns false if memory is out. */
 static bool add_limit(pressing *p, size_t i)
 {
     const sunder_i_model *model = &p->solver->model;

@@ -105,8 +105,9 @@ static bool enter_given_up(looking *l)
     return ok;
 }
 
-/* Marks the bodies within `reach` of feature f: all of them, or only the fixed ones. *left is reduced by the number of
- * things found. Returns false if memory is out. */
+/* Marks in l->met the bodies whose features or barrier parts, at their original positions, have boxes within `reach` of
+ * the box of feature f. Unless `all` is set, only bodies that cannot move are marked. *left is reduced by the number of
+ * features and parts found. Returns false if memory is out. */
 static bool meet_near(looking *l, uint32_t f, double reach, bool all, sunder_i_list *near, size_t *left)
 {
     const sunder_i_model *model = &l->solver->model;

@@ -4,9 +4,10 @@
 
 #include "displacement/report/question.h"
 
-/* The remaining budget of a cluster. `left` is the number of features that may still take part in failed questions. The
- * patience counters decide for each kind of question whether it is asked again; `proof` is that of attempts to prove
- * that a question has no solution, which only save the search for one. */
+/* The remaining budget of a cluster. `left`: the number of features that may still take part in failed questions, each
+ * counted in every question. `shift`, `gap` and `gone`: whether the next question about a larger limit, a smaller gap,
+ * or a removed feature is asked, depending on how many of that kind failed. `proof`: the same for attempts to prove
+ * that a question has no solution, which are made only to save a search that would fail. */
 typedef struct sunder_i_needs_budget {
     uint64_t left;
     sunder_i_patience shift, gap, gone, proof;
@@ -30,8 +31,10 @@ bool sunder_i_is_asked_about(const sunder_conflict *conflict);
  * none is attempted first. */
 sunder_status sunder_i_inquiry_ask(const sunder_i_inquiry *inquiry, const sunder_i_supposition *what, bool proofs,
                                    sunder_i_answer *answer, sunder_error *err);
-/* The same, but no search is made if a proof about the small layer, once that is made, tells that it would fail. The
- * search then does not attempt the proof again, unless it has to solve a few other pairs first. */
+/* Asks the same question. If inquiry->foresight was made and a proof about that small layer shows that a search would
+ * fail, the answer is no, and no search is made. Otherwise it is answered by sunder_i_inquiry_ask(), with `proofs` set
+ * only if no small layer was made, or if it contains other listed pairs, at most NEED_ALL, which have to be solved
+ * too. */
 sunder_status sunder_i_inquiry_search(sunder_i_inquiry *inquiry, const sunder_i_supposition *what,
                                       sunder_i_answer *answer, sunder_error *err);
 /* Reduces the budget by the number of features and barrier parts in the small layer, as a failed question does. */

@@ -236,8 +236,9 @@ static sunder_status confirm(gap_search *g, double gap, sunder_i_verdict *verdic
     }
 }
 
-/* Sets *yes to whether there is a solution with about this gap, by proofs or, if these tell nothing, by a search. If no
- * solution at all is known, the search first looks for one without a gap. */
+/* Sets *yes to whether a solution is found with this gap, or with one that is smaller by the share NEED_LESS: by proofs
+ * or, unless these find one or refute the gap, by a search. If no solution with any gap is known yet, a search for one
+ * without a gap comes first, and *yes is false if it fails. */
 static sunder_status settle_gap(gap_search *g, double gap, bool *yes, sunder_error *err)
 {
     sunder_i_verdict verdict = SUNDER_I_UNKNOWN;

@@ -37,9 +37,10 @@ static sunder_status try_limit(sunder_i_inquiry *q, const sunder_i_supposition *
     return status;
 }
 
-/* Finds a sufficient limit. The first question allows the longest moves of which all neighbours are known, or the limit
- * that solves the whole cluster if that is known (cluster_needs.c). If it has a solution, the interval below is halved
- * up to q->questions->halvings times. */
+/* Finds a limit that is sufficient for the conflict (need_shift). The first question allows moves of a->farthest, the
+ * greatest length for which all neighbours are in the small layer, or of the limit that solves the whole cluster
+ * (cluster_needs.c) if that is known and shorter. If it has a solution, the interval below is halved up to
+ * q->questions->halvings times. */
 static sunder_status need_shift(sunder_i_inquiry *q, sunder_error *err)
 {
     const sunder_i_surroundings *a = q->about;
@@ -126,9 +127,9 @@ typedef struct asking {
     uint64_t most;       /* the number of features that may take part in failed questions about one cluster */
 } asking;
 
-/* Returns how many failed questions of a kind are allowed for a cluster. If a limit is already known that solves the
- * cluster as a whole, few of its pairs are examined by themselves. The other needs are then found for some of them
- * only, but most of them have neither a feature to remove nor a shorter limit. */
+/* Returns how many failed questions of a kind are allowed for a cluster: few if need_shift of one of its conflicts is
+ * already known from a layout of the whole cluster. The other needs are then found for some of its pairs only, but most
+ * of them have neither a feature to remove nor a shorter limit. */
 static sunder_i_patience patience_for(const asking *g, size_t cluster)
 {
     bool known = false;

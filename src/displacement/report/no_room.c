@@ -107,15 +107,17 @@ static sunder_status reduce_proof(const sunder_i_subproblem *subproblem, sunder_
 
 /* ---- The conflicts of a cluster ---------------------------------------------------------------------------------- */
 
-/* A conflict, as an index in the report, the root of the cluster that it belongs to, and what is known of it. */
+/* A conflict, as an index in the report, the root of the cluster that it belongs to, and what is known of it. open: it
+ * is to be examined, or examined again with more effort. no_plane: the plane of the pair's relative move was examined
+ * and gave no answer. */
 typedef struct matter {
     uint32_t root, conflict;
     bool open;
-    bool fine;  /* with coarse lines there is a solution */
-    bool slack; /* with fine lines, too; a translation is then added for each pair of parts that must keep an overlap no
-                 * deeper than it was */
-    bool still; /* with these translations, too; what remains is whether the bodies have a position in doubles, which is
-                 * tested after everything else */
+    bool fine;  /* with coarse lines there is a solution, so the next question uses fine ones */
+    bool slack; /* with fine lines there is a solution, too; the next question has a translation for each pair of parts
+                 * that must keep an overlap no deeper than it was */
+    bool still; /* with these translations there is a solution, too; what remains is whether the bodies have a position
+                 * in doubles, which is tested after everything else */
     bool no_plane;
 } matter;
 
@@ -127,7 +129,8 @@ typedef struct asking {
     const size_t *first; /* [clusters + 1] the index of the first matter of each cluster, and the end */
     const sunder_i_requirement *required;
     size_t required_n;
-    uint64_t times; /* the multiple of the effort that --effort 1 allows */
+    uint64_t times; /* the factor by which EFFORT and MOST_EFFORT are multiplied: 1 + MORE_EFFORT times the value of
+                     * --effort */
 } asking;
 
 static double farthest_of(const sunder_i_model *model, const uint32_t *body, size_t n)
@@ -186,8 +189,9 @@ static sunder_status keep_no_room(const asking *g, const matter *m, sunder_i_sub
 }
 
 /* Asks whether one conflict has a solution, with more and more exact questions, and keeps a proof that it has none.
- * m->open becomes whether more effort might give an answer. *pool is the effort left for the cluster; effort without a
- * proof is subtracted. */
+ * m->open becomes whether more effort might give an answer. *pool is the effort left for the cluster: the effort of the
+ * last question is subtracted if it gave neither a proof nor a solution in real numbers after which only `still` is
+ * left to ask. */
 static sunder_status ask_conflict(const asking *g, matter *m, sunder_i_subproblem *q, uint64_t *pool, sunder_error *err)
 {
     const sunder_conflict *c = &g->report->conflict[m->conflict];
@@ -318,9 +322,10 @@ static uint32_t *members_of(const sunder_i_model *model, const uint32_t body[2],
     return set;
 }
 
-/* Asks the same for two features of which one has no limit. Only the two are considered, whatever else is near. Beyond
- * the distance at which they certainly do not meet, only shadows forbid a relative move, and the shadow of a forbidden
- * move has no end (pair_reasons.c); so the two get that distance, twice, as a limit. */
+/* Examines a conflict of two bodies that can both move, at least one of them without a limit, as ask_conflict() does.
+ * Only the features of these two bodies are considered, whatever else is near. Beyond the distance at which the two
+ * certainly do not meet, only shadows forbid a relative move, and the shadow of a forbidden move has no end
+ * (pair_reasons.c); so twice that distance takes the place of the missing limit. */
 static sunder_status ask_without_limit(const asking *g, matter *m, const sunder_i_subproblem *q, uint64_t *pool,
                                        sunder_error *err)
 {
@@ -383,10 +388,10 @@ static sunder_status ask_one(const asking *g, matter *m, sunder_i_subproblem *q,
     return ask_conflict(g, m, q, pool, err);
 }
 
-/* Examines all open conflicts of a cluster with one effort, then those still open with a larger effort, and so on. If
- * `patience` questions in a row get no answer, the cluster is too intertwined for proofs, and that effort is the last.
- * The number is halved with each larger effort, since each question costs more, and starts smaller if the first effort
- * gave no answer at all. */
+/* Examines all open conflicts of a cluster with the effort FIRST_EFFORT, then those still open with GROWTH times as
+ * much, and so on. If `patience` conflicts in a row stay open, the search for proofs ends: there is no further effort.
+ * `patience` is PROOFS_IN_VAIN_AT_FIRST for the first effort and PROOFS_IN_VAIN for the second, or less if the first
+ * effort gave no answer at all; it is halved with each later effort, since each question costs more. */
 static sunder_status ask_cluster(const asking *g, matter *first, const matter *last, sunder_i_subproblem *q,
                                  sunder_error *err)
 {

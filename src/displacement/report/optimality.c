@@ -26,8 +26,9 @@ static bool claim_bodies(const sunder_i_model *model, const sunder_i_group *g, u
     return own;
 }
 
-/* Sets the bound of a group to 0 if one of its pairs is listed that was not listed when the bound was proved, or
- * overlaps and did not overlap then. listed: [bodies] scratch, indexed by the numbers of groups. */
+/* Sets the bound of a group to 0 if a pair with a movable body of the group is in conflict in the result that was not
+ * listed when the bound was proved, or that overlaps and did not overlap then. listed: [bodies] scratch, indexed by the
+ * numbers of groups; false before the call. */
 static void void_bounds(sunder_i_solver *s, const uint32_t *owner, bool *listed)
 {
     sunder_i_groups *groups = &s->groups;

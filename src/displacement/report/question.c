@@ -63,8 +63,8 @@ static bool look_about(const sunder_i_solver *s, uint32_t feature, double reach,
     return true;
 }
 
-/* Appends the body to `moving` unless it is there already, is fixed, or enough are there: two bodies, with more than
- * NEED_MOVING features together. */
+/* Appends the body to `moving`, unless it is there already or is fixed, or unless `moving` has two bodies and would,
+ * with this one, have more than NEED_MOVING features. Returns false only if memory is out. */
 static bool take_in(const sunder_i_model *model, uint32_t body, sunder_i_list *moving)
 {
     size_t features = model->body[body].members;
@@ -395,8 +395,9 @@ static sunder_status make_layer(const sunder_i_questions *g, const sunder_i_surr
     return status ? status : set_barriers(g->solver, a, what->gone, *layer, err);
 }
 
-/* The names of a layer's features and barriers for the memo of relaxations: their numbers in the whole layer, where
- * they stand as they do there at the start. NULL if memory is out. */
+/* Returns the names by which the memo of relaxations knows the features and barrier parts of the small layer without
+ * `gone`: their numbers in the whole layer; SUNDER_I_NOBODY for a feature that moved in the result, since it stands
+ * elsewhere here than at the start of the whole layer. The caller frees them. Returns NULL if memory is out. */
 static uint32_t *make_names(const sunder_i_questions *g, const sunder_i_surroundings *a, uint32_t gone)
 {
     uint32_t *name = sunder_i_alloc(a->feature.n + a->part.n, sizeof *name);
@@ -407,7 +408,8 @@ static uint32_t *make_names(const sunder_i_questions *g, const sunder_i_surround
     return name;
 }
 
-/* How the pair of features a < b stood at the start of the whole layer, as a clearance. */
+/* Sets *clearance to how the features a < b of the whole layer stood at its start (layer/requirement.h). The value is
+ * taken from the memo g->stood, or computed and added to it. */
 static sunder_status find_how_stood(const sunder_i_questions *g, uint32_t a, uint32_t b, double *clearance,
                                     sunder_error *err)
 {
@@ -427,8 +429,10 @@ static sunder_status find_how_stood(const sunder_i_questions *g, uint32_t a, uin
     return SUNDER_OK;
 }
 
-/* What proofs hold the spared pairs to. A feature that stands and moved is elsewhere in this layer than at the start of
- * the whole one: a pair of it may stand no worse than it stood there. */
+/* Sets *held, an array of n which the caller frees, to the clearance that proofs hold each spared pair to. If a feature
+ * of the pair moved in the result, it stands elsewhere in the small layer than at the start of the whole one, and the
+ * clearance is the one at the start of the whole layer. It is NAN for all other pairs and beside barriers: they may be
+ * no worse than at the start of the small layer. */
 static sunder_status find_held(const sunder_i_questions *g, const sunder_i_surroundings *a,
                                const sunder_i_id_pair *spared, size_t n, double **held, sunder_error *err)
 {
@@ -571,7 +575,9 @@ void sunder_i_foresight_limit(sunder_i_foresight *foresight, double limit)
     set_limits(foresight->about, &foresight->solver, limit);
 }
 
-/* The pairs that an answer to `what` may leave as they stood: a few have to be solved, too, if it says so. */
+/* Returns the pairs that may remain in conflict in an answer to `what`: all other listed pairs; none if what->all is
+ * set and they are at most NEED_ALL, since they have to be solved then. search: the pairs are held to how they stood at
+ * the start of the small layer, and not to f->held. */
 static sunder_i_spared spared_for(const sunder_i_foresight *f, const sunder_i_supposition *what, bool search)
 {
     const size_t n = what->all && f->n <= NEED_ALL ? 0 : f->n;

@@ -77,9 +77,10 @@ typedef struct sunder_i_foresight {
     sunder_i_solver solver;
     sunder_i_id_pair *spared; /* [n] all other listed pairs, sorted */
     size_t n;
-    uint32_t *name; /* of features and barriers of that layer, for the memo */
-    double *held;   /* [n] what proofs hold the pairs to */
-    bool hopeless; /* a pair that has to be solved is proved to have no solution within the limits of init */
+    uint32_t *name; /* the numbers in the whole layer of this layer's features and barrier parts, for questions->memo */
+    double *held;   /* [n] the clearance that proofs hold each spared pair to; NAN: how it stood at the start of this
+                     * layer */
+    bool hopeless;  /* a pair that has to be solved is proved to have no solution within the limits of init */
     const sunder_i_questions *questions;
     const sunder_i_surroundings *about;
     double *move; /* [2 * bodies] the moves of the last solution in real numbers */
@@ -102,8 +103,8 @@ typedef enum sunder_i_foresight_mode {
     SUNDER_I_FORESEE_SEARCH
 } sunder_i_foresight_mode;
 
-/* Makes the small layer. Each feature that moves may go as far as `limit`, or as its own limit if that is larger. The
- * caller calls sunder_i_foresight_clear() even if this fails. */
+/* Makes the small layer. Each feature that moves may go as far as `limit`, or as its own limit if that is larger, but
+ * not farther than surroundings->farthest. The caller calls sunder_i_foresight_clear() even if this fails. */
 sunder_status sunder_i_foresight_init(sunder_i_foresight *foresight, const sunder_i_questions *questions,
                                       const sunder_i_surroundings *surroundings, const sunder_conflict *conflict,
                                       double limit, sunder_error *err);

@@ -140,8 +140,8 @@ static double area_of(const double *p, size_t n)
     return area / 2;
 }
 
-/* Finds a point inside the overlap of a and b from which a link can be drawn: the mean of the corners of the largest
- * common part of a piece of a and a piece of b. */
+/* Sets `point` to a point inside the overlap of a and b from which a link can be drawn: the mean of the corners of the
+ * largest common part of a piece of a and a piece of b. If no common part has an area, it is an anchor of b. */
 static sunder_status inside_overlap(const sunder_shape *a, const sunder_shape *b, double point[2], sunder_error *err)
 {
     const size_t na = most_corners(a), nb = most_corners(b), room = na + 2 * nb + 2;

@@ -86,22 +86,25 @@ sunder_status sunder_i_report_cover_diagonals(sunder_i_solver *solver, sunder_er
 
 /* ---- barriers_about.c -------------------------------------------------------------------------------------------- */
 
-/* The barriers that come within reach of a body at home, each by its first part, ascending: into `whole`. *far: a
- * length such that farther out the body is apart from all of them; 0: there is none. False if memory is out. */
+/* Sets `whole` to the barriers that come within `reach` of the box of the body at its original position, each by its
+ * first part, ascending. Sets *far to a length such that the body, moved by more, is apart from all of these barriers;
+ * 0 if there is none. Returns false if memory is out. */
 bool sunder_i_barriers_about(const sunder_i_model *model, uint32_t body, double reach, sunder_i_list *whole,
                              double *far);
 
 /* ---- pair_reasons.c ---------------------------------------------------------------------------------------------- */
 
-/* Determines why conflicts between blocks remain, as far as each pair alone shows it: `fixed`, `max_shift`, `side` and
- * `jump` are decided exactly, otherwise the reason is `unresolved`. For `side` and `jump` the proof is kept; for
- * `max_shift` a proof is kept if trees are kept and one is found. */
+/* Determines why conflicts between features of different bodies remain, as far as each pair alone shows it: the reason
+ * is `fixed`, `max_shift`, `side` or `jump` if that is proved, otherwise `unresolved`. For `side` and `jump` the proof
+ * is kept; a pair that is shut in gets `jump` even if no proof is found. For `max_shift` a proof is kept if trees are
+ * kept and one is found. */
 sunder_status sunder_i_report_reasons(sunder_report *report, const sunder_i_model *model, sunder_error *err);
 
 /* ---- thin_overlaps.c --------------------------------------------------------------------------------------------- */
 
-/* Counts, in the summary, the pairs of different bodies that overlap by no more than the rules' `thin`. The count is 0
- * if `thin` is 0. */
+/* Sets summary.thin of the report to the number of pairs of features of different bodies that overlap by no more than
+ * the rules' `thin`. Barriers, and pairs of which one feature contains the other, are not counted. The count is 0 if
+ * `thin` is 0. */
 sunder_status sunder_i_count_thin_overlaps(const sunder_i_model *model, const sunder_i_placement *placement,
                                            const sunder_i_relations *relations, sunder_report *report,
                                            sunder_error *err);
@@ -109,8 +112,8 @@ sunder_status sunder_i_count_thin_overlaps(const sunder_i_model *model, const su
 /* ---- bound.c, bound_pairs.c -------------------------------------------------------------------------------------- */
 
 /* Computes multipliers for the n pairs and the lower bound *bound that they prove. Pairs with least = 0 get the
- * multiplier 0. If worlds are kept, *proved becomes an array [bodies] of what is proved of each part, at its root,
- * which the caller frees; otherwise NULL. */
+ * multiplier 0. If worlds are kept and n > 0, *proved becomes an array [bodies] of what is proved of each part, at its
+ * root, which the caller frees; otherwise NULL. */
 sunder_status sunder_i_bound(const sunder_i_model *model, sunder_bound_pair *pairs, size_t n, double *bound,
                              double **proved, sunder_error *err);
 /* Adds to value[] ([bodies], all 0) what the pairs prove of each part of the layer, at its root in the union-find
@@ -150,11 +153,11 @@ typedef struct sunder_i_area_bound {
 sunder_status sunder_i_independent_parts_find(sunder_i_independent_parts *parts, const sunder_report *report,
                                               const sunder_i_solver *solver, sunder_error *err);
 void sunder_i_independent_parts_free(sunder_i_independent_parts *parts);
-/* Returns whether trees should be made for the pairs of the body's part: the pairs prove more than the groups, even
- * after subtracting what trees lose against pairs. */
+/* Returns whether trees should be made for the pairs of the part of `body`: it has no bound by prices of area, and its
+ * pairs prove more than its contact groups, even after subtracting what trees lose against pairs. */
 bool sunder_i_independent_part_wants_pair_trees(const sunder_i_independent_parts *parts, uint32_t body);
-/* Return whether trees of pairs, or contact groups, prove the most of the body's part. Both are false if prices of area
- * do. */
+/* Return whether trees of pairs, or contact groups, prove the most of the part of `body`; if they prove the same, the
+ * second function returns true. Both return false if the part has a bound by prices of area. */
 bool sunder_i_independent_part_is_by_pairs(const sunder_i_independent_parts *parts, uint32_t body);
 bool sunder_i_independent_part_is_by_groups(const sunder_i_independent_parts *parts, uint32_t body);
 /* Returns the best bound of the part whose root is `body`, and 0 if `body` is no root. */
@@ -179,9 +182,9 @@ sunder_status sunder_i_report_optimality(sunder_report *report, sunder_i_solver 
 
 /* ---- pair_trees.c ------------------------------------------------------------------------------------------------ */
 
-/* Sets parts->by_trees to what trees prove of the pairs, for parts where that may exceed what the groups prove. If
- * trees are kept, they are added to `trees` with the root of their part as the group; the caller frees them with
- * sunder_i_bound_trees_free(). */
+/* Sets parts->by_trees to what trees prove of the pairs, for parts where that may exceed what the groups prove, and to
+ * 0 for all others. If trees are kept, they are added to `trees` with the root of their part as the group; the caller
+ * frees them with sunder_i_bound_trees_free(). */
 sunder_status sunder_i_report_pair_trees(const sunder_report *report, sunder_i_solver *solver,
                                          sunder_i_independent_parts *parts, sunder_i_bound_trees *trees,
                                          sunder_error *err);
@@ -198,15 +201,18 @@ struct sunder_i_subproblem;
 struct sunder_i_decision;
 typedef sunder_status (*sunder_i_decide_subproblem)(const struct sunder_i_subproblem *subproblem,
                                                     struct sunder_i_decision *decision, sunder_error *err);
-/* Finds which of the report's conflicts provably have no solution, and sets the reason of these to "no_room". */
+/* Finds, among the report's conflicts with the reason "unresolved", those that provably have no solution, and sets
+ * their reason to "no_room". Marks those as `crowded` for which it is proved only that a few features around the pair
+ * have too little room (no_room.c). Keeps a proof of each. */
 sunder_status sunder_i_report_proofs(sunder_report *report, const sunder_i_solver *solver,
                                      sunder_i_decide_subproblem decide, sunder_error *err);
 
 /* ---- cluster_needs.c --------------------------------------------------------------------------------------------- */
 
-/* Sets need_shift of the conflicts of each cluster whose need is still unknown, from a layout of the whole cluster, if
- * a known one solves them. large: examine only the clusters with many conflicts, or only the others. All bodies have
- * their moves of the result before and after the call. */
+/* For each cluster with a conflict whose need_shift is still NAN: tries known layouts of the whole cluster, and lowers
+ * need_shift of all conflicts that a layout solves to the longest move in it. large: only clusters with more than
+ * NEED_PATIENCE conflicts are examined; otherwise only the others. All bodies have their moves of the result before and
+ * after the call. */
 sunder_status sunder_i_report_cluster_needs(sunder_report *report, sunder_i_solver *solver, bool large,
                                             sunder_error *err);
 

@@ -29,7 +29,7 @@ typedef struct sunder_i_price_grids {
 sunder_status sunder_i_price_grids_init(sunder_i_price_grids *grids, const sunder_i_model *model, const uint32_t *body,
                                         size_t n, double about, sunder_error *err);
 void sunder_i_price_grids_free(sunder_i_price_grids *grids);
-/* Computes prices on the next grid, starting from those on the last. It may be called only while climb->left > 0.
+/* Computes prices on the next grid, starting from those on the last. It may be called only while grids->left > 0.
  * Returns false if memory is out. */
 bool sunder_i_price_grids_refine(sunder_i_price_grids *grids);
 
