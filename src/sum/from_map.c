@@ -1,23 +1,24 @@
-/* From a marked map to the canonical sum.
+/* from_map.c: makes the canonical sum from a marked map, which may be a whole arrangement or a clean union.
  *
- * The map may be a whole arrangement or a clean union; covered counts say all. An edge *bounds* the sum where one side
- * is covered and the other is not. It is a *slit* where both sides are covered and it is not: a piece of a degenerate
- * segment. All other edges are covered and count for nothing but this: like slits, they connect the faces on their two
- * sides. So the components of the interior of the sum are the classes of covered faces under "an edge with both sides
- * covered lies between".
+ * The covered counts classify the edges. An edge with exactly one covered side *bounds* the sum. An edge that no region
+ * covers, but with both sides covered, is a *slit*, a piece of a degenerate segment. Slits and covered edges connect
+ * the faces on their two sides, so that the components of the interior of the sum are the classes of covered faces that
+ * are connected by edges with both sides covered.
  *
  * Rings. There is one for each component C of the interior and each component of the plane minus the closure of C. From
- * the end of a bounding half-edge (C on its left), the next one of its ring is the first counter-clockwise that bounds
- * the same C: between the two lies one wedge of the plane without C. Where the boundary touches itself this turns off
- * early, so rings are simple; where it touches another component, that one's half-edges are passed over.
+ * the end of a bounding half-edge with C on its left, the ring continues with the next half-edge, counterclockwise,
+ * that bounds C: between the two lies one wedge of the plane without C. Where the boundary of C touches itself, the
+ * ring turns off at the first of these half-edges, so that rings are simple; the half-edges of other components at the
+ * vertex are skipped.
  *
- * Degenerate holes. Slits on one line that meet are one segment. A point is a vertex that no region covers, where no
- * edge does without cover either.
+ * Degenerate holes. Slits on one line with common ends are joined to one segment. A degenerate point is a vertex that
+ * no region covers and at which every edge is covered.
  *
- * The same is done for other sets of faces than the covered ones (`sunder_i_inside`): what lies between regions, say.
+ * sunder_i_sum_from_cells() does the same for another set of faces than the covered ones (struct sunder_i_inside), for
+ * example for the faces between regions.
  *
- * Vertices in the middle of a straight side, or of a segment, are left out: subsums, other components and antennas
- * leave them. */
+ * Vertices in the middle of a straight side, or of a segment, are omitted: the map has such vertices at the corners of
+ * subsums, at other components and at antennas. */
 #include "sum/from_map.h"
 
 #include "base/watch.h"
@@ -29,14 +30,14 @@
 
 typedef struct outline {
     sunder_i_planar_map *map;
-    const sunder_i_inside *inside; /* NULL: the covered ones */
-    uint32_t *component;           /* [faces] a forest; its roots are the components */
-    bool *done;                    /* [half-edges] */
-    uint32_t *vertex;              /* of all rings, then ends of segments, then points; as the map numbers them */
+    const sunder_i_inside *inside; /* the faces of the set; NULL: the covered faces */
+    uint32_t *component;           /* [faces] a union-find forest; its roots are the components */
+    bool *done;                    /* [half-edges] the half-edge belongs to a ring that was traced */
+    uint32_t *vertex;              /* the map's vertices: those of all rings, then the ends of segments, then points */
     size_t vertices, vertex_capacity;
     sunder_i_found_ring *ring;
     size_t rings, ring_capacity;
-    size_t ring_end, segment_end; /* in vertex */
+    size_t ring_end, segment_end; /* the ends of the rings and of the segments in `vertex` */
 } outline;
 
 static int compare_vertices(void *context, uint32_t v, uint32_t w)
@@ -87,7 +88,7 @@ static uint32_t next_of_ring(const outline *o, uint32_t h, uint32_t component)
     return g;
 }
 
-/* Do h and g have one direction? */
+/* Returns true if the half-edges h and g have the same direction. */
 static bool is_straight(sunder_i_planar_map *map, uint32_t h, uint32_t g)
 {
     return ((h ^ g) & 1) == 0 && sunder_i_planar_map_turn(map, h >> 1, g >> 1) == 0;
@@ -102,8 +103,9 @@ static bool push_vertex(outline *o, uint32_t v)
     return true;
 }
 
-/* The half-edge of the ring that leaves its smallest vertex. There both sides lead to the right, and the ring is
- * counter-clockwise if the one that leaves is the lower. */
+/* Returns the half-edge that leaves the smallest vertex of the ring through `start`. *outer becomes whether the ring is
+ * counterclockwise: both sides at the smallest vertex lead to the right, and it is if the one that leaves is the
+ * lower. */
 static uint32_t first_of_ring(outline *o, uint32_t start, uint32_t component, bool *outer)
 {
     uint32_t least = start, before = start;
@@ -157,7 +159,8 @@ static bool is_slit(const outline *o, uint32_t e)
            (!o->inside || (o->inside->edge && o->inside->edge[e]));
 }
 
-/* The slit that goes on from the end of h in its direction; NOWHERE: the segment ends there. */
+/* Returns the half-edge of a slit that continues h in the same direction, from the end of h; NOWHERE if there is
+ * none. */
 static uint32_t slit_after(const outline *o, uint32_t h)
 {
     sunder_i_planar_map *map = o->map;
@@ -218,7 +221,7 @@ static bool put_in_order(outline *o, sunder_sum *sum)
     return sunder_i_canonical(&found, sum);
 }
 
-/* ---- Vertices of the sum's own ---- */
+/* ---- The vertices of the sum ---- */
 
 static void renumber_vertices(uint32_t *vertex, size_t n, uint32_t *number, uint32_t *next, uint32_t *of)
 {
@@ -231,9 +234,10 @@ static void renumber_vertices(uint32_t *vertex, size_t n, uint32_t *number, uint
     }
 }
 
-/* In lowest terms, as the other roads give them. Every vertex of a sum is a corner of the convolution or a crossing of
- * two of its sides, which lie on lines through lattice points along lattice vectors: so it fits where crossings of such
- * lines do, though here it may have come from Steiner points. */
+/* *out becomes vertex v of the map in lowest terms, as the other methods return vertices. Returns false if out of
+ * memory. Every vertex of a sum is a corner of the convolution or a crossing of two of its sides, which lie on lines
+ * through lattice points along lattice vectors. So its numbers are as small as those of such crossings, although the
+ * map may have computed it from Steiner points. */
 static bool reduced_vertex(sunder_i_lattice *lattice, sunder_i_arena *arena, const sunder_i_planar_map *map, uint32_t v,
                            sunder_i_hpoint *out)
 {

@@ -1,17 +1,20 @@
-/* The map beneath a sum, for users: vertices and edges numbered without gaps. */
+/* map_view.c: the planar map of a sum, for users. Vertices and edges are numbered without gaps, although numbers of
+ * removed ones are missing in the map itself. */
 #include "sum/map_view.h"
 
 struct sunder_map {
     sunder_i_planar_map *map;
     const sunder_sum *sum;
-    uint32_t *vertex, *edge;       /* ids in map */
-    uint32_t *vertex_of, *edge_of; /* and back; NOWHERE: dead */
-    uint32_t *inner;               /* half-edges, grouped by face as the map has them */
-    uint32_t *inner_end;           /* [faces] */
+    uint32_t *vertex, *edge;       /* [vertices], [edges] the numbers of the vertices and edges in `map` */
+    uint32_t *vertex_of, *edge_of; /* by the numbers in `map`: the user's number; NOWHERE: not alive */
+    uint32_t *inner;               /* one half-edge of each inner boundary, with the user's number, face by face */
+    uint32_t *inner_end;           /* [faces] the end of each face in `inner` */
     uint32_t vertices, edges, faces;
 };
 
-/* Numbers what is alive; of[] and back[] are new arrays. */
+/* Numbers the elements below `end` for which `alive` is true: (*of)[k] becomes the map's number of element k,
+ * (*back)[id] the number of the map's element id, or SUNDER_NOWHERE. *n, at first 0, becomes the number of elements.
+ * Returns false if out of memory; the caller frees both arrays in any case. */
 static bool number_alive(const sunder_i_planar_map *map, uint32_t end,
                          bool (*alive)(const sunder_i_planar_map *, uint32_t), uint32_t **of, uint32_t **back,
                          uint32_t *n)

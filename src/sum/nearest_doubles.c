@@ -1,16 +1,21 @@
-/* Vertices of a sum as the nearest doubles, and their deviation, without texts and without one allocation for each.
+/* nearest_doubles.c: converts vertices of a sum to the nearest doubles, and measures the deviation: the largest
+ * distance of a vertex from its doubles, rounded up. There is no allocation for each vertex.
  *
- * Nearly all vertices are lattice points: n 2^e + both origins. Where the origins are not too far out that is the sum
- * of three exact doubles, two of which add exactly, so that it is rounded once. Otherwise, on a narrow lattice, it is
- * an integer of at most 126 bits, whose conversion rounds once, too. Crossings also have a fraction, and one bit tells
- * whether it is nonzero, which is all that rounding needs. The rest take the big integers. The deviation is measured,
- * and rounded up. */
+ * A coordinate is n 2^e plus both origins. There are four methods; the first that applies is used:
+ *   near_double()   a lattice point, and origins below 2^83 units: the coordinate is the sum of two doubles without
+ *                   error, and is rounded once
+ *   whole_double()  a lattice point, and origins that are multiples of the unit: an integer of at most 126 bits, whose
+ *                   conversion rounds once
+ *   ratio_double()  a crossing, whose n is a fraction: for rounding it is sufficient to know the integer part and
+ *                   whether the rest is nonzero
+ *   big_double()    all others, by big integers */
 #include "sum/sum_value.h"
 
 #include <limits.h>
 #include <math.h>
 
-/* The origins as one multiple of the unit, below 2^120 of it; false if they are not. */
+/* *out becomes the sum of both origins in one coordinate, in lattice units, below 2^120. Returns false if an origin is
+ * not a multiple of the unit, or too large. */
 static bool whole_origin(const sunder_sum *sum, int axis, sunder_i_i128 *out)
 {
     *out = 0;
@@ -27,8 +32,9 @@ static bool whole_origin(const sunder_sum *sum, int axis, sunder_i_i128 *out)
     return true;
 }
 
-/* n times the unit, a power of two with which nothing here is subnormal or infinite. The conversion to double rounds to
- * nearest, ties to even, and what it leaves is less than 2^74: the difference in doubles is rounded up. */
+/* *x becomes the double nearest to n times the unit, *off an upper bound of the error, 0 if there is none. The unit is
+ * a power of two with which no result is subnormal or infinite. The conversion of n rounds to nearest, ties to even;
+ * its error is an integer below 2^74, which is rounded up when it is converted to a double. */
 static void whole_double(sunder_i_i128 n, double unit, double *x, double *off)
 {
     const double nearest = (double)n;
@@ -37,7 +43,8 @@ static void whole_double(sunder_i_i128 n, double unit, double *x, double *off)
     *off = rest == 0 ? 0 : nextafter(fabs((double)rest), INFINITY) * unit;
 }
 
-/* floor(n / w) in *whole, and the rest, 0 <= rest < w; false if that is not below 2^63. */
+/* *whole becomes floor(n / w), and `rest` the remainder, 0 <= rest < w. Returns false if the quotient of |n| and w is
+ * not below 2^63. */
 static bool divide_limbs(const sunder_i_i256 *n, const mp_limb_t w[2], mp_size_t limbs, sunder_i_i128 *whole,
                          mp_limb_t rest[2])
 {
@@ -62,9 +69,11 @@ static bool divide_limbs(const sunder_i_i256 *n, const mp_limb_t w[2], mp_size_t
     return true;
 }
 
-/* (n / w + origin) times the unit, w > 0; false where that cannot be decided here. For i units, i a whole number of at
- * least 55 bits, plus a nonzero fraction, the nearest double is the one nearest to i + 1/2: no double and no midpoint
- * of two lies strictly between whole numbers of that size. Smaller numbers are scaled by 2^64. */
+/* *x becomes the double nearest to (n / denominator + origin) times the unit, denominator > 0, and *off an upper bound
+ * of the error. Returns false if the quotient is too large, or too small even after scaling. Let i be the integer part
+ * of the sum. If i has at least 55 bits and the fraction is not 0, the nearest double is the one nearest to i + 1/2: no
+ * double, and no midpoint of two doubles, lies strictly between integers of this size. If i is smaller, the sum is
+ * scaled by 2^64. */
 static bool ratio_double(const sunder_i_i256 *n, sunder_i_i128 denominator, sunder_i_i128 origin, double unit,
                          double *x, double *off)
 {
@@ -92,12 +101,13 @@ static bool ratio_double(const sunder_i_i256 *n, sunder_i_i128 denominator, sund
     const double left = (double)(i - (sunder_i_i128)nearest);
     const double fraction = ((double)rest[1] * 0x1p64 + (double)rest[0]) / ((double)w[1] * 0x1p64 + (double)w[0]);
     *x = nearest * unit;
-    /* The fraction is good to 2^-50 of one, what is left to 2^-53 of itself. */
+    /* `fraction` has an error of at most 2^-50, `left` a relative error of 2^-53. */
     *off = !more && left == 0 ? 0 : nextafter(fabs(left + fraction) + (fabs(left) + 1) * 0x1p-49, INFINITY) * unit;
     return true;
 }
 
-/* By big integers; infinite where it leaves the range. */
+/* *x becomes the double nearest to the coordinate n / w on the lattice, and *off its error, rounded up. *x is infinite
+ * beyond the range of doubles and NaN if out of memory; then *off is infinite. */
 static void big_double(sunder_i_arena *arena, const sunder_sum *sum, int axis, sunder_i_big n, sunder_i_big w,
                        double *x, double *off)
 {
@@ -124,13 +134,13 @@ static void big_vertex(sunder_i_arena *arena, const sunder_sum *sum, const sunde
     sunder_i_arena_release(arena, mark);
 }
 
-/* A number on the lattice as a double: units of 2^32 and the rest. */
+/* The unit and the origins of a sum, in the forms that the conversions need, and the deviation so far. */
 typedef struct frame {
     double unit;
-    bool plain, near; /* the origins are whole; and below 2^83, parted so: */
-    sunder_i_i128 origin[2];
-    double high[2], low[2];   /* a multiple of 2^32, and less than that */
-    double most, off_squared; /* so far none is off by more; this square, in units, is below that */
+    bool plain, near;         /* plain: whole_origin() succeeded for both axes; near: also, both are below 2^83 */
+    sunder_i_i128 origin[2];  /* the sum of the origins for each axis, in units, if `plain` */
+    double high[2], low[2];   /* origin = high + low: a multiple of 2^32, and 0 <= low < 2^32 */
+    double most, off_squared; /* the deviation; a lower bound of its square in squared units, or -1 */
 } frame;
 
 static const double part = 0x1p32;
@@ -156,8 +166,9 @@ static frame frame_of(const sunder_sum *sum, double most)
     return f;
 }
 
-/* n + origin in units, rounded once, and exactly what that leaves. The parts of 2^32 add up to less than 2^84 and so
- * exactly; the sum with the rest is two-sum's [Knu97]. */
+/* Returns n + origin[axis], in units, rounded once; *rest becomes the exact rounding error. n is divided like the
+ * origin into a multiple of 2^32 and a remainder. The sum of the multiples is below 2^84 and exact, and so is that of
+ * the remainders; the two sums are added by two-sum [Knu97]. */
 static double near_double(const frame *f, int axis, int64_t n, double *rest)
 {
     const double high = f->high[axis] + (double)(n >> 32) * part, low = f->low[axis] + (double)(uint32_t)n;
@@ -177,7 +188,8 @@ static void take_off(frame *f, double x, double y)
 
 static double off_of(const frame *f, double rest) { return rest == 0 ? 0 : nextafter(fabs(rest), INFINITY) * f->unit; }
 
-/* A lattice point near the origins; false where it is none. */
+/* Sets xy from p, and updates the deviation. Returns false, without an effect, unless f->near is true and p is a
+ * lattice point with coordinates below 2^62. */
 static bool near_vertex(frame *f, const sunder_i_hpoint *p, double xy[2])
 {
     const uint64_t x = p->x.limb[0], y = p->y.limb[0];
@@ -192,7 +204,8 @@ static bool near_vertex(frame *f, const sunder_i_hpoint *p, double xy[2])
     return true;
 }
 
-/* A vertex on a lattice with whole origins; false where that cannot be told here. */
+/* Sets xy from p, and off[] to upper bounds of the errors. Returns false if f->plain is false, if p consists of big
+ * integers, or if ratio_double() does not decide. */
 static bool plain_vertex(const frame *f, const sunder_i_hpoint *p, double xy[2], double off[2])
 {
     if (!f->plain || p->w == 0) return false;
