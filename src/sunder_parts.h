@@ -1,7 +1,9 @@
-/* sunder_parts.h: a layer that is separated in parts, each with what is near to it, and gives the result of the whole.
+/* sunder_parts.h: what is needed to separate a layer in parts, each with the features near to it, and to get the result
+ * that separating the whole layer would give.
  *
- * The report of a part says which of its features had nothing to do with anything beyond what the part knew; see
- * sunder_footprint. All of this header is experimental: see sunder.h and docs/api.md. */
+ * The report of a part says which of its features cannot have been influenced by features that the part does not
+ * contain: see sunder_footprint. The whole header is experimental: see sunder.h and docs/api.md. The report owns all
+ * arrays that the functions below return; they are valid until it is freed. */
 #ifndef SUNDER_PARTS_H
 #define SUNDER_PARTS_H
 
@@ -13,66 +15,75 @@ extern "C" {
 
 /* ---- Sums of many doubles --------------------------------------------------------------------------------- */
 
-/* What was added to it, exactly: so a sum over parts, in any order, is the whole's. It holds 2^60 addends of any size.
- * Zeroed: 0. Source: the long accumulator of [Kul13, section 8]. */
+/* An exact sum of doubles. So the totals of parts, joined in any order, are the total of the whole. It holds up to 2^60
+ * addends of any size. A struct of zeros is the sum 0. Source: the long accumulator of [Kul13, section 8]. */
 typedef struct sunder_total {
     uint64_t limb[67]; /* two's complement, in units of 2^-2148, lowest first */
-    double beyond;     /* the sum of those that were not finite */
+    double beyond;     /* the sum of the addends that are not finite; 0 if there are none */
 } sunder_total;
 
+/* Adds the value to the total. */
 SUNDER_EXPERIMENTAL void sunder_total_add(sunder_total *total, double value);
-/* All that was added to `part`. */
+/* Adds to the total all that was added to `part`. */
 SUNDER_EXPERIMENTAL void sunder_total_join(sunder_total *total, const sunder_total *part);
-/* The nearest double, and the greatest that is no more. Infinite past the range, or where an addend was. */
+/* The double nearest to the sum: infinite if the sum is beyond the range of doubles. If an addend was not finite, the
+ * sum of all such addends, which may be NAN. */
 SUNDER_EXPERIMENTAL double sunder_total_nearest(const sunder_total *total);
+/* The greatest double that is not above the sum: -INFINITY if the sum is below the range of doubles. If an addend was
+ * not finite, the same as sunder_total_nearest(). */
 SUNDER_EXPERIMENTAL double sunder_total_below(const sunder_total *total);
 
 /* ---- Parts of a layer ----------------------------------------------------------------------------------------- */
 
-/* Available if keep_worlds was asked for.
+/* Worlds and footprints are in a report if sunder_layer_options.keep_worlds was set.
  *
- * A world is a set of features that influenced each other: they were solved together, are in conflict or in contact, or
- * a place read on behalf of some of them was one where others stood at some time. Its footprints are boxes: the places
- * that were read, the contents that must be known there (seen: blocks that reach there, whole), and where its features
- * stood from the first moment to the last (wrote).
+ * A world is a set of features that influenced each other: they were solved together, or they are in conflict or in
+ * contact, or a place that was read on behalf of some of them is one where others stood at some time. A world has one
+ * or several footprints, each of three boxes. `read` holds the places that were read. `seen` holds the places whose
+ * content has to be known: it contains `read`, and blocks that reach into `read` as a whole. `wrote` holds the places
+ * where the features stood at any time.
  *
- * Consider a part of a larger layer, with the same options and barriers, which has either all features of a block or
- * none. If it has all features of the larger layer that meet what one of its worlds saw, and no other world of the
- * larger one wrote where that one read, then everything reported of the world's features, of the conflicts between them
- * or with others, and of its proofs, is what is reported of them in the larger layer, to the last bit. */
+ * Consider a part of a larger layer, with the same options and barriers, that contains each block as a whole or not at
+ * all. Let W be a world of the part. If the part has all features of the larger layer that meet the `seen` boxes of W,
+ * and no other world of the larger layer has a `wrote` box that meets a `read` box of W, then everything that is
+ * reported of the features of W, of their conflicts, and of the proofs of W, is the same for the larger layer, to the
+ * last bit. */
 typedef struct sunder_footprint {
-    size_t world;
-    /* xmin ymin xmax ymax; everything read was seen. A fixed feature wrote nothing: xmin > xmax. */
+    size_t world; /* index in sunder_report_worlds() */
+    /* xmin ymin xmax ymax of each box; if only fixed features belong to it, `wrote` is empty: xmin > xmax. */
     double read[4], seen[4], wrote[4];
 } sunder_footprint;
 
 typedef struct sunder_world {
-    size_t first;                 /* the first of its features */
-    size_t footprint, footprints; /* of those of the report */
-    sunder_conflict_counts before, after;
-    size_t thin, clusters, clusters_optimal;
-    size_t bound, bounds; /* of those of the report */
+    size_t first;                 /* the least number of its features */
+    size_t footprint, footprints; /* its footprints in sunder_report_footprints(): the first, and their number */
+    sunder_conflict_counts before, after;    /* the counts of its conflicts, as in sunder_layer_summary */
+    size_t thin, clusters, clusters_optimal; /* as in sunder_layer_summary */
+    size_t bound, bounds; /* its bounds in sunder_report_world_bounds(): the first, and their number */
 } sunder_world;
 
-/* By their first features. */
+/* Returns the worlds, in the order of their first features, and sets *n to their number. */
 SUNDER_EXPERIMENTAL const sunder_world *sunder_report_worlds(const sunder_report *report, size_t *n);
-/* By worlds. */
+/* Returns the footprints, in the order of their worlds, and sets *n to their number. */
 SUNDER_EXPERIMENTAL const sunder_footprint *sunder_report_footprints(const sunder_report *report, size_t *n);
-/* What is proved of a part of a world, with trees by these where they are kept; and what its pairs prove. */
+/* Two lower bounds of the cost of a part of a world. `proved` is the bound that trees or prices prove, and is part of
+ * lower_bound. `by_pairs` is the bound that the least translations of pairs prove, and is part of pair_bound. */
 typedef struct sunder_world_bound {
     double proved, by_pairs;
 } sunder_world_bound;
-/* By worlds; lower_bound and pair_bound are the sums over all. */
+/* Returns the bounds of all parts of worlds, in the order of the worlds, and sets *n to their number. The sums of
+ * `proved` and of `by_pairs` over all of them, rounded down, are lower_bound and pair_bound of the summary. */
 SUNDER_EXPERIMENTAL const sunder_world_bound *sunder_report_world_bounds(const sunder_report *report, size_t *n);
-/* The number of the feature's world; SIZE_MAX: it is of none. */
+/* Returns the index of the feature's world in sunder_report_worlds(), or SIZE_MAX if the feature is in no world. */
 SUNDER_EXPERIMENTAL size_t sunder_report_world(const sunder_report *report, size_t feature);
-/* The world that a conflict or a push belongs to, of two features or a feature and a barrier: that of the movable one,
- * if the other is fixed. SIZE_MAX: none. */
+/* Returns the index of the world to which a conflict or a push of a and b belongs, or SIZE_MAX if it belongs to none. a
+ * is a feature; b is a feature or, from the number of features on, a barrier. If one of the two is fixed, it is the
+ * world of the other. */
 SUNDER_EXPERIMENTAL size_t sunder_report_world_of_pair(const sunder_report *report, size_t a, size_t b);
-/* How many pairs inside the block whose first feature this is are not the gap apart; 0 where the block is in a world,
- * which has counted them. */
+/* Returns the number of pairs inside blocks that are less than the gap apart and in which this feature has the lower
+ * number. A pair that belongs to a world is not counted here, but in the counts of that world. */
 SUNDER_EXPERIMENTAL size_t sunder_report_inside(const sunder_report *report, size_t feature);
-/* Could its translate not be held in doubles? */
+/* Returns whether the moved coordinates of the feature had to be rounded to doubles. */
 SUNDER_EXPERIMENTAL bool sunder_report_rounded(const sunder_report *report, size_t feature);
 
 #ifdef __cplusplus

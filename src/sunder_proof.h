@@ -1,7 +1,9 @@
-/* sunder_proof.h: what a report proves: a lower bound of the cost of a layer's moves, and conflicts without a solution.
+/* sunder_proof.h: the proofs in a report: of the lower bound of the cost of a layer's moves, and of conflicts that have
+ * no solution.
  *
- * Every number in a proof means itself, exactly, so that rational arithmetic can follow it without this library;
- * docs/PROOF.md says what a checker has to do. All of this header is experimental: see sunder.h and docs/api.md. */
+ * Every double in a proof stands for its exact value, so that a proof can be checked in rational arithmetic without
+ * this library; docs/PROOF.md says what a checker has to do. The whole header is experimental: see sunder.h and
+ * docs/api.md. The report owns all that the functions below return; it is valid until the report is freed. */
 #ifndef SUNDER_PROOF_H
 #define SUNDER_PROOF_H
 
@@ -13,190 +15,223 @@ extern "C" {
 
 /* ---- The bound of pairs ----------------------------------------------------------------------------------- */
 
-/* The pairs that pair_bound stands on, so that it can be computed again: a feature of each of two blocks, or one
- * that stands alone, least separations rounded down, multipliers. */
+/* A pair from which sunder_layer_summary.pair_bound was computed: two features of different blocks (a feature in no
+ * block counts as a block of its own), or a feature and a barrier. The pairs suffice to compute the bound again.
+ * `least` is the length of the least relative move that separates the pair, rounded down. `multiplier` is the
+ * multiplier of the pair's condition |t_a| + |t_b| >= least, by which weak duality proves the bound. */
 typedef struct sunder_bound_pair {
-    size_t a, b; /* features, one of each block */
+    size_t a, b; /* a is a feature; b is a feature, or the number of features + k for barrier k */
     double least, multiplier;
 } sunder_bound_pair;
+/* Returns the pairs of pair_bound, and sets *n to their number. */
 SUNDER_EXPERIMENTAL const sunder_bound_pair *sunder_report_bound_pairs(const sunder_report *report, size_t *n);
 
 /* ---- The bound of trees ----------------------------------------------------------------------------------- */
 
-/* What lower_bound stands on, where keep_trees was asked for: trees of branch and bound, one for each contact group of
- * the result, or several that share its bodies. Every number in them means itself, exactly, and rational arithmetic can
- * follow: docs/PROOF.md says what each line of it claims, and why that follows.
+/* The trees of branch and bound that prove sunder_layer_summary.lower_bound. They are kept if
+ * sunder_layer_options.keep_trees is set. Each contact group of the result has one tree, or several trees that share
+ * its bodies and their weights. If pairs prove more of a part of the layer than its contact groups do, the part has
+ * trees of two bodies instead, one for each pair. docs/PROOF.md, sections 3 and 5, says what each part of a tree
+ * claims, and why the bound follows.
  *
- * A tree is about the least of the sum, over its bodies, of weight |t - shift|^2, t their moves. Its cuts say
- * n.(t_j - t_i) >= d; its nodes add cuts to those of their parents, and have forces on some of them, which prove a
- * value by weak duality. */
+ * A body is a block, a feature in no block, or a barrier; t_i is the move of body i. A tree proves a lower bound of the
+ * sum, over its bodies, of weight |t - shift|^2. A cut is a condition n.(t_j - t_i) >= d. A node has the cuts of its
+ * parent and cuts of its own. Its forces are multipliers of some of these cuts, which prove a value by weak duality. */
 typedef struct sunder_bound_body {
-    size_t thing;    /* a member of a block, or a feature by itself; the number of features + k: barrier k */
-    double weight;   /* at most its own; INFINITY: it does not move */
-    double shift[2]; /* 0 for what does not move */
+    size_t thing;    /* a member of the block, or the feature; or the number of features + k for barrier k */
+    double weight;   /* the part of the body's weight that this tree uses; INFINITY if the body does not move */
+    double shift[2]; /* the move from which the cost is measured; (0, 0) for a body that does not move */
 } sunder_bound_body;
 
-/* What bodies i and j may not do: their convex parts may not come nearer than they owe, by u = t_j - t_i. */
+/* A condition on the relative move u = t_j - t_i of bodies i and j: a convex part of j, moved by u, may not come nearer
+ * to a convex part of i than `clearance`. */
 typedef struct sunder_bound_piece {
-    size_t i, j;
-    size_t a, b;           /* the features, or barriers, that the parts are of */
-    size_t part_a, part_b; /* their first corners, as they stood at the start */
-    size_t corners_a, corners_b;
-    bool shadow; /* one of the parts is an anchor, which may not jump over the other: see sunder_proof */
-    /* NAN: the pair owes its full distance. Otherwise the pair is left in conflict, and held to this: to at most the
-     * distance that it had; if its interiors met then, and by the kind of the conflict no longer do, to 0; if they
-     * still do, to some translation that separates them, no longer than minus this, which is no less than the least at
-     * the start. */
+    size_t i, j;                 /* indices in sunder_bound_tree.body */
+    size_t a, b;                 /* the features, or barriers, that contain the two parts */
+    size_t part_a, part_b;       /* the first corner of each part in sunder_bound_tree.corner, at its original place */
+    size_t corners_a, corners_b; /* the number of corners of each part */
+    bool shadow;                 /* one part is an anchor, which may not jump over the other part: see sunder_proof */
+    /* NAN for a pair that has to keep its full distance. The other pairs are in conflict in the result. If the
+     * interiors of such a pair did not meet at the start, the clearance is at most its distance then. If they met, and
+     * by the kind of the conflict no longer meet, the clearance is 0. If they still meet, the clearance is -D: some
+     * translation no longer than D must separate the pair, and the least such translation at the start was no longer
+     * than D. */
     double clearance;
 } sunder_bound_piece;
 
 typedef enum sunder_bound_cut_kind {
-    SUNDER_BOUND_CUT_LIMIT, /* of body i, j = SIZE_MAX: no move is longer than allowed */
-    SUNDER_BOUND_CUT_CONE,  /* of a branch: the cones of the children of a node cover the plane */
-    SUNDER_BOUND_CUT_DISC,  /* beyond it all costs the tree's bound, by the forces `by` of its node */
-    SUNDER_BOUND_CUT_HULL   /* what it takes away is covered by its pieces */
+    SUNDER_BOUND_CUT_LIMIT, /* the limit of body i, with j = SIZE_MAX: every move within the limit satisfies the cut */
+    SUNDER_BOUND_CUT_CONE,  /* a branch: the cones of a node's three children cover the plane */
+    SUNDER_BOUND_CUT_DISC,  /* moves that violate the cut cost at least the tree's bound, by the forces `by` of the node
+                             * or, if it has none, by the forces of its parent */
+    SUNDER_BOUND_CUT_HULL   /* moves that violate the cut are forbidden by the pieces that it names, or cost at least
+                             * the tree's bound */
 } sunder_bound_cut_kind;
 
 typedef struct sunder_bound_cut {
     sunder_bound_cut_kind kind;
-    size_t i, j; /* of the tree's bodies */
-    double n[2], d;
-    size_t named, names; /* in sunder_bound_tree.named: its pieces */
+    size_t i, j;         /* indices in sunder_bound_tree.body */
+    double n[2], d;      /* the cut is n.(t_j - t_i) >= d; a limit is -n.t_i >= d */
+    size_t named, names; /* the first entry in sunder_bound_tree.named, and the number of pieces that the cut names */
 } sunder_bound_cut;
 
 typedef struct sunder_bound_force {
-    size_t cut; /* of all cuts; on the way from the root to the node */
-    double force;
+    size_t cut;   /* index in sunder_bound_tree.cut of a cut on the path from the root to the node */
+    double force; /* the multiplier of the cut, >= 0 */
 } sunder_bound_force;
 
 typedef struct sunder_bound_node {
-    size_t parent;        /* an earlier node; of node 0, the root, SIZE_MAX */
-    size_t cut, cuts;     /* in the order in which they were made */
-    size_t force, forces; /* what it proves */
-    size_t by, bys;       /* forces on cuts of the nodes above, which its discs stand on */
-    bool empty;           /* what the cuts leave to bodies i and j is covered by these pieces */
+    size_t parent;        /* index of an earlier node; SIZE_MAX for node 0, the root */
+    size_t cut, cuts;     /* the node's own cuts in sunder_bound_tree.cut: the first, and their number, in the order in
+                           * which they were made */
+    size_t force, forces; /* the node's forces in sunder_bound_tree.force: the first, and their number */
+    size_t by, bys;       /* forces in sunder_bound_tree.force, on cuts of the nodes above, that prove the node's cuts
+                           * of kind SUNDER_BOUND_CUT_DISC */
+    /* True if the pieces that the node names forbid all relative moves of bodies i and j that the cuts allow and that
+     * cost less than the tree's bound. The four members below are used only then; they are as in sunder_bound_cut. */
+    bool empty;
     size_t i, j, named, names;
 } sunder_bound_node;
 
-/* Prices of area, whole numbers of `unit` a unit of area at the nodes of a lattice, bilinear between them, 0 beyond:
- * node (i, j) is the place side * (x + i, y + j). No two of a tree's bodies share area, so that they cost at least what
- * each pays for moving, and for the area that it stands on, at the least; less the worth of all area. */
+/* Prices of area, which prove a bound without nodes: docs/PROOF.md, section 5. Node (i, j) of a grid of squares is at
+ * side * (x + i, y + j). The price of a unit of area there is unit * price; it is bilinear in each square, and 0
+ * outside the grid. No two bodies may occupy the same area. So the cost of all bodies is at least the sum, over the
+ * bodies, of the least that a body's move and the area that it occupies cost together, minus the price of the whole
+ * plane. */
 typedef struct sunder_bound_prices {
-    double side, unit; /* powers of 2 */
-    int64_t x, y;
-    size_t columns, rows;
-    const uint32_t *price; /* [columns * rows]; NULL: none */
+    double side, unit;     /* the side of a square, and the value of a price of 1; powers of 2 */
+    int64_t x, y;          /* the first node, in squares */
+    size_t columns, rows;  /* the number of nodes in a row, and of rows */
+    const uint32_t *price; /* [columns * rows]; NULL for a tree without prices */
 } sunder_bound_prices;
 
 typedef struct sunder_bound_tree {
-    size_t group; /* trees of one group follow each other */
-    double bound;
+    size_t group; /* the number of the contact group; trees of one group follow each other */
+    double bound; /* the lower bound that the tree proves */
     const sunder_bound_body *body;
     const sunder_bound_piece *piece;
     const sunder_bound_cut *cut;
     const sunder_bound_force *force;
     const sunder_bound_node *node;
-    const size_t *named;  /* pieces */
-    const double *corner; /* [2 * corners] */
+    const size_t *named;  /* indices in `piece` */
+    const double *corner; /* [2 * corners] x and y of the corners of all parts */
     size_t bodies, pieces, cuts, forces, nodes, names, corners;
-    sunder_bound_prices prices; /* where it has such, they prove its bound, and it has no nodes */
+    sunder_bound_prices prices; /* if the tree has prices, these prove its bound, and it has no nodes */
 } sunder_bound_tree;
 
-/* They live as long as the report. */
+/* Returns the trees, and sets *n to their number; there are none unless keep_trees was set. */
 SUNDER_EXPERIMENTAL const sunder_bound_tree *sunder_report_bound_trees(const sunder_report *report, size_t *n);
 
 /* ---- Conflicts without a solution ------------------------------------------------------------------------- */
 
-/* A proof that a conflict has no solution, which can be verified in rational arithmetic. Every number in it is exact.
+/* A proof that a conflict has no solution. It can be checked in rational arithmetic: docs/PROOF.md, section 4.
  *
- * Let t be the moves of blocks (a feature that stands alone is one), no longer than the block's limit: the least
- * max_shift of its members, 0 if one is fixed or ignored. The proof is a tree, node 0 its root.
+ * A block moves by a translation t with |t| <= limit; a feature in no block counts as a block of its own. The limit of
+ * a block is the least max_shift of its members, or 0 if one of them is fixed or ignored. A barrier has the limit 0.
+ * The proof is a tree; node 0 is its root.
  *
- * An inner node (ways > 0) is about the pair of features a and b, of blocks A and B; let u = t_B - t_A. Its parts are
- * convex polygons within a and b, counter-clockwise, at their original places. Any u at which the second part, moved by
- * it, keeps the clearance from the first, has n.u >= d for at least one of the node's ways. (To keep a clearance c >=
- * 0: disjoint interiors, and a distance of at least c. A clearance c < 0: some translation no longer than -c makes
- * their interiors disjoint.) The clearance is at most what the pair owes: the gap, if it is the conflict itself, or is
- * not among the conflicts; otherwise its value at the start, the distance or minus the length of the least translation
- * that separates it. The way's `next` is the node for the case that it is the first of them with n.u >= d, so that n.u
- * < d for those before.
+ * An inner node (ways > 0) is about the features a and b of blocks A and B. Let u = t_B - t_A. The node has two parts,
+ * which are convex polygons within a and b, counter-clockwise, at their original places. The claim of the node: any u
+ * at which the second part, moved by u, keeps the clearance from the first part has n.u >= d for at least one of the
+ * node's ways. (To keep a clearance c >= 0 means that the interiors of the parts are disjoint, and that their distance
+ * is at least c. To keep a clearance c < 0 means that some translation no longer than -c makes the interiors disjoint.)
+ * If the pair is the conflict itself, or is not among the conflicts, the clearance is at most the distance that the
+ * pair has to keep. For any other conflict it is at most the value at the start: the distance, or minus the length of
+ * the least translation that separates the pair. `next` of a way is the node for the case that this way is the first of
+ * the node's ways with n.u >= d; then n.u < d for all ways before it.
  *
- * With `shadow`, one of the two parts is a single corner, the anchor of its feature, which the other feature does not
- * contain; the other part is one of that feature. Or b is a barrier, the corner is the side anchor of its feature, and
- * the other part has two: a segment of the barrier's lines, or an edge of its areas, with the area on its left and the
- * anchor on its right. Any u at which the straight path of the anchor, relative to the other part, does not meet the
- * interior of that part, or that segment, has n.u >= d for at least one of the node's ways: there is no clearance.
+ * If `shadow` is set, one of the two parts is a single corner. Either the corner is the anchor of its feature, the
+ * other feature does not contain the anchor, and the other part is a polygon within that other feature. Or b is a
+ * barrier, the corner is the side anchor of feature a, and the other part has two corners: it is a segment of one of
+ * the barrier's lines, or an edge of one of its areas, with the area on the left and the side anchor on the right. The
+ * claim of the node is then: any u at which the straight path of the corner, relative to the other part, does not meet
+ * the interior of that polygon, or that segment, has n.u >= d for at least one of the node's ways. The clearance is not
+ * used.
  *
- * With `chord`, such a side of barrier b and one of barrier c (which may be b) have one end in common, and the other
- * ends on either side of the straight path from the anchor through it. The second part is a segment, one end of which
- * is strictly in the shadow of either side, and which the path crosses beyond that common end; so what it shadows is in
- * the shadows of the two sides together.
+ * If `chord` is set, `shadow` is set too, and the node is about two sides: such a segment or edge of barrier b, and one
+ * of barrier c, which may be b itself. The two sides have one end x in common. Their other ends lie on opposite sides
+ * of the ray from the side anchor through x. The second part is the chord, a segment that this ray crosses at x or
+ * beyond x. One end of the chord is strictly inside the shadow of one side, and the other end strictly inside the
+ * shadow of the other side. So the shadow of the chord lies in the union of the shadows of the two sides.
  *
- * With `slack`, the clearance is negative, and the pair not the conflict itself. All its parts have one translation v,
- * no longer than minus the clearance, that makes their interiors disjoint: it is the same at all such nodes of the
- * pair, and their ways are about u = t_B + v - t_A, which has to make the interiors of the parts disjoint.
+ * If `slack` is set, the clearance is negative, and the pair is not the conflict itself. Then some translation v, no
+ * longer than minus the clearance, makes the interiors of all parts of the pair disjoint. The same v is used at all
+ * nodes of the pair with `slack`. The ways of these nodes are about u = t_B + v - t_A, and any u at which the interiors
+ * of the two parts are disjoint has n.u >= d for at least one way.
  *
- * A leaf has forces, positive, each on a way of a node above it: on the one that leads to the leaf (then h = d, m = n),
- * or on one before that (behind; then h = -d, m = -n). So m.u >= h in this case, for all of them. But the sum of force
- * * h is greater than the sum, over blocks, of limit * |sum of force * m, with a minus where the block is A|, and over
- * pairs with slack, of minus the clearance * |sum of force * m|: no such moves are within the limits.
+ * A leaf (ways == 0) has positive forces. Each is on a way of a node above the leaf: on the way that leads to the leaf
+ * (let m = n and h = d), or, with `behind`, on a way before that one (let m = -n and h = -d). In the case of the leaf
+ * m.u >= h for each force. But the sum of force * h is greater than two sums together: the sum over blocks of limit *
+ * |sum of force * m|, where m counts with a minus sign if the block is A of its node; and the sum over pairs with slack
+ * of minus the clearance * |sum of force * m|. So no moves within the limits satisfy the case of the leaf.
  *
- * With `held`, the pair is not the conflict itself, and is held to its distance at the start, or minus the length of
- * its least translation then, exactly: `clearance` is only near to that. This lets a line pass through the original
- * place of the two: d = 0. With both `slack` and `held`, the first way says more than its d: n.u >= h, h the greatest
- * of n.(p - q) over corners p of the first part and q of the second.
+ * If `held` is set, the pair is not the conflict itself. It has to keep exactly its distance at the start or, if its
+ * interiors met, minus the length of the least translation that separated it then; `clearance` is only near to that
+ * value. So a way may have d = 0: its line passes through the place where the two features stood relative to each
+ * other. With both `slack` and `held` the first way of the node says more than n.u >= d: it says n.u >= h, where h is
+ * the greatest of n.(p - q) over corners p of the first part and q of the second.
  *
- * If a leaf is `still`, two ways that lead to it, line_way of line_node, are about one block and a fixed thing, with d
- * = 0, and n opposite to each other (or one is a first way that is held with a slack, and h is no less than |n| times
- * the pair's least translation at the start, so that n.u >= 0 without it). So the block's move satisfies n.t = 0. After
- * a move all corners of the block are doubles. No coordinate of them can leave its binade within the limit; so t is a
- * multiple of the unit there in each coordinate, and the least of these with n.t = 0 that is not 0 is beyond the limit.
- * So t = 0, and the limit of the block counts as 0 in that leaf. */
+ * If a leaf is `still`, it names two ways that lead to it, line_way[k] of node line_node[k]. Both are about the same
+ * block and something that does not move, both have d = 0, and their n are opposite to each other. (One of the two may
+ * instead be the first way of a node with `held` and `slack`, if h is at least |n| times the length of the least
+ * translation that separated the pair at the start: then n.u >= 0 also without the slack v.) So the move t of the block
+ * satisfies n.t = 0. A move is valid only if all corners of the block are doubles before and after it. So each
+ * coordinate of t is a multiple of a unit, the spacing of doubles at the coordinate of least size that a corner can
+ * have within the limit. The shortest such t with n.t = 0, other than 0, is longer than the limit. Hence t = 0, and the
+ * limit of the block counts as 0 in that leaf. */
 typedef struct sunder_proof_way {
-    double n[2], d;
-    size_t next;
+    double n[2], d; /* the condition n.u >= d */
+    size_t next;    /* index in sunder_proof.node */
 } sunder_proof_way;
 
 typedef struct sunder_proof_force {
-    size_t node, way; /* number of all ways */
-    bool behind;
-    double force;
+    size_t node, way; /* a node above the leaf, and one of its ways, as an index in sunder_proof.way */
+    bool behind;      /* the way is one before the way that leads to the leaf */
+    double force;     /* the multiplier, > 0 */
 } sunder_proof_force;
 
 typedef struct sunder_proof_node {
-    size_t a, b;           /* features */
-    size_t part_a, part_b; /* the first corners of the parts, of all corners */
-    size_t corners_a, corners_b;
+    size_t a, b;                 /* features; b may be the number of features + k, for barrier k */
+    size_t part_a, part_b;       /* the first corner of each part, as an index of corners in sunder_proof.corner */
+    size_t corners_a, corners_b; /* the number of corners of each part */
     double clearance;
-    bool shadow;      /* one of the parts is an anchor: see above */
-    bool slack;       /* the second part is moved by the pair's slack, too: see above */
-    bool held;        /* the clearance is exactly what the pair stood apart at the start: see above */
-    size_t way, ways; /* its first way, and how many; none: a leaf */
-    size_t force, forces;
-    bool still; /* a leaf: a block that is between the lines of two ways stays where it is: see above */
-    size_t line_node[2], line_way[2];
-    bool
-        chord; /* a shadow: the second part is a chord across a corner that a side of b and one of c share: see above */
-    size_t c, sides; /* then: of these two sides the first corner of four, two of b's and two of c's */
+    bool shadow;                      /* one of the parts is an anchor: see above */
+    bool slack;                       /* the second part is also moved by the slack v of the pair: see above */
+    bool held;                        /* the pair has to keep exactly its value at the start: see above */
+    size_t way, ways;                 /* the first way in sunder_proof.way, and the number of ways; 0 ways: a leaf */
+    size_t force, forces;             /* of a leaf: the first force in sunder_proof.force, and their number */
+    bool still;                       /* of a leaf: a block between the lines of two ways cannot move: see above */
+    size_t line_node[2], line_way[2]; /* if `still`: two nodes, and one way of each, as an index in sunder_proof.way */
+    bool chord;                       /* the second part is a chord across the common end of two sides: see above */
+    /* If `chord`: c is the barrier that has the second side, numbered as b. sides is the index of the first of four
+     * corners in sunder_proof.corner, the two ends of the side of b and the two ends of the side of c. */
+    size_t c, sides;
 } sunder_proof_node;
 
 typedef struct sunder_proof {
     const sunder_proof_node *node;
     const sunder_proof_way *way;
     const sunder_proof_force *force;
-    const double *corner; /* [2 * corners] */
+    const double *corner; /* [2 * corners] x and y of the corners of all parts */
     size_t nodes, ways, forces, corners;
-    double within; /* the limit assumed for features without one; 0: there are none */
+    double within; /* the limit that the proof assumes for blocks without a limit; 0 if there are none */
 } sunder_proof;
 
-/* The proof of conflict k of sunder_report_conflicts(), or NULL. It lives as long as the report. There is one for each
- * conflict with SUNDER_REASON_NO_ROOM, and for each that is crowded; the features of its nodes, except the two in
- * conflict, are the conflict's blocked_by: the proof needs all of them. Conflicts with SUNDER_REASON_SIDE, and most
- * with SUNDER_REASON_JUMP, have one, too: its nodes are about the pair, and about the shadows of the members of their
- * two blocks. For features without a limit, `within` is a distance at which the two are certainly apart: farther out
- * nothing but shadows forbids a move, and what is shaded there was shaded before. With SUNDER_REASON_NO_ROOM all nodes
- * are about members of the two blocks then. With SUNDER_REASON_MAX_SHIFT, if keep_trees was asked for and one was
- * found, they are about the pair. */
+/* Returns the proof of conflict k of sunder_report_conflicts(), or NULL if it has none. No conflict has a proof if
+ * sunder_layer_options.drop_proofs was set. Otherwise these have one:
+ *
+ * SUNDER_REASON_NO_ROOM, and every conflict that is `crowded`
+ *     The features and barriers of the nodes, except the two in conflict, are the conflict's blocked_by.
+ * SUNDER_REASON_SIDE, and most conflicts with SUNDER_REASON_JUMP
+ *     The nodes are about the pair, and about shadows of members of its two blocks.
+ * SUNDER_REASON_MAX_SHIFT, if keep_trees was set and a proof was found
+ *     The nodes are about the pair only.
+ *
+ * If one of the two blocks has no limit, the proof assumes `within` as its limit: a length such that the two are
+ * certainly far enough apart after any longer relative move. Only shadows forbid such a longer move, and a shadow that
+ * contains a move contains all longer moves in the same direction, so the assumption excludes no solution. With
+ * SUNDER_REASON_NO_ROOM all nodes of such a proof are about members of the two blocks, or about a member of the
+ * feature's block and a barrier. */
 SUNDER_EXPERIMENTAL const sunder_proof *sunder_report_proof(const sunder_report *report, size_t k);
 
 #ifdef __cplusplus
