@@ -66,8 +66,8 @@ bool sunder_i_cluster_may_want_shape(const sunder_i_model *model, uint32_t body)
  * keeps it from then on. All other relaxations hold, and bodies outside the cluster keep their places. */
 sunder_status sunder_i_cluster_retry(const sunder_i_model *model, sunder_i_cluster *cluster,
                                      const sunder_i_retry *retry, size_t retries, double *move, sunder_error *err);
-/* Do the two features of the relaxation overlap, and may their limits suffice to end the overlap, if not for the
- * gap? */
+/* Does the relaxation leave an overlap that might end without the full distance being kept? That needs a full distance
+ * greater than 0, and limits of the two bodies that together reach the depth of the overlap. */
 bool sunder_i_can_be_disjoint(const sunder_i_model *model, const sunder_i_relaxation *relaxation);
 
 /* ---- resume.c ---------------------------------------------------------------------------------------------------- */
@@ -92,26 +92,27 @@ sunder_status sunder_i_cluster_descend(const sunder_i_model *model, const sunder
 
 /* ---- pair_margin.c ----------------------------------------------------------------------------------------------- */
 
-/* A pair of things a and b that is left in conflict stands slightly worse than at the start, due to rounding. Demands
- * the margin for it, moving it and the bodies around it; other pairs keep their demands. others: the margin is also
- * demanded of other pairs left in conflict that have moved, otherwise only of those that keep it now. *done if there is
- * a solution; its moves are rounded. */
+/* For a pair of things a and b that is left in conflict and that rounding has made slightly worse than at the start:
+ * demands the margin for it in addition, and moves it and bodies around it. Other pairs keep their demands. others: the
+ * margin is also demanded of other pairs left in conflict that have moved; otherwise only of those of them that keep it
+ * now. *done if there is a solution; its moves are rounded. */
 sunder_status sunder_i_cluster_demand_margin(const sunder_i_model *model, const sunder_i_cluster *cluster, uint32_t a,
                                              uint32_t b, bool others, double *move, bool *done, sunder_error *err);
 
 /* ---- fit_given_up.c ---------------------------------------------------------------------------------------------- */
 
-/* Two bodies a and b were given up. *found if they and the bodies around them have places at which every distance is
- * missed by at most `room`; the moves are not rounded. from_home: all bodies of a small cluster start from their
- * original places. */
+/* For bodies a and b, between which pairs were given up: looks for places of these and the bodies around them at which
+ * every distance is missed by at most 5/4 of `room`, the distances between a and b included. *found if there are such;
+ * the moves are not rounded. from_home: all bodies start from their original places instead, if the cluster is small;
+ * otherwise nothing is found. */
 sunder_status sunder_i_cluster_fit(const sunder_i_model *model, const sunder_i_cluster *cluster, uint32_t a, uint32_t b,
                                    double room, bool from_home, double *move, bool *found, sunder_error *err);
 
 /* ---- blocking_neighbours.c --------------------------------------------------------------------------------------- */
 
-/* Finds bodies of the cluster that would have a nearer free place if no movable body outside the cluster were there.
- * For each outside body that clashes with such a body at that place, the pair of the two is added to cluster->guest.
- * Returns false if memory is out. */
+/* Finds bodies with a large share of the cluster's cost that would have a nearer free place if no movable body outside
+ * the cluster were there. For each outside body that clashes with such a body at that place, the pair of the two bodies
+ * is added to cluster->guest. Returns false if memory is out. */
 bool sunder_i_cluster_find_blocking(const sunder_i_model *model, sunder_i_cluster *cluster, const double *move);
 
 #endif

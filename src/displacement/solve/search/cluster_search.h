@@ -59,7 +59,7 @@ typedef struct sunder_i_search {
     sunder_i_measures measures;      /* violations of pairs of bodies */
     sunder_i_obstacle_edge *shifted; /* scratch: edges of an obstacle that no cache keeps */
     size_t shifted_capacity;
-    double extent;          /* the mean size of the bodies */
+    double extent;          /* the mean size of the bodies, parts of barriers left out */
     double settled;         /* a round that gains a smaller share of the cost is the last one */
     uint64_t steps, effort; /* constraints examined so far; the work at which the search for better sides ends */
     int clashing;           /* a descent gives up after this many rounds that end in clashes ... */
@@ -102,12 +102,14 @@ bool sunder_i_search_init_about(sunder_i_search *search, const sunder_i_model *m
 
 /* ---- near.c: neighbours ------------------------------------------------------------------------------------------ */
 
-/* Called for each pair of bodies with a movable one whose boxes at t are within `reach` of each other. */
+/* Receives a pair of bodies i < j, at least one of which is movable. sunder_i_search_visit_near() calls it for the
+ * pairs whose boxes at the moves t are within `reach` of each other. */
 typedef void (*sunder_i_visit_pair)(sunder_i_search *search, uint32_t i, uint32_t j, void *context);
 
 void sunder_i_search_visit_near(sunder_i_search *search, const double *t, double reach, sunder_i_visit_pair visit,
                                 void *context);
-/* The same for the present moves, if each body may also be in its original place. */
+/* As sunder_i_search_visit_near(), at the present moves, with the box of a movable body's whole path from its original
+ * place instead of its box. */
 void sunder_i_search_visit_near_or_home(sunder_i_search *search, double reach, sunder_i_visit_pair visit,
                                         void *context);
 
@@ -138,8 +140,8 @@ typedef struct sunder_i_piece_pair {
     const sunder_i_relaxation *relaxation; /* the relaxation of the two pieces; or NULL */
 } sunder_i_piece_pair;
 
-/* The support line of the pair's obstacle, or shadow, with these n edges, that is farthest from u on the obstacle's
- * side. */
+/* The support line of the pair's obstacle, or shadow, given by its n edges: the one whose signed distance from u is
+ * greatest. */
 static inline sunder_i_support sunder_i_search_support(const sunder_i_piece_pair *pair,
                                                        const sunder_i_obstacle_edge *edge, size_t n, const double u[2])
 {
@@ -148,25 +150,28 @@ static inline sunder_i_support sunder_i_search_support(const sunder_i_piece_pair
 
 typedef void (*sunder_i_visit_piece_pair)(sunder_i_search *search, const sunder_i_piece_pair *pair, void *context);
 
-/* Visits all pairs of pieces of bodies i and j whose boxes are within `reach` of each other at relative position u, and
- * the shadows that may be as near. yields: relaxations count. */
+/* Visits all pairs of pieces of bodies i and j whose boxes are within `reach` of each other at relative position u, the
+ * walls that keep one of the bodies inside the other, and shadows. Shadows are looked for within a shorter distance,
+ * since they are seldom in the way. yields: relaxations count. */
 void sunder_i_search_piece_pairs(sunder_i_search *search, uint32_t i, uint32_t j, const double u[2], double reach,
                                  bool yields, sunder_i_visit_piece_pair visit, void *context);
-/* The same for the walls of `holder` and the pieces of `other`, which is at v relative to it. The caller sets
- * pair->offset. swapped: the holder is body j. */
+/* Visits the walls of body `holder` with the pieces of body `other` that they keep inside and whose boxes are within
+ * `reach`. v: position of `other` relative to `holder`. The caller sets pair->offset and pair->relaxed. swapped:
+ * `holder` is body j of the pair. */
 void sunder_i_search_walls(sunder_i_search *search, const sunder_i_body *holder, const sunder_i_body *other,
                            const double v[2], double reach, sunder_i_piece_pair *pair, bool swapped,
                            sunder_i_visit_piece_pair visit, void *context);
 /* The relaxation of pieces a and b; NULL: there is none, and they keep the full distance. */
 const sunder_i_relaxation *sunder_i_search_relaxation(const sunder_i_search *search, const sunder_i_body_piece *a,
                                                       const sunder_i_body_piece *b);
-/* Shifts the n corners of an obstacle by the relaxation; returns the distance that the relaxation demands. */
+/* Shifts the n corners of an obstacle by the relaxation of its two pieces; of_j is the feature of the second piece.
+ * Returns the distance that the relaxation demands. */
 double sunder_i_search_shift(const sunder_i_relaxation *relaxation, uint32_t of_j, double *corner, size_t n);
 /* Computes the pair's obstacle A + (-B), shifted by its relaxation, in search->scratch. Returns the number of its
  * corners (0: memory is out); *gap is the distance demanded. */
 size_t sunder_i_search_obstacle(sunder_i_search *search, const sunder_i_piece_pair *pair, double *gap);
-/* The same as *n edges, which are valid until the next call; for a shadow as in obstacle_shadow.h. NULL if memory is
- * out, or if there is no shadow. */
+/* The obstacle of the pair as *n edges, which are valid until the next call; for a shadow as in obstacle_shadow.h. *gap
+ * is the distance demanded. NULL if memory is out (search->failed), or if there is no shadow. */
 const sunder_i_obstacle_edge *sunder_i_search_edges(sunder_i_search *search, const sunder_i_piece_pair *pair, size_t *n,
                                                     double *gap);
 
@@ -188,11 +193,12 @@ static inline void sunder_i_search_body_shadows(sunder_i_search *search, const s
     if (p->clear > far && q->clear > far && p->has->sides + q->has->sides == 0) return;
     sunder_i_search_visit_shadows(search, p, q, u, reach, visit, context);
 }
-/* Visits each pair with a movable body that is farther apart than `reach` at t, but may have passed each other on the
- * way from home to t, or be within reach of a shadow. */
+/* Visits each pair of bodies, one of them movable, that is farther apart than `reach` at the moves t, but may have
+ * passed each other on the way from home to t, or be within `reach` of a shadow. */
 void sunder_i_search_visit_passing(sunder_i_search *search, const double *t, double reach, sunder_i_visit_pair visit,
                                    void *context);
-/* May the pair have passed each other, or be within reach of a shadow? */
+/* May bodies i and j have passed each other on the way from home to t, or be within `reach` of a shadow between them?
+ * */
 bool sunder_i_search_may_pass(const sunder_i_search *search, const double *t, uint32_t i, uint32_t j, double reach);
 
 /* ---- clashes.c: clashes, and by how much ------------------------------------------------------------------------- */

@@ -76,9 +76,9 @@ static void constrain_pair(sunder_i_search *s, uint32_t i, uint32_t j, const sig
     sunder_i_search_piece_pairs(s, i, j, at->near, at->reach + s->gap, at->yields, constrain_pieces, &pair);
 }
 
-/* Where the outline of an obstacle has a concave corner, a free place may be farther than the full distance from one of
- * the two pieces that form it. This bounds the excess. Without it a piece would be out of reach, and the QP could push
- * the body through it. */
+/* An upper bound of how much farther than the full distance a free place nearest to a pair may be from one of two
+ * pieces that form a concave corner of the obstacle. Without this allowance that piece would be out of reach, and the
+ * program could push the body through it. */
 static double kept_too_much(const sunder_i_search *s, uint32_t i, uint32_t j)
 {
     const sunder_i_model *model = s->model;
@@ -155,8 +155,8 @@ bool sunder_i_search_constrain(sunder_i_search *search, double reach, bool as_it
     return a.clashing || sunder_i_search_is_beyond(search, search->t);
 }
 
-/* Adds constraints for the pieces that clash at s->next and have none in the sorted `known`. Their sides are those of
- * the reference position, where they were apart. */
+/* Adds constraints for the pieces that clash at s->next and have none in known[known_n], which is sorted. Their sides
+ * are those of the reference position s->t. Pairs that clash there, too, are left out. */
 static void constrain_met(sunder_i_search *s, const sunder_i_constraint *known, size_t known_n)
 {
     const uint64_t before = s->steps;

@@ -4,7 +4,8 @@
 
 #include <math.h>
 
-/* The pieces along one wall give almost equal constraints. */
+/* Pieces along one wall give almost equal constraints, of which the program needs only the strongest. The forces of the
+ * others are added to it. */
 void sunder_i_search_add_constraint(sunder_i_search *search, size_t first, const sunder_i_constraint *constraint)
 {
     sunder_i_quadratic *p = &search->program;

@@ -95,7 +95,8 @@ static double solve_further(sunder_i_search *s)
 }
 
 /* Solves the program around s->t, adds the constraints that its solution violates, and repeats that until none are
- * added. */
+ * added, at most MOST_ADDITIONS times (MOST_SOFT_ADDITIONS for a soft program). Returns the violation of the last
+ * solution. */
 static double solve_lazily(sunder_i_search *s, double softness)
 {
     double v = 0;
@@ -327,7 +328,8 @@ static outcome run_round(descent *d)
     return ++d->clashing >= s->clashing || d->idle >= MOST_IDLE ? IN_VAIN : ON;
 }
 
-/* Runs rounds from s->t until one gains little. Returns whether the result is free. */
+/* Runs rounds from s->t until one gains little or the descent is given up. Returns whether s->t is free of clashes
+ * then; if it is not, s->t is the layout with the least violation. */
 static bool descend_by_rounds(sunder_i_search *s)
 {
     descent d;
@@ -381,7 +383,7 @@ static void join_constrained(const sunder_i_search *s, uint32_t *root)
     }
 }
 
-/* Are all movable bodies in one component? */
+/* Are all bodies that have a constraint in one component? */
 static bool is_one_component(const sunder_i_search *s, uint32_t *root)
 {
     uint32_t first = SUNDER_I_NOBODY;

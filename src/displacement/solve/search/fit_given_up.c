@@ -1,8 +1,8 @@
-/* Two bodies that were given up are asked once more for the full distance, up to a small shortfall.
+/* Pairs given up between two bodies are asked once more for the full distance, up to a small shortfall.
  *
- * An exact fit has no solution with a margin, and hardly one without where limits are used up: so the search accepts
- * places that miss a little of everything. ../clusters/exact_fits.c, which knows the coordinates, decides whether a
- * place beside them misses nothing. */
+ * An exact fit has no solution with a margin, and hardly one without it where limits are used up. So the search accepts
+ * places at which every distance is missed by a little. ../clusters/exact_fits.c, which knows the coordinates, decides
+ * whether there is a place next to it at which no distance is missed. */
 #include "displacement/solve/search/neighbourhood.h"
 #include "displacement/solve/search/search_stages.h"
 #include "displacement/solve/search/tuning.h"
@@ -29,7 +29,8 @@ static bool restore_between(sunder_i_search *s, uint32_t a, uint32_t b)
     return true;
 }
 
-/* Tries the two with more and more bodies around them, from the present layout. */
+/* Tries bodies i and j with more and more bodies around them (FIT_STAGES), from the present layout. Returns whether a
+ * layout was found. */
 static bool fit_about(sunder_i_search *s, uint32_t i, uint32_t j)
 {
     sunder_i_neighbourhood about;

@@ -315,7 +315,7 @@ typedef struct others {
     bool coarse; /* outlines stand for bodies */
 } others;
 
-/* The k-th of these bodies, and its move; NULL: it is ignored. */
+/* The k-th body around body i, and its move *t; NULL: it is ignored. */
 static const sunder_i_body *other_at(const others *all, size_t k, const double **t)
 {
     const sunder_i_search *s = all->search;
@@ -329,7 +329,8 @@ static const sunder_i_body *other_at(const others *all, size_t k, const double *
 
 static size_t count_others(const others *all) { return all->search->about.n + all->foreign.n; }
 
-/* The number of pieces of other bodies whose boxes are within `reach` of body i. */
+/* The number of pieces of other bodies whose boxes are within the gap plus `reach` of the box of body i at the move
+ * `at`. */
 static uint64_t count_around(const others *all, const double at[2], double reach)
 {
     sunder_i_search *s = all->search;
@@ -399,7 +400,7 @@ static void add_shadows_of_others(const others *all, sunder_i_obstacles *o, cons
     }
 }
 
-/* Is body i free of clashes at this move, against all prepared obstacles? user: the others about it. */
+/* Is the whole search free of clashes if body i has the move `place`? user: the `others` around body i. */
 static bool is_clear_at(void *user, const double place[2])
 {
     const others *all = user;
@@ -412,9 +413,9 @@ static bool is_clear_at(void *user, const double place[2])
     return clear;
 }
 
-/* The free position nearest to `home` within `reach`. Shadows are only added if the position is in one. clear: each
- * position is tested for clashes as it is found, since between two shadows with a common corner there is a ray that is
- * in neither. */
+/* Finds the free position of body i nearest to `home` within `reach`. Shadows are only added if the position is in one.
+ * clear: shadows are added at once, and each position is tested for clashes as it is found, since between two shadows
+ * with a common corner there is a ray that is in neither. False if none was found. */
 static bool find_among(others *all, const double home[2], double reach, bool clear, double place[2])
 {
     sunder_i_search *s = all->search;
@@ -439,7 +440,8 @@ static bool find_among(others *all, const double home[2], double reach, bool cle
     return n > 0;
 }
 
-/* The free position of body i that is nearest to its original one, within `limit` and about within `all`. */
+/* Finds the free position of body i that is nearest to its original one. The distance searched grows until it reaches
+ * `limit`, or exceeds `all`. clear: as in find_among(). False if none was found. */
 static bool find_free_place(sunder_i_search *s, uint32_t i, double limit, double all, bool clear, double place[2])
 {
     const sunder_i_body *p = &s->model->body[s->body[i]];

@@ -1,10 +1,11 @@
 /* Clusters without a solution: because of limits, fixed bodies, or lack of room.
  *
- * Pairs that clash at the end, and clashed at the start, are relaxed (relaxation.c), a few at a time: all others keep
- * their full distance, and relaxed ones stand no worse than at the start. The compromise that the search ended in
- * selects them: its violations are greatest where the contradiction is. After each few the search continues from there,
- * in a crowd from the original places. In the end each relaxed pair is asked for again (take_back.c); and all bodies
- * descend from their original places once more, since a compromise may have moved some that need not move any more.
+ * Pairs that clash at the end, and clash in the original places, are relaxed (relaxation.c), a few at a time: all
+ * others keep their full distance, and relaxed ones stand no worse than at the start. The compromise that the search
+ * ended in selects them: its violations are greatest where the contradiction is. After each few the search continues
+ * from there, in a crowd from the original places. In the end a crowd asks for each relaxed pair again (take_back.c);
+ * and all bodies descend from their original places once more, since a compromise may have moved some that need not
+ * move any more.
  *
  * If that fails, all pairs that still clash are relaxed, and further bodies that come to clash go back, until nothing
  * clashes; at worst all are in their original places, where every relaxation holds. From there the cluster descends as
@@ -60,8 +61,8 @@ static size_t list_candidates(sunder_i_search *s, const sunder_i_clash *at_home,
     return out;
 }
 
-/* Relaxes each candidate that is the cheapest of all candidates with one of its bodies, for both of them. Returns
- * whether there was any. */
+/* Relaxes the candidates that are cheaper to give up (is_cheaper()) than all other candidates with either of their
+ * bodies. Returns whether any pair was relaxed. */
 static bool relax_cheapest(sunder_i_search *s, const sunder_i_clash *at_home, size_t n, double share)
 {
     const size_t before = s->relaxations.n;
@@ -91,8 +92,8 @@ static void send_all_home(sunder_i_search *s)
     s->program.n = 0;
 }
 
-/* Descends once more from the original places, with the same pairs relaxed. If the result has no clashes and is cheaper
- * it is kept. */
+/* Descends once more from the original places, with the pairs relaxed so far and those that miss only the margin there.
+ * If the result has no clashes and is cheaper than s->t it is kept. */
 static void try_from_home(sunder_i_search *s)
 {
     sunder_i_search_waive_margins(s);
@@ -215,7 +216,8 @@ static void begin_again(sunder_i_search *s, const double *start)
     if (count_clashes(s, start) < count_clashes(s, s->t)) memcpy(s->t, start, 2 * s->n * sizeof *s->t);
 }
 
-/* Relaxes all pairs that clashed at home of bodies whose present violation is at least FIRST_SHARE of the worst one. */
+/* Marks in about[] the bodies of clashes whose violation is at least the share FIRST_SHARE of the worst one, and
+ * relaxes all pairs with such a body that clash in the original places. */
 static void relax_about(sunder_i_search *s, const sunder_i_clash *at_home, size_t n, bool *about)
 {
     double worst = 0;
@@ -229,9 +231,10 @@ static void relax_about(sunder_i_search *s, const sunder_i_clash *at_home, size_
     if (s->relaxations.n > before && !sunder_i_relaxations_index(&s->relaxations, s->model)) s->failed = true;
 }
 
-/* For separate solutions that have run into each other: relaxes the pairs of clashing bodies, then those of bodies that
- * clash after that, and so on. Other pairs keep their distance. Pairs that were relaxed without need are tried again
- * later (retry_cluster.c). Returns whether nothing clashes in the end. */
+/* For separate solutions that have run into each other: relaxes the pairs of clashing bodies and descends from `start`,
+ * then relaxes those of bodies that clash after that, and so on, at most MOST_RINGS times. Other pairs keep their
+ * distance. Pairs that were relaxed without need are tried again later (retry_cluster.c). Returns whether nothing
+ * clashes in the end; if not, s->t is `start`. */
 static bool give_up_about(sunder_i_search *s, const double *start, const sunder_i_clash *at_home, size_t n)
 {
     const size_t size = 2 * s->n * sizeof *s->t;
@@ -251,7 +254,8 @@ static bool give_up_about(sunder_i_search *s, const double *start, const sunder_
     return done && !s->failed;
 }
 
-/* Lets the last clashes yield, and descends. */
+/* Lets the last clashes yield, and descends. done: giving up pairs ended without clashes, so bodies that are almost at
+ * home return there. pushed: the solution was made by pushing, so bodies that moved together get the same move. */
 static void end_free(sunder_i_search *s, const sunder_i_clash *at_home, size_t n, bool done, bool pushed)
 {
     if (!s->failed) sunder_i_search_yield(s, at_home, n, 0);

@@ -24,7 +24,8 @@ static int by_cost(const void *a, const void *b)
 
 static bool has_time(const sunder_i_search *s) { return sunder_i_search_work(s) < s->effort; }
 
-/* The same after bodies i and j alone were moved. In a large cluster only the bodies around them descend. */
+/* As sunder_i_search_attempt(), after only bodies i and j were moved away from `best`. In a large cluster only the
+ * bodies around them descend. Returns whether the result is cheaper. */
 static bool attempt_about(sunder_i_search *s, uint32_t i, uint32_t j, double *best, double *cost)
 {
     if (!s->neighbourhood) return sunder_i_search_attempt(s, best, cost);
@@ -70,7 +71,7 @@ static void note_try(sunder_i_search *s, vain *v, uint32_t i, uint32_t j, uint64
     v->tried[v->n++] = (struct vain_try){i, j, sunder_i_search_work(s) - before};
 }
 
-/* The longest move; *below: the greatest power of two below it. */
+/* The length of the longest move; *below: the greatest power of two that does not exceed it. */
 static double longest_move(const sunder_i_search *s, double *below)
 {
     double longest = 0;
@@ -176,16 +177,17 @@ static rank *rank_contacts(const sunder_i_quadratic *program, size_t *n)
     return order;
 }
 
-/* Is a descent from here useless? The two bodies are at the p-th of their positions. The present layout costs less than
- * the best solution and clashes; if it starts too cheap, it ends too expensive. If many bodies move, the clash is a
- * small part of the cost. With proofs all positions are tried. */
+/* Is a descent from s->t useless? Two bodies were moved to the p-th of their other positions there. If s->t costs less
+ * than the best solution, which costs `cost`, it clashes, and usually ends more expensive. If many bodies move, the
+ * clash is a small part of the cost, and the answer is no. With proofs all positions are tried. */
 static bool is_too_cheap(const sunder_i_search *s, size_t p, double cost)
 {
     if (sunder_i_search_movers(s) > MOST_FORESEEN || s->model->rules.effort > 0) return false;
     return sunder_i_search_cost(s, s->t) < (p == 0 ? 1 : CHEAP_OTHER) * cost;
 }
 
-/* Tries bodies i and j on the other sides of each other, until one is cheaper. */
+/* Tries bodies i and j on the other sides of each other, until one leads to a cheaper layout. Returns whether one did.
+ * */
 static bool try_sides_of(sunder_i_search *s, uint32_t i, uint32_t j, double *best, double *cost)
 {
     const double home[2] = {0, 0}, u[2] = {s->t[2 * j] - s->t[2 * i], s->t[2 * j + 1] - s->t[2 * i + 1]};

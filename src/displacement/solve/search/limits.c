@@ -9,8 +9,8 @@
 #include <math.h>
 #include <string.h>
 
-/* A move that exceeds its limit by at most this counts as within it. It is at most half the tolerance; or, for small
- * coordinates, a share of the limit that covers the error of programs and the room of an exact fit. Rounding to the
+/* A move that exceeds its limit by at most this counts as within it: half the tolerance, or, if that is greater, a
+ * share of the limit (LIMIT_SLACK) that covers the error of programs and the room of an exact fit. Rounding to the
  * limit repairs it later. */
 static double slack_of_limit(const sunder_i_search *s, double limit)
 {
@@ -64,8 +64,8 @@ static void add_tangent(sunder_i_search *s, size_t before, uint32_t k, const dou
                                .key = UINT64_C(1) << 63 | (uint64_t)k << 32 | s->tangents++});
 }
 
-/* push: where body k would go by the forces of all constraints but its limit, if no other body moved. Returns whether
- * its limit is active. */
+/* Stores in push[2] the move that the forces of all constraints but its limit would give body k, if no other body
+ * moved. `before`: as in add_tangent(). Returns whether the limit is active. */
 static bool push_on(const sunder_i_search *s, size_t before, uint32_t k, double push[2])
 {
     size_t first;
@@ -81,9 +81,9 @@ static bool push_on(const sunder_i_search *s, size_t before, uint32_t k, double 
 }
 
 /* Adds tangents of the limit circle for bodies whose move s->next exceeds their limit. One is in the direction of the
- * move, which converges fast if neighbours determine the move; one is in the direction in which constraints push the
- * body, which converges fast if nothing else holds it. With only one of the two, each tangent would halve the error in
- * the other case. Returns whether any was added. */
+ * move, which converges fast if neighbours determine the move. If a tangent of the body is active already, another one
+ * is in the direction in which the other constraints push the body, which converges fast if nothing else holds it. With
+ * only one of the two, each tangent would halve the error in the other case. Returns whether any was added. */
 bool sunder_i_search_constrain_limits(sunder_i_search *search)
 {
     const size_t before = search->program.n;

@@ -30,7 +30,7 @@ static bool is_lone_pair(const sunder_i_search *s, const sunder_i_cluster *clust
            !sunder_i_search_is_relaxed(s, s->body[0], s->body[1], &reach);
 }
 
-/* The sum of the two limits; a longer separation is not needed. */
+/* The sum of the limits of the two movable bodies, rounded up: a longer separation is of no use. */
 static double farthest_apart(const sunder_i_search *s)
 {
     double sum = 0;
@@ -67,8 +67,8 @@ static sunder_status are_apart(const sunder_i_search *s, const sunder_bound_pair
     return sunder_i_apart(p, t, q, t + 2, s->model->rules.gap, apart, err);
 }
 
-/* Rounds the move of body k; false if its coordinates need rounding then. *unit: the larger of the units of the
- * move. */
+/* Rounds the move of body k, unless it is fixed. Returns whether the moved coordinates are doubles without further
+ * rounding. *unit: the larger of the units of the move's two coordinates; 0 for a fixed body. */
 static bool round_one(const sunder_i_search *s, uint32_t k, double t[4], double *unit)
 {
     double to[2];
@@ -79,9 +79,10 @@ static bool round_one(const sunder_i_search *s, uint32_t k, double t[4], double 
     return exact;
 }
 
-/* Divides the relative move `away` between the two, rounded. The move with the coarser unit is rounded first, and the
- * other makes up for it, so their difference is `away` if that is a multiple of the finer unit. Then the latter is
- * longer by one unit along each axis whose bit in `along` is set. False if coordinates need rounding. */
+/* Divides the relative move `away` between the two bodies, in t, rounded. The move with the coarser unit is rounded
+ * first, and the other makes up for it, so that their difference is `away` if that is a multiple of the finer unit. The
+ * move with the finer unit is made longer by one unit along each axis whose bit in `along` is set. False if moved
+ * coordinates would need rounding. */
 static bool share_rounded(const sunder_i_search *s, const double away[2], unsigned along, double t[4])
 {
     const double share = s->mass[1] / (s->mass[0] + s->mass[1]);
@@ -100,8 +101,9 @@ static bool share_rounded(const sunder_i_search *s, const double away[2], unsign
     return round_one(s, last, t, &unit[last]);
 }
 
-/* Divides the least translation itself, without a margin, if moved coordinates are doubles and the exact test succeeds:
- * for the nearest rounded moves, or those one unit farther along either axis. *done: the search stands there. */
+/* Divides the least translation `away` between the two bodies, without a margin, if moved coordinates are doubles and
+ * the exact test succeeds: for the nearest rounded moves, or for moves one unit longer along one axis or both. *done if
+ * that succeeds; s->t has these moves then. */
 static sunder_status stand_in_contact(sunder_i_search *s, const sunder_bound_pair *pair, const double away[2],
                                       bool *done, sunder_error *err)
 {

@@ -56,7 +56,8 @@ static bool has_pinned_body(const sunder_i_search *s)
     return false;
 }
 
-/* Settles the clashes; a very large crowd yields if that fails. On failure all bodies return. */
+/* Settles each of the n clashes; a very large crowd yields if that fails. If neither is done all bodies return. Returns
+ * whether one was done. */
 static bool mend_clashes(sunder_i_search *s, const sunder_i_clash *clash, size_t n)
 {
     const size_t size = 2 * s->n * sizeof *s->t;

@@ -140,8 +140,8 @@ static void end_search(sunder_i_neighbourhood *v, sunder_i_search *inner)
     for (size_t k = 0; k < v->n; k++) v->moves[v->place[k]] = false;
 }
 
-/* Did the two make the same move, so that their relative position did not change? stood: [2 n] former moves of all;
- * NULL: not known. */
+/* Did bodies i and j make the same move, so that their relative position did not change? stood: [2 n] the moves of all
+ * bodies before; NULL: not known, and the answer is no. */
 static bool went_together(const sunder_i_neighbourhood *v, uint32_t i, uint32_t j, const double *stood)
 {
     const sunder_i_search *s = v->all;
@@ -153,7 +153,8 @@ static bool went_together(const sunder_i_neighbourhood *v, uint32_t i, uint32_t 
     return true;
 }
 
-/* Do the moved bodies clash with no body of the whole search? */
+/* Do the moved bodies clash with no body of the whole search? stood: as in went_together(); pairs that moved together
+ * are not tested. */
 static bool is_free(sunder_i_neighbourhood *v, const double *stood)
 {
     sunder_i_search *s = v->all;
@@ -184,7 +185,8 @@ static void put_bodies(sunder_i_neighbourhood *v, const double *t)
     }
 }
 
-/* Collects the bodies around the pair, and begins their search. If it fails it has ended. */
+/* Collects the bodies around bodies i and j, and begins the inner search among them. If it returns false, memory is out
+ * and the inner search has ended already. */
 static bool open_search(sunder_i_neighbourhood *v, uint32_t i, uint32_t j, size_t most, double reach,
                         sunder_i_search *inner)
 {
@@ -195,8 +197,8 @@ static bool open_search(sunder_i_neighbourhood *v, uint32_t i, uint32_t j, size_
     return false;
 }
 
-/* Ends the inner search. If it was successful (done), its bodies take the new moves, unless they clash with bodies
- * outside. */
+/* Ends the inner search. If it found a layout (`done`), its bodies take their new moves, unless they clash with bodies
+ * outside it. Returns whether the bodies have the new moves. */
 static bool end_where_it_went(sunder_i_neighbourhood *v, sunder_i_search *inner, bool done)
 {
     if (done && !inner->failed) {

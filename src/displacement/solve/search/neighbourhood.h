@@ -10,21 +10,23 @@ typedef struct sunder_i_neighbourhood {
     uint32_t *place;     /* [n] the bodies of the neighbourhood, as indices in `all`; `moving` of them may move */
     size_t n, moving;
     bool *moves; /* [all->n] does the body move? */
-    bool wider;  /* further bodies could have been added */
+    bool wider;  /* movable bodies nearby were left out, since the greatest number was reached */
     uint32_t *body;
     double *t; /* [2 n] their moves before */
     sunder_i_list near;
 } sunder_i_neighbourhood;
 
-/* For a search without clashes. False if memory is out; the caller frees it in any case. */
+/* Prepares neighbourhoods in the search `all`, which has no clashes. False if memory is out; the caller calls
+ * sunder_i_neighbourhood_free() in any case. */
 bool sunder_i_neighbourhood_init(sunder_i_neighbourhood *neighbourhood, sunder_i_search *all);
 void sunder_i_neighbourhood_free(sunder_i_neighbourhood *neighbourhood);
-/* Looks for a layout without clashes in which only bodies i and j and those around them move, at most `most` bodies. If
- * there is one, the bodies are moved there. Bodies farther than `reach` from a moving one are ignored, even as
- * obstacles. */
+/* Looks for a layout without clashes in which only bodies i and j and bodies around them move, at most `most` bodies.
+ * The search ignores bodies farther than `reach` from a moving one; a result that clashes with one of these is
+ * rejected. Returns whether there is such a layout; the bodies are moved there then. */
 bool sunder_i_neighbourhood_settle(sunder_i_neighbourhood *neighbourhood, uint32_t i, uint32_t j, size_t most,
                                    double reach);
-/* The same for a layout that violates its constraints by rounding only; the nearest solution is looked for. */
+/* As sunder_i_neighbourhood_settle(), for a layout that violates its constraints by no more than rounding causes: looks
+ * for the nearest layout without violations, not for a cheaper one. */
 bool sunder_i_neighbourhood_repair(sunder_i_neighbourhood *neighbourhood, uint32_t i, uint32_t j, size_t most,
                                    double reach);
 /* Bodies i and j were moved away from the solution `best`: descends with them and the bodies around them, while all
@@ -32,11 +34,12 @@ bool sunder_i_neighbourhood_repair(sunder_i_neighbourhood *neighbourhood, uint32
  * returned. Otherwise all bodies return to `best`, and 0 is returned. */
 double sunder_i_neighbourhood_descend(sunder_i_neighbourhood *neighbourhood, uint32_t i, uint32_t j, size_t most,
                                       double reach, const double *best, double least);
-/* Moves the n bodies of `place` to the moves `to`, unless another body is in the way; returns whether they were moved.
- * The neighbourhood is empty after that. */
+/* The caller has stored n bodies in neighbourhood->place: gives them the moves to[2 n], unless one of them would clash
+ * with another body; then no body moves. Returns whether they were moved. Pairs whose two bodies moved together are not
+ * tested. */
 bool sunder_i_neighbourhood_put(sunder_i_neighbourhood *neighbourhood, const double *to);
-/* Stores in `near`, ascending, the bodies whose boxes come within `reach` of the box of body i, i itself included.
- * Returns false if memory is out. */
+/* Stores in neighbourhood->near, ascending, the bodies whose boxes come within `reach` of the box of body i, i itself
+ * included. Returns false if memory is out. */
 bool sunder_i_neighbourhood_look_about(sunder_i_neighbourhood *neighbourhood, uint32_t i, double reach);
 
 #endif

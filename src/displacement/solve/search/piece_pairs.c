@@ -1,5 +1,5 @@
-/* What two bodies of a cluster owe each other, piece by piece: the gap, or what they are held to where they are left in
- * conflict; and the edges of one that keep the other inside. */
+/* The distances that two bodies of a cluster have to keep, one for each pair of pieces: the gap, or what a relaxation
+ * demands where the pair is left in conflict; and the walls of one body that keep the other inside. */
 #include "displacement/solve/search/cluster_search.h"
 #include "displacement/solve/search/tuning.h"
 
@@ -105,7 +105,7 @@ static inline void visit_piece(const visiting *to, uint32_t k, const double box[
     to->call(to->s, pair, to->context);
 }
 
-/* The box of a piece of `from` relative to the other body, grown by `reach`. */
+/* The box of piece a relative to the other body, whose relative position is v, grown by `reach`. */
 static inline void box_seen(const sunder_i_body_piece *a, const double v[2], double reach, double box[4])
 {
     for (int c = 0; c < 4; c++) box[c] = a->box[c] - v[c & 1] + (c < 2 ? -reach : reach);
@@ -137,8 +137,9 @@ static inline uint32_t find_facing(const visiting *to, const double box[4], uint
     return n;
 }
 
-/* The box of the other body relative to `from`, grown by `reach` and more than the rounding error. A piece whose box
- * does not meet it cannot meet the other body's box in the other frame. */
+/* The box of the other body at its relative position v, grown by `reach` and by more than the rounding error. A piece
+ * whose box does not meet it is not visited: the box of that piece relative to the other body (box_seen()) cannot meet
+ * the other body's box either. */
 static inline void box_of_other(const sunder_i_body *other, const double v[2], double reach, double box[4])
 {
     double most = sunder_i_max(fabs(v[0]), fabs(v[1])) + fabs(reach);
@@ -179,7 +180,7 @@ static inline uint32_t visit_some(const visiting *to, uint32_t begin, const doub
     return k;
 }
 
-/* The same for two bodies of few pieces: tests all pairs. */
+/* Visits the pairs of pieces whose boxes are within `reach`, for two bodies of few pieces: tests all pairs. */
 static inline void visit_each(const visiting *to, const double v[2], double reach)
 {
     sunder_i_search *s = to->s;

@@ -2,11 +2,11 @@
  *
  * In a compromise of thousands of bodies that owe each other more than the limits allow, every body is at its limit,
  * pushed into others: it does not show what to give up, and each descent that finds this out costs more than all else.
- * So if nothing has moved yet, all pairs are given up first, with all bodies in their original places, and pushing
- * (pushed.c) takes back what there is room for, the smallest violations first, at very little cost. Pushing only goes
- * straight on, and leaves more pairs than necessary; so its result is accepted only if it leaves so many that the crowd
- * is of that kind. Between such rounds all bodies descend to their least cost, which spreads the remaining slack of the
- * limits. */
+ * So if nothing has moved yet, all clashing pairs are given up first, with all bodies in their original places. Pushing
+ * (pushed.c) takes back those for which there is room, the smallest violations first, at very little cost. Pushing only
+ * goes straight on, and leaves more pairs than necessary; so its result is accepted only if it leaves more than a given
+ * share of the pairs, which shows that the crowd is of that kind. Between such rounds all bodies descend to their least
+ * cost, which spreads the remaining slack of the limits. */
 #include "displacement/solve/search/search_stages.h"
 #include "displacement/solve/search/tuning.h"
 

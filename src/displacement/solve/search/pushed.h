@@ -56,22 +56,25 @@ typedef struct sunder_i_pushed {
     sunder_i_push_survey survey[PUSHED_DIRECTIONS];
 } sunder_i_pushed;
 
-/* For a search without clashes, in which no pair misses its full distance by more than `reach`. False if memory is out;
- * the caller frees it in any case. */
+/* Prepares pushing in the search `all`. reach: an upper bound of the violations that are to be resolved; a body is
+ * related to bodies within the gap plus twice `reach`. False if memory is out; the caller calls sunder_i_pushed_free()
+ * in any case. */
 bool sunder_i_pushed_init(sunder_i_pushed *pushed, sunder_i_search *all, double reach);
 void sunder_i_pushed_free(sunder_i_pushed *pushed);
-/* By how much pair (i, j) misses its full distance at present; n: the direction from i to j in which the worst pair of
- * pieces is separated with the least move. */
+/* By how much pair (i, j) misses its full distance at present, relaxed or not; 0 if it keeps it. n: the direction from
+ * i to j in which the worst pair of pieces is separated with the least move. */
 double sunder_i_pushed_missing(sunder_i_pushed *pushed, uint32_t i, uint32_t j, double n[2]);
 /* The demand on pair (i, j) has changed: forgets the lines of its bodies. */
 void sunder_i_pushed_renew(sunder_i_pushed *pushed, uint32_t i, uint32_t j);
 /* Can pair (i, j) be moved apart by `missing` in direction n (from i to j), if bodies in the way are pushed straight on
  * within their limits? */
 bool sunder_i_pushed_reaches(sunder_i_pushed *pushed, uint32_t i, uint32_t j, const double n[2], double missing);
-/* If the last answer was yes: moves the bodies, unless a body that is not pushed is in the way. */
+/* To be called after sunder_i_pushed_reaches() has returned true: moves the two bodies apart by `missing`, and all
+ * bodies that they push. False, with no body moved, if a body would be pushed by both ends, or if a moved body would
+ * clash with another one. */
 bool sunder_i_pushed_part(sunder_i_pushed *pushed, double missing);
-/* The constraints of a body towards all bodies that it might push. They are chosen anew if bodies have moved far
- * since. */
+/* The lines of a body towards all bodies that it might push. They are chosen anew if bodies have moved far since they
+ * were chosen. */
 const sunder_i_push_lines *sunder_i_pushed_lines(sunder_i_pushed *pushed, uint32_t body);
 /* How far the body's limit lets it move in direction `along`. */
 double sunder_i_pushed_room(const sunder_i_pushed *pushed, uint32_t body, const double along[2]);
@@ -80,7 +83,8 @@ double sunder_i_pushed_room(const sunder_i_pushed *pushed, uint32_t body, const 
 
 /* Do remembered paths show, without a search, that pair (i, j) cannot be moved apart by `missing`? */
 bool sunder_i_pushed_is_in_vain(sunder_i_pushed *pushed, uint32_t i, uint32_t j, const double n[2], double missing);
-/* Notes that the question with the present fronts failed. */
+/* To be called after the search with the present fronts failed: adds the bodies that it examined to the count for its
+ * two directions. A direction whose count is large (PUSHED_SURVEY) gets new shortest paths. */
 void sunder_i_pushed_note_in_vain(sunder_i_pushed *pushed);
 
 #endif

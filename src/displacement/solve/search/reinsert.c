@@ -86,7 +86,7 @@ static double boxes_apart(const sunder_i_search *s, uint32_t i, uint32_t j, doub
     return hypot(d[0], d[1]);
 }
 
-/* Stores in r->out the body `first` and the n - 1 bodies that are or were nearest to it. */
+/* Stores in r->out the body `first` and the n - 1 movable bodies that are nearest to it now or were at the start. */
 static void choose_bodies(reordering *r, uint32_t first, size_t n)
 {
     const sunder_i_search *s = r->search;
@@ -117,9 +117,10 @@ static bool is_known(const reordering *r, double cost)
     return false;
 }
 
-/* Is a descent from this start useless? A start that was tried ends in the same layout. A start that clashes, yet costs
- * less than the present layout, is more expensive once nothing clashes: of 630 such starts in a town of 100,000 three
- * led to a gain, and a tiny one. With proofs these starts are tried, too. */
+/* Is a descent from s->t, which costs `start`, useless? A start that was tried before ends in the same layout; others
+ * are noted as tried. A start that clashes, yet costs less than the present layout, is more expensive once nothing
+ * clashes: of 630 such starts in a town of 100,000 three led to a gain, and a tiny one. With proofs these starts are
+ * tried, too. */
 static bool is_in_vain(reordering *r, double start)
 {
     sunder_i_search *s = r->search;
@@ -129,7 +130,8 @@ static bool is_in_vain(reordering *r, double start)
 }
 
 /* Takes out the n bodies of r->out, puts them back in this order, and descends. A body without a free place returns to
- * its origin, and all make room for it. Returns 0 if the result is cheaper, otherwise how useless the try was. */
+ * its origin, and all make room for it. Returns 0 if the result is cheaper, which is kept; otherwise the number of
+ * useless orders that this try counts for. */
 static size_t put_back(reordering *r, size_t n)
 {
     sunder_i_search *s = r->search;

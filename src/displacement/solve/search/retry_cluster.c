@@ -81,7 +81,8 @@ static void relax_again(sunder_i_search *s, const sunder_i_retry *x)
     }
 }
 
-/* Changes a relaxation: an overlap has to end, by as much as rounding needs. */
+/* Changes the relaxation of an overlap so that the overlap has to end: the two features have to be apart by the margin.
+ * Other relaxations do not change. */
 static void part_barely(const sunder_i_search *s, sunder_i_relaxation *t)
 {
     if (t->shift[0] == 0 && t->shift[1] == 0) return;
@@ -143,7 +144,8 @@ static bool settle_one(retrying *p, size_t k, size_t level)
     return done;
 }
 
-/* Demands the full distance of a pair (resolve), or the end of its overlap. Returns whether there is a solution. */
+/* Demands the full distance for retry k (`resolve`), or the end of its overlap. If there is no solution at this stage,
+ * the relaxations are valid again. Returns whether there is one. */
 static bool grant_retry(retrying *p, size_t k, size_t level, bool resolve)
 {
     sunder_i_search *s = p->search;
@@ -170,7 +172,8 @@ static const request requests[] = {{true, true, false}, {true, true, true},   {t
                                    {true, false, true}, {false, true, false}, {false, true, true}};
 #define REQUESTS (sizeof requests / sizeof *requests)
 
-/* Was the demand met together with others, or is this request not about it? */
+/* Is retry k left out of request r? It is if it is settled, if r is about another kind of retry, or if the relaxation
+ * of a single retry was ended together with others. */
 static bool is_out(const retrying *p, size_t k, const request *r)
 {
     const sunder_i_retry *x = &p->retry[k];
@@ -198,7 +201,7 @@ static bool is_useless(const retrying *p, const useless *u, size_t level)
     return u->asked >= u->most || sunder_i_search_work(p->search) > u->since + p->in_vain_most;
 }
 
-/* Makes one demand of all pairs that it is about, stage by stage. */
+/* Tries all retries that request r is about (is_out()), at one stage after the other, until the effort ends. */
 static void ask_request(retrying *p, const request *r)
 {
     sunder_i_search *s = p->search;
@@ -223,8 +226,8 @@ static void ask_request(retrying *p, const request *r)
 
 /* ---- Pairs for an overlap ---------------------------------------------------------------------------------------- */
 
-/* Relaxes the pairs that were in conflict at the start and are not now, so that they may return to that, except to an
- * overlap. Their relaxations are stored in `list`. */
+/* Relaxes all pairs that are in conflict in the original places and have no valid relaxation: they may come as near as
+ * there, but not overlap. The new relaxations are stored in `list`. */
 static void sacrifice_pairs(sunder_i_search *s, sunder_i_relaxations *list)
 {
     size_t n = 0, out = 0;
@@ -248,7 +251,8 @@ static void sacrifice_pairs(sunder_i_search *s, sunder_i_relaxations *list)
     list->n = s->failed ? 0 : out;
 }
 
-/* Ends these relaxations again, those with the smallest shortfall first, where there is a solution. */
+/* Ends the relaxations in `list` again, one after the other, those with the smallest shortfall first, unless there is
+ * no layout without it. */
 static void redeem_pairs(retrying *p, sunder_i_relaxations *list)
 {
     sunder_i_search *s = p->search;
@@ -305,9 +309,10 @@ static void trade_pairs(retrying *p)
     }
 }
 
-/* Is the start without clashes? Bodies that joined the cluster may demand a wider margin than the others keep. A
- * violation below half the margin is accepted, since otherwise one pair left so by rounding would keep a crowd of
- * hundreds from being tried. */
+/* Makes sure that the start is without clashes. Bodies that joined the cluster may demand a wider margin than the
+ * others keep. A violation up to half the margin is tolerated from then on, since otherwise one pair left so by
+ * rounding would keep a crowd of hundreds from being tried. If a violation is greater, all bodies descend. Returns
+ * whether that succeeds. */
 static bool is_in_order(sunder_i_search *s)
 {
     const double hair = 2 * s->tolerance, missed = sunder_i_search_find_clashes(s, s->t);

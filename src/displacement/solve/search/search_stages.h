@@ -11,9 +11,11 @@
 size_t sunder_i_search_free_pair(sunder_i_search *search, uint32_t i, uint32_t j, const double target[2], double spread,
                                  size_t most, double (*places)[2]);
 /* Finds the free position of body i that is nearest to its original one, at most `limit` from it, while all other
- * bodies keep their positions. False if there is none. */
+ * bodies keep their positions. Where jumps are forbidden it looks only a few sizes of the body beyond its present move
+ * (FARTHEST_LEAP). False if none was found. */
 bool sunder_i_search_free_body(sunder_i_search *search, uint32_t i, double limit, double place[2]);
-/* The same without a limit. It also searches far away where jumps are forbidden. */
+/* As sunder_i_search_free_body(), without a limit, and far away even where jumps are forbidden. Each position found is
+ * tested for clashes. */
 bool sunder_i_search_free_body_anywhere(sunder_i_search *s, uint32_t i, double place[2]);
 
 /* ---- confined.c: pairs that are shut in -------------------------------------------------------------------------- */
@@ -30,7 +32,8 @@ static inline bool sunder_i_is_tangent(const sunder_i_constraint *c) { return c-
 
 /* Does any body exceed its limit at t? */
 bool sunder_i_search_is_beyond(const sunder_i_search *search, const double *t);
-/* Adds tangents for the limits that search->next exceeds. Returns whether there were any. */
+/* Adds tangents for the limits that search->next exceeds. Returns whether any was added; none is if the program has an
+ * almost equal one. */
 bool sunder_i_search_constrain_limits(sunder_i_search *search);
 
 /* ---- constrain.c: what a program demands ------------------------------------------------------------------------- */
@@ -44,20 +47,21 @@ static inline int sunder_i_by_constraint(const void *a, const void *b)
 /* Adds a constraint to the program, unless one of the constraints from index `first` on implies it. A weaker one is
  * replaced. */
 void sunder_i_search_add_constraint(sunder_i_search *search, size_t first, const sunder_i_constraint *constraint);
-/* Makes the program of all constraints within `reach` of the present moves. A clashing pair is separated by its least
- * translation; if as_it_stands, where it is, since it misses the distance by a hair only. Returns whether a pair
- * clashes at the present moves, or a limit is exceeded. */
+/* Makes the program of all constraints within `reach` of the present moves. The lines of a clashing pair are chosen
+ * where the pair stands after its least translation out of the clash; as_it_stands: where it stands now, since it
+ * misses the distance by a hair only. Returns whether a pair clashes at the present moves, or a limit is exceeded. */
 bool sunder_i_search_constrain(sunder_i_search *search, double reach, bool as_it_stands);
-/* Adds constraints for the limits that search->next exceeds and for the pieces that clash there. Returns whether there
- * were any. */
+/* Adds constraints for the limits that search->next exceeds and for the pieces that clash there and did not clash at
+ * search->t. Returns whether any was added. */
 bool sunder_i_search_constrain_further(sunder_i_search *search);
 
 /* ---- descend.c: down from a position ----------------------------------------------------------------------------- */
 
-/* Solves a sequence of quadratic programs from search->t on. True if it ends without a clash; then search->t is a local
- * optimum. Otherwise search->t is a compromise between contradicting sides. */
+/* Solves a sequence of quadratic programs from search->t on. True if search->t is without clashes then: a local
+ * optimum, unless the patience ended, or search->hope was out of reach. Otherwise search->t is a compromise between
+ * contradicting sides. */
 bool sunder_i_search_descend(sunder_i_search *search);
-/* Descends from a position without clashes, or stays there. */
+/* Descends from search->t, and returns to it if that fails. If search->t clashes, nothing is done. */
 void sunder_i_search_descend_or_stay(sunder_i_search *search);
 /* Descends from search->t; keeps the result if it is free and cheaper than *cost, else returns to best. */
 bool sunder_i_search_attempt(sunder_i_search *search, double *best, double *cost);
@@ -79,17 +83,19 @@ bool sunder_i_search_jump_soon(sunder_i_search *search);
 
 /* ---- spread.c: away from one another ----------------------------------------------------------------------------- */
 
-/* If jumps are forbidden and there are no limits: all bodies move away from a common centre until none clashes, and
- * descend from there. */
+/* If jumps are forbidden and no movable body has a limit: moves all bodies away from a common centre, farther each
+ * time, and descends from there, until a descent ends without clashes; that is returned as true. Otherwise false, and
+ * search->t is the layout with the fewest clashes. */
 bool sunder_i_search_spread(sunder_i_search *search);
 
 /* ---- give_up.c: pairs that no solution was found for ------------------------------------------------------------- */
 
-/* For a search that ended with clashes: relaxes pairs that clashed at the start until nothing clashes, and descends
- * from there. The new relaxations are in search->relaxations. start: [2 n] the moves that the search began with. */
+/* For a search that ended with clashes: relaxes pairs that clash in the original places until nothing clashes, and
+ * descends from there. The new relaxations are in search->relaxations. start: [2 n] the moves that the search began
+ * with. */
 void sunder_i_search_give_up(sunder_i_search *search, const double *start);
-/* The same for a crowd that begins in its original places and has almost no room, before any other search. False if it
- * is no such crowd, as far as is known; then nothing changes. */
+/* As sunder_i_search_give_up(), before any other search, for a large crowd with limits that begins in its original
+ * places and has almost no room. False, with nothing changed, if it is no such crowd, as far as pushing shows. */
 bool sunder_i_search_give_up_at_home(sunder_i_search *search, const double *start);
 /* Relaxes the pairs whose shortfall in the original places is at most the margin. Returns whether there were any. */
 bool sunder_i_search_waive_margins(sunder_i_search *search);
@@ -102,8 +108,8 @@ sunder_i_clash *sunder_i_search_at_home(sunder_i_search *search, size_t *n);
 
 /* ---- yield.c ----------------------------------------------------------------------------------------------------- */
 
-/* Until nothing clashes by more than `hair`: a clashing pair is relaxed if it is one of the n pairs at_home; otherwise
- * its two bodies return to their original places. */
+/* Until nothing clashes by more than `hair`: relaxes a clashing pair that is one of the n pairs at_home and not relaxed
+ * yet; the bodies of any other clashing pair return to their original places. */
 void sunder_i_search_yield(sunder_i_search *search, const sunder_i_clash *at_home, size_t n, double hair);
 /* Moves body i to its original place. Returns whether it stood elsewhere and may move. */
 bool sunder_i_search_send_home(sunder_i_search *search, uint32_t i);
@@ -113,20 +119,20 @@ bool sunder_i_search_send_home(sunder_i_search *search, uint32_t i);
 /* From a layout without clashes: demands the full distance again of each pair that this search relaxed, one after the
  * other. A pair for which there is a solution is no longer relaxed. */
 void sunder_i_search_take_back(sunder_i_search *search);
-/* The same by pushing alone (pushed.c). */
+/* As sunder_i_search_take_back(), by pushing alone (pushed.c). */
 void sunder_i_search_push_back(sunder_i_search *search);
 
 /* ---- common_moves.c ---------------------------------------------------------------------------------------------- */
 
-/* Gives neighbours whose moves differ by less than the tolerance exactly the same move, if nothing is in the way
- * then. */
+/* Gives neighbours whose moves differ by at most the tolerance exactly the same move. If that leaves a clash that
+ * pushing does not resolve, all bodies keep their moves. */
 void sunder_i_search_equalise_moves(sunder_i_search *search);
 
 /* ---- mend_few.c -------------------------------------------------------------------------------------------------- */
 
-/* For a large crowd with few clashes of which a body was sent home (`pinned`): settles each clash together with the
- * bodies around it; a very large crowd yields where that fails. True if nothing clashes then. False if it is no such
- * crowd or settling failed; then nothing changes. */
+/* For a large crowd with few clashes, one of whose bodies was sent home to stay there (`pinned` in the model): settles
+ * each clash together with the bodies around it. A very large crowd yields where that fails. True if nothing clashes
+ * then. False, with nothing changed, if it is no such crowd or settling failed. */
 bool sunder_i_search_mend_few(sunder_i_search *search);
 
 /* ---- push_from_home.c -------------------------------------------------------------------------------------------- */
@@ -153,8 +159,8 @@ void sunder_i_search_hand_over(sunder_i_search *search, sunder_i_cluster *cluste
 
 /* ---- cheapest.c: are there any better sides? --------------------------------------------------------------------- */
 
-/* No proofs follow, so solutions are computed to the last digits here. Proofs do that themselves, from the layout in
- * which the search ends without it. */
+/* Is the layer solved without proofs? Then the search itself asks whether its solution is the cheapest; otherwise the
+ * search for better sides does, after which proofs go on. */
 static inline bool sunder_i_search_runs_without_proofs(const sunder_i_search *s)
 {
     return !(s->model->rules.effort > 0);

@@ -21,7 +21,8 @@
 
 /* ---- Of two bodies ----------------------------------------------------------------------------------------------- */
 
-/* The same for boxes of p and of the other body; swapped: p is the second body. */
+/* As sunder_i_shadow_may_reach(), for the boxes `p` and `other` of two bodies; swapped: `p` belongs to the second body
+ * of the pair. */
 static bool may_reach(const double p[4], const double other[4], const double offset[2], const double path[4],
                       bool swapped)
 {
@@ -87,7 +88,8 @@ static void visit_sides(sunder_i_search *s, const sunder_i_body *p, const sunder
     if (!sunder_i_steps(1 + p->members / 8)) s->failed = true;
 }
 
-/* Has one of the two bodies lines that the other may not cross, within reach of the path? swapped: it is p. */
+/* Has one of the two bodies lines that the other may not cross, within reach of the path? *swapped: p has the lines,
+ * and q the side anchors. */
 static bool may_cross(const sunder_i_model *model, const sunder_i_body *p, const sunder_i_body *q,
                       const double offset[2], const double path[4], bool *swapped)
 {
@@ -96,7 +98,8 @@ static bool may_cross(const sunder_i_model *model, const sunder_i_body *p, const
     return q->has->sides && sunder_i_shadow_may_reach(sunder_i_side_anchors(model, p), q->box, offset, path);
 }
 
-/* Could one of the two jump over the other, and is that forbidden? */
+/* Is it forbidden that one of the two bodies jumps over the other? Parts of barriers have their own rule (may_cross()).
+ * */
 static bool may_jump(const sunder_i_model *model, const sunder_i_body *p, const sunder_i_body *q)
 {
     return !model->rules.jumps && !sunder_i_is_barrier_body(model, p) && !sunder_i_is_barrier_body(model, q);

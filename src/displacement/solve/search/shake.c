@@ -108,7 +108,7 @@ static void release_bodies(shaking *k, size_t n)
     }
 }
 
-/* Takes the group's layout as `best`. False if it clashes by more than rounding can cause. */
+/* Takes the group's layout as `best`, after a descent if it clashes. False if that descent fails, or memory is out. */
 static bool begins_free(shaking *k)
 {
     sunder_i_search *s = &k->search;
@@ -194,7 +194,8 @@ static void shake_within(shaking *k, uint64_t work)
     }
 }
 
-/* Perturbs with patience, until SHAKEN_IN_VAIN descents gained little, or `work` is done. */
+/* Perturbs with patience, until SHAKEN_IN_VAIN descents in a row ended by themselves and gained little, or `work` is
+ * done. */
 static void shake_patiently(shaking *k, uint64_t work)
 {
     sunder_i_search *s = &k->search;

@@ -1,6 +1,6 @@
-/* A cluster from start to rounded moves: the stages in the order of a table. Descend, and where sides contradict each
- * other jump, descend again; pairs that find no solution are given up; then round. Of two features that are alone the
- * exact core knows the answer. */
+/* A cluster from start to rounded moves: the stages in the order of a table. Bodies descend; where sides contradict
+ * each other they jump, and descend again; pairs for which no solution is found are given up; then moves are rounded.
+ * For two features that are alone the exact core computes the answer. */
 #include "displacement/layer/rounding.h"
 #include "displacement/prove/areas/areas.h"
 #include "displacement/solve/search/search_stages.h"
@@ -160,8 +160,8 @@ static sunder_status descend_cluster(solving *x, int jumps, sunder_error *err)
     return SUNDER_OK;
 }
 
-/* Starts again from the beginning. Pairs that were apart there by less than the gap plus the margin are relaxed to that
- * distance. */
+/* Relaxes the pairs whose distance in the original places is less than the gap plus the margin, but not less than the
+ * gap, to that distance. If there are such pairs, starts again from the first moves. */
 static sunder_status waive_margins(solving *x, int jumps, sunder_error *err)
 {
     (void)err;
@@ -172,7 +172,8 @@ static sunder_status waive_margins(solving *x, int jumps, sunder_error *err)
     return SUNDER_OK;
 }
 
-/* The same from the layout without limits, whose sides may do within limits. */
+/* Starts again from the layout that was found without limits (model->lifted), whose sides may also serve within limits.
+ * */
 static sunder_status begin_from_lifted(solving *x, int jumps, sunder_error *err)
 {
     sunder_i_search *s = x->s;

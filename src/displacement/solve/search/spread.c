@@ -30,8 +30,8 @@ static void anchor_of(sunder_i_search *s, uint32_t k, double out[2])
     for (int c = 0; c < 2; c++) out[c] = b->origin[c] - first->origin[c] + (n ? out[c] / n : 0);
 }
 
-/* The centre is a fixed body, if there is one, or the mean of the movable bodies. False if a body has a limit, or none
- * is movable. */
+/* The centre is the first fixed body, if there is one, otherwise the mean of the movable bodies; each stands for the
+ * mean of its anchors. False if a movable body has a limit, or none is movable. */
 static bool find_centre(sunder_i_search *s, double centre[2])
 {
     double sum[2] = {0, 0}, at[2];

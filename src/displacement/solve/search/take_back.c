@@ -62,7 +62,7 @@ static bool is_between(const sunder_i_search *s, const sunder_i_relaxation *t, c
     return (p == w->i && q == w->j) || (p == w->j && q == w->i);
 }
 
-/* Ends the relaxations between the two bodies in this search; and restores them. */
+/* Ends the relaxations between the two bodies of the wish in this search. waive_pair() makes them valid again. */
 static void claim_pair(sunder_i_search *s, const sunder_i_relaxations *all, const wish *w)
 {
     for (size_t k = 0; k < all->n; k++)
@@ -114,7 +114,8 @@ static size_t ask_few(sunder_i_search *s, const sunder_i_relaxations *all, wish 
     return left;
 }
 
-/* The same with all bodies. */
+/* Tries each wish with all bodies, until TAKE_BACK_IN_VAIN fail in a row or the work exceeds TAKE_BACK_MOST. Keeps the
+ * wishes that were not granted at the front of the list and returns their number. stand: [2 n] scratch. */
 static size_t ask_whole(sunder_i_search *s, const sunder_i_relaxations *all, wish *list, size_t n, double *stand)
 {
     const uint64_t end = sunder_i_search_work(s) + TAKE_BACK_MOST;
@@ -172,9 +173,9 @@ static size_t push_each(sunder_i_search *s, sunder_i_pushed *p, const sunder_i_r
     return left;
 }
 
-/* Tries pairs with a small violation first: a row that is opened for one pair may be most of what another needs. If
- * hardly any pair of a level succeeds, all remaining pairs are tried once more, and no more after that. Returns the
- * number of remaining wishes. */
+/* Tries pairs with a small violation first: a row that is opened for one pair may be most of what another needs. Each
+ * level is repeated while enough pairs succeed (LEAST_PUSHED). If hardly any pair of a level succeeds (LEAST_OF_LEVEL),
+ * the next level is the last, and takes all remaining pairs. Returns the number of remaining wishes. */
 static size_t ask_pushed(sunder_i_search *s, const sunder_i_relaxations *all, wish *list, size_t n)
 {
     sunder_i_pushed pushed;

@@ -76,8 +76,8 @@
 /* A crowd with more than LARGE_CROWD_LED movable bodies and without limits looks farther still, to the extent divided
  * by PART_OF_LARGE_CROWD, since each further constraint costs another solution. It descends coarsely first: violations
  * below the share ROUGHLY of a body are ignored, and a round that gains less than the share ROUGHLY_SETTLED is the
- * last. It takes the sides of the next round ahead on its path (lead_on()), except for NOT_LED rounds after a round in
- * which that failed. 4,400 of Italy's places took 43 programs to reach 4.68e11 m2, and 94 in all to 4.61e11; like this
+ * last. It takes the sides of the next round ahead on its path (lead_on()), except for at least NOT_LED rounds after a
+ * round in which that failed. 4,400 of Italy's places took 43 programs to reach 4.68e11 m2, and 94 in all to 4.61e11; like this
  * they take 67 in all to 4.50e11. Within limits 5,041 squares took five times as long, and nearly all of them stayed in
  * place. */
 #define LARGE_CROWD_LED 1000
@@ -95,8 +95,8 @@
 #define SETTLED 1e-3
 #define SETTLED_BETTER 1e-5
 #define SETTLED_BEST 1e-9
-/* A search for better sides ends when all bodies return to within the share BACK of a body's extent from where the
- * search began. */
+/* A descent that tries other sides is given up when all bodies return to within the share BACK of a body's extent from
+ * the best layout. */
 #define BACK 1e-8
 /* Beyond the least translation of a pair at most MOST_LENGTHENED margins are tried, each twice the one before
  * (stand_apart() of lone_pair.c). */

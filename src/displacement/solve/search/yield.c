@@ -1,11 +1,12 @@
-/* Where nothing else leads: what clashes, and clashed at home, is relaxed; what came into a clash besides, and no pair
- * is left to relax for, goes home. With all at home every relaxation holds, so it ends. */
+/* The last resort of a search that ends with clashes. A clashing pair that also clashes in the original places is
+ * relaxed; the bodies of any other clashing pair return to their original places. That is repeated until nothing
+ * clashes. It ends, since with all bodies in their original places every relaxation holds. */
 #include "displacement/solve/search/search_stages.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-/* Relaxes pair (i, j), unless this search has done so already. */
+/* Relaxes pair (i, j), unless this search has done so already. Returns whether relaxations were added. */
 bool sunder_i_search_relax(sunder_i_search *search, uint32_t i, uint32_t j)
 {
     const uint32_t p = search->body[i], q = search->body[j];
@@ -24,7 +25,8 @@ bool sunder_i_search_send_home(sunder_i_search *search, uint32_t i)
     return true;
 }
 
-/* Pairs of bodies that may come near each other, each at its present or its original place, and the same by bodies. */
+/* Pairs of bodies that may come near each other when some return to their original places; and the neighbours of each
+ * body. */
 typedef struct neighbours {
     sunder_i_id_pair *pair;
     size_t pairs, capacity;
@@ -60,7 +62,7 @@ static void find_neighbours(sunder_i_search *s, neighbours *g)
     }
 }
 
-/* Stores in s->clash the clashes of pairs with a changed body. */
+/* Replaces s->clash by the clashes of pairs of which at least one body is marked in changed[n]. */
 static void look_at_changed(sunder_i_search *s, const neighbours *g, const bool *changed)
 {
     s->clashes = 0;
@@ -73,7 +75,9 @@ static void look_at_changed(sunder_i_search *s, const neighbours *g, const bool 
     }
 }
 
-/* One pass over the clashes of more than `hair`. Sets changed[] and returns whether anything changed. */
+/* For each clash in s->clash of more than `hair`: relaxes the pair if it is one of the n pairs at_home and not relaxed
+ * yet; otherwise sends both bodies home. Marks the bodies concerned in changed[], and returns whether there were any.
+ * */
 static bool yield_once(sunder_i_search *s, const sunder_i_clash *at_home, size_t n, double hair, bool *changed)
 {
     bool any = false;
