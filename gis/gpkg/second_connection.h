@@ -19,8 +19,8 @@ typedef enum gis_sqlite_stretch { GIS_SQLITE_ALL, GIS_SQLITE_UP_TO, GIS_SQLITE_B
 /* Appends the condition for these rows to a SELECT of all rows; frees `sql` and returns the result, like
  * gis_sql_append(). */
 char *gis_sql_append_stretch(char *sql, const char *key, gis_sqlite_stretch which, int64_t last);
-/* Sets *middle to the key in the middle between the smallest and the largest, and *span to the difference of these.
- * False: the table has no keys. */
+/* Sets *middle to the number midway between the smallest and the largest key of the table, and *span to the difference
+ * of the two keys. False if the table has no rows, a key is not an integer, or the query fails. */
 bool gis_sqlite_find_middle(void *database, const char *table, const char *key, int64_t *middle, uint64_t *span);
 
 #endif

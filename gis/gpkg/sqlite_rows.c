@@ -55,7 +55,8 @@ static bool insert_rows(const gis_sqlite_rows *rows, void *statement, bool bound
     return (sqlite->reset(statement) == GIS_SQLITE_OK && done) || fail_rows(rows, error);
 }
 
-/* Are these keys exactly those that SQLite would assign by itself, each one greater than the last? */
+/* Would SQLite assign exactly these keys by itself, that is, is each of them the previous key plus 1? False for the
+ * first row, since no previous key is known, and if rows->next is NULL. */
 static bool keys_follow(const gis_sqlite_rows *rows, const int64_t (*row)[2], size_t n)
 {
     int64_t last = rows->last;

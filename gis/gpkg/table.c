@@ -137,8 +137,8 @@ typedef struct halves {
     void *again; /* a second connection, for the second statement; NULL: the table is not divided */
 } halves;
 
-/* Are rows returned in ascending order of keys, by the whole statement and by both halves? Not if it is a view, or if
- * an index covers all columns. */
+/* Are rows returned in ascending order of keys, by the whole statement and by both halves? Not if the layer is a
+ * view, or if an index covers all columns. */
 static bool keys_rise(void *database, OGRLayerH layer, const char *all, const halves *h)
 {
     const char *name = OGR_L_GetName(layer);

@@ -80,7 +80,7 @@ static sunder_status unite_rest(sunder_sum *sum, const operands *o, bool of_p, c
 }
 
 /* Adds several polygons and a single one: those with disjoint sums, or sums in small groups, by sunder_i_members_sum(),
- * the rest by the general method. *done: whether it did. */
+ * the rest by the general method. *done becomes false if no polygon is suited; the sum is then unchanged. */
 static sunder_status sum_members(sunder_sum *sum, const operands *o, bool *done, const sunder_sum_options *options,
                                  sunder_error *err)
 {

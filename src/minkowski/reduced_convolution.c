@@ -142,7 +142,8 @@ static double middle_of(const tracer *t, uint32_t link)
     return (from + (stop < r->stop_end[a] ? r->stop[stop].value : 1)) / 2;
 }
 
-/* Returns whether the current cycle is in O. The links are tested one after the other until the answer is certain. */
+/* Returns whether the current cycle is in O. The links are tested one after the other until the answer is certain;
+ * SUNDER_I_UNCERTAIN if it is for none. */
 static sunder_i_place_in_sum ask_cycle(tracer *t)
 {
     for (uint32_t i = 0; i < t->n; i++) {

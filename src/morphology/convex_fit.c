@@ -183,7 +183,8 @@ static sunder_status unite_bands(fit *f, const side *sides, size_t n, sunder_err
     return status;
 }
 
-/* Tests the vertices of the united bands, which no band covers. */
+/* Sets *fits to whether a vertex of the united bands is in both regions: no band covers a vertex, so that D fits
+ * there. */
 static sunder_status look_at_vertices(fit *f, bool *fits, sunder_error *err)
 {
     sunder_status status = SUNDER_OK;

@@ -204,7 +204,8 @@ static bool is_in_figure(const solid *s, sunder_i_arena *scratch, sunder_i_ratio
 
 /* ---- Bands ---- */
 
-/* Adds band number k: of the sides, then the segments, then the points, each with all pieces. */
+/* Unites band number k with the map: the sum of piece k % pieces of the element and of generator k / pieces of the
+ * figure; the generators are its sides, then its segments, then its points. */
 static sunder_status add_band(stage *g, const uint32_t *next, uint64_t k, sunder_error *err)
 {
     const sunder_i_figure *f = g->figure;

@@ -76,8 +76,8 @@ static bool build_strips(sunder_i_strips *strips, double (*span)[2], size_t n, d
     return sunder_i_strips_build(strips, (const double(*)[2])span, n, n);
 }
 
-/* Returns whether the segment from a to b crosses the ray from a point to the left: +1 upwards, -1 downwards, 0 not at
- * all. The point is not on the segment. */
+/* Returns +1 if the segment from a to b crosses the ray from the point `at` to the left upwards, -1 if it crosses the
+ * ray downwards, 0 if it does not. The point is not on the segment. */
 static int passes_left(sunder_i_figure_convolution *c, const sunder_i_curve_corner *a, const sunder_i_curve_corner *b,
                        const sunder_i_curve_corner *at)
 {
@@ -123,9 +123,9 @@ static const sunder_i_curve_ray *find_ray(const sunder_i_figure_convolution *c, 
     return ray;
 }
 
-/* Returns the change of the winding number on the right side at a corner: if other corners have the same position,
- * their links may pass on the right of the bend. That side follows the ray of an arriving link, and precedes that of a
- * leaving one. */
+/* Returns the change of the winding number on the right side of the curve at a corner: if other corners have the same
+ * position, their links may pass on the right of the bend. The right side of an arriving link is the sector after its
+ * ray, that of a leaving link the sector before its ray. */
 static int32_t number_change(const sunder_i_figure_convolution *c, uint32_t corner)
 {
     if (!c->link[corner].place) return 0;

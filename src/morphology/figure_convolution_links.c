@@ -67,8 +67,9 @@ static void round_corner(const mover *t, sunder_i_rational_point at, double xy[2
     sunder_i_arena_release(s, mark);
 }
 
-/* A corner of the curve is the sum of two of these, each rounded, and the sum is rounded once more: an error of 2^-52
- * of the sum of the two largest. */
+/* Sets t->xy and t->c_xy to the corners of the figure and of C as doubles, and the error of the curve. A corner of the
+ * curve is the sum of one of each, both rounded, and the sum is rounded once more: an error of 2^-52 of the sum of the
+ * two largest coordinates; twice that is used. Returns false if cancelled. */
 static bool round_corners(mover *t)
 {
     for (size_t r = 0; r < t->figure->rings; r++) {
@@ -124,7 +125,7 @@ static uint32_t walk_to(const mover *t, uint32_t j, sunder_i_point d, bool backw
     return j;
 }
 
-/* Returns the last corner that is extreme for d, where those sides of C end that descend across it. */
+/* Returns the last corner of C that is extreme for a side with the direction d, that is, farthest to the right of d. */
 static uint32_t find_corner(const mover *t, sunder_i_point d)
 {
     uint32_t j = 0;

@@ -12,9 +12,9 @@
 #include "outline/coverage.h"
 #include "sum/sum_value.h"
 
-/* Builds the sum from the coverage, whose vertices, which are on `lattice`, become the sum's vertices; `lines` contains
- * the classes of directions. Sets every member of *out except lattice, origin and seconds. Fails with SUNDER_ENOMEM;
- * the caller then frees the sum. */
+/* Sets the vertices, rings, polygons, segments and points of *out from the coverage, whose vertices are on `lattice`
+ * and are moved to the sum. `lines` are the lines of the stretches, `classes` is the number of classes of directions.
+ * Fails with SUNDER_ENOMEM; the caller then frees the sum. */
 sunder_status sunder_i_boundary_build(sunder_i_lattice *lattice, uint32_t classes, const sunder_i_lines *lines,
                                       sunder_i_coverage *coverage, sunder_sum *out, sunder_error *err);
 

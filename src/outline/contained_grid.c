@@ -75,7 +75,8 @@ static bool order_by_extent(grid *g)
     return ok;
 }
 
-/* Chooses squares about as large as half a part, but at most four for each part. */
+/* Chooses the size of the squares: their width is a power of two between a quarter and half of the mean width of a
+ * part, or a greater one if there would be more than MOST_SQUARES squares for each part. */
 static void choose_squares(grid *g)
 {
     const size_t n = g->parts->n;
@@ -94,7 +95,7 @@ static void choose_squares(grid *g)
     }
 }
 
-/* Visits the squares of a part's box: counts it in end[] or, with `fill`, writes it to the list. */
+/* Visits the squares that a part's box meets: counts the part in g->end[] or, with `fill`, writes it to their lists. */
 static void visit_cells(grid *g, uint32_t part, bool fill)
 {
     const box *b = &g->reach[part];
@@ -107,9 +108,8 @@ static void visit_cells(grid *g, uint32_t part, bool fill)
         }
 }
 
-/* Builds the lists of the squares. In most layers a part has one or two entries for each square that it touches; if a
- * few parts are far larger than the others the lists would need too much memory, and are not built. Returns false if
- * out of memory. */
+/* Builds the lists of the squares: a part has an entry in every square that its box meets. If a few parts are far
+ * larger than the others the lists would need too much memory, and are not built. Returns false if out of memory. */
 static bool make_lists(grid *g)
 {
     const uint32_t n = (uint32_t)g->parts->n;

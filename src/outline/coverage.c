@@ -116,7 +116,8 @@ static void cross_chain(finder *f, const polygon *p, const sunder_i_supporting_l
 
 static uint32_t side_before(const polygon *p, uint32_t k) { return k > p->first ? k - 1 : p->first + p->n - 1; }
 
-/* Adds the events of one side on the line, which covers one side of it. */
+/* Adds the events of a side of a part that lies on the line: between the ends of this side the part covers the left
+ * (with `left`) or the right side of the line. */
 static void rest_side(finder *f, const polygon *p, const sunder_i_supporting_line *line, uint32_t side, bool left)
 {
     sunder_i_lattice *l = p->s->lattice;
@@ -285,8 +286,8 @@ static void sweep_line(finder *f, uint32_t number, const uint32_t *part, size_t 
 
 /* ---- Sides that are boundary completely ---- */
 
-/* Returns the vertex at a corner of a part. Between two whole sides nothing else meets the corner, so that the vertex
- * is new. */
+/* Returns the vertex at a corner of a part. between: the sides that arrive at the corner and leave it are both
+ * SUNDER_I_WHOLE, so that no other part meets the corner and the vertex is new. */
 static uint32_t corner_vertex(finder *f, uint32_t corner, bool between)
 {
     const sunder_i_hpoint p = sunder_i_hpoint_of(f->parts->lattice, f->parts->corner[corner]);

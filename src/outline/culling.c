@@ -12,9 +12,10 @@
 /* With coordinates near 2^500 the directions of sides this short are inexact in doubles. */
 #define SHORT_SIDE 0x1p-500
 
-/* Returns whether two half-planes together cover the box. f and g are the cross products of filter_part(), positive
- * inside; if f + r g > 0 in the whole box for some r >= 0, then g > 0 wherever f <= 0. The r is tried for which the
- * slopes cancel if the sides have opposite directions. */
+/* Returns whether the half-planes left of the sides f and g together certainly cover the box. Let f and g also stand
+ * for the cross products of the sides with the vector to a point, positive inside; if f + r g > 0 in the whole box for
+ * some r >= 0, then g > 0 wherever f <= 0. The r is tried for which the slopes cancel if the sides have opposite
+ * directions. */
 static bool both_hold(const builder *b, const approx_side *f, const approx_side *g, const box *c)
 {
     if (f->dx * g->dx + f->dy * g->dy >= 0) return false;
@@ -275,7 +276,8 @@ static void filter_part(builder *b, half h[2], const run *runs, const entry *sou
     if (!miss1) filter_one(b, &h[1], runs, source, i, n1, more1, hx, hy);
 }
 
-/* Chooses the longer axis for a cell with many sides that divides well, without examining its candidates. */
+/* Chooses the longer axis for a cell with many sides that divides well, without examining its candidates. Returns the
+ * number of sides, an upper bound of the number of lines of candidates. */
 static size_t choose_longer_axis(cell *c, const half *h)
 {
     c->axis = h->b.high[1] - h->b.low[1] > h->b.high[0] - h->b.low[0];
@@ -295,7 +297,8 @@ static bool choose_axis(const builder *b, cell *c)
 /* Returns the number of pairs of a side and a part other than its own. */
 static double pairs_of(size_t sides, size_t entries) { return entries > 1 ? (double)sides * (double)(entries - 1) : 0; }
 
-/* Returns the factor by which the pairs of all halves have increased since they were fewest. */
+/* Returns the factor, at least 1, by which the pairs have increased from the ancestor with the fewest pairs to the two
+ * halves of the cell. */
 static double growth_of(const cell *c, const half h[2])
 {
     const double before = pairs_of(c->sides, c->entry_to - c->entry_from);

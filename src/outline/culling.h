@@ -32,7 +32,8 @@ typedef struct sunder_i_culled {
 /* The result for a candidate. No other part meets a WHOLE one, not even at its ends: it is boundary completely. */
 enum { SUNDER_I_COVERED = 0, SUNDER_I_OPEN = 1, SUNDER_I_WHOLE = 2 };
 
-/* Fails with SUNDER_ENOMEM, or SUNDER_ECANCEL. */
+/* Finds the fate of every candidate of the parts, and the pairs of lines and parts that decide the open ones. Fails
+ * with SUNDER_ENOMEM, or SUNDER_ECANCEL. */
 sunder_status sunder_i_cull(const sunder_i_convex_pieces *parts, const sunder_i_lines *lines,
                             const sunder_sum_options *options, sunder_i_culled *out, sunder_error *err);
 void sunder_i_culled_free(sunder_i_culled *culled);

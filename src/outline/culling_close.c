@@ -115,8 +115,9 @@ void sunder_i_cells_open_leaf(builder *b, const cell *c)
     }
 }
 
-/* Ends a trial that has cost too much. It may cost half of what it can save, and must leave at most half of the pairs.
- * Marks that it set on candidates are kept: they only make more candidates open. */
+/* A trial is ended if the number of sides that it processed, plus PAIR_COST for each pair that it pushed, exceeds half
+ * of PAIR_COST for each of the cell's own pairs; the cell then becomes a leaf, as if it had not been divided. Marks
+ * that it set on candidates are kept: they only make more candidates open. */
 void sunder_i_cells_end_trial(builder *b)
 {
     trial *t = &b->trial;

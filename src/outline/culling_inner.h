@@ -42,8 +42,8 @@ typedef struct cell {
 } cell;
 
 /* A cell that is divided although its pairs increase: nested features, or many that overlap deeply, separate only in
- * cells as small as their distances, and may multiply before. If the trial costs more than the cell's own pairs,
- * everything is restored as if the cell had not been divided. */
+ * cells as small as their distances, and may multiply before. If the trial costs more than half of what
+ * the cell's own pairs cost, everything is restored as if the cell had not been divided. */
 typedef struct trial {
     bool on;
     cell of;
@@ -165,7 +165,7 @@ void sunder_i_cells_close(builder *b, const cell *parent, const box *c, uint32_t
 void sunder_i_cells_lone_leaf(builder *b, const cell *c);
 /* Records a leaf that several parts meet; its candidates have been gathered. */
 void sunder_i_cells_open_leaf(builder *b, const cell *c);
-/* Ends the trial if it has cost too much, and restores its cell. */
+/* If the trial costs more than half of what its cell's own pairs cost, ends it and makes the cell a leaf. */
 void sunder_i_cells_end_trial(builder *b);
 /* The last step: converts marks to results. Returns false if out of memory. */
 bool sunder_i_cells_fates(builder *b);

@@ -34,7 +34,7 @@
  * it to the box of its candidates would require looking at each of them. */
 #define MANY_SIDES 250
 /* Candidates count as equally long along both axes, in proportion to the cell, if the ratio of their extents is at most
- * AXES_EVEN (choose_axis()). */
+ * AXES_EVEN (shrink_cell()). */
 #define AXES_EVEN 1.3
 /* find_two() tries all pairs among the first SINGLES parts with a single side in the cell; cells with more such parts
  * are rare. */

@@ -248,7 +248,7 @@ void sunder_i_edge_merge(sunder_i_planar_map *map, uint32_t v);       /* v is me
 /* Returns the vertex at a site (with numbers in map->arena), which is made if there is none. NOWHERE if out of
  * memory. */
 uint32_t sunder_i_map_vertex_at(sunder_i_planar_map *map, const sunder_i_site *site);
-/* The same, if the history leads to trapezoid t. */
+/* Does the same as sunder_i_map_vertex_at() for a site that sunder_i_history_find() finds in trapezoid t. */
 uint32_t sunder_i_map_vertex_in(sunder_i_planar_map *map, uint32_t t, const sunder_i_site *site);
 /* Follows the segment from a point inside trapezoid *t, or at its left wall, to a site farther right, without drawing
  * it. For each trapezoid entered, twice its number is appended to the list, plus 1 if it is entered below the wall's

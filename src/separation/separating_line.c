@@ -52,9 +52,10 @@ static double distance_beyond(const corners *p, const corners *q, const double n
 }
 
 /* Tests the edges of shape s as normals of separating lines; `way`, the difference of the centres, determines their
- * direction. A product of n with a vertex has an error of |n| (the sum of its absolute coordinates) times the vertex's
- * error, plus 2^-51 of its size, so that the difference of two has twice 2^-50 of that, and its own rounding is less
- * than that once more. The length of n and the required distance have relative errors of 2^-50. */
+ * direction. Let E be `size` times the sum of the absolute coordinates of n. A product of n with a vertex has an error
+ * of 2^-51 E from the vertex and 2^-51 E from rounding; the difference of two products has twice that, 2^-49 E, plus
+ * its own rounding, which is less: below 2^-48 E in all. The length of n and the required distance have relative errors
+ * of 2^-50. */
 static bool parts_along(const sunder_shape *s, const corners *at, const corners *p, const corners *q,
                         const double way[2], double far, double size)
 {

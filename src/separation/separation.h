@@ -19,9 +19,10 @@ sunder_status sunder_i_apart(const sunder_shape *p, const double tp[2], const su
 /* Returns whether the distance certainly exceeds `far`; false: unknown. In doubles, with all their errors. */
 bool sunder_i_surely_apart(const sunder_shape *p, const double tp[2], const sunder_shape *q, const double tq[2],
                            double far);
-/* Tests both at once, and whether the sets touch: whether their distance, as the nearest double, is at most the
- * tolerance. What doubles cannot decide about this stays open (may_touch without touch), except for the tolerance 0,
- * which is exact. If the interiors meet the other members are not set. */
+/* Tests `overlap` (sunder_i_overlap()) and `apart` (sunder_i_apart()) at once, and whether the sets touch: whether
+ * their distance, as the nearest double, is at most the tolerance. What doubles cannot decide about this stays open
+ * (may_touch without touch), except for the tolerance 0, which is exact. If the interiors meet the other members are
+ * not set. */
 typedef struct sunder_i_encounter {
     bool overlap, apart, touch, may_touch;
 } sunder_i_encounter;
@@ -51,8 +52,9 @@ sunder_status sunder_i_distance(const sunder_shape *p, const double tp[2], const
  * `upper` (INFINITY: no limit), *beyond is set and out->lower_bound = upper. */
 sunder_status sunder_i_separate(const sunder_shape *p, const double tp[2], const sunder_shape *q, const double tq[2],
                                 double gap, double upper, sunder_separation *out, bool *beyond, sunder_error *err);
-/* Computes only the lower bound of that answer, for shapes without translation, and approximately the translation (not
- * if *beyond). With a gap this takes less time than finding a free translation. */
+/* Computes only the lower bound of the answer of sunder_i_separate(), for shapes without translation, and approximately
+ * the translation, which is not set if *beyond becomes true. With a gap this takes less time than finding a free
+ * translation. */
 sunder_status sunder_i_least_bound(const sunder_shape *p, const sunder_shape *q, double gap, double upper,
                                    double *lower_bound, double about[2], bool *beyond, sunder_error *err);
 

@@ -161,7 +161,8 @@ static bool add_world(gis_part *p, size_t number, belongings *all, gis_error *er
     return true;
 }
 
-/* Adds conflicts inside blocks that are in no world. */
+/* Adds the conflicts inside blocks that are in no world, if their first feature is requested, each as a loose
+ * world. */
 static bool add_loose(gis_part *p, const belongings *all, gis_error *error)
 {
     size_t n;

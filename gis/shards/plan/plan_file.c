@@ -190,8 +190,8 @@ static bool read_bytes(const char *directory, char *bytes, size_t n, gis_plan *p
     return true;
 }
 
-/* Fails if another user could have written the plan. A plan is a call of `separate` and names files that are read and
- * written, so it is not taken from a directory that other users may write to or own. */
+/* Fails if the directory belongs to a user other than this one or root, or if all users may write into it. A plan is a
+ * call of `separate` and names files that are read and written, so a plan that anybody may have written is not used. */
 static bool may_be_believed(const char *directory, gis_error *error)
 {
     struct stat status;

@@ -129,7 +129,7 @@ static bool same_polygons(const gis_polygons *a, const gis_polygons *b, bool *sa
 
 /* ---- How far off ------------------------------------------------------------------------------------------------- */
 
-/* The largest distance from a vertex of `a` to its nearest vertex of `b`. Quadratic time; called only if the two
+/* The largest distance from a vertex of `a` to its nearest vertex of `b`. Quadratic time; called only if a and b
  * differ. */
 static double vertex_distance(const gis_polygons *a, const gis_polygons *b)
 {

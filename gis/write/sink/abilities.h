@@ -18,7 +18,7 @@ enum {
     GIS_REPROJECTS = 1 << 5,           /* reprojects coordinates to WGS 84 */
     GIS_NEEDS_WGS84 = 1 << 6,          /* refuses any CRS but WGS 84 */
     GIS_ONE_LAYER = 1 << 7,            /* a file holds one layer; further layers go to files of their own */
-    GIS_TAKES_DIRECTORY = 1 << 8,      /* ... or OUTPUT may be a directory with a file for each layer */
+    GIS_TAKES_DIRECTORY = 1 << 8,      /* OUTPUT may be a directory with a file for each layer */
     GIS_HAS_NO_NULL = 1 << 9,          /* null reads back as 0 or as an empty text */
     GIS_NEEDS_TYPE = 1 << 10,          /* a layer has one geometry type, and wkbUnknown is refused */
     GIS_NEEDS_GEOMETRY = 1 << 11,      /* drops features whose geometry is null or empty */

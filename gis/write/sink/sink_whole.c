@@ -80,8 +80,8 @@ bool gis_sink_note_whole(gis_sink_layer *layer, void *database, gis_error *error
                             layer->sink->request.path, layer->name);
 }
 
-/* Does the stored bound `told` reach `side`? direction = 1: an upper bound; -1: a lower bound. The tolerance allows for
- * GDAL's printing with fifteen digits. */
+/* Does the stored bound `told` reach `side`, one of the four sides of the layer's extent? way = 1: an upper bound; -1:
+ * a lower bound. The tolerance allows for GDAL's printing with fifteen digits. */
 static bool extent_reaches(double told, double side, int way)
 {
     return way * (side - told) <= 1e-14 * fabs(side) + DBL_MIN;

@@ -15,8 +15,11 @@ typedef struct sunder_i_least_options {
     bool force_wide, force_squares; /* for tests */
 } sunder_i_least_options;
 
-/* The answer if nothing has to move; and the answer if the least translation is longer than `upper`. */
+/* Completes a zeroed *out for operands that need not move: the zero translation and, if `texts` is true, its texts.
+ * Fails with SUNDER_ENOMEM. */
 sunder_status sunder_i_stay(bool texts, sunder_separation *out, sunder_error *err);
+/* Completes a zeroed *out for a least translation that is longer than `upper`: lower_bound becomes `upper`, no
+ * translation is given, and *beyond becomes true. */
 void sunder_i_too_far(double upper, sunder_separation *out, bool *beyond);
 
 /* The vector (x / w, y / w) in lattice units, w > 0: 128-bit integers if `small` (|x|, |y|, w < 2^63), else the big

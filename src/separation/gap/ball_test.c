@@ -32,8 +32,9 @@ static sunder_i_ball ball_cross(rough_vector u, rough_vector v)
 
 static int ball_cmp(sunder_i_ball a, sunder_i_ball b) { return sunder_i_ball_sign(sunder_i_ball_sub(a, b)); }
 
-/* Compares the distance of a point from a side d with the gap; v is the vector from the first vertex of the side to the
- * point. Returns false if the bits do not decide. */
+/* Compares the distance of a point from a side with the gap; d is the vector of the side, and v the vector from its
+ * first vertex to the point. *order, *inward and *flat become the results of sunder_i_gap_cmp_side(). Returns false if
+ * the bits do not decide. */
 static bool decide_side(const sunder_i_gap_problem *p, rough_vector v, rough_vector d, int *order, bool *inward,
                         bool *flat)
 {

@@ -95,8 +95,8 @@ bool sunder_i_gap_crossing(const sunder_i_gap_problem *problem, const sunder_i_g
  * irrational. */
 bool sunder_i_gap_along(const sunder_i_gap_problem *problem, const sunder_i_gap_curve *side, sunder_i_big along,
                         unsigned long bits, sunder_i_surd_point *out);
-/* *along becomes 2^bits times the position of a point on that line, measured from the foot, with an error of at most 4.
- * Returns false if the length is irrational. */
+/* *along becomes 2^bits times the position of the point `at` along the offset line of `side`, as for
+ * sunder_i_gap_along(), with an error of at most 4. Returns false if the length of the side is irrational. */
 bool sunder_i_gap_position(const sunder_i_gap_problem *problem, const sunder_i_gap_curve *side,
                            const sunder_i_surd_point *at, unsigned long bits, sunder_i_big *along);
 /* Compares the distance of the point from side k of the subsum, without its second end, with the gap: -1 below, 0
@@ -104,11 +104,13 @@ bool sunder_i_gap_position(const sunder_i_gap_problem *problem, const sunder_i_g
  * inner point of the side is nearest, not its first vertex. Exact. */
 int sunder_i_gap_cmp_side(const sunder_i_gap_problem *problem, const sunder_i_subsum *subsum, uint32_t k,
                           const sunder_i_surd_point *at, bool *inward, bool *flat);
-/* Does the same in interval arithmetic with the highest bits. Returns false if they do not decide, also if two of the
- * compared numbers are equal (ball_test.c). */
+/* Sets *order, *inward and *flat to the results of sunder_i_gap_cmp_side(), from the highest bits of all numbers, in
+ * interval arithmetic (ball_test.c). Returns false if these do not decide, and always if two of the compared numbers
+ * are equal. */
 bool sunder_i_gap_roughly_side(const sunder_i_gap_problem *problem, const sunder_i_subsum *subsum, uint32_t k,
                                const sunder_i_surd_point *at, int *order, bool *inward, bool *flat);
-/* Does the same for the whole closed subsum; *k becomes the nearest side unless the result is 1. */
+/* Compares the distance of the point from the whole closed subsum with the gap: -1 below, 0 equal, 1 above. Exact.
+ * Unless the result is 1, *k becomes the nearest side, and *flat is as for sunder_i_gap_cmp_side(). */
 int sunder_i_gap_cmp(const sunder_i_gap_problem *problem, const sunder_i_subsum *subsum, const sunder_i_surd_point *at,
                      uint32_t *k, bool *flat);
 
@@ -128,8 +130,9 @@ int sunder_i_surd_point_cmp(sunder_i_operands *operands, const sunder_i_surd_poi
 /* Sets xy to the point's coordinates, in lattice units, times 2^bits, with an error of at most 3. */
 void sunder_i_surd_point_scaled(sunder_i_operands *operands, const sunder_i_surd_point *at, unsigned long bits,
                                 sunder_i_big xy[2]);
-/* Does the same with so many bits that one coordinate has at least 72 significant bits, and returns that number of
- * bits. The point is not the origin; `about` is an estimate of its distance from there, in units. */
+/* Does the same as sunder_i_surd_point_scaled(), and returns the number of bits by which it scaled: with them one
+ * coordinate has at least 72 significant bits. The point is not the origin; `about` is an estimate of its distance from
+ * there, in units. */
 unsigned long sunder_i_surd_point_digits(sunder_i_operands *operands, const sunder_i_surd_point *at, double about,
                                          sunder_i_big xy[2]);
 /* Returns the distance from the origin, in units and rounded down, of a point that sunder_i_surd_point_scaled()

@@ -98,7 +98,7 @@ void sunder_i_gap_doubles(sunder_i_gap_state *s, const sunder_i_surd_point *exac
 /* Returns the numbers of the *n subsums to be tested for a point (gap.h); NULL: all, beginning with s->hint. */
 const uint32_t *sunder_i_gap_near(const sunder_i_gap_state *s, double x, double y, size_t *n);
 
-/* Returns the i-th of these numbers. */
+/* Returns the i-th subsum of the list `near` that sunder_i_gap_near() returned; of all subsums if `near` is NULL. */
 static inline size_t sunder_i_gap_nth(const sunder_i_gap_state *s, const uint32_t *near, size_t i)
 {
     if (near) return near[i];
@@ -116,7 +116,7 @@ double sunder_i_gap_distance(const sunder_i_gap_state *s, const sunder_i_gap_sub
 bool sunder_i_gap_covers(sunder_i_gap_state *s, size_t k, double x, double y, double slack);
 /* Returns the number of a grown subsum for which sunder_i_gap_covers() is true; -1 if there is none. */
 long sunder_i_gap_cover(sunder_i_gap_state *s, double x, double y, double slack);
-/* Does the same with slack 0 for the subsums other than `but` (-1: all). */
+/* Does the same as sunder_i_gap_cover() with slack 0, for all subsums except number `but` (-1: for all). */
 long sunder_i_gap_other_cover(sunder_i_gap_state *s, double x, double y, long but);
 /* Returns whether the point is certainly inside a subsum without the gap; then its whole circle is covered. */
 bool sunder_i_gap_deep_inside(sunder_i_gap_state *s, double x, double y);

@@ -143,8 +143,9 @@ static void offer_point(sunder_i_gap_state *s, const sunder_i_gap_free_point *f)
     if (most < s->best) s->best = most;
 }
 
-/* Returns whether the point really is where the walk along c leaves the subsum p->cover, as doubles estimated: the
- * point lies on the boundary of that grown subsum, and c leaves the disc or half-plane that the curve d bounds. */
+/* Returns whether the walk along the curve c of q->of really leaves the subsum p->cover at the point, as doubles
+ * estimated: the point lies on the boundary of that grown subsum, and c leaves the disc or half-plane that the curve d
+ * bounds. near: a subsum that is closer to the point than the gap; -1: none is, and f has all contacts. */
 static bool is_exit(sunder_i_gap_state *s, const question *q, const sunder_i_gap_free_point *f, long near)
 {
     const sunder_i_gap_point *p = q->of;

@@ -152,7 +152,7 @@ static sunder_i_gap_point point_over(const moved *m, size_t segment, sunder_i_ga
 }
 
 /* Returns whether the line, which meets the grown subsum k, leaves it at the point p. Exact: the line leaves the disc
- * or half-plane that the curve bounds, and the point is not closer to the subsum than the gap. */
+ * or half-plane that the curve p->d bounds, and the distance of the point from the subsum is exactly the gap. */
 static bool leaves_over(sunder_i_gap_state *s, sunder_i_gap_point *p, size_t k)
 {
     if (!p->d.arc) {
@@ -193,8 +193,8 @@ void sunder_i_gap_pass(sunder_i_gap_state *s, const sunder_i_gap_point *from, si
 
 /* ---- Certain steps ---- */
 
-/* Sets *t to the farthest tested parameter before `leave_at`, at most the end of the segment, at which subsum k
- * certainly covers the line. Returns false if none is found. */
+/* Moves *t, a parameter of the line, to the farthest tested parameter before `leave_at`, at most the end of the
+ * segment, at which the grown subsum k certainly covers the line. Returns false if none is found beyond *t. */
 static bool covered_until(sunder_i_gap_state *s, const moved *m, size_t k, bool forwards, double leave_at, double *t)
 {
     const double end = forwards ? 1 : 0;

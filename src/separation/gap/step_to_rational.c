@@ -39,8 +39,8 @@
 
 typedef struct normal {
     sunder_i_surd x, y;
-    sunder_i_big over; /* the factor of the normal: that of a side times this; that of a vertex is the vector from there
-                        * to the point, times the point's w and this */
+    sunder_i_big over; /* (x, y) is the outward normal of the side times `over` or, for a vertex, the vector from the
+                        * vertex to the point, times the point's w and `over` */
 } normal;
 
 /* Returns the exact normal of a contact; its length is arbitrary. */
@@ -58,8 +58,9 @@ static normal normal_of(sunder_i_gap_state *s, const sunder_i_surd_point *at, co
         v.w};
 }
 
-/* Returns the sign of n_i x n_j or, if `dot`, of n_i . n_j. In doubles the normals of sides have a relative error of 8
- * u; those of vertices have also the point's error divided by the gap. */
+/* Returns the sign of n_i x n_j or, if `dot`, of n_i . n_j, for the normals of the contacts i and j of f. In doubles
+ * the normals of sides have a relative error of 8 u; those of vertices have also the point's error divided by the
+ * gap. */
 static int sign_of(sunder_i_gap_state *s, const sunder_i_gap_free_point *f, size_t i, size_t j, bool dot)
 {
     const sunder_i_gap_contact *c = f->contact + i, *d = f->contact + j;

@@ -25,8 +25,8 @@ typedef struct sunder_i_board {
 bool sunder_i_board_build(sunder_i_operands *operands, double reach);
 void sunder_i_board_free(sunder_i_operands *operands);
 
-/* Returns whether the segment from (ax, ay) to (ax + dx, ay + dy), whose coordinates have at most `error`, lies in
- * closed squares, except for parts beyond the board. */
+/* Returns whether the segment from (ax, ay) to (ax + dx, ay + dy), whose coordinates have an error of at most `error`,
+ * lies in closed squares, except for parts beyond the board. */
 bool sunder_i_board_segment(const sunder_i_board *held, double error, double ax, double ay, double dx, double dy);
 
 /* Returns the number of the square that contains a point; n * n if the point is not on the board. */

@@ -120,7 +120,8 @@ static int side_says(const sunder_i_subsum *s, uint32_t k, double x, double y)
     return v > s->bound[k] ? 1 : v < -s->bound[k] ? -1 : 0;
 }
 
-/* Compares the point with the diagonal from vertex 0 to vertex k in the same way. Coordinates have an error of at most
+/* Compares the point with the diagonal from vertex 0 to vertex k: 1 certainly on its left, -1 certainly on its right, 0
+ * unknown. Coordinates have an error of at most
  * e, so the differences u and w have one of 2 e and an ulp, which is far less than e: their cross product has an error
  * of 2 e (|u| + |w|) + 8 e^2, with sums of absolute coordinates, plus its own rounding, which is below e |u|. */
 static int diagonal_says(const sunder_i_subsum *s, uint32_t k, double x, double y, double e)
@@ -334,10 +335,11 @@ static inline sunder_i_i128 narrow_height(const sunder_i_carrier *line, const su
     return sunder_i_narrow_cross(line->d, sunder_i_narrow_sub(s->corner[k], line->a));
 }
 
-/* Returns the exit for plain integers. A line that meets the interior of a bounded convex set leaves it through one
- * side, or through a vertex, which counts as the end of the side before it: forwards, that side begins on the right of
- * the line and ends on its left or on it, backwards the reverse. So each vertex needs one orientation test, and the
- * result one fraction. */
+/* Returns the parameter at which the line leaves the subsum, if all numbers are plain integers; the line leaves it
+ * through one of the sides `near`. A line that meets the interior of a bounded convex set leaves it through one side,
+ * or through a vertex, which counts as the end of the side before it: forwards, that side begins on the right of the
+ * line and ends on its left or on it, backwards the reverse. So each vertex needs one orientation test, and the result
+ * one fraction. */
 static sunder_i_fraction narrow_exit(const sunder_i_carrier *line, const sunder_i_subsum *s, stretch near,
                                      bool forwards)
 {
@@ -355,7 +357,7 @@ static sunder_i_fraction narrow_exit(const sunder_i_carrier *line, const sunder_
     return b < 0 ? narrow_fraction(a, -b) : narrow_fraction(-a, b);
 }
 
-/* Does the same for brief numbers. */
+/* Does the same as narrow_exit() for brief numbers (narrow.h), whose products fit 64 bits. */
 static sunder_i_fraction brief_exit(const sunder_i_carrier *line, const sunder_i_subsum *s, stretch near, bool forwards)
 {
     const sunder_i_point d = forwards ? line->d : (sunder_i_point){-line->d.x, -line->d.y};

@@ -91,8 +91,8 @@ static bool count_near(const sunder_i_operands *g, double reach, size_t *count)
     return true;
 }
 
-/* Lists these pairs; those that may cover the origin come first: each of them is exchanged with the first of the
- * others. Returns false if the computation must stop. */
+/* Lists the pairs within reach; those whose sums may cover the origin come first: each of them is exchanged with the
+ * first of the others. Returns false if the computation must stop. */
 static bool list_near(const sunder_i_operands *g, double reach, uint64_t *pair, size_t *count)
 {
     size_t all = 0, first = 0;

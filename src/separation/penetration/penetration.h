@@ -5,7 +5,7 @@
 
 #include "separation/answer/answer.h"
 
-/* Computes it for two sets that are not empty, as sunder_i_least() does; *out is zeroed by the caller. */
+/* Does the same as sunder_i_least() for two sets that are not empty, without a gap; *out is zeroed by the caller. */
 sunder_status sunder_i_least_without_gap(const sunder_shape *p, const sunder_shape *q, const sunder_i_least_options *o,
                                          sunder_separation *out, bool *beyond, sunder_error *err);
 

@@ -18,8 +18,8 @@ typedef struct sunder_i_free_point {
 sunder_status sunder_i_nearest_free_point(sunder_i_operands *operands, double limit, sunder_i_free_point *out,
                                           sunder_error *err);
 
-/* Does the same by squares (squares.h); the function above calls it for many pairs of pieces. *done is false if there
- * are too many squares or the lattice is wide; *out is then undefined. */
+/* Does the same as sunder_i_nearest_free_point(), which calls this function for many pairs of pieces, by squares
+ * (squares.h). *done is false if there are too many squares or the lattice is wide; *out is then undefined. */
 sunder_status sunder_i_nearest_by_squares(sunder_i_operands *operands, double limit, bool *done,
                                           sunder_i_free_point *out, sunder_error *err);
 
@@ -35,8 +35,8 @@ typedef struct sunder_i_near_subsums {
 sunder_contact sunder_i_free_point_contact(sunder_i_operands *operands, const sunder_i_free_point *nearest,
                                            sunder_i_near_subsums *near);
 
-/* Returns whether no listed subsum covers the translation (dx, dy), the doubles nearest to that point. Exact. All
- * subsums that could cover it are listed. */
+/* Returns whether no listed subsum covers the translation (dx, dy), the doubles nearest to the point `nearest`. Exact.
+ * All subsums that could cover it are listed. */
 bool sunder_i_doubles_free(sunder_i_operands *operands, const sunder_i_free_point *nearest,
                            const sunder_i_near_subsums *near, double dx, double dy);
 

@@ -95,8 +95,8 @@ static inline bool sunder_i_dop_near(const sunder_i_dop *u, const sunder_i_dop *
     return (any[0] | any[1]) == 0;
 }
 
-/* Returns an upper bound of the depth of the whole square inside such a subsum; if it is not positive the subsum does
- * not cover the square. */
+/* Returns an upper bound of the depth of the whole square of the query inside a subsum of convex sets with the extents
+ * u and v; if it is not positive the subsum does not cover the square. */
 static inline float sunder_i_dop_depth(const sunder_i_dop *u, const sunder_i_dop *v, const sunder_i_dop *query)
 {
     sunder_i_floats least = {INFINITY, INFINITY, INFINITY, INFINITY};

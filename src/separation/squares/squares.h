@@ -15,7 +15,8 @@ typedef enum sunder_i_squares_next {
     SUNDER_I_SQUARES_NO_MEMORY
 } sunder_i_squares_next;
 
-/* Returns whether the operands, after pieces with many vertices are divided, have at least `pairs` pairs of pieces. */
+/* Returns whether a search by squares is worth its cost: P has an area, there are at least SUNDER_I_SQUARES_WHOLE pairs
+ * of pieces (tuning.h) and, after pieces with many vertices are divided, about `pairs` pairs or more. */
 bool sunder_i_squares_worth(const sunder_i_operands *operands, uint64_t pairs);
 
 /* Starts a search of all translations with coordinates up to `reach`, with subsums grown by a disc of radius `gap`.

@@ -12,7 +12,7 @@
 /* ---- When squares pay (squares.c) -------------------------------------------------------------------------------- */
 
 /* Operands with fewer than SUNDER_I_SQUARES_WHOLE pairs of whole pieces are not cut up, since listing all pairs is
- * cheap then. The callers decide from how many pairs of parts on squares pay (penetration/search.c,
+ * cheap then. The callers decide from how many pairs of parts on squares pay (penetration/penetration_search.c,
  * gap/least_with_gap.c). */
 #define SUNDER_I_SQUARES_WHOLE 64
 
