@@ -115,7 +115,8 @@ static void find_boxes(gathering *g)
     }
 }
 
-/* Joins, in world[], sets that stood where another set looked. */
+/* Copies root[] to world[], and joins there any two sets of bodies if the box of the places that the bodies of one
+ * examined (read) meets the box of the places where those of the other stood (wrote). Fixed bodies join nothing. */
 static sunder_status meet_readers(gathering *g, uint32_t *world, sunder_error *err)
 {
     const size_t n = g->model->bodies;

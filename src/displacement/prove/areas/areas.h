@@ -42,11 +42,12 @@ typedef struct sunder_i_masses {
     int32_t *at; /* owned */
     int64_t x, y;
     size_t columns, rows;
-    int64_t total, slack; /* the sum of at[], and the largest amount by which an entry of at[] may be below its
+    int64_t total, slack; /* the sum of at[], and an upper bound of the amount by which an entry of at[] is below its
                            * integral */
 } sunder_i_masses;
 
-/* A body whose occupied area is charged the prices. */
+/* A body as the bound uses it. For each of its moves, it pays the cost of the move plus the price of the area that it
+ * occupies after it. */
 typedef struct sunder_i_payer {
     double weight; /* a lower bound on the body's weight */
     double limit;  /* the longest move the body is allowed; may be infinite */

@@ -354,9 +354,10 @@ static double next_length(const sunder_i_grid *l, const place *from, const place
                             : STEP_BLIND;
 }
 
-/* Moves by the step, or by a share of it, to `other`. The share is reduced by the factor SHORTER, at most SHORTENED
- * times in all, until the value exceeds `least` by the share ENOUGH of the increase that is predicted by `gain`.
- * Returns false if memory is out. */
+/* Sets `other` to the prices after the step, or after a share of it. At most SHORTENED shares are tried, from 1 on,
+ * each shorter than the one before by the factor SHORTER, until the value is at least `least` plus the share ENOUGH of
+ * the increase that the gradient predicts for that share (`gain` is the one for the whole step); the last one is taken
+ * in any case. Returns false if memory is out. */
 static bool take_step(ascent *a, const place *at, place *other, const float *step, double gain, double least)
 {
     double share = 1;

@@ -57,7 +57,7 @@ static bool lay_grid(const sunder_i_price_grids *l, double side, unsigned coarse
 
 /* Chooses the side of the finest grid and the number of coarser grids, each with squares of twice the side. There are
  * LEVELS coarser grids, or fewer if the finest grid would have too many nodes and is therefore replaced by a coarser
- * one. */
+ * one; if none would be left, l->left becomes 0 and no grid is used. */
 static void choose_sides(sunder_i_price_grids *l)
 {
     sunder_i_grid fine;

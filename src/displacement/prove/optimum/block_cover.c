@@ -24,8 +24,9 @@ static bool take_body(sunder_i_lagrangian *d, uint32_t at)
     return true;
 }
 
-/* Returns the body outside the block with the greatest sum of forces from the block's bodies, over contacts that are in
- * no block yet. Among equal ones it is the first; SUNDER_I_GROUND if there is none. */
+/* Returns the place in the group's list of the movable body outside the block with the greatest sum of forces from the
+ * block's movable bodies, over contacts that are in no block yet; the first of equal ones. Returns SUNDER_I_GROUND if
+ * no force acts on such a body. */
 static uint32_t most_pressed(sunder_i_lagrangian *d)
 {
     const sunder_i_contact_forces *c = &d->contacts;

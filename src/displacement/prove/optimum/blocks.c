@@ -211,8 +211,9 @@ static bool begin_at_best(sunder_i_lagrangian *d, sunder_i_block_copy *best, dou
     return true;
 }
 
-/* Returns the stride for the first proposal: a step along the drift of the copies, each away from the mean of its
- * body's copies, that would prove all of `missing` if the bound kept growing at its initial rate. */
+/* Returns the stride for the first proposal: the share FIRST_STRIDE of a step along the drift of the copies, each away
+ * from the mean of its body's copies, that would prove all of `missing` if the bound kept growing at its initial
+ * rate. */
 static double first_stride(const sunder_i_lagrangian *d, const sunder_i_block_copy *best, double missing)
 {
     double square = 0;

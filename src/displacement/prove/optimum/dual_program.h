@@ -43,10 +43,11 @@ typedef enum sunder_i_dual_outcome {
 /* The caller sets weight, mass, anchor and cut. Returns false if memory is out. */
 bool sunder_i_dual_init(sunder_i_dual_program *program, size_t bodies);
 void sunder_i_dual_free(sunder_i_dual_program *program);
-/* Starts from n active cuts, solved as equations; cuts with negative forces are dropped. Returns false if memory is
- * out. */
+/* Starts from n active cuts, solved as equations. Cuts that are combinations of those before them, and cuts whose
+ * forces would be negative, are dropped. Returns false if memory is out. */
 bool sunder_i_dual_load(sunder_i_dual_program *program, const sunder_i_cut_force *acting, size_t n);
-/* Adds one cut that t violates, and solves for forces for which it holds. */
+/* Adds one cut that program->t violates, and solves for forces for which it holds; `enough` is the value at which the
+ * program ends if the cuts contradict each other. Sets *failed if memory is out. */
 sunder_i_dual_outcome sunder_i_dual_add(sunder_i_dual_program *program, uint32_t cut, double enough, bool *failed);
 /* Sets t from the forces. */
 void sunder_i_dual_place(sunder_i_dual_program *program);

@@ -390,7 +390,8 @@ static void end_listing(listing *l, double reach)
     f->grain = 0x1p-46 * f->size;
 }
 
-/* Lists all pieces within reach. If there are too many, the reach is halved until there are not. */
+/* Lists all pieces within reach. If there are too many, the reach is halved until there are not, or until it is at most
+ * the gap. */
 static bool list_within(listing *l, uint32_t p, uint32_t q)
 {
     const double reach = l->reach;

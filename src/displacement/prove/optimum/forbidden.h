@@ -58,11 +58,13 @@ typedef struct sunder_i_waived {
 /* Returns the waiver of things a and b; NULL if the pair has to keep the full distance. */
 const sunder_i_waiver *sunder_i_waiver_of(const sunder_i_model *model, const sunder_i_waived *waived, uint32_t a,
                                           uint32_t b);
-/* Lists the pieces of the forbidden set of bodies p and q that meet the disc of radius `reach` around u = 0, where u is
- * the move of q less that of p. Returns false if memory is out; the caller frees *forbidden in any case. */
+/* Lists the pieces of the forbidden set of bodies p and q that come within `reach` of u = 0, where u is the move of q
+ * less that of p. If these are more than MOST_PIECES the reach is halved, as often as needed but not below half of the
+ * gap, and pieces farther away are missing. Returns false if memory is out; the caller frees *forbidden in any case. */
 bool sunder_i_forbidden_init(sunder_i_forbidden *forbidden, const sunder_i_model *model, const sunder_i_waived *waived,
                              uint32_t p, uint32_t q, double reach);
-/* The same without the shadows from anchors and side anchors. */
+/* As sunder_i_forbidden_init(), but with the pieces for the required distances only: without the shadows from anchors
+ * and side anchors, and without the covers of diagonals. */
 bool sunder_i_forbidden_without_paths(sunder_i_forbidden *forbidden, const sunder_i_model *model,
                                       const sunder_i_waived *waived, uint32_t p, uint32_t q, double reach);
 /* Lists all pieces that come within `hair` of u, and a few others. */
@@ -82,8 +84,9 @@ bool sunder_i_may_be_shut_in(const sunder_i_model *model, uint32_t p, uint32_t q
 /* Sets *shut if it is proved that for every relative move one body jumps over the other or crosses a side, or the two
  * are too near. The covers of diagonals must have been made. Returns false if memory is out. */
 bool sunder_i_is_shut_in(const sunder_i_model *model, uint32_t p, uint32_t q, bool *shut);
-/* The same for n pairs of features of the two bodies: sets shut[k] if it is proved when of all distances only that of
- * pair k has to be kept. */
+/* Examines n pairs of features, each with one feature of p and one of q. Sets shut[k] to whether it is proved that
+ * every relative move is forbidden by jumps and sides of the two whole bodies together with the distance that pair k
+ * alone has to keep. Returns false if memory is out. */
 bool sunder_i_find_shut_in_pairs(const sunder_i_model *model, uint32_t p, uint32_t q, const sunder_i_id_pair *pair,
                                  size_t n, bool *shut);
 

@@ -38,9 +38,10 @@ static double cost_of(const sunder_i_model *model, const uint32_t *body, size_t 
     return cost * (1 + ((double)n + 8) * 0x1p-50);
 }
 
-/* Returns the bound to be proved for a group: its cost less half of the share that still counts as optimal, and less a
- * small part of the gap or, if that is 0, of the smallest movable body. (A fixed one may be a road, miles long.) Only
- * lengths of the layer itself are used, so that a layer on another scale gets the same moves. */
+/* Returns the bound to be proved for a group: its cost, less half of the share that still counts as optimal, and less
+ * the cost of moving its heaviest body by the share SMALL_LENGTH of the gap or, if that is 0, of the share SMALL_EXTENT
+ * of the smallest movable body. (A fixed one may be a road, miles long.) Only lengths of the layer itself are used, so
+ * that a layer on another scale gets the same moves. */
 static double goal_of(const sunder_i_model *model, const sunder_i_group *g)
 {
     double length = INFINITY, weight = 0;
@@ -77,8 +78,8 @@ static sunder_status settle_layout(const sunder_i_model *model, const sunder_i_w
     return SUNDER_OK;
 }
 
-/* Looks for a layout near the moves t of n bodies, which may include guests, and replaces the group's layout if it is
- * cheaper; then sets *better. */
+/* Looks for a layout near the moves t of n bodies, which may include guests. If it is cheaper than the group's layout,
+ * it replaces that, and *better is set; otherwise *better is false, as it is if the group's moves are held. */
 static sunder_status attempt_layout(const sunder_i_model *model, const sunder_i_waived *waived, sunder_i_group *g,
                                     const uint32_t *body, const double *t, size_t n, bool tight, bool *better,
                                     sunder_error *err)
@@ -126,8 +127,9 @@ static bool blocks_are_dear(const sunder_i_tree *tree, uint64_t steps)
     return tree->pair_steps > steps / BLOCKS_ASKED;
 }
 
-/* Returns the total steps for the tree of a large group that has done `taken` of them; no more if it promises nothing.
- * At a higher effort the tree gets at least the steps of effort 1. */
+/* Returns the total of steps that the tree of a large group may take; 0 if it is not to be continued. taken: the total
+ * that it was given last and has used up; 0 at first. At a higher effort the tree gets at least the steps of effort 1
+ * if making its pairs takes a large share of those. */
 static uint64_t steps_of_large(const sunder_i_tree *tree, uint64_t taken, uint64_t steps)
 {
     const double share = taken ? sunder_i_tree_bound(tree) / tree->task.goal : 0;
@@ -138,8 +140,9 @@ static uint64_t steps_of_large(const sunder_i_tree *tree, uint64_t taken, uint64
     return share >= TREE_SECOND_SHARE ? steps / TREE_SECOND : 0;
 }
 
-/* Runs the group's tree, and descends from each layout that it finds. Steps that the tree of a large group uses in
- * place of blocks are not counted, as those of blocks are not. */
+/* Runs the group's tree, and descends from each layout that it finds. For a large group at most steps / TREE_SECOND of
+ * its steps are counted in g->steps: the tree takes the others in place of blocks, whose steps are not counted
+ * either. */
 static sunder_status run_tree(const sunder_i_model *model, const sunder_i_waived *waived, sunder_i_group *g,
                               sunder_i_tree *tree, uint64_t steps, bool large, sunder_error *err)
 {

@@ -78,21 +78,24 @@ bool sunder_i_tight_place(const sunder_i_model *model, const sunder_i_waived *wa
 /* Sets *may if the coordinates of n bodies have a common step, so that such places are possible. Returns false if
  * memory is out. */
 bool sunder_i_may_be_tight(const sunder_i_model *model, const uint32_t *body, size_t n, bool *may);
-/* conflicted_group.c: returns whether a large share of the group's pairs is left in conflict, so that neither
- * perturbation nor a tree helps. */
+/* conflicted_group.c: returns whether the group has more than BRANCHED movable bodies and at least one listed pair
+ * (sunder_i_group_listed()) for every CROWDED of them, so that neither perturbation nor a tree helps. */
 bool sunder_i_group_has_many_conflicts(const sunder_i_model *model, const sunder_i_waived *waived,
                                        const sunder_i_group *group);
-/* Returns the number of pairs of the group's bodies that are left in conflict. */
+/* Returns the number of pairs of features, left in conflict, that belong to two different movable bodies of the
+ * group. */
 size_t sunder_i_group_listed(const sunder_i_model *model, const sunder_i_waived *waived, const sunder_i_group *group);
-/* unlimited_group.c: is the group large, without limits, and do all its pairs have to keep the gap, so that the report
- * will use prices of area? The second function sets *bound to the bound that prices prove for the group alone. */
+/* unlimited_group.c: does the group have more than BRANCHED bodies, all of which can move without a limit and along any
+ * path, and do all its pairs have to keep the gap? Then the report will use prices of area. The second function sets
+ * *bound to the bound that prices prove for the group alone. */
 bool sunder_i_group_is_unlimited(const sunder_i_model *model, const sunder_i_waived *waived,
                                  const sunder_i_group *group);
 sunder_status sunder_i_group_ask_prices(const sunder_i_model *model, const sunder_i_group *group, double *bound,
                                         sunder_error *err);
 /* Is the group's cost proved to be the least, up to the digits that the program prints? */
 bool sunder_i_group_is_optimal(const sunder_i_group *group);
-/* Descends from the moves t of the group's bodies, and takes the layout found if it is cheaper. */
+/* Descends from the moves t of the group's bodies, and replaces the group's moves and cost by those of the layout found
+ * if it is cheaper; does nothing if group->held is set. */
 sunder_status sunder_i_group_descend(const sunder_i_model *model, const sunder_i_waived *waived, sunder_i_group *group,
                                      const double *t, sunder_error *err);
 /* Looks for better moves of the group, and for a proof that there are none, in at most `steps` steps. The bound, guests

@@ -1,4 +1,5 @@
-/* The state of a search for a place without spare room (tight_place.c). */
+/* The state of a search for a place without spare room (tight_place.c). A row is a set of coordinates, all along x or
+ * all along y, of several bodies' moves that differ by multiples of one step and change together. */
 #ifndef SUNDER_I_DISPLACEMENT_TIGHT_H
 #define SUNDER_I_DISPLACEMENT_TIGHT_H
 
@@ -22,8 +23,8 @@ typedef struct sunder_i_tight {
     double room;   /* the distance by which moves have to be shorter than their limits */
     uint32_t *row; /* [2 * all] the row of each body's x and of its y; rows of both axes are numbered together */
     double *base;  /* [2 * all + 1] the move of the first body of each row */
-    double *ahead; /* [2 * all] the offset of each coordinate from its row's base, in whole steps */
-    bool *stays;   /* [2 * all + 1] the row does not move, since it has a fixed body */
+    double *ahead; /* [2 * all] the offset of each coordinate from its row's base, a multiple of the step */
+    bool *stays;   /* [2 * all + 1] the row does not move: it is that of fixed bodies, or begins with a body outside */
     bool *alone;   /* [2 * all] the coordinate is not aligned with others */
     size_t rows;
     sunder_i_contact_list touch; /* the contacts of one pair; scratch */

@@ -51,7 +51,7 @@ typedef struct sunder_i_tree_node {
     uint32_t cut, cuts, force, forces;
     double value; /* proved: no layout below it costs less than this, or than the goal */
     sunder_i_node_state state;
-    bool stuck;    /* the conflict that divided its parent is still at the same place */
+    bool stuck;    /* no hull was cut off in it, and the conflict that divided its parent is still at the same place */
     uint32_t pair; /* the pair by which it was divided, or which has no room left */
     /* If recorded: the forces on which its discs depend, of cuts above it, and the pieces that leave no room. */
     uint32_t by, bys, named, names;
@@ -151,7 +151,8 @@ void sunder_i_tree_add_guest(sunder_i_tree *tree, uint32_t body);
 
 bool sunder_i_tree_init(sunder_i_tree *tree, const sunder_i_task *task);
 void sunder_i_tree_free(sunder_i_tree *tree);
-/* Continues until the total of steps exceeds `steps`. */
+/* Continues until the proof is complete, a leaf is found, or the total of steps exceeds `steps`. tree->failed is set if
+ * memory is out or stopped on request. */
 sunder_i_tree_outcome sunder_i_tree_run(sunder_i_tree *tree, uint64_t steps);
 /* Returns the bound proved up to now. */
 double sunder_i_tree_bound(const sunder_i_tree *tree);
@@ -164,8 +165,9 @@ void sunder_i_tree_lower_goal(sunder_i_tree *tree, double goal);
 sunder_i_tree_pair *sunder_i_tree_pair_of(sunder_i_tree *tree, uint32_t i, uint32_t j);
 /* Sets tree->conflict to the pairs in conflict at program.t. */
 void sunder_i_tree_find_conflicts(sunder_i_tree *tree);
-/* Looks for conflicts with bodies outside. A body that is in no group becomes a guest, and takes part from now on; a
- * body of another group is appended to tree->joins. */
+/* Looks for conflicts with bodies that do not take part. A body that is in no group becomes a guest, and takes part
+ * from now on, as long as there is room for guests; all others are appended to tree->joins. Without task.group_of it
+ * does nothing. */
 void sunder_i_tree_find_outside_conflicts(sunder_i_tree *tree);
 
 /* ---- tree_node.c ------------------------------------------------------------------------------------------------- */
@@ -210,8 +212,8 @@ bool sunder_i_tree_cut_hull(sunder_i_tree *tree, uint32_t pair, const double u[2
 
 /* ---- tree_branch.c ----------------------------------------------------------------------------------------------- */
 
-/* Divides the node by one of its conflicts, and opens the children that are not closed. If no conflict promises a
- * better bound the node becomes a leaf. */
+/* Divides the node by one of its conflicts, and opens the children that are not closed. The node becomes a leaf if all
+ * its conflicts are stuck, that is if dividing by them moved nothing before, and no body outside is in conflict. */
 void sunder_i_tree_divide(sunder_i_tree *tree, uint32_t node);
 
 /* ---- tree_record.c ----------------------------------------------------------------------------------------------- */

@@ -65,7 +65,8 @@ static void cone_cuts(const sunder_i_tree *t, const sunder_i_tree_conflict *c, c
     for (int e = 0; e < 2; e++) d[e] = n[e][0] * c->u[0] + n[e][1] * c->u[1] - grain;
 }
 
-/* Returns the share of the missing bound that the child in cone k would prove. */
+/* Returns the share of the missing bound, goal less `value`, that the child in cone k would prove: 1 if nothing in the
+ * cone is free, 0 if no cut separates u from what is free there. */
 static double try_cone(sunder_i_tree *t, const sunder_i_tree_conflict *c, const branching_rays *b, int k, double value)
 {
     const double grain = t->pair[c->pair].forbidden.grain;

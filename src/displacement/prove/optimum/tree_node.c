@@ -128,7 +128,8 @@ void sunder_i_tree_restore_program(sunder_i_tree *tree)
 
 /* ---- The program ------------------------------------------------------------------------------------------------- */
 
-/* Returns the cut that t violates most, relative to the pair's size; UINT32_MAX if all hold. */
+/* Returns the cut beyond which a pair's relative move lies farthest at program.t, among the cuts that are sides of the
+ * touched pairs' regions; UINT32_MAX if all hold. Distances up to the share HOLDS of the pair's size do not count. */
 static uint32_t find_missed(sunder_i_tree *t)
 {
     const double *at = t->program.t;
@@ -149,7 +150,8 @@ static uint32_t find_missed(sunder_i_tree *t)
     return worst;
 }
 
-/* Adds a tangent of the limit that a body exceeds most, and returns the cut; UINT32_MAX if no limit is exceeded. */
+/* Adds a tangent of the limit that a body exceeds most in proportion to the limit, and returns the cut; UINT32_MAX if
+ * no limit is exceeded by more than the share OVERSTEPPED. */
 static uint32_t find_overstepped(sunder_i_tree *t)
 {
     const double *at = t->program.t;

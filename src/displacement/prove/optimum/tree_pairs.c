@@ -68,7 +68,8 @@ static bool may_pass(const sunder_i_model *model, const sunder_i_body *p, const 
                                    sunder_i_anchors_may_reach(model, p, q, true, offset, path));
 }
 
-/* Are the boxes of the two within the gap of each other at the node, or may one have passed an anchor of the other? */
+/* Are the boxes of bodies i and j within the gap of each other at the node, or may an anchor of one have passed the
+ * other? */
 static bool are_near(const sunder_i_tree *t, uint32_t i, uint32_t j)
 {
     const sunder_i_body *p = &t->task.model->body[t->task.body[i]], *q = &t->task.model->body[t->task.body[j]];

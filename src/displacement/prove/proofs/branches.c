@@ -80,8 +80,9 @@ static size_t count_open(const sunder_i_branching *c, const sunder_i_violation *
     return open;
 }
 
-/* Chooses the violation with the fewest open half-planes, and returns its index. Its half-planes are then in
- * c->scratch, and their number in *half_planes. */
+/* Chooses the violation with the fewest open half-planes, among those that are at least the share DEEP as deep as the
+ * first one and of which `known` is the same, and returns its index. Its half-planes are then in c->scratch, and their
+ * number in *half_planes. */
 static size_t choose_violation(sunder_i_branching *c, const sunder_i_violation *deepest, size_t n, size_t *half_planes)
 {
     size_t best = 0, fewest = SIZE_MAX;
@@ -287,9 +288,9 @@ static sunder_status search_wall(sunder_i_branching *c, unsigned level, sunder_i
     return search_cases(c, &o, node, level, verdict, levels, root, err);
 }
 
-/* A body that is not beyond a wall of an overlap may leave the overlap by its other side, or its end, with all of its
- * pieces. Finds the pair of pieces that is deepest under the candidate's slack. Returns false if the slack separates
- * them all. */
+/* A body that is not beyond the line of a wall that stands for an overlap may leave the overlap by its other side, or
+ * its end, with all of its pieces. Sets *deepest to the violation of the two pieces, one of the body and one of a wall,
+ * that are deepest in each other after the candidate's slack. Returns false if the slack separates all such pieces. */
 static bool find_left(sunder_i_branching *c, sunder_i_violation *deepest)
 {
     *deepest = (sunder_i_violation){.depth = 2 * c->hair};

@@ -160,14 +160,15 @@ uint32_t sunder_i_branching_join_slack(sunder_i_branching *branching, const sund
 void sunder_i_branching_begin(sunder_i_branching *branching, size_t first);
 /* Adds the bodies of the reserve that could meet a participant. Returns false if there are none. */
 bool sunder_i_branching_widen(sunder_i_branching *branching);
-/* Returns the distance asked of two things without a reduced requirement, rounded down. */
+/* Returns the distance that the things f and g have to keep if they have no reduced requirement, with the gap reduced
+ * by subproblem->less, rounded down. */
 double sunder_i_branching_owed(const sunder_i_subproblem *subproblem, uint32_t f, uint32_t g);
 /* Do the features f and g of two bodies have to keep a distance from each other? If so, sets *clearance to it. */
 bool sunder_i_branching_owe(const sunder_i_branching *branching, uint32_t f, uint32_t g, double *clearance);
 /* Do the rules on paths (jumps, sides) of feature f count in this subproblem? */
 bool sunder_i_branching_is_path_heeded(const sunder_i_branching *branching, uint32_t f);
-/* Is it forbidden that feature f jumps over g, a feature of another body, or that f crosses the sides of g, a part of a
- * barrier? */
+/* If the rules forbid jumps: is it forbidden in this subproblem that feature f jumps over g, a feature of another body?
+ * Or: is it forbidden that f crosses the sides of g, a part of a barrier? */
 bool sunder_i_branching_shades(const sunder_i_branching *branching, uint32_t f, uint32_t g);
 
 /* ---- program.c --------------------------------------------------------------------------------------------------- */
@@ -205,8 +206,8 @@ typedef struct sunder_i_violation {
     const sunder_i_chord *chord;       /* NULL, or the chord that replaces b */
 } sunder_i_violation;
 
-/* Finds the deepest violations of the candidate, one for each pair of bodies, those that add no participant first, then
- * by depth. Returns their number. */
+/* Finds the deepest violations of the candidate: at most one for each pair of bodies, and one for each feature that may
+ * keep an overlap with a barrier. Those that add no participant come first, then deeper ones. Returns their number. */
 size_t sunder_i_branching_violations(sunder_i_branching *branching, sunder_i_violation deepest[SUNDER_I_CHOICES]);
 /* Computes the half-planes in which two pieces of bodies p and q are separated, in branching->scratch. at: NULL, or a
  * relative move for which they are made (half_planes.h). Returns their number. */
@@ -220,8 +221,8 @@ const sunder_i_half_plane *sunder_i_branching_kept_half_planes(sunder_i_branchin
                                                                const sunder_i_body_piece *b, double clearance,
                                                                bool shadow, size_t *n);
 void sunder_i_branching_forget_half_planes(sunder_i_branching *branching);
-/* Returns the depth of relative move u behind all half-planes in branching->scratch, of which there are `half_planes`;
- * -INFINITY if there are none. */
+/* Returns the depth of relative move u behind all half-planes in branching->scratch, of which there are `half_planes`,
+ * and sets `at` of each; -INFINITY if there are none. */
 double sunder_i_branching_depth(const sunder_i_branching *branching, size_t half_planes, const double u[2]);
 /* Computes the half-planes of a violation, nearest to the candidate first, in branching->scratch. Returns their
  * number. */
@@ -255,15 +256,17 @@ bool sunder_i_branching_make_chord(const double a[2], const double b[2], const d
 size_t sunder_i_branching_chord_half_planes(sunder_i_branching *branching, const sunder_i_body *p,
                                             const sunder_i_body_piece *anchor, const sunder_i_body *q,
                                             const double chord[4]);
-/* Looks for a chord that excludes the place of a candidate, which the half-planes of no side exclude. */
+/* Looks for a chord across a corner that excludes the candidate's move of a body, which the half-planes of no side
+ * exclude, and sets *violation to it. Returns false if there is none. */
 bool sunder_i_branching_find_chord(sunder_i_branching *branching, sunder_i_violation *violation);
 
 /* ---- corridor.c -------------------------------------------------------------------------------------------------- */
 
-/* Looks for two walls that leave the participating body no place except its own; sets branching->wall. */
+/* Looks for two opposite walls between which the doubles have no other place for the body than its original one. If
+ * there are any, sets branching->wall, `walls` and `between`. */
 sunder_status sunder_i_branching_find_corridor(sunder_i_branching *branching, uint32_t body, sunder_error *err);
-/* Computes the half-planes of a wall in branching->scratch, the one beyond its line first. Returns their number; 0 if
- * the line is not found among them. */
+/* Computes the half-planes of a wall in branching->scratch, the one beyond the wall's line first. Returns their number;
+ * 0 unless exactly one of them has that line. */
 size_t sunder_i_branching_wall_half_planes(sunder_i_branching *branching, const sunder_i_corridor_wall *wall);
 
 /* ---- plane.c ----------------------------------------------------------------------------------------------------- */
@@ -280,7 +283,8 @@ typedef struct sunder_i_plane_answer {
 /* Decides a subproblem with one movable body among fixed things, or about the relative move of its two movable
  * bodies. */
 sunder_status sunder_i_branching_plane(sunder_i_branching *branching, sunder_i_plane_answer *answer, sunder_error *err);
-/* The same for n places only: feasible if nothing forbids one of them, else unknown. */
+/* Tests only the n relative moves at[] in the same way: answer->free is set if nothing forbids one of them, and the
+ * verdict is then feasible if nothing else matters; otherwise it is unknown. */
 sunder_status sunder_i_branching_plane_try(sunder_i_branching *branching, const double (*at)[2], size_t n,
                                            sunder_i_plane_answer *answer, sunder_error *err);
 /* Sets *p and *q to the bodies whose relative move the subproblem concerns. Returns false if it concerns more. */
@@ -288,14 +292,16 @@ bool sunder_i_branching_plane_bodies(const sunder_i_branching *branching, uint32
 
 /* ---- precedents.c ------------------------------------------------------------------------------------------------ */
 
-/* Returns the entry of bodies p and q. The next function records a free place in an entry. */
+/* Returns the entry of bodies p and q, empty if there was none. The next function records u, a relative move that
+ * nothing forbids, in an entry. */
 sunder_i_precedent *sunder_i_precedents_take(sunder_i_precedents *precedents, uint32_t p, uint32_t q);
 void sunder_i_precedent_note_place(sunder_i_precedent *precedent, const double u[2]);
-/* Records the things that a proof uses. Returns false if memory is out. */
+/* Records the things that a proof uses, in place of those of an earlier proof; none if they are more than
+ * SUNDER_I_PRECEDENT_THINGS. fine: coarse half-planes were not sufficient for it. Returns false if memory is out. */
 bool sunder_i_precedent_note_proof(sunder_i_precedent *precedent, const sunder_i_model *model,
                                    const sunder_proof *proof, bool fine);
-/* Sets `set` to the things that may suffice for a proof, among those asked about, and returns their number; 0 if these
- * are all. */
+/* Sets `set` to the recorded things and the two in question, as far as the question `asked` includes them, and returns
+ * their number: they may suffice for a proof. Returns 0 if none are recorded, or if the question includes no others. */
 size_t sunder_i_precedent_things(const sunder_i_precedent *precedent, const sunder_i_subproblem *asked,
                                  uint32_t set[SUNDER_I_PRECEDENT_THINGS + 2]);
 

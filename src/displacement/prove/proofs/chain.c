@@ -295,7 +295,8 @@ static bool ask_things(finding *f, uint32_t a, uint32_t b)
     return true;
 }
 
-/* Tests all parts of a barrier in the same way. */
+/* Tests thing a with each part of the barrier that it can reach, by ask_things(), until there is a proof. Returns false
+ * if memory is out. */
 static bool ask_parts(finding *f, uint32_t a, uint32_t barrier)
 {
     const sunder_i_model *model = f->g->of.model;

@@ -63,7 +63,8 @@ typedef struct sunder_i_pushing {
 
 /* ---- chain_links.c ----------------------------------------------------------------------------------------------- */
 
-/* Sets t to the present move of a body; 0 if it is not in the cluster. */
+/* Sets t to the present move of a body; to 0 if it is fixed or not in the cluster, or if all pairs have to keep their
+ * full distance (chains->all). */
 void sunder_i_chains_stand(const sunder_i_chains *chains, uint32_t body, double t[2]);
 /* Returns the links of a body; none if it is not in the cluster. Returns NULL if memory is out. Pointers to links
  * become invalid. */

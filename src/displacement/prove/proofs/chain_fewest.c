@@ -54,7 +54,8 @@ static bool is_behind(const sunder_i_chains *g, const reach *r, size_t k, size_t
     return r->body == body;
 }
 
-/* Adds a chain to round k if it is among the best few; these are unordered. */
+/* Adds a chain to round k, the chains of k links, if it is one of the FEWEST_KEPT with the greatest sums; these are
+ * unordered. */
 static void keep_chain(reach *r, size_t k, const reached *found)
 {
     reached *item = r->item + r->first[k];
@@ -116,8 +117,10 @@ static bool go_on(sunder_i_chains *g, reach *r, uint32_t other)
     return true;
 }
 
-/* The part beyond a body gains at most its limit, or that part would be positive by itself; nor does the other end of
- * the pair gain more than the limit of the body there. `least` follows from this. */
+/* Begins the chains from `body`, which the pair pushes along (nx, ny). least: a chain that cannot exceed it is not
+ * continued. It follows from two facts: the part of a chain beyond a body adds at most the limit of that body, since
+ * that part would prove something by itself otherwise, and the chain from the other end of the pair adds at most the
+ * limit of the body there. */
 static void begin_reach(const sunder_i_chains *g, reach *r, uint32_t body, double nx, double ny, double least)
 {
     r->least = least;

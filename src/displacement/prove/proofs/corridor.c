@@ -209,7 +209,8 @@ static bool stands_out(const facing *f, size_t k, const double n[2], double hair
     return true;
 }
 
-/* Is edge k of A - B such a line? If so, stores its normal. */
+/* Does edge k of A - B lie on a line that passes the original place u = 0 at the distance `clearance`, unambiguously?
+ * If so, stores its normal. */
 static bool is_line(const sunder_i_branching *c, facing *f, size_t k, double clearance)
 {
     double *n = f->wall.n;

@@ -7,7 +7,8 @@
 #include "sunder_proof.h"
 
 typedef enum sunder_i_verdict {
-    SUNDER_I_UNKNOWN,    /* the work exceeded its limit, or a body has no limit */
+    SUNDER_I_UNKNOWN,    /* neither was shown: the work exceeded its limit, a body has no limit, rounding prevented an
+                          * answer, or the question was not examined */
     SUNDER_I_INFEASIBLE, /* proved: no moves within the limits give every pair the distance that it has to keep */
     SUNDER_I_FEASIBLE    /* the solution gives it, up to a hair; things that it did not meet were not examined */
 } sunder_i_verdict;

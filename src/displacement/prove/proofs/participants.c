@@ -155,7 +155,8 @@ static bool is_heeded(const sunder_i_branching *c, uint32_t f)
     return !q->feature || sunder_i_set_has(q->feature, q->features, sunder_i_whole_of(c->model, f));
 }
 
-/* Do the features belong to two bodies, at least one of which can move? *reach is the sum of the two limits. */
+/* Do the things f and g belong to two bodies, at least one of which can move, and do both have a limit (or a
+ * substitute, subproblem->instead)? *reach is the sum of the two limits. */
 static bool can_move(const sunder_i_branching *c, uint32_t f, uint32_t g, double *reach)
 {
     const sunder_i_model *model = c->model;

@@ -248,7 +248,9 @@ static bool find_bodies(const sunder_i_branching *c, sunder_i_plane *g)
     return moving == 1 || moving == 2;
 }
 
-/* Are all other bodies irrelevant? */
+/* Does a free relative move of p and q answer the whole question? It does if the question lists its features, has no
+ * reserve, and lists none of a movable body besides p and q (if q moves, none of any other body), and if no sides of
+ * barriers matter besides. */
 static bool is_all(const sunder_i_branching *c, const sunder_i_plane *g)
 {
     const sunder_i_subproblem *asked = c->subproblem;

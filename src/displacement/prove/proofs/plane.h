@@ -57,7 +57,7 @@ typedef struct sunder_i_plane_choice {
     uint32_t obstacle, below; /* below: the index, in `region`, of the first region that its half-planes leave */
 } sunder_i_plane_choice;
 
-/* The choices of one question, from the whole plane down. */
+/* The obstacles by which one question divided its regions, from the whole plane down. */
 typedef struct sunder_i_plane_choices {
     sunder_i_plane_choice *choice;
     uint32_t *region; /* the choice for each region; SUNDER_I_NO_CHOICE: none was made. The first region is the whole
@@ -135,8 +135,8 @@ bool sunder_i_plane_clip_behind(sunder_i_plane_polygon *polygon, const sunder_i_
 double sunder_i_plane_area_of(const sunder_i_plane_polygon *polygon);
 /* Sets *region to a polygon around the disc of this radius. */
 void sunder_i_plane_disc(sunder_i_plane_region *region, double radius);
-/* Clips the region to n.u >= d, by this claim. Returns false if nothing is left; then the region is unchanged, and `by`
- * has the claims of the sides next to its nearest corner. */
+/* Clips the region to n.u >= d, and marks the new side with `claim`. Returns false if nothing is left; then the region
+ * is unchanged. If anything is cut off, `by` has the claims of the two sides at the corner with the greatest n.u. */
 bool sunder_i_plane_clip(sunder_i_plane_region *region, const double n[2], double d, uint32_t claim, uint32_t by[2]);
 /* Returns the distance of the region from 0, with the nearest place and the claims of the sides there. */
 double sunder_i_plane_distance(const sunder_i_plane_region *region, double place[2], uint32_t by[2]);
@@ -178,10 +178,12 @@ bool sunder_i_plane_index_list(const struct sunder_i_plane_kept *kept, const sun
 
 /* ---- plane_choices.c --------------------------------------------------------------------------------------------- */
 
-/* Looks for a proved question that is nearly the same as the present one. Returns false if memory is out. */
+/* Sets plane->known to the choices of a proved question in which at most one in PLANE_FRESH of the present obstacles
+ * was not forbidden, if there is one, and lists those obstacles in plane->fresh. Returns false if memory is out. */
 bool sunder_i_plane_choices_begin(sunder_i_plane *plane);
-/* Returns the choice made earlier for a region, if it is still the best of the obstacles forbidden then; NULL if it is
- * not known. */
+/* Returns the choice of the cached question for its region number `region`, if the obstacle chosen then is still
+ * forbidden, or if none was found: it is then the best of all obstacles except the fresh ones. Returns NULL if there is
+ * no such choice. */
 const sunder_i_plane_choice *sunder_i_plane_choices_known(const sunder_i_plane *plane, uint32_t region);
 /* Returns the first subregion left by the choice that the cached question made for `region`, if that choice is
  * `obstacle`; else SUNDER_I_NO_CHOICE. */

@@ -29,7 +29,8 @@ static void begin_sums(sunder_i_branching *c, const sunder_i_claim *s)
     if (s->j != SUNDER_I_GROUND) c->net[2 * s->j] = c->net[2 * s->j + 1] = c->weight[s->j] = 0;
 }
 
-/* Returns the loss by the limit of body b, and resets its sum so that it is counted once. */
+/* Returns what the limit of body b takes from the contradiction: the limit times the length of the net force on b, with
+ * the share `share` of its weight for rounding. Resets the sums of b, so that it is counted once. */
 static double take_lost(sunder_i_branching *c, uint32_t b, double share)
 {
     const double *net = c->net + 2 * (size_t)b;

@@ -29,8 +29,8 @@
 
 static double dot_product(const double p[2], const double q[2]) { return p[0] * q[0] + p[1] * q[1]; }
 
-/* Sets out to corner k of A + (-B), where one of the two is a single corner. If the other is B its order is
- * reversed. */
+/* Sets out to corner k of A + (-B), where A or B has only one corner. The corners are counter-clockwise in both
+ * cases. */
 static void corner_of_sum(const sunder_i_parting *p, size_t k, double out[2])
 {
     const double *a = p->a + 2 * (p->na > 1 ? k : 0), *b = p->b + 2 * (p->nb > 1 ? k : 0);
