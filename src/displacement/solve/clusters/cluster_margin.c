@@ -5,9 +5,10 @@
 
 #include <math.h>
 
-/* The margin covers the rounding of moves, and of the search itself. It is a power of two, two to four units in the
- * last place of the largest coordinate, and grows fourfold with each failed check. So if a shift of the layer keeps
- * coordinates in their binades, the search, which computes relative to the bodies' own origins, does the same. */
+/* The margin covers the rounding of moves, and of the search itself. It is a power of two: four units in the last place
+ * of the largest coordinate plus the greatest distance demanded. It grows fourfold with each failed check. So if a
+ * shift of the layer keeps coordinates in their binades, the search, which computes relative to the bodies' own
+ * origins, does the same. */
 double sunder_i_solver_margin(const sunder_i_solver *solver, const uint32_t *b, size_t n)
 {
     double largest = 0;

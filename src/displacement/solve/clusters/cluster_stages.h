@@ -9,8 +9,9 @@
 typedef struct sunder_i_spared {
     const sunder_i_id_pair *pair; /* [n] numbers of features and barriers in the layer of the caller */
     size_t n;
-    /* NULL, or what features and barriers were asked to before, by names that these have in all layers that share it:
-     * name[number], SUNDER_I_NOBODY: none. */
+    /* NULL, or a memo of relaxations beside barriers that other layers share. Features and barriers have names there
+     * that are the same in all of these layers: name[number]; SUNDER_I_NOBODY: the feature has none, and its relaxation
+     * is not kept. */
     struct sunder_i_relaxation_memo *memo;
     const uint32_t *name;
     /* NULL, or [n] the clearances that proofs hold the pairs to, as in sunder_i_requirement; NAN: as in this layer. */
@@ -50,11 +51,11 @@ sunder_status sunder_i_find_unsolvable(const sunder_i_model *model, const sunder
 /* Lifts all limits, except if there are barriers, and sets aside the bodies connected with pairs that no moves within
  * their limits can separate. *lifted: there were limits, and they are lifted now. */
 sunder_status sunder_i_solver_lift_limits(sunder_i_solver *solver, bool *lifted, sunder_error *err);
-/* While limits are lifted: clusters that cost more than their limits allow, and have run into others, return home and
- * are set aside. */
+/* While limits are lifted: clusters that cost more than their limits allow, and would become part of a crowd of more
+ * than MOST_LIFTED bodies by running into others, return home and are set aside. */
 sunder_status sunder_i_solver_set_far_aside(sunder_i_solver *solver, sunder_error *err);
-/* Limits are in force again. Bodies that exceed theirs, and all that are connected with these, return to their original
- * places, to be solved within their limits. */
+/* Puts limits in force again. Bodies that exceed theirs, bodies that were set aside, bodies that met one of these, and
+ * all bodies of their clusters return to their original places, to be solved within their limits. */
 sunder_status sunder_i_solver_restore_limits(sunder_i_solver *solver, sunder_error *err);
 
 /* The bodies marked in back[bodies] return to their original places; their edges, relaxations and given-up pairs are
@@ -63,9 +64,11 @@ sunder_status sunder_i_solver_begin_again(sunder_i_solver *solver, const bool *b
 
 /* ---- coarse_bodies.c --------------------------------------------------------------------------------------------- */
 
-/* Fixes, of two bodies in conflict at the start, the one whose moves are coarse for the other. */
+/* For each two bodies in conflict at the start: holds one as fixed if its moves are coarse for the other
+ * (coarse_bodies.c). */
 sunder_status sunder_i_solver_begin_holding(sunder_i_solver *solver, sunder_error *err);
-/* The same for the conflicts of the present layout, if bodies may be held at all. */
+/* Holds bodies as fixed in the same way for each two bodies in conflict in the present layout, if the layer has bodies
+ * that may be held at all. */
 void sunder_i_solver_hold_coarse(sunder_i_solver *solver);
 /* Is any body held? */
 bool sunder_i_solver_any_held(const sunder_i_solver *solver);
@@ -100,7 +103,7 @@ void sunder_i_held_layout_free(sunder_i_held_layout *layout);
 
 /* ---- move_inside.c ----------------------------------------------------------------------------------------------- */
 
-/* Moves the pairs of solver->entry inside each other. */
+/* For each pair of solver->entry: moves one feature's body inside the other, as far as both limits allow. */
 sunder_status sunder_i_solver_move_inside(sunder_i_solver *solver, sunder_error *err);
 
 /* ---- holders.c --------------------------------------------------------------------------------------------------- */
@@ -135,12 +138,14 @@ sunder_status sunder_i_solver_reconsider(sunder_i_solver *solver, bool *changed,
 
 /* ---- one_by_one.c ------------------------------------------------------------------------------------------------ */
 
-/* The same for single given-up pairs, while the other conflicts remain. */
+/* Asks, for single given-up pairs, whether each has a solution while the other conflicts remain as they are. If one is
+ * found the bodies move there: *changed, and clusters have to be settled. */
 sunder_status sunder_i_solver_ask_one_by_one(sunder_i_solver *solver, bool *changed, sunder_error *err);
 
 /* ---- exact_fits.c ------------------------------------------------------------------------------------------------ */
 
-/* The same for pairs that may fit exactly, since their coordinates are multiples of a common step. */
+/* Looks for exact places for the given-up pairs that may fit exactly, since their coordinates are multiples of a common
+ * step. A pair for which there are such places is no longer given up. */
 sunder_status sunder_i_solver_fit_exactly(sunder_i_solver *solver, sunder_error *err);
 
 /* ---- retry_list.c ------------------------------------------------------------------------------------------------ */
@@ -157,7 +162,8 @@ sunder_status sunder_i_solver_improve(sunder_i_solver *solver, sunder_error *err
 
 /* ---- in_contact.c ------------------------------------------------------------------------------------------------ */
 
-/* After contact groups were gathered: moves wanted groups to places without a margin, if doubles can represent them. */
+/* After contact groups were gathered: moves wanted groups that have moved to places in contact without a margin, if
+ * doubles can represent these, they cost less, and they pass the exact check. */
 sunder_status sunder_i_solver_put_in_contact(sunder_i_solver *solver, sunder_error *err);
 
 /* ---- contact_groups.c -------------------------------------------------------------------------------------------- */
@@ -212,10 +218,11 @@ sunder_status sunder_i_solver_spare(sunder_i_solver *solver, const sunder_i_spar
 /* Is r a conflict that is always listed, whatever the options? Members of one block count only if they overlap and do
  * not merely touch. */
 bool sunder_i_solver_is_always_listed(const sunder_i_solver *solver, const sunder_i_relation *r);
-/* Is r such a conflict, and is it worse than at the start? */
+/* *breaks if r is a conflict that is always listed (sunder_i_solver_is_always_listed()), and is worse than at the
+ * start. */
 sunder_status sunder_i_solver_breaks_rule(sunder_i_solver *solver, const sunder_i_relation *r, bool *breaks,
                                           sunder_error *err);
-/* Is the conflict r worse than at the start? The answer is exact. */
+/* *worse if the conflict r is worse than at the start, or was none there. The answer is exact. */
 sunder_status sunder_i_solver_is_worse(sunder_i_solver *solver, const sunder_i_relation *r, bool *worse,
                                        sunder_error *err);
 /* The budgets for sunder_i_solver_mend(), owned by the caller. Each cluster has its own, so that the result for one

@@ -1,11 +1,11 @@
-/* Exact fits: two bodies that limits let separate exactly as far as they owe, a row between a wall and the last body's
- * limit.
+/* Exact fits: pairs that limits allow to keep exactly the distance required, and no more. An example is a row between a
+ * wall and the limit of its last body.
  *
  * The search demands a margin beyond the distance owed, to cover rounding, and there is no room for it here: it gives
  * such pairs up. But where coordinates and distances are multiples of a step that is coarse compared with rounding, the
  * fit has its places on that lattice, and doubles represent them. So the search is asked for places that miss a little
- * (../search/fit_given_up.c), these are moved to the lattice (../../prove/optimum/tight_place.c), and are taken if they
- * hold, exactly, and solve the pair. Elsewhere a fit to the last bit would be mere chance. */
+ * (../search/fit_given_up.c), and these are moved to the lattice (../../prove/optimum/tight_place.c). They are taken if
+ * they hold, exactly, and solve the pair. Elsewhere a fit to the last bit would be mere chance. */
 #include "displacement/layer/barrier_pairs.h"
 #include "displacement/solve/clusters/cluster_stages.h"
 #include "displacement/solve/clusters/trial.h"

@@ -1,12 +1,12 @@
 /* A layout with held bodies, kept beside the one that is found where these may move: the better of the two is taken,
  * cluster by cluster.
  *
- * A cluster here is what hangs together by edges or conflicts in one of the two. It is better if fewer pairs of it are
- * in conflict; where as many are, if it costs less; where it costs as much, the one with held bodies. A layout that
- * throws a body that was never held is no better, whatever it resolves: many times as far as the body is large, which
- * is what the margin of a coarse neighbour does. Nor is one that bends a body that was held: whose near corners move,
- * and the far ones are rounded back. So what stands beside a corrupt vertex costs no more than beside the
- * same feature fixed, unless that leaves more conflicts; and it is never thrown. */
+ * A cluster here is a component of bodies connected by edges or conflicts in either layout. Its better layout is the
+ * one with fewer pairs in conflict; if both have as many, the cheaper one; if both cost the same, the one with held
+ * bodies. The layout without held bodies is not taken, whatever it resolves, if it throws a body that was never held:
+ * moves it farther by many times its size, as the margin of a coarse neighbour does. Nor is it taken if it bends a body
+ * that was held: moves its near corners, while the far ones are rounded back. So what stands beside a corrupt vertex
+ * costs no more than beside the same feature fixed, unless that leaves more conflicts; and it is never thrown. */
 #include "displacement/solve/clusters/cluster_stages.h"
 #include "displacement/solve/clusters/tuning.h"
 

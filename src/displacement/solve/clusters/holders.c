@@ -1,10 +1,10 @@
-/* What lies in two features that have to part, with leave to overlap both, is kept in one of them; which one, is for
- * layer/inclusion.c. */
+/* A feature that lies in two features that have to part, and may overlap both, is kept in one of them;
+ * layer/inclusion.c chooses in which. */
 #include "displacement/layer/resolution.h"
 #include "displacement/solve/clusters/cluster_stages.h"
 
-/* Is a movable one of the two in a cluster for which better sides were looked for? Then it keeps its position and its
- * holder. */
+/* Is one of the pair's bodies movable, and in a cluster for which better sides were looked for? Then the bodies keep
+ * their positions and holders. */
 static bool is_settled(const sunder_i_solver *s, const uint32_t pair[2])
 {
     return sunder_i_solver_any_of(s, pair, 2, sunder_i_is_improved);

@@ -1,5 +1,5 @@
-/* What limits and fixed bodies leave no solution for by itself: pairs that no admissible moves resolve, found exactly
- * before anything moves. (What clusters give up later: given_up.c.) */
+/* Pairs in conflict that no moves within the limits of the two resolve, found exactly before anything moves; a fixed
+ * body has the limit 0. (Pairs that clusters give up later: given_up.c.) */
 #include "displacement/layer/barrier_pairs.h"
 #include "displacement/solve/clusters/cluster_stages.h"
 
@@ -24,7 +24,7 @@ static bool boxes_can_part(const double *a, const double *b, double gap, double 
     return out + gap < reach * (1 - 0x1p-40);
 }
 
-/* A spared pair will be relaxed, whatever its limits, and needs no test; unless one of the two may go inside the
+/* Does the pair r need no test? A spared pair is relaxed in any case, unless one of its features may go inside the
  * other. */
 static bool is_left(const judging *g, const sunder_i_relation *r)
 {

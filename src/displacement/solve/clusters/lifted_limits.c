@@ -101,7 +101,8 @@ static bool costs_more_than_limits(const sunder_i_solver *s, const sunder_i_clus
     return cost > most;
 }
 
-/* Joins, in the union-find `root`, the clusters of two bodies that met. */
+/* Joins, in the union-find `root`, the clusters of bodies i and j, which met, unless one of them was set aside or is
+ * fixed. */
 static void join_if_running(const sunder_i_solver *s, uint32_t i, uint32_t j, uint32_t *root)
 {
     if (sunder_i_is_aside(s, i) || sunder_i_is_aside(s, j) || s->model.body[i].fixed || s->model.body[j].fixed) return;
@@ -139,8 +140,8 @@ static void find_running_clusters(const sunder_i_solver *s, uint32_t *root, size
     }
 }
 
-/* Sets the bodies of these clusters aside, and sets back[] for them. Their present moves are kept, since the search may
- * start from there later. Returns whether there are any. */
+/* Sets the bodies of the clusters marked in running[] aside, and marks them in back[bodies]. Their present moves are
+ * kept in s->went, since the search may start from there later. Returns whether there are any. */
 static bool set_running_aside(sunder_i_solver *s, const bool *running, bool *back)
 {
     bool any = false;
@@ -174,7 +175,7 @@ sunder_status sunder_i_solver_set_far_aside(sunder_i_solver *solver, sunder_erro
 
 /* ---- Within them ------------------------------------------------------------------------------------------------- */
 
-/* If one of two bodies that met was set aside, marks the clusters of both by their roots. */
+/* If one of bodies i and j, which met, was set aside: marks the clusters of both by their roots. */
 static void mark_meeting(sunder_i_solver *s, uint32_t i, uint32_t j, bool *root)
 {
     if (!sunder_i_is_aside(s, i) && !sunder_i_is_aside(s, j)) return;

@@ -1,13 +1,13 @@
 /* Has a single given-up pair a solution, if the others stay given up?
  *
  * A cluster gives up pairs until the search finds a solution for the rest, and reconsider.c asks whether all of them
- * have one. This stage asks a question in between: one pair together with all unlisted pairs, while the other present
- * conflicts stand no worse (prove/proofs/feasibility.c). It is the question that the report asks (report/no_room.c), so
- * a pair with a solution is not reported as unresolved. The search continues from a solution, one in each cluster at a
- * time, and if it succeeds the pair is no longer given up; otherwise all is left as it was. A solution without spare
- * room, which the margins of the search exclude, is aligned to the last bit (prove/optimum/tight_place.c) and checked
- * exactly, like all moves. No pair is asked about twice; and in a crowd where questions get no answer fewer and fewer
- * are asked. */
+ * have one. This stage asks a question in between: can one pair be resolved together with all pairs that are not in
+ * conflict now, while the other present conflicts stand no worse (prove/proofs/feasibility.c)? It is the question that
+ * the report asks (report/no_room.c), so a pair with a solution is not reported as unresolved. The search continues
+ * from a solution, one in each cluster at a time. If it succeeds the pair is no longer given up; otherwise all bodies
+ * return. A solution without spare room, which the margins of the search exclude, is aligned to the last bit
+ * (prove/optimum/tight_place.c) and checked exactly, like all moves. No pair is asked about twice; and in a crowd where
+ * questions get no answer fewer and fewer are asked. */
 #include "displacement/layer/resolution.h"
 #include "displacement/prove/optimum/optimum.h"
 #include "displacement/prove/proofs/feasibility.h"
@@ -108,8 +108,9 @@ static double far_for(const sunder_i_model *model, uint32_t first, const uint32_
     return sunder_i_max(far, beyond);
 }
 
-/* Asks for a solution with a margin for rounding. If there is none, asks again without the margin, since a place may
- * just fit. Adds the effort of both to *work. */
+/* Asks for a solution with a margin for rounding. If there is provably none, asks again without the margin, since a
+ * place may just fit. If there is a solution, and there may be one with spare room, asks for that. Adds the effort of
+ * all questions to *work. */
 static sunder_status ask_question(sunder_i_subproblem *p, sunder_i_decision *decision, uint64_t *work,
                                   sunder_error *err)
 {
@@ -141,9 +142,10 @@ static bool has_no_limit(const sunder_i_model *model, const sunder_i_relaxation 
            sunder_i_limit_of(&model->body[model->body_of[t->b]]) == INFINITY;
 }
 
-/* The effort for a question, after `in_vain` questions in a row that used up theirs. In a crowd connected by chains of
- * dozens of bodies almost all questions end like that, and the few others end early. So the effort is halved from one
- * question to the next. */
+/* The effort for the question about relaxation t, after `in_vain` questions in a row that used up theirs. In a crowd
+ * connected by chains of dozens of bodies almost all questions end like that, and the few others end early. So after
+ * the first failures (ALONE_IN_VAIN) the effort is halved from one question to the next. A question about two bodies
+ * without limits gets the least effort in any case. */
 static uint64_t effort_for(const sunder_i_model *model, const sunder_i_relaxation *t, unsigned in_vain)
 {
     if (has_no_limit(model, t)) return EFFORT_BRIEFLY_ALONE;
@@ -291,7 +293,8 @@ typedef struct resuming {
     size_t n;
 } resuming;
 
-/* The demands on the other conflicts, in the form that proofs use. NULL if memory is out. */
+/* Returns the demands on all present conflicts but that of relaxation `which`, in the form that proofs use; *n is their
+ * number. NULL if memory is out. */
 static sunder_i_waiver *waive_others(const resuming *g, uint32_t which, size_t *n)
 {
     const sunder_i_model *model = &g->solver->model;

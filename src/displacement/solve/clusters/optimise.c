@@ -1,15 +1,15 @@
-/* Contact groups of the layout: for each a proof of how little it can cost, and a cheaper layout where one is found.
+/* Contact groups of the layout: proves for each a lower bound of its cost, and finds cheaper layouts.
  *
- * Each group is examined separately, all from the positions at the round's start; a cheaper layout of one is taken. A
- * body of another group in its way belongs to it in the next round; so do two groups that have invited the same guest.
- * A group that did not change from one round to the next keeps its proof, and a bound proved for bodies is inherited by
- * the group that they are in, as long as the demands on their pairs are the same. Rounds join groups, or improve the
- * layout by a significant amount, so they end; their number is limited, and a body has a limited number of steps in all
- * of them.
+ * Each group is examined separately, all from the positions at the round's start; a cheaper layout of a group is taken.
+ * Groups are treated as one in the next round if one is in the way of the other's cheaper layout, or if both proofs had
+ * to include the same body outside them, a guest. A group that did not change from one round to the next keeps its
+ * proof. A bound proved for bodies is inherited by the group that they are in, as long as the demands on their pairs
+ * are the same. Rounds join groups, or improve the layout by a significant amount, so they end; their number is
+ * limited, and a body has a limited number of steps in all of them.
  *
  * Pairs left in conflict must stand no worse than at the start, which is checked exactly for every layout taken;
- * uphold.c repairs the effect of rounding on them. So this stage runs once more after nothing stands worse, and nothing
- * does after it. */
+ * uphold.c repairs the effect of rounding on them. So this stage runs once more after that repair, and no stage moves
+ * bodies after it. */
 #include "displacement/layer/resolution.h"
 #include "displacement/prove/optimum/optimum.h"
 #include "displacement/solve/clusters/cluster_stages.h"
@@ -192,7 +192,8 @@ static bool takes_part(const sunder_i_group *g, uint32_t body)
     return false;
 }
 
-/* Undoes the group's new layout. known: the layout failed because of a body of the group. */
+/* Undoes the new layout of group k, if it has one; returns whether it had. known: the layout failed in itself, and not
+ * because of a body outside the group. */
 static bool put_back(taking *t, uint32_t k, bool known)
 {
     sunder_i_solver *s = t->solver;
@@ -217,8 +218,8 @@ static bool put_back(taking *t, uint32_t k, bool known)
 }
 
 /* Undoes the new layout of the groups that moved features a and b; *any if there was one. If two groups ran into each
- * other, the one with the smaller index keeps its layout, and both are examined again, together. known: the pair failed
- * for another reason than a body that the group did not know of. */
+ * other, the one with the smaller index keeps its layout, and both are examined again, together. known: the pieces of
+ * the two bodies show what failed; a group that contains both is then not to try a layout without slack again. */
 static void put_back_either(taking *t, uint32_t a, uint32_t b, bool known, bool *any)
 {
     const uint32_t p = t->solver->model.body_of[a], q = t->solver->model.body_of[b], i = t->by[p], j = t->by[q];
@@ -238,10 +239,10 @@ static bool note_joined(sunder_i_groups *groups, uint32_t one, uint32_t other)
     return true;
 }
 
-/* The same for two features of which one jumped over the other. Their pieces may not show the jump: an anchor that
- * moves along a diagonal between two pieces meets neither. So both bodies use the pieces that cover their diagonals
- * from now on (layer/diagonal_covers.c). The feature that was jumped over may be far away now, so the two groups are
- * joined. False if memory is out. */
+/* Undoes the new layouts of features a and b, one of which jumped over the other; *any if there was one. Their pieces
+ * may not show the jump: an anchor that moves along a diagonal between two pieces meets neither. So both bodies use the
+ * pieces that cover their diagonals from now on (layer/diagonal_covers.c). The feature that was jumped over may be far
+ * away now, so the two groups are joined. False if memory is out. */
 static bool put_back_jump(taking *t, uint32_t a, uint32_t b, bool *any)
 {
     sunder_i_groups *groups = &t->solver->groups;
@@ -262,7 +263,7 @@ static bool has_moved(const taking *t, uint32_t thing)
     return t->by[t->solver->model.body_of[thing]] != SUNDER_I_NOBODY;
 }
 
-/* Has one of the two returned since pairs were related? Then the pair may be in order again. */
+/* Has feature a or b returned since pairs were related? Then their pair may be in order again. */
 static bool is_outdated(const sunder_i_solver *s, uint32_t a, uint32_t b)
 {
     return s->changes.is[a] || s->changes.is[b];

@@ -1,7 +1,7 @@
-/* Is there no solution, or was none found? Pairs that were given up are looked at again, component by component of
- * the layer's conflicts (prove/proofs/feasibility.c): either it is proved that limits and fixed features leave no room
- * for all of them, or there is a solution to go on from, or the question stays open. What is said of those that remain
- * is for report/no_room.c. */
+/* Is there no solution, or was none found? Pairs that were given up are looked at again, component by component of the
+ * layer's conflicts (prove/proofs/feasibility.c). Either it is proved that limits and fixed features leave no room for
+ * all of them, or there is a solution to continue from, or the question stays open. report/no_room.c writes what is
+ * known of the pairs that remain. */
 #include "displacement/layer/rounding.h"
 #include "displacement/prove/proofs/feasibility.h"
 #include "displacement/solve/clusters/cluster_stages.h"
@@ -92,8 +92,8 @@ static sunder_status find_components(sunder_i_solver *s, components *out, sunder
 
 /* ---- Looking again ----------------------------------------------------------------------------------------------- */
 
-/* The question about a component: its bodies and those that the search found it to hang together with, ascending.
- * Several components of one cluster can have the same question, which is asked once, for the first of them. */
+/* The question about a component: its bodies and those of the cluster that it is in now, ascending. Several components
+ * of one cluster can have the same question, which is asked once, for the first of them. */
 typedef struct question {
     sunder_i_list body; /* empty: the component is not asked about */
     size_t first;       /* the component whose question, and decision, this is */
@@ -244,7 +244,8 @@ static bool take_back(sunder_i_model *model, const sunder_i_solution *solution)
     return sunder_i_relaxations_index(&model->relaxations, model);
 }
 
-/* Moves the bodies to the solution. The bodies that it moved become one cluster, in which the search continues. */
+/* Moves the bodies to the solution, and drops what was given up for them. The bodies that it moved become one cluster
+ * with the component's root, in which the search continues. False if memory is out. */
 static bool take_solution(sunder_i_solver *s, const component *c, const sunder_i_solution *solution)
 {
     bool ok = take_back(&s->model, solution);

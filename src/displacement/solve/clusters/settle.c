@@ -82,8 +82,8 @@ static bool solve_together(sunder_i_solver *s, uint32_t i, uint32_t j)
     return sunder_i_solver_add_edge(s, i, j);
 }
 
-/* Are the two in one cluster? For a fixed body the answer is that of the last gathering: edges added since then do not
- * count, and may be added again. */
+/* Are bodies i and j in one cluster? For a fixed body the answer is that of the last gathering: edges added since then
+ * do not count, and may be added again. */
 static bool are_together(const sunder_i_solver *s, uint32_t i, uint32_t j)
 {
     const bool fixed = s->model.body[i].fixed || s->model.body[j].fixed;
@@ -92,8 +92,8 @@ static bool are_together(const sunder_i_solver *s, uint32_t i, uint32_t j)
     return sunder_i_solver_has_member(s, sunder_i_union_find(s->parent, other), still);
 }
 
-/* A pair that is relaxed between two clusters affects neither of them, unless it is worse than at the start: then they
- * become one. */
+/* A relaxed pair r of two clusters affects neither of them, unless it is worse than at the start: then they become one,
+ * and *any is set. */
 static sunder_status heed_relaxation(sunder_i_solver *s, const sunder_i_relation *r, bool *any, sunder_error *err)
 {
     const uint32_t i = s->model.body_of[r->a], j = s->model.body_of[r->b];
@@ -107,8 +107,9 @@ static sunder_status heed_relaxation(sunder_i_solver *s, const sunder_i_relation
     return solve_together(s, i, j) ? SUNDER_OK : sunder_i_failure_cause(err);
 }
 
-/* The two are in one cluster, whose solution should have separated them, and rounding spoiled it: the cluster is solved
- * again with a wider margin, unless it has grown MOST_MARGINS times. */
+/* Features a and c are in conflict, or one jumped over the other, though they are in one cluster, whose solution should
+ * have prevented that: rounding spoiled it. The cluster is solved again with a wider margin, unless its margin has
+ * grown MOST_MARGINS times. *any if it is. */
 static void widen_margin(sunder_i_solver *s, uint32_t a, uint32_t c, bool *any)
 {
     const uint32_t i = s->model.body_of[a], j = s->model.body_of[c];
@@ -121,7 +122,8 @@ static void widen_margin(sunder_i_solver *s, uint32_t a, uint32_t c, bool *any)
     sunder_i_trace_pair(&s->model, "check", "in conflict within its cluster: solved with a wider margin", a, c);
 }
 
-/* If a body jumped over a body of another cluster, the two clusters become one. */
+/* If a body jumped over a body of another cluster, the two clusters become one; a jump within a cluster widens its
+ * margin. *any if there was such a jump. */
 static sunder_status find_jumps(sunder_i_solver *s, bool *any, sunder_error *err)
 {
     const sunder_i_model *model = &s->model;

@@ -134,8 +134,8 @@ static size_t find_conflicts(const sunder_i_solver *s, const sunder_i_id_pair *l
     return found;
 }
 
-/* The same, sorted by pairs of bodies; first[k] is the index of the first conflict of the k-th pair, *pairs their
- * number. */
+/* Stores the conflicts between the n sorted pairs of bodies in `out`, sorted by pairs of bodies. first[k] is the index
+ * of the first conflict of the k-th pair of bodies, *pairs the number of such pairs. */
 static void list_conflicts(const sunder_i_solver *s, const sunder_i_id_pair *list, size_t n, shut_in_conflict *out,
                            size_t *first, size_t *pairs)
 {

@@ -1,6 +1,5 @@
-/* A question about a conflict: has a small layer a solution in which pairs that are spared are as they were? Most have
- * none, and a search that finds none has tried all it knows: so it is asked first what can be proved, which costs less.
- */
+/* A question about a conflict: has a small layer a solution while the pairs that are spared stay as they are? Most such
+ * layers have none, and a search that finds none has tried everything. So proofs are tried first, which cost less. */
 #include "displacement/layer/requirement.h"
 #include "displacement/layer/rounding.h"
 #include "displacement/prove/proofs/feasibility.h"
@@ -11,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* NULL: it is not spared. */
+/* The entry of `spared` for features a and b of this layer; NULL: the pair is not spared. */
 static const sunder_i_id_pair *spared_pair(const sunder_i_solver *s, const sunder_i_spared *spared, uint32_t a,
                                            uint32_t b)
 {
@@ -25,7 +24,8 @@ bool sunder_i_solver_is_spared(const sunder_i_solver *solver, const sunder_i_spa
     return spared_pair(solver, spared, a, b) != NULL;
 }
 
-/* The relaxation of a feature and a barrier, if it is known; else it is found, and kept. */
+/* Sets *relaxation, whose a and b are set, to the relaxation of that feature and barrier: from spared->memo if it is
+ * there under the names `named`; otherwise it is computed, and stored there. */
 static sunder_status relax_beside_barrier(const sunder_i_model *model, const sunder_i_spared *spared,
                                           const sunder_i_id_pair *named, sunder_i_relaxation *relaxation,
                                           sunder_error *err)
@@ -108,7 +108,8 @@ static sunder_status find_requirement(const sunder_i_solver *s, const sunder_i_r
     return SUNDER_OK;
 }
 
-/* The features of this layer, by their numbers in the order that `spared` uses. NULL if memory is out. */
+/* Returns an array of the features of this layer, indexed by the numbers that they have in the layer of the caller
+ * (layer.number), which the pairs of sunder_i_spared use. NULL if memory is out. */
 static uint32_t *features_by_number(const sunder_i_solver *s)
 {
     uint32_t *feature = sunder_i_alloc(s->model.things, sizeof *feature);
@@ -116,8 +117,8 @@ static uint32_t *features_by_number(const sunder_i_solver *s)
     return feature;
 }
 
-/* Appends the pairs of features that `list` tells what to hold to, whether they are in conflict in this layer or
- * not. */
+/* Appends a requirement for each pair of `list` that has a clearance in list->held, whether the pair is in conflict in
+ * this layer or not. *n is the number of requirements. */
 static sunder_status list_held(const sunder_i_solver *s, const sunder_i_spared *list, sunder_i_requirement *required,
                                size_t *n, sunder_error *err)
 {
@@ -160,7 +161,8 @@ static bool are_heeded(const sunder_i_subproblem *q, const sunder_i_relation *r)
            sunder_i_set_has(q->feature, q->features, sunder_i_whole_of(q->model, r->b));
 }
 
-/* Is r a conflict that is to be solved? What the model has relaxed is, if it is not spared this time. */
+/* Is r a conflict that is to be solved? A spared one is not. A pair of how->relaxed is, although the model has relaxed
+ * it. */
 static bool is_to_be_solved(const sunder_i_solver *s, const sunder_i_proving *how, const sunder_i_relation *r)
 {
     if (sunder_i_solver_is_spared(s, how->spared, r->a, r->b)) return false;
@@ -201,8 +203,9 @@ static sunder_status ask_about(questioning *g, const uint32_t *body, size_t bodi
     return status;
 }
 
-/* Is there a conflict to be solved that provably has no solution, or has each one by itself? Conflicts of the same two
- * bodies are one question, since all that are not spared have to hold. */
+/* Asks about each two bodies with conflicts to be solved, by themselves, until the effort ends: conflicts of the same
+ * two bodies are one question. g->verdict: infeasible if one has provably no solution; feasible if there were questions
+ * and each has a solution; otherwise unknown. */
 static sunder_status prove_each(questioning *g, sunder_error *err)
 {
     const sunder_i_solver *s = g->solver;
@@ -230,7 +233,8 @@ static sunder_status prove_each(questioning *g, sunder_error *err)
     return status;
 }
 
-/* Several conflicts with a solution each: have they one together? Undecided: the former verdict stands. */
+/* Asks whether the conflicts, each of which has a solution by itself, have none together; if that is proved, g->verdict
+ * is infeasible. Otherwise the former verdict stands. */
 static sunder_status prove_together(questioning *g, sunder_error *err)
 {
     sunder_i_verdict verdict;

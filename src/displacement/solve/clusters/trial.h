@@ -1,5 +1,6 @@
-/* Trials: some bodies are moved, and an exact check decides. They stay there if no pair comes into a new conflict or
- * stands worse than at the start, and no feature jumps over another. Otherwise all return. */
+/* Trials: some bodies are moved, and an exact check decides. They stay there if no pair comes into a new conflict, no
+ * old conflict becomes an overlap or stands worse than at the start, and no feature jumps over another. Otherwise all
+ * return. */
 #ifndef SUNDER_I_TRIAL_H
 #define SUNDER_I_TRIAL_H
 
@@ -23,7 +24,8 @@ typedef struct sunder_i_trial {
 
 /* Adds a body at its present move. False if memory is out. */
 bool sunder_i_trial_take(sunder_i_trial *trial, uint32_t body);
-/* Adds the movable bodies of a cluster whose new move differs from the present one, each with its goal. */
+/* Adds the movable bodies of a cluster whose new move, move[2 * cluster->n], differs from the present one; that becomes
+ * the goal of each. False if memory is out. */
 bool sunder_i_trial_take_moved(sunder_i_trial *trial, const sunder_i_cluster *cluster, const double *move);
 /* Moves all bodies to the goal (`to`, or trial->goal) and checks: trial->well if they stay there. */
 sunder_status sunder_i_trial_place(sunder_i_trial *trial, const double to[2], sunder_error *err);

@@ -63,7 +63,7 @@ static sunder_status try_nearby(sunder_i_trial *t, sunder_error *err)
 
 /* ---- All that move as one ---------------------------------------------------------------------------------------- */
 
-/* Do the two bodies have the same move up to `hair`, in the coordinates that the trial changes? */
+/* Do bodies b and `other` have the same move up to `hair`, in the coordinates that the trial changes? */
 static bool is_alike(const sunder_i_trial *t, uint32_t b, uint32_t other, double hair)
 {
     const double *p = t->solver->model.move + 2 * (size_t)b, *q = t->solver->model.move + 2 * (size_t)other;
@@ -195,8 +195,8 @@ static double cost_of(const sunder_i_solver *s, uint32_t b)
     return sunder_i_move_cost(&s->model.body[b], s->model.move + 2 * (size_t)b);
 }
 
-/* Pins the body of the two that can move and has the cheaper move. (If neither has moved, which cannot happen, either
- * is pinned.) */
+/* Pins body i or j to its original place: the one that can move; if both can, the one with the cheaper move, unless
+ * that one has not moved at all. */
 static sunder_status pin_either(sunder_i_solver *s, uint32_t i, uint32_t j, sunder_error *err)
 {
     const double home[2] = {0, 0};
@@ -268,8 +268,9 @@ static bool is_held(const sunder_i_solver *s, const waiting *w, uint32_t body)
     return !s->model.body[body].fixed && (w->body[body] || w->cluster[sunder_i_union_find(s->parent, body)]);
 }
 
-/* Demands the margin of other pairs, too, and then without that; nothing is tried if too much has failed in this
- * cluster. */
+/* Demands the margin of the pair r and of other pairs left in conflict, and if that fails, of r and those that keep it
+ * already. *well if one succeeds. Nothing is tried if too many bodies were involved in failures in this cluster
+ * (EASED_IN_VAIN). */
 static sunder_status demand_margin_either_way(sunder_i_solver *s, const sunder_i_relation *r, waiting *w, bool *well,
                                               sunder_error *err)
 {

@@ -6,7 +6,7 @@
 
 #include "separation/separation.h"
 
-/* Is the relative position of the two exactly that of the start? */
+/* Are both features of the pair r where they were at the start, up to one exact common move? */
 static bool stand_as_they_did(const sunder_i_solver *s, const sunder_i_relation *r)
 {
     const sunder_i_placement *p = &s->placement;
@@ -14,8 +14,8 @@ static bool stand_as_they_did(const sunder_i_solver *s, const sunder_i_relation 
     return !p->rounded[r->a] && !p->rounded[r->b] && a[0] == b[0] && a[1] == b[1];
 }
 
-/* The same question for a feature and a barrier, which counts as a whole: any of its parts may have been in conflict at
- * the start. */
+/* *worse if a feature stands worse beside a barrier than at the start. The barrier counts as a whole: any of its parts
+ * may have been in conflict with the feature at the start. */
 static sunder_status is_worse_to_barrier(const sunder_i_solver *s, const sunder_i_relation *r, bool *worse,
                                          sunder_error *err)
 {
@@ -59,8 +59,7 @@ sunder_status sunder_i_solver_is_worse(sunder_i_solver *solver, const sunder_i_r
     return depth ? sunder_i_pair_worsened_since(&before, depth, &now, worse, err) : sunder_i_failure_cause(err);
 }
 
-/* Is it a conflict that is always listed, whatever the options? Members of a block may have gaps between them, and may
- * touch. */
+/* Members of one block may have gaps between them, and may touch: only their overlaps count. */
 bool sunder_i_solver_is_always_listed(const sunder_i_solver *solver, const sunder_i_relation *r)
 {
     return sunder_i_is_conflict(r) &&

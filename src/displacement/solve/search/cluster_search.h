@@ -197,8 +197,8 @@ static inline void sunder_i_search_body_shadows(sunder_i_search *search, const s
  * passed each other on the way from home to t, or be within `reach` of a shadow. */
 void sunder_i_search_visit_passing(sunder_i_search *search, const double *t, double reach, sunder_i_visit_pair visit,
                                    void *context);
-/* May bodies i and j have passed each other on the way from home to t, or be within `reach` of a shadow between them?
- * */
+/* May bodies i and j have passed each other on the way from home to t, or be within `reach` of a shadow of one
+ * another? */
 bool sunder_i_search_may_pass(const sunder_i_search *search, const double *t, uint32_t i, uint32_t j, double reach);
 
 /* ---- clashes.c: clashes, and by how much ------------------------------------------------------------------------- */

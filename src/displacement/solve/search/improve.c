@@ -186,8 +186,8 @@ static bool is_too_cheap(const sunder_i_search *s, size_t p, double cost)
     return sunder_i_search_cost(s, s->t) < (p == 0 ? 1 : CHEAP_OTHER) * cost;
 }
 
-/* Tries bodies i and j on the other sides of each other, until one leads to a cheaper layout. Returns whether one did.
- * */
+/* Tries bodies i and j on the other sides of each other, until one leads to a cheaper layout. Returns whether one
+ * did. */
 static bool try_sides_of(sunder_i_search *s, uint32_t i, uint32_t j, double *best, double *cost)
 {
     const double home[2] = {0, 0}, u[2] = {s->t[2 * j] - s->t[2 * i], s->t[2 * j + 1] - s->t[2 * i + 1]};

@@ -98,8 +98,8 @@ static bool may_cross(const sunder_i_model *model, const sunder_i_body *p, const
     return q->has->sides && sunder_i_shadow_may_reach(sunder_i_side_anchors(model, p), q->box, offset, path);
 }
 
-/* Is it forbidden that one of the two bodies jumps over the other? Parts of barriers have their own rule (may_cross()).
- * */
+/* Is it forbidden that one of the two bodies jumps over the other? Parts of barriers have their own rule
+ * (may_cross()). */
 static bool may_jump(const sunder_i_model *model, const sunder_i_body *p, const sunder_i_body *q)
 {
     return !model->rules.jumps && !sunder_i_is_barrier_body(model, p) && !sunder_i_is_barrier_body(model, q);

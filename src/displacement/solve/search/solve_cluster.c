@@ -172,8 +172,8 @@ static sunder_status waive_margins(solving *x, int jumps, sunder_error *err)
     return SUNDER_OK;
 }
 
-/* Starts again from the layout that was found without limits (model->lifted), whose sides may also serve within limits.
- * */
+/* Starts again from the layout that was found without limits (model->lifted), whose sides may also serve within
+ * limits. */
 static sunder_status begin_from_lifted(solving *x, int jumps, sunder_error *err)
 {
     sunder_i_search *s = x->s;

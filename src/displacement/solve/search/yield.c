@@ -76,8 +76,8 @@ static void look_at_changed(sunder_i_search *s, const neighbours *g, const bool 
 }
 
 /* For each clash in s->clash of more than `hair`: relaxes the pair if it is one of the n pairs at_home and not relaxed
- * yet; otherwise sends both bodies home. Marks the bodies concerned in changed[], and returns whether there were any.
- * */
+ * yet; otherwise sends both bodies home. Marks the bodies concerned in changed[], and returns whether there were
+ * any. */
 static bool yield_once(sunder_i_search *s, const sunder_i_clash *at_home, size_t n, double hair, bool *changed)
 {
     bool any = false;
