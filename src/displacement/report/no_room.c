@@ -253,9 +253,10 @@ static sunder_status keep_crowded(const asking *g, const matter *m, const sunder
     return SUNDER_OK;
 }
 
-/* Looks for a chain of features through the pair, each of which pushes the next, up to their limits. A chain of more
- * than REDUCED_LINKS links is irreducible as it is found, as far as such chains can prove it. reducing: NULL, or the
- * budget for making proofs irreducible if the chain is to prove that the conflict is crowded. */
+/* Looks for a chain of features through the pair, each of which pushes the next, up to their limits, that proves that
+ * the pair has no room. If its chains have at most REDUCED_LINKS links the proof is made irreducible, as other proofs
+ * are; longer ones are kept as they are found. reducing: NULL, or the budget for making proofs irreducible if the chain
+ * is to prove that the conflict is crowded (keep_crowded()). */
 static sunder_status ask_chain(const asking *g, matter *m, sunder_i_subproblem *q, sunder_i_chains *chains,
                                uint64_t *reducing, sunder_error *err)
 {

@@ -105,15 +105,15 @@ static sunder_status reason_of_paths(const sunder_i_model *model, sunder_conflic
     return status;
 }
 
-/* Returns whether the two features that are shut in are all that would be reported, so that no proof has to be searched
- * for: only names are kept, and neither feature has a block. */
+/* Returns whether no proof has to be searched for, for two features that are shut in: only the names of the features of
+ * a proof are kept, and neither feature has a block, so a proof would name these two alone. */
 static bool needs_no_proof(const sunder_i_model *model, const sunder_conflict *c)
 {
     return model->rules.drop_proofs && model->body[model->body_of[c->a]].members == 1 &&
            model->body[model->body_of[c->b]].members == 1;
 }
 
-/* Sets *proof to an empty proof, which names no feature besides the two. */
+/* Sets *proof to an empty proof, which names no feature besides the two of the conflict. */
 static sunder_status make_empty_proof(sunder_proof **proof, sunder_error *err)
 {
     *proof = sunder_i_calloc(1, sizeof **proof);

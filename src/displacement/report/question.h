@@ -57,8 +57,8 @@ typedef struct sunder_i_answer {
 sunder_status sunder_i_surround(const sunder_i_solver *solver, const sunder_conflict *conflict,
                                 sunder_i_surroundings *surroundings, sunder_error *err);
 void sunder_i_surroundings_clear(sunder_i_surroundings *surroundings);
-/* Sets *few to whether the small layer contains other listed pairs, and so few that they can be required to be
- * solved. */
+/* Sets *few to whether the small layer contains other listed pairs, and at most NEED_ALL of them, so that they can be
+ * required to be solved, too. */
 sunder_status sunder_i_few_are_listed(const sunder_i_questions *questions, const sunder_i_surroundings *surroundings,
                                       const sunder_conflict *conflict, bool *few, sunder_error *err);
 /* Answers a question: whether there is a solution. `proof` decides whether a proof that there is none is attempted

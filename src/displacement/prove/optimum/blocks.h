@@ -30,7 +30,9 @@ void sunder_i_contact_forces_free(sunder_i_contact_forces *contacts);
 
 /* ---- block_cover.c ----------------------------------------------------------------------------------------------- */
 
-/* A copy of a body: the body as a member of one block. */
+/* A copy of a body: the body as a member of one block. share: its share of the body's weight; force: the sum of the
+ * forces of the block's contacts on it; anchor: the place to which it is drawn; t: its move in the block's last
+ * layout. */
 typedef struct sunder_i_block_copy {
     uint32_t at; /* the body's place in the group's list */
     double share;

@@ -27,8 +27,8 @@ typedef struct sunder_i_bundle {
     double *t;
     size_t numbers, capacity;
     uint32_t *last;     /* [blocks] the last cut of each */
-    double *mix, *mean; /* mix: [2 * copies] of the cuts, by their shares; mean: [2 * members] of mix over a body's
-                         * copies */
+    double *mix, *mean; /* mix: [2 * copies] the positions of the copies in the cuts of their block, weighted by the
+                         * cuts' shares; mean: [2 * members] the mean of mix over a body's copies */
     uint64_t steps;
 } sunder_i_bundle;
 

@@ -31,7 +31,8 @@ static bool add_contacts_of_pair(sunder_i_contact_forces *c, const sunder_i_grou
     return ok;
 }
 
-/* May the two bodies be in contact? Decided by their boxes, which include their paths if paths are restricted. */
+/* May the bodies at places i and j of the group be in contact? Decided by their boxes, which include their paths if
+ * paths are restricted. */
 static bool are_near(const sunder_i_contact_forces *c, const sunder_i_group *g, uint32_t i, uint32_t j)
 {
     const sunder_i_model *model = c->model;

@@ -81,8 +81,9 @@ void sunder_i_forbidden_free(sunder_i_forbidden *forbidden);
 
 /* May two bodies be shut in, because no direction is found in which one could leave the other? In doubles, and fast. */
 bool sunder_i_may_be_shut_in(const sunder_i_model *model, uint32_t p, uint32_t q);
-/* Sets *shut if it is proved that for every relative move one body jumps over the other or crosses a side, or the two
- * are too near. The covers of diagonals must have been made. Returns false if memory is out. */
+/* Sets *shut to whether it is proved that every relative move of bodies p and q is forbidden: one jumps over the other
+ * or crosses a side, or they are too near to each other. The covers of diagonals must have been made. Returns false if
+ * memory is out. */
 bool sunder_i_is_shut_in(const sunder_i_model *model, uint32_t p, uint32_t q, bool *shut);
 /* Examines n pairs of features, each with one feature of p and one of q. Sets shut[k] to whether it is proved that
  * every relative move is forbidden by jumps and sides of the two whole bodies together with the distance that pair k

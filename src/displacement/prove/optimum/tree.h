@@ -47,9 +47,10 @@ typedef enum sunder_i_node_state {
 } sunder_i_node_state;
 
 typedef struct sunder_i_tree_node {
-    uint32_t parent; /* SUNDER_I_NO_NODE for the root */
-    uint32_t cut, cuts, force, forces;
-    double value; /* proved: no layout below it costs less than this, or than the goal */
+    uint32_t parent;                   /* SUNDER_I_NO_NODE for the root */
+    uint32_t cut, cuts, force, forces; /* its own cuts, and the forces of its program: the index of the first in
+                                        * sunder_i_tree.cut and .force, and their number */
+    double value;                      /* proved: no layout below it costs less than this, or than the goal */
     sunder_i_node_state state;
     bool stuck;    /* no hull was cut off in it, and the conflict that divided its parent is still at the same place */
     uint32_t pair; /* the pair by which it was divided, or which has no room left */
@@ -206,8 +207,9 @@ size_t sunder_i_tree_refine(sunder_i_tree *tree, double value, bool *empty);
  * if nothing is free, or if u is in the hull of the free part. *none is set if nothing is free. */
 bool sunder_i_tree_propose(sunder_i_tree *tree, uint32_t pair, const sunder_i_region *region, const double u[2],
                            double n[2], double *d, bool *none);
-/* Proposes such a cut, proves it, and adds it. Returns false if none was added. *empty is set if it is proved that the
- * pair has no room left at the last node; this is recorded there. */
+/* Proposes a cut that separates u from the free part of the pair's region, proves it, and adds it. Returns false if
+ * none was added. *empty is set if it is proved that the pair has no room left at the last node; this is recorded
+ * there. */
 bool sunder_i_tree_cut_hull(sunder_i_tree *tree, uint32_t pair, const double u[2], bool *empty);
 
 /* ---- tree_branch.c ----------------------------------------------------------------------------------------------- */

@@ -53,7 +53,8 @@ static void choose_rays(sunder_i_tree *t, const sunder_i_tree_conflict *c, branc
     out->ray[2][1] = -n[1];
 }
 
-/* Sets n and d to the two cuts of cone k: left of its first ray, right of the next one. */
+/* Sets n and d to the two cuts n.u >= d that bound cone k: to the left of ray k, and to the right of the next ray; each
+ * a grain behind the conflict's u. */
 static void cone_cuts(const sunder_i_tree *t, const sunder_i_tree_conflict *c, const branching_rays *b, int k,
                       double n[2][2], double d[2])
 {

@@ -65,8 +65,8 @@ static area room_of(const sunder_i_branching *c, const sunder_i_violation *o)
     return room;
 }
 
-/* Returns roughly how many of the half-planes in c->scratch (`half_planes` of them) are open to a pair; stops counting
- * at `most`. */
+/* Returns roughly how many of the half-planes in c->scratch, of which there are `half_planes`, contain relative moves
+ * that limits and claims leave to the pair of `o` (open half-planes); stops counting at `most`. */
 static size_t count_open(const sunder_i_branching *c, const sunder_i_violation *o, size_t half_planes, size_t most)
 {
     const area room = room_of(c, o);
@@ -80,9 +80,9 @@ static size_t count_open(const sunder_i_branching *c, const sunder_i_violation *
     return open;
 }
 
-/* Chooses the violation with the fewest open half-planes, among those that are at least the share DEEP as deep as the
- * first one and of which `known` is the same, and returns its index. Its half-planes are then in c->scratch, and their
- * number in *half_planes. */
+/* Chooses the violation with the fewest open half-planes (count_open()), among those that are at least the share DEEP
+ * as deep as the first one and of which `known` is the same, and returns its index. Its half-planes are then in
+ * c->scratch, and their number in *half_planes. */
 static size_t choose_violation(sunder_i_branching *c, const sunder_i_violation *deepest, size_t n, size_t *half_planes)
 {
     size_t best = 0, fewest = SIZE_MAX;

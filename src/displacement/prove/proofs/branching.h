@@ -94,8 +94,9 @@ typedef struct sunder_i_branching {
     const sunder_i_model *model;
     /* The movable bodies and slacks that take part, in the order in which they joined. */
     uint32_t *body;                           /* SUNDER_I_NOBODY for a slack */
-    double *limit, *t, *shift, *net, *weight; /* t: the candidate; shift: the program's solution, relative to the last
-                                               * candidate */
+    double *limit, *t, *shift, *net, *weight; /* limit: the longest moves; t: the candidate; shift: the program's
+                                               * solution, relative to the last candidate; net, weight: scratch, the
+                                               * sums of the forces on each and of their magnitudes */
     size_t bodies;
     sunder_i_slack *slack;
     size_t slacks, slack_capacity;
@@ -215,7 +216,8 @@ size_t sunder_i_branching_fill_half_planes(sunder_i_branching *branching, const 
                                            const sunder_i_body_piece *a, const sunder_i_body *q,
                                            const sunder_i_body_piece *b, double clearance, bool shadow,
                                            const double *at);
-/* The same without a relative move, from a cache: returns *n half-planes, valid until the next call. */
+/* Returns the half-planes in which two pieces of bodies p and q are separated, made for no particular relative move,
+ * from a cache: *n of them, valid until the next call. Returns NULL if memory is out (branching->failed). */
 const sunder_i_half_plane *sunder_i_branching_kept_half_planes(sunder_i_branching *branching, const sunder_i_body *p,
                                                                const sunder_i_body_piece *a, const sunder_i_body *q,
                                                                const sunder_i_body_piece *b, double clearance,

@@ -203,7 +203,8 @@ typedef struct finding {
     size_t half_plane_capacity, chain_capacity;
 } finding;
 
-/* Is half-plane k open, considering that it is a case behind the open ones before it? */
+/* May a relative move no longer than `reach` be in half-plane k and behind the lines of all open half-planes before it?
+ * Each of these lines is tested alone. open[]: the answers for the half-planes before it. */
 static bool is_open(const sunder_i_half_plane *half_plane, size_t k, const bool *open, double reach)
 {
     bool is = sunder_i_chain_is_open(&half_plane[k], reach);

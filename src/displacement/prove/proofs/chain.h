@@ -72,8 +72,9 @@ const sunder_i_chain_links *sunder_i_chains_find(sunder_i_chains *chains, uint32
 /* Looks for a half-plane such that, behind its line, limits leave none of the others; puts it first and returns true.
  * Returns false if there is none. */
 bool sunder_i_chain_only_half_plane(sunder_i_half_plane *half_plane, size_t n, double reach);
-/* The same for n half-planes in scratch. If there is none, a line that all open ones imply may be added as a further
- * half-plane, put first. Returns their number; 0 if neither works, or if memory is out (branching->failed). */
+/* Puts the half-plane that sunder_i_chain_only_half_plane() finds first, for n half-planes in branching->scratch. If
+ * there is none, a line that all half-planes open to the pair (sunder_i_chain_is_open()) imply may be added as a
+ * further half-plane, put first. Returns their number; 0 if neither works, or if memory is out (branching->failed). */
 size_t sunder_i_chain_half_planes(sunder_i_branching *branching, size_t n, double reach);
 /* Can two bodies whose relative move is at most `reach` be in this half-plane? The second function: and behind
  * the line of `behind`? */

@@ -20,7 +20,7 @@
 typedef struct reached {
     uint32_t link;
     uint32_t from; /* the index of the previous link in the round before */
-    double won;    /* the sum up to this link, without the loss at the end */
+    double won;    /* the sum up to this link, from which the limit of the last body is not subtracted yet */
 } reached;
 
 /* The chains from one end of the pair, by rounds: those of k links are item[first[k]] to item[first[k + 1] - 1]. */
@@ -31,20 +31,21 @@ typedef struct reach {
     reached item[FEWEST_MOST * FEWEST_KEPT];
     size_t first[FEWEST_MOST + 2];
     size_t rounds;                /* the number of rounds */
-    double won[FEWEST_MOST + 1];  /* the best sum of a chain of this many links, with the loss at its end; -INFINITY if
-                                   * there is none */
+    double won[FEWEST_MOST + 1];  /* the best sum of a chain of this many links, less the limit of its last body;
+                                   * -INFINITY if there is none */
     size_t best[FEWEST_MOST + 1]; /* the index of its last link */
 } reach;
 
 static double limit_of(const sunder_i_chains *g, uint32_t body) { return sunder_i_limit_of(&g->of.model->body[body]); }
 
-/* Returns the loss at a body that is pushed along n and pushes along m. */
+/* Returns what a body that is pushed along n and pushes along m takes from the sum of a chain: its limit times |n -
+ * m|. */
 static double turn_loss(const sunder_i_chains *g, uint32_t body, const double n[2], const double m[2])
 {
     return limit_of(g, body) * hypot(n[0] - m[0], n[1] - m[1]);
 }
 
-/* Is the body on the path to item `at` of round k? */
+/* Is `body` the one at which the chain of k links that ends with item `at` begins, or one that it pushes? */
 static bool is_behind(const sunder_i_chains *g, const reach *r, size_t k, size_t at, uint32_t body)
 {
     for (; k > 0; k--) {
@@ -93,7 +94,8 @@ static bool push_on(sunder_i_chains *g, reach *r, size_t k, size_t at, uint32_t 
     return true;
 }
 
-/* Records the greatest sum of the chains of k links. */
+/* Records in r->won[k] the greatest sum of the chains of k links, less the limit of the last body, and in r->best[k]
+ * the index of the last link of that chain. */
 static void note_end(const sunder_i_chains *g, reach *r, size_t k)
 {
     r->won[k] = k ? -INFINITY : -limit_of(g, r->body);

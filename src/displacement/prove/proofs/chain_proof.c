@@ -92,7 +92,8 @@ static bool add_link(builder *b, const sunder_i_chain_link *l)
     return go_on(b, &at, first);
 }
 
-/* Adds the last leaf, with all forces 1, if their sum exceeds the loss by the limits. */
+/* Adds the last leaf, with a force of 1 on each claim of the chain, if these forces prove that the claims contradict
+ * the limits. Returns false if they do not, because of rounding, or if memory is out. */
 static bool add_end(builder *b)
 {
     sunder_i_branching *c = b->c;

@@ -102,7 +102,7 @@ void sunder_i_branching_begin(sunder_i_branching *branching, size_t first)
                    2 * sizeof *branching->t);
 }
 
-/* Could the two bodies, moved within their limits, come nearer than the gap? Decided by their boxes. */
+/* Could bodies p and q, moved within their limits, come nearer to each other than the gap? Decided by their boxes. */
 static bool is_in_reach(const sunder_i_model *model, const sunder_i_body *p, const sunder_i_body *q)
 {
     const double reach = (p->fixed ? 0 : p->limit) + (q->fixed ? 0 : q->limit) + model->rules.gap;

@@ -62,8 +62,9 @@ typedef struct cases {
     place below;   /* the numbers of the first case's region */
 } cases;
 
-/* The same as contradicts_limits() if `by` are the sides next to what was cut off. If many lines meet in a corner they
- * may be the wrong two: then any other two that contradict are taken, or none. */
+/* Is it proved that the claim and the claims of two sides contradict the limits? `by` are the sides next to what was
+ * cut off. If many lines meet in a corner they may be the wrong two: then `by` is set to any other two that contradict
+ * the claim, or to none. */
 static bool any_contradict(sunder_i_plane *g, uint32_t claim, uint32_t by[2])
 {
     if (contradicts_limits(g, claim, by)) return true;

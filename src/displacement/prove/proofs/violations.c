@@ -37,7 +37,8 @@ static double find_depth(sunder_i_branching *c, const sunder_i_body *p, const su
     return n ? -at : -INFINITY;
 }
 
-/* The same by half-planes that are made for u. */
+/* Returns how deep the pieces of two bodies are in each other at the relative move u, by half-planes that are made for
+ * u. */
 static double find_depth_closely(sunder_i_branching *c, const sunder_i_body *p, const sunder_i_body_piece *a,
                                  const sunder_i_body *q, const sunder_i_body_piece *b, double clearance,
                                  const double u[2])
