@@ -1,20 +1,22 @@
 /* sunder.h: exact Minkowski sums of polygonal sets, least separating translations, and the displacement of
  * whole map layers.
  *
- * Conventions. Every fallible function returns a sunder_status (SUNDER_OK is 0) and takes a caller-owned
- * sunder_error, which may be NULL. On failure every output is untouched. What arrives through **out is freed by
- * the caller with the _free function of its type; _free(NULL) is fine. Getters lend: what they return is valid
- * until the object is freed. Objects are immutable once built, so threads may share them; there is no global
- * state but the allocation hooks, which are set once, before anything else, and each thread's own watch.
+ * Conventions. Every function that can fail returns a sunder_status (SUNDER_OK is 0) and takes a caller-owned
+ * sunder_error, which may be NULL. Unless a function says otherwise, all outputs are untouched on failure. The caller
+ * frees what it receives through **out with the _free function of its type; _free(NULL) is fine. The object owns what
+ * its getters return by pointer; it is valid until the object is freed. Objects do not change once they are built, so
+ * threads may share them (a layer is built until its barriers and side anchors are set). The only global state is the
+ * allocation hooks, which are set once, before any other call; each thread also has a watch of its own.
  *
- * Lengths are in the units of the input. Every finite double is taken as the dyadic rational that it is; nothing
- * is rounded on the way in, and on the way out only where a function says so.
+ * Lengths are in the units of the input. Every finite double is taken as the dyadic rational that it is. Inputs are
+ * never rounded; results are rounded only where a function says so.
  *
  * Functions that are declared SUNDER_API are stable: a program that is compiled with this header runs with every later
- * library of the same soname. Those that are declared SUNDER_EXPERIMENTAL may change in any version. docs/api.md says
- * what that promises, and how structs of options grow.
+ * library of the same soname. Those that are declared SUNDER_EXPERIMENTAL may change in any version that is not a mere
+ * correction. docs/api.md says what is promised in detail, and how structs of options grow.
  *
- * Proofs have a header of their own, sunder_proof.h, and so have parts of a layer, sunder_parts.h.
+ * Two more headers belong to the interface: sunder_proof.h for proofs, and sunder_parts.h for layers that are separated
+ * in parts.
  *
  * Keys such as [GRS83] resolve in REFERENCES.md. It is installed with the documentation (share/doc/sunder), and so is
  * api.md; paths that begin with src/ are those of the source code. */
@@ -42,68 +44,70 @@ extern "C" {
 
 typedef enum sunder_status {
     SUNDER_OK = 0,
-    SUNDER_EINVALID, /* geometry that breaks a rule: the error names polygon, ring and vertex */
-    SUNDER_EARG,     /* an option or argument out of its range */
-    SUNDER_ERANGE,   /* a result that doubles cannot hold */
+    SUNDER_EINVALID, /* a geometry breaks a rule; the error names the polygon, ring and vertex */
+    SUNDER_EARG,     /* an option or argument is out of its range */
+    SUNDER_ERANGE,   /* doubles cannot hold the result */
     SUNDER_ENOMEM,   /* an allocation failed; everything made so far has been released */
     SUNDER_ECANCEL,  /* a progress callback, or the watch of the thread, asked to stop */
-    SUNDER_ESIZE,    /* more parts than can be numbered: vertices, pairs of convex pieces, corners of a sum */
-    SUNDER_EFAULT    /* a result failed the library's own exact check, and is withheld: a defect to be reported */
+    SUNDER_ESIZE,    /* there are more vertices, pairs of convex pieces, or corners of a sum than can be numbered */
+    SUNDER_EFAULT    /* the result failed the library's own exact check, and is withheld; this is a defect to report */
 } sunder_status;
 
 #define SUNDER_MESSAGE_MAX 256
 
 typedef struct sunder_error {
     sunder_status status;
-    size_t polygon, ring, vertex; /* where, zero-based; SIZE_MAX where it does not apply */
+    size_t polygon, ring, vertex; /* the place of the error, counted from 0; SIZE_MAX for what does not apply */
     char message[SUNDER_MESSAGE_MAX];
 } sunder_error;
 
-/* A fixed sentence for each code; never NULL. */
+/* Returns a fixed sentence for each code; never NULL. */
 SUNDER_API const char *sunder_status_string(sunder_status status);
 
-/* The library's version, as SUNDER_VERSION of the build. */
+/* Returns the version of the library: the SUNDER_VERSION that it was built with. */
 SUNDER_API const char *sunder_version(void);
 
-/* The version of the GMP that the library runs with, which need not be the one that it was built with. */
+/* Returns the version of the GMP that the library runs with. It need not be the version that it was built with. */
 SUNDER_API const char *sunder_gmp_version(void);
 
-/* The allocation hooks; all memory goes through them. NULLs restore malloc, realloc and free. Call before any other
- * function and never while an object lives. */
+/* Sets the three functions through which the library allocates and frees all memory. NULL for all three restores
+ * malloc, realloc and free. Call it before any other function, and never while an object of the library exists. */
 SUNDER_API void sunder_set_allocator(void *(*allocate)(size_t), void *(*reallocate)(void *, size_t),
                                      void (*release)(void *));
 
-/* Frees memory that the library handed out as plain text or arrays. */
+/* Frees a text or an array that a function of the library allocated for the caller. */
 SUNDER_API void sunder_free(void *memory);
 
-/* What was done, in the units that the literature counts [AFH00, section 3]. */
+/* The numbers of elementary operations that were done, of the kinds that the literature counts [AFH00, section 3]. */
 typedef struct sunder_counts {
-    uint64_t comparisons;           /* order of two points, or of two crossings along a line */
-    uint64_t orientation_tests;     /* side of a point to a line */
-    uint64_t segment_intersections; /* crossing points constructed */
-    uint64_t exact_fallbacks;       /* questions that the floating-point filter left open */
+    uint64_t comparisons;           /* comparisons of two points, or of two crossings along a line */
+    uint64_t orientation_tests;     /* decisions about the side of a line on which a point lies */
+    uint64_t segment_intersections; /* crossing points that were constructed */
+    uint64_t exact_fallbacks;       /* decisions that the floating-point filter left to exact arithmetic */
 } sunder_counts;
 
-/* Called now and then with a fraction done in [0, 1], often the same one again; return false to stop with
- * SUNDER_ECANCEL. Calls do not overlap, but where work is shared by threads they may come from any of them. Between two
- * of them, and from the answer to the return, there is never more than some milliseconds' work (tests count it). */
+/* A progress callback. It is called with the fraction of the work that is done, in [0, 1], often with the same fraction
+ * again. If it returns false, the function that called it fails with SUNDER_ECANCEL. Calls do not overlap, but if
+ * threads share the work they may come from any of these threads. At most some milliseconds of work lie between two
+ * calls, and between a false result and the return of the function (tests count it). */
 typedef bool (*sunder_progress)(double fraction, void *user);
 
-/* Watches the calling thread, for functions without a progress argument: every function of this library that the thread
- * calls polls go_on(user) as often as a progress function, and fails with SUNDER_ECANCEL once it returned false. So
- * does every later call, at once, until another watch is set, or none (NULL). Polls do not overlap, but may come from
- * threads that the library started on behalf of this one. */
+/* Sets the watch of the calling thread, which can also stop functions that take no progress callback; NULL removes it.
+ * Every function of this library that the thread calls then calls go_on(user) as often as a progress callback. Once
+ * go_on has returned false, that function fails with SUNDER_ECANCEL, and so does every later function that can be
+ * stopped, at once, until the thread sets another watch or removes it. Calls of go_on do not overlap, but they may come
+ * from threads that the library started on behalf of the calling thread. */
 SUNDER_API void sunder_watch(bool (*go_on)(void *user), void *user);
 
 /* ---- Options ------------------------------------------------------------------------------------------------ */
 
 /* A struct of options begins with its size, so that a later version can add members at its end. The library reads as
- * many bytes as `size` says. Members beyond them have their defaults; bytes that a newer caller has beyond the
- * library's own struct must be 0.
+ * many bytes as `size` says. Members of the library's struct beyond these bytes have their defaults. If the caller's
+ * struct is longer than the library's, the bytes beyond the library's struct must be 0.
  *
- * The _init function of a struct sets `size` and the defaults. It is inline, so that it knows the caller's struct; the
- * _init_sized function below it is the library's, for other languages. Every function that takes options takes NULL for
- * the defaults.
+ * The _init function of a struct sets `size` and the defaults. It is inline, so it uses the size that the struct has in
+ * the caller's header. Other languages call the _init_sized function, which the library exports. NULL in place of
+ * options means the defaults.
  *
  * Fails  SUNDER_EARG  `size` is 0, no multiple of sizeof(size_t), or above SUNDER_OPTIONS_MAX; or a byte beyond the
  *                     library's own struct is not 0. */
@@ -115,115 +119,125 @@ typedef struct sunder_shape sunder_shape;
 
 typedef enum sunder_validity {
     SUNDER_VALIDITY_STRICT,  /* invalid rings are an error */
-    SUNDER_VALIDITY_EVEN_ODD /* the set that each polygon's rings enclose by the even-odd rule, taken exactly */
+    SUNDER_VALIDITY_EVEN_ODD /* an invalid polygon is the set that its rings enclose by the even-odd rule, exactly */
 } sunder_validity;
 
-/* "strict", "even-odd"; never NULL, "" for a number that is none of the values (so for all enumerations below). */
+/* Returns "strict" or "even-odd". All functions whose names end in _string return "" for a number that is no value of
+ * the enumeration, and never NULL. */
 SUNDER_API const char *sunder_validity_string(sunder_validity validity);
 
-/* A polygonal set from plain arrays.
+/* Makes a polygonal set, the union of polygons that are called its members, from plain arrays.
  *
- * xy         2 * n coordinates x0 y0 x1 y1 ... of all rings, one after the other. Finite; else SUNDER_EINVALID.
- * ring_end   ring_end[r] is the index past the last vertex (not coordinate) of ring r; rings in all: poly_end of
- *            the last polygon.
+ * xy         The 2 * n coordinates x0 y0 x1 y1 ... of the vertices of all rings, ring after ring. All must be finite.
+ * ring_end   ring_end[r] is the index past the last vertex (not coordinate) of ring r. The number of rings is
+ *            poly_end[polygons - 1].
  * poly_end   poly_end[p] is the index past the last ring of polygon p. The first ring of a polygon is its outer one.
- * polygons   how many; 0 gives the empty set.
+ * polygons   The number of polygons; 0 gives the empty set.
  * validity   SUNDER_VALIDITY_STRICT: rings may be closed or not, of either orientation, with repeated and collinear
- *            vertices; they may touch at points, never cross or share a piece of edge. Members may touch and overlap:
- *            their union is meant. A polygon whose interior falls apart where its rings touch counts as several.
+ *            vertices; they may touch at points, but may not cross or share a piece of an edge. Members may touch and
+ *            overlap. A polygon whose interior is divided where its rings touch counts as several members.
  *            SUNDER_VALIDITY_EVEN_ODD: an invalid polygon is replaced by the closure of the set that its rings enclose
- *            by the even-odd rule, with exact rational vertices; sunder_shape_repaired() tells. A polygon that encloses
- *            nothing vanishes.
- * Fails      SUNDER_EARG      ends that do not ascend, or no such validity
- *            SUNDER_EINVALID  a coordinate is not finite; or (strict) a ring has under three distinct vertices, has no
- *            area, crosses itself or another ring, a hole lies outside its outer ring, a hole inside a hole.
- *            SUNDER_ESIZE     more than 2^27 vertices
- * Cost       O(n log n) where edges are short beside the whole, as on maps. */
+ *            by the even-odd rule, with exact rational vertices; sunder_shape_repaired() is true then. A polygon that
+ *            encloses nothing is left out.
+ * out        A new shape, freed by the caller with sunder_shape_free(). The arrays are copied.
+ * Fails      SUNDER_EARG      ends do not ascend, or `validity` is none of its values
+ *            SUNDER_EINVALID  a coordinate is not finite; or, with SUNDER_VALIDITY_STRICT, a ring has fewer than three
+ *                             distinct vertices, has no area, or crosses itself or another ring, or a hole lies outside
+ *                             its outer ring or inside another hole
+ *            SUNDER_ESIZE     there are more than 2^27 vertices
+ * Cost       O(n log n) if edges are short compared with the extent of the set, as on maps. */
 SUNDER_API sunder_status sunder_shape_from_rings(const double *xy, const size_t *ring_end, const size_t *poly_end,
                                                  size_t polygons, sunder_validity validity, sunder_shape **out,
                                                  sunder_error *err);
 
-/* A regular-like polygon with rational vertices around (inside = false: contains the closed disc) or within
- * (inside = true) the disc of that radius about the origin. segments >= 3, radius > 0 and finite; else SUNDER_EARG.
- * SUNDER_ERANGE if a vertex leaves the range of doubles. Those of an inside one on the axes are at the radius. */
+/* Makes a nearly regular polygon about the origin, whose vertices are doubles. inside = false: it contains the closed
+ * disc of the radius. inside = true: it lies in that disc, and its vertices on the axes are at exactly the radius.
+ *
+ * Fails      SUNDER_EARG      the radius is not positive and finite, or segments is less than 3 or more than 2^24
+ *            SUNDER_ERANGE    a vertex leaves the range of doubles, or the disc is too small for them */
 SUNDER_API sunder_status sunder_shape_disc(double radius, unsigned segments, bool inside, sunder_shape **out,
                                            sunder_error *err);
 
-/* The axis-parallel rectangle centred on the origin; both sides > 0 and finite, else SUNDER_EARG. */
+/* Makes the axis-parallel rectangle with this width and height that is centred on the origin. SUNDER_EARG if one of
+ * them is not positive and finite, SUNDER_ERANGE if half of one is not a double. */
 SUNDER_API sunder_status sunder_shape_rectangle(double width, double height, sunder_shape **out, sunder_error *err);
 
-/* The set -S. */
+/* Makes the set -S, the reflection of the shape S in the origin. */
 SUNDER_API sunder_status sunder_shape_reflect(const sunder_shape *shape, sunder_shape **out, sunder_error *err);
 
-/* S + (dx, dy), exactly as doubles hold it: each coordinate is the nearest double to x + dx; *exact tells whether none
- * was rounded. If rounding breaks the shape it is taken by the even-odd rule. SUNDER_EARG for a move that is not
- * finite, SUNDER_ERANGE where a coordinate leaves the range of doubles. */
+/* Makes S + (dx, dy), the shape S moved. Each coordinate is the double nearest to x + dx or y + dy; *exact is set to
+ * whether none was rounded. If rounding makes a polygon invalid, it is taken by the even-odd rule. SUNDER_EARG if dx or
+ * dy is not finite, SUNDER_ERANGE if a coordinate leaves the range of doubles. */
 SUNDER_API sunder_status sunder_shape_translate(const sunder_shape *shape, double dx, double dy, sunder_shape **out,
                                                 bool *exact, sunder_error *err);
 
 SUNDER_API void sunder_shape_free(sunder_shape *shape);
 
+/* Return the number of polygons, and the number of vertices, of the cleaned form of the shape, which has no repeated
+ * and no collinear vertices. */
 SUNDER_API size_t sunder_shape_polygons(const sunder_shape *shape);
-SUNDER_API size_t sunder_shape_vertices(const sunder_shape *shape); /* after cleaning: no repeated, no collinear ones */
+SUNDER_API size_t sunder_shape_vertices(const sunder_shape *shape);
 SUNDER_API bool sunder_shape_is_empty(const sunder_shape *shape);
+/* Returns whether a polygon was invalid and has been replaced by the even-odd rule. */
 SUNDER_API bool sunder_shape_repaired(const sunder_shape *shape);
-/* Did rings of one polygon meet somewhere, or a ring meet itself, as they were given? If not, the polygons of a strict
- * shape are valid in the sense of OGC simple features, which allows less than SUNDER_VALIDITY_STRICT does. A repaired
- * shape counts as one whose rings met. */
+/* Returns whether two rings of one polygon met, or a ring met itself, in the rings that were given. If not, the
+ * polygons of a strict shape are valid in the sense of OGC simple features, which allow less than
+ * SUNDER_VALIDITY_STRICT does. For a repaired shape the result is true. */
 SUNDER_API bool sunder_shape_touches(const sunder_shape *shape);
-/* Rings of one polygon of the cleaned form: 1 + its holes; ring 0 is the outer one. Each ring begins at its smallest
- * corner by x, then y, and holes and polygons ascend by their corners, however they were given; a reflected shape keeps
- * the order of the one that it was made of. */
+/* Returns the number of rings of one polygon of the cleaned form: 1 + the number of its holes; ring 0 is the outer one.
+ * Each ring begins at its smallest corner by x, then y. Holes and polygons are sorted by their corners, whatever the
+ * order in which they were given; a reflected shape keeps the order of the shape from which it was made. */
 SUNDER_API size_t sunder_shape_rings(const sunder_shape *shape, size_t polygon);
-/* The corners x0 y0 x1 y1 ... of one ring, *n of them, outer rings counter-clockwise; of a repaired shape the nearest
- * doubles to them. */
+/* Returns the corners x0 y0 x1 y1 ... of one ring of the cleaned form, and sets *n to their number. Outer rings are
+ * counter-clockwise, holes clockwise. The corners of a repaired shape are rounded to the nearest doubles. */
 SUNDER_API const double *sunder_shape_ring(const sunder_shape *shape, size_t polygon, size_t ring, size_t *n);
-/* The rings as they were given, before cleaning, laid out as for sunder_shape_from_rings(), which makes the same shape
- * of them again (of a repaired one by the even-odd rule); how many polygons. Of a shape moved or reflected they are
- * moved or reflected. */
+/* Sets *xy, *ring_end and *poly_end to the rings that were given, before cleaning, and returns the number of polygons.
+ * The arrays are those of sunder_shape_from_rings(), which makes the same shape from them (for a repaired shape, with
+ * SUNDER_VALIDITY_EVEN_ODD). In a moved or reflected shape these rings are moved or reflected as well. */
 SUNDER_API size_t sunder_shape_given(const sunder_shape *shape, const double **xy, const size_t **ring_end,
                                      const size_t **poly_end);
-/* xmin, ymin, xmax, ymax; of a repaired shape rounded outward. The empty set: all zero. */
+/* Sets box to xmin, ymin, xmax, ymax. They are rounded outwards for a repaired shape, and 0 for the empty set. */
 SUNDER_API void sunder_shape_box(const sunder_shape *shape, double box[4]);
-/* Area, the sum over members (overlaps count twice), to the nearest double. Neither this nor the anchor can fail: what
- * they need is on the stack, or was worked out when the shape was made. */
+/* Returns the sum of the areas of the members (an overlap of two members counts twice), rounded to the nearest double.
+ * Neither this function nor sunder_shape_anchor() can fail, as they allocate nothing. */
 SUNDER_API double sunder_shape_area(const sunder_shape *shape);
-/* An interior point by a fixed exact rule, as the nearest doubles to it; (0, 0) for the empty set. It depends on the
- * point set alone, not on how its rings are written. The rule: take the intervals of the interior of the union of all
- * members on the horizontal line at half its height; the point is the middle of the widest interval, the leftmost of
- * equal ones. If there are none on that line, the rule applies to the part of the interior below it. */
+/* Sets xy to the anchor of the shape, rounded to the nearest doubles; (0, 0) for the empty set. The anchor is an
+ * interior point that depends on the point set alone, not on how its rings are written. Let U be the interior of the
+ * union of all members. The horizontal line at half the height of U meets U in intervals, and the anchor is the middle
+ * of the widest interval, of equal ones the leftmost. If the line does not meet U, the rule is applied to the part of U
+ * below the line. */
 SUNDER_API void sunder_shape_anchor(const sunder_shape *shape, double xy[2]);
 
 /* ---- Minkowski sums --------------------------------------------------------------------------------------- */
 
 typedef struct sunder_sum sunder_sum;
 
-/* Roads to the sum. All lead to the same result, whatever the decomposition, the order and the seed. */
+/* The algorithms that compute a sum. The result is the same for every algorithm, decomposition, order and seed. */
 typedef enum sunder_algorithm {
     SUNDER_ALGORITHM_AUTO,        /* the convolution; with keep_map the arrangement */
-    SUNDER_ALGORITHM_CONVOLUTION, /* only sides that can bound the sum, settled line by line: by far the fastest */
-    SUNDER_ALGORITHM_ARRANGEMENT, /* all subsums of convex pieces in one arrangement, its cells then marked [AFH00] */
-    SUNDER_ALGORITHM_INCREMENTAL, /* one subsum after the other united with the union so far [AFH00] */
-    SUNDER_ALGORITHM_DIVIDE       /* incremental for P + Q_j of each piece Q_j, then pairs of these unions [AFH00] */
+    SUNDER_ALGORITHM_CONVOLUTION, /* uses only sides that can bound the sum, line by line: by far the fastest */
+    SUNDER_ALGORITHM_ARRANGEMENT, /* makes one arrangement of all subsums of convex pieces, marks its cells [AFH00] */
+    SUNDER_ALGORITHM_INCREMENTAL, /* unites one subsum after the other with the union so far [AFH00] */
+    SUNDER_ALGORITHM_DIVIDE       /* makes P + Q_j incrementally for each piece Q_j, then unites pairs [AFH00] */
 } sunder_algorithm;
 
-/* How the operands are cut into convex pieces; for all roads but the convolution. See src/decomposition/README. */
+/* How the operands are cut into convex pieces. The convolution does not use it. See src/decomposition/README. */
 typedef enum sunder_decomposition {
     SUNDER_DECOMPOSITION_AUTO,           /* the angle bisector: fewest crossings on most families [AFH02] */
     SUNDER_DECOMPOSITION_ANGLE_BISECTOR, /* a cut from each reflex vertex, pairs of reflex vertices first */
     SUNDER_DECOMPOSITION_VERTICAL,       /* vertical cuts from the reflex vertices */
     SUNDER_DECOMPOSITION_TRIANGULATION,
     SUNDER_DECOMPOSITION_HERTEL_MEHLHORN, /* a triangulation without its needless diagonals */
-    SUNDER_DECOMPOSITION_OPTIMAL,         /* fewest pieces without new vertices; members with holes, or over 500
-                                     vertices, fall back to Hertel and Mehlhorn's */
-    SUNDER_DECOMPOSITION_MIXED            /* both operands: least total length of the subsums' boundaries; same
-                                * fallback */
+    SUNDER_DECOMPOSITION_OPTIMAL,         /* the fewest pieces without new vertices; HERTEL_MEHLHORN for members with
+                                           * holes or more than 500 vertices */
+    SUNDER_DECOMPOSITION_MIXED            /* the pieces of both operands with the least total length of the subsums'
+                                           * boundaries; HERTEL_MEHLHORN for the same members as OPTIMAL */
 } sunder_decomposition;
 
-/* In what order subsums go in; for all roads but the convolution. */
+/* The order in which subsums are united. The convolution does not use it. */
 typedef enum sunder_order {
     SUNDER_ORDER_RANDOM,
-    SUNDER_ORDER_FAT,  /* descending fatness, see src/unions/README */
+    SUNDER_ORDER_FAT,  /* the fattest first, see src/unions/README */
     SUNDER_ORDER_GIVEN /* in the order of the pieces */
 } sunder_order;
 
@@ -234,7 +248,7 @@ SUNDER_API const char *sunder_decomposition_string(sunder_decomposition decompos
 /* "random", "fat", "given". */
 SUNDER_API const char *sunder_order_string(sunder_order order);
 
-/* All zero but the size: the defaults. */
+/* Options of sums and of morphology. The defaults are all zero, except for the size. */
 typedef struct sunder_sum_options {
     size_t size;              /* sizeof(sunder_sum_options) */
     sunder_progress progress; /* NULL: none */
@@ -242,9 +256,11 @@ typedef struct sunder_sum_options {
     sunder_algorithm algorithm;
     sunder_decomposition decomposition;
     sunder_order order;
-    uint64_t seed;    /* seed of random orders */
-    bool keep_map;    /* for sunder_sum_map(); SUNDER_EARG with the convolution, which makes none */
-    unsigned threads; /* of sunder_morphology(), besides its dilations; 0 or 1: the caller's alone. Results are equal */
+    uint64_t seed; /* seed of random orders */
+    bool keep_map; /* keeps the map for sunder_sum_map(); SUNDER_EARG with the convolution, which makes none */
+    /* The number of threads of sunder_morphology(), except for a dilation; 0 or 1: the calling thread only. The result
+     * is the same for every number. */
+    unsigned threads;
 } sunder_sum_options;
 
 SUNDER_API void sunder_sum_options_init_sized(sunder_sum_options *options, size_t size);
@@ -253,36 +269,38 @@ static inline void sunder_sum_options_init(sunder_sum_options *options)
     sunder_sum_options_init_sized(options, sizeof *options);
 }
 
+/* The numbers of polygons, of holes of polygons, and of vertices of a sum, and of its two kinds of degenerate holes. */
 typedef struct sunder_sum_size {
     size_t polygons, holes, vertices, degenerate_segments, degenerate_points;
 } sunder_sum_size;
 
-/* Minkowski sum P + Q = { p + q : p in P, q in Q }, exact, of two polygonal sets.
+/* Computes the Minkowski sum P + Q = { p + q : p in P, q in Q } of two polygonal sets, exactly.
  *
- * p, q     not modified; p == q is fine. An operand without area gives the empty sum.
- * options  NULL for defaults.
- * out      a new sum, in canonical form: equal point sets compare equal. One polygon for each connected component C of
- *          the interior of P + Q, one ring for each component of the plane minus the closure of C; collinear vertices
- *          merged; a ring starts at its lexicographically smallest vertex, which is not repeated; outer rings
- *          counter-clockwise, holes clockwise; holes and polygons sorted as vertex sequences.
+ * p, q     The operands, which are not modified; they may be the same. An operand without area gives the empty sum.
+ * options  NULL for the defaults.
+ * out      A new sum, freed by the caller with sunder_sum_free(). It is in canonical form, so equal point sets compare
+ *          equal. It has one polygon for each connected component C of the interior of P + Q, and this polygon has one
+ *          ring for each component of the plane minus the closure of C. No vertex is collinear with its neighbours. A
+ *          ring starts at its lexicographically smallest vertex, which is not repeated at the end. Outer rings are
+ *          counter-clockwise, holes clockwise. Holes and polygons are sorted as sequences of vertices.
  *
- * Degenerate holes (points of the interior of P + Q that are not in int P + int Q) are part of the result: as maximal
- * segments, and as points that lie on no segment.
+ * Degenerate holes are the points of the interior of P + Q that are not in int P + int Q. They are part of the result:
+ * as maximal segments, and as points that lie on no such segment.
  *
- * Fails   SUNDER_ENOMEM, SUNDER_ECANCEL; SUNDER_EARG for an option that is none of its values
- * Source  [GRS83] convolution; [BL11] reduced convolution; [AFH00] the unions of subsums; see src/minkowski/README and
- *         src/unions/README for the roads taken. */
+ * Fails   SUNDER_EARG for an option that is none of its values; SUNDER_ESIZE, SUNDER_ENOMEM, SUNDER_ECANCEL
+ * Source  [GRS83] convolution; [BL11] reduced convolution; [AFH00] unions of subsums; src/minkowski/README and
+ *         src/unions/README describe the algorithms. */
 SUNDER_API sunder_status sunder_minkowski_sum(const sunder_shape *p, const sunder_shape *q,
                                               const sunder_sum_options *options, sunder_sum **out, sunder_error *err);
 SUNDER_API void sunder_sum_free(sunder_sum *sum);
 
 SUNDER_API void sunder_sum_get_size(const sunder_sum *sum, sunder_sum_size *size);
 SUNDER_EXPERIMENTAL void sunder_sum_get_counts(const sunder_sum *sum, sunder_counts *counts);
-/* Seconds of wall time spent in decomposing, in forming subsums, and in uniting them. */
+/* Sets the seconds of wall time that were spent in decomposing, in making subsums, and in uniting them. */
 SUNDER_EXPERIMENTAL void sunder_sum_seconds(const sunder_sum *sum, double *decompose, double *subsums, double *unite);
 
-/* What was done. decomposition is AUTO if nothing was decomposed (the convolution has its own pieces), else the one
- * used: Hertel and Mehlhorn's if the requested one had to fall back on it. */
+/* The method that was used. decomposition is AUTO if nothing was decomposed (as by the convolution). If HERTEL_MEHLHORN
+ * had to replace the requested decomposition, it is HERTEL_MEHLHORN. */
 typedef struct sunder_sum_method {
     sunder_algorithm algorithm; /* never AUTO */
     sunder_decomposition decomposition;
@@ -295,26 +313,29 @@ typedef enum sunder_phase { SUNDER_PHASE_DECOMPOSE, SUNDER_PHASE_SUBSUMS, SUNDER
 SUNDER_EXPERIMENTAL const char *sunder_phase_string(sunder_phase phase);
 
 SUNDER_EXPERIMENTAL void sunder_sum_get_method(const sunder_sum *sum, sunder_sum_method *method);
-/* Operations of one phase; false, and all zero, if the road has no such phases (the convolution). */
+/* Sets *counts to the operations of one phase. For the convolution, which has no phases, returns false and sets 0. */
 SUNDER_EXPERIMENTAL bool sunder_sum_phase(const sunder_sum *sum, sunder_phase phase, sunder_counts *counts);
 
-/* Rings of polygon p: 1 + its holes; ring 0 is the outer one. */
+/* Returns the number of rings of a polygon: 1 + the number of its holes; ring 0 is the outer one. */
 SUNDER_API size_t sunder_sum_rings(const sunder_sum *sum, size_t polygon);
-/* Vertex numbers of one ring, in order, *n of them. */
+/* Returns the numbers of the vertices of one ring, in order, and sets *n to how many there are. */
 SUNDER_API const uint32_t *sunder_sum_ring(const sunder_sum *sum, size_t polygon, size_t ring, size_t *n);
-/* The two ends of degenerate segment i (the smaller first), and the place of degenerate point i, as vertex numbers. */
+/* Sets ends to the vertex numbers of the two ends of degenerate segment i, the lexicographically smaller end first. */
 SUNDER_API void sunder_sum_segment(const sunder_sum *sum, size_t i, uint32_t ends[2]);
+/* Returns the vertex number of degenerate point i. */
 SUNDER_API uint32_t sunder_sum_point(const sunder_sum *sum, size_t i);
-/* The nearest doubles to n vertices at once, in xy[2 n]; *deviation is raised to a bound of how far any of them is from
- * its vertex (infinite where one leaves the range of doubles). */
+/* Sets xy[2 n] to the doubles nearest to the coordinates of n vertices. Raises *deviation, if it is less, to a bound of
+ * the distance between a vertex and its doubles (infinite if a vertex is beyond the range of doubles). SUNDER_ENOMEM:
+ * *deviation is untouched then, but xy may have been written. */
 SUNDER_API sunder_status sunder_sum_vertices(const sunder_sum *sum, const uint32_t *vertex, size_t n, double *xy,
                                              double *deviation, sunder_error *err);
-/* The coordinates of a vertex: the nearest doubles (infinite where they leave the range) ... */
+/* Sets xy to the doubles nearest to the coordinates of a vertex; infinite if they are beyond the range of doubles. */
 SUNDER_API void sunder_sum_vertex(const sunder_sum *sum, uint32_t vertex, double xy[2]);
-/* ... and exactly, as text "num" or "num/den" in lowest terms; freed with sunder_free(). */
+/* Sets *x and *y to the exact coordinates of a vertex, as texts "num" or "num/den" in lowest terms. The caller frees
+ * both with sunder_free(). */
 SUNDER_API sunder_status sunder_sum_vertex_text(const sunder_sum *sum, uint32_t vertex, char **x, char **y,
                                                 sunder_error *err);
-/* The area as "num/den", freed with sunder_free(). */
+/* Sets *area to the exact area, as a text "num" or "num/den", which the caller frees with sunder_free(). */
 SUNDER_API sunder_status sunder_sum_area_text(const sunder_sum *sum, char **area, sunder_error *err);
 
 /* ---- Growing and shrinking ---------------------------------------------------------------------------------- */
@@ -322,72 +343,80 @@ SUNDER_API sunder_status sunder_sum_area_text(const sunder_sum *sum, char **area
 typedef enum sunder_operation {
     SUNDER_OPERATION_DILATE, /* P + B */
     SUNDER_OPERATION_ERODE,  /* { x : B + x in P } */
-    SUNDER_OPERATION_OPEN,   /* the erosion dilated: the union of all B + x in P */
-    SUNDER_OPERATION_CLOSE   /* the dilation eroded */
+    SUNDER_OPERATION_OPEN,   /* the dilation of the erosion: the union of all B + x in P */
+    SUNDER_OPERATION_CLOSE   /* the erosion of the dilation */
 } sunder_operation;
 
 /* "dilate", "erode", "open", "close". */
 SUNDER_API const char *sunder_operation_string(sunder_operation operation);
 
-/* Mathematical morphology [Ser82] of two polygonal sets, exact; P, B and every result are closed sets.
+/* Performs an operation of mathematical morphology [Ser82] on the polygonal set P with the set B, exactly. P, B and the
+ * result are closed sets.
  *
- * p, b     not modified; members may overlap, b need be neither convex nor centred. SUNDER_EARG if b has no area.
- * options  progress (called by one thread at a time), seed and threads; the dilation takes the other ones. NULL: the
+ * p, b     The operands, which are not modified. Members may overlap; b need not be convex, nor contain the origin.
+ * options  progress, seed and threads are used by all operations, the other options by the dilation only. NULL for the
  *          defaults.
- * out      a new sum (sunder_sum_free), in canonical form. Its polygons are the closure of the result's interior.
- *          Segments and points are, of a dilation, its degenerate holes (which belong to it); of an erosion or a
- *          closing, its parts without area; an opening has none.
+ * out      A new sum, freed by the caller with sunder_sum_free(), in canonical form. Its polygons are the closure of
+ *          the interior of the result. The segments and points of a dilation are its degenerate holes, which belong to
+ *          it. Those of an erosion or a closing are the parts of the result that have no area. An opening has none.
  *
- * Fails   SUNDER_ENOMEM, SUNDER_ECANCEL, SUNDER_EARG
+ * Fails   SUNDER_EARG for a set B without area, or no such operation; SUNDER_ESIZE, SUNDER_ENOMEM, SUNDER_ECANCEL
  * Source  src/morphology/README */
 SUNDER_API sunder_status sunder_morphology(const sunder_shape *p, const sunder_shape *b, sunder_operation operation,
                                            const sunder_sum_options *options, sunder_sum **out, sunder_error *err);
 
-/* The union of a shape's members, exact, as a sum without degenerate parts. It is made of polygons that are valid in
- * the sense of OGC simple features, whatever touched, overlapped or fell apart. SUNDER_ENOMEM, SUNDER_ECANCEL. */
+/* Makes the exact union of the members of a shape, as a new sum without segments and points, which the caller frees
+ * with sunder_sum_free(). Its polygons are valid in the sense of OGC simple features, also if members of the shape
+ * touched or overlapped. Fails with SUNDER_ENOMEM or SUNDER_ECANCEL. */
 SUNDER_API sunder_status sunder_shape_union(const sunder_shape *shape, const sunder_sum_options *options,
                                             sunder_sum **out, sunder_error *err);
 
 /* ---- The planar map beneath a sum --------------------------------------------------------------------------- */
 
-/* The subdivision of the plane that a union of subsums was read from, if sunder_sum_options.keep_map asked for it: on
- * the arrangement road the whole arrangement of all subsums, else the map of the union. Each face, edge and vertex has
- * a count of the regions that cover it: open subsums, or, if the union is one region by then, 0 or 1. Edges and
- * vertices between covered faces that no region covers are the degenerate holes.
+/* The subdivision of the plane from which a sum was read. It is kept if sunder_sum_options.keep_map is set. With
+ * SUNDER_ALGORITHM_ARRANGEMENT it is the arrangement of all subsums, otherwise the map of their union. Each face, edge
+ * and vertex has a count of the regions that cover it. The regions are the open subsums; the union, if it is computed
+ * otherwise, is a single region, and the count is 0 or 1. The degenerate holes are the edges and vertices that no
+ * region covers, and around which all faces are covered.
  *
- * Vertices, edges and faces are numbered from 0; face 0 is the outermost one. Edge e is two half-edges, 2 e from its
- * lexicographically smaller end to the greater and 2 e + 1 back; each has its face on the left. The map lives as long
- * as the sum. */
+ * Vertices, edges and faces are numbered from 0; face 0 is the unbounded one. Edge e consists of two half-edges: 2 e
+ * leads from its lexicographically smaller end to the greater one, and 2 e + 1 leads back. The face of a half-edge is
+ * on its left. The sum owns the map. */
 typedef struct sunder_map sunder_map;
 
 #define SUNDER_NOWHERE UINT32_MAX
 
-SUNDER_EXPERIMENTAL const sunder_map *sunder_sum_map(const sunder_sum *sum); /* NULL if it was not kept */
+/* Returns the map of a sum, or NULL if it was not kept. */
+SUNDER_EXPERIMENTAL const sunder_map *sunder_sum_map(const sunder_sum *sum);
 SUNDER_EXPERIMENTAL size_t sunder_map_vertices(const sunder_map *map);
 SUNDER_EXPERIMENTAL size_t sunder_map_edges(const sunder_map *map);
 SUNDER_EXPERIMENTAL size_t sunder_map_faces(const sunder_map *map);
 
-/* The coordinates of a vertex, as of a sum's: nearest doubles, and exact texts. */
+/* Set the coordinates of a vertex, as nearest doubles and as exact texts, like the functions for vertices of a sum. */
 SUNDER_EXPERIMENTAL void sunder_map_vertex(const sunder_map *map, uint32_t vertex, double xy[2]);
 SUNDER_EXPERIMENTAL sunder_status sunder_map_vertex_text(const sunder_map *map, uint32_t vertex, char **x, char **y,
                                                          sunder_error *err);
-/* A half-edge out of a vertex; NOWHERE if it is isolated. */
+/* Returns one of the half-edges that begin at a vertex, or SUNDER_NOWHERE if the vertex is isolated. */
 SUNDER_EXPERIMENTAL uint32_t sunder_map_out(const sunder_map *map, uint32_t vertex);
-/* The face around a vertex, if it is isolated; else NOWHERE. */
+/* Returns the face that contains an isolated vertex, or SUNDER_NOWHERE if the vertex is not isolated. */
 SUNDER_EXPERIMENTAL uint32_t sunder_map_around(const sunder_map *map, uint32_t vertex);
 
+/* Return the vertex at which a half-edge begins, and the opposite half-edge. */
 SUNDER_EXPERIMENTAL uint32_t sunder_map_origin(const sunder_map *map, uint32_t half);
 SUNDER_EXPERIMENTAL uint32_t sunder_map_twin(uint32_t half);
-/* The next one along the boundary of the face on its left. */
+/* Returns the next half-edge along the boundary of the face on the left. */
 SUNDER_EXPERIMENTAL uint32_t sunder_map_next(const sunder_map *map, uint32_t half);
-/* The next one counter-clockwise around its origin. */
+/* Returns the next half-edge, counter-clockwise, that begins at the same vertex. */
 SUNDER_EXPERIMENTAL uint32_t sunder_map_turn(const sunder_map *map, uint32_t half);
+/* Returns the face on the left of a half-edge. */
 SUNDER_EXPERIMENTAL uint32_t sunder_map_face(const sunder_map *map, uint32_t half);
 
-/* Boundaries of a face, by one half-edge each: the outer one (NOWHERE for face 0), and *n inner ones. */
+/* Returns a half-edge of the outer boundary of a face, or SUNDER_NOWHERE for face 0, which has none. */
 SUNDER_EXPERIMENTAL uint32_t sunder_map_outer(const sunder_map *map, uint32_t face);
+/* Returns one half-edge of each inner boundary of a face, and sets *n to their number. */
 SUNDER_EXPERIMENTAL const uint32_t *sunder_map_inner(const sunder_map *map, uint32_t face, size_t *n);
 
+/* Return the number of regions that cover a vertex, an edge, a face. */
 SUNDER_EXPERIMENTAL uint32_t sunder_map_vertex_covered(const sunder_map *map, uint32_t vertex);
 SUNDER_EXPERIMENTAL uint32_t sunder_map_edge_covered(const sunder_map *map, uint32_t edge);
 SUNDER_EXPERIMENTAL uint32_t sunder_map_face_covered(const sunder_map *map, uint32_t face);
@@ -407,48 +436,55 @@ typedef enum sunder_contact {
 SUNDER_API const char *sunder_contact_string(sunder_contact contact);
 
 typedef struct sunder_separation {
-    bool overlap;         /* at the start: the interiors meet (with a gap: or the sets are nearer than it) */
-    bool attained;        /* the least is given, as near as is said below: always, as isolated optima are rational */
-    bool rounded_is_free; /* (dx, dy) as doubles takes them apart as well, checked exactly */
-    sunder_contact contact;
-    double dx, dy, distance; /* nearest doubles of the exact values */
-    double lower_bound;      /* a proved lower bound of the least distance, rounded down; equals distance up to 1e-9 */
-    char *dx_text, *dy_text, *distance_squared_text; /* "num" or "num/den", owned by the struct */
+    bool overlap;            /* the interiors meet at the start, or the sets are nearer than the gap */
+    bool attained;           /* the translation below is the least one, or with a gap near to it: always true */
+    bool rounded_is_free;    /* the doubles (dx, dy) separate the two sets as well; this was checked exactly */
+    sunder_contact contact;  /* what the translated Q touches */
+    double dx, dy, distance; /* the least translation and its length, rounded to the nearest doubles */
+    double lower_bound;      /* a proved lower bound of the least length, rounded down; distance up to 1e-9 of it */
+    char *dx_text, *dy_text, *distance_squared_text; /* exact values, "num" or "num/den"; owned by the struct */
     sunder_counts counts;
 } sunder_separation;
 
-/* The least translation of Q that takes its interior off P and, with gap > 0, leaves it at least gap (Euclidean) away.
+/* Finds the least translation of Q after which the interiors of P and Q are disjoint and, with gap > 0, the Euclidean
+ * distance of P and Q is at least the gap.
  *
- * The global minimum over every free placement, degenerate ones (exact slides and fits) included; of several nearest
- * the lexicographically smallest, told apart exactly with a gap as well. With a gap the optimum may be irrational: then
- * the vector given is rational, provably keeps the gap, and is longer than the optimum by at most 1e-9 of it;
- * lower_bound is the optimum's length then. There always is an answer, but for a gap of over 2^700 times the shortest
- * side, where the search may lose its way in the range of doubles: then it is SUNDER_EFAULT, and nothing is claimed.
- * gap   >= 0 and finite, else SUNDER_EARG.
- * out   on success owns its texts: sunder_separation_clear(). An empty operand: zero translation.
+ * It is the global minimum over all free placements, including degenerate ones (exact slides and fits). If several
+ * translations are shortest, it is the lexicographically smallest of them; the comparison is exact, also with a gap.
+ * With a gap the optimum may be irrational. Then the translation is rational, provably keeps the gap, and is longer
+ * than the optimum by at most 1e-9 of its length; lower_bound is the length of the optimum, rounded down.
+ *
+ * gap     Finite and >= 0.
+ * out     On success its texts belong to the caller, who frees them with sunder_separation_clear(). If P or Q is empty,
+ *         the translation is zero.
+ * Fails   SUNDER_EARG for a gap out of its range. SUNDER_EFAULT if the search left the range of doubles, which can
+ *         happen only with a gap of more than 2^700 times the shortest side. SUNDER_ENOMEM, SUNDER_ECANCEL.
  * Source  [LM95] for the role of the no-fit polygon; src/separation/README for the search. */
 SUNDER_API sunder_status sunder_pair_separate(const sunder_shape *p, const sunder_shape *q, double gap,
                                               sunder_separation *out, sunder_error *err);
 SUNDER_API void sunder_separation_clear(sunder_separation *separation);
 
-/* Do the interiors of P and Q meet? Exact. */
+/* Sets *overlap to whether the interiors of P and Q meet, exactly. */
 SUNDER_API sunder_status sunder_pair_overlap(const sunder_shape *p, const sunder_shape *q, bool *overlap,
                                              sunder_error *err);
-/* Is every point of P at least gap away from every point of Q, and the interiors disjoint? Exact. */
+/* Sets *apart to whether the interiors of P and Q are disjoint and no point of P is nearer than the gap to a point of
+ * Q, exactly. */
 SUNDER_API sunder_status sunder_pair_apart(const sunder_shape *p, const sunder_shape *q, double gap, bool *apart,
                                            sunder_error *err);
-/* The distance of P and Q to the nearest double (0 where they meet), and the ends of a shortest link, on P and on Q. */
+/* Sets *distance to the distance of P and Q, rounded to the nearest double (0 if they meet), and on_p and on_q to the
+ * ends of a shortest link between them. */
 SUNDER_API sunder_status sunder_pair_distance(const sunder_shape *p, const sunder_shape *q, double *distance,
                                               double on_p[2], double on_q[2], sunder_error *err);
 
 /* ---- Obstacles -------------------------------------------------------------------------------------------- */
 
-/* What the interior of something that moves may not meet, of routes and of layers: a polygonal set, or lines and
- * points, or both. */
+/* An obstacle of a route or of a layer, which the interior of what moves may not meet: a polygonal set, lines and
+ * points, or both. Shape and arrays remain the caller's. They must be valid during the call, or for as long as the
+ * layer to which they are given exists. */
 typedef struct sunder_obstacle {
-    const sunder_shape *shape; /* NULL: none. All is borrowed: for the call, or as long as what it is given to lives */
-    const double *xy;          /* x0 y0 x1 y1 ... of all lines, one after the other; finite */
-    const size_t *line_end;    /* [lines] index past the last point of each; a line of one point is a point */
+    const sunder_shape *shape; /* NULL for none */
+    const double *xy;          /* x0 y0 x1 y1 ... of the points of all lines, line after line; finite */
+    const size_t *line_end;    /* [lines] the index past the last point of each line; a line of one point is a point */
     size_t lines;
 } sunder_obstacle;
 
@@ -457,29 +493,30 @@ typedef struct sunder_obstacle {
 typedef struct sunder_layer sunder_layer;
 
 typedef enum sunder_containment {
-    SUNDER_CONTAINMENT_BLOCK,   /* a feature that lies in another joins its block */
-    SUNDER_CONTAINMENT_IGNORE,  /* it may overlap the one that it lies in */
-    SUNDER_CONTAINMENT_SEPARATE /* it is separated like any other */
+    SUNDER_CONTAINMENT_BLOCK,   /* a feature that lies in another feature joins its block */
+    SUNDER_CONTAINMENT_IGNORE,  /* a feature that lies in another feature may overlap it */
+    SUNDER_CONTAINMENT_SEPARATE /* a feature that lies in another feature is separated like any other */
 } sunder_containment;
 
 /* "block", "ignore", "separate"; never NULL. */
 SUNDER_API const char *sunder_containment_string(sunder_containment containment);
 
-/* What one stage of sunder_layer_separate() did, for developers. Experimental: stages, steps and outcomes are words
- * that may change with any version (docs/trace.md). The strings and arrays last as long as the call. */
+/* What one stage of sunder_layer_separate() did, for developers. Experimental: the words for passes, stages, steps and
+ * outcomes may change with any version (docs/trace.md). Strings and arrays are valid during the call only. */
 typedef struct sunder_trace_event {
-    const char *pass;      /* the part of the whole work; NULL: before its first */
-    const char *stage;     /* within the pass; NULL: the pass has one stage */
-    int round;             /* of the stage, from 1 on; 0: it has none */
-    const char *scope;     /* "layer", "cluster", "group", "pair": what it is about */
-    const char *step;      /* within the stage; NULL: the stage as a whole */
-    const char *outcome;   /* never NULL */
-    const uint32_t *thing; /* [things] features, and behind the last of these barriers, ascending; of a pair two */
-    size_t things;         /* 0: the layer */
-    double cost_before, cost_after; /* sums of weight times move squared; NAN: not measured */
+    const char *pass;               /* the part of the whole work; NULL before the first part */
+    const char *stage;              /* the stage of the pass; NULL if the pass has only one */
+    int round;                      /* the round of the stage, from 1 on; 0 if the stage has no rounds */
+    const char *scope;              /* what the event is about: "layer", "cluster", "group" or "pair" */
+    const char *step;               /* the step of the stage; NULL for the stage as a whole */
+    const char *outcome;            /* never NULL */
+    const uint32_t *thing;          /* [things] features, and from the number of features on barriers; ascending */
+    size_t things;                  /* 0 for the scope "layer", 2 for "pair" */
+    double cost_before, cost_after; /* sums of weight times squared length of the moves; NAN if not measured */
 } sunder_trace_event;
 
-/* Called by the thread that separates. Events and their order are the same for every number of threads. */
+/* A trace callback. It is called by the thread that called sunder_layer_separate(). The events and their order are the
+ * same for every number of threads. */
 typedef void (*sunder_trace)(const sunder_trace_event *event, void *user);
 
 typedef struct sunder_layer_options {
