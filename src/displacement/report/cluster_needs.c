@@ -89,8 +89,8 @@ static sunder_status move_aside(void *context, const sunder_i_relation *r, bool 
     return status;
 }
 
-/* The layout fails if the pair of r is in conflict but is not among the report's conflicts, or if it is worse than at
- * the start. A conflict of the report is marked in stays[]. */
+/* For a pair in conflict in the layout: the layout fails (trial.well = false) if the pair is not among the report's
+ * conflicts, or if it is worse than at the start. If it is among them, that conflict is marked in stays[]. */
 static sunder_status look_at_pair(void *context, const sunder_i_relation *r, bool *on, sunder_error *err)
 {
     cluster_trial *g = context;
@@ -184,8 +184,9 @@ static sunder_status free_by(cluster_trial *g, const double *layout, const sunde
     return status;
 }
 
-/* Tries the known layouts of one cluster. `spread` contains the moves of all bodies in the result, before and after the
- * call. */
+/* Tries the known layouts of one cluster, whose n conflicts are item[]: first that of the search without limits
+ * (model->lifted), then, if that is no solution, the cluster stretched (sunder_i_spread_out()). `spread` contains the
+ * moves of all bodies in the result, before and after the call. */
 static sunder_status free_cluster(cluster_trial *g, const sunder_i_id_pair *item, size_t n, double *spread,
                                   sunder_error *err)
 {

@@ -22,7 +22,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The number of groups that one task computes, and the number of tasks after which cached pieces may be discarded. */
+/* The number of groups whose pushes one task computes, and the number of tasks that run before cached pieces of bodies
+ * may be discarded. */
 #define GROUPS_OF_A_BATCH 64
 #define BATCHES_AT_ONCE 32
 

@@ -18,8 +18,8 @@
 #include <math.h>
 #include <string.h>
 
-/* The number of bodies found by look-ups, for each feature and barrier part of the layer, after which the covers of all
- * bodies are made instead. */
+/* The number of features and barrier parts found by look-ups, for each feature and barrier part of the layer, after
+ * which the covers of all bodies are made instead. */
 #define LOOKED_UP 2
 
 typedef struct looking {
@@ -137,8 +137,8 @@ static bool meet_body(looking *l, uint32_t b, sunder_i_list *near, size_t *left)
     return ok;
 }
 
-/* Collects all bodies that questions may reach, in ascending order, and makes their covers; if too many things were
- * found, makes the covers of all bodies. */
+/* Makes the covers of all bodies that questions may reach, in ascending order; or of all bodies of the model, if the
+ * look-ups find more than LOOKED_UP times as many features and barrier parts as the layer has. */
 static sunder_status find_some(looking *l, sunder_i_model *model, sunder_error *err)
 {
     const size_t most = LOOKED_UP * model->things;

@@ -223,8 +223,8 @@ static sunder_status try_foreseen(gap_search *g, double seen, bool *yes, sunder_
     return status;
 }
 
-/* Asks the proofs about this gap, and tests in doubles what they find: at once, and once more with room for
- * rounding. */
+/* Asks the proofs about this gap. If they find a solution in real numbers, tests whether it holds in doubles (*yes); if
+ * it does not, asks once more, for a solution with room for rounding (g->tight), and tests that. */
 static sunder_status confirm(gap_search *g, double gap, sunder_i_verdict *verdict, bool *yes, sunder_error *err)
 {
     *yes = false;
@@ -310,7 +310,8 @@ static sunder_status enclose(gap_search *g, sunder_error *err)
     return status;
 }
 
-/* Halves the remaining interval a few times. */
+/* Tries the middle of the interval between need_gap and g->high, at most NEED_GAP_HALVINGS times for each unit of
+ * effort, until the interval is narrow. Each trial raises one end or lowers the other, if it gives an answer. */
 static sunder_status halve(gap_search *g, sunder_error *err)
 {
     sunder_status status = SUNDER_OK;

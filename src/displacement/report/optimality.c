@@ -58,8 +58,8 @@ static double cost_of(const sunder_i_model *model, const sunder_i_group *g)
     return cost * (1 + ((double)g->n + 8) * 0x1p-50);
 }
 
-/* Discards the bounds of groups that do not hold for the result. Computes the cost of each group, and counts the groups
- * that are optimal. */
+/* Sets the bound of each group to 0 if it does not hold for the result (claim_bodies(), void_bounds()). Computes the
+ * cost of each group, and counts in summary->clusters_optimal the groups that are optimal. */
 static sunder_status count_groups(sunder_layer_summary *summary, sunder_i_solver *s, sunder_error *err)
 {
     uint32_t *owner = sunder_i_alloc(s->model.bodies, sizeof *owner);

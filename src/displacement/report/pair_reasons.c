@@ -68,10 +68,11 @@ static sunder_status prove_alone(const sunder_i_model *model, const sunder_confl
     return status;
 }
 
-/* Finds the reason if one of the two has no limit. Beyond the distance at which the two certainly are not in conflict
- * only shadows forbid a relative move, and a shadow has no end: each direction that enters one there stays in it. So a
- * pair without a solution up to slightly more than that distance has none at all. For two features the sides of
- * barriers are ignored, since they restrict the moves of one feature, not the relative move. */
+/* Finds the reason if a feature of the conflict, or the feature beside a barrier, has no limit. Beyond the distance at
+ * which the pair certainly is not in conflict only shadows forbid a relative move, and a shadow has no end: each
+ * direction that enters one there stays in it. So a pair without a solution up to slightly more than that distance has
+ * none at all. For two features the sides of barriers are ignored, since they restrict the moves of one feature, not
+ * the relative move. */
 static sunder_status reason_without_limit(const sunder_i_model *model, sunder_conflict *c, common *both,
                                           sunder_proof **proof, sunder_error *err)
 {

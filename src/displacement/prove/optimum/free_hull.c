@@ -297,7 +297,7 @@ static void nearest_of_hull(const gathering *g, const double u[2], double out[2]
     for (int c = 0; c < 2; c++) out[c] = u[c] + at[c];
 }
 
-/* Are the sides those of this region? */
+/* Were the sides found for a region with the same corners? */
 static bool is_known(const sunder_i_free_sides *s, const sunder_i_region *r)
 {
     return s->any && s->region.n == r->n && memcmp(s->region.xy, r->xy, 2 * r->n * sizeof *r->xy) == 0;

@@ -172,7 +172,8 @@ static sunder_status run_tree(const sunder_i_model *model, const sunder_i_waived
     return SUNDER_OK;
 }
 
-/* Adds the guests of the tree, from number `from` on, to the group's guests. Returns false if memory is out. */
+/* Adds to g->guests the bodies that joined the tree as guests: those from place `from` on. Returns false if memory is
+ * out. */
 static bool keep_guests(sunder_i_group *g, const sunder_i_tree *tree, size_t from)
 {
     for (size_t k = from; k < tree->task.n; k++)

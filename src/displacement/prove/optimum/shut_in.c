@@ -150,8 +150,8 @@ static void add_pair(const sunder_i_forbidden *all, const sunder_i_id_pair *pair
         if (!all->piece[k].shadow && is_between(&all->piece[k], pair)) part->piece[part->pieces++] = all->piece[k];
 }
 
-/* Is everything in *left covered? A region that is not covered is moved to the front, as it is likely to be uncovered
- * for the next pair, too. */
+/* Are all regions of *left covered by the forbidden set f? A region that is not covered is moved to the front, as it is
+ * likely to be uncovered for the next pair of features, too. */
 static bool covers_regions(const sunder_i_forbidden *f, sunder_i_regions *left, uint64_t *steps)
 {
     for (size_t k = 0; k < left->n; k++) {

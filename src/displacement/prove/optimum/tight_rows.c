@@ -13,7 +13,7 @@
 
 /* ---- Rows -------------------------------------------------------------------------------------------------------- */
 
-/* Does t[k] differ from `from` by a multiple of the step, up to a hair? */
+/* Does t[k], a coordinate of a body's move, differ from `from` by a multiple of the step, up to f->hair? */
 static bool is_aligned(const sunder_i_tight *f, size_t k, double from)
 {
     const double steps = (f->t[k] - from) / f->step;

@@ -80,8 +80,8 @@ static bool add_part(recording *r, const sunder_i_body_piece *part, size_t *firs
     return true;
 }
 
-/* Sets *number to the number of a pair's piece in the record, adding it if necessary. Returns false if memory is
- * out. */
+/* Sets *number to the index in the record of piece number `piece` of pair number `pair`, which is added to the record
+ * if it is not there yet. Returns false if memory is out. */
 static bool name_piece(recording *r, uint32_t pair, uint32_t piece, size_t *number)
 {
     const sunder_i_tree_pair *p = &r->tree->pair[pair];

@@ -19,7 +19,7 @@ void sunder_i_plane_choices_free(sunder_i_plane_choices *choices)
     memset(choices, 0, sizeof *choices);
 }
 
-/* Was the run not forbidden in that question? */
+/* Was the run not forbidden in the cached question `then`? */
 static bool is_fresh(const sunder_i_plane_choices *then, uint32_t run)
 {
     return run >= then->runs || !then->asked[run];

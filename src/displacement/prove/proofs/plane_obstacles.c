@@ -113,7 +113,8 @@ static bool find_jumps(const finding *w, uint32_t q, bool swapped)
     return true;
 }
 
-/* Adds the sides of a part of a barrier. */
+/* Adds the sides of a part of a barrier, as shadows from the side anchors of the members of body w->p. Returns false if
+ * memory is out. */
 static bool find_sides(const finding *w, uint32_t part)
 {
     const sunder_i_model *model = w->model;
