@@ -77,9 +77,9 @@
  * by PART_OF_LARGE_CROWD, since each further constraint costs another solution. It descends coarsely first: violations
  * below the share ROUGHLY of a body are ignored, and a round that gains less than the share ROUGHLY_SETTLED is the
  * last. It takes the sides of the next round ahead on its path (lead_on()), except for at least NOT_LED rounds after a
- * round in which that failed. 4,400 of Italy's places took 43 programs to reach 4.68e11 m2, and 94 in all to 4.61e11; like this
- * they take 67 in all to 4.50e11. Within limits 5,041 squares took five times as long, and nearly all of them stayed in
- * place. */
+ * round in which that failed. 4,400 of Italy's places took 43 programs to reach 4.68e11 m2, and 94 in all to 4.61e11;
+ * like this they take 67 in all to 4.50e11. Within limits 5,041 squares took five times as long, and nearly all of them
+ * stayed in place. */
 #define LARGE_CROWD_LED 1000
 #define PART_OF_LARGE_CROWD 1.5
 #define ROUGHLY 1e-3
