@@ -13,7 +13,8 @@ typedef bool gis_table_take(void *user, const unsigned char *record, gis_error *
 
 /* Gives all rows of the layer to `take`, in GDAL's order, as the records that gis_packed_add() would make. `take` is
  * called on the caller's thread; if `threads` > 1, a second thread reads ahead. *all is set to false if a row is not
- * plain: GDAL has to read the layer then, although some records were given. A plain row has a Polygon or MultiPolygon
+ * plain or the layer is not a GeoPackage table with a column for the FID and one for the geometry: GDAL has to read the
+ * layer then, although some records may have been given. A plain row has a Polygon or MultiPolygon
  * with finite coordinates and no empty part, and values of their fields' types. Fails if memory is out, `take` fails,
  * or a signal has arrived. */
 bool gis_table_read(GDALDatasetH dataset, OGRLayerH layer, unsigned threads, gis_packed *packed, gis_table_take *take,

@@ -45,8 +45,8 @@ typedef struct gis_delivery {
 bool gis_print_json(const void *json, gis_error *error);
 
 /* Ends a run, in this order: writes the statistics, the report, the trace and the proof to temporary files; prints to
- * standard output and flushes it; renames the temporary files and the output into place; prints the sink's warnings. On
- * failure all files are as they were before. */
+ * standard output and flushes it; renames the temporary files and the output into place; prints the sink's warnings
+ * and losses. On failure all files are as they were before. */
 bool gis_deliver(const gis_delivery *delivery, gis_error *error);
 
 #endif

@@ -14,8 +14,8 @@
 #include <math.h>
 #include <string.h>
 
-/* The method is declined if each polygon overlaps more others than this on average, since then there are large groups,
- * or only one. */
+/* The method is declined if the box of each polygon's sum overlaps more than this number of these boxes on average, its
+ * own included, since then there are large groups, or only one. */
 #define MOST_MEETINGS 32
 
 typedef struct grouper {

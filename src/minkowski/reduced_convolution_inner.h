@@ -132,7 +132,8 @@ typedef struct sunder_i_place_query {
 typedef enum sunder_i_place_in_sum { SUNDER_I_INSIDE, SUNDER_I_NOT_INSIDE, SUNDER_I_UNCERTAIN } sunder_i_place_in_sum;
 
 bool sunder_i_place_query_init(sunder_i_place_query *inside, sunder_i_reduced *r);
-/* Returns whether the point at parameter `at` along a segment is in the interior of the sum, int P + int Q. */
+/* Returns whether the point at parameter `at` along a segment is in the interior of the sum, int P + int Q;
+ * SUNDER_I_UNCERTAIN if rounding hides the answer, or if inside->left is too small. */
 sunder_i_place_in_sum sunder_i_place_query_ask(sunder_i_place_query *inside, uint32_t segment, double at);
 
 #endif

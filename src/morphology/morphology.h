@@ -80,8 +80,8 @@ sunder_status sunder_i_dilate_figure(const sunder_i_figure *figure, const sunder
 sunder_status sunder_i_erode_figure(const sunder_i_figure *figure, const sunder_i_structuring_element *element,
                                     const sunder_sum_options *options, sunder_sum *sum, sunder_error *err);
 
-/* erode_outline.c: does the same as sunder_i_erode_figure() and sets *done, if all vertices are integers and the
- * element is convex. */
+/* erode_outline.c: does the same as sunder_i_erode_figure() and sets *done, if all vertices are integers, the element
+ * is convex, and the figure has rings only, no two vertices of which have one position. */
 sunder_status sunder_i_erode_by_outline(const sunder_i_figure *figure, const sunder_i_structuring_element *element,
                                         const sunder_sum_options *options, sunder_sum *sum, bool *done,
                                         sunder_error *err);
@@ -105,7 +105,8 @@ typedef struct sunder_i_morphology_operands {
 sunder_status sunder_i_morphology_operands_make(const sunder_shape *p, const sunder_shape *b,
                                                 sunder_i_morphology_operands *out, sunder_error *err);
 void sunder_i_morphology_operands_free(sunder_i_morphology_operands *operands);
-/* Returns an empty sum on such a lattice; B's origin is added `moved` times. NULL if out of memory. */
+/* Returns an empty sum on an empty lattice like operands->lattice, with the origin of P plus `moved` times that of B.
+ * NULL if out of memory. */
 sunder_sum *sunder_i_morphology_operands_sum(const sunder_i_morphology_operands *operands, int moved);
 
 /* ---- islands.c ---- */
@@ -123,7 +124,8 @@ sunder_status sunder_i_islands(const sunder_i_morphology_operands *operands, con
  * agree with those of their sums. Fails with SUNDER_ENOMEM or SUNDER_ECANCEL. */
 sunder_status sunder_i_union_of_members(const sunder_shape *shape, const sunder_shape *b,
                                         const sunder_sum_options *options, sunder_sum **out, sunder_error *err);
-/* Does the same and returns a shape whose polygons have disjoint interiors and share no wall. A wall that two polygons
+/* Computes the union of the polygons of a shape, as sunder_i_union_of_members() does, and returns it as a shape whose
+ * polygons have disjoint interiors and share no wall. A wall that two polygons
  * share is inside the set, yet their open pieces do not contain it, so that a segment or a point, which has no area,
  * could pass along it. *out becomes NULL if there is only one polygon, or if polygons cross at points that are not
  * doubles; else the vertices are the polygons' own. */

@@ -45,10 +45,10 @@ typedef struct sunder_i_lattice_corner {
     const double *at;
 } sunder_i_lattice_corner;
 
-/* Returns the side of c, as above, with respect to the line through the lattice points a and b. */
+/* Returns +1 if c is left of the line from the lattice point a to the lattice point b, -1 right of it, 0 on it. */
 int sunder_i_filtered_side(const sunder_i_filter *g, sunder_i_lattice_corner a, sunder_i_lattice_corner b,
                            const sunder_i_filtered_point *c);
-/* Returns the side of the lattice point c, as above, with respect to the line ab. */
+/* Returns +1 if the lattice point c is left of the line ab, -1 right of it, 0 on it. */
 int sunder_i_filtered_corner_side(const sunder_i_filter *g, const sunder_i_filtered_point *a,
                                   const sunder_i_filtered_point *b, sunder_i_lattice_corner c);
 

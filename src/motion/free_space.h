@@ -54,8 +54,9 @@ bool sunder_i_leg_is_free(const sunder_i_free_space *space, const sunder_i_filte
 
 /* ---- verify_leg.c ---- */
 
-/* The same test with another method, for proofs: the segment p + t (q - p) is clipped by the sides of every part, one
- * after the other, in rational numbers. Returns false also if out of memory. */
+/* Returns true if the closed segment pq meets no open part, as sunder_i_leg_is_free() does, but by another method, for
+ * proofs: the segment p + t (q - p) is clipped by the sides of every part, one after the other, in rational numbers.
+ * Returns false also if out of memory. */
 bool sunder_i_leg_verified(const sunder_i_free_space *space, const sunder_i_filtered_point *p,
                            const sunder_i_filtered_point *q);
 

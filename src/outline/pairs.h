@@ -27,7 +27,8 @@ typedef struct sunder_i_pairs_mark {
     size_t n, count;
 } sunder_i_pairs_mark;
 
-/* Adds a pair that does not continue the last row; called by sunder_i_pairs_add(). */
+/* Adds a pair when the array is full, there is no row yet, or the pair does not continue the last row; called by
+ * sunder_i_pairs_add(). Returns false if out of memory. */
 bool sunder_i_pairs_begin(sunder_i_pairs *pairs, uint32_t line, uint32_t part);
 
 /* Adds a pair. Returns false if out of memory. */

@@ -199,8 +199,8 @@ void sunder_i_planar_map_size(const sunder_i_planar_map *map, sunder_i_map_size 
 /* Tests, exactly and in about n log n time, every invariant of half-edges, counts, geometry, trapezoids and history
  * (README.md lists them). Returns NULL if all hold, else a message about the first that does not. */
 const char *sunder_i_planar_map_check(sunder_i_planar_map *map);
-/* The same test, for assertions at the end of a stage if NDEBUG is not defined: operations are not counted, and the
- * function returns NULL if out of memory. */
+/* Does the same as sunder_i_planar_map_check(), for assertions at the end of a stage if NDEBUG is not defined:
+ * operations are not counted, and the function returns NULL if out of memory. */
 const char *sunder_i_planar_map_sound(sunder_i_planar_map *map);
 
 #endif

@@ -44,7 +44,8 @@ static bool settle_rings(sunder_i_found *f, const sunder_i_valued *k, size_t n, 
     return n == 1 || sunder_i_sort_indices(order, n, compare_rings, f);
 }
 
-/* The same for rings whose first vertices have the same x and differ in y as doubles. */
+/* Sorts n rings whose first vertices have the same x: by y as doubles, and exactly where these are too close. Returns
+ * false if out of memory. */
 static bool sort_column(sunder_i_found *f, sunder_i_valued *k, size_t n, uint32_t *order)
 {
     for (size_t i = 0; i < n; i++) k[i].value = first_place(f, k[i].item)->ay;

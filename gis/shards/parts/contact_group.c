@@ -14,7 +14,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_GROUPS = 1 << 12 }; /* groups that can no longer grow are dropped when there are more than this number */
+/* The groups that can no longer grow are dropped when there are more than this number of groups, plus twice the number
+ * that the last dropping left. */
+enum { MOST_GROUPS = 1 << 12 };
+
 /* Pairs of shapes that are compared, per feature on average. Layers with more pairs have stacked features; then boxes
  * alone are compared. */
 static const size_t patience = 500;

@@ -26,7 +26,8 @@ void gis_plan_clear(gis_plan *plan);
 /* ---- plan_file.c: the file `plan` of the directory --------------------------------------------------------------- */
 
 bool gis_plan_write(const gis_plan *plan, const char *directory, gis_error *error);
-/* Reads a plan. Fails, naming the directory, if there is none, or if it was made by another version or changed. */
+/* Reads the plan of a directory. Fails, naming the directory, if there is none, if the plan was made by another version
+ * or changed, or if the directory belongs to a user other than this one or root or may be written by all users. */
 bool gis_plan_read(const char *directory, gis_plan *plan, gis_error *error);
 /* Do both plans have the same arguments, number of shards and memory? */
 bool gis_plan_same_call(const gis_plan *a, const gis_plan *b);
@@ -69,8 +70,8 @@ typedef struct gis_plan_place {
 } gis_plan_place;
 
 bool gis_plan_place_begin(const char *directory, gis_plan_place *place, gis_error *error);
-/* Syncs the hidden directory and renames it to `directory`. If something else has that name already, *taken is set and
- * the function succeeds. */
+/* Renames the hidden directory to `directory` and syncs the directory in which it is. If something else has that name
+ * already, *taken is set and the function succeeds. */
 bool gis_plan_place_end(gis_plan_place *place, const char *directory, bool *taken, gis_error *error);
 /* Removes the hidden directory, if it was not renamed. */
 void gis_plan_place_clear(gis_plan_place *place);

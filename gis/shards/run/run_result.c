@@ -213,7 +213,7 @@ static bool visit_conflicts(const gis_result *r, gis_conflict_visit *visit, void
     return !any;
 }
 
-/* The FIDs of the two things of the current push. */
+/* The FID of one of the two features or barriers of the current push. */
 static GIntBig push_fid(const void *of, size_t feature)
 {
     const gis_part_push *push = ((const gis_part_result *)of)->push;

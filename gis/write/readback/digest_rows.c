@@ -18,7 +18,7 @@
 
 enum { POINT_BYTES = 16 };
 
-/* A layer with at least this number of rows is read by two threads. */
+/* A layer with at least this number of rows is read by two threads, if more than one is allowed. */
 enum { MANY_ROWS = 5000 };
 
 /* The byte order of this machine: doubles in this order can be copied without swapping. */

@@ -178,7 +178,8 @@ bool gis_sink_check_existing(gis_sink *sink, gis_error *error);
 bool gis_sink_check_type(const gis_sink *sink, gis_error *error);
 /* Fails if the format would drop features without geometry and the source has some. */
 bool gis_sink_check_geometries(const gis_sink *sink, gis_error *error);
-/* Fails if the format would reproject the coordinates to WGS 84 and the user did not allow that. */
+/* Fails if the format holds only WGS 84 and the source has another CRS; also, without --allow-inexact-output, if the
+ * format would reproject the coordinates to WGS 84 or can be written but not read. */
 bool gis_sink_check_reprojection(const gis_sink *sink, gis_error *error);
 
 bool gis_sink_dataset_for(gis_sink *sink, gis_sink_layer *layer, gis_error *error);
@@ -268,7 +269,8 @@ void gis_sink_widen(OGREnvelope *around, const OGREnvelope *box);
 /* For a layer with rows written through SQLite: makes the feature count and the extent that GDAL stores those of all
  * rows (layer->rows.around is widened by GDAL's rows), whenever GDAL stores them. */
 bool gis_sink_note_whole(gis_sink_layer *layer, void *database, gis_error *error);
-/* Fails if the file's feature count or extent does not cover all rows that were written. */
+/* For a layer with rows written through SQLite: fails if the file's feature count is not the number of rows written, or
+ * if its extent does not contain the boxes of all of them. */
 bool gis_sink_check_whole(const gis_sink_layer *layer, OGRLayerH as_written, gis_error *error);
 
 /* ---- sink_registered.c ------------------------------------------------------------------------------------------- */

@@ -9,7 +9,8 @@
  * greater. */
 void sunder_i_root(sunder_i_arena *a, sunder_i_big n, sunder_i_big w, long exponent, double *nearest, double *down);
 
-/* Computes the same with doubles, for n <= 2^107 and w <= 2^53. Returns false if the rounding is uncertain. */
+/* Sets *nearest and *down as sunder_i_root() does, by doubles only, for n <= 2^107 and w <= 2^53. Returns false if the
+ * rounding is uncertain, or if |exponent| > 400. */
 bool sunder_i_quick_root(sunder_i_u128 n, int64_t w, long exponent, double *nearest, double *down);
 
 #endif

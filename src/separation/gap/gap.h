@@ -109,8 +109,9 @@ int sunder_i_gap_cmp_side(const sunder_i_gap_problem *problem, const sunder_i_su
  * are equal. */
 bool sunder_i_gap_roughly_side(const sunder_i_gap_problem *problem, const sunder_i_subsum *subsum, uint32_t k,
                                const sunder_i_surd_point *at, int *order, bool *inward, bool *flat);
-/* Compares the distance of the point from the whole closed subsum with the gap: -1 below, 0 equal, 1 above. Exact.
- * Unless the result is 1, *k becomes the nearest side, and *flat is as for sunder_i_gap_cmp_side(). */
+/* Compares the distance of the point from the whole closed subsum with the gap: -1 below, 0 equal, 1 above; also -1
+ * inside the subsum. Exact. If the result is 0, *k becomes a nearest side, and *flat is as for
+ * sunder_i_gap_cmp_side(). */
 int sunder_i_gap_cmp(const sunder_i_gap_problem *problem, const sunder_i_subsum *subsum, const sunder_i_surd_point *at,
                      uint32_t *k, bool *flat);
 

@@ -31,7 +31,8 @@ int sunder_i_carrier_side(sunder_i_operands *operands, const sunder_i_carrier *l
                           const sunder_i_subsum *subsum, uint32_t k);
 
 /* Returns the number of a listed subsum whose interior contains the point at t, (x, y) in doubles; -1 if there is none.
- * 0 <= t <= 1. Exact. *first (NULL: 0) is the subsum tested first and becomes the result. */
+ * 0 <= t <= 1. Exact. The subsum *first (NULL: 0) is tested before the others, except on a square of the board that has
+ * a holder; *first becomes the number found, if any. -1 also if out of memory (arena.failed). */
 long sunder_i_carrier_cover(sunder_i_operands *operands, const sunder_i_carrier *line, const sunder_i_fraction *t,
                             double x, double y, size_t *first);
 

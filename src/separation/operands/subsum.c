@@ -166,7 +166,7 @@ static void narrow_turn(const sunder_i_point *at, const uint32_t *c, uint32_t n,
     for (uint32_t i = 0; i < n; i++) side[i] = sunder_i_narrow_sub(round[i + 1], round[i]);
 }
 
-/* Does the same on any lattice. */
+/* Does the same as narrow_turn() on any lattice; `block` receives the n + 1 vertices and then the n sides. */
 static void turn_corners(sunder_i_lattice *l, const sunder_i_point *at, const uint32_t *c, uint32_t n,
                          sunder_i_point *block, sunder_i_turned_piece *r)
 {

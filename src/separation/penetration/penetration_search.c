@@ -299,8 +299,9 @@ sunder_status sunder_i_nearest_by_squares(sunder_i_operands *operands, double li
     return SUNDER_OK;
 }
 
-/* Operands with at least this number of pairs of pieces, after pieces with many vertices are divided, are searched by
- * squares; for fewer, listing the pairs takes less time than building the trees for squares. */
+/* Operands with about this number of pairs of pieces or more, after pieces with many vertices are divided, are searched
+ * by squares (sunder_i_squares_worth()); for fewer, listing the pairs takes less time than building the trees for
+ * squares. */
 #define SQUARES_FROM 16384
 /* If squares do not suit the operands, most pairs of pieces may still be far away, as with neighbouring countries, and
  * listing them would exhaust the memory. So the search begins in a small disc, and continues in one that is WIDEN_BY
