@@ -203,8 +203,9 @@ static bool is_covered(place_search *h, const sunder_i_obstacle_side *w, const d
     return is_held(h, &all, foot, w->obstacle);
 }
 
-/* The same by cells alone: returns true if one obstacle contains the cells of both ends, and so all between them, or
- * contains the cell of one end and the wall. */
+/* A quick test whether one obstacle other than its own contains the whole wall: returns true if one obstacle contains
+ * the cells of both ends, and so all between them, or contains the cell of one end and the wall. False decides
+ * nothing. */
 static bool is_covered_by_cells(const place_search *h, const sunder_i_obstacle_side *w)
 {
     uint32_t from, to;

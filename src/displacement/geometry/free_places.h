@@ -18,7 +18,8 @@ typedef struct sunder_i_obstacle {
     double box[4];
 } sunder_i_obstacle;
 
-/* A compact copy of a wall's line, for the test whether a point lies strictly inside: n.x < h. */
+/* A compact copy of a wall's line, for the test whether a point lies inside, strictly: n.x < h. Here h is the wall's
+ * own h less sunder_i_obstacle_slack(), so that a point on the wall does not count as inside. */
 typedef struct sunder_i_obstacle_line {
     double n[2], h;
 } sunder_i_obstacle_line;
@@ -43,14 +44,15 @@ void sunder_i_obstacles_free(sunder_i_obstacles *obstacles);
 /* Removes all obstacles, and what else is asked of a place; keeps the memory. */
 void sunder_i_obstacles_clear(sunder_i_obstacles *obstacles);
 /* Adds the convex polygon d of n corners, grown by `gap`. Its round corners are replaced by tangents, so that the grown
- * polygon is contained. */
+ * polygon is contained. A segment or a point without a gap has no interior, and is left out. */
 void sunder_i_obstacles_add(sunder_i_obstacles *obstacles, const double *d, size_t n, double gap);
 /* Adds an obstacle whose walls and box were computed before. */
 void sunder_i_obstacles_add_known(sunder_i_obstacles *obstacles, const sunder_i_obstacle_side *wall, uint32_t walls,
                                   const double box[4]);
-/* Finds local minima of the distance from `target` on the boundary of the free space, nearest first: at most `most`,
- * none farther than `limit`, no two nearer than `spread` to each other. Returns their number. *steps grows by the work
- * done, in constraints processed. *failed is set if memory is out or the run was stopped. */
+/* Finds places outside all obstacles, nearest to `target` first: at most `most` (and MOST_PLACES), none farther than
+ * `limit`, no two within `spread` of each other. If the target itself is free it is the only one; otherwise they are
+ * local minima of the distance on the boundary of the free space. Returns their number. *steps grows by the work done,
+ * in constraints processed. *failed is set if memory is out or the run was stopped. */
 size_t sunder_i_free_places(const sunder_i_obstacles *obstacles, const double target[2], double limit, double spread,
                             size_t most, double (*places)[2], uint64_t *steps, bool *failed);
 

@@ -17,8 +17,9 @@ void sunder_i_obstacle_cache_free(sunder_i_obstacle_cache *cache);
 /* Returns the edges stored under this key (not 0) and sets *n to their number; NULL if there are none. */
 const sunder_i_obstacle_edge *sunder_i_obstacle_cache_find(const sunder_i_obstacle_cache *cache, uint64_t key,
                                                            size_t *n);
-/* Stores the edges of the polygon d of n corners under a key that is not in the cache, and returns them. Returns NULL
- * if memory is out. The pointer is valid until the next call. */
+/* Stores the edges of a convex polygon under a key that is not in the cache, and returns them. *n is the number of
+ * corners in d, and is set to the number of edges, which may be smaller. Returns NULL if memory is out. The pointer is
+ * valid until the next call. */
 const sunder_i_obstacle_edge *sunder_i_obstacle_cache_add(sunder_i_obstacle_cache *cache, uint64_t key, const double *d,
                                                           size_t *n);
 

@@ -28,8 +28,8 @@ sunder_status sunder_i_inclusions_init(sunder_i_model *model, const sunder_i_rel
 /* Adds an inclusion for a pair whose inner feature (a if `a_inside`, else b) is to be moved inside. Must be called
  * before the walls are made. */
 sunder_status sunder_i_inclusions_add(sunder_i_model *model, uint32_t a, uint32_t b, bool a_inside, sunder_error *err);
-/* Records the pairs in conflict in which one feature lies in the other, if both have limits, which may force it to stay
- * there. */
+/* Records in model->nested the pairs in conflict in which one feature lies in the other, without being its duplicate,
+ * if both have limits, which may force it to stay there. */
 sunder_status sunder_i_inclusions_note_nested(sunder_i_model *model, const sunder_i_relations *relations,
                                               sunder_error *err);
 /* Makes the walls, which are edges of holders, for the search. The pieces must have been numbered before. */
@@ -38,7 +38,9 @@ sunder_status sunder_i_inclusion_walls(sunder_i_model *model, sunder_error *err)
 sunder_i_inclusion *sunder_i_inclusion_find(const sunder_i_model *model, uint32_t f, uint32_t g);
 /* Is there an inclusion of features f and g that has not lapsed? */
 bool sunder_i_is_included(const sunder_i_model *model, uint32_t f, uint32_t g);
-/* Does `inner` lie in `holder` at the start, whether it may overlap it or is in conflict with it? */
+/* Does `inner` lie in `holder` at the start, so that it may overlap it or, both having limits, is in conflict with it?
+ * The answer is also yes for a pair that sunder_i_inclusions_add() has added, and does not depend on the state of the
+ * inclusion. */
 bool sunder_i_is_inner(const sunder_i_model *model, uint32_t inner, uint32_t holder);
 /* Does `holder` keep `inner` inside? If so, *state is set to the state of the inclusion. */
 bool sunder_i_keeps_inside(const sunder_i_model *model, uint32_t holder, uint32_t inner,

@@ -313,7 +313,8 @@ sunder_status sunder_i_model_cut(sunder_i_model *model, sunder_error *err);
 uint32_t sunder_i_body_of_piece(const sunder_i_model *model, uint32_t piece);
 /* Returns a length such that any relative move of bodies p and q that is longer leaves them more than the gap apart. */
 double sunder_i_farthest_near(const sunder_i_model *model, uint32_t p, uint32_t q);
-/* Returns twice such a length for a body and a whole barrier, of which `part` is one part. */
+/* Returns twice a length such that any longer move of the body leaves it farther from the whole barrier, of which
+ * `part` is one part, than it has to keep. */
 double sunder_i_far_from_barrier(const sunder_i_model *model, uint32_t body, uint32_t part);
 /* Makes the unions of the members of these n bodies, if they are blocks and have none yet. */
 sunder_status sunder_i_model_unite(sunder_i_model *model, const uint32_t *body, size_t n, sunder_error *err);
@@ -381,8 +382,9 @@ bool sunder_i_is_held(const sunder_i_model *model, uint32_t f, uint32_t g);
 
 /* ---- diagonal_covers.c ------------------------------------------------------------------------------------------- */
 
-/* Is there a barrier without area that requires no distance? A feature could meet it along a diagonal without meeting a
- * piece. */
+/* Does the layer have barriers without area (segments, points), and a barrier that requires no distance? A feature
+ * could meet such a segment along a diagonal without meeting a piece. The two need not be the same barrier; covers are
+ * then made without need. */
 bool sunder_i_has_bare_barriers(const sunder_i_model *model);
 /* Makes the covers of diagonals that are still missing, for all bodies or for the n bodies in `body`. Pieces must have
  * been numbered before. Proofs need these covers, the search does not. Pointers to covers become invalid. */

@@ -36,6 +36,7 @@ static inline sunder_i_translate sunder_i_standing(const sunder_i_model *model, 
 
 /* Sets up the placement at the original positions. */
 sunder_status sunder_i_placement_init(const sunder_i_model *model, sunder_i_placement *placement, sunder_error *err);
+/* Puts the features in `changes` at the present positions of their bodies in model->move. */
 sunder_status sunder_i_placement_move(sunder_i_model *model, sunder_i_placement *placement,
                                       const sunder_i_changes *changes, sunder_error *err);
 /* Puts the members of one body at its present position in model->move. */
@@ -56,12 +57,14 @@ sunder_status sunder_i_placement_relate(const sunder_i_model *model, const sunde
 sunder_status sunder_i_placement_relate_again(const sunder_i_model *model, const sunder_i_placement *placement,
                                               const sunder_i_changes *changes, const sunder_i_list *things,
                                               sunder_i_relations *relations, sunder_error *err);
-/* Appends the things near a thing, including itself. Returns false if memory is out. */
+/* Appends the things whose boxes come within the gap (or the tolerance, if that is greater) of the box of `thing`,
+ * `thing` included. Returns false if memory is out. */
 bool sunder_i_placement_near(const sunder_i_model *model, const sunder_i_placement *placement, uint32_t thing,
                              sunder_i_list *near);
 
-/* Calls `visit` for the relations of one body's members to members of other bodies, in the present positions, until *on
- * is false. near: scratch. */
+/* Called for each relation of a member of one body to a member of another one that is near, touches or is `kept`, in
+ * the present positions. Sets *on to false to end the visits. sunder_i_placement_visit() calls it; `near` is scratch
+ * there. */
 typedef sunder_status (*sunder_i_visit_relation)(void *context, const sunder_i_relation *r, bool *on,
                                                  sunder_error *err);
 

@@ -15,7 +15,7 @@ typedef struct sunder_i_translate {
 
 typedef struct sunder_i_relation {
     uint32_t a, b;  /* things, a < b; a is a feature */
-    bool near;      /* less than the gap apart */
+    bool near;      /* interiors meet, or the distance is less than required: the gap, or that of the barrier b */
     bool overlap;   /* interiors meet */
     bool drawn;     /* the interiors do not meet, but a is nearer to b, a part of a barrier, than half its width */
     bool contained; /* one lies in the other, up to the tolerance */

@@ -51,17 +51,21 @@ bool sunder_i_relaxations_add(sunder_i_relaxations *relaxations, const sunder_i_
  * barrier: without this, a part that was far off would demand the full distance. */
 bool sunder_i_relaxations_spread(sunder_i_relaxations *relaxations, const sunder_i_model *model,
                                  const sunder_i_relaxation *relaxation, double reach);
+/* Sorts the relaxations, and lists the pairs of bodies that have any in `relaxed`. Returns false if memory is out. */
 bool sunder_i_relaxations_index(sunder_i_relaxations *relaxations, const sunder_i_model *model);
 /* Returns the relaxation of features f and g; NULL if there is none. */
 const sunder_i_relaxation *sunder_i_relaxations_find(const sunder_i_relaxations *relaxations, uint32_t f, uint32_t g);
+/* Returns the entry of two bodies in `relaxed`; NULL if no relaxation is between their members. */
 const sunder_i_relaxed_bodies *sunder_i_relaxations_between(const sunder_i_relaxations *relaxations, uint32_t body,
                                                             uint32_t other);
-/* Inserts or removes one relaxation; the index stays valid. `insert` returns false if memory is out. */
+/* Inserts or removes one relaxation; the index stays valid. sunder_i_relaxations_insert() returns false if memory is
+ * out. The relaxation to be removed has to be in the list. */
 bool sunder_i_relaxations_insert(sunder_i_relaxations *relaxations, const sunder_i_model *model,
                                  const sunder_i_relaxation *relaxation);
 void sunder_i_relaxations_remove(sunder_i_relaxations *relaxations, const sunder_i_model *model,
                                  const sunder_i_relaxation *relaxation);
-/* Is r a conflict between two bodies? The second function: and does it have to be resolved, having no relaxation? */
+/* Is r a conflict between two bodies? sunder_i_is_open_conflict() returns true only if it also has to be resolved,
+ * since the pair has no relaxation in the model. */
 bool sunder_i_is_conflict_of_bodies(const sunder_i_model *model, const sunder_i_relation *r);
 bool sunder_i_is_open_conflict(const sunder_i_model *model, const sunder_i_relation *r);
 /* Removes the relaxations of the n pairs in `restored` (sorted), which have to keep the full distance again. The caller
@@ -75,12 +79,14 @@ sunder_i_restored sunder_i_restored_of(const sunder_i_model *model, const sunder
 /* Makes a relaxation for features f and g from their original positions. */
 sunder_status sunder_i_relaxation_of(const sunder_i_model *model, uint32_t f, uint32_t g, sunder_i_relaxation *out,
                                      sunder_error *err);
-/* Changes the shift of a relaxation to the direction of the least separating translation when a and b are moved by ta
- * and tb, provided that this is no longer than the shift; then sets *fits. After that the relaxation need not hold at
- * the start any more. */
+/* Turns the shift of a relaxation of an overlap into the direction of the least translation that separates a and b when
+ * they are moved by ta and tb, and keeps its length, up to a tiny share. *fits is set if that translation is no longer
+ * than the shift; otherwise the relaxation does not change. Once turned, the relaxation need not hold at the start. */
 sunder_status sunder_i_relaxation_turn(const sunder_i_model *model, const double ta[2], const double tb[2],
                                        sunder_i_relaxation *relaxation, bool *fits, sunder_error *err);
-/* Appends relaxations for all pairs of members of two bodies that were within `reach` of each other at the start. */
+/* Appends relaxations for the pairs of members of two bodies that were less than `reach` apart at the start; beside a
+ * barrier `reach` is increased by what its required distance exceeds the gap by. Pairs in which one feature is kept
+ * inside the other are left out. */
 sunder_status sunder_i_relaxations_make(const sunder_i_model *model, uint32_t body, uint32_t other, double reach,
                                         sunder_i_relaxations *out, sunder_error *err);
 /* Sets `shift` to the translation of `of_j`, one of the relaxation's features, before its distance is measured. Returns

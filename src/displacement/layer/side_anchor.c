@@ -141,8 +141,8 @@ static sunder_status point_of(sunder_i_side_cut *c, const sunder_i_cut_part *p, 
 
 /* ---- The side anchor --------------------------------------------------------------------------------------------- */
 
-/* Sets `anchor` to the point of one of the remaining parts, which have equal areas, unless one of them contains the
- * plain anchor. */
+/* On entry `anchor` is the plain anchor. Unless one of the remaining parts, which have equal areas, contains it, sets
+ * `anchor` to the point of one of them, rounded to doubles, if that part contains the rounded point. */
 static sunder_status choose_part(sunder_i_side_cut *c, double anchor[2], sunder_error *err)
 {
     const sunder_i_rational_point plain = sunder_i_side_cut_point(c, anchor);

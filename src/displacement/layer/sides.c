@@ -51,7 +51,8 @@ static size_t take_lines(const sunder_i_piece_of *of, sunder_i_side *side)
     return lines;
 }
 
-/* Does the same for a whole part of a barrier; there are none if the barrier has no sides. */
+/* Returns the number of lines of a whole part of a barrier, 0 if the barrier has no sides, and writes them to `side`
+ * unless that is NULL. */
 static size_t take_part(const sunder_i_model *model, uint32_t part, sunder_i_side *side)
 {
     const sunder_i_barriers *b = model->barriers;

@@ -13,8 +13,8 @@ sunder_status sunder_i_model_find_sides(sunder_i_model *model, sunder_error *err
 /* Sets *crosses if the side anchor of feature f, moved by t, crosses a line of this part of a barrier. */
 sunder_status sunder_i_crosses_side(const sunder_i_model *model, uint32_t f, const double t[2], uint32_t part,
                                     bool *crosses, sunder_error *err);
-/* Is `side` a line that f may not cross, as computed in doubles? Returns false for an edge of an area if the side
- * anchor is inside of it, on it, or too near to decide. */
+/* Is `side` a line that f may not cross? Returns false for an edge of an area if the side anchor is inside of it or on
+ * it, or, if the area has corners that are not doubles, too near to decide in doubles. */
 bool sunder_i_side_faces(const sunder_i_model *model, const sunder_i_side *side, uint32_t f);
 
 /* ---- side_anchor.c ----------------------------------------------------------------------------------------------- */

@@ -134,7 +134,7 @@ static void begin_far(interior *q, double scale, double mean)
     }
 }
 
-/* Do the present forces prove that all solutions cost more than p->most_cost? */
+/* Stores the present forces in the program. Do they prove that all solutions cost more than p->most_cost? */
 static bool is_beyond(const interior *q, double softness)
 {
     for (size_t c = 0; c < q->m; c++) q->p->constraint[c].force = q->f[c];

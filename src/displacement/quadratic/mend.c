@@ -93,8 +93,8 @@ static void take_bodies(mending *m)
     part->mass = m->mass;
 }
 
-/* Makes the constraints of the partial program: those with an end that takes part. The other end is the ground, and its
- * present move is included in the distance. */
+/* Makes the constraints of the partial program: those with at least one end that takes part. An end that does not take
+ * part becomes the ground, and its present move is included in the distance. */
 static void take_constraints(mending *m)
 {
     const sunder_i_quadratic *p = m->p;

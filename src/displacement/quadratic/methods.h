@@ -50,8 +50,9 @@ bool sunder_i_quadratic_gradient(sunder_i_quadratic *program, double softness, d
 
 /* ---- active_set.c ------------------------------------------------------------------------------------------------ */
 
-/* Solves for the forces of the active constraints by linear equations, and corrects the active set. Returns false if
- * memory is out. Changes the forces, not t. */
+/* Solves for the forces of the active constraints by linear equations, and corrects the active set. Does nothing if too
+ * many are active (MOST_ACTIVE). Returns false if memory is out. Changes the forces; t may be that of earlier forces
+ * afterwards, so the caller has to place the bodies. */
 bool sunder_i_quadratic_equations(sunder_i_quadratic *program, double softness, double tolerance);
 
 /* ---- newton.c ---------------------------------------------------------------------------------------------------- */
