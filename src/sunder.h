@@ -522,81 +522,88 @@ typedef void (*sunder_trace)(const sunder_trace_event *event, void *user);
 typedef struct sunder_layer_options {
     size_t size;            /* sizeof(sunder_layer_options) */
     double gap;             /* >= 0 */
-    double touch_tolerance; /* >= 0; negative (the default): a tenth of the gap */
-    bool no_blocks;         /* nothing joins by touch or containment */
-    bool no_touch;          /* nothing joins by touch */
-    double thin;            /* where the tolerance is 0: count the overlaps that this one would join; 0: do not */
+    double touch_tolerance; /* features that are at most this far apart touch; negative (the default): gap / 10 */
+    bool no_blocks;         /* features do not join blocks by touch or containment */
+    bool no_touch;          /* features do not join blocks by touch */
+    double thin;            /* if the tolerance is 0: count the overlaps that this tolerance would join; 0: no count */
     bool list_inside;       /* list the pairs inside blocks too */
     sunder_containment contained;
-    unsigned threads; /* 0: one for each processor; the result is the same for every number */
-    sunder_progress progress;
+    unsigned threads;         /* 0: one for each processor; the result is the same for every number */
+    sunder_progress progress; /* NULL for none */
     void *progress_user;
     bool allow_jumps; /* features may jump over others, or out of a yard: see sunder_layer_separate() */
-    double effort;    /* >= 0: how hard to look for better sides, for proofs, and for what would free a
-                       * conflict, in steps and not in time; 0: not at all */
-    uint64_t seed;    /* of what search is random: the better layouts that effort looks for */
-    bool keep_trees;  /* for sunder_report_bound_trees(); costs memory */
-    bool keep_pushes; /* for sunder_report_pushes() */
-    bool keep_worlds; /* for sunder_report_worlds() */
-    bool drop_proofs; /* sunder_report_proof() has none: of each only its features are kept, for blocked_by */
-    /* Barriers may have been left out if no feature comes too near to them, or crosses them, by a move no longer than
-     * this; INFINITY (the default): none were. At least the longest max_shift; need_shift is at most this. Barriers
-     * with sides may not be left out where they are within sunder_side_reach() of a feature's box. */
+    double effort;    /* >= 0: the number of steps, not the time, that the search for better layouts, for proofs,
+                       * and for changes that would solve a conflict may take; 0: no search */
+    uint64_t seed;    /* the seed of the random search for better layouts */
+    bool keep_trees;  /* keep the trees for sunder_report_bound_trees(), which takes memory */
+    bool keep_pushes; /* keep the forces for sunder_report_pushes() */
+    bool keep_worlds; /* keep the worlds for sunder_report_worlds() */
+    bool drop_proofs; /* sunder_report_proof() returns NULL; only the features of each proof are kept, as blocked_by */
+    /* The caller may leave out a barrier if no feature comes too near to it, or crosses it, by a move no longer than
+     * barrier_reach. A barrier with sides may be left out only if it is also farther than sunder_side_reach() from the
+     * box of every feature. INFINITY (the default): no barrier was left out. barrier_reach must be at least the longest
+     * max_shift; need_shift of a conflict is at most barrier_reach. */
     double barrier_reach;
-    sunder_trace trace; /* NULL: none */
+    sunder_trace trace; /* NULL for none */
     void *trace_user;
 } sunder_layer_options;
 
-/* How far about its box (xmin, ymin, xmax, ymax) barriers decide on which side of them a feature is: twice the width
- * and the height of the box together. */
+/* Returns the distance from the box (xmin, ymin, xmax, ymax) of a feature within which barriers can decide on which
+ * side of them the feature is: twice the sum of the width and the height of the box. */
 SUNDER_EXPERIMENTAL double sunder_side_reach(const double box[4]);
 
-/* Defaults: gap 0, tolerance a tenth of it, blocks on, one thread, no jumps, effort 1, seed 0. */
+/* Sets the defaults: gap 0, tolerance gap / 10, blocks, one thread, no jumps, effort 1, seed 0. */
 SUNDER_API void sunder_layer_options_init_sized(sunder_layer_options *options, size_t size);
 static inline void sunder_layer_options_init(sunder_layer_options *options)
 {
     sunder_layer_options_init_sized(options, sizeof *options);
 }
 
-/* Weights lie in this range, so that costs, forces and their squares are doubles. */
+/* The range of weights. In this range costs, forces and their squares do not leave the range of doubles. */
 #define SUNDER_LEAST_WEIGHT 1e-100
 #define SUNDER_GREATEST_WEIGHT 1e100
 
 typedef struct sunder_feature {
-    const sunder_shape *shape; /* borrowed; must outlive the layer. NULL or empty: conflicts with nothing */
+    const sunder_shape *shape; /* remains the caller's, and must outlive the layer. NULL or empty: no conflicts */
     double weight;             /* from SUNDER_LEAST_WEIGHT to SUNDER_GREATEST_WEIGHT */
-    double max_shift;          /* no longer move; INFINITY for none; 0 for fixed */
-    int64_t block;             /* equal non-negative values move as one; -1: none */
-    bool fixed;                /* never moves, is an obstacle */
-    bool ignored;              /* conflicts with nothing, never moves */
+    double max_shift;          /* the limit: the greatest length of its move; INFINITY: no limit; 0: it is fixed */
+    int64_t block;             /* features with equal non-negative values move as one; -1: none */
+    bool fixed;                /* the feature never moves, and the others keep their distance from it */
+    bool ignored;              /* the feature never moves, and is in conflict with nothing */
 } sunder_feature;
 
+/* Makes a layer of n features, freed by the caller with sunder_layer_free(). The array is copied, the shapes are not.
+ * Fails   SUNDER_EARG  a weight is out of its range, a max_shift is negative or not a number, or there are more
+ * features
+ *                      than can be numbered */
 SUNDER_API sunder_status sunder_layer_new(const sunder_feature *features, size_t n, sunder_layer **out,
                                           sunder_error *err);
 SUNDER_API void sunder_layer_free(sunder_layer *layer);
 
-/* What never moves, and is kept at a distance of its own: features stay width / 2 + gap, exactly, from its geometry as
- * it is stored, which is what is drawn with that width, with round ends and joins. */
+/* A barrier: a geometry that never moves. It is drawn with the width, with round ends and joins. Features stay at least
+ * width / 2 + gap away from the geometry, exactly. */
 typedef struct sunder_barrier {
-    sunder_obstacle geometry; /* borrowed; must outlive the layer. Empty: in the way of nothing */
-    double width;             /* >= 0 and finite: the full drawn width; a polygon grows by half of it */
-    double gap;               /* finite; from the drawn edge; negative: the layer's */
-    bool side;                /* its lines and boundaries may not be crossed: see sunder_layer_separate() */
+    sunder_obstacle geometry; /* shape and arrays remain the caller's, and must outlive the layer; it may be empty */
+    double width;             /* >= 0 and finite: the full drawn width; a polygon is drawn larger by half the width */
+    double gap;               /* finite: the distance from the drawn edge; negative: the gap of the layer's options */
+    bool side;                /* features may not cross its lines and boundaries: see sunder_layer_separate() */
 } sunder_barrier;
 
-/* The barriers of a layer, in place of those that it had. A pair of a feature and a barrier is one, however many lines
- * and pieces of it are near; cost follows what is near. (One exception to what is exact: a feature whose members, or
- * whose own rings, cross in places that no doubles hold may have walls inside, and a line that lies wholly along one of
- * these is taken for one that does not meet it.)
- * Fails   SUNDER_EARG      a width or a gap out of its range, or ends of lines that do not ascend
+/* Sets the barriers of a layer, and removes those that it had. A feature and a barrier are one pair, whatever the
+ * number of the barrier's lines and pieces near the feature; the cost depends on what is near. (There is one exception
+ * to exactness. If members or rings of a feature cross in places that are not doubles, the feature may have walls
+ * inside, and a line that lies wholly along such a wall is treated as not meeting the feature's interior.) Fails
+ * SUNDER_EARG      a width or a gap is out of its range, ends of lines do not ascend, or there are more barriers
+ *                          than can be numbered
  *         SUNDER_EINVALID  a coordinate is not finite */
 SUNDER_API sunder_status sunder_layer_set_barriers(sunder_layer *layer, const sunder_barrier *barriers, size_t n,
                                                    sunder_error *err);
 
-/* The side anchors of features that have one of their own, such as the points at which symbols are drawn; each is kept
- * as it is, on a line or off the feature, too: see sunder_layer_separate(). xy: two coordinates of each feature, which
- * are copied. Where they are not finite the rule gives that feature's side anchor; xy NULL: the rule gives all.
- * Fails   only for want of memory */
+/* Sets the side anchors of features, such as the points at which symbols are drawn: see sunder_layer_separate(). A side
+ * anchor that is set is used as it is, even if it is on a line of a barrier or outside the feature.
+ * xy      Two coordinates for each feature, which are copied. If they are not finite, the side anchor of that feature
+ *         follows from the rule of sunder_layer_separate(). NULL: all side anchors follow from the rule.
+ * Fails   SUNDER_ENOMEM */
 SUNDER_EXPERIMENTAL sunder_status sunder_layer_set_side_anchors(sunder_layer *layer, const double *xy,
                                                                 sunder_error *err);
 
@@ -604,8 +611,8 @@ typedef enum sunder_feature_status {
     SUNDER_FEATURE_UNMOVED,
     SUNDER_FEATURE_MOVED,
     SUNDER_FEATURE_FIXED,
-    SUNDER_FEATURE_BLOCKED, /* still has a conflict */
-    SUNDER_FEATURE_SKIPPED
+    SUNDER_FEATURE_BLOCKED, /* it could move, and still has a conflict */
+    SUNDER_FEATURE_SKIPPED  /* it is ignored */
 } sunder_feature_status;
 
 /* "unmoved", "moved", "fixed", "blocked", "skipped". */
@@ -615,15 +622,15 @@ typedef enum sunder_conflict_kind {
     SUNDER_CONFLICT_OVERLAP,
     SUNDER_CONFLICT_TOO_CLOSE,
     SUNDER_CONFLICT_BARRIER,       /* the interior of a feature meets a barrier's stored geometry */
-    SUNDER_CONFLICT_BARRIER_DRAWN, /* it does not, but is nearer than half of the barrier's width */
-    SUNDER_CONFLICT_BARRIER_NEAR,  /* it does neither, but is nearer than it should be */
+    SUNDER_CONFLICT_BARRIER_DRAWN, /* it does not meet it, but is nearer to it than half of the barrier's width */
+    SUNDER_CONFLICT_BARRIER_NEAR,  /* it is neither, but is nearer than half of the width plus the gap */
     SUNDER_CONFLICT_CONTAINED,
     SUNDER_CONFLICT_DUPLICATE,
-    /* Found by sunder_layer_check_moves() only; about one feature where b is SIZE_MAX: */
-    SUNDER_CONFLICT_WORSE,          /* in conflict, and worse than it stood */
+    /* Only sunder_layer_check_moves() finds the following kinds. If b is SIZE_MAX, the conflict is about feature a. */
+    SUNDER_CONFLICT_WORSE,          /* the pair is in conflict, and worse than before the moves */
     SUNDER_CONFLICT_LIMIT,          /* a moved by `distance`, and at most `required` was allowed */
-    SUNDER_CONFLICT_SIDE,           /* a crossed a side of barrier b, on the way `from` - `to` of its side anchor */
-    SUNDER_CONFLICT_JUMP,           /* a jumped over b, on the way `from` - `to` as b sees it */
+    SUNDER_CONFLICT_SIDE,           /* the side anchor of a crossed a side of barrier b on its way, `from` - `to` */
+    SUNDER_CONFLICT_JUMP,           /* a jumped over b; `from` - `to` is the way of its anchor, relative to b */
     SUNDER_CONFLICT_NOT_A_TRANSLATE /* no move of a makes its coordinates what they are now */
 } sunder_conflict_kind;
 
@@ -632,51 +639,56 @@ typedef enum sunder_conflict_kind {
 SUNDER_API const char *sunder_conflict_kind_string(sunder_conflict_kind kind);
 
 typedef enum sunder_reason {
-    SUNDER_REASON_NONE,       /* of a check: no solution was tried */
-    SUNDER_REASON_MAX_SHIFT,  /* proved: the pair cannot be parted, or brought inside, within both limits together */
-    SUNDER_REASON_FIXED,      /* neither may move */
-    SUNDER_REASON_SIDE,       /* proved: no solution of the pair alone, each with its block, crosses no side */
-    SUNDER_REASON_JUMP,       /* proved: no solution of the pair alone, each with its block, is without a jump */
-    SUNDER_REASON_NO_ROOM,    /* proved: the pair and all pairs not listed have no solution in which other listed
-                               * pairs are no worse than at the start */
-    SUNDER_REASON_SAME_BLOCK, /* they move as one */
-    SUNDER_REASON_KEPT,       /* allowed to overlap: contained, ignored */
-    SUNDER_REASON_UNRESOLVED  /* neither a solution nor such a proof was found; it may be crowded, which is proved */
+    SUNDER_REASON_NONE,       /* the report is of a check, which tries no solution */
+    SUNDER_REASON_MAX_SHIFT,  /* proved: no moves within the limits of the two solve the pair, even by itself */
+    SUNDER_REASON_FIXED,      /* neither of the two may move */
+    SUNDER_REASON_SIDE,       /* proved: every solution of the pair and its two blocks alone crosses a side */
+    SUNDER_REASON_JUMP,       /* proved: every solution of the pair and its two blocks alone crosses a side or jumps */
+    SUNDER_REASON_NO_ROOM,    /* proved: no moves solve the pair and all pairs that are not listed, and leave all other
+                               * listed pairs no worse than at the start */
+    SUNDER_REASON_SAME_BLOCK, /* the two are in one block, and move as one */
+    SUNDER_REASON_KEPT,       /* the two may overlap, since one lies in the other: SUNDER_CONTAINMENT_IGNORE */
+    SUNDER_REASON_UNRESOLVED  /* neither a solution nor one of these proofs was found; see also `crowded` */
 } sunder_reason;
 
 /* "", "max_shift", "fixed", "side", "jump", "no_room", "same_block", "kept", "unresolved". */
 SUNDER_API const char *sunder_reason_string(sunder_reason reason);
 
+/* A pair in conflict: in the result of a run, or in the layer as it stands in a check. */
 typedef struct sunder_conflict {
-    size_t a, b; /* a < b: features, or for b of the barriers' two kinds the number of features + k for barrier k */
+    size_t a, b; /* a < b: a is a feature; b is a feature, or the number of features + k for barrier k */
     sunder_conflict_kind kind;
     sunder_reason reason;
-    double distance; /* now; 0 where they overlap */
-    double before;   /* at the start */
-    double depth;    /* length of the least translation that takes the interiors apart now; 0 where disjoint */
-    double required; /* the gap asked for; for a barrier plus half its width */
-    /* How much of `required` is missing: required - distance, and where interiors meet required + depth. NAN where
-     * nothing is owed: inside a block, where the pair may overlap, and of kinds that ask for no distance. */
+    double distance; /* the distance in the result; 0 if the two overlap */
+    double before;   /* the distance at the start */
+    double depth;    /* the length of the least translation that makes the interiors disjoint in the result; 0 if they
+                      * are disjoint */
+    double required; /* the gap; for a barrier its gap plus half of its width */
+    /* The length that is missing: required - distance, or required + depth if the interiors meet. NAN if the pair has
+     * to keep no distance: inside a block, if the two may overlap, and for kinds that are not about a distance. */
     double missing;
     double from[2], to[2];    /* the shortest link, or the least translation drawn from inside the overlap */
-    const size_t *blocked_by; /* features, and barriers as for b, that stand in the way, n_blocked_by of them */
+    const size_t *blocked_by; /* [n_blocked_by] features and barriers, as b, that are in the way; owned by the report */
     size_t n_blocked_by;
-    bool inside_block; /* counted in inside_blocks alone */
-    /* A limit of moves, a gap with which a solution of the pair and its neighbours is known, NAN: none; a feature or
-     * barrier without which it is, SIZE_MAX: none. Upper estimates: all others stand as in the result; a few questions
-     * each, and none at effort 0. Of a cluster where these have no answer need_shift is the longest move of a layout of
-     * all of it, if one is known. */
+    bool inside_block; /* both are in one block; the conflict is counted in inside_blocks only */
+    /* Changes that would solve the pair, one at a time, with its neighbours keeping their distances and all other
+     * features as in the result: a longer limit of moves (NAN if none is known), a smaller gap (NAN likewise), or the
+     * removal of one feature or barrier (SIZE_MAX if none is known). A smaller change may suffice. The search takes a
+     * few steps for each conflict; with effort 0 there is none. In a cluster in which no limit was found for single
+     * pairs, need_shift is the longest move of a layout that solves the whole cluster, if one is known. */
     double need_shift, need_gap;
     size_t need_gone;
-    /* True only for a conflict with reason UNRESOLVED, and proved: a, b and the features in blocked_by cannot all
-     * keep their distances from one another at once, even if every other pair is left in conflict. So at least one
+    /* True only with SUNDER_REASON_UNRESOLVED. It is then proved that a, b and the features and barriers in blocked_by
+     * cannot all keep their distances from one another, even if every other pair is left in conflict. So at least one
      * pair among them stays in conflict, though not necessarily this one. */
     bool crowded;
-    /* An upper bound, which is proved, of the gaps with such a solution: the gap asked for where nothing is proved, and
-     * NAN where need_gap is. For most conflicts it exceeds need_gap by at most a hundredth of the gap asked for. */
+    /* A proved upper bound of the gaps with which the pair and its neighbours have a solution: the requested gap if
+     * nothing less is proved, and NAN if need_gap is NAN. For most conflicts it exceeds need_gap by at most a hundredth
+     * of the requested gap. */
     double need_gap_most;
 } sunder_conflict;
 
+/* The number of conflicts of each kind between blocks, and the number of all conflicts inside blocks. */
 typedef struct sunder_conflict_counts {
     size_t overlap, too_close, barrier, barrier_drawn, barrier_near, contained, duplicate, inside_blocks;
 } sunder_conflict_counts;
@@ -687,109 +699,119 @@ typedef struct sunder_layer_summary {
     size_t features, vertices, blocks, clusters, pairs_tested;
     size_t clusters_optimal;              /* contact groups whose cost is proved to be least */
     sunder_conflict_counts before, after; /* of a check: both the same */
-    size_t thin;                          /* pairs between blocks that overlap by no more than options.thin, before */
-    size_t inside_overlaps;               /* pairs inside blocks that are listed as overlaps, after */
-    size_t moved, blocked, skipped;       /* number of features with that status */
-    size_t blocked_moved;                 /* blocked ones that moved, because of other conflicts */
-    size_t rounded;
-    double total, mean, max; /* of the lengths of moves; mean over all that moved, blocked ones among them */
-    size_t max_feature;      /* the first whose move is longest; SIZE_MAX if nothing moved */
-    /* Sum of weight * length^2; no placement costs less that solves every pair not listed, leaves none that is listed
-     * worse than it stood, and none in overlap that is listed as too close. */
+    size_t thin;                    /* pairs between blocks that overlapped by at most options.thin at the start */
+    size_t inside_overlaps;         /* pairs inside blocks that are listed as overlaps in the result */
+    size_t moved, blocked, skipped; /* the numbers of features with these statuses */
+    size_t blocked_moved;           /* blocked features that moved, because of other conflicts */
+    size_t rounded;                 /* moved features with a coordinate that had to be rounded to a double */
+    double total, mean,
+        max;            /* sum, mean and maximum of the lengths of moves other than zero, of blocked features too */
+    size_t max_feature; /* the first feature with the longest move; SIZE_MAX if nothing moved */
+    /* cost is the sum of weight * length^2 over the moves. lower_bound is proved: no placement costs less that solves
+     * every pair that is not listed, leaves no listed pair worse than at the start, and leaves no pair in overlap that
+     * is listed as too close. */
     double cost, lower_bound;
-    /* What bound pairs prove by their least translations alone, where none may come to lie in another. No part of
-     * lower_bound, which is what trees prove: that is a little less of a pair, and nothing of two that may. */
+    /* The bound that sunder_report_bound_pairs() proves by least translations alone, if no feature may come to lie in
+     * another. It is not part of lower_bound, which trees prove: they prove a little less for a pair, and nothing for
+     * two features of which one may come to lie in the other. */
     double pair_bound;
-    /* Every pair but those listed and those in blocks was proved apart (or inside, where that may overlap), and none
-     * listed stands worse. */
+    /* True if every pair that is neither listed nor inside a block was proved to keep its distance (or to lie inside,
+     * if it may overlap then), and no listed pair is worse than at the start. */
     bool verified;
-    /* Seconds until the last move; for the statements about the result (the list of conflicts, reasons and needs,
-     * bounds and pushes); and for the exact checks of all pairs after the last move. A check has the last one only. */
+    /* Seconds until the last move; seconds for the statements about the result (the list of conflicts, reasons and
+     * needs, bounds and pushes); and seconds for the exact checks of all pairs after the last move. A check has only
+     * seconds_verify. */
     double seconds_solve, seconds_explain, seconds_verify;
 } sunder_layer_summary;
 
-/* The exact list of conflicts of a layer as it stands.
- * Fails   SUNDER_EARG for a gap, tolerance or effort that is negative or not finite, or a tolerance not less than a
- *         non-zero gap. */
+/* Lists the conflicts of a layer as it stands, exactly. The caller frees the report with sunder_report_free(). Fails
+ * SUNDER_EARG for an option out of its range, such as a gap that is negative or not finite, or a tolerance
+ *         that is not less than a gap above 0 */
 SUNDER_API sunder_status sunder_layer_check(const sunder_layer *layer, const sunder_layer_options *options,
                                             sunder_report **out, sunder_error *err);
 
-/* Which rules were broken on the way from `before` to `after`, two layers of the same features in the same order,
- * whatever moved them: like the report's conflicts, of the five kinds from SUNDER_CONFLICT_WORSE on. Limits, blocks and
- * fixed or ignored features are those of `before`; options as for the run that moved it. Features of a block may have
- * moved separately: rigidity of blocks is not checked. The move of a repaired shape whose repaired form was written is
- * not known, and not checked either. summary.verified: nothing was found.
- * Fails   as sunder_layer_check(); SUNDER_EARG too for layers of different sizes. */
+/* Lists the rules that the moves from `before` to `after` broke, whatever program made them. The two layers have the
+ * same features in the same order. Each broken rule is a conflict of the report, of one of the five kinds from
+ * SUNDER_CONFLICT_WORSE on; summary.verified is true if there is none. Limits, blocks, and fixed and ignored features
+ * are those of `before`; the options should be those of the run that made the moves. Two things are not checked:
+ * whether the features of a block moved together, and the move of a repaired shape that was written in its repaired
+ * form, which is not known. Fails   as sunder_layer_check(), and with SUNDER_EARG for layers of different sizes */
 SUNDER_EXPERIMENTAL sunder_status sunder_layer_check_moves(const sunder_layer *before, const sunder_layer *after,
                                                            const sunder_layer_options *options, sunder_report **out,
                                                            sunder_error *err);
 
-/* What sunder_layer_separate() does, by the fraction that it tells its progress: it solves up to the first, explains
- * from there to the second, and verifies from there on. */
+/* The stages of sunder_layer_separate(), by the fraction that its progress callback receives: it solves until
+ * SUNDER_PROGRESS_SOLVED, explains the result until SUNDER_PROGRESS_EXPLAINED, and verifies from then on. */
 #define SUNDER_PROGRESS_SOLVED 0.8
 #define SUNDER_PROGRESS_EXPLAINED 0.98
 
-/* Separates the features at little cost; src/displacement/README tells how.
+/* Separates the features of a layer at low cost; src/displacement/README describes the method. The caller frees the
+ * report with sunder_report_free(). It fails like sunder_layer_check().
  *
- * Every move is such that its feature's vertices plus the move are doubles again, exactly, if there is any such move
- * (else summary.rounded counts the feature, and the rounded vertices are verified). What remains in conflict is listed,
- * and stands no worse than at the start: no nearer, and no deeper in each other by the least translation that separates
- * the two. Other features do not move to ease it.
+ * Every move is such that the moved vertices of its feature are doubles exactly, if there is such a move. Otherwise
+ * summary.rounded counts the feature, and the rounded vertices are verified. Pairs that remain in conflict are listed,
+ * and are no worse than at the start: they are no nearer, and the least translation that separates them is no longer.
+ * No other feature moves only to make a remaining conflict smaller.
  *
- * Unless allow_jumps, no feature jumps over another: for every feature A with the anchor a (sunder_shape_anchor()) and
- * the move t, and every other B with the move s that is neither ignored nor of A's block and does not contain a, the
- * closed segment from a to a + t - s, not rounded, does not meet B's old outline. So a feature in a yard that has no
- * room for it keeps its conflict, whatever its limit.
+ * Unless allow_jumps is set, no feature jumps over another. Let A be a feature with the anchor a
+ * (sunder_shape_anchor()) and the move t. Let B be another feature with the move s that is not ignored, is not in the
+ * block of A, and does not contain a. Then the closed segment from a to a + t - s, not rounded, does not meet B at its
+ * original place. So a feature in a yard that has no room for it keeps its conflict, whatever its limit.
  *
- * Nor does a feature cross a barrier that has sides: with c its side anchor, the closed segment from c to c + t meets
- * none of the barrier's lines except those that c lies on, and none of its areas' edges that have c strictly on the
- * outer side. So a feature inside an area may leave it, and not come in again. The side anchor is that of
- * sunder_layer_set_side_anchors(), e.g. the point that a symbol is drawn at; otherwise it is the anchor, if no such
- * line or edge meets its interior; otherwise an interior point of the largest part that all of them leave of the
- * feature, among parts that are equal within the tolerance the one with the most room:
- * src/displacement/layer/side_anchor.c has the rule. */
+ * No feature crosses a barrier that has sides. Let c be the side anchor of the feature, and t its move. Then the closed
+ * segment from c to c + t meets no line of the barrier, except lines on which c lies, and no edge of its areas that has
+ * c strictly on the outer side. So a feature inside an area may leave it, but not enter it again.
+ *
+ * The side anchor of a feature is the one that sunder_layer_set_side_anchors() has set, for example the point at which
+ * a symbol is drawn. Otherwise it is the anchor, if no such line or edge meets the interior of the feature. Otherwise
+ * it is an interior point of the largest part into which these lines and edges divide the feature; if several parts are
+ * equal within the tolerance, of the one with the most room. src/displacement/layer/side_anchor.c has the rule. */
 SUNDER_API sunder_status sunder_layer_separate(const sunder_layer *layer, const sunder_layer_options *options,
                                                sunder_report **out, sunder_error *err);
 SUNDER_API void sunder_report_free(sunder_report *report);
 
-/* The summary. A later version may add members at its end: what does not fit in the caller's `size` bytes is left out,
- * and bytes that the library does not know are set to 0. */
+/* Copies the summary to `summary`. A later version may add members at its end: members that do not fit in the caller's
+ * `size` bytes are left out, and bytes beyond the members that the library knows are set to 0. */
 SUNDER_API void sunder_report_summary_sized(const sunder_report *report, sunder_layer_summary *summary, size_t size);
 static inline void sunder_report_summary(const sunder_report *report, sunder_layer_summary *summary)
 {
     sunder_report_summary_sized(report, summary, sizeof *summary);
 }
-/* The move of one feature; a coordinate as written is the double nearest to x + dx. */
+/* Sets *dx and *dy to the move of a feature. A moved coordinate is the double nearest to x + dx, or y + dy. */
 SUNDER_API void sunder_report_move(const sunder_report *report, size_t feature, double *dx, double *dy);
+/* Returns the status of a feature. */
 SUNDER_API sunder_feature_status sunder_report_status(const sunder_report *report, size_t feature);
-/* The number of the feature's block, which is that of its first member; -1 for a feature that stands alone. */
+/* Returns the number of the block of a feature, which is the number of its first member; -1 for a feature in no block.
+ * */
 SUNDER_API int64_t sunder_report_block(const sunder_report *report, size_t feature);
-/* The conflicts that remain, sorted by (a, b): those between blocks, the overlaps beyond the tolerance inside blocks
- * and, with list_inside, every pair inside blocks. */
+/* Returns the conflicts that remain, sorted by (a, b), and sets *n to their number. They are the conflicts between
+ * blocks, the overlaps inside blocks that exceed the tolerance and, with list_inside, all conflicts inside blocks. */
 SUNDER_API const sunder_conflict *sunder_report_conflicts(const sunder_report *report, size_t *n);
-/* The force between two features in contact in the result, if keep_pushes was asked for: a multiplier of the program
- * whose optimum the result is. The sum of force * n over the pushes on a block is twice its weight times its move, at
- * an optimum and below its limit. In doubles, for display; sorted by (a, b). */
+/* A force between two features that are in contact in the result: a multiplier of the quadratic program whose optimum
+ * the result is. The sum of force * n over the pushes on a block, with a minus where the block is that of a, is twice
+ * its weight times its move, if the result is an optimum and the move is shorter than the limit. Forces are computed in
+ * doubles, for display. */
 typedef struct sunder_push {
-    size_t a, b; /* features, or for b the number of features + k for barrier k */
+    size_t a, b; /* a is a feature; b is a feature, or the number of features + k for barrier k */
     double force;
-    double n[2]; /* of length 1: b is pushed that way, and a the other */
+    double n[2]; /* the direction, of length 1, in which b is pushed; a is pushed in the opposite direction */
 } sunder_push;
 
+/* Returns the pushes, sorted by (a, b), and sets *n to their number; there are none unless keep_pushes was set. */
 SUNDER_EXPERIMENTAL const sunder_push *sunder_report_pushes(const sunder_report *report, size_t *n);
 
 /* ---- Routes ----------------------------------------------------------------------------------------------- */
 
-/* A place, exactly: "num" or "num/den" in decimal where text[k] is given, else the double. */
+/* An exact place. Coordinate k is the rational text[k], "num" or "num/den" in decimal, or xy[k] if text[k] is NULL. */
 typedef struct sunder_place {
     double xy[2];
     const char *text[2];
 } sunder_place;
 
-/* All zero but the size: the defaults. */
+/* Options of routes. The defaults are all zero, except for the size. */
 typedef struct sunder_route_options {
-    size_t size;              /* sizeof(sunder_route_options) */
-    double gap;               /* >= 0 and finite; the robot is grown by a polygon of 64 sides around the disc */
+    size_t size; /* sizeof(sunder_route_options) */
+    double gap;  /* >= 0 and finite; the robot is grown by a polygon of 64 sides around the disc of radius gap */
     sunder_progress progress; /* NULL: none */
     void *progress_user;
 } sunder_route_options;
@@ -812,41 +834,46 @@ SUNDER_API const char *sunder_route_status_string(sunder_route_status reason);
 
 typedef struct sunder_route sunder_route;
 
-/* A shortest path along which the robot can be moved, by translations, among the obstacles.
+/* Finds a shortest path along which the robot can be translated among the obstacles.
  *
- * Free space is the complement of the union of the open sets O_i + int(-robot) and so is closed: contact is allowed,
- * and passages that the robot fits exactly are passages. An exact fit in a keyhole is a place. The path is that of the
- * robot's own origin. Of several shortest paths it is the lexicographically smallest, as sequences of vertices; lengths
- * are compared up to 2^-256 of themselves. A separate test proves that each leg keeps the interior of the robot off
- * every obstacle all the way.
+ * Free space is the complement of the union of the open sets O_i + int(-robot), so it is closed. Contact is allowed:
+ * the robot may go through a passage, or be at a place, that it fits exactly. The path is that of the robot's origin.
+ * Of several shortest paths it is the lexicographically smallest sequence of vertices; lengths that differ by at most
+ * 2^-256 of themselves count as equal. A separate test proves of each leg that the interior of the robot meets no
+ * obstacle.
  *
- * robot      not empty, else SUNDER_EARG. Members may touch and overlap, holes are allowed. (One exception, for
- *            obstacles without area only: where members cross in places that are not doubles, walls that two share do
- *            not count as interior.)
- * out        on success, also if there is no route: see sunder_route_reason().
+ * obstacles  n obstacles, which have to be valid during the call only.
+ * robot      It must not be empty. Members may touch and overlap, and holes are allowed. (There is one exception to
+ *            exactness, for obstacles without area only: if members cross in places that are not doubles, a wall that
+ *            two members share does not count as interior.)
+ * from, to   The places of the robot's origin at the start and at the goal.
+ * out        A new route, freed by the caller with sunder_route_free(). There is one on success even if no path exists:
+ *            see sunder_route_reason().
  * Fails      SUNDER_EARG for an argument out of its range, SUNDER_ENOMEM, SUNDER_ECANCEL; SUNDER_EINVALID for an
  *            obstacle with a coordinate that is not finite, SUNDER_ERANGE for a place too far away to be compared.
  * Source     [LW79] for the graph, [HNR68] for the search; see src/motion/README.
- * Cost       the outline of the union as for a sum; then A* over the corners, looking only at edges that may belong to
- *            a shortest path. */
+ * Cost       That of a sum for the outline of the union; then that of A* over its corners, which examines only edges
+ *            that may belong to a shortest path. */
 SUNDER_API sunder_status sunder_route_find(const sunder_obstacle *obstacles, size_t n, const sunder_shape *robot,
                                            const sunder_place *from, const sunder_place *to,
                                            const sunder_route_options *options, sunder_route **out, sunder_error *err);
 SUNDER_API void sunder_route_free(sunder_route *route);
 
-/* Why there is none; *obstacle is the first one in the way, if there is one, else SIZE_MAX. */
+/* Returns whether a path was found, or why there is none. If obstacle is not NULL, *obstacle is set to the first
+ * obstacle that the robot meets at the start or goal, or to SIZE_MAX if there is none. */
 SUNDER_API sunder_route_status sunder_route_reason(const sunder_route *route, size_t *obstacle);
-/* Vertices of the path, start and goal included; one if they are the same; 0 if there is no route. */
+/* Returns the number of vertices of the path, including start and goal; 1 if these are the same, 0 if there is no path.
+ * */
 SUNDER_API size_t sunder_route_vertices(const sunder_route *route);
-/* A vertex: the nearest doubles, and texts as of a sum's, owned by the route. */
+/* Set the coordinates of a vertex of the path: the nearest doubles, and exact texts "num" or "num/den", which the route
+ * owns. */
 SUNDER_API void sunder_route_vertex(const sunder_route *route, size_t vertex, double xy[2]);
 SUNDER_API void sunder_route_vertex_text(const sunder_route *route, size_t vertex, const char **x, const char **y);
-/* To the nearest double; 0 if there is no route. */
+/* Returns the length of the path, rounded to the nearest double; 0 if there is no path. */
 SUNDER_API double sunder_route_length(const sunder_route *route);
-/* Is the path with its vertices rounded to the nearest doubles free as well? Proved like the path. */
+/* Returns whether the path is also free if its vertices are rounded to the nearest doubles; proved like the path. */
 SUNDER_API bool sunder_route_rounded_is_free(const sunder_route *route);
-/* The configuration-space obstacles, united: a sum like any other, with its degenerate holes. Lives as long as the
- * route. */
+/* Returns the union of the obstacles of configuration space, as a sum with its degenerate holes. The route owns it. */
 SUNDER_API const sunder_sum *sunder_route_obstacles(const sunder_route *route);
 
 /* ---- Predicates on doubles -------------------------------------------------------------------------------- */
@@ -855,8 +882,8 @@ typedef struct sunder_point {
     double x, y;
 } sunder_point;
 
-/* Side of c relative to the directed line a->b: +1 left, -1 right, 0 on it. Always the true sign: nothing is allocated,
- * so nothing can fail. All coordinates finite. */
+/* Returns the side of the directed line from a to b on which c lies: +1 left, -1 right, 0 on the line. The result is
+ * exact. The coordinates must be finite. Nothing is allocated, so the function cannot fail. */
 SUNDER_API int sunder_orient(const sunder_point *a, const sunder_point *b, const sunder_point *c);
 
 #ifdef __cplusplus
