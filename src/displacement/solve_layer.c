@@ -268,8 +268,8 @@ static sunder_status keep_held(sunder_i_solver *s, bool *changed, sunder_error *
     return sunder_i_solver_keep_held(s, s->held_layout, err);
 }
 
-/* Allows held bodies that are still in conflict to move. Clusters that have no solution with them are solved once more,
- * and the better of the two layouts is kept. */
+/* Allows held bodies to move that are still in conflict, or whose moves may be of use to a neighbour. Their clusters
+ * begin again; "take better" keeps the better of the two layouts. */
 static sunder_status let_go(sunder_i_solver *s, bool *changed, sunder_error *err)
 {
     (void)changed;

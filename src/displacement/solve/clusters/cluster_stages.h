@@ -18,9 +18,9 @@ typedef struct sunder_i_spared {
     const double *held;
 } sunder_i_spared;
 
-/* Relaxations of features beside barriers, by the names of the two. The same pair is spared in each of a dozen small
- * layers about the conflicts of one cluster, and a least translation out of a barrier is long to compute. The caller
- * frees the list. All zero: empty. */
+/* Relaxations of features beside barriers, found by the names of the feature and the barrier (sunder_i_spared). The
+ * same pair is spared in each of a dozen small layers about the conflicts of one cluster, and a least translation out
+ * of a barrier takes long to compute. The caller frees the list. All zero: empty. */
 typedef struct sunder_i_relaxation_memo {
     sunder_i_relaxation *item; /* sorted by a and b, which are names */
     size_t n, capacity;

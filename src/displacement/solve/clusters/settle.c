@@ -74,7 +74,8 @@ static void mark_due(sunder_i_solver *s, uint32_t b)
     if (!s->model.body[b].fixed) sunder_i_body_event(&s->states, b, SUNDER_I_MEETS_CONFLICT);
 }
 
-/* Adds the edge (i, j); the cluster of the two is solved in the next round. */
+/* Adds the edge (i, j); the cluster that bodies i and j are in then is solved in the next round. False if memory is
+ * out. */
 static bool solve_together(sunder_i_solver *s, uint32_t i, uint32_t j)
 {
     mark_due(s, i);
@@ -168,7 +169,7 @@ static sunder_status find_work(sunder_i_solver *s, bool *any, sunder_error *err)
             continue;
         }
         const uint32_t b = model->body[i].fixed ? j : i;
-        /* One of the two lay in the other at the start, and was not kept inside. */
+        /* A feature that lay in the other one at the start was not kept inside. */
         sunder_i_inclusion *inclusion = sunder_i_inclusion_find(model, r->a, r->b);
         if (inclusion && inclusion->state != SUNDER_I_LAPSED) {
             inclusion->state++;

@@ -1,11 +1,11 @@
 /* Two bodies are shut in (shut_in_pairs.c): which of their conflicts have no solution, if the others stay?
  *
- * A conflict that has none by itself is left for good. Most of the others have none either, since the rest of the two
- * blocks is in the way: that is proved in the plane of their relative move (prove/proofs/plane.c), with all other
- * conflicts between the two held no worse than at the start. Later stages never demand less of them, since only pairs
- * in conflict at the start are ever left so. So a conflict without a solution here has none at all, and is not asked
- * for again, in clusters of dozens of bodies. An overlap may still be separated by less than the gap: the stage that
- * asks for that (../search/retry_cluster.c) asks in any case. */
+ * A conflict that has no solution by itself is left for good. Most of the others have none either, since the rest of
+ * the two blocks is in the way. That is proved in the plane of their relative move (prove/proofs/plane.c), with all
+ * other conflicts between these bodies held no worse than at the start. Later stages demand at least that of them,
+ * since only pairs in conflict at the start are ever left in conflict. So a conflict without a solution here has none
+ * at all, and is not asked for again, in clusters of dozens of bodies. An overlap may still be separated by less than
+ * the gap: the stage that asks for that (../search/retry_cluster.c) asks in any case. */
 #include "displacement/prove/proofs/feasibility.h"
 #include "displacement/solve/clusters/cluster_stages.h"
 #include "displacement/solve/clusters/tuning.h"

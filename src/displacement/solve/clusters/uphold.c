@@ -1,18 +1,20 @@
 /* Nothing is made worse: the rule for pairs that stay in conflict, exactly, for the features as they will be written.
  *
  * The search keeps relaxations (relaxation.c) up to its own rounding, and moves are rounded to doubles; so a pair may
- * stand worse by a unit in the last place. Such pairs are repaired one by one, while the rest keeps its solution:
+ * stand worse by a unit in the last place. Such pairs are repaired one by one, while the rest keeps its solution. These
+ * remedies are tried in turn:
  *
- * - one of the two moves by a unit or a few; or takes the other's move, or one coordinate of it; or all bodies with
- *   nearly the same move take exactly one move, or one coordinate of it: if nothing is in the way there;
- * - or the search finds places near by for the pair and the bodies around it that leave a margin
- *   (../search/pair_margin.c);
- * - if there are none (a slanted corridor of exact width has none), the body with the cheaper move is pinned to its
- *   original place. Its neighbours settle around it, and if they cannot, yield in their turn. A pair of the same
- *   cluster waits until they have: the pinned body is in the way of others meanwhile, and these need not be pinned as
- *   well. In a cluster of thousands, which takes long to settle, only pairs of these two wait.
+ *     - one of the pair's bodies moves by a unit or a few, or gets the other's move, or one coordinate of it; or all
+ *       bodies with nearly the same move get exactly one move, or one coordinate of it: if nothing is in the way there;
+ *     - the search finds places nearby for the pair and the bodies around it that leave a margin
+ *       (../search/pair_margin.c);
+ *     - if there are none (a slanted corridor of exact width has none), the body with the cheaper move is pinned to its
+ *       original place. Its neighbours settle around it, and if they cannot, yield in their turn. A pair of the same
+ *       cluster waits until they have settled: the pinned body is in the way of others meanwhile, and these need not be
+ *       pinned as well. In a cluster of thousands, which takes long to settle, only pairs with one of these two bodies
+ *       wait.
  *
- * A place that is taken breaks the rule for no pair, a pinned body stays so, and with all bodies in their original
+ * A place that is taken breaks the rule for no pair, a pinned body stays pinned, and with all bodies in their original
  * places nothing stands worse: the loop ends. */
 #include "displacement/layer/barrier_pairs.h"
 #include "displacement/layer/reads.h"

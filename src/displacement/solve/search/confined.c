@@ -1,9 +1,9 @@
-/* How far to search for a place of one body beside another, if only a jump separates the two
+/* How far to search for a place of one body beside another, if only a jump separates the two bodies
  * (solve/clusters/shut_in_pairs.c).
  *
- * For such a pair every relative move is forbidden, by the distances owed or by shadows, which are never waived. So the
- * only moves that may be free are those where two of their features, held to less than the full distance, are nearer
- * than that. Two features that were nearer than they owe at the start bound how far that is. */
+ * For such a pair the full distances and the shadows, which are never waived, forbid every relative move. A relaxed
+ * pair of features may be nearer than the full distance, so a move may be free only if a relaxed pair of their features
+ * is nearer than that. The boxes of these features bound how far such a move can be. */
 #include "displacement/solve/search/search_stages.h"
 
 #include "base/extremes.h"

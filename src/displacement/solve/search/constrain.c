@@ -1,5 +1,6 @@
-/* Makes the constraints of a program, as half-planes of relative moves. They state what bodies that stand near each
- * other at a position owe each other, and what a solution ran into beyond that. */
+/* Makes the constraints of a program, as half-planes of relative moves: one for each two pieces, of different bodies,
+ * that are near each other at the reference position; and further ones for pieces that turn out to be in the way of the
+ * program's solution. */
 #include "displacement/solve/search/search_stages.h"
 #include "displacement/solve/search/tuning.h"
 

@@ -101,8 +101,8 @@ static bool is_shaded(sunder_i_search *s, const sunder_i_body *p, const double t
 
 static double box_extent(const double box[4]) { return sunder_i_max(box[2] - box[0], box[3] - box[1]); }
 
-/* Can the two, or their obstacle shifted by a relaxation, be within r of each other at v? The shift is a least
- * translation, and so at most the sum of the box sizes. */
+/* Can bodies p and q, q at v relative to p, be within r of each other, perhaps after their obstacle was shifted by a
+ * relaxation? The shift is a least translation, and so at most the sum of the box sizes. */
 static bool are_near(const sunder_i_body *p, const sunder_i_body *q, const double v[2], double r)
 {
     const double far = r + box_extent(p->box) + box_extent(q->box);

@@ -26,7 +26,7 @@
 /* A clashing pair that may be relaxed. */
 typedef struct candidate {
     const sunder_i_clash *clash;
-    bool overlaps; /* the two overlapped in the original places */
+    bool overlaps; /* its bodies overlapped in the original places */
 } candidate;
 
 /* Should p be given up rather than q? A pair that did not overlap at home should, before one that did; then the one

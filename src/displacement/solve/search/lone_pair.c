@@ -1,8 +1,8 @@
 /* Two features that only conflict with each other: the exact core gives the least translation that separates them, and
- * it is shared in proportion to their masses. No other moves of the two are cheaper, whatever the sides, so no search
- * is needed. Most pairs of single buildings are such. The margin that covers rounding is not needed if rounded moves
- * leave the two apart exactly. If something else matters as well (a limit, an anchor that may not be passed) it shows
- * at the computed places, and the search begins as for all other clusters. */
+ * it is divided between them in proportion to their masses. No other moves of these features are cheaper, whatever the
+ * sides, so no search is needed. Most pairs of single buildings are such. The margin that covers rounding is not needed
+ * if the rounded moves keep the gap exactly. If anything else affects the features (a limit, an anchor that may not be
+ * passed), a clash is found at the computed places, and the search begins as for all other clusters. */
 #include "displacement/layer/barrier_pairs.h"
 #include "displacement/layer/rounding.h"
 #include "displacement/solve/search/search_stages.h"
@@ -38,8 +38,9 @@ static double farthest_apart(const sunder_i_search *s)
     return nextafter(sum, INFINITY);
 }
 
-/* Separates the two by `away`, made longer until they keep the margin, too: between two lines that form a corner, a
- * move that leaves a margin to both is longer than the margin. */
+/* Separates the two bodies by the translation `away`, made longer until they keep the margin, too: between two lines
+ * that form a corner, a move that leaves a margin to both lines is longer than the margin. s->t has the moves; false if
+ * MOST_LENGTHENED lengths do not suffice. */
 static bool stand_apart(sunder_i_search *s, const double away[2])
 {
     const double length = hypot(away[0], away[1]), margin = s->gap - s->model->rules.gap;
@@ -58,8 +59,8 @@ static bool stand_apart(sunder_i_search *s, const double away[2])
 
 /* ---- Exact contact ----------------------------------------------------------------------------------------------- */
 
-/* The exact test that makes the margin unnecessary: are the two the gap apart after the moves t, which doubles
- * represent exactly? */
+/* The exact test that makes the margin unnecessary: *apart if the two features keep the gap after the moves t, which
+ * doubles represent exactly. */
 static sunder_status are_apart(const sunder_i_search *s, const sunder_bound_pair *pair, const double t[4], bool *apart,
                                sunder_error *err)
 {

@@ -2,10 +2,10 @@
  *
  * A body sent back by the rule that nothing becomes worse (../clusters/uphold.c) blocks some neighbours, in a crowd of
  * thousands that is otherwise settled. A program of all of them, starting from a mere compromise, takes minutes to find
- * out whether they have room. So the clashing bodies are settled with a few around them, and then with more, while all
- * others stand (neighbourhood.c). If that is not enough the whole crowd is solved. But in a crowd so large that this
- * takes longer than all before, the bodies that still clash yield (yield.c), which gives up more pairs of its rows, and
- * ends.
+ * out whether they have room. So the clashing bodies are settled with a few bodies around them, and then with more,
+ * while all others stand (neighbourhood.c). If that is not enough the whole crowd is solved. In a crowd of more than
+ * MOST_AGAIN bodies that would take longer than all work before; there the bodies that still clash yield instead
+ * (yield.c), which gives up more pairs.
  *
  * It is no way to solve a crowd: parts that ran into each other, settled like this before any body was sent back, leave
  * 1,204 pairs of Germany's symbols within 6 km, where solving all together leaves 349. */

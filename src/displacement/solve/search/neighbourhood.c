@@ -1,8 +1,9 @@
-/* A few bodies of a cluster by themselves: they move, those around them stand, the rest is ignored.
+/* A search among a few bodies of a cluster: they move, the bodies around them stand, and all others are ignored.
  *
- * When one pair is tried anew in a cluster of hundreds, most of it is irrelevant. So the pair is tried with the bodies
- * that it could run into, and those that these could, up to the number that the caller allows. This search does not
- * know bodies farther off; so the moved bodies are checked against all before the result is accepted. */
+ * When one pair is tried anew in a cluster of hundreds, most of the cluster is irrelevant. So the pair is tried with
+ * the bodies that it could run into, the bodies that these could run into, and so on, up to the number that the caller
+ * allows. This search does not know bodies farther off; so the moved bodies are checked against all before the result
+ * is accepted. */
 #include "displacement/solve/search/neighbourhood.h"
 #include "displacement/solve/search/search_stages.h"
 #include "displacement/solve/search/tuning.h"

@@ -1,10 +1,10 @@
 /* A pair that is left in conflict, and that rounding left slightly worse than at the start, gets a further margin.
  *
- * A relaxation is kept up to the tolerance of the search, and moves are rounded: if nothing else holds the pair there
- * is room for a margin as well. It is demanded with only the pair moving, then with more and more bodies around it
- * (neighbourhood.c), so that the rest of the solution stays as it is. Other pairs left in conflict that have moved
- * relative to each other move along, and rounding would make these slightly worse, too: so they get the margin, too; or
- * only those that have it. */
+ * A relaxation is kept up to the tolerance of the search, and moves are rounded. If nothing else holds the pair in its
+ * place, there is room for a margin as well. It is demanded with only the pair moving, then with more and more bodies
+ * around it (neighbourhood.c), so that the rest of the solution stays as it is. Other pairs left in conflict that have
+ * moved relative to each other move along, and rounding would make these slightly worse, too. So the margin is demanded
+ * of all of these, or, at a second attempt, only of those that keep it already. */
 #include "displacement/solve/search/neighbourhood.h"
 #include "displacement/solve/search/search_stages.h"
 #include "displacement/solve/search/tuning.h"
@@ -15,7 +15,7 @@
 
 static const size_t stage[] = RETRY_STAGES;
 
-/* Has the relative position of the two changed, by more than rounding? */
+/* Has the position of body j relative to body i changed by more than the margin, and so by more than rounding? */
 static bool have_moved(const sunder_i_search *s, uint32_t i, uint32_t j)
 {
     const double margin = s->gap - s->model->rules.gap;

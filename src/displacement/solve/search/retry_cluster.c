@@ -1,13 +1,13 @@
 /* Pairs that were given up are asked again for their full distance.
  *
- * More pairs than necessary may have been relaxed together (give_up.c). So once nothing joins clusters any more each is
- * asked for separately, overlaps first, while the rest keep what they have: for blocks with several members in conflict
- * all of these together, and then each, since one may have no solution where others do. At first only the pair moves,
- * then more and more bodies around it (neighbourhood.c), at last the whole cluster. An overlap without a solution is at
- * least to be separated, before pairs that are only too close are asked for. All pairs are tried at one stage before
- * any at the next, so that when the effort ends the small questions have been asked; the effort depends on the numbers
- * of bodies and of pairs only. A stage ends early after a number of failures in a row, or after a certain amount of
- * work. */
+ * More pairs than necessary may have been relaxed together (give_up.c). So once clusters no longer merge, the full
+ * distance is demanded again of one pair at a time, overlaps first, while all other pairs keep their relaxations. If
+ * several members of two blocks are in conflict, all these conflicts are tried together, and then each by itself, since
+ * one may have no solution where others do. At first only the pair moves, then more and more bodies around it
+ * (neighbourhood.c), at last the whole cluster. An overlap without a solution is at least to be separated, before pairs
+ * that are only too close are tried. All pairs are tried at one stage before any at the next, so that when the effort
+ * ends the small questions have been asked. The effort depends on the numbers of bodies and of pairs only. A stage ends
+ * early after a number of failures in a row, or after a certain amount of work. */
 #include "displacement/solve/search/neighbourhood.h"
 #include "displacement/solve/search/search_stages.h"
 #include "displacement/solve/search/tuning.h"

@@ -1,10 +1,11 @@
-/* No jumps, and sides: shadows between bodies, as further pieces of what they owe each other.
+/* The rule against jumps, and the rule of sides: shadows of bodies, which the search treats as further obstacles.
  *
  * With a the anchor of a member of one body and B a piece of the other, at the start, the anchor passes B exactly when
  * the relative move lies in the shadow of the obstacle K = a + (-B), or B + (-a), from the origin (shadow.c). So a
- * shadow is made like an obstacle, of an anchor as a piece of one corner. It owes the margin, so that a rounded result
- * stands clear of it; but never more than the start has. A feature that contains the anchor casts no shadow from it.
- * The same holds for a side anchor and the lines of a part of a barrier that it may not cross (layer/sides.c).
+ * shadow is made like an obstacle, with an anchor as a piece of one corner. The distance that it demands is the margin,
+ * so that a rounded result stands clear of it; but never more than the start has. A feature that contains the anchor
+ * casts no shadow from it. The same holds for a side anchor and the lines of a part of a barrier that it may not cross
+ * (layer/sides.c).
  *
  * Most pairs never come near a shadow: relative moves are short, and K lies as far from the origin as the anchor does
  * from B. Boxes are tested first. */

@@ -1,12 +1,12 @@
 /* Pairs that a search has given up are asked for again, one after the other, from its present layout.
  *
  * Several pairs are given up at once (give_up.c), and in a connected set some are given up in place of others: with the
- * rest out of the way they may have a solution. So bodies with a given-up pair owe each other the full distance again,
- * overlaps first, then by what is missing: first with a few bodies around them, while all others stand
- * (neighbourhood.c), which succeeds for most that can succeed and costs little. The rest is asked of the whole cluster,
- * which descends from there. If that does not end within its limit all is put back. Both end after a number of
- * failures. At last all are tried by pushing the bodies in the way straight on (pushed.c), hundreds if need be, which
- * needs no program. */
+ * rest out of the way they may have a solution. So the full distance is demanded again of each two bodies with given-up
+ * pairs, overlaps first, then those that miss least. Each is first tried with a few bodies around it, while all others
+ * stand (neighbourhood.c), which succeeds for most that can succeed and costs little. The remaining ones are tried with
+ * the whole cluster, which descends from its present layout; if that does not end within its limit of work all bodies
+ * return. Each of these two stages ends after a number of failures in a row. At last all remaining pairs are tried by
+ * pushing the bodies in the way straight on (pushed.c), hundreds if need be, which needs no program. */
 #include "displacement/solve/search/neighbourhood.h"
 #include "displacement/solve/search/pushed.h"
 #include "displacement/solve/search/search_stages.h"
@@ -137,8 +137,9 @@ static size_t ask_whole(sunder_i_search *s, const sunder_i_relaxations *all, wis
 
 /* ---- By pushing -------------------------------------------------------------------------------------------------- */
 
-/* Separates a pair whose violation is at most `most` by pushing the bodies in its way: straight on, or at 45 degrees to
- * either side, which is along a row if the two meet corner to corner. Returns whether no violation is left. */
+/* Separates bodies i and j, if their violation is at most `most`, by pushing the bodies in the way: straight on, or at
+ * 45 degrees to either side, which is along a row if i and j meet corner to corner. Returns whether no violation above
+ * the tolerance is left. */
 static bool push_pair(sunder_i_search *s, sunder_i_pushed *p, uint32_t i, uint32_t j, double most)
 {
     static const double turn[3][2] = {{1, 0}, {HALF_WAY, HALF_WAY}, {HALF_WAY, -HALF_WAY}};
