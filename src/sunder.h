@@ -573,9 +573,9 @@ typedef struct sunder_feature {
 } sunder_feature;
 
 /* Makes a layer of n features, freed by the caller with sunder_layer_free(). The array is copied, the shapes are not.
+ *
  * Fails   SUNDER_EARG  a weight is out of its range, a max_shift is negative or not a number, or there are more
- * features
- *                      than can be numbered */
+ *                      features than can be numbered */
 SUNDER_API sunder_status sunder_layer_new(const sunder_feature *features, size_t n, sunder_layer **out,
                                           sunder_error *err);
 SUNDER_API void sunder_layer_free(sunder_layer *layer);
@@ -592,8 +592,9 @@ typedef struct sunder_barrier {
 /* Sets the barriers of a layer, and removes those that it had. A feature and a barrier are one pair, whatever the
  * number of the barrier's lines and pieces near the feature; the cost depends on what is near. (There is one exception
  * to exactness. If members or rings of a feature cross in places that are not doubles, the feature may have walls
- * inside, and a line that lies wholly along such a wall is treated as not meeting the feature's interior.) Fails
- * SUNDER_EARG      a width or a gap is out of its range, ends of lines do not ascend, or there are more barriers
+ * inside, and a line that lies wholly along such a wall is treated as not meeting the feature's interior.)
+ *
+ * Fails   SUNDER_EARG      a width or a gap is out of its range, ends of lines do not ascend, or there are more barriers
  *                          than can be numbered
  *         SUNDER_EINVALID  a coordinate is not finite */
 SUNDER_API sunder_status sunder_layer_set_barriers(sunder_layer *layer, const sunder_barrier *barriers, size_t n,
@@ -704,9 +705,8 @@ typedef struct sunder_layer_summary {
     size_t moved, blocked, skipped; /* the numbers of features with these statuses */
     size_t blocked_moved;           /* blocked features that moved, because of other conflicts */
     size_t rounded;                 /* moved features with a coordinate that had to be rounded to a double */
-    double total, mean,
-        max;            /* sum, mean and maximum of the lengths of moves other than zero, of blocked features too */
-    size_t max_feature; /* the first feature with the longest move; SIZE_MAX if nothing moved */
+    double total, mean, max; /* of the lengths of moves: the mean is over all features that moved, blocked or not */
+    size_t max_feature;      /* the first feature with the longest move; SIZE_MAX if nothing moved */
     /* cost is the sum of weight * length^2 over the moves. lower_bound is proved: no placement costs less that solves
      * every pair that is not listed, leaves no listed pair worse than at the start, and leaves no pair in overlap that
      * is listed as too close. */
@@ -724,9 +724,10 @@ typedef struct sunder_layer_summary {
     double seconds_solve, seconds_explain, seconds_verify;
 } sunder_layer_summary;
 
-/* Lists the conflicts of a layer as it stands, exactly. The caller frees the report with sunder_report_free(). Fails
- * SUNDER_EARG for an option out of its range, such as a gap that is negative or not finite, or a tolerance
- *         that is not less than a gap above 0 */
+/* Lists the conflicts of a layer as it stands, exactly. The caller frees the report with sunder_report_free().
+ *
+ * Fails   SUNDER_EARG for an option out of its range, such as a gap that is negative or not finite, or a tolerance that
+ *         is not less than a gap above 0; SUNDER_ENOMEM, SUNDER_ECANCEL */
 SUNDER_API sunder_status sunder_layer_check(const sunder_layer *layer, const sunder_layer_options *options,
                                             sunder_report **out, sunder_error *err);
 
@@ -735,7 +736,9 @@ SUNDER_API sunder_status sunder_layer_check(const sunder_layer *layer, const sun
  * SUNDER_CONFLICT_WORSE on; summary.verified is true if there is none. Limits, blocks, and fixed and ignored features
  * are those of `before`; the options should be those of the run that made the moves. Two things are not checked:
  * whether the features of a block moved together, and the move of a repaired shape that was written in its repaired
- * form, which is not known. Fails   as sunder_layer_check(), and with SUNDER_EARG for layers of different sizes */
+ * form, which is not known.
+ *
+ * Fails   as sunder_layer_check(), and with SUNDER_EARG for layers of different sizes */
 SUNDER_EXPERIMENTAL sunder_status sunder_layer_check_moves(const sunder_layer *before, const sunder_layer *after,
                                                            const sunder_layer_options *options, sunder_report **out,
                                                            sunder_error *err);
@@ -781,8 +784,7 @@ static inline void sunder_report_summary(const sunder_report *report, sunder_lay
 SUNDER_API void sunder_report_move(const sunder_report *report, size_t feature, double *dx, double *dy);
 /* Returns the status of a feature. */
 SUNDER_API sunder_feature_status sunder_report_status(const sunder_report *report, size_t feature);
-/* Returns the number of the block of a feature, which is the number of its first member; -1 for a feature in no block.
- * */
+/* Returns the number of the block of a feature, which is the number of its first member; -1 if it is in none. */
 SUNDER_API int64_t sunder_report_block(const sunder_report *report, size_t feature);
 /* Returns the conflicts that remain, sorted by (a, b), and sets *n to their number. They are the conflicts between
  * blocks, the overlaps inside blocks that exceed the tolerance and, with list_inside, all conflicts inside blocks. */
@@ -862,8 +864,7 @@ SUNDER_API void sunder_route_free(sunder_route *route);
 /* Returns whether a path was found, or why there is none. If obstacle is not NULL, *obstacle is set to the first
  * obstacle that the robot meets at the start or goal, or to SIZE_MAX if there is none. */
 SUNDER_API sunder_route_status sunder_route_reason(const sunder_route *route, size_t *obstacle);
-/* Returns the number of vertices of the path, including start and goal; 1 if these are the same, 0 if there is no path.
- * */
+/* Returns the number of vertices of the path, including start and goal; 1 if these are the same, 0 without a path. */
 SUNDER_API size_t sunder_route_vertices(const sunder_route *route);
 /* Set the coordinates of a vertex of the path: the nearest doubles, and exact texts "num" or "num/den", which the route
  * owns. */
