@@ -679,14 +679,14 @@ typedef struct sunder_conflict {
      * pairs, need_shift is the longest move of a layout that solves the whole cluster, if one is known. */
     double need_shift, need_gap;
     size_t need_gone;
-    /* True only with SUNDER_REASON_UNRESOLVED. It is then proved that a, b and the features and barriers in blocked_by
-     * cannot all keep their distances from one another, even if every other pair is left in conflict. So at least one
-     * pair among them stays in conflict, though not necessarily this one. */
-    bool crowded;
     /* A proved upper bound of the gaps with which the pair and its neighbours have a solution: the requested gap if
      * nothing less is proved, and NAN if need_gap is NAN. For most conflicts it exceeds need_gap by at most a hundredth
      * of the requested gap. */
     double need_gap_most;
+    /* True only with SUNDER_REASON_UNRESOLVED. It is then proved that a, b and the features and barriers in blocked_by
+     * cannot all keep their distances from one another, even if every other pair is left in conflict. So at least one
+     * pair among them stays in conflict, though not necessarily this one. */
+    bool crowded;
 } sunder_conflict;
 
 /* The number of conflicts of each kind between blocks, and the number of all conflicts inside blocks. */

@@ -117,9 +117,10 @@ case("crowd-farther-out", "a length for those without", WIDE, [conflict(
     1, 2, "unresolved", blocked_by=[3], crowded=True, within=30, proof=chain(
         [asked(3, 2, part(WIDE[3]), part(WIDE[2]), ways_out(-515, -510, 495, 500), clearance=0)], leaf((0, 0))))], {2: (600, 0)},
     LIMITS + " --allow-jumps")
-case("barrier-farther-out", "a barrier, where", {1: {**WIDE[2], "m": None}}, [conflict(
-    1, "wall:1", "no_room", within=1000, proof=[leaf((0, 0))])], STUMBLES,
-    barriers={"wall": ({1: WIDE[1]}, "")})
+case("barrier-farther-out", "farther out", {1: {**WIDE[2], "m": None}}, [conflict(
+    1, "wall:1", "no_room", blocked_by=["wall:2"], within=30, proof=chain(
+        [asked("wall:2", 1, part(WIDE[3]), part(WIDE[2]), ways_out(-515, -510, 495, 500), clearance=0)], leaf((0, 0))))], {1: (600, 0)},
+    LIMITS + " --allow-jumps", barriers={"wall": ({1: WIDE[1], 2: WIDE[3]}, "")})
 RING = {"polygons": [[[(3, 1), (11, 1), (11, 9), (3, 9)], [(4, 2), (10, 2), (10, 8), (4, 8)]]], "m": 0}
 
 

@@ -13,6 +13,7 @@
 #include "base/core_error.h"
 #include "base/interrupt.h"
 #include "base/message.h"
+#include "geometry/geometry.h"
 #include "read/fields.h"
 #include "read/source_files.h"
 
@@ -50,13 +51,13 @@ static void name_feature(const reading *r, size_t i, char *who, size_t size)
 
 /* ---- Reach ------------------------------------------------------------------------------------------------------- */
 
-/* What has a box that is not finite may be anywhere. */
+/* A geometry with a coordinate that is not finite may be anywhere: GDAL leaves such a coordinate out of the box. */
 static bool is_within_reach(const reading *r, OGRGeometryH geometry, double width)
 {
     OGREnvelope e;
     OGR_G_GetEnvelope(geometry, &e);
-    if (!isfinite(e.MaxX - e.MinX) || !isfinite(e.MaxY - e.MinY)) return !OGR_G_IsEmpty(geometry);
-    return gis_barrier_is_near(r->around, (double[4]){e.MinX, e.MinY, e.MaxX, e.MaxY}, width / 2 + r->distance);
+    return gis_barrier_is_near(r->around, (double[4]){e.MinX, e.MinY, e.MaxX, e.MaxY}, width / 2 + r->distance) ||
+           !gis_geometry_is_finite(geometry);
 }
 
 /* Is a segment of its lines, or a point, within reach? */

@@ -245,8 +245,7 @@ static void *open_again(const gis_sink_layer *layer, void *database)
 
 bool gis_read_rows(gis_sink_layer *layer, GDALDatasetH dataset, OGRLayerH as_written, gis_digests_read *read)
 {
-    void *database =
-        may_be_plain(layer, dataset, as_written) ? GDALGetInternalHandle(dataset, "SQLITE_HANDLE") : NULL;
+    void *database = may_be_plain(layer, dataset, as_written) ? GDALGetInternalHandle(dataset, "SQLITE_HANDLE") : NULL;
     if (!database) return false;
     void *other = open_again(layer, database);
     const bool done =
