@@ -19,6 +19,8 @@ typedef struct sunder_i_barrier_stance {
     sunder_separation least; /* if they overlap: the feature's least translation off the barrier; without texts */
 } sunder_i_barrier_stance;
 
+/* Computes how the feature stands to the whole barrier of `part`: its depth if it overlaps the barrier, otherwise its
+ * distance. */
 sunder_status sunder_i_barrier_stand(const sunder_i_model *model, const sunder_i_translate *feature, uint32_t part,
                                      sunder_i_barrier_stance *out, sunder_error *err);
 /* Finds the least translation of the feature that leaves it `gap` from the whole barrier. `upper`, *out and *beyond are

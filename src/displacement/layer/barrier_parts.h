@@ -41,6 +41,7 @@ static inline double sunder_i_required_below(const sunder_i_barriers *b, uint32_
     return r[1] < 0 ? nextafter(r[0], 0) : r[0];
 }
 
+/* The distance that features have to keep from the barrier, rounded up. */
 static inline double sunder_i_required_above(const sunder_i_barriers *b, uint32_t barrier)
 {
     const double *r = b->required[barrier];

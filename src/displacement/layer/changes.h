@@ -28,6 +28,7 @@ static inline void sunder_i_changes_free(sunder_i_changes *changes)
     *changes = (sunder_i_changes){0};
 }
 
+/* Empties the set, and forgets a failure. */
 static inline void sunder_i_changes_clear(sunder_i_changes *changes)
 {
     for (size_t k = 0; k < changes->list.n && !changes->failed; k++) changes->is[changes->list.item[k]] = false;
@@ -36,6 +37,7 @@ static inline void sunder_i_changes_clear(sunder_i_changes *changes)
     changes->failed = false;
 }
 
+/* Adds thing f. If memory is out changes->failed is set. */
 static inline void sunder_i_changes_add(sunder_i_changes *changes, uint32_t f)
 {
     if (changes->is[f]) return;

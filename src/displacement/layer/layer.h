@@ -34,6 +34,7 @@ static inline const sunder_feature *sunder_i_demands(const sunder_layer *given, 
     return &given->demands[given->demand ? given->demand[k] : 0];
 }
 
+/* Feature k of a layer in the caller's order, with its shape. */
 static inline sunder_feature sunder_i_given_feature(const sunder_layer *given, size_t k)
 {
     sunder_feature feature = *sunder_i_demands(given, k);
@@ -75,6 +76,7 @@ typedef struct sunder_i_rules {
     void *trace_user;
 } sunder_i_rules;
 
+/* Checks the options and makes the rules from them. Fails if an option is out of its range. */
 sunder_status sunder_i_rules_of(const sunder_layer_options *options, sunder_i_rules *rules, sunder_error *err);
 /* Reports the progress to the caller. Returns false if the caller asked to stop. */
 bool sunder_i_progress(const sunder_i_rules *rules, double fraction);

@@ -205,11 +205,13 @@ struct sunder_i_model {
 /* Is the thing a part of a barrier? Such a thing has no anchor and no outline. */
 static inline bool sunder_i_is_barrier(const sunder_i_model *model, uint32_t thing) { return thing >= model->features; }
 
+/* Is the body a part of a barrier? */
 static inline bool sunder_i_is_barrier_body(const sunder_i_model *model, const sunder_i_body *body)
 {
     return sunder_i_is_barrier(model, model->member[body->member]);
 }
 
+/* Returns the number of the barrier that `part` belongs to. */
 static inline uint32_t sunder_i_barrier_of(const sunder_i_model *model, uint32_t part)
 {
     return model->barriers->barrier[part - model->features];
@@ -253,6 +255,7 @@ static inline double sunder_i_owed_below(const sunder_i_model *model, uint32_t f
     return sunder_i_required_below(model->barriers, sunder_i_barrier_of(model, part));
 }
 
+/* The distance that two things have to keep from each other, rounded up. */
 static inline double sunder_i_owed_above(const sunder_i_model *model, uint32_t f, uint32_t g)
 {
     const uint32_t part = f > g ? f : g;

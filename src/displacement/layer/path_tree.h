@@ -15,7 +15,9 @@ typedef struct sunder_i_path_tree {
 } sunder_i_path_tree;
 
 void sunder_i_path_tree_free(sunder_i_path_tree *tree);
+/* Has the tree been built? */
 static inline bool sunder_i_path_tree_begun(const sunder_i_path_tree *tree) { return tree->hull != NULL; }
+/* Returns the present move of feature f. */
 static inline const double *sunder_i_move_of(const sunder_i_path_tree *tree, const sunder_i_model *model, uint32_t f)
 {
     return tree->own ? tree->own + 2 * (size_t)f : model->move + 2 * (size_t)model->body_of[f];

@@ -18,8 +18,12 @@ typedef struct sunder_i_reading {
 
 extern _Thread_local sunder_i_reading *sunder_i_reads __attribute__((tls_model("initial-exec"), visibility("hidden")));
 
+/* Records the reads of this thread for `body`, until sunder_i_reads_end(). Readings may be nested; a read is recorded
+ * for the innermost. If the model records no reads this has no effect, and an outer reading goes on. */
 void sunder_i_reads_begin(sunder_i_reading *reading, const sunder_i_model *model, uint32_t body);
 void sunder_i_reads_end(sunder_i_reading *reading);
+/* Records a query of `box` that appended the things hits->item[before] and those after it. Something must be recorded
+ * at present (sunder_i_reads). */
 void sunder_i_reads_note(const sunder_i_model *model, const double box[4], const sunder_i_list *hits, size_t before);
 
 /* Returns the body for which reads on the pair of things a and b are recorded: that of a, unless a is fixed and b is a

@@ -35,6 +35,7 @@ typedef struct sunder_i_relations {
     size_t tested; /* the number of pairs whose boxes were within reach */
 } sunder_i_relations;
 
+/* Returns the relation of the things a < b; NULL if they are not listed. */
 const sunder_i_relation *sunder_i_relations_find(const sunder_i_relations *relations, uint32_t a, uint32_t b);
 
 /* ---- thin_overlap.c ---------------------------------------------------------------------------------------------- */

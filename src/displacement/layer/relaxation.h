@@ -74,7 +74,9 @@ void sunder_i_relaxations_restore(sunder_i_relaxations *relaxations, const sunde
                                   const sunder_i_restored *restored, size_t n);
 /* Returns the index of `wanted` in a sorted list of n, or the index where it would be inserted. */
 size_t sunder_i_restored_at(const sunder_i_restored *list, size_t n, const sunder_i_restored *wanted);
+/* Compares two restored pairs by their bodies, then by their features, for sorting. */
 int sunder_i_by_restored(const void *a, const void *b);
+/* Returns the entry that says that this relaxation has ended. */
 sunder_i_restored sunder_i_restored_of(const sunder_i_model *model, const sunder_i_relaxation *relaxation);
 /* Makes a relaxation for features f and g from their original positions. */
 sunder_status sunder_i_relaxation_of(const sunder_i_model *model, uint32_t f, uint32_t g, sunder_i_relaxation *out,

@@ -20,8 +20,8 @@ typedef struct sunder_i_requirement {
  * the layer's relations at the start. */
 sunder_status sunder_i_requirement_find(const sunder_i_model *model, const sunder_i_relations *start, uint32_t a,
                                         uint32_t b, sunder_i_requirement *out, sunder_error *err);
-/* Returns the bound that a relaxation of the search expresses. The second function returns a slightly weaker one, since
- * the lengths of the search are rounded. */
+/* Returns the bound that a relaxation of the search expresses. sunder_i_requirement_below() returns a slightly weaker
+ * one, since the lengths of the search are rounded. */
 sunder_i_requirement sunder_i_requirement_of(const sunder_i_model *model, const sunder_i_relaxation *relaxation);
 sunder_i_requirement sunder_i_requirement_below(const sunder_i_model *model, const sunder_i_relaxation *relaxation);
 

@@ -35,11 +35,12 @@ void sunder_i_side_cut_free(sunder_i_side_cut *cut);
 /* Keeps only the parts whose area is at most `slack` (in squared units of the layer) less than the largest area. */
 void sunder_i_side_cut_keep_largest(sunder_i_side_cut *cut, double slack);
 
-/* Called with the two ends of each half-edge that has the part on its left; a line that ends inside the part comes
- * twice. */
+/* Called with the two ends of each half-edge that has the part on its left. A line that ends inside the part has two
+ * such half-edges. */
 typedef void (*sunder_i_visit_side_cut)(sunder_i_side_cut *cut, const sunder_i_rational_point *from,
                                         const sunder_i_rational_point *to, void *context);
 
+/* Calls `visit` for all half-edges of the boundary of the part. */
 void sunder_i_side_cut_boundary(sunder_i_side_cut *cut, const sunder_i_cut_part *part, sunder_i_visit_side_cut visit,
                                 void *context);
 /* Sets *holds if the part contains the point, off all lines. */

@@ -26,7 +26,7 @@ static inline void sunder_i_links_make(const sunder_i_quadratic *p, sunder_i_lin
     }
 }
 
-/* The same as sunder_i_stretch(). t: [2 * (bodies + 1)], zero for the ground. */
+/* Computes what sunder_i_stretch() does, for a link. t: [2 * (bodies + 1)], zero for the ground. */
 static inline double sunder_i_link_stretch(const sunder_i_link *link, const double *t)
 {
     const sunder_i_two *at = (const sunder_i_two *)(const void *)t, n = *(const sunder_i_two *)(const void *)link->n;
@@ -34,8 +34,8 @@ static inline double sunder_i_link_stretch(const sunder_i_link *link, const doub
     return (to[0] + to[1]) - (from[0] + from[1]);
 }
 
-/* The same as sunder_i_push(). It also moves the ground; the caller has to set that to zero again, not subtract, since
- * forces may overflow. */
+/* Does what sunder_i_push() does, for a link. It also moves the ground; the caller has to set the ground's move to zero
+ * again, and not to subtract, since forces may overflow. */
 static inline void sunder_i_link_push(const sunder_i_link *link, double force, double *t)
 {
     sunder_i_two *at = (sunder_i_two *)(void *)t;

@@ -11,6 +11,7 @@ static inline bool sunder_i_quadratic_is_done(const sunder_i_quadratic *p)
     return p->most_work && p->work >= p->most_work;
 }
 
+/* The mass (inverse weight) of body i; 0 for the ground. */
 static inline double sunder_i_mass(const sunder_i_quadratic *p, uint32_t i)
 {
     return i == SUNDER_I_GROUND ? 0 : p->mass[i];
@@ -31,8 +32,9 @@ static inline void sunder_i_push(const sunder_i_quadratic *p, const sunder_i_con
 
 /* ---- forces.c ---------------------------------------------------------------------------------------------------- */
 
-/* sunder_i_quadratic_place() sets t from the forces. sunder_i_quadratic_worst() returns the largest violation, allowing
- * for softness. sunder_i_quadratic_sweep() makes one pass of Hildreth's method. */
+/* sunder_i_quadratic_place() sets t to the moves that the forces cause. sunder_i_quadratic_worst() returns the largest
+ * violation at t, less what softness allows. sunder_i_quadratic_sweep() makes one pass of Hildreth's method over all
+ * constraints, which changes the forces and t. */
 void sunder_i_quadratic_place(sunder_i_quadratic *program);
 double sunder_i_quadratic_worst(const sunder_i_quadratic *program, double softness);
 void sunder_i_quadratic_sweep(sunder_i_quadratic *program, double softness);

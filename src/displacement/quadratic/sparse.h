@@ -25,10 +25,12 @@ typedef struct sunder_i_sparse {
 bool sunder_i_sparse_init(sunder_i_sparse *matrix, size_t n, const sunder_i_id_pair *pair, size_t pairs,
                           const double *place);
 void sunder_i_sparse_free(sunder_i_sparse *matrix);
+/* Sets all entries to zero; the structure stays. */
 void sunder_i_sparse_clear(sunder_i_sparse *matrix);
 /* Returns the block of entry (a, b), a != b, which must be one of the pairs, to be read row by row; *transposed is set
  * if, read like this, it is the block of (b, a). */
 double *sunder_i_sparse_block(sunder_i_sparse *matrix, uint32_t a, uint32_t b, bool *transposed);
+/* Returns the block of entry (a, a), stored column by column. */
 double *sunder_i_sparse_diagonal(sunder_i_sparse *matrix, uint32_t a);
 /* Replaces the matrix by its Cholesky factor. Returns false if the matrix is not positive definite, as computed in
  * doubles. */

@@ -102,6 +102,7 @@ static inline double sunder_i_move_cost(const sunder_i_body *body, const double 
 /* A property of a body. */
 typedef bool (*sunder_i_body_test)(const sunder_i_solver *solver, uint32_t body);
 
+/* Is body b in this state of the aspect? The functions below ask for one state, or a few, by name. */
 static inline bool sunder_i_is_in(const sunder_i_solver *s, sunder_i_aspect aspect, uint32_t b, unsigned char state)
 {
     return s->states.of[aspect][b] == state;

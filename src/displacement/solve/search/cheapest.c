@@ -241,9 +241,10 @@ static bool is_segment_covered(covering *o, const between *b)
     return o->n > 1 && cover_strip(o, b, -across, 0, STRIP_HALVINGS) && cover_strip(o, b, 0, across, STRIP_HALVINGS);
 }
 
-/* A lower bound d' of n.u for all free relative moves u in the disc: obstacles cover the part of the disc between the
- * lines n.u = known and n.u = d'. d' is at most d - hair, and found by bisecting its distance from d in powers of two,
- * so it may be smaller than necessary. It is `known` if nothing better is found. */
+/* Given that every solution keeps n.u >= known: a greater lower bound d' of n.u, for free relative moves u in the disc.
+ * Obstacles cover the part of the disc between the lines n.u = known and n.u = d'. d' is at most d - hair, and found by
+ * bisecting its distance from d in powers of two, so it may be smaller than necessary. It is `known` if nothing better
+ * is found. */
 static double find_line(covering *o, const double n[2], double known, double d, double hair)
 {
     const disc *about = &o->disc;

@@ -27,6 +27,7 @@ void sunder_i_measures_free(sunder_i_measures *measures);
 sunder_i_measure *sunder_i_measures_slot(sunder_i_measures *measures, size_t bodies, uint32_t i, uint32_t j,
                                          const double u[2]);
 
+/* Does the slot hold the value of bodies i and j at relative position u? */
 static inline int sunder_i_measure_is_of(const sunder_i_measure *m, uint32_t i, uint32_t j, const double u[2])
 {
     return m->i == i && m->j == j && m->u[0] == u[0] && m->u[1] == u[1] && i != j;
