@@ -594,8 +594,8 @@ typedef struct sunder_barrier {
  * to exactness. If members or rings of a feature cross in places that are not doubles, the feature may have walls
  * inside, and a line that lies wholly along such a wall is treated as not meeting the feature's interior.)
  *
- * Fails   SUNDER_EARG      a width or a gap is out of its range, ends of lines do not ascend, or there are more barriers
- *                          than can be numbered
+ * Fails   SUNDER_EARG      a width or a gap is out of its range, ends of lines do not ascend, or there are more
+ *                          barriers than can be numbered
  *         SUNDER_EINVALID  a coordinate is not finite */
 SUNDER_API sunder_status sunder_layer_set_barriers(sunder_layer *layer, const sunder_barrier *barriers, size_t n,
                                                    sunder_error *err);
