@@ -1,7 +1,7 @@
-"""Sunder in QGIS: the door of the plug-in."""
+"""The plug-in Sunder for QGIS: the function that QGIS calls to load it."""
 
 
 def classFactory(iface):
-    """What QGIS calls; iface is None where there is no window."""
+    """Returns the plug-in. iface is the interface of QGIS, or None if there is no window."""
     from .plugin import SunderPlugin
     return SunderPlugin(iface)

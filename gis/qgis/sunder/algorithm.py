@@ -1,8 +1,9 @@
-"""What all algorithms share: parameters of the table of options, layers in, the run, layers out.
+"""The base class of all algorithms: it makes the parameters, passes the layers to the program, runs the program, and
+delivers its layers.
 
-A module of an algorithm says which layers go in (inputs) and come out (outputs) and what its figures mean; its options
-stand in options.py. The work has the two halves that Processing asks for: prepareAlgorithm() looks at layers, in the
-thread that owns them; processAlgorithm() copies, runs and writes, in any thread.
+The module of an algorithm says which layers the program reads (inputs) and writes (outputs), and what its figures mean;
+its options are in options.py. The work has the two parts that Processing requires: prepareAlgorithm() examines the
+layers in the thread that owns them; processAlgorithm() copies layers, runs the program and writes layers in any thread.
 """
 import os
 import re
@@ -24,13 +25,14 @@ from . import parameters as parameters_of
 from .command_line import BadValue, barrier, row_of_layer, rows_of, unit_of, words
 from .options import BARRIER_LAYERS, BARRIERS, EXPRESSION, FIELD, LENGTH, NUMERIC_FIELD, SOURCE, UNIT
 
-PROGRAM_SETTING = "SUNDER_PROGRAM"  # of Processing: where the program is
+PROGRAM_SETTING = "SUNDER_PROGRAM"  # the setting of Processing that has the path of the program
 
-# shape: the parameter that takes a shape as text instead, or None. word: what the program calls it.
+# A layer that the program reads. shape is the parameter that takes a shape as text instead of the layer, or None.
 Input = namedtuple("Input", "name label types shape shape_label")
-# suffix: of its layer in the program's output. flag: an option without which it is not made, or None.
+# A layer that the program writes: suffix is added to `main` in its name; flag is an option without which the program
+# does not make it, or None; wanted says whether the dialog asks for it by default.
 Output = namedtuple("Output", "name suffix label type wanted flag")
-# A file: flag is the option that names it.
+# A file that the program writes: flag is the option that takes its path.
 File = namedtuple("File", "name flag label filter")
 
 POLYGONS, LINES = QgsProcessing.SourceType.TypeVectorPolygon, QgsProcessing.SourceType.TypeVectorLine
@@ -39,11 +41,11 @@ LOG = File("LOG", "--log", options.LOG_LABEL, "Log files (*.log)")
 
 
 class Algorithm(QgsProcessingAlgorithm):
-    command = title = text = ""  # the program's word, the dialog's title, what it does
-    main = ""                    # what the layers of the program's output are called
+    command = title = text = ""  # the command of the program; the title of the dialog; the text of its help
+    main = ""                    # the name of the program's main layer; other layers have it and a suffix
     group_name = "Layers"
-    inputs, outputs, files, numbers = (), (), (LOG,), ()  # numbers: (name, label) of what figures() gives
-    movable = False              # is there a choice of features that may move?
+    inputs, outputs, files, numbers = (), (), (LOG,), ()  # numbers: name and label of each figure of figures()
+    movable = False              # whether the dialog can restrict the moves to selected features
 
     # ---- What Processing asks ----
 
@@ -160,7 +162,8 @@ class Algorithm(QgsProcessingAlgorithm):
             self._fix_unselected(parameters, context)
 
     def _keep_chosen_key(self):
-        """A field that is the FID once more is none to the program; where it is chosen it is copied as a field."""
+        """The program does not see a field that repeats the FID. If such a field is chosen in the dialog, the layer is
+        copied with that field as an ordinary one."""
         layer = self.sources[self.inputs[0].name]
         chosen = {self.values.get(option.name) for option in options.of_command(self.command)
                   if option.kind in (FIELD, NUMERIC_FIELD)}
@@ -187,7 +190,8 @@ class Algorithm(QgsProcessingAlgorithm):
         elif option.kind == SOURCE:
             self.sources[name] = self._source(parameters, name, context)
         elif option.kind == EXPRESSION:
-            text = self.parameterAsString(parameters, name, context)  # parameterAsExpression() drops a wrong one
+            # parameterAsExpression() drops an expression that has an error.
+            text = self.parameterAsString(parameters, name, context)
             if text:
                 asked = self.createExpressionContext(parameters, context)
                 asked.setFields(self.sources[self.inputs[0].name].fields)
@@ -204,7 +208,7 @@ class Algorithm(QgsProcessingAlgorithm):
             self.barriers.append((row, source.of_layer(layer, row[3]), True))
 
     def _prepare_chosen_barriers(self):
-        """Layers that were chosen as such: none of them has a filter, nor a field of widths."""
+        """Prepares the layers from the list of barriers. They have neither a filter nor a field of widths."""
         for layer in self.chosen:
             if not isinstance(layer, QgsVectorLayer) or not layer.isValid():
                 raise BadValue("Barriers: %s is no layer of features." % layer.name())
@@ -223,8 +227,9 @@ class Algorithm(QgsProcessingAlgorithm):
     def processAlgorithm(self, parameters, context, feedback):
         folder = os.path.dirname(QgsProcessingUtils.generateTempFilename("sunder.gpkg"))
         os.makedirs(folder, exist_ok=True)
-        self.stays = False  # is a layer of the program's GeoPackage loaded from where it lies?
-        # Asked once: of a temporary one each answer is another, and is loaded.
+        self.stays = False  # whether QGIS loads a layer from the program's GeoPackage, which has to stay then
+        # parameterAsOutputLayer() is called once for each output. For a temporary output each call makes another one,
+        # which QGIS loads.
         self.wanted = {each: self.parameterAsOutputLayer(parameters, each.name, context)
                        for each in self.outputs if self._is_wanted(parameters, each.name)}
         try:
@@ -236,7 +241,7 @@ class Algorithm(QgsProcessingAlgorithm):
             shutil.rmtree(folder if not self.stays else os.path.join(folder, "read"), ignore_errors=True)
 
     def _run(self, folder, parameters, context, feedback):
-        self.names, self.added = {}, None  # what the user knows paths by; a field that the plug-in added
+        self.names, self.added = {}, None  # the names of layers by their paths; the field that the plug-in added
         self.report = None
         os.makedirs(os.path.join(folder, "read"), exist_ok=True)
         self.copies = 0
@@ -266,7 +271,7 @@ class Algorithm(QgsProcessingAlgorithm):
         return results
 
     def _refuse_own_input(self):
-        """A file that is read cannot be the one that is written, as QGIS would replace it first."""
+        """Raises BadValue if an output is a file that is read. QGIS would replace that file before it is read."""
         read = [layer for layer in self.sources.values() if layer] + [layer for _, layer, _ in self.barriers]
         files = {os.path.realpath(layer.path): layer.name for layer in read if layer.path}
         for each, destination in self.wanted.items():
@@ -275,7 +280,8 @@ class Algorithm(QgsProcessingAlgorithm):
                                (each.label, destination, files[os.path.realpath(destination)]))
 
     def _operands(self, folder, feedback):
-        """Operands and what belongs to them: layers where they lie, or copies of them."""
+        """Returns the arguments for operands, for layers of options, and for barriers. Layers that the program cannot
+        read in place are copied into the folder."""
         found = []
         for each in self.inputs:
             layer = self.sources[each.name]
@@ -295,7 +301,8 @@ class Algorithm(QgsProcessingAlgorithm):
         return found
 
     def _first(self, layer, folder, feedback):
-        """The one layer of a command: its path, and which layer of it; marked features, and ids."""
+        """Returns the arguments for the only input layer of a command: its path, the name of the layer or the
+        expressions for marked features, and the field of ids."""
         if layer.file and not self.marks:
             path, name = layer.file
             self.names[path] = layer.name
@@ -313,7 +320,7 @@ class Algorithm(QgsProcessingAlgorithm):
 
     def _copied(self, layer, folder, name, feedback, marks=()):
         path = os.path.join(folder, name.lower() + ".gpkg")
-        # A tenth of the progress for the first copy, another for all others.
+        # The first copy gets a tenth of the progress, and all other copies together get another tenth.
         feedback.setCurrentStep(min(self.copies, 1))
         self.copies += 1
         feedback.pushInfo("Copying %s ..." % layer.name)
@@ -322,12 +329,13 @@ class Algorithm(QgsProcessingAlgorithm):
         return path, ids
 
     def _barrier(self, row, layer, by_field, folder, feedback):
-        """by_field: the width of the row may be the name of a field."""
+        """Returns the value of --barrier for a row. by_field: whether the width of the row may be the name of a
+        field."""
         path, name = layer.file or (None, None)
         if path is None:
             path, _ = self._copied(layer, folder, "barrier_%d" % (len(self.names) + 1), feedback)
             name = table_of(layer.name)
-        self.names.setdefault(path, layer.name)  # a file may hold the layer, too
+        self.names.setdefault(path, layer.name)  # the file may already have the name of another of its layers
         return barrier(row, unit_of(self.values), path, name,
                        [field.name() for field in layer.fields] if by_field else [])
 
@@ -349,7 +357,8 @@ class Algorithm(QgsProcessingAlgorithm):
         return found
 
     def _tell(self, told, status, feedback):
-        """What the program said: a failure as the error that it is, all else as warnings and notes."""
+        """Passes the messages of the program on: raises QgsProcessingException if the run failed, and otherwise reports
+        them as warnings and notes."""
         errors = [program.plain(line, self.names) for line in told if program.is_error(line)]
         if status not in (program.DONE, program.UNRESOLVED):
             raise QgsProcessingException("\n".join(errors) or "\n".join(told) or
@@ -361,13 +370,14 @@ class Algorithm(QgsProcessingAlgorithm):
                 feedback.pushConsoleInfo(program.plain(line, self.names))
 
     def _print(self, lines, feedback):
-        """What the program printed, its columns in line. In a window the log shows HTML."""
+        """Passes the lines that the program printed on, with their columns aligned. In a window the log shows HTML."""
         from qgis.utils import iface
         for line in program.columns(lines):
             feedback.pushConsoleInfo(line if iface is None else program.unbroken(line))
 
     def _title(self, output):
-        """What a layer is called where it is loaded: after the layer that it was made of."""
+        """Returns the name with which a result is loaded. It begins with the name of the input layer, if there is
+        one."""
         names = [layer.name for layer in self.sources.values() if layer]
         return "%s: %s" % (names[0], output.label) if names else output.label
 
@@ -396,7 +406,7 @@ class Algorithm(QgsProcessingAlgorithm):
         return results
 
     def postProcessAlgorithm(self, context, feedback):
-        """In the window the report is opened: in the browser, since the page has a script."""
+        """Opens the report if QGIS has a window. It is opened in the browser, since the page has a script."""
         from qgis.utils import iface
         if iface is not None and self.report:
             QDesktopServices.openUrl(QUrl.fromLocalFile(self.report))
@@ -405,19 +415,19 @@ class Algorithm(QgsProcessingAlgorithm):
     # ---- What an algorithm may say for itself ----
 
     def look(self, written):
-        """Looks at what the program wrote, before figures are told."""
+        """Examines the GeoPackage that the program wrote, for what figures() and unresolved() need."""
 
     def unresolved(self, figures):
-        """Exit status 3 in words."""
+        """Returns the warning for exit status 3, from the figures of --stats."""
         return "%d conflicts remain." % program.conflicts_left(figures)
 
     def figures(self, figures):
-        """Numbers of the statistics, by names of outputs."""
+        """Returns the numbers that the algorithm outputs, by their names, from the figures of --stats."""
         return {}
 
 
 def table_of(name):
-    """A name of a layer as the name of a table that needs no quotes."""
+    """Returns the name of a layer, changed to a name of a table that needs no quotes."""
     return re.sub(r"\W+", "_", name).strip("_") or "layer"
 
 

@@ -1,4 +1,4 @@
-"""sunder:buffer"""
+"""The algorithm sunder:buffer, which runs `sunder buffer`."""
 from .algorithm import LINES, POINTS, POLYGONS, Algorithm, Input, Output
 
 

@@ -1,4 +1,4 @@
-"""sunder:check"""
+"""The algorithm sunder:check, which runs `sunder check`."""
 from . import program
 from .algorithm import LINES, POINTS, POLYGONS, Algorithm, Input, Output
 

@@ -1,7 +1,7 @@
-"""Values of a dialog to words for the program. No QGIS in here, no files: only text.
+"""Converts the values of a dialog to arguments of the program. It uses neither QGIS nor files.
 
-A value is what QGIS hands over: a number, the index of a choice, True, the name of a field, text; None is not said.
-Numbers are written so that they read back as the same double.
+A value is what QGIS passes: a number, the index of a choice, a truth value, the name of a field, or a text; None means
+that the dialog has no value. Numbers are written so that they read back as the same double.
 """
 from .options import (BARRIER_LAYERS, BARRIER_LENGTH, BARRIERS, CHOICE, COUNT, EXPRESSION, FIELD, FLAG, LENGTH, NUMBER,
                       NUMERIC_FIELD, POINT, SCALE, SOURCE, TEXT, UNIT, UNITS, of_command)
@@ -10,11 +10,11 @@ BARRIER_COLUMNS = ("Layer", "Width or field", "Gap", "Filter", "Side (yes/no)", 
 
 
 class BadValue(Exception):
-    """A value of the dialog that means nothing, in words for its user."""
+    """A value of the dialog has no meaning. The text of the exception is a message for the user."""
 
 
 def number(value):
-    """The shortest decimal that reads back as this double; whole numbers without a point."""
+    """Returns the shortest decimal that reads back as this double; a whole number has no point."""
     value = float(value)
     return str(int(value)) if value == int(value) and abs(value) < 1e15 else repr(value)
 
@@ -28,7 +28,7 @@ def unit_of(values):
 
 
 def _words_of(option, value, values):
-    """The words of one option; none where it says nothing."""
+    """Returns the arguments of one option: an empty list if the value is what the program does without the option."""
     if option.kind == FLAG:
         return [option.flag] if value else []
     if option.kind == COUNT and option.flag == "--threads" and not value:
@@ -47,8 +47,9 @@ def _words_of(option, value, values):
 
 
 def words(command, values):
-    """The options of a command. values: by parameter's name, as QGIS hands them over. Layers, barriers and expressions
-    become words where they are copied (algorithm.py)."""
+    """Returns the options of a command as arguments of the program. values maps the names of parameters to the values
+    that QGIS passes. The arguments for layers, barriers and expressions are made where these are copied
+    (algorithm.py)."""
     found = []
     for option in of_command(command):
         value = values.get(option.name)
@@ -64,19 +65,20 @@ def words(command, values):
 
 
 def row_of_layer(name, values):
-    """The row of a layer that was chosen as such: widths and gaps are those of the dialog."""
+    """Returns the row for a layer from the list of barriers; its width and gap are those of the dialog."""
     cells = [number(value) if value is not None else "" for value in
              (values.get("BARRIER_WIDTH"), values.get("BARRIER_GAP"))]
     return [name] + cells + ["", "", ""]
 
 
 def _is_null(cell):
-    """None, or what QGIS has for it."""
+    """Returns whether the cell is None or a null value of QGIS."""
     return cell is None or getattr(cell, "isNull", lambda: False)()
 
 
 def rows_of(flat):
-    """The rows of a matrix of QGIS, which hands over its cells one after another; rows without a layer are none."""
+    """Returns the rows of a matrix of QGIS, which passes the cells as one list. Empty rows are left out. Raises
+    BadValue for a row that has cells but no layer."""
     width = len(BARRIER_COLUMNS)
     cells = ["" if _is_null(cell) else str(cell).strip() for cell in flat or []]
     cells += [""] * (-len(cells) % width)
@@ -88,7 +90,7 @@ def rows_of(flat):
 
 
 def _is_length(text):
-    """A decimal, with a unit or without?"""
+    """Returns whether the text is a decimal with or without a unit."""
     for unit in sorted(UNITS, key=len, reverse=True):
         if text.endswith(unit):
             try:
@@ -110,9 +112,10 @@ def _escaped(text):
 
 
 def barrier(row, unit, dataset, layer, fields):
-    """The text of --barrier for a row: dataset and layer are where it was put, fields the names that it has. A width
-    that is the name of a field is that field, else a length in the unit of the dialog, or with a unit of its own. Its
-    filter was heeded when its features were copied."""
+    """Returns the value of --barrier for a row. dataset and layer say where the program finds the barriers; fields are
+    the names of the layer's fields. A width that is the name of a field means that field. Any other width is a length,
+    with a unit of its own or in the unit of the dialog. The filter of the row was applied when the layer was copied.
+    Raises BadValue for a cell that has no meaning."""
     name, width, gap, _, side, taken_as = row
     parts = [_escaped(dataset), "layer=" + _escaped(layer)]
     if width in fields:

@@ -17,8 +17,9 @@ EVERY = ("separate", "check", "buffer", "sum", "pair", "route")
 
 
 class Option(namedtuple("Option", "flag kind commands label help default choices labels advanced needed key")):
-    """One option. labels: what the dialog shows for each of choices. default: a value of the dialog; None: not said.
-    key: what the flag has for this parameter, where it has several: --barrier is BARRIER, BARRIER_WIDTH ..."""
+    """An option of the program, as a parameter of the dialog. labels are the texts that the dialog shows for the
+    choices. default is a value of the dialog, or None for no value. If one option has several parameters, `key` is
+    added to the name of each: the parameters of --barrier are BARRIER, BARRIER_WIDTH and so on."""
 
     __slots__ = ()
 
@@ -28,12 +29,12 @@ class Option(namedtuple("Option", "flag kind commands label help default choices
 
     @property
     def name(self):
-        """The name of the parameter: --max-shift is MAX_SHIFT."""
+        """The name of the parameter, made from the option: MAX_SHIFT for --max-shift."""
         return (self.flag[2:] + self.key).replace("-", "_").upper()
 
 
 OPTIONS = (
-    # ---- What is always asked ----
+    # ---- Parameters that are always shown ----
     Option("--gap", LENGTH, ("separate", "check", "pair", "route"), "Gap (least distance between features)",
            "Least distance between features. With 0 only overlaps count.", 0.0, advanced=False),
     Option("--shape", TEXT, ("buffer",), "Shape to grow or shrink by",
@@ -134,7 +135,7 @@ OPTIONS = (
     Option("--threads", COUNT, EVERY, "Threads", "Results are the same for every number. 0: all processors.", 0),
 )
 
-# Lengths are in this unit; the first is the layer's own.
+# The parameter for the unit of all lengths, and its choices. The first choice is the unit of the layer.
 UNIT = "UNIT"
 UNIT_LABEL = "Unit of all lengths, where it is not the one beside them"
 UNITS = ("", "m", "km", "ft", "us-ft", "mm")
@@ -144,8 +145,8 @@ SHEET = UNITS.index("mm")
 
 LOG_LABEL = "Log of all errors and warnings"
 
-# What an option is called within a sentence of the program, before its label (program.py). "key field" is of
-# --id-field: give another key field ("Key field").
+# The noun that replaces an option in a sentence of a message, before the label in parentheses (program.py). So "give
+# another --id-field" becomes: give another key field ("Key field, for lists and messages").
 NOUNS = {
     "--gap": "gap", "--shape": "shape", "--operation": "operation", "--dissolve": "dissolving", "--robot": "robot",
     "--from": "start", "--to": "goal", "--before": "layer from before", "--reflect": "reflection",
@@ -164,12 +165,12 @@ NOUNS = {
     "--input-crs": "CRS of the layer in QGIS",
 }
 
-# Options that no dialog asks, and why.
+# The options that no dialog has, with the reasons: LEFT_OUT. These are reasons of several options.
 _QGIS_CHOOSES = "which features is chosen in QGIS: by the layer's filter, its selection, or a layer made before"
 _QGIS_WRITES = "the program writes a GeoPackage of the plug-in's; QGIS writes it where the dialog says"
 _OURS = "set by the plug-in"
 _SHARDS = "a layer in shards is for clusters, which have no dialogs"
-# Commands that no dialog runs, and why.
+# The commands that no dialog runs, with the reasons.
 LEFT_OUT_COMMANDS = {"plan": _SHARDS, "merge": _SHARDS}
 LEFT_OUT = {
     "--input-layer": _OURS, "--where": _QGIS_CHOOSES, "--sql": _QGIS_CHOOSES, "--dialect": _QGIS_CHOOSES,
@@ -191,10 +192,10 @@ LEFT_OUT = {
 
 
 def of_command(command):
-    """The options that a command's dialog asks, in its order."""
+    """Returns the options that the dialog of a command has, in the order of the dialog."""
     return [option for option in OPTIONS if command in option.commands]
 
 
 def has_lengths(command):
-    """Does the dialog ask for lengths, so that it asks for their unit, too?"""
+    """Returns whether the dialog of a command has lengths, and so a parameter for their unit."""
     return any(option.kind in (LENGTH, BARRIER_LENGTH, BARRIERS) for option in of_command(command))

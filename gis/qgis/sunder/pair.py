@@ -1,4 +1,4 @@
-"""sunder:pair"""
+"""The algorithm sunder:pair, which runs `sunder pair`."""
 from .algorithm import LINES, POLYGONS, Algorithm, Input, Output
 from .sum import SHAPES
 
@@ -24,6 +24,6 @@ polygon. The layer has that translation as a line."""
 
 
 def _decimal(rational):
-    """num/den, or num, as the nearest double."""
+    """Returns the double nearest to a rational, which is the text num/den or num."""
     over, _, under = str(rational).partition("/")
     return int(over) / int(under or 1)

@@ -1,5 +1,5 @@
-"""A row of the table of options as a parameter of Processing, and its value back. Layers, expressions and barriers come
-back by algorithm.py, which knows what to do with them."""
+"""Makes a parameter of Processing from a row of the table of options, and reads its value. algorithm.py reads the
+values of layers, expressions and barriers."""
 from qgis.core import (QgsProcessing, QgsProcessingParameterBoolean, QgsProcessingParameterEnum,
                        QgsProcessingParameterDistance, QgsProcessingParameterExpression,
                        QgsProcessingParameterFeatureSource, QgsProcessingParameterField, QgsProcessingParameterMatrix,
@@ -12,7 +12,8 @@ from .options import (BARRIER_LAYERS, BARRIER_LENGTH, BARRIERS, CHOICE, COUNT, E
 
 
 def parameter(option, layer):
-    """layer: the name of the parameter whose fields are meant, and whose unit lengths are in."""
+    """Returns the parameter for an option. layer is the name of the layer parameter from which fields are chosen, and
+    in whose unit lengths are."""
     name, label, optional = option.name, option.label, not option.needed
     if option.kind in (LENGTH, BARRIER_LENGTH):
         return QgsProcessingParameterDistance(name, label, option.default, layer, optional=option.default is None,
@@ -48,8 +49,8 @@ def parameter(option, layer):
 
 
 def value(algorithm, option, parameters, context, layer):
-    """What command_line.py takes: a number, an index, a text; None where nothing is said. layer: whose CRS a point is
-    to be in, or None."""
+    """Returns the value of an option as command_line.py takes it: a number, an index, a text, a pair of coordinates, or
+    None if there is no value. A point is transformed to the CRS of `layer`, unless that is None."""
     name = option.name
     if option.kind == FLAG:
         return algorithm.parameterAsBoolean(parameters, name, context)

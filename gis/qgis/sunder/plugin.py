@@ -1,4 +1,4 @@
-"""The plug-in as QGIS sees it: a provider of algorithms, nothing else."""
+"""The plug-in object of QGIS. It adds a provider of algorithms, and nothing else."""
 from qgis.core import QgsApplication
 
 from .provider import SunderProvider
@@ -10,7 +10,7 @@ class SunderPlugin:
         self.provider = None
 
     def initProcessing(self):
-        """All that is called where there is no window (qgis_process)."""
+        """Adds the provider. Without a window (qgis_process) QGIS calls only this function."""
         self.provider = SunderProvider()
         QgsApplication.processingRegistry().addProvider(self.provider)
 

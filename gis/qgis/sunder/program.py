@@ -1,4 +1,4 @@
-"""The program itself: where it is, how a run goes, what it says in words for the user of a dialog. No QGIS in here."""
+"""Finds the program, runs it, and translates its messages for the user of a dialog. It does not use QGIS."""
 import json
 import os
 import queue
@@ -11,15 +11,16 @@ import threading
 from .options import LEFT_OUT, LOG_LABEL, NOUNS, OPTIONS
 
 DONE, FAILED, MISUSED, UNRESOLVED = 0, 1, 2, 3
-PATIENCE = 5  # seconds from being asked to end to being ended: the program clears away what it had begun
+PATIENCE = 5  # seconds from the request to end until the process is killed: the program removes unfinished files then
 
 
 class ProgramMissing(Exception):
-    """There is no program, in words for the user."""
+    """The program was not found. The text of the exception is a message for the user."""
 
 
 def find(setting):
-    """The path of the program: the setting, where there is one, else sunder on the PATH."""
+    """Returns the path of the program: that of the setting if it is not empty, otherwise sunder on the PATH. Raises
+    ProgramMissing."""
     if setting:
         found = shutil.which(os.path.expanduser(setting))
         if not found:
@@ -35,12 +36,13 @@ def find(setting):
 
 
 def _hidden_window():
-    """On Windows a console program would open a window."""
+    """Returns arguments of Popen that keep a console program from opening a window on Windows."""
     return {"creationflags": subprocess.CREATE_NO_WINDOW} if sys.platform == "win32" else {}
 
 
 def _read(pipe, name, lines):
-    """Reads a pipe to its end, so that the program never waits for us."""
+    """Puts each line of a pipe into the queue `lines`, and None at the end. It runs in a thread of its own, so that the
+    program never waits for a full pipe."""
     for line in pipe:
         lines.put((name, line.rstrip("\r\n")))
     pipe.close()
@@ -57,10 +59,11 @@ def _end(process):
 
 
 def run(words, progress, say, cancelled):
-    """Runs the program to its end. progress(percent), say(line) for each line on stdout, cancelled() is asked often;
-    all are called in the thread of the caller, as signals of QGIS want it.
+    """Runs the program to its end. words are its path and arguments. progress(percent) is called for each line of
+    progress, say(line) for each line on stdout, and cancelled() often, to ask whether the program should be ended. All
+    three are called in the thread of the caller, since signals of QGIS require that.
 
-    Returns the exit status, None if it was cancelled, and the lines of stderr that are no progress.
+    Returns the exit status, or None if the run was cancelled, and the list of lines of stderr that are not progress.
     """
     process = subprocess.Popen(words, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
                                encoding="utf-8", errors="replace", **_hidden_window())
@@ -89,7 +92,7 @@ def run(words, progress, say, cancelled):
 
 
 def statistics(path):
-    """What --stats wrote; empty where it wrote nothing."""
+    """Returns the dictionary that --stats wrote; an empty one if it wrote none."""
     try:
         with open(path, encoding="utf-8") as file:
             return json.load(file)
@@ -107,13 +110,13 @@ _CHOICES = {option.flag: dict(zip(option.choices, option.labels)) for option in 
 
 
 def _subject(found):
-    """--gap 3x, with its value, or at the start of a line: the label of what was given."""
+    """Replaces an option that has a value, as in `--gap 3x`, or begins a line, by its label."""
     flag = found.group(1)
     return '"%s"' % _LABELS[flag] + found.group(2) if flag in _LABELS else found.group()
 
 
 def _chosen(found):
-    """--invalid skip: a choice by its label."""
+    """Replaces an option with a choice, as in `--invalid skip`, by the labels of both."""
     flag, value = found.group(1), found.group(2)
     if value not in _CHOICES.get(flag, {}):
         return found.group()
@@ -121,8 +124,8 @@ def _chosen(found):
 
 
 def _named(line):
-    """Options within a sentence: the first time by noun and label, then by the noun. A word before it that belongs to
-    the noun, as in "give their --symbol", stands in the place of an article."""
+    """Replaces the options in a sentence: the first time by the noun and the label, later by the noun alone. An article
+    is added unless a word before the option takes its place, as in "give their --symbol"."""
     seen = set()
 
     def name(found):
@@ -141,9 +144,9 @@ def _named(line):
 
 
 def plain(line, names):
-    """A line of the program for the user of a dialog. Options are replaced by the labels of their parameters, or by a
-    noun within a sentence. Files that the plug-in made are replaced by the names of their layers (names: path to name).
-    The name of the program is removed. Commands for a terminal, between backticks, stay as they are."""
+    """Translates a message line of the program for the user of a dialog. Options are replaced by the labels of their
+    parameters, or by a noun within a sentence. Paths of files are replaced by the names of their layers; names maps the
+    paths to these names. The name of the program is removed. Commands between backticks are not changed."""
     line = re.sub(r"^sunder: (error: |warning: |note: )?", "", line)
     line = line.replace("(ogr2ogr -t_srs)", "(Reproject layer, in the toolbox)")
     for path in sorted(names, key=len, reverse=True):
@@ -159,7 +162,8 @@ def plain(line, names):
 
 
 def columns(lines):
-    """Lines whose cells are separated by tabs, as a table; columns are two blanks apart. Other lines stay."""
+    """Returns the lines with tabs replaced by blanks, so that their cells form columns, two blanks apart. Lines
+    without a tab are not changed."""
     rows = [line.split("\t") for line in lines]
     width = max((len(row) for row in rows), default=0)
     widths = [max((len(row[k]) for row in rows if k < len(row) - 1), default=0) for k in range(width)]
@@ -168,7 +172,8 @@ def columns(lines):
 
 
 def unbroken(line):
-    """A line for a log that shows HTML, which makes one blank of several: blanks that do not break keep its columns."""
+    """Returns the line for a log that shows HTML. HTML shows several blanks as one, so the blanks of a line with
+    columns are replaced by non-breaking ones."""
     return line.replace(" ", "\u00a0") if line.startswith(" ") or "  " in line else line
 
 
@@ -181,7 +186,7 @@ def is_error(line):
 
 
 def conflicts_left(figures):
-    """How many pairs of a statistics' conflicts stand between blocks."""
+    """Returns the number of conflicts between blocks in the figures of --stats, after the moves if there were any."""
     counts = figures.get("conflicts", {})
     counts = counts.get("after", counts)
     return sum(count for kind, count in counts.items() if kind != "inside_blocks")

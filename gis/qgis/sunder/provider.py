@@ -1,4 +1,4 @@
-"""The provider: its algorithms, and the setting that says where the program is."""
+"""The provider of the algorithms, and the setting of Processing that says where the program is."""
 import os
 
 from processing.core.ProcessingConfig import ProcessingConfig, Setting

@@ -1,7 +1,8 @@
-"""Layers of the program's GeoPackage to where the dialog wants them.
+"""Delivers the layers of the program's GeoPackage to the destinations that the dialog names.
 
-What is temporary stays in that GeoPackage, which QGIS deletes at its end, and is loaded from there. All else - files,
-tables of GeoPackages (ogr:), of PostGIS (postgres:) - is written by QGIS, feature by feature, with its doubles.
+A temporary layer stays in that GeoPackage and is loaded from there; QGIS deletes the file when it ends. For all other
+destinations (files, tables of GeoPackages (ogr:) and of PostGIS (postgres:)) QGIS writes the features one by one, with
+their doubles.
 """
 import os
 
@@ -11,10 +12,10 @@ from qgis.core import (QgsFeatureRequest, QgsFeatureSink, QgsProcessing, QgsProc
                        QgsProperty, QgsVectorLayer)
 from qgis.PyQt.QtXml import QDomDocument
 
-# Of these a double comes back as it was written. (Shapefiles regroup rings.)
+# Formats from which a double is read back as it was written. (A shapefile may group rings in another way.)
 EXACT_ENDINGS = (".gpkg", ".sqlite", ".fgb", ".shp")
 
-# As QGIS itself makes it.
+# The table of styles, as QGIS itself makes it.
 _STYLES = ("CREATE TABLE IF NOT EXISTS layer_styles (id INTEGER PRIMARY KEY AUTOINCREMENT NOT NULL, "
            "f_table_catalog TEXT(256), f_table_schema TEXT(256), f_table_name TEXT(256), f_geometry_column TEXT(256), "
            "styleName TEXT(30), styleQML TEXT, styleSLD TEXT, useAsDefault BOOLEAN, description TEXT, owner TEXT(30), "
@@ -22,9 +23,9 @@ _STYLES = ("CREATE TABLE IF NOT EXISTS layer_styles (id INTEGER PRIMARY KEY AUTO
 
 
 class Styled(QgsProcessingLayerPostProcessorInterface):
-    """Gives a layer that was loaded the looks that the program stored with it."""
+    """Gives a loaded layer the style that the program stored with it."""
 
-    alive = {}  # QGIS owns none of them
+    alive = {}  # keeps the objects alive, since QGIS does not own them
 
     def __init__(self, qml):
         super().__init__()
@@ -38,13 +39,13 @@ class Styled(QgsProcessingLayerPostProcessorInterface):
 
 
 def layers_of(path):
-    """Names of the layers in a GeoPackage of the program."""
+    """Returns the names of the layers in a GeoPackage; an empty list if it does not open."""
     dataset = ogr.Open(path)
     return [dataset.GetLayer(i).GetName() for i in range(dataset.GetLayerCount())] if dataset else []
 
 
 def drop_field(path, layer, name):
-    """Takes away a field that the plug-in had added."""
+    """Removes a field that the plug-in added, if the layer has it."""
     dataset = ogr.Open(path, 1)
     found = dataset.GetLayerByName(layer)
     index = found.GetLayerDefn().GetFieldIndex(name) if found else -1
@@ -53,7 +54,7 @@ def drop_field(path, layer, name):
 
 
 def style_of(path, layer):
-    """The QML of a layer; empty where the program stored none."""
+    """Returns the style of a layer as QML; an empty text if the program stored none."""
     dataset = ogr.Open(path)
     if dataset.GetLayerByName("layer_styles") is None:
         return ""
@@ -79,7 +80,8 @@ def _is_file(destination):
 
 
 def _write(layer, destination, context, feedback):
-    """All features of a layer to a destination. Returns what QGIS loads it by."""
+    """Writes all features of a layer to a destination. Returns the source from which QGIS loads the result. Raises
+    QgsProcessingException if that fails."""
     sink, final = QgsProcessingUtils.createFeatureSink(destination, context, layer.fields(), layer.wkbType(),
                                                        layer.crs())
     if sink is None:
@@ -98,7 +100,7 @@ def _multi(feature):
 
 
 def _compare(layer, final, name, feedback):
-    """What a text format made of the coordinates, by reading it back."""
+    """Reads the written layer back, and warns if its format changed coordinates."""
     written = QgsVectorLayer(final, name, "ogr")
     pairs = zip(layer.getFeatures(), written.getFeatures())
     changed = sum(_multi(ours) != _multi(theirs) for ours, theirs in pairs)
@@ -108,7 +110,8 @@ def _compare(layer, final, name, feedback):
 
 
 def _keep_style(final, destination, qml):
-    """Beside or in what was written, so that it looks so whenever it is opened. A database of others is left alone."""
+    """Stores the style beside a file or in a GeoPackage, so that the layer has it whenever it is opened. No style is
+    written to other databases."""
     if not qml or destination.startswith(("postgres:", "postgis:", "spatialite:")):
         return
     if _is_file(destination) and not destination.lower().endswith(".gpkg"):
@@ -119,7 +122,8 @@ def _keep_style(final, destination, qml):
 
 
 def _store_style(path, table, qml):
-    """In layer_styles of a GeoPackage. Not by QGIS, which would ask in a window about one that is there."""
+    """Stores the style in the table layer_styles of a GeoPackage. QGIS is not used for it, since it would ask in a
+    window before replacing a style."""
     dataset = ogr.Open(path, 1)
     if dataset is None:
         return
@@ -138,8 +142,9 @@ def _sql(text):
 
 
 def deliver(path, name, value, destination, context, feedback):
-    """Puts one layer of the program's GeoPackage where the dialog wants it: value is the parameter's, destination what
-    Processing made of it. Returns what QGIS loads it by, and sees that it is loaded so, where it is to be loaded."""
+    """Delivers one layer of the program's GeoPackage. value is the value of the output parameter, destination the text
+    that Processing made from it. Returns the source from which QGIS loads the layer. If the layer is to be loaded, it
+    is registered with that source and with its style."""
     ours, qml = "%s|layername=%s" % (path, name), style_of(path, name)
     if is_temporary(value):
         final = ours
@@ -163,7 +168,8 @@ def deliver(path, name, value, destination, context, feedback):
 
 
 def rename(destination, label, title, context):
-    """A layer that would be loaded under the label of its parameter gets a title; a name that was chosen stays."""
+    """Sets the name with which a layer is loaded to `title`, if it is the label of its parameter. A name that the user
+    chose is not changed."""
     loads = context.layersToLoadOnCompletion()
     details = loads.get(destination)
     if details is not None and details.name == label:
@@ -173,7 +179,8 @@ def rename(destination, label, title, context):
 
 
 def count(path, layer, where):
-    """How many rows of a layer of the program's GeoPackage a condition holds for."""
+    """Returns the number of rows for which the SQL condition `where` is true, in a layer of the program's GeoPackage; 0
+    if there is no such layer."""
     dataset = ogr.Open(path)
     found = dataset.GetLayerByName(layer) if dataset else None
     if found is None:
@@ -183,7 +190,7 @@ def count(path, layer, where):
 
 
 def forget(destination, context):
-    """An output that there is none of is not loaded."""
+    """Removes an output that was not written from the layers that QGIS loads at the end."""
     loads = context.layersToLoadOnCompletion()
     if loads.pop(destination, None):
         context.setLayersToLoadOnCompletion(loads)

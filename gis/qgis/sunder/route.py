@@ -1,4 +1,4 @@
-"""sunder:route"""
+"""The algorithm sunder:route, which runs `sunder route`."""
 from .algorithm import ANY, LINES, POINTS, POLYGONS, Algorithm, Input, Output
 
 

@@ -1,4 +1,4 @@
-"""sunder:separate"""
+"""The algorithm sunder:separate, which runs `sunder separate`."""
 from . import program, result
 from .algorithm import ANY, LINES, LOG, POINTS, POLYGONS, Algorithm, File, Input, Output
 
@@ -36,14 +36,15 @@ after."""
                ("COST", "Cost"), ("LOWER_BOUND", "Proved lower bound of the cost"))
 
     def _words_of_outputs(self, wanted):
-        # Something must be written: the main layer is what the file is checked by.
+        # The main layer is always written, since the program checks its result as written there.
         layers = [each.suffix[1:] for each in self.outputs if each.suffix and (each in wanted or self._counts(each))]
         if layers == ["displacement", "conflicts", "pushes", "symbols"]:
             return []
         return ["--layers=" + ",".join(["main"] + layers)]
 
     def _counts(self, output):
-        """Conflicts between features that are told to stay are counted, in the layer of conflicts."""
+        """Returns whether look() needs the layer even if the user does not want it. look() counts the conflicts between
+        fixed features in the layer of conflicts."""
         return output.name == "CONFLICTS" and "FIXED_WHERE" in self.marks
 
     def look(self, written):

@@ -1,13 +1,13 @@
-"""Layers of QGIS to what the program reads.
+"""Makes layers of QGIS readable for the program.
 
 A plain file that QGIS shows unchanged is read in place. All other layers are copied into a GeoPackage: memory, virtual
 and database layers, filtered, edited and joined ones, selections, and layers whose CRS was changed in QGIS. Geometries
 and doubles are unchanged. FIDs are kept if QGIS's ids may be FIDs. The id is also copied to a field of its own, since
 ids of features that are not saved yet are negative.
 
-Expressions of the dialog are QGIS's and are asked while copying; the ids for which one is true go into a table of their
-own, beside the layer, which the SQL of --fixed-where and --ignore-where asks. That holds for selections of any size,
-where a list of ids on a command line would not.
+Expressions of the dialog are those of QGIS, and are evaluated while a layer is copied. The FIDs for which an expression
+is true are written to a table of the same GeoPackage, which the SQL of --fixed-where and --ignore-where reads. So the
+number of FIDs is not limited by the length of a command line.
 """
 import os
 import re
@@ -27,22 +27,23 @@ _TYPES = {
     QVariant.Bool: (ogr.OFTInteger, ogr.OFSTBoolean), QVariant.Double: (ogr.OFTReal, ogr.OFSTNone),
     QVariant.Date: (ogr.OFTDate, ogr.OFSTNone), QVariant.Time: (ogr.OFTTime, ogr.OFSTNone),
     QVariant.DateTime: (ogr.OFTDateTime, ogr.OFSTNone), QVariant.ByteArray: (ogr.OFTBinary, ogr.OFSTNone),
-}  # all others are texts
+}  # types of fields in OGR; all types that are not listed become texts
 
 
 class Source:
-    """What is known of a layer before the work, by the thread that owns it. features(): an iterator, in any thread."""
+    """A layer as the thread that owns it sees it before the work. features() returns an iterator over its features, and
+    may be called in any thread. whole: whether all features of the layer are meant."""
 
     def __init__(self, name, fields, wkb_type, crs, features, count, layer, whole):
         self.name, self.fields, self.wkb_type, self.crs = name, fields, wkb_type, crs
         self.features, self.count = features, count
-        self.path = _path(layer)                    # of the file that it lies in, or None
+        self.path = _path(layer)                    # the file that contains the layer, or None
         self.file = file_of(layer) if whole else None
-        self.keys = _keys(layer)                    # indices of fields that are the FID once more
+        self.keys = _keys(layer)                    # indices of the fields that repeat the FID
 
 
 def file_of(layer):
-    """(path, layer's name) where the program may read the layer's own file, else None."""
+    """Returns the path and the name of a layer that the program can read in place from its file, otherwise None."""
     if not layer or layer.providerType() != "ogr" or layer.subsetString() or layer.isEditable() or layer.vectorJoins():
         return None
     fields = layer.fields()
@@ -57,7 +58,7 @@ def file_of(layer):
     layers = [each.split(layer.dataProvider().sublayerSeparator()) for each in layer.dataProvider().subLayers()]
     if not name and len(layers) == 1 and len(layers[0]) > 1:
         name = layers[0][1]
-    # One of several types of geometry in one layer is shown by QGIS as a layer of its own.
+    # QGIS shows a layer with several types of geometry as several layers, one for each type.
     if not name or [each[1] for each in layers if len(each) > 1].count(name) > 1:
         return None
     return path, name
@@ -74,7 +75,8 @@ def _keys(layer):
 
 
 def of_layer(layer, expression=""):
-    """A layer as a whole, or those features for which an expression holds."""
+    """Returns the Source of a layer: of all its features, or of those for which an expression is true. Raises BadValue
+    for an expression that has an error."""
     request = QgsFeatureRequest()
     if expression:
         if QgsExpression(expression).hasParserError():
@@ -87,8 +89,9 @@ def of_layer(layer, expression=""):
 
 
 def of_processing(source, layer, whole):
-    """What a parameter of Processing selects; layer: whose it is, or None. whole: that layer, with all its features."""
-    # Invalid geometries are the program's business.
+    """Returns the Source of what a parameter of Processing selects. layer is the layer that contains the features, or
+    None; whole says whether all of its features are selected."""
+    # QGIS does not check geometries, since the program treats invalid ones itself.
     as_they_are = QgsProcessingFeatureSource.Flag.FlagSkipGeometryValidityChecks
     return Source(source.sourceName(), source.fields(), source.wkbType(), source.sourceCrs(),
                   lambda: source.getFeatures(QgsFeatureRequest(), as_they_are),
@@ -115,7 +118,7 @@ def _unused(name, used):
 
 
 def _value(value):
-    """A value of a QGIS attribute as OGR's Python takes it; None for null."""
+    """Returns the value of a QGIS attribute as the Python functions of OGR take it; None for null."""
     if value is None or (isinstance(value, QVariant) and value.isNull()):
         return None
     if isinstance(value, QVariant):
@@ -139,7 +142,7 @@ def _reference(crs):
 
 
 class _Target:
-    """A layer of a new GeoPackage that takes features of QGIS."""
+    """A layer in a new GeoPackage, to which features of QGIS are copied."""
 
     def __init__(self, path, name, source):
         self.dataset = ogr.GetDriverByName("GPKG").CreateDataSource(path)
@@ -152,13 +155,13 @@ class _Target:
         used = {geometry, self.fid}
         for i in self.kept:
             field = source.fields[i]
-            unused = _unused(field.name(), used)  # names that differ in case alone are one to a database
+            unused = _unused(field.name(), used)  # a database treats names that differ only in case as equal
             used.add(unused.lower())
             self._add_field(unused, *_TYPES.get(field.type(), (ogr.OFTString, ogr.OFSTNone)))
         self.id_field = _unused(ID_FIELD, used)
         self._add_field(self.id_field, ogr.OFTInteger64, ogr.OFSTNone)
         self.definition = self.layer.GetLayerDefn()
-        # Bytes have a setter of their own.
+        # Binary fields need another function that sets their values.
         self.binary = [self.definition.GetFieldDefn(k).GetType() == ogr.OFTBinary for k in range(len(self.kept))]
 
     def _add_field(self, name, kind, subtype):
@@ -167,7 +170,7 @@ class _Target:
         self.layer.CreateField(field)
 
     def add(self, feature):
-        """The FID that it got."""
+        """Copies a feature, and returns the FID of the copy. Raises BadValue if that fails."""
         row = ogr.Feature(self.definition)
         attributes = feature.attributes()
         for k, i in enumerate(self.kept):
@@ -196,23 +199,25 @@ def _last_error():
 
 
 class Marks:
-    """Features for which something is true, as a table that SQL can ask."""
+    """The features for which holds(feature) is true, as a table of FIDs that SQL can read."""
 
     def __init__(self, table, holds):
         self.table, self.holds = table, holds
         self.sql, self.ids = None, []
 
     def write(self, dataset, key):
-        """After the layer; key: the name of its FIDs."""
+        """Writes the table, after all features were copied, and sets sql to the condition that selects them. key is the
+        name of the column of FIDs of the layer."""
         dataset.ExecuteSQL("CREATE TABLE %s (id INTEGER PRIMARY KEY)" % self.table)
-        for begin in range(0, len(self.ids), 500):  # SQLite takes some hundred rows at once
+        for begin in range(0, len(self.ids), 500):  # SQLite takes some hundred rows in one statement
             some = ",".join("(%d)" % each for each in self.ids[begin:begin + 500])
             dataset.ExecuteSQL("INSERT INTO %s VALUES %s" % (self.table, some))
         self.sql = '"%s" IN (SELECT id FROM %s)' % (key, self.table)
 
 
 def expression_of(text, context, label):
-    """A function of features: is the expression true of it? Null is no."""
+    """Returns a function that says whether the expression is true for a feature; null counts as false. Raises BadValue
+    for an expression that has an error, and so does the function."""
     expression = QgsExpression(text)
     if expression.hasParserError() or not expression.prepare(context):
         raise BadValue("%s: %s" % (label, expression.parserErrorString() or expression.evalErrorString()))
@@ -228,7 +233,8 @@ def expression_of(text, context, label):
 
 
 def copy(source, path, name, marks, feedback):
-    """Copies a source into a new GeoPackage. Returns the name of the field of QGIS's ids, or None if cancelled."""
+    """Copies a Source into the layer `name` of a new GeoPackage, and writes the tables of the marks. Returns the name
+    of the field that has the ids of QGIS, or None if the user cancelled."""
     target = _Target(path, name, source)
     target.dataset.StartTransaction()
     every = max(1, (source.count or 0) // 100)
@@ -238,7 +244,7 @@ def copy(source, path, name, marks, feedback):
             if feedback.isCanceled():
                 return None
             feedback.setProgress(100 * done / source.count if source.count and source.count > 0 else 0)
-        # Those without a FID take what the others leave.
+        # Features without a FID are copied last, so that they get FIDs that no other feature has.
         if feature.id() < 0:
             negative.append(feature)
         else:

@@ -1,4 +1,4 @@
-"""sunder:sum"""
+"""The algorithm sunder:sum, which runs `sunder sum`."""
 from .algorithm import LINES, POINTS, POLYGONS, Algorithm, Input, Output
 
 SHAPES = "square:6, rectangle:4x3, disc:3 or WKT"
