@@ -441,7 +441,7 @@ typedef struct sunder_separation {
     bool rounded_is_free;    /* the doubles (dx, dy) separate the two sets as well; this was checked exactly */
     sunder_contact contact;  /* what the translated Q touches */
     double dx, dy, distance; /* the least translation and its length, rounded to the nearest doubles */
-    double lower_bound;      /* a proved lower bound of the least length, rounded down; distance up to 1e-9 of it */
+    double lower_bound;      /* a proved lower bound of the least length, less than distance by at most 1e-9 of it */
     char *dx_text, *dy_text, *distance_squared_text; /* exact values, "num" or "num/den"; owned by the struct */
     sunder_counts counts;
 } sunder_separation;
@@ -452,7 +452,7 @@ typedef struct sunder_separation {
  * It is the global minimum over all free placements, including degenerate ones (exact slides and fits). If several
  * translations are shortest, it is the lexicographically smallest of them; the comparison is exact, also with a gap.
  * With a gap the optimum may be irrational. Then the translation is rational, provably keeps the gap, and is longer
- * than the optimum by at most 1e-9 of its length; lower_bound is the length of the optimum, rounded down.
+ * than the optimum by at most 1e-9 of its length; lower_bound is then a lower bound of the length of the optimum.
  *
  * gap     Finite and >= 0.
  * out     On success its texts belong to the caller, who frees them with sunder_separation_clear(). If P or Q is empty,
@@ -522,7 +522,7 @@ typedef void (*sunder_trace)(const sunder_trace_event *event, void *user);
 typedef struct sunder_layer_options {
     size_t size;            /* sizeof(sunder_layer_options) */
     double gap;             /* >= 0 */
-    double touch_tolerance; /* features that are at most this far apart touch; negative (the default): gap / 10 */
+    double touch_tolerance; /* a distance or thin overlap up to this is a touch; negative (the default): gap / 10 */
     bool no_blocks;         /* features do not join blocks by touch or containment */
     bool no_touch;          /* features do not join blocks by touch */
     double thin;            /* if the tolerance is 0: count the overlaps that this tolerance would join; 0: no count */
@@ -532,8 +532,8 @@ typedef struct sunder_layer_options {
     sunder_progress progress; /* NULL for none */
     void *progress_user;
     bool allow_jumps; /* features may jump over others, or out of a yard: see sunder_layer_separate() */
-    double effort;    /* >= 0: the number of steps, not the time, that the search for better layouts, for proofs,
-                       * and for changes that would solve a conflict may take; 0: no search */
+    double effort;    /* >= 0: a factor of the number of steps, not of the time, that the search for better layouts,
+                       * for proofs, and for changes that would solve a conflict may take; 0: no search */
     uint64_t seed;    /* the seed of the random search for better layouts */
     bool keep_trees;  /* keep the trees for sunder_report_bound_trees(), which takes memory */
     bool keep_pushes; /* keep the forces for sunder_report_pushes() */
@@ -699,21 +699,21 @@ typedef struct sunder_report sunder_report;
 typedef struct sunder_layer_summary {
     size_t features, vertices, blocks, clusters, pairs_tested;
     size_t clusters_optimal;              /* contact groups whose cost is proved to be least */
-    sunder_conflict_counts before, after; /* of a check: both the same */
+    sunder_conflict_counts before, after; /* at the start and in the result; equal in a check */
     size_t thin;                    /* pairs between blocks that overlapped by at most options.thin at the start */
     size_t inside_overlaps;         /* pairs inside blocks that are listed as overlaps in the result */
     size_t moved, blocked, skipped; /* the numbers of features with these statuses */
     size_t blocked_moved;           /* blocked features that moved, because of other conflicts */
     size_t rounded;                 /* moved features with a coordinate that had to be rounded to a double */
-    double total, mean, max; /* of the lengths of moves: the mean is over all features that moved, blocked or not */
-    size_t max_feature;      /* the first feature with the longest move; SIZE_MAX if nothing moved */
+    double total, mean, max;        /* lengths of moves; the mean is over all features that moved, blocked or not */
+    size_t max_feature;             /* the first feature with the longest move; SIZE_MAX if nothing moved */
     /* cost is the sum of weight * length^2 over the moves. lower_bound is proved: no placement costs less that solves
      * every pair that is not listed, leaves no listed pair worse than at the start, and leaves no pair in overlap that
      * is listed as too close. */
     double cost, lower_bound;
-    /* The bound that sunder_report_bound_pairs() proves by least translations alone, if no feature may come to lie in
-     * another. It is not part of lower_bound, which trees prove: they prove a little less for a pair, and nothing for
-     * two features of which one may come to lie in the other. */
+    /* The bound that the pairs of sunder_report_bound_pairs() prove by their least translations alone. It holds if no
+     * feature of these pairs comes to lie in the other. It is not part of lower_bound, which trees prove: they prove a
+     * little less for a pair, and nothing for two features of which one may come to lie in the other. */
     double pair_bound;
     /* True if every pair that is neither listed nor inside a block was proved to keep its distance (or to lie inside,
      * if it may overlap then), and no listed pair is worse than at the start. */
