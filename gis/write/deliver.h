@@ -16,7 +16,8 @@ typedef struct gis_destinations {
     const char *proof;    /* --proof: a file; NULL: not requested */
     const char *trace;    /* --trace: a file; NULL: not requested */
     const char *input[2]; /* the operands that are read (data sources, texts, @FILEs); NULL after the last */
-    const char *shape[3]; /* the values of options that take a SHAPE; each may be NULL */
+    const char *shape[3]; /* the values of options that take a SHAPE (text or @FILE), so that no result
+                           * replaces such a file; each may be NULL */
 } gis_destinations;
 
 /* Checks the destinations before the work, so that a run does not fail at its end. Fails if two of the files of

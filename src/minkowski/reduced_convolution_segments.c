@@ -234,7 +234,8 @@ static bool are_too_many(const sunder_i_reduced *r, uint32_t n)
     return (double)found * step * step > (is_brief(all_x, all_y) ? MOST_PAIRS : MOST_PAIRS / 3) * (p < q ? p : q);
 }
 
-/* Sorts the segments from left to right, and sets the successor of each. Returns false if out of memory. */
+/* Sorts the segments from left to right, and sets `next` of each to the segment that starts where it ends, if there
+ * is one. Returns false if out of memory. */
 static bool arrange_segments(sunder_i_reduced *r, const made *s)
 {
     const uint32_t n = r->segments;

@@ -63,7 +63,8 @@
  * 27 % of its cost in 2 s, instead of 37 % in 54 s; pairs alone prove 11 %. */
 #define CROWDED 2
 #define CROWD_LOOK 16
-/* At most MOST_GUESTS bodies in the way may join a tree (tree.c). */
+/* The branch and bound of a group (tree.c) takes in at most MOST_GUESTS guests: bodies that belong to no group, but
+ * that a body of the group runs into at the minimiser of a node. */
 #define MOST_GUESTS 24
 
 /* ---- Places with no room to spare (tight_place.c, tight_step.c, tight_rows.c) ------------------------------------ */

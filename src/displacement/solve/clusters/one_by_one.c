@@ -93,8 +93,9 @@ static void list_questions(const sunder_i_solver *s, const bool *wanted, questio
     first[*clusters] = n;
 }
 
-/* A limit for bodies that have none: the summed size of the n bodies, which lets each move past all others, or how far
- * body `first` has to move past the barriers among them. */
+/* Returns the longest move to allow for bodies that have no limit: the greater of the summed sizes and gaps of those
+ * of the n bodies that are no barriers, with which each can pass all others, and of how far body `first` has to move
+ * to be past any barrier among them. */
 static double far_for(const sunder_i_model *model, uint32_t first, const uint32_t *body, size_t n)
 {
     double far = 0, beyond = 0;
@@ -254,8 +255,9 @@ static bool make_proposal(const asking *g, uint32_t which, const sunder_i_soluti
     return out->restored != NULL;
 }
 
-/* Makes one cluster of the solution's bodies, unless a cluster of theirs has a proposal already: *fits. taken: [bodies]
- * by roots. False if memory is out. */
+/* Merges the clusters of the solution's bodies into one and marks it as taken. If one of these clusters is taken by
+ * an earlier solution, merges nothing and sets *fits to false, else to true. taken: [bodies], indexed by the root of
+ * a cluster. Returns false if memory is out. */
 static bool join_solution(sunder_i_solver *s, const sunder_i_solution *solution, bool *taken, bool *fits)
 {
     *fits = true;

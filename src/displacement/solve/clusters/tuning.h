@@ -97,8 +97,9 @@
 
 /* ---- Two bodies that are shut in (shut_in_conflicts.c) ----------------------------------------------------------- */
 
-/* A line may be short of the exact one by the share COARSE_IN_PLANE of how far the two bodies may move: proofs are
- * smaller then, and few are missed. */
+/* Each half-plane that the relative move of the two bodies must satisfy may demand less than the exact one, by the
+ * share COARSE_IN_PLANE of the limits of the two: one line can then replace several, so proofs are smaller, and few
+ * are missed. */
 #define COARSE_IN_PLANE 0x1p-8
 /* Two bodies with more than MOST_IN_PLANE pairs of pieces are not examined. Nor is another pair of the same two bodies
  * examined after failed work of EFFORT_IN_VAIN: a block in the yard of another, 160,000 pairs in all, took 3 s without

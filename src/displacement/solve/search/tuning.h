@@ -437,10 +437,11 @@
 #define SHAKE_VAIN 0.5
 #define SHAKE_GAIN 3e-4
 #define PAIRS_A_SHAKE 8
-/* A group of more than HEAP bodies for which no descent ended is perturbed with patience. The work of a descent grows
- * by the factor MORE_PATIENCE after HASTY descents in a row that did not end. This goes on until SHAKEN_IN_VAIN
- * descents in a row ended and gained less than the share SHAKEN_LITTLE, or until SHAKE_WORK_MOST work for each step is
- * done. In one of ONE_TURN perturbations moves are rotated. */
+/* If no descent of a group of more than HEAP bodies ended within its work, the group is perturbed again. The work
+ * that one descent may take is multiplied by MORE_PATIENCE after every HASTY descents in a row that did not end.
+ * This stops once SHAKEN_IN_VAIN descents in a row ended and each gained less than the share SHAKEN_LITTLE, or once
+ * the work reaches SHAKE_WORK_MOST times the steps granted to the group. On average one perturbation in ONE_TURN
+ * turns the moves of neighbouring bodies by one random angle. */
 #define HEAP 16
 #define MORE_PATIENCE 4
 #define HASTY 2
