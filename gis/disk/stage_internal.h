@@ -42,8 +42,8 @@ void gis_stage_place_of(const char *final_path, char **directory, char **name);
 
 /* ---- stage_entries.c: entries of an open directory --------------------------------------------------------------- */
 
-/* Sets `mark` to inode, size and time of modification of a file, none of which a rename changes. False if there is no
- * such file. */
+/* Sets `mark` to the inode, the size and the time of modification of a file. A rename changes none of the three.
+ * Returns false if there is no such file. */
 enum { GIS_MARK_SIZE = 128 };
 bool gis_entry_mark(int directory, const char *name, char mark[GIS_MARK_SIZE]);
 /* Is there an entry of this name? A link counts, whatever it refers to. */
