@@ -27,12 +27,15 @@ for page in ${manual:+"$manual"/sunder-*.1}; do
 done
 for header in sunder sunder_proof sunder_parts; do
     page=$site/reference/${header//_/__}_8h.html
-    for name in $(grep -E '^(SUNDER_API|SUNDER_EXPERIMENTAL|static inline) ' "$SUNDER_SOURCE/src/$header.h" |
-        grep -o 'sunder_[a-z_]*(' | tr -d '('); do
-        grep -q "[\";>]$name</a>\|>$name<\| $name " "$page" || fail "the reference of $header.h lacks $name"
-    done
+    python3 "$here/described.py" "$SUNDER_SOURCE/src/$header.h" "$page" || fail "the reference of $header.h lacks these"
 done
-grep -q 'Separates the features at little cost' "$site/reference/sunder_8h.html" || fail "the reference has no descriptions"
+
+# A function that the page lacks is found, and one whose description it lacks.
+printf '/* Words of none. */\nSUNDER_API int sunder_version(void);\nSUNDER_API int sunder_nowhere(void);\n' >"$work/wrong.h"
+if python3 "$here/described.py" "$work/wrong.h" "$site/reference/sunder_8h.html" >"$work/said"; then
+    fail "functions that the reference lacks pass"
+fi
+[ "$(grep -c . "$work/said")" -eq 2 ] || fail "functions that the reference lacks are not named"
 
 # A page that leads nowhere is found out, by its file and by its part.
 cp -r "$site" "$work/wrong"
