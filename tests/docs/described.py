@@ -36,7 +36,8 @@ def main():
             first = " ".join(words(comment.group(1))[:WORDS])
             if first not in shown:
                 lacking.append(f"{name}: {first} ...")
-    print("\n".join(lacking))
+    for line in lacking:
+        print(line)
     sys.exit(1 if lacking or not described else 0)
 
 
