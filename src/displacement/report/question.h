@@ -5,19 +5,8 @@
 #include "base/patience.h"
 #include "displacement/prove/proofs/feasibility.h"
 #include "displacement/report/report.h"
+#include "displacement/report/small_layer.h"
 #include "displacement/solve/clusters/cluster_stages.h"
-
-/* The small layer around one conflict. The first `moving` features may move, all others are fixed. */
-typedef struct sunder_i_surroundings {
-    sunder_i_list feature; /* features, by their numbers in the whole layer */
-    sunder_i_list part;    /* parts of barriers, by their numbers in the whole layer */
-    size_t moving;
-    sunder_feature *as;      /* [feature.n] the properties with which each takes part */
-    sunder_shape **standing; /* [feature.n] owned: the shapes of features that moved in the result, at their present
-                              * positions; NULL for others */
-    double known[4];         /* every feature that reaches into this box is in the small layer */
-    double farthest;         /* the longest move that a feature may make in it */
-} sunder_i_surroundings;
 
 /* Requirements of listed pairs of features in the whole layer, sorted. The caller frees the list. All zero: empty. */
 typedef struct sunder_i_requirement_memo {
@@ -52,11 +41,6 @@ typedef struct sunder_i_answer {
     double refuted; /* if not yes: about the least gap for which a search is known to fail */
 } sunder_i_answer;
 
-/* Collects the features and barriers of the small layer around a conflict. The caller calls
- * sunder_i_surroundings_clear() even if this fails. */
-sunder_status sunder_i_surround(const sunder_i_solver *solver, const sunder_conflict *conflict,
-                                sunder_i_surroundings *surroundings, sunder_error *err);
-void sunder_i_surroundings_clear(sunder_i_surroundings *surroundings);
 /* Sets *few to whether the small layer contains other listed pairs, and at most NEED_ALL of them, so that they can be
  * required to be solved, too. */
 sunder_status sunder_i_few_are_listed(const sunder_i_questions *questions, const sunder_i_surroundings *surroundings,
