@@ -1,5 +1,5 @@
 # shellcheck shell=bash
-# What the tests of the house share: where the sources are, what a plan states, and a tally of what is wrong.
+# What the tests of the house share: where the sources are, the list of floors, and a tally of what is wrong.
 root=$SUNDER_SOURCE
 wrong=0
 
@@ -11,7 +11,7 @@ say() {
 # Every source of a tree, as a path below it.
 sources() { (cd "$root/$1" && find . \( -name '*.c' -o -name '*.h' -o -name '*.inc' \) | sed 's#^\./##' | sort); }
 
-# The folders of a tree's plan, from the lowest floor to the highest.
+# The folders of a tree, from the lowest floor to the highest.
 floors() { sed -n '/^```floors$/,/^```$/p' "$root/$1/README.md" | sed '/^```/d' | awk '{print $1}' | tac; }
 
 # Lines "from to file" for each include of another folder's header. One process reads them all: a process for each file and
