@@ -100,7 +100,7 @@ void gis_sentences_clear(gis_sentences *list)
 /* A driver may repeat a warning for each feature; at most this number of different warnings is kept. */
 enum { WARNINGS_KEPT = 100 };
 
-static void CPL_STDCALL hear_report(CPLErr class, CPLErrorNum number, const char *text)
+static void CPL_STDCALL hear_message(CPLErr class, CPLErrorNum number, const char *text)
 {
     (void)number;
     gis_listener *listener = CPLGetErrorHandlerUserData();
@@ -114,7 +114,7 @@ static void CPL_STDCALL hear_report(CPLErr class, CPLErrorNum number, const char
     }
 }
 
-void gis_listen_begin(gis_listener *listener) { CPLPushErrorHandlerEx(hear_report, listener); }
+void gis_listen_begin(gis_listener *listener) { CPLPushErrorHandlerEx(hear_message, listener); }
 
 void gis_listen_end(void) { CPLPopErrorHandler(); }
 

@@ -1,7 +1,7 @@
 /* buffer.c: the command sunder buffer. It reads a layer, dilates or erodes it, rounds the result and writes it. */
 #include "base/message.h"
 #include "base/resources.h"
-#include "commands/command_report.h"
+#include "commands/command_stats.h"
 #include "commands/commands.h"
 #include "commands/progress_shares.h"
 #include "commands/resolve.h"

@@ -3,7 +3,7 @@
 #define GIS_CALL_H
 
 #include "options/options.h"
-#include "report/page.h"
+#include "page/page.h"
 
 /* The given options, in the order of gis_option_table; an option with a list of values has an entry for each value.
  * Start zeroed; clear on failure, too. */

@@ -1,7 +1,7 @@
 /* check.c: the command sunder check. It lists all overlaps and all pairs that are too close in a layer, exactly. */
 #include "base/interrupt.h"
 #include "base/message.h"
-#include "commands/command_report.h"
+#include "commands/command_stats.h"
 #include "commands/commands.h"
 #include "commands/progress_shares.h"
 #include "commands/resolve.h"

@@ -69,8 +69,8 @@ static bool open_sink(const gis_options *options, const gis_operands *operands, 
            gis_sink_open(&request, gis_operands_source(operands), sink, error);
 }
 
-static bool report_pair(const gis_destinations *to, const gis_operands *operands, const sunder_separation *answer,
-                        gis_sink *sink, bool taken, gis_error *error)
+static bool deliver_pair(const gis_destinations *to, const gis_operands *operands, const sunder_separation *answer,
+                         gis_sink *sink, bool taken, gis_error *error)
 {
     gis_json text = {0};
     gis_sink_result result;
@@ -101,7 +101,7 @@ int gis_command_pair(const gis_options *options)
     ok = ok && (!to.output || open_sink(options, &operands, to.output, &sink, &error));
     if (ok && sunder_pair_separate(operands.p, operands.q, gap, &answer, &why) != SUNDER_OK)
         ok = gis_core_failed(&error, NULL, &why);
-    ok = ok && report_pair(&to, &operands, &answer, sink, taken, &error);
+    ok = ok && deliver_pair(&to, &operands, &answer, sink, taken, &error);
     gis_sink_free(sink);
     sunder_separation_clear(&answer);
     gis_operands_clear(&operands);

@@ -2,7 +2,7 @@
  * writes it as JSON or as layers. */
 #include "base/core_error.h"
 #include "base/message.h"
-#include "commands/command_report.h"
+#include "commands/command_stats.h"
 #include "commands/commands.h"
 #include "commands/resolve.h"
 #include "read/source_files.h"
@@ -115,7 +115,7 @@ static bool write_layers(route_run *run, gis_error *error)
     return true;
 }
 
-static bool report_route(route_run *run, bool taken, gis_error *error)
+static bool deliver_route(route_run *run, bool taken, gis_error *error)
 {
     gis_json text = {0};
     bool ok = (!run->sink || write_layers(run, error)) && json_route(&text, run, error) &&
@@ -134,7 +134,7 @@ int gis_command_route(const gis_options *options)
     bool taken,
         ok = gis_destinations_check(&run.to, &taken, &error) && gis_resolve_route(options, &run.request, &error) &&
              gis_route_input_read(&run.request, &run.input, &error) && (!run.to.output || open_sink(&run, &error));
-    ok = ok && find_route(&run, &error) && report_route(&run, taken, &error);
+    ok = ok && find_route(&run, &error) && deliver_route(&run, taken, &error);
     int status = ok ? gis_complete_status(options, run.reason[0] != '\0') : gis_say_failure(&error);
     gis_sink_free(run.sink);
     sunder_route_free(run.route);

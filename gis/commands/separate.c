@@ -2,7 +2,7 @@
  * summary. */
 #include "base/message.h"
 #include "base/resources.h"
-#include "commands/command_report.h"
+#include "commands/command_stats.h"
 #include "commands/commands.h"
 #include "commands/progress_shares.h"
 #include "commands/resolve.h"

@@ -1,7 +1,7 @@
 /* separate_deliver.c: delivers the results of a separation: the output, --stats, --report, --proof, --trace and the
  * summary. Either all of them are put in place, or none. */
 #include "commands/call.h"
-#include "commands/command_report.h"
+#include "commands/command_stats.h"
 #include "commands/resolve.h"
 #include "commands/separate_run.h"
 

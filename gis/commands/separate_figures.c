@@ -1,7 +1,7 @@
 /* separate_figures.c: the statistics of a separation: JSON for --stats, and the summary on standard output. JSON keys
  * are written in the order in which the manual page lists them; scripts may rely on the keys. */
 #include "base/resources.h"
-#include "commands/command_report.h"
+#include "commands/command_stats.h"
 #include "commands/resolve.h"
 #include "commands/separate_run.h"
 #include "read/crs_units.h"

@@ -4,7 +4,7 @@
 #include "base/json.h"
 #include "base/message.h"
 #include "base/resources.h"
-#include "commands/command_report.h"
+#include "commands/command_stats.h"
 #include "commands/commands.h"
 #include "commands/planned.h"
 #include "commands/resolve.h"

@@ -3,7 +3,7 @@
 #include "base/interrupt.h"
 #include "base/message.h"
 #include "base/resources.h"
-#include "commands/command_report.h"
+#include "commands/command_stats.h"
 #include "commands/commands.h"
 #include "commands/resolve.h"
 #include "sum/sum_layers.h"
@@ -254,7 +254,7 @@ static bool write_layers(sum_run *run, gis_error *error)
     return true;
 }
 
-static bool report_sum(sum_run *run, bool taken, gis_error *error)
+static bool deliver_sum(sum_run *run, bool taken, gis_error *error)
 {
     bool wanted = !run->sink && !taken; /* the complete sum is printed to standard output */
     gis_json geometry = {.need_comma = true}, whole = {0}, stats = {0};
@@ -286,7 +286,7 @@ int gis_command_sum(const gis_options *options)
                      gis_operands_read(&request, &run.operands, &error);
     run.read = gis_clock() - run.start - run.operands.building;
     ok = ok && (!run.to.output || open_sink(&run, &error));
-    ok = ok && compute_sum(&run, &error) && report_sum(&run, taken, &error);
+    ok = ok && compute_sum(&run, &error) && deliver_sum(&run, taken, &error);
     gis_sink_free(run.sink);
     sunder_sum_free(run.sum);
     sunder_shape_free(run.reflected);

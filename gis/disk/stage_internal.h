@@ -17,7 +17,7 @@
 /* The names of all stages: this prefix and six letters or digits. */
 #define GIS_STAGE_PREFIX ".sunder-"
 /* Entries inside the stage: the directory to which replaced files are moved until everything is in place, and the
- * record of the planned renames, which exists while they are made. */
+ * record of all renames, which exists while they are made. */
 #define GIS_STAGE_OLD "superseded~"
 #define GIS_STAGE_RECORD "record~"
 

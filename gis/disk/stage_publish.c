@@ -2,8 +2,8 @@
  *
  * Everything is synced before the first rename. A rename is atomic: if a single file replaces a single file, the old
  * one or the new one is there at every moment. Several renames are not atomic, and the process may be killed between
- * two of them. So a record of the plan is written and synced first, replaced files are moved aside into the stage, and
- * new files are moved to their places, the main one last. As long as one new file is still in the stage the run is
+ * two of them. So a record of the renames is written and synced first, replaced files are moved aside into the stage,
+ * and new files are moved to their places, the main one last. As long as one new file is still in the stage the run is
  * unfinished, and the next run that finds the record can restore the old state (stage_remains.c); after the last rename
  * the new state is complete. */
 #define _GNU_SOURCE

@@ -168,7 +168,7 @@ static sunder_status relate_last(sunder_i_solver *s, sunder_error *err)
 }
 
 /* Reports progress, unless `status` is an error already. */
-static sunder_status report_progress(const sunder_i_solver *s, double fraction, sunder_status status, sunder_error *err)
+static sunder_status pass_progress(const sunder_i_solver *s, double fraction, sunder_status status, sunder_error *err)
 {
     if (status || sunder_i_progress(&s->model.rules, fraction)) return status;
     return sunder_i_failure_cause(err);
@@ -194,15 +194,15 @@ static sunder_status explain_result(sunder_i_solver *s, const sunder_layer_optio
     if (!status) status = sunder_i_report_bound(report, s, err);
     if (!status) status = sunder_i_report_optimality(report, s, err);
     if (!status) status = sunder_i_report_pushes(report, s, err);
-    status = report_progress(s, BOUNDED, status, err);
+    status = pass_progress(s, BOUNDED, status, err);
     if (!status) status = sunder_i_report_proofs(report, s, sunder_i_decide, err);
     if (!status) status = sunder_i_report_blockers(report, s, err);
-    status = report_progress(s, PROVED, status, err);
+    status = pass_progress(s, PROVED, status, err);
     if (!status) trace_conflicts(s, report);
     if (!status) status = sunder_i_report_cluster_needs(report, s, true, err);
     if (!status) status = sunder_i_report_needs(report, s, options, answer_question, err);
     if (!status) status = sunder_i_report_cluster_needs(report, s, false, err);
-    return report_progress(s, SUNDER_PROGRESS_EXPLAINED, status, err);
+    return pass_progress(s, SUNDER_PROGRESS_EXPLAINED, status, err);
 }
 
 /* Writes the result to the report, in the internal order of features. */

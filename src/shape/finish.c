@@ -40,8 +40,8 @@ static bool is_identity(const uint32_t *number, uint32_t n)
     return true;
 }
 
-static layout plan_layout(const double *xy, const size_t *ring_end, const size_t *poly_end, size_t polygons,
-                          const sunder_i_rings *r, const sunder_i_pieces *pieces)
+static layout choose_layout(const double *xy, const size_t *ring_end, const size_t *poly_end, size_t polygons,
+                            const sunder_i_rings *r, const sunder_i_pieces *pieces)
 {
     layout l = {.raw_rings = polygons ? poly_end[polygons - 1] : 0,
                 .raw_polygons = (uint32_t)polygons,
@@ -131,7 +131,7 @@ static sunder_shape *allocate_shape(uint32_t vertices, const sunder_i_pieces *pi
 sunder_shape *sunder_i_shape_assemble(const double *xy, const size_t *ring_end, const size_t *poly_end, size_t polygons,
                                       const sunder_i_rings *r, const sunder_i_pieces *pieces)
 {
-    const layout l = plan_layout(xy, ring_end, poly_end, polygons, r, pieces);
+    const layout l = choose_layout(xy, ring_end, poly_end, polygons, r, pieces);
     const sunder_i_cleaned head = {.rings = r->rings, .polygons = r->polygons};
     arrays to;
     sunder_shape *s = allocate_shape(r->vertices, pieces, &l, &head, &to);

@@ -28,7 +28,7 @@ typedef struct finder {
     size_t left; /* the number of pairs that may still be tested */
 } finder;
 
-static bool report_fault(finder *c, sunder_i_fault fault, uint32_t e, uint32_t f)
+static bool note_fault(finder *c, sunder_i_fault fault, uint32_t e, uint32_t f)
 {
     /* the later edge is named first, so that "crosses segment 4" refers to an earlier one */
     c->problem->fault = fault;
@@ -54,7 +54,7 @@ static bool visit_touch(finder *c, uint32_t e, uint32_t f, uint32_t p, uint32_t 
     if (sunder_i_in_wedge(c->r, p, u1, w1, u2) == sunder_i_in_wedge(c->r, p, u1, w1, w2)) return true;
     const bool overlap = same_direction(c->r, p, u1, u2) || same_direction(c->r, p, u1, w2) ||
                          same_direction(c->r, p, w1, u2) || same_direction(c->r, p, w1, w2);
-    return report_fault(c, overlap ? SUNDER_I_OVERLAPS : SUNDER_I_CROSSES, e, f);
+    return note_fault(c, overlap ? SUNDER_I_OVERLAPS : SUNDER_I_CROSSES, e, f);
 }
 
 /* Tests two collinear edges. */
@@ -67,7 +67,7 @@ static bool visit_collinear(finder *c, uint32_t e, uint32_t f)
     if (sunder_i_rings_cmp(r, g, h) > 0) swap = g, g = h, h = swap;
     const uint32_t low = sunder_i_rings_cmp(r, a, g) > 0 ? a : g, high = sunder_i_rings_cmp(r, b, h) < 0 ? b : h;
     const int order = sunder_i_rings_cmp(r, low, high);
-    if (order < 0) return report_fault(c, SUNDER_I_OVERLAPS, e, f);
+    if (order < 0) return note_fault(c, SUNDER_I_OVERLAPS, e, f);
     if (order == 0 && ((low == e && high == f) || (low == f && high == e)))
         return visit_touch(c, e, f, e, r->prev[e], r->next[e], r->prev[f], r->next[f]);
     return true;
@@ -85,7 +85,7 @@ static bool visit_pair(void *user, uint32_t e, uint32_t f)
     if (og == 0 && oh == 0) return visit_collinear(c, e, f);
     const int oa = sunder_i_rings_orient(r, g, h, a), ob = sunder_i_rings_orient(r, g, h, b);
     if (oa * ob > 0) return true;
-    if (og && oh && oa && ob) return report_fault(c, SUNDER_I_CROSSES, e, f);
+    if (og && oh && oa && ob) return note_fault(c, SUNDER_I_CROSSES, e, f);
     /* The lines cross in one point, which is an end of an edge. First vertices of edges take part in three ways;
      * contacts of second vertices only are found at the edges that begin there. */
     if (og == 0 && oa == 0) return visit_touch(c, e, f, a, r->prev[a], b, r->prev[g], h);

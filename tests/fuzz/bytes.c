@@ -99,12 +99,12 @@ sunder_shape *fuzz_shape(fuzz_bytes *bytes, fuzz_scale scale, size_t max_vertice
     const size_t most = scale == FUZZ_ANY             ? MAX_VERTICES_ANY
                         : max_vertices < MAX_VERTICES ? max_vertices
                                                       : MAX_VERTICES;
-    unsigned plan = fuzz_byte(bytes);
-    size_t wanted = 1 + plan % 3;
-    sunder_validity validity = plan & 8 ? SUNDER_VALIDITY_STRICT : SUNDER_VALIDITY_EVEN_ODD;
+    unsigned choices = fuzz_byte(bytes);
+    size_t wanted = 1 + choices % 3;
+    sunder_validity validity = choices & 8 ? SUNDER_VALIDITY_STRICT : SUNDER_VALIDITY_EVEN_ODD;
     for (size_t r = 0; r < wanted; ++r) {
         size_t count = fuzz_byte(bytes) % 11; /* rings of none, one and two vertices too */
-        if (plan & 16) {                      /* a rectangle: the one ring that strict validity likes without luck */
+        if (choices & 16) {                   /* a rectangle: random vertices seldom make another ring that is valid */
             double x0 = fuzz_coordinate(bytes, scale), y0 = fuzz_coordinate(bytes, scale);
             double x1 = fuzz_coordinate(bytes, scale), y1 = fuzz_coordinate(bytes, scale);
             const double corners[8] = {x0, y0, x1, y0, x1, y1, x0, y1};
@@ -118,10 +118,10 @@ sunder_shape *fuzz_shape(fuzz_bytes *bytes, fuzz_scale scale, size_t max_vertice
             }
         }
         ring_end[rings++] = n;
-        if (plan & 32) /* each ring a polygon of its own, else holes of the first */
+        if (choices & 32) /* each ring a polygon of its own, else holes of the first */
             poly_end[polygons++] = rings;
     }
-    if (!(plan & 32)) poly_end[polygons++] = rings;
+    if (!(choices & 32)) poly_end[polygons++] = rings;
     sunder_shape *shape = NULL;
     sunder_error error = {0};
     sunder_status status = sunder_shape_from_rings(xy, ring_end, poly_end, polygons, validity, &shape, &error);

@@ -100,16 +100,16 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     fuzz_bytes bytes = {data, size};
-    unsigned fail = fuzz_byte(&bytes), plan = fuzz_byte(&bytes);
-    fuzz_scale scale = plan & 1 ? FUZZ_MAP : FUZZ_GRID;
+    unsigned fail = fuzz_byte(&bytes), choices = fuzz_byte(&bytes);
+    fuzz_scale scale = choices & 1 ? FUZZ_MAP : FUZZ_GRID;
     sunder_feature features[MOST];
     sunder_layer_options options;
-    size_t n = 0, wanted = 2 + plan / 2 % (MOST - 1);
+    size_t n = 0, wanted = 2 + choices / 2 % (MOST - 1);
     fuzz_fail_allocations(0);
     fuzz_patience(FUZZ_LOOKS);
     sunder_layer_options_init(&options);
-    options.gap = plan & 64 ? (double)(fuzz_byte(&bytes) % 16) / 4 : 0;
-    options.touch_tolerance = plan & 128 ? -1 : 0;
+    options.gap = choices & 64 ? (double)(fuzz_byte(&bytes) % 16) / 4 : 0;
+    options.touch_tolerance = choices & 128 ? -1 : 0;
     choose_ways(&bytes, &options);
     while (n < wanted && bytes.left > 0) {
         sunder_shape *shape = fuzz_shape(&bytes, scale, 12);

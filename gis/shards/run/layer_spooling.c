@@ -115,7 +115,7 @@ static bool add_feature(spooling *s, size_t i, char **copy, gis_error *error)
            id_text(input, i, copy, number, &feature.id, error) && gis_spool_add(to, &feature, error);
 }
 
-/* Is the feature written to a spool? An ignored feature is written only if the report will draw all features and its
+/* Is the feature written to a spool? An ignored feature is written only if the page will draw all features and its
  * shape is not empty; it then goes to the separate spool GIS_SPOOL_ASIDE. */
 static bool is_spooled(const spooling *s, size_t i)
 {

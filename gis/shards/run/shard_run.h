@@ -70,7 +70,7 @@ bool gis_shard_run_join(gis_shard_run *parts, uint64_t options, sunder_layer_sum
 /* The result of a joined run (run_result.c). The run and the input, which gis_shard_run_open_source() filled in, are
  * borrowed. */
 gis_result gis_shard_run_result(gis_shard_run *parts, const gis_layer_input *input);
-/* The content of the report (run_view.c); see layer/result_view.h. */
+/* The content of the page (run_view.c); see layer/result_view.h. */
 bool gis_shard_run_view(const gis_result *result, gis_result_view *out, gis_error *error);
 /* Writes the file of --proof (run_proof.c). It fails as gis_proof_print() does. */
 bool gis_shard_run_proof(gis_shard_run *parts, const gis_layer_input *input, const sunder_layer_summary *summary,

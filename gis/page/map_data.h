@@ -1,8 +1,8 @@
 /* map_data.h: the data of the interactive map of the page, read by its script. */
-#ifndef GIS_REPORT_MAP_DATA_H
-#define GIS_REPORT_MAP_DATA_H
+#ifndef GIS_PAGE_MAP_DATA_H
+#define GIS_PAGE_MAP_DATA_H
 
-#include "report/thinning.h"
+#include "page/thinning.h"
 
 /* Adds one JSON object; it is safe within a script element. */
 bool gis_map_data_write(const gis_page_model *model, const gis_thinning *thinning, gis_text *to, gis_error *error);

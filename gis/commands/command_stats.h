@@ -1,6 +1,6 @@
-/* command_report.h: parts of the statistics that several commands print. */
-#ifndef GIS_COMMAND_REPORT_H
-#define GIS_COMMAND_REPORT_H
+/* command_stats.h: parts of the statistics that several commands print. */
+#ifndef GIS_COMMAND_STATS_H
+#define GIS_COMMAND_STATS_H
 
 #include "base/json.h"
 #include "options/options.h"

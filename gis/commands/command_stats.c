@@ -1,6 +1,6 @@
-/* command_report.c: see command_report.h. JSON keys are written in the order in which the manual page lists them;
+/* command_stats.c: see command_stats.h. JSON keys are written in the order in which the manual page lists them;
  * scripts may rely on the keys. */
-#include "commands/command_report.h"
+#include "commands/command_stats.h"
 
 #include "base/exit_status.h"
 

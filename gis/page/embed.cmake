@@ -1,6 +1,6 @@
-# Puts the files of page/ into a C file, for template.h:
+# Puts the files of template/ into a C file, for template.h:
 #
-#   cmake -D FOLDER=page -D "SCRIPTS=a.js;b.js" -D OUTPUT=page_template.c -P embed.cmake
+#   cmake -D FOLDER=template -D "SCRIPTS=a.js;b.js" -D OUTPUT=page_template.c -P embed.cmake
 #
 # The scripts become one, in this order. Their hash, and the style sheet's, are what the page's content security policy
 # allows: nothing else on it runs.
@@ -50,7 +50,7 @@ foreach(each IN LISTS SCRIPTS)
 endforeach()
 file(APPEND "${script}" "})();\n")
 
-file(WRITE "${OUTPUT}.part" "/* Made by embed.cmake from report/page. */\n#include \"report/template.h\"\n\n")
+file(WRITE "${OUTPUT}.part" "/* Made by embed.cmake from page/template. */\n#include \"page/template.h\"\n\n")
 embed("${FOLDER}/page.html" gis_template_page)
 embed("${FOLDER}/page.css" gis_template_style)
 embed("${script}" gis_template_script)

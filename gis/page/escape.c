@@ -8,7 +8,7 @@
  *
  * A script element ends at "</script" and changes its rules at "<!--": without a "<" neither can occur. U+2028 and
  * U+2029 end lines in old JavaScript. */
-#include "report/escape.h"
+#include "page/escape.h"
 
 #include <stdint.h>
 #include <string.h>

@@ -1,8 +1,8 @@
 /* lede.c: the first sentences of the page: the request as it was typed, and its result. A length appears as it was
  * typed ("0.2 mm"), followed by its value in units of the layer. */
 #include "base/path.h"
-#include "report/escape.h"
-#include "report/sections.h"
+#include "page/escape.h"
+#include "page/sections.h"
 
 #include <cpl_conv.h>
 #include <math.h>
@@ -22,13 +22,13 @@ static void add_typed(const gis_page_model *model, const gis_optional_length *ty
 static void add_length(const gis_page_model *model, const gis_optional_length *typed, double value, gis_text *to)
 {
     if (!typed->text || typed->length.unit == GIS_LAYER_UNIT) {
-        gis_report_length(to, value, &model->unit);
+        gis_print_length(to, value, &model->unit);
         return;
     }
     add_typed(model, typed, to);
     if (typed->length.unit == GIS_METRE && strcmp(model->unit.length, "m") == 0) return;
     gis_text_add(to, " (");
-    gis_report_length(to, value, &model->unit);
+    gis_print_length(to, value, &model->unit);
     gis_text_add(to, ")");
 }
 
@@ -103,7 +103,7 @@ static void add_task(const gis_page_model *model, gis_text *to)
     gis_page_add_number_of(to, model->n, "feature", "features");
     if (input->request->scale > 0) {
         gis_text_add(to, " for a map at 1:");
-        gis_report_number(to, input->request->scale, 12);
+        gis_print_number(to, input->request->scale, 12);
     }
     if (input->gap > 0) {
         gis_text_add(to, ", to stand at least ");
@@ -125,13 +125,13 @@ static void add_solved(size_t before, size_t after, gis_text *to)
         gis_text_add(to, after == 0 ? "The one conflict is solved" : "The one conflict remains");
     } else if (after == 0) {
         gis_text_add(to, "All ");
-        gis_report_count(to, before);
+        gis_print_count(to, before);
         gis_text_add(to, " conflicts are solved");
     } else {
         gis_text_add(to, "Of ");
-        gis_report_count(to, before);
+        gis_print_count(to, before);
         gis_text_add(to, " conflicts, ");
-        gis_report_count(to, after);
+        gis_print_count(to, after);
         gis_text_add(to, after == 1 ? " remains" : " remain");
     }
 }
@@ -140,7 +140,7 @@ bool gis_page_lede(const gis_page_model *model, const gis_thinning *thinning, gi
 {
     (void)thinning, (void)error;
     const sunder_layer_summary *summary = model->request->summary;
-    const size_t before = gis_page_count(&summary->before), after = gis_page_count(&summary->after);
+    const size_t before = gis_page_conflict_count(&summary->before), after = gis_page_conflict_count(&summary->after);
     add_task(model, to);
     if (before == 0) {
         gis_text_add(to, "There was nothing to do: no two were in conflict.");
@@ -150,7 +150,7 @@ bool gis_page_lede(const gis_page_model *model, const gis_thinning *thinning, gi
     if (model->n_moved > 0) {
         gis_text_add(to, "; ");
         gis_page_add_number_of(to, model->n_moved, "feature moved, by ", "features moved, by ");
-        gis_report_length(to, summary->mean, &model->unit);
+        gis_print_length(to, summary->mean, &model->unit);
         gis_text_add(to, model->n_moved == 1 ? "" : " on average");
     }
     gis_text_add(to, ".");

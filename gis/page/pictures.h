@@ -1,10 +1,10 @@
 /* pictures.h: the static pictures of the page, as SVG with the colours of the style sheet. They need no script and can
  * be printed. */
-#ifndef GIS_REPORT_PICTURES_H
-#define GIS_REPORT_PICTURES_H
+#ifndef GIS_PAGE_PICTURES_H
+#define GIS_PAGE_PICTURES_H
 
-#include "report/drawing.h"
-#include "report/page_model.h"
+#include "page/drawing.h"
+#include "page/page_model.h"
 
 /* Adds a picture of the whole layer, before or after the moves. */
 bool gis_page_add_overview(const gis_page_model *model, bool after, gis_text *to, gis_error *error);

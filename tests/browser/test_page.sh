@@ -69,6 +69,6 @@ expect 0 separate points.gpkg shifted.gpkg --symbol disc:2 --gap 1 --no-blocks -
 run separate many.gpkg many_out.gpkg -l buildings --gap 2 --max-shift 4 --report many.html -q --layers main
 [ "$(wc -c <many.html)" -lt 4000000 ] || fail "the page of 20,000 buildings has $(wc -c <many.html) bytes"
 
-timeout 240 python3 "$here/report.py" "$chromium" "$work/profile" "$work" || fail "the browser says otherwise"
+timeout 240 python3 "$here/page.py" "$chromium" "$work/profile" "$work" || fail "the browser says otherwise"
 [ -z "${SUNDER_BUILD:-}" ] || cp town_before.png "$SUNDER_BUILD/browser_town_before.png" 2>/dev/null
 finish

@@ -1,10 +1,10 @@
 /* page.c: see page.h. It writes the template; a section of another file fills each slot. */
-#include "report/page.h"
+#include "page/page.h"
 
-#include "report/map_data.h"
-#include "report/pictures.h"
-#include "report/sections.h"
-#include "report/template.h"
+#include "page/map_data.h"
+#include "page/pictures.h"
+#include "page/sections.h"
+#include "page/template.h"
 
 #include <string.h>
 

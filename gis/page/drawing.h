@@ -1,7 +1,7 @@
 /* drawing.h: converts shapes to SVG paths of a picture, and simplifies them. Results are for display only and are not
  * exact. */
-#ifndef GIS_REPORT_DRAWING_H
-#define GIS_REPORT_DRAWING_H
+#ifndef GIS_PAGE_DRAWING_H
+#define GIS_PAGE_DRAWING_H
 
 #include "base/gis_error.h"
 #include "base/text.h"

@@ -1,7 +1,7 @@
 /* escape.h: escapes texts of the input (names, attributes, paths) for the page. Any bytes become visible characters,
  * never markup or script. */
-#ifndef GIS_REPORT_ESCAPE_H
-#define GIS_REPORT_ESCAPE_H
+#ifndef GIS_PAGE_ESCAPE_H
+#define GIS_PAGE_ESCAPE_H
 
 #include "base/text.h"
 

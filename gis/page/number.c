@@ -1,5 +1,5 @@
 /* number.c: see number.h. Spaces within a number and before its unit are no-break spaces (U+202F, U+00A0). */
-#include "report/number.h"
+#include "page/number.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -16,11 +16,11 @@ static const double least_plain = 1e-4, most_plain = 1e15;
 /* Any two doubles differ in 17 digits. */
 enum { LENGTH_DIGITS = 3, AREA_DIGITS = 4, DIGITS_ENOUGH = 17 };
 
-gis_report_unit gis_report_unit_of(const char *name)
+gis_page_unit gis_page_unit_of(const char *name)
 {
     static const struct {
         const char *name;
-        gis_report_unit unit;
+        gis_page_unit unit;
     } known[] = {
         {"metre", {"m", "m\xC2\xB2"}},
         {"meter", {"m", "m\xC2\xB2"}},
@@ -31,7 +31,7 @@ gis_report_unit gis_report_unit_of(const char *name)
     };
     for (size_t i = 0; i < sizeof known / sizeof *known; i++)
         if (strcmp(known[i].name, name) == 0) return known[i].unit;
-    return (gis_report_unit){"", ""};
+    return (gis_page_unit){"", ""};
 }
 
 /* Writes digits in groups of three from the right; a number of four digits is not divided. */
@@ -43,7 +43,7 @@ static void add_grouped(gis_text *to, const char *digits, size_t n)
     }
 }
 
-void gis_report_count(gis_text *to, size_t n)
+void gis_print_count(gis_text *to, size_t n)
 {
     char digits[32];
     add_grouped(to, digits, (size_t)snprintf(digits, sizeof digits, "%zu", n));
@@ -73,7 +73,7 @@ static void add_raised(gis_text *to, int power)
     for (const char *c = text; *c; c++) gis_text_add(to, *c == '-' ? "\xE2\x81\xBB" : digits[*c - '0']);
 }
 
-void gis_report_number(gis_text *to, double value, int digits)
+void gis_print_number(gis_text *to, double value, int digits)
 {
     double size = fabs(value);
     if (isnan(value)) {
@@ -103,13 +103,13 @@ static void add_unit(gis_text *to, double value, const char *unit)
     gis_text_add(to, unit);
 }
 
-void gis_report_length(gis_text *to, double value, const gis_report_unit *unit)
+void gis_print_length(gis_text *to, double value, const gis_page_unit *unit)
 {
-    gis_report_number(to, value, LENGTH_DIGITS);
+    gis_print_number(to, value, LENGTH_DIGITS);
     add_unit(to, value, unit->length);
 }
 
-void gis_report_length_beside(gis_text *to, double value, double other, const gis_report_unit *unit)
+void gis_print_length_beside(gis_text *to, double value, double other, const gis_page_unit *unit)
 {
     int digits = LENGTH_DIGITS;
     char a[64], b[64];
@@ -118,13 +118,13 @@ void gis_report_length_beside(gis_text *to, double value, double other, const gi
         snprintf(b, sizeof b, "%.*e", digits - 1, other);
         if (value == other || strcmp(a, b) != 0) break;
     }
-    gis_report_number(to, value, digits);
+    gis_print_number(to, value, digits);
     add_unit(to, value, unit->length);
 }
 
-void gis_report_area(gis_text *to, double value, const gis_report_unit *unit)
+void gis_print_area(gis_text *to, double value, const gis_page_unit *unit)
 {
-    gis_report_number(to, value, AREA_DIGITS);
+    gis_print_number(to, value, AREA_DIGITS);
     add_unit(to, value, unit->area);
 }
 
@@ -140,27 +140,27 @@ static double to_side(double value, int digits, int sign)
     return sign * (said - value) >= 0 ? said : said + sign * step;
 }
 
-void gis_report_length_or_more(gis_text *to, double value, const gis_report_unit *unit)
+void gis_print_length_or_more(gis_text *to, double value, const gis_page_unit *unit)
 {
-    gis_report_length(to, to_side(value, LENGTH_DIGITS, 1), unit);
+    gis_print_length(to, to_side(value, LENGTH_DIGITS, 1), unit);
 }
 
-void gis_report_length_or_less(gis_text *to, double value, const gis_report_unit *unit)
+void gis_print_length_or_less(gis_text *to, double value, const gis_page_unit *unit)
 {
-    gis_report_length(to, to_side(value, LENGTH_DIGITS, -1), unit);
+    gis_print_length(to, to_side(value, LENGTH_DIGITS, -1), unit);
 }
 
-void gis_report_area_or_less(gis_text *to, double value, const gis_report_unit *unit)
+void gis_print_area_or_less(gis_text *to, double value, const gis_page_unit *unit)
 {
-    gis_report_area(to, to_side(value, AREA_DIGITS, -1), unit);
+    gis_print_area(to, to_side(value, AREA_DIGITS, -1), unit);
 }
 
-void gis_report_share_or_more(gis_text *to, double part)
+void gis_print_share_or_more(gis_text *to, double part)
 {
     double percent = part * 100;
     if (percent > 0 && percent < 0.1)
         gis_text_add(to, "&lt;" NO_BREAK "0.1");
     else
-        gis_report_number(to, percent < 10 ? ceil(percent * 10) / 10 : ceil(percent), LENGTH_DIGITS);
+        gis_print_number(to, percent < 10 ? ceil(percent * 10) / 10 : ceil(percent), LENGTH_DIGITS);
     gis_text_add(to, NO_BREAK "%");
 }

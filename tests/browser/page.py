@@ -1,6 +1,6 @@
-"""Asks a browser about pages of --report; see test_report.sh.
+"""Asks a browser about pages of --report; see test_page.sh.
 
-    report.py CHROMIUM PROFILE FOLDER
+    page.py CHROMIUM PROFILE FOLDER
 
 FOLDER holds two.html (two squares that overlap, moved one unit each), town.html, town.json (its --stats), town.geojson
 (its output), evil.html (a hostile layer, whose name is in evil.txt), quarter.html, quarter.json (much of it blocked, beside

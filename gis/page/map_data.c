@@ -16,12 +16,12 @@
  *   barrier        of each barrier its width, its lines in the form of shape, and its rings in the same form
  *   conflict       of each listed conflict: 1 if it is proved, else 0; then the two ends of its link, each as the
  *                  difference from the previous point */
-#include "report/map_data.h"
+#include "page/map_data.h"
 
 #include "base/interrupt.h"
 #include "base/json.h"
-#include "report/escape.h"
-#include "report/page_words.h"
+#include "page/escape.h"
+#include "page/page_words.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -5,7 +5,7 @@
  * moves first, those near any of these, and the rest. All other features are simplified with a tolerance, and those not
  * larger than it are omitted; the tolerance is doubled until the map is small enough. The choice depends on the layer
  * only. */
-#include "report/thinning.h"
+#include "page/thinning.h"
 
 #include "base/interrupt.h"
 

@@ -1,9 +1,9 @@
 /* thinning.h: chooses which features of a large layer the map of the page draws. */
-#ifndef GIS_REPORT_THINNING_H
-#define GIS_REPORT_THINNING_H
+#ifndef GIS_PAGE_THINNING_H
+#define GIS_PAGE_THINNING_H
 
-#include "report/drawing.h"
-#include "report/page_model.h"
+#include "page/drawing.h"
+#include "page/page_model.h"
 
 typedef enum gis_drawn {
     GIS_DRAWN_NOT,     /* without shape, or not larger than the tolerance */

@@ -4,8 +4,8 @@
 #define GIS_PAGE_MODEL_H
 
 #include "geometry/gis_box.h"
-#include "report/number.h"
-#include "report/page.h"
+#include "page/number.h"
+#include "page/page.h"
 
 /* A part of the map that is shown as a close-up. */
 typedef struct gis_page_place {
@@ -19,7 +19,7 @@ enum { GIS_PAGE_PLACES = 12 };
 
 typedef struct gis_page_model {
     const gis_page_request *request;
-    gis_report_unit unit;
+    gis_page_unit unit;
     size_t n;
     gis_view_feature *feature; /* [n] */
     double extent[4];          /* the bounding box of all features before and after their moves; all zero if there is

@@ -1,5 +1,5 @@
 /* page_words.c: see page_words.h. */
-#include "report/page_words.h"
+#include "page/page_words.h"
 
 #include <stddef.h>
 

@@ -1,8 +1,8 @@
 /* sections.h: the sections of the page that are text: headings, figures and tables. Each function adds HTML. */
-#ifndef GIS_REPORT_SECTIONS_H
-#define GIS_REPORT_SECTIONS_H
+#ifndef GIS_PAGE_SECTIONS_H
+#define GIS_PAGE_SECTIONS_H
 
-#include "report/thinning.h"
+#include "page/thinning.h"
 
 typedef bool gis_page_section(const gis_page_model *model, const gis_thinning *thinning, gis_text *to,
                               gis_error *error);
@@ -19,7 +19,7 @@ gis_page_section gis_page_certificate; /* what is proved, and the options of the
 gis_page_section gis_page_colophon;    /* version and date */
 
 /* Returns the number of pairs in conflict between blocks, of all kinds. */
-size_t gis_page_count(const sunder_conflict_counts *counts);
+size_t gis_page_conflict_count(const sunder_conflict_counts *counts);
 /* Writes "12 features": the number, then `one` or `many`. */
 void gis_page_add_number_of(gis_text *to, size_t n, const char *one, const char *many);
 /* Writes the opening tag of a link that shows `window` on the map. */

@@ -1,6 +1,6 @@
 /* histogram.c: the histogram of the lengths of moves. All bars have the same width, a round number. If a few moves are
  * far longer than the others, the last bar counts all of them and is labelled so. */
-#include "report/pictures.h"
+#include "page/pictures.h"
 
 #include <math.h>
 #include <string.h>
@@ -60,14 +60,14 @@ static void add_bar(const gis_page_model *model, const bars *all, size_t k, doub
     gis_text_print(to, "<g><rect class=\"%s\" x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\"/>",
                    last ? "bar rest" : "bar", x + 1, y, step - 2, height);
     gis_text_print(to, "<text class=\"count\" x=\"%.1f\" y=\"%.1f\">", x + step / 2, y - 6);
-    gis_report_count(to, all->count[k]);
+    gis_print_count(to, all->count[k]);
     gis_text_add(to, "</text><title>");
-    gis_report_count(to, all->count[k]);
+    gis_print_count(to, all->count[k]);
     gis_text_add(to, all->count[k] == 1 ? " feature: " : " features: ");
-    gis_report_number(to, (double)k * all->width, 4);
+    gis_print_number(to, (double)k * all->width, 4);
     if (!last) {
         gis_text_add(to, " to ");
-        gis_report_length(to, (double)(k + 1) * all->width, &model->unit);
+        gis_print_length(to, (double)(k + 1) * all->width, &model->unit);
     } else {
         gis_text_print(to, "%s%s and more", *model->unit.length ? " " : "", model->unit.length);
     }
@@ -84,7 +84,7 @@ static void add_axis(const gis_page_model *model, const bars *all, double step, 
         gis_text_print(to, "<path class=\"axis\" d=\"M%.1f %dv5\"/><text class=\"tick\" x=\"%.1f\" y=\"%d\">", x, base,
                        x, base + 19);
         if (k == BARS) gis_text_add(to, "\xE2\x89\xA5\xE2\x80\xAF");
-        gis_report_number(to, (double)k * all->width, 4);
+        gis_print_number(to, (double)k * all->width, 4);
         gis_text_add(to, "</text>\n");
     }
     gis_text_print(to, "<text class=\"title\" x=\"%d\" y=\"%d\">length of the move%s%s</text>\n", LEFT, HEIGHT - 4,

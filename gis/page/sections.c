@@ -1,17 +1,17 @@
 /* sections.c: see sections.h; the tables are in tables.c. */
-#include "report/sections.h"
+#include "page/sections.h"
 
 #include "base/json.h"
-#include "report/escape.h"
-#include "report/page_words.h"
-#include "report/pictures.h"
+#include "page/escape.h"
+#include "page/page_words.h"
+#include "page/pictures.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
 
-size_t gis_page_count(const sunder_conflict_counts *counts)
+size_t gis_page_conflict_count(const sunder_conflict_counts *counts)
 {
     return counts->overlap + counts->too_close + counts->barrier + counts->barrier_drawn + counts->barrier_near +
            counts->contained + counts->duplicate;
@@ -35,7 +35,7 @@ bool gis_page_title(const gis_page_model *model, const gis_thinning *thinning, g
 
 void gis_page_add_number_of(gis_text *to, size_t n, const char *one, const char *many)
 {
-    gis_report_count(to, n);
+    gis_print_count(to, n);
     gis_text_print(to, " %s", n == 1 ? one : many);
 }
 
@@ -55,16 +55,16 @@ bool gis_page_figures(const gis_page_model *model, const gis_thinning *thinning,
 {
     (void)thinning;
     const sunder_layer_summary *summary = model->request->summary;
-    size_t before = gis_page_count(&summary->before), after = gis_page_count(&summary->after);
+    size_t before = gis_page_conflict_count(&summary->before), after = gis_page_conflict_count(&summary->after);
     gis_text detail = {0};
     open_figure(to, after ? " bad" : " good", "conflicts");
-    gis_report_count(to, before);
+    gis_print_count(to, before);
     gis_text_add(to, " <span class=\"to\">\xE2\x86\x92</span> ");
-    gis_report_count(to, after);
+    gis_print_count(to, after);
     close_figure(to, after == 0 ? "none is left" : "are left, each with its reason");
 
     open_figure(to, "", "moved");
-    gis_report_count(to, summary->moved);
+    gis_print_count(to, summary->moved);
     gis_text_add(&detail, "of ");
     gis_page_add_number_of(&detail, model->n, "feature", "features");
     if (summary->blocked_moved) {
@@ -74,21 +74,21 @@ bool gis_page_figures(const gis_page_model *model, const gis_thinning *thinning,
     close_figure(to, detail.failed ? "" : gis_text_get(&detail));
 
     open_figure(to, "", "longest move");
-    gis_report_length(to, summary->max, &model->unit);
+    gis_print_length(to, summary->max, &model->unit);
     detail.length = 0;
     if (model->n_moved > 0) {
         gis_text_add(&detail, "mean ");
-        gis_report_length(&detail, summary->mean, &model->unit);
+        gis_print_length(&detail, summary->mean, &model->unit);
     }
     close_figure(to, detail.failed || !detail.length ? "" : gis_text_get(&detail));
 
     open_figure(to, "", "of the cost might be saved, at most");
-    gis_report_share_or_more(to, model->request->optimality_gap);
+    gis_print_share_or_more(to, model->request->optimality_gap);
     detail.length = 0;
     gis_text_add(&detail, "cost ");
-    gis_report_area(&detail, summary->cost, &model->unit);
+    gis_print_area(&detail, summary->cost, &model->unit);
     gis_text_add(&detail, ", proved bound ");
-    gis_report_area_or_less(&detail, summary->lower_bound, &model->unit);
+    gis_print_area_or_less(&detail, summary->lower_bound, &model->unit);
     close_figure(to, detail.failed ? "" : gis_text_get(&detail));
 
     open_figure(to, model->request->verified ? " good" : " bad", "verified");
@@ -117,7 +117,7 @@ static void add_barrier_note(const gis_page_model *model, const gis_thinning *th
     gis_text_add(to, " about them");
     if (thinning->barrier_tolerance > 0) {
         gis_text_add(to, ", drawn simplified by up to ");
-        gis_report_length(to, thinning->barrier_tolerance, &model->unit);
+        gis_print_length(to, thinning->barrier_tolerance, &model->unit);
     }
     gis_text_add(to, ".");
 }
@@ -138,11 +138,11 @@ bool gis_page_map_note(const gis_page_model *model, const gis_thinning *thinning
     gis_text_add(to, "The layer is large, so that the map is thinned: ");
     gis_page_add_number_of(to, thinning->whole, "feature is", "features are");
     gis_text_add(to, " drawn with every corner, those in conflict and the longest moves before all others; ");
-    gis_report_count(to, thinning->simpler);
+    gis_print_count(to, thinning->simpler);
     gis_text_add(to, " others are simplified by up to ");
-    gis_report_length(to, thinning->tolerance, &model->unit);
+    gis_print_length(to, thinning->tolerance, &model->unit);
     gis_text_add(to, ", and ");
-    gis_report_count(to, thinning->left_out);
+    gis_print_count(to, thinning->left_out);
     gis_text_add(
         to, " no larger than that are left out. This is for drawing alone: what was separated, and proved, are the "
             "features as they are.");
@@ -175,17 +175,17 @@ static bool add_caption(const gis_page_model *model, const gis_page_place *place
     gis_text_add(to, "</a><span class=\"what\">");
     if (!conflict) {
         gis_text_add(to, "moved by ");
-        gis_report_length(to, gis_page_length(&model->feature[place->feature]), &model->unit);
+        gis_print_length(to, gis_page_length(&model->feature[place->feature]), &model->unit);
     } else {
         gis_text_print(to, "%s, ", gis_page_kind(conflict->kind));
-        gis_report_length_beside(to, conflict->depth > 0 ? conflict->depth : conflict->distance, conflict->required,
-                                 &model->unit);
+        gis_print_length_beside(to, conflict->depth > 0 ? conflict->depth : conflict->distance, conflict->required,
+                                &model->unit);
         gis_text_print(to, " %s: %s", conflict->depth > 0 ? "deep" : "apart",
                        gis_page_reason(gis_page_reason_of(conflict)));
     }
     if (place->others > 0) {
         gis_text_add(to, "; ");
-        gis_report_count(to, place->others);
+        gis_print_count(to, place->others);
         gis_text_add(to, " more here");
     }
     gis_text_add(to, "</span>");
@@ -200,7 +200,7 @@ static bool add_place(const gis_page_model *model, const gis_page_place *place, 
     gis_text_add(to, "</div><figcaption>");
     if (!add_caption(model, place, to, error)) return false;
     gis_text_add(to, "<span class=\"wide\">");
-    gis_report_length(to, place->window[2] - place->window[0], &model->unit);
+    gis_print_length(to, place->window[2] - place->window[0], &model->unit);
     gis_text_add(to, " wide</span></figcaption></figure></li>\n");
     return true;
 }
@@ -228,9 +228,9 @@ bool gis_page_moves(const gis_page_model *model, const gis_thinning *thinning, g
     gis_text_add(to, "<p class=\"note\">");
     gis_page_add_number_of(to, model->n_moved, "move", "moves");
     gis_text_add(to, ", together ");
-    gis_report_length(to, model->request->summary->total, &model->unit);
+    gis_print_length(to, model->request->summary->total, &model->unit);
     gis_text_add(to, "; half of them no longer than ");
-    gis_report_length(to, gis_page_length(&model->feature[model->moved[model->n_moved / 2]]), &model->unit);
+    gis_print_length(to, gis_page_length(&model->feature[model->moved[model->n_moved / 2]]), &model->unit);
     gis_text_add(to, ".</p></section>\n");
     return true;
 }

@@ -3,7 +3,7 @@
  * Conflicts are sorted by severity: by the depth of the overlap, then by the missing part of the gap, largest first.
  * Pairs that may overlap (SUNDER_REASON_KEPT) come last. Ties are broken by the numbers of the features, so that the
  * order is unique. */
-#include "report/page_model.h"
+#include "page/page_model.h"
 
 #include <cpl_conv.h>
 #include <math.h>
@@ -252,7 +252,7 @@ static void choose_places(gis_page_model *model)
 bool gis_page_model_make(const gis_page_request *request, gis_page_model *model, gis_error *error)
 {
     *model =
-        (gis_page_model){.request = request, .n = request->view->features, .unit = gis_report_unit_of(request->unit)};
+        (gis_page_model){.request = request, .n = request->view->features, .unit = gis_page_unit_of(request->unit)};
     if (!take_features(model, error) || !take_barriers(model, error) || !take_conflicts(model, error) ||
         !take_moves(model, error))
         return false;

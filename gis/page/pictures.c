@@ -1,9 +1,9 @@
 /* pictures.c: see pictures.h. Each class of features is one path with the class name of the style sheet; features that
  * did not move are at the bottom, those in conflict on top. The unit is a tenth of a pixel. */
-#include "report/pictures.h"
+#include "page/pictures.h"
 
 #include "base/interrupt.h"
-#include "report/page_words.h"
+#include "page/page_words.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,9 +1,9 @@
 /* tables.c: the tables of the page: the remaining conflicts, and the certificate. The attribute data-value of a cell
  * has the number by which the table is sorted; cells with unknown values lack it and are sorted last. */
 #include "base/json.h"
-#include "report/escape.h"
-#include "report/page_words.h"
-#include "report/sections.h"
+#include "page/escape.h"
+#include "page/page_words.h"
+#include "page/sections.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -26,7 +26,7 @@ static void open_number(gis_text *to, double value)
 static void add_length_cell(const gis_page_model *model, double value, gis_text *to)
 {
     open_number(to, value);
-    gis_report_length(to, value, &model->unit);
+    gis_print_length(to, value, &model->unit);
     gis_text_add(to, "</td>");
 }
 
@@ -54,12 +54,12 @@ static bool add_needs(const gis_page_model *model, const sunder_conflict *confli
     gis_text_add(to, "<td>");
     if (!isnan(conflict->need_shift)) {
         gis_text_add(to, "moves of up to ");
-        gis_report_length_or_more(to, conflict->need_shift, &model->unit);
+        gis_print_length_or_more(to, conflict->need_shift, &model->unit);
         separator = "; or ";
     }
     if (!isnan(conflict->need_gap)) {
         gis_text_print(to, "%sa gap of ", separator);
-        gis_report_length_or_less(to, conflict->need_gap, &model->unit);
+        gis_print_length_or_less(to, conflict->need_gap, &model->unit);
         separator = "; or ";
     }
     if (conflict->need_gone != SIZE_MAX) {
@@ -92,7 +92,7 @@ static bool add_row(const gis_page_model *model, const sunder_conflict *conflict
     gis_text_print(to, "</td><td>%s</td><td title=\"%s\">%s</td>", gis_page_kind(conflict->kind),
                    gis_page_explanation(reason), gis_page_reason(reason));
     open_number(to, conflict->distance);
-    gis_report_length_beside(to, conflict->distance, conflict->required, &model->unit);
+    gis_print_length_beside(to, conflict->distance, conflict->required, &model->unit);
     gis_text_add(to, "</td>");
     add_length_cell(model, conflict->depth, to);
     add_length_cell(model, conflict->required, to);
@@ -111,7 +111,7 @@ static void add_reasons(const gis_page_model *model, gis_text *to)
         for (size_t k = 0; k < model->n_conflicts; k++) n += gis_page_reason_of(model->conflict[k]) == reason;
         if (!n) continue;
         gis_text_print(to, "<div><dt>%s</dt><dd><span class=\"number\">", gis_page_reason(reason));
-        gis_report_count(to, n);
+        gis_print_count(to, n);
         gis_text_print(to, "</span> %s</dd></div>\n", gis_page_explanation(reason));
     }
     gis_text_add(to, "</dl>\n");
@@ -122,7 +122,7 @@ static void add_rest(const gis_page_model *model, size_t shown, const char *clas
 {
     if (model->n_conflicts <= shown) return;
     gis_text_print(to, "<p class=\"note %s\">The worst %zu of ", class, shown);
-    gis_report_count(to, model->n_conflicts);
+    gis_print_count(to, model->n_conflicts);
     gis_text_add(to, "; all are in the layer <bdi>");
     gis_escape_markup(to, model->request->main_layer);
     gis_text_add(to, "_conflicts</bdi> of the output.</p>\n");
@@ -177,9 +177,9 @@ static void add_counts(const gis_page_model *model, gis_text *to)
                      "<th scope=\"col\">before</th><th scope=\"col\">after</th></tr></thead><tbody>\n");
     for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
         gis_text_print(to, "<tr><th scope=\"row\">%s</th><td class=\"number\">", rows[k].name);
-        gis_report_count(to, rows[k].before);
+        gis_print_count(to, rows[k].before);
         gis_text_add(to, "</td><td class=\"number\">");
-        gis_report_count(to, rows[k].after);
+        gis_print_count(to, rows[k].after);
         gis_text_add(to, "</td></tr>\n");
     }
     gis_text_add(to, "</tbody></table>\n");
@@ -205,7 +205,7 @@ static void add_seconds(const gis_page_request *request, gis_text *to)
     open_term(to, "seconds");
     for (size_t k = 0; k < sizeof stages / sizeof *stages; k++) {
         gis_text_print(to, "%s%s ", k ? ", " : "", stages[k].stage);
-        gis_report_number(to, stages[k].seconds, 2);
+        gis_print_number(to, stages[k].seconds, 2);
     }
     close_term(to);
 }
@@ -217,26 +217,26 @@ static void add_proof(const gis_page_model *model, gis_text *to)
     const gis_layer_rules *rules = &request->input->request->rules;
     gis_text_add(to, "<dl class=\"terms\">\n");
     open_term(to, "cost");
-    gis_report_area(to, summary->cost, &model->unit);
+    gis_print_area(to, summary->cost, &model->unit);
     gis_text_print(to, " <span class=\"aside\">the sum of squared moves%s</span>",
                    rules->weighting != GIS_WEIGHTING_EVEN || rules->weight_field ? ", each by its weight" : "");
     close_term(to);
     open_term(to, "proved lower bound");
-    gis_report_area_or_less(to, summary->lower_bound, &model->unit);
+    gis_print_area_or_less(to, summary->lower_bound, &model->unit);
     gis_text_add(
         to,
         " <span class=\"aside\">any layout that solves the same pairs, and makes no remaining conflict worse, costs "
         "at least this much</span>");
     close_term(to);
     open_term(to, "optimality gap");
-    gis_report_share_or_more(to, request->optimality_gap);
+    gis_print_share_or_more(to, request->optimality_gap);
     close_term(to);
     open_term(to, "groups");
-    gis_report_count(to, summary->clusters);
+    gis_print_count(to, summary->clusters);
     gis_text_add(to, " <span class=\"aside\">of features that had to be placed together</span>");
     close_term(to);
     open_term(to, "proved optimal");
-    gis_report_count(to, summary->clusters_optimal);
+    gis_print_count(to, summary->clusters_optimal);
     gis_text_add(to, " <span class=\"aside\">of the groups: no layout costs less</span>");
     close_term(to);
     open_term(to, "verified");
@@ -245,11 +245,11 @@ static void add_proof(const gis_page_model *model, gis_text *to)
                                      : "not all coordinates were checked as written");
     close_term(to);
     open_term(to, "blocks");
-    gis_report_count(to, summary->blocks);
+    gis_print_count(to, summary->blocks);
     gis_text_add(to, " <span class=\"aside\">features that touch and move as one</span>");
     close_term(to);
     open_term(to, "left aside");
-    gis_report_count(to, summary->skipped);
+    gis_print_count(to, summary->skipped);
     gis_text_add(to, " <span class=\"aside\">ignored, without geometry, or of another kind</span>");
     close_term(to);
     add_seconds(request, to);

@@ -1,6 +1,6 @@
 /* page.h: the page of --report, one HTML file that shows a separated layer and loads no other file. */
-#ifndef GIS_REPORT_PAGE_H
-#define GIS_REPORT_PAGE_H
+#ifndef GIS_PAGE_H
+#define GIS_PAGE_H
 
 #include "base/text.h"
 #include "layer/layer_input.h"

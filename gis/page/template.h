@@ -1,6 +1,6 @@
-/* template.h: the files of page/, which the build embeds in the program (embed.cmake). */
-#ifndef GIS_REPORT_TEMPLATE_H
-#define GIS_REPORT_TEMPLATE_H
+/* template.h: the files of template/, which the build embeds in the program (embed.cmake). */
+#ifndef GIS_PAGE_TEMPLATE_H
+#define GIS_PAGE_TEMPLATE_H
 
 extern const char gis_template_page[];  /* page.html: HTML with slots {{name}} */
 extern const char gis_template_style[]; /* page.css */

@@ -4,7 +4,7 @@
  * result may have overlapping edges along a side of the box; the box is larger than the window, so that they are not
  * visible. Coordinates of the picture are rounded to integers and repeated vertices omitted, which keeps the paths of
  * small shapes short. */
-#include "report/drawing.h"
+#include "page/drawing.h"
 
 #include "base/array.h"
 
