@@ -501,6 +501,12 @@ typedef enum sunder_containment {
 /* "block", "ignore", "separate"; never NULL. */
 SUNDER_API const char *sunder_containment_string(sunder_containment containment);
 
+/* Which features count as rows: neighbours that stand side by side along a line, such as the houses of a street. */
+typedef enum sunder_rows {
+    SUNDER_ROWS_NONE, /* no rows are looked for */
+    SUNDER_ROWS_FOUND /* rows are found in the layer as it is given; src/displacement/rows/README has the rule */
+} sunder_rows;
+
 /* What one stage of sunder_layer_separate() did, for developers. Experimental: the words for passes, stages, steps and
  * outcomes may change with any version (docs/trace.md). Strings and arrays are valid during the call only. */
 typedef struct sunder_trace_event {
@@ -546,6 +552,8 @@ typedef struct sunder_layer_options {
     double barrier_reach;
     sunder_trace trace; /* NULL for none */
     void *trace_user;
+    sunder_rows rows; /* rows are only reported; not with keep_worlds */
+    double kink;      /* a kink greater than this counts in summary.kink_share; negative (the default): gap / 10 */
 } sunder_layer_options;
 
 /* Returns the distance from the box (xmin, ymin, xmax, ymax) of a feature within which barriers can decide on which
@@ -722,6 +730,11 @@ typedef struct sunder_layer_summary {
      * needs, bounds and pushes); and seconds for the exact checks of all pairs after the last move. A check has only
      * seconds_verify. */
     double seconds_solve, seconds_explain, seconds_verify;
+    /* Rows, blocks and single features in them, and the pairs of neighbours in them. The kink of a pair is the length
+     * of its relative move at right angles to the row: its mean, the value that 95 % do not exceed, and the share of
+     * pairs with a kink above options.kink. */
+    size_t rows, row_features, row_pairs;
+    double kink_mean, kink_p95, kink_share;
 } sunder_layer_summary;
 
 /* Lists the conflicts of a layer as it stands, exactly. The caller frees the report with sunder_report_free().
@@ -801,6 +814,24 @@ typedef struct sunder_push {
 
 /* Returns the pushes, sorted by (a, b), and sets *n to their number; there are none unless keep_pushes was set. */
 SUNDER_EXPERIMENTAL const sunder_push *sunder_report_pushes(const sunder_report *report, size_t *n);
+
+/* A row of neighbours. */
+typedef struct sunder_row {
+    /* The features of the row in order, from the end with the smaller number on; a row in the form of a ring begins at
+     * its smallest number. A block appears with the member nearest to the block before it and the one nearest to the
+     * block after it, once if these are the same. Owned by the report. */
+    const size_t *feature; /* [features] */
+    size_t features;
+    size_t bodies; /* the number of blocks and single features */
+    bool ring;     /* the last one is a neighbour of the first one */
+    /* The greatest offset of two neighbours, at the start and in the result. An offset is that of their fronts, backs
+     * or middle lines, whichever is the least at the start. */
+    double kink_before, kink_after;
+} sunder_row;
+
+/* Returns the rows, in the order of their features, and sets *n to their number; there are none unless options.rows was
+ * set. */
+SUNDER_EXPERIMENTAL const sunder_row *sunder_report_rows(const sunder_report *report, size_t *n);
 
 /* ---- Routes ----------------------------------------------------------------------------------------------- */
 

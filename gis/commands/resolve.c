@@ -106,6 +106,15 @@ static bool resolve_contained(const gis_options *options, sunder_containment *ou
     return true;
 }
 
+/* Rows are found among polygons: the layers of points are those with a symbol. */
+static bool resolve_rows(const gis_options *options, sunder_rows *out, gis_error *error)
+{
+    const bool wanted = options->text[OPT_ROWS] && strcmp(options->text[OPT_ROWS], "auto") == 0;
+    *out = wanted ? SUNDER_ROWS_FOUND : SUNDER_ROWS_NONE;
+    if (!wanted || !(options->given[OPT_SYMBOL] || options->given[OPT_SYMBOL_FIELD])) return true;
+    return gis_fail_usage(error, "--rows: rows are found among polygons, and the symbols of points have none");
+}
+
 static bool resolve_rules(const gis_options *options, gis_layer_rules *out, gis_error *error)
 {
     unsigned weighting;
@@ -129,7 +138,7 @@ static bool resolve_rules(const gis_options *options, gis_layer_rules *out, gis_
     out->core.threads = thread_count(options);
     if (!resolve_choice(options, OPT_WEIGHT, weighting_word, &weighting, error)) return false;
     out->weighting = (gis_weighting)weighting;
-    return resolve_contained(options, &out->core.contained, error);
+    return resolve_rows(options, &out->core.rows, error) && resolve_contained(options, &out->core.contained, error);
 }
 
 /* Refuses a file of --stats, --report, --proof or --trace that is a file of a barrier's dataset. The reading of

@@ -62,6 +62,18 @@ static void json_losses(gis_json *out, const gis_sentences *losses)
     gis_json_close(out, ']');
 }
 
+static void json_rows(gis_json *out, const sunder_layer_summary *summary)
+{
+    gis_json_key(out, "rows");
+    gis_json_open(out, '{');
+    gis_json_put_size(out, "rows", summary->rows);
+    gis_json_put_size(out, "features", summary->row_features);
+    gis_json_put_double(out, "kink_mean", summary->kink_mean);
+    gis_json_put_double(out, "kink_p95", summary->kink_p95);
+    gis_json_put_double(out, "kink_share", summary->kink_share);
+    gis_json_close(out, '}');
+}
+
 void gis_separate_stats(gis_json *out, const gis_separate_run *run)
 {
     const sunder_layer_summary *summary = &run->summary;
@@ -92,6 +104,10 @@ void gis_separate_stats(gis_json *out, const gis_separate_run *run)
     gis_json_line(out);
     json_displacement(out, run);
     gis_json_line(out);
+    if (run->request.rules.core.rows) {
+        json_rows(out, summary);
+        gis_json_line(out);
+    }
     gis_json_put_bool(out, "verified", run->verified);
     gis_json_key(out, "losses");
     json_losses(out, gis_sink_losses(run->sink));
@@ -151,6 +167,16 @@ static void print_counts(const sunder_layer_summary *summary)
     }
 }
 
+static void print_rows(const gis_separate_run *run)
+{
+    const sunder_layer_summary *summary = &run->summary;
+    if (!run->request.rules.core.rows) return;
+    printf("rows %zu, features in them %zu\n", summary->rows, summary->row_features);
+    printf("kink of neighbours in rows (%s): mean %.3g, 95 %% at most %.3g, above %.3g: %.3g %%\n",
+           gis_separate_unit(run), summary->kink_mean, summary->kink_p95, gis_layer_kink(&run->input),
+           100 * summary->kink_share);
+}
+
 bool gis_separate_print(const void *separated, gis_error *error)
 {
     const gis_separate_run *run = separated;
@@ -169,6 +195,7 @@ bool gis_separate_print(const void *separated, gis_error *error)
     if (summary->max_feature < run->input.n) printf(" (FID " CPL_FRMT_GIB ")", longest_fid(run));
     printf("\ncost %.6g, at least %.6g is needed (optimality gap %.3g)\n", summary->cost, summary->lower_bound,
            gis_separate_optimality_gap(summary));
+    print_rows(run);
     if (gis_any_conflict(&summary->after) && (run->chosen & GIS_SEPARATE_CONFLICTS))
         printf("what remains in conflict is listed, each pair with its reason, in %s_conflicts\n",
                gis_resolve_sink(run->options, NULL, gis_source_name(run->input.source)).main_layer);

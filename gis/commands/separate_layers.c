@@ -7,18 +7,19 @@
 
 #include <string.h>
 
-bool gis_separate_choose_layers(const char *list, bool points, unsigned *chosen, gis_error *error)
+bool gis_separate_choose_layers(const char *list, bool points, bool rows, unsigned *chosen, gis_error *error)
 {
-    static const char *const names[GIS_SEPARATE_LAYERS] = {"main", "displacement", "conflicts", "pushes", "symbols"};
+    static const char *const names[GIS_SEPARATE_LAYERS] = {"main",   "displacement", "conflicts",
+                                                           "pushes", "rows",         "symbols"};
     const unsigned apply = GIS_SEPARATE_MAIN | GIS_SEPARATE_DISPLACEMENT | GIS_SEPARATE_CONFLICTS |
-                           GIS_SEPARATE_PUSHES | (points ? GIS_SEPARATE_SYMBOLS : 0u);
+                           GIS_SEPARATE_PUSHES | (rows ? GIS_SEPARATE_ROWS : 0u) | (points ? GIS_SEPARATE_SYMBOLS : 0u);
     *chosen = list ? 0 : apply;
     for (const char *rest = list; rest;) {
         size_t n = strcspn(rest, ","), k = 0;
         while (k < GIS_SEPARATE_LAYERS && (strlen(names[k]) != n || memcmp(names[k], rest, n) != 0)) k++;
         if (k == GIS_SEPARATE_LAYERS)
-            return gis_fail_usage(error, "--layers: %.*s is none of main, displacement, conflicts, pushes, symbols",
-                                  (int)n, rest);
+            return gis_fail_usage(
+                error, "--layers: %.*s is none of main, displacement, conflicts, pushes, rows, symbols", (int)n, rest);
         *chosen |= 1u << k;
         rest = rest[n] ? rest + n + 1 : NULL;
     }
@@ -29,11 +30,13 @@ bool gis_separate_choose_layers(const char *list, bool points, unsigned *chosen,
 bool gis_separate_open_sink(gis_separate_run *run, gis_error *error)
 {
     size_t n = 0;
-    if (!gis_separate_choose_layers(run->options->text[OPT_LAYERS], run->input.points, &run->chosen, error))
+    if (!gis_separate_choose_layers(run->options->text[OPT_LAYERS], run->input.points, run->request.rules.core.rows,
+                                    &run->chosen, error))
         return false;
     if (run->chosen & GIS_SEPARATE_DISPLACEMENT) run->suffixes[n++] = "displacement";
     if (run->chosen & GIS_SEPARATE_CONFLICTS) run->suffixes[n++] = "conflicts";
     if (run->chosen & GIS_SEPARATE_PUSHES) run->suffixes[n++] = "pushes";
+    if (run->chosen & GIS_SEPARATE_ROWS) run->suffixes[n++] = "rows";
     if (run->chosen & GIS_SEPARATE_SYMBOLS) run->suffixes[n++] = "symbols";
     gis_sink_request request = gis_resolve_sink(run->options, run->to.output, gis_source_name(run->input.source));
     request.suffixes = run->suffixes;
@@ -51,9 +54,9 @@ bool gis_separate_open_sink(gis_separate_run *run, gis_error *error)
 bool gis_separate_write_layers(gis_separate_run *run, gis_error *error)
 {
     const gis_result_layers layers = {
-        (run->chosen & GIS_SEPARATE_MAIN) != 0, (run->chosen & GIS_SEPARATE_DISPLACEMENT) != 0,
+        (run->chosen & GIS_SEPARATE_MAIN) != 0,      (run->chosen & GIS_SEPARATE_DISPLACEMENT) != 0,
         (run->chosen & GIS_SEPARATE_CONFLICTS) != 0, (run->chosen & GIS_SEPARATE_PUSHES) != 0,
-        (run->chosen & GIS_SEPARATE_SYMBOLS) != 0};
+        (run->chosen & GIS_SEPARATE_ROWS) != 0,      (run->chosen & GIS_SEPARATE_SYMBOLS) != 0};
     gis_sink_result written;
     gis_progress_stage(&run->progress, GIS_SEPARATE_DONE, 1);
     const double begin = gis_clock();

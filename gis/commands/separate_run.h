@@ -16,8 +16,9 @@ enum {
     GIS_SEPARATE_DISPLACEMENT = 2,
     GIS_SEPARATE_CONFLICTS = 4,
     GIS_SEPARATE_PUSHES = 8,
-    GIS_SEPARATE_SYMBOLS = 16,
-    GIS_SEPARATE_LAYERS = 5
+    GIS_SEPARATE_ROWS = 16,
+    GIS_SEPARATE_SYMBOLS = 32,
+    GIS_SEPARATE_LAYERS = 6
 };
 
 typedef struct gis_separate_run {
@@ -55,8 +56,8 @@ int gis_separate_end(gis_separate_run *run, bool done, const gis_error *error);
 /* ---- separate_layers.c: the layers ------------------------------------------------------------------------------- */
 
 /* *chosen becomes the layers that `list` (--layers; NULL: all) names and that apply; the layer of symbols applies to
- * points only. An unknown name is a usage error. */
-bool gis_separate_choose_layers(const char *list, bool points, unsigned *chosen, gis_error *error);
+ * points only, and that of rows only if rows are found. An unknown name is a usage error. */
+bool gis_separate_choose_layers(const char *list, bool points, bool rows, unsigned *chosen, gis_error *error);
 /* Opens the output before the computation, so that an output that must be refused is refused at once. */
 bool gis_separate_open_sink(gis_separate_run *run, gis_error *error);
 /* Writes the layers of run->result; only gis_deliver(), which puts the files in place, is left to do. */

@@ -15,6 +15,7 @@ typedef enum gis_style {
     GIS_STYLE_DISPLACEMENT, /* arrows */
     GIS_STYLE_CONFLICTS,    /* thick lines */
     GIS_STYLE_PUSHES,       /* lines whose width grows with the force */
+    GIS_STYLE_ROWS,         /* lines whose width grows with the kink */
     GIS_STYLE_SYMBOLS,      /* polygons around points */
     GIS_STYLE_RESULT        /* sums: polygons, lines or points by the layer's type */
 } gis_style;

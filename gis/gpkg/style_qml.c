@@ -246,6 +246,19 @@ static void add_pushes(gis_text *to)
     end_single(to);
 }
 
+/* Adds lines whose width grows with the kink that the row has now, and a dot where each begins. */
+static void add_rows(gis_text *to)
+{
+    static const char brown[] = "140,81,10,255";
+    begin_single(to);
+    begin_symbol(to, "line", "0");
+    add_line_by(to, brown,
+                "coalesce(0.2 + 1.0 * sqrt(&quot;kink_aft&quot; / nullif(maximum(&quot;kink_aft&quot;), 0)), 0.2)");
+    add_marker_line(to, "firstvertex", "0", "circle", brown, "1", NULL, NULL);
+    gis_text_print(to, "</symbol>\n");
+    end_single(to);
+}
+
 static void add_plain(gis_text *to, kind of, const char *colour, const char *outline)
 {
     begin_single(to);
@@ -265,6 +278,7 @@ void gis_style_qml(gis_text *to, gis_style style, OGRwkbGeometryType type)
     case GIS_STYLE_DISPLACEMENT: add_arrows(to); break;
     case GIS_STYLE_CONFLICTS: add_conflicts(to); break;
     case GIS_STYLE_PUSHES: add_pushes(to); break;
+    case GIS_STYLE_ROWS: add_rows(to); break;
     case GIS_STYLE_SYMBOLS: add_plain(to, of, "166,206,227,255", "31,78,120,255"); break;
     case GIS_STYLE_RESULT:
         if (of == OF_POLYGONS)

@@ -113,6 +113,9 @@ bool gis_layer_wrong_weight(const char *who, double weight, gis_error *error);
  * layer has no CRS. 0: nothing is reported, since this value could not be given as a tolerance. In run_core.c. */
 double gis_layer_thin(const gis_layer_input *input);
 
+/* The least kink of a row that is counted, in units of the layer: 0.1 mm on the sheet, or without a scale a tenth of
+ * the gap (run_core.c). */
+double gis_layer_kink(const gis_layer_input *input);
 /* The core's options according to the rules, without progress (run_core.c). */
 sunder_layer_options gis_layer_core_options(const gis_layer_input *input);
 

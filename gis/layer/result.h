@@ -20,6 +20,10 @@ typedef bool gis_conflict_visit(void *user, const sunder_conflict *conflict, con
 typedef bool gis_push_visit(void *user, const sunder_push *push, const gis_things *things, const double from[2],
                             const double to[2], gis_error *error);
 
+/* least_fid: the least FID of the row's features; xy: their anchors now. */
+typedef bool gis_house_row_visit(void *user, const sunder_row *row, GIntBig least_fid, const double *xy,
+                                 gis_error *error);
+
 typedef struct gis_result gis_result;
 
 /* The functions of one implementation. */
@@ -33,6 +37,8 @@ typedef struct gis_result_kind {
     bool (*conflicts)(const gis_result *result, gis_conflict_visit *visit, void *user, gis_error *error);
     /* Call it once only. */
     bool (*pushes)(const gis_result *result, gis_push_visit *visit, void *user, gis_error *error);
+    /* Visits the rows of neighbours; NULL: the implementation has none. */
+    bool (*rows)(const gis_result *result, gis_house_row_visit *visit, void *user, gis_error *error);
     /* Adds the layer of symbols to the sink and writes it. */
     bool (*symbols)(const gis_result *result, gis_sink *sink, gis_error *error);
     /* Writes the file of --proof. Fails as gis_proof_print() does. */
@@ -54,7 +60,7 @@ struct gis_result {
 
 /* Which layers are written. */
 typedef struct gis_result_layers {
-    bool main, displacement, conflicts, pushes, symbols;
+    bool main, displacement, conflicts, pushes, rows, symbols;
 } gis_result_layers;
 
 /* Writes the chosen layers, one after the other (result_layers.c). */

@@ -4,6 +4,8 @@
 #include "layer/output.h"
 #include "layer/proof.h"
 
+#include <stdlib.h>
+
 static gis_value block_value(const gis_result *r, bool has_null, size_t feature)
 {
     const gis_source *source = r->input->source;
@@ -81,6 +83,31 @@ static bool visit_pushes(const gis_result *r, gis_push_visit *visit, void *user,
     return true;
 }
 
+/* Visits one row; xy has room for the anchors of its features. */
+static bool visit_row(const gis_result *r, const sunder_row *row, double *xy, gis_house_row_visit *visit, void *user,
+                      gis_error *error)
+{
+    GIntBig least = OGRNullFID;
+    for (size_t k = 0; k < row->features; k++) {
+        const GIntBig fid = gis_source_fid(r->input->source, row->feature[k]);
+        if (k == 0 || fid < least) least = fid;
+        anchor_now(r, row->feature[k], xy + 2 * k);
+    }
+    return visit(user, row, least, xy, error);
+}
+
+static bool visit_rows(const gis_result *r, gis_house_row_visit *visit, void *user, gis_error *error)
+{
+    size_t n, longest = 0;
+    const sunder_row *row = sunder_report_rows(r->of, &n);
+    for (size_t k = 0; k < n; k++) longest = row[k].features > longest ? row[k].features : longest;
+    double *xy = malloc((2 * longest + 1) * sizeof *xy);
+    bool done = xy || gis_no_memory(error);
+    for (size_t k = 0; k < n && done; k++) done = visit_row(r, &row[k], xy, visit, user, error);
+    free(xy);
+    return done;
+}
+
 static bool write_symbols(const gis_result *r, gis_sink *sink, gis_error *error)
 {
     return gis_write_symbols(sink, r->input, r->of, error);
@@ -98,8 +125,7 @@ static OGRFieldType id_type(const gis_result *r) { return gis_id_type(r->input);
 
 gis_result gis_result_held(const gis_layer_input *input, sunder_report *report)
 {
-    static const gis_result_kind kind = {visit_features,       visit_arrows,  visit_conflicts,
-                                         visit_pushes,         write_symbols, write_proof,
-                                         gis_result_held_view, longest_fid,   id_type};
+    static const gis_result_kind kind = {visit_features, visit_arrows, visit_conflicts,      visit_pushes, visit_rows,
+                                         write_symbols,  write_proof,  gis_result_held_view, longest_fid,  id_type};
     return (gis_result){&kind, input, report};
 }

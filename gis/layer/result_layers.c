@@ -66,11 +66,24 @@ static bool write_pushes(const gis_result *r, gis_sink *sink, gis_error *error)
            r->kind->pushes(r, write_push, layer, error);
 }
 
+static bool write_house_row(void *layer, const sunder_row *row, GIntBig least_fid, const double *xy, gis_error *error)
+{
+    return gis_go_on(error) && gis_house_row(layer, row, least_fid, xy, error);
+}
+
+static bool write_rows(const gis_result *r, gis_sink *sink, gis_error *error)
+{
+    gis_sink_layer *layer;
+    return gis_house_rows_begin(sink, gis_source_crs(r->input->source), &layer, error) &&
+           r->kind->rows(r, write_house_row, layer, error);
+}
+
 bool gis_result_write(const gis_result *result, const gis_result_layers *layers, gis_sink *sink, gis_error *error)
 {
     return write_main(result, layers->main, sink, error) &&
            (!layers->displacement || write_displacement(result, sink, error)) &&
            (!layers->conflicts || write_conflicts(result, sink, error)) &&
            (!layers->pushes || write_pushes(result, sink, error)) &&
+           (!layers->rows || write_rows(result, sink, error)) &&
            (!layers->symbols || result->kind->symbols(result, sink, error));
 }

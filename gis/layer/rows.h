@@ -97,6 +97,12 @@ bool gis_pushes_begin(gis_sink *sink, OGRSpatialReferenceH crs, gis_sink_layer *
 bool gis_line_row(gis_sink_layer *layer, const gis_value *values, const double from[2], const double to[2],
                   gis_error *error);
 
+/* ---- LAYER_rows -------------------------------------------------------------------------------------------------- */
+
+bool gis_house_rows_begin(gis_sink *sink, OGRSpatialReferenceH crs, gis_sink_layer **layer, gis_error *error);
+/* Writes a row of neighbours. least_fid: the least FID of its features; xy: [2 * row->features] their anchors now. */
+bool gis_house_row(gis_sink_layer *layer, const sunder_row *row, GIntBig least_fid, const double *xy, gis_error *error);
+
 /* ---- LAYER_symbols ----------------------------------------------------------------------------------------------- */
 
 /* multi: some symbol has several polygons. */

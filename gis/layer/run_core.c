@@ -12,6 +12,16 @@ double gis_layer_thin(const gis_layer_input *input)
     return input->gap == 0 || thin < input->gap ? thin : 0;
 }
 
+/* A tenth of a millimetre on the sheet is the least kink that an eye sees. */
+double gis_layer_kink(const gis_layer_input *input)
+{
+    const gis_length least = {0.1, GIS_SHEET_MILLIMETRE};
+    gis_error error;
+    double kink;
+    if (input->units.scale > 0 && gis_length_in_layer_units(&least, &input->units, "", &kink, &error)) return kink;
+    return input->gap / 10;
+}
+
 /* Symbols join blocks by touching only if a tolerance is given, since symbols should stay distinct. */
 sunder_layer_options gis_layer_core_options(const gis_layer_input *input)
 {
@@ -23,6 +33,7 @@ sunder_layer_options gis_layer_core_options(const gis_layer_input *input)
     core.thin = gis_layer_thin(input);
     core.drop_proofs = !core.keep_trees;
     core.barrier_reach = input->barrier_reach;
+    core.kink = gis_layer_kink(input);
     core.allow_jumps = input->points || core.allow_jumps;
     return core;
 }

@@ -184,6 +184,17 @@ static void trace_conflicts(sunder_i_solver *s, const sunder_report *report)
     }
 }
 
+/* Finds the rows of the layer as it was given, and how the moves bend them. */
+static sunder_status report_rows(const sunder_i_solver *s, sunder_report *report, sunder_error *err)
+{
+    sunder_i_rows rows = {0};
+    sunder_status status = SUNDER_OK;
+    if (s->model.rules.rows) status = sunder_i_rows_find(&s->model, &rows, err);
+    if (!status) status = sunder_i_report_rows(report, &s->model, &rows, err);
+    sunder_i_rows_free(&rows);
+    return status;
+}
+
 /* Determines what remains and why, what would free it, and the lower bound of the cost. */
 static sunder_status explain_result(sunder_i_solver *s, const sunder_layer_options *options, sunder_report *report,
                                     sunder_error *err)
@@ -194,6 +205,7 @@ static sunder_status explain_result(sunder_i_solver *s, const sunder_layer_optio
     if (!status) status = sunder_i_report_bound(report, s, err);
     if (!status) status = sunder_i_report_optimality(report, s, err);
     if (!status) status = sunder_i_report_pushes(report, s, err);
+    if (!status) status = report_rows(s, report, err);
     status = pass_progress(s, BOUNDED, status, err);
     if (!status) status = sunder_i_report_proofs(report, s, sunder_i_decide, err);
     if (!status) status = sunder_i_report_blockers(report, s, err);

@@ -13,9 +13,20 @@
 
 static uint32_t first_corner(const sunder_i_piece_of *p) { return p->piece ? p->shape->piece_end[p->piece - 1] : 0; }
 
-static uint32_t corners_of(const sunder_i_piece_of *p)
+uint32_t sunder_i_piece_corners(const sunder_i_piece_of *piece)
 {
-    return p->shape ? p->shape->piece_end[p->piece] - first_corner(p) : p->n;
+    return piece->shape ? piece->shape->piece_end[piece->piece] - first_corner(piece) : piece->n;
+}
+
+bool sunder_i_piece_edge(const sunder_i_piece_of *piece, uint32_t k, uint32_t vertex[2])
+{
+    const uint32_t n = sunder_i_piece_corners(piece);
+    if (n == 1 || (n == 2 && k)) return false;
+    vertex[0] = k;
+    vertex[1] = k + 1 < n ? k + 1 : 0;
+    if (!piece->shape) return true;
+    for (int e = 0; e < 2; e++) vertex[e] = sunder_i_piece_vertices(piece->shape)[first_corner(piece) + vertex[e]];
+    return sunder_i_is_boundary(piece->shape, vertex[0], vertex[1]);
 }
 
 /* Returns vertex k in doubles; *exact becomes its exact numbers, or NULL if it is a pair of doubles. */
@@ -28,13 +39,13 @@ static const double *corner_of(const sunder_i_piece_of *p, uint32_t k, const sun
     return p->shape->xy + 2 * (size_t)v;
 }
 
-bool sunder_i_piece_has_area(const sunder_i_piece_of *piece) { return corners_of(piece) > 2; }
+bool sunder_i_piece_has_area(const sunder_i_piece_of *piece) { return sunder_i_piece_corners(piece) > 2; }
 
 void sunder_i_piece_box(const sunder_i_piece_of *piece, double box[4])
 {
     const sunder_i_exact *exact;
     sunder_i_box_clear(box);
-    for (uint32_t k = 0; k < corners_of(piece); k++) sunder_i_box_include(box, corner_of(piece, k, &exact));
+    for (uint32_t k = 0; k < sunder_i_piece_corners(piece); k++) sunder_i_box_include(box, corner_of(piece, k, &exact));
     if (piece->shape && piece->shape->rational) sunder_i_box_grow(box, 0, box);
 }
 
@@ -65,7 +76,7 @@ static void fill_arrays(sunder_shape *s, const arrays *to, const sunder_i_piece_
 {
     uint32_t at = 0;
     for (uint32_t i = 0; i < s->pieces; i++) {
-        const uint32_t n = corners_of(&piece[i]), first = at;
+        const uint32_t n = sunder_i_piece_corners(&piece[i]), first = at;
         for (uint32_t k = 0; k < n; k++, at++) {
             const sunder_i_exact *exact;
             memcpy(s->xy + 2 * (size_t)at, corner_of(&piece[i], k, &exact), 2 * sizeof *s->xy);
@@ -102,7 +113,7 @@ static void measure_shape(sunder_shape *s, const sunder_i_piece_of *piece)
 sunder_status sunder_i_shape_of_pieces(const sunder_i_piece_of *piece, size_t n, sunder_shape **out, sunder_error *err)
 {
     size_t corners = 0;
-    for (size_t i = 0; i < n; i++) corners += corners_of(&piece[i]);
+    for (size_t i = 0; i < n; i++) corners += sunder_i_piece_corners(&piece[i]);
     if (corners >= UINT32_MAX / 2) return sunder_i_fail(err, SUNDER_ESIZE, "too many corners: %zu", corners);
     sunder_i_form *form;
     sunder_shape *s = sunder_i_calloc(1, sizeof *s + sizeof *form->numbers + sizeof *form);
@@ -113,7 +124,7 @@ sunder_status sunder_i_shape_of_pieces(const sunder_i_piece_of *piece, size_t n,
     s->vertices = (uint32_t)corners;
     s->pieces = (uint32_t)n;
     for (size_t i = 0; i < n; i++) {
-        s->flat = s->flat || corners_of(&piece[i]) < 3;
+        s->flat = s->flat || sunder_i_piece_corners(&piece[i]) < 3;
         s->rational = s->rational || (piece[i].shape && piece[i].shape->rational);
     }
     arrays to;

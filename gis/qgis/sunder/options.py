@@ -176,6 +176,7 @@ LEFT_OUT = {
     "--input-layer": _OURS, "--where": _QGIS_CHOOSES, "--sql": _QGIS_CHOOSES, "--dialect": _QGIS_CHOOSES,
     "--bbox": _QGIS_CHOOSES, "--if": _QGIS_CHOOSES, "--oo": _QGIS_CHOOSES, "--config": _QGIS_CHOOSES,
     "--input-crs": "QGIS's own CRS of the layer is handed over with it",
+    "--rows": "it changes no move, and no dialog shows its figures",
     "--output": _QGIS_WRITES, "--of": _QGIS_WRITES, "--nlt": _QGIS_WRITES, "--lco": _QGIS_WRITES, "--co": _QGIS_WRITES,
     "--overwrite": _QGIS_WRITES, "--update": _QGIS_WRITES, "--overwrite-layer": _QGIS_WRITES,
     "-overwrite": _QGIS_WRITES,

@@ -74,6 +74,8 @@ typedef struct sunder_i_rules {
     void *progress_user;
     sunder_trace trace; /* NULL: no trace */
     void *trace_user;
+    sunder_rows rows;
+    double kink; /* the least kink that is counted, >= 0 */
 } sunder_i_rules;
 
 /* Checks the options and makes the rules from them. Fails if an option is out of its range. */

@@ -17,7 +17,8 @@ void sunder_layer_options_init_sized(sunder_layer_options *options, size_t size)
                                                   .contained = SUNDER_CONTAINMENT_BLOCK,
                                                   .threads = 1,
                                                   .effort = 1,
-                                                  .barrier_reach = INFINITY};
+                                                  .barrier_reach = INFINITY,
+                                                  .kink = -1};
     sunder_i_options_write(options, size, &defaults, sizeof defaults);
 }
 
@@ -46,6 +47,11 @@ sunder_status sunder_i_rules_of(const sunder_layer_options *options, sunder_i_ru
     if (!(options->barrier_reach >= 0))
         return sunder_i_fail(err, SUNDER_EARG, "the reach of barriers, %g, is negative or no number",
                              options->barrier_reach);
+    if ((int)options->rows < SUNDER_ROWS_NONE || (int)options->rows > SUNDER_ROWS_FOUND)
+        return sunder_i_fail(err, SUNDER_EARG, "no such choice of rows: %d", (int)options->rows);
+    if (options->rows && options->keep_worlds)
+        return sunder_i_fail(err, SUNDER_EARG, "rows are not found in a layer whose worlds are kept");
+    if (isnan(options->kink)) return sunder_i_fail(err, SUNDER_EARG, "the kink that counts is not a number");
     rules->gap = options->gap;
     rules->tolerance = tolerance;
     rules->disc = NULL; /* set when the model is made */
@@ -67,6 +73,8 @@ sunder_status sunder_i_rules_of(const sunder_layer_options *options, sunder_i_ru
     rules->progress_user = options->progress_user;
     rules->trace = options->trace;
     rules->trace_user = options->trace_user;
+    rules->rows = options->rows;
+    rules->kink = options->kink < 0 ? options->gap / 10 : options->kink;
     return SUNDER_OK;
 }
 

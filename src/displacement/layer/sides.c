@@ -33,19 +33,17 @@
 /* Returns the number of lines of a convex piece of a barrier, and writes them to `side` unless that is NULL. */
 static size_t take_lines(const sunder_i_piece_of *of, sunder_i_side *side)
 {
-    const sunder_shape *s = of->shape;
-    const uint32_t first = s && of->piece ? s->piece_end[of->piece - 1] : 0,
-                   n = s ? s->piece_end[of->piece] - first : of->n;
+    const double *xy = of->shape ? of->shape->xy : of->xy;
+    const uint32_t corners = sunder_i_piece_corners(of);
     size_t lines = 0;
-    for (uint32_t k = 0; k < n; k++) {
-        const uint32_t next = k + 1 < n ? k + 1 : 0;
-        const uint32_t v = s ? sunder_i_piece_vertices(s)[first + k] : k,
-                       w = s ? sunder_i_piece_vertices(s)[first + next] : next;
-        if (n == 1 || (n == 2 && k) || (n > 2 && !sunder_i_is_boundary(s, v, w))) continue;
-        const double *xy = s ? s->xy : of->xy;
+    for (uint32_t k = 0; k < corners; k++) {
+        uint32_t v[2];
+        if (!sunder_i_piece_edge(of, k, v)) continue;
         if (side)
-            side[lines] = (sunder_i_side){
-                .from = xy + 2 * (size_t)v, .to = xy + 2 * (size_t)w, .area = n > 2 ? s : NULL, .vertex = v};
+            side[lines] = (sunder_i_side){.from = xy + 2 * (size_t)v[0],
+                                          .to = xy + 2 * (size_t)v[1],
+                                          .area = corners > 2 ? of->shape : NULL,
+                                          .vertex = v[0]};
         lines++;
     }
     return lines;

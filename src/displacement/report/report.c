@@ -107,9 +107,9 @@ void sunder_report_free(sunder_report *report)
     for (size_t k = 0; report->proof && k < report->conflicts; k++) sunder_i_proof_free(report->proof[k]);
     sunder_i_free_all(report->proof, report->bound_pair);
     for (size_t k = 0; k < report->bound_trees; k++) sunder_i_bound_tree_free(&report->bound_tree[k]);
-    sunder_i_free_all(report->bound_tree, report->push, report->world, report->world_of, report->stands, report->inside,
-                      report->inexact, report->footprint, report->world_bound, report->thin, report->proved,
-                      report->by_pairs, report);
+    sunder_i_free_all(report->bound_tree, report->push, report->row, report->row_feature, report->world,
+                      report->world_of, report->stands, report->inside, report->inexact, report->footprint,
+                      report->world_bound, report->thin, report->proved, report->by_pairs, report);
 }
 
 void sunder_i_count(sunder_conflict_counts *counts, const sunder_conflict *conflict)

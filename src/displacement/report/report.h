@@ -3,6 +3,7 @@
 #define SUNDER_I_REPORT_H
 
 #include "displacement/prove/areas/areas.h"
+#include "displacement/rows/rows.h"
 #include "displacement/solve/clusters/solver.h"
 #include "sunder_parts.h"
 #include "sunder_proof.h"
@@ -26,6 +27,9 @@ struct sunder_report {
     size_t bound_trees;
     sunder_push *push;
     size_t pushes;
+    sunder_row *row;
+    size_t rows;
+    size_t *row_feature; /* the array into which `feature` of all rows points */
     /* The following are NULL unless the worlds (the parts of the layer that did not influence each other) are
      * wanted. */
     sunder_world *world;
@@ -188,6 +192,14 @@ sunder_status sunder_i_report_optimality(sunder_report *report, sunder_i_solver 
 sunder_status sunder_i_report_pair_trees(const sunder_report *report, sunder_i_solver *solver,
                                          sunder_i_independent_parts *parts, sunder_i_bound_trees *trees,
                                          sunder_error *err);
+
+/* ---- row_kinks.c ------------------------------------------------------------------------------------------------- */
+
+/* Fills the report's rows, and how much the moves bend them. */
+sunder_status sunder_i_report_rows(sunder_report *report, const sunder_i_model *model, const sunder_i_rows *rows,
+                                   sunder_error *err);
+/* Converts the rows to the caller's numbers: number[k] is the caller's number of feature k. */
+void sunder_i_report_number_rows(sunder_report *report, const uint32_t *number);
 
 /* ---- contact_pushes.c -------------------------------------------------------------------------------------------- */
 

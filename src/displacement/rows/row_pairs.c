@@ -1,0 +1,167 @@
+/* Bodies that are near each other, and neighbours in the relative neighbourhood graph by distance: no third body is
+ * nearer to both of them than they are to each other (Toussaint, The relative neighbourhood graph of a finite planar
+ * set, Pattern Recognition 12, 1980). */
+#include "displacement/rows/row_pairs.h"
+#include "displacement/layer/reads.h"
+#include "displacement/rows/row_rule.h"
+
+#include "base/parallel.h"
+#include "separation/separation.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- Near pairs -------------------------------------------------------------------------------------------------- */
+
+/* The pairs found for a run of features. */
+typedef struct found {
+    sunder_i_row_pair *pair;
+    size_t n, capacity;
+} found;
+
+typedef struct near_search {
+    const sunder_i_model *model;
+    double reach;
+    found *found; /* [(features - 1) / SUNDER_I_GRAIN_TESTS + 1] */
+} near_search;
+
+/* Adds the pair of features f and g of different bodies if they are within reach. */
+static sunder_status add_if_near(const near_search *s, uint32_t f, uint32_t g, found *to, sunder_error *err)
+{
+    const uint32_t i = s->model->body_of[f], j = s->model->body_of[g];
+    const double home[2] = {0, 0};
+    const sunder_shape *p = sunder_i_thing_shape(s->model, f), *q = sunder_i_thing_shape(s->model, g);
+    if (sunder_i_surely_apart(p, home, q, home, s->reach)) return SUNDER_OK;
+    sunder_i_row_pair pair = {.i = i, .j = j, .f = f, .g = g};
+    const sunder_status status = sunder_i_distance(p, home, q, home, &pair.distance, pair.from, pair.to, err);
+    if (status || !(pair.distance <= s->reach)) return status;
+    if (i > j) {
+        pair = (sunder_i_row_pair){j, i, g, f, pair.distance, {pair.to[0], pair.to[1]}, {pair.from[0], pair.from[1]}};
+    }
+    if (!sunder_i_reserve(&to->pair, &to->capacity, to->n + 1, sizeof pair)) return sunder_i_failure_cause(err);
+    to->pair[to->n++] = pair;
+    return SUNDER_OK;
+}
+
+static sunder_status find_near(void *context, size_t begin, size_t end, sunder_error *err)
+{
+    const near_search *s = context;
+    const sunder_i_model *model = s->model;
+    sunder_i_list near = {0};
+    sunder_status status = SUNDER_OK;
+    for (size_t f = begin; f < end && !status; f++) {
+        double box[4];
+        if (!model->present[f]) continue;
+        near.n = 0;
+        sunder_i_box_grow(sunder_i_thing_shape(model, f)->box, s->reach, box);
+        if (!sunder_i_look_about(model, &model->tree, box, &near)) status = sunder_i_failure_cause(err);
+        for (size_t k = 0; k < near.n && !status; k++) {
+            const uint32_t g = near.item[k];
+            if (g <= f || sunder_i_is_barrier(model, g) || model->body_of[f] == model->body_of[g]) continue;
+            status = add_if_near(s, (uint32_t)f, g, &s->found[begin / SUNDER_I_GRAIN_TESTS], err);
+        }
+    }
+    sunder_i_free(near.item);
+    return status;
+}
+
+/* Orders pairs by their bodies, those of the same bodies by distance. */
+static int by_bodies(const void *x, const void *y)
+{
+    const sunder_i_row_pair *p = x, *q = y;
+    const int order = sunder_i_by_id_pair(p, q);
+    if (order) return order;
+    if (p->distance != q->distance) return p->distance < q->distance ? -1 : 1;
+    return p->f != q->f ? (p->f < q->f ? -1 : 1) : p->g < q->g ? -1 : p->g > q->g;
+}
+
+/* Appends the nearest features of each pair of bodies to `pairs`, which is empty. */
+static bool keep_nearest(found *part, size_t parts, sunder_i_row_pairs *pairs)
+{
+    size_t n = 0;
+    for (size_t k = 0; k < parts; k++) n += part[k].n;
+    pairs->pair = sunder_i_alloc(n, sizeof *pairs->pair);
+    if (!pairs->pair) return false;
+    for (size_t k = 0, at = 0; k < parts; at += part[k++].n)
+        if (part[k].n) memcpy(pairs->pair + at, part[k].pair, part[k].n * sizeof *pairs->pair);
+    if (n) qsort(pairs->pair, n, sizeof *pairs->pair, by_bodies);
+    for (size_t k = 0; k < n; k++)
+        if (k == 0 || sunder_i_by_id_pair(&pairs->pair[k], &pairs->pair[k - 1]) != 0)
+            pairs->pair[pairs->n++] = pairs->pair[k];
+    return true;
+}
+
+sunder_status sunder_i_row_pairs_find(const sunder_i_model *model, sunder_i_row_pairs *pairs, sunder_error *err)
+{
+    const size_t parts = (model->features + SUNDER_I_GRAIN_TESTS - 1) / SUNDER_I_GRAIN_TESTS;
+    near_search s = {model, ROW_REACH * model->rules.gap, sunder_i_calloc(parts, sizeof *s.found)};
+    sunder_status status = s.found ? SUNDER_OK : sunder_i_failure_cause(err);
+    *pairs = (sunder_i_row_pairs){0};
+    if (!status)
+        status = sunder_i_parallel(model->rules.threads, model->features, SUNDER_I_GRAIN_TESTS, find_near, &s, err);
+    if (!status && !keep_nearest(s.found, parts, pairs)) status = sunder_i_failure_cause(err);
+    for (size_t k = 0; s.found && k < parts; k++) sunder_i_free(s.found[k].pair);
+    sunder_i_free(s.found);
+    return status;
+}
+
+/* ---- Neighbours -------------------------------------------------------------------------------------------------- */
+
+/* The bodies near each body. */
+typedef struct neighbour {
+    uint32_t body;
+    double distance;
+} neighbour;
+
+typedef struct neighbours {
+    neighbour *of; /* those of body i are [end[i - 1], end[i]), ascending */
+    size_t *end;   /* [bodies] */
+} neighbours;
+
+static bool list_neighbours(const sunder_i_row_pairs *pairs, size_t bodies, neighbours *out)
+{
+    out->of = sunder_i_alloc(2 * pairs->n, sizeof *out->of);
+    out->end = sunder_i_calloc(bodies + 1, sizeof *out->end);
+    if (!out->of || !out->end) return false;
+    /* First end[i + 1] counts the neighbours of i; their sums are where each begins, and these advance to the ends. */
+    for (size_t k = 0; k < pairs->n; k++) {
+        if (pairs->pair[k].i + 1 < bodies) out->end[pairs->pair[k].i + 1]++;
+        if (pairs->pair[k].j + 1 < bodies) out->end[pairs->pair[k].j + 1]++;
+    }
+    for (size_t i = 1; i < bodies; i++) out->end[i] += out->end[i - 1];
+    /* Pairs are sorted by (i, j): a body is first the j of pairs with lower numbers, then the i of the others. */
+    for (size_t k = 0; k < pairs->n; k++) {
+        const sunder_i_row_pair *p = &pairs->pair[k];
+        out->of[out->end[p->j]++] = (neighbour){p->i, p->distance};
+    }
+    for (size_t k = 0; k < pairs->n; k++) {
+        const sunder_i_row_pair *p = &pairs->pair[k];
+        out->of[out->end[p->i]++] = (neighbour){p->j, p->distance};
+    }
+    return true;
+}
+
+/* Returns whether a third body is nearer to both bodies of the pair than they are to each other. */
+static bool stands_between(const neighbours *n, const sunder_i_row_pair *p)
+{
+    size_t k = p->i ? n->end[p->i - 1] : 0, l = n->end[p->j - 1];
+    while (k < n->end[p->i] && l < n->end[p->j]) {
+        const neighbour *a = &n->of[k], *b = &n->of[l];
+        if (a->body == b->body && a->distance < p->distance && b->distance < p->distance) return true;
+        k += a->body <= b->body;
+        l += b->body <= a->body;
+    }
+    return false;
+}
+
+bool sunder_i_row_pairs_thin_out(sunder_i_row_pairs *pairs, size_t bodies)
+{
+    neighbours n = {0};
+    const bool listed = list_neighbours(pairs, bodies, &n);
+    const size_t all = pairs->n;
+    pairs->n = 0;
+    for (size_t k = 0; k < all && listed; k++)
+        if (!stands_between(&n, &pairs->pair[k])) pairs->pair[pairs->n++] = pairs->pair[k];
+    sunder_i_free_all(n.of, n.end);
+    return listed;
+}

@@ -1,0 +1,58 @@
+/* What is asked about two bodies before they count as neighbours in a row. */
+#ifndef SUNDER_I_ROW_PAIRS_H
+#define SUNDER_I_ROW_PAIRS_H
+
+#include "displacement/rows/rows.h"
+
+/* ---- row_walls.c ------------------------------------------------------------------------------------------------- */
+
+/* The direction of walls: a vector at four times their angle, so that walls at right angles to each other have the same
+ * one. Its length is at most that of the walls, and equal to it if all of them are parallel or at right angles. */
+typedef struct sunder_i_walls {
+    double direction[2], length;
+} sunder_i_walls;
+
+/* Adds the walls of a shape. */
+void sunder_i_walls_add(const sunder_shape *shape, sunder_i_walls *walls);
+/* Sets `along` to a unit vector along the walls, at most 45 degrees from the x-axis; the others are at right angles to
+ * it. `walls` must not have the length 0. */
+void sunder_i_walls_axis(const sunder_i_walls *walls, double along[2]);
+/* Sets *mean to the mean of two directions. Returns false if they differ by more than ROW_ANGLE, or if one of the two
+ * has walls in all directions, such as a circle. */
+bool sunder_i_walls_mean(const sunder_i_walls *a, const sunder_i_walls *b, sunder_i_walls *mean);
+
+/* ---- row_pairs.c ------------------------------------------------------------------------------------------------- */
+
+/* Two bodies within ROW_REACH gaps of each other. */
+typedef struct sunder_i_row_pair {
+    uint32_t i, j;         /* i < j */
+    uint32_t f, g;         /* their members that are nearest to each other */
+    double distance;       /* of f and g */
+    double from[2], to[2]; /* a shortest link between f and g */
+} sunder_i_row_pair;
+
+typedef struct sunder_i_row_pairs {
+    sunder_i_row_pair *pair; /* [n] sorted by (i, j) */
+    size_t n;
+} sunder_i_row_pairs;
+
+/* Finds all pairs. The caller frees pairs->pair, also after a failure. */
+sunder_status sunder_i_row_pairs_find(const sunder_i_model *model, sunder_i_row_pairs *pairs, sunder_error *err);
+/* Removes the pairs that are no neighbours in the relative neighbourhood graph: those with a third body that is nearer
+ * to both than they are to each other. Returns false if memory is out. */
+bool sunder_i_row_pairs_thin_out(sunder_i_row_pairs *pairs, size_t bodies);
+
+/* ---- side_by_side.c ---------------------------------------------------------------------------------------------- */
+
+/* Returns whether the two stand side by side, as neighbours in a row do, and if so sets *edge. walls: [features] */
+bool sunder_i_row_side_by_side(const sunder_i_model *model, const sunder_i_walls *walls, const sunder_i_row_pair *pair,
+                               sunder_i_row_edge *edge);
+
+/* ---- row_links.c ------------------------------------------------------------------------------------------------- */
+
+/* Sets *crossed to whether the link of the pair meets a line, or the boundary of an area, of a barrier. Returns false
+ * if memory is out. */
+bool sunder_i_row_link_is_crossed(const sunder_i_model *model, const sunder_i_row_pair *pair, sunder_i_list *near,
+                                  bool *crossed);
+
+#endif

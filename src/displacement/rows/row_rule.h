@@ -1,0 +1,20 @@
+/* What counts as a row. The limits were chosen by looking at pictures of rows in Liechtenstein and Argenteuil. */
+#ifndef SUNDER_I_ROW_RULE_H
+#define SUNDER_I_ROW_RULE_H
+
+/* Neighbours in a row are at most this many gaps apart. */
+#define ROW_REACH 4.0
+/* The cosine of four times the angle, 15 degrees, by which the directions of their walls may differ. */
+#define ROW_ANGLE 0.5
+/* The least share of the length of its walls that agrees, as a vector at four times the angle, if a feature has a
+ * direction at all: that of a regular polygon of more than four sides is 0. */
+#define ROW_STRAIGHT 0.1
+/* The share of the smaller depth that two neighbours have in common across the row at least; along the row it is at
+ * most this share of the shorter length. */
+#define ROW_SHARED 0.5
+/* The greatest ratio of two neighbours' depths. */
+#define ROW_DEPTHS 2.5
+/* A row has at least this many bodies. */
+#define ROW_LEAST 3
+
+#endif

@@ -1,0 +1,39 @@
+# shellcheck shell=bash disable=SC1091
+# --rows: the layer of rows, the figures, and what is refused.
+. "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
+command -v jq >/dev/null || { echo "skipped: no jq"; exit 77; }
+
+{
+    echo "WKT,w"
+    for k in 0 1 2 3 4; do
+        x=$((12 * k))
+        echo "\"POLYGON(($x 0,$((x + 10)) 0,$((x + 10)) 10,$x 10,$x 0))\",1"
+    done
+} | layer street.gpkg street POLYGON
+
+expect 0 separate street.gpkg o.gpkg --gap 3 --rows auto --stats o.json
+grep -q '^rows 1, features in them 5$' out || fail "the summary: $(cat out)"
+[ "$(jq -c '.rows | [.rows, .features, .kink_share]' o.json)" = '[1,5,0]' ] || fail "the figures: $(jq -c .rows o.json)"
+row=$(ogrinfo -q -al o.gpkg street_rows | tr -d '\n')
+case $row in *'row (Integer64) = 1 '*'houses (Integer64) = 5 '*'kink_bef (Real) = 0 '*'kink_aft (Real) = '*LINESTRING*) ;; *) fail "the row: $row" ;; esac
+[ "$(ogrinfo -q -sql 'SELECT count(*) AS n FROM layer_styles WHERE f_table_name = "street_rows"' o.gpkg | grep -c 'n (Integer) = 1')" = 1 ] ||
+    fail "the layer of rows has no style"
+
+# Rows are only reported: what is written besides is what is written without them.
+expect 0 separate street.gpkg plain.gpkg --gap 3 --stats plain.json
+ogrinfo -q plain.gpkg | grep -q rows && fail "rows, unasked"
+[ "$(jq .rows plain.json)" = null ] || fail "figures of rows, unasked"
+for name in street street_displacement; do
+    diff <(ogr2ogr -f CSV /vsistdout/ o.gpkg $name -lco GEOMETRY=AS_WKT) \
+        <(ogr2ogr -f CSV /vsistdout/ plain.gpkg $name -lco GEOMETRY=AS_WKT) >/dev/null || fail "$name is another with rows"
+done
+expect 0 separate street.gpkg main.gpkg --gap 3 --rows auto --layers main
+ogrinfo -q main.gpkg | grep -q rows && fail "rows, though only the main layer was asked for"
+
+# Refused: points, parts on disk, the layer without the option.
+printf 'WKT,w\n"POINT(0 0)",1\n' | layer points.gpkg points POINT
+expect 2 separate points.gpkg p.gpkg --symbol square:1 --rows auto
+expect 2 separate street.gpkg p.gpkg --gap 3 --rows auto --max-memory 1G
+expect 2 separate street.gpkg p.gpkg --gap 3 --layers rows
+[ ! -e p.gpkg ] || fail "an output of a refused run"
+finish

@@ -1,0 +1,266 @@
+/* Rows in small figures: which neighbours are in one, and what ends it. */
+#include "scene.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+
+#include <cmocka.h>
+
+/* A scene without moves, in which rows are found. */
+static void begin(scene *s, double gap)
+{
+    scene_begin(s, gap);
+    s->options.rows = SUNDER_ROWS_FOUND;
+}
+
+static const sunder_row *rows_of(scene *s, size_t *n)
+{
+    for (size_t f = 0; f < s->n; f++) s->feature[f].fixed = true;
+    scene_separate(s);
+    const sunder_row *row = sunder_report_rows(s->report, n);
+    assert_int_equal(s->summary.rows, *n);
+    return row;
+}
+
+static size_t count_rows(scene *s)
+{
+    size_t n;
+    rows_of(s, &n);
+    return n;
+}
+
+static void add_houses(scene *s, size_t n, double x, double y, double dx, double dy)
+{
+    for (size_t k = 0; k < n; k++) scene_add_box(s, x + dx * (double)k, y + dy * (double)k, 10, 10);
+}
+
+static void check_street(void **state)
+{
+    (void)state;
+    scene s;
+    size_t n;
+    begin(&s, 5);
+    add_houses(&s, 4, 0, 0, 12, 0);
+    const sunder_row *row = rows_of(&s, &n);
+    assert_int_equal(n, 1);
+    assert_int_equal(row->features, 4);
+    assert_int_equal(row->bodies, 4);
+    assert_false(row->ring);
+    for (size_t k = 0; k < 4; k++) assert_int_equal(row->feature[k], k);
+    assert_true(row->kink_before == 0 && row->kink_after == 0);
+    assert_int_equal(s.summary.row_features, 4);
+    assert_int_equal(s.summary.row_pairs, 3);
+    scene_end(&s);
+}
+
+/* Two houses are no row, and without a wish for rows there are none. */
+static void check_none(void **state)
+{
+    (void)state;
+    scene s;
+    begin(&s, 5);
+    add_houses(&s, 2, 0, 0, 12, 0);
+    assert_int_equal(count_rows(&s), 0);
+    add_houses(&s, 1, 24, 0, 12, 0);
+    assert_int_equal(count_rows(&s), 1);
+    s.options.rows = SUNDER_ROWS_NONE;
+    assert_int_equal(count_rows(&s), 0);
+    scene_end(&s);
+}
+
+/* Each of these is a street of three houses and a fourth one, which does not continue it, though it is near. */
+static void check_ends(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *fourth; /* the third one is the square (24, 0) - (34, 10), and the gap 5 */
+        bool continues;
+    } cases[] = {
+        {"POLYGON((36 0,46 0,46 10,36 10,36 0))", true},
+        {"POLYGON((54 0,64 0,64 10,54 10,54 0))", true},        /* as far as four gaps */
+        {"POLYGON((54.1 0,64 0,64 10,54.1 10,54.1 0))", false}, /* farther */
+        {"POLYGON((36 5,46 5,46 15,36 15,36 5))", true},        /* offset by the gap */
+        {"POLYGON((36 5.1,46 5.1,46 15.1,36 15.1,36 5.1))", false},
+        {"POLYGON((36 0,46 0,46 25,36 25,36 0))", true}, /* 2.5 times as deep, with a common front */
+        {"POLYGON((36 0,46 0,46 25.1,36 25.1,36 0))", false},
+        {"POLYGON((36 0,45 4,41 13,32 9,36 0))", false},  /* turned by 24 degrees */
+        {"POLYGON((36 0,46 2,44 12,34 10,36 0))", true},  /* turned by 11 degrees */
+        {"POLYGON((32 0,46 0,46 10,32 10,32 0))", true},  /* overlaps the third one a little */
+        {"POLYGON((26 1,36 1,36 11,26 11,26 1))", false}, /* lies on most of it */
+    };
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        scene s;
+        size_t n;
+        begin(&s, 5);
+        s.options.no_blocks = true;
+        add_houses(&s, 3, 0, 0, 12, 0);
+        scene_add(&s, cases[k].fourth);
+        const sunder_row *row = rows_of(&s, &n);
+        if (n != 1 || row->features != (cases[k].continues ? 4 : 3)) fail_msg("case %zu: %s", k, cases[k].fourth);
+        scene_end(&s);
+    }
+}
+
+/* A shed that stands nearer to two houses than they stand to each other takes their link away. */
+static void check_between(void **state)
+{
+    (void)state;
+    scene s;
+    begin(&s, 5);
+    add_houses(&s, 3, 0, 0, 26, 0);
+    assert_int_equal(count_rows(&s), 1);
+    scene_add(&s, "POLYGON((15 4,21 4,21 7,15 7,15 4))");
+    assert_int_equal(count_rows(&s), 0);
+    scene_end(&s);
+}
+
+/* A house at a corner belongs to both streets. */
+static void check_corner(void **state)
+{
+    (void)state;
+    scene s;
+    size_t n;
+    begin(&s, 5);
+    add_houses(&s, 4, 0, 0, 12, 0);
+    add_houses(&s, 3, 0, 12, 0, 12);
+    const sunder_row *row = rows_of(&s, &n);
+    assert_int_equal(n, 2);
+    for (size_t k = 0; k < 2; k++) assert_int_equal(row[k].feature[0], 0);
+    assert_int_equal(s.summary.row_features, 7);
+    scene_end(&s);
+}
+
+/* Houses around a round place: the row is a ring. */
+static void check_ring(void **state)
+{
+    (void)state;
+    enum { HOUSES = 40 };
+    scene s;
+    size_t n;
+    begin(&s, 5);
+    for (int k = 0; k < HOUSES; k++) {
+        const double turn = 2 * acos(-1) * k / HOUSES, c = cos(turn), d = sin(turn);
+        char wkt[512];
+        const double corner[4][2] = {{80, -5}, {90, -5}, {90, 5}, {80, 5}};
+        int at = snprintf(wkt, sizeof wkt, "POLYGON((");
+        for (int v = 0; v <= 4; v++) {
+            const double *p = corner[v % 4];
+            at += snprintf(wkt + at, sizeof wkt - (size_t)at, "%s%.17g %.17g", v ? "," : "", p[0] * c - p[1] * d,
+                           p[0] * d + p[1] * c);
+        }
+        snprintf(wkt + at, sizeof wkt - (size_t)at, "))");
+        scene_add(&s, wkt);
+    }
+    const sunder_row *row = rows_of(&s, &n);
+    assert_int_equal(n, 1);
+    assert_true(row->ring);
+    assert_int_equal(row->features, HOUSES);
+    assert_int_equal(row->bodies, HOUSES);
+    for (size_t k = 0; k < HOUSES; k++) assert_int_equal(row->feature[k], k);
+    assert_int_equal(s.summary.row_pairs, HOUSES);
+    scene_end(&s);
+}
+
+/* A line between two houses ends the row; one that only passes near their link does not. */
+static void check_barrier(void **state)
+{
+    (void)state;
+    static const double across[] = {23, -50, 23, 50}, along[] = {-50, 12, 80, 12};
+    static const size_t end[] = {2};
+    scene s;
+    begin(&s, 5);
+    add_houses(&s, 6, 0, 0, 12, 0);
+    for (int k = 0; k < 2; k++) {
+        for (size_t f = 0; f < s.n; f++) s.feature[f].fixed = true;
+        sunder_layer *layer;
+        sunder_report *report;
+        size_t n;
+        const sunder_barrier barrier = {.geometry = {.xy = k ? along : across, .line_end = end, .lines = 1}, .gap = 0};
+        assert_int_equal(sunder_layer_new(s.feature, s.n, &layer, NULL), SUNDER_OK);
+        assert_int_equal(sunder_layer_set_barriers(layer, &barrier, 1, NULL), SUNDER_OK);
+        assert_int_equal(sunder_layer_separate(layer, &s.options, &report, NULL), SUNDER_OK);
+        const sunder_row *row = sunder_report_rows(report, &n);
+        assert_int_equal(n, 1);
+        assert_int_equal(row->features, k ? 6 : 4);
+        sunder_report_free(report);
+        sunder_layer_free(layer);
+    }
+    scene_end(&s);
+}
+
+/* A terrace counts once, and its separation is that of the whole. */
+static void check_block(void **state)
+{
+    (void)state;
+    scene s;
+    size_t n;
+    begin(&s, 5);
+    add_houses(&s, 2, 0, 0, 12, 0);
+    add_houses(&s, 3, 24, 0, 10, 0);
+    add_houses(&s, 1, 56, 0, 12, 0);
+    const sunder_row *row = rows_of(&s, &n);
+    assert_int_equal(n, 1);
+    assert_int_equal(row->bodies, 4);
+    assert_int_equal(row->features, 5); /* the terrace by its first and its last house */
+    assert_int_equal(row->feature[2], 2);
+    assert_int_equal(row->feature[3], 4);
+    scene_end(&s);
+}
+
+/* Kinks are measured across the row, in the result. */
+static void check_kinks(void **state)
+{
+    (void)state;
+    scene s;
+    size_t n;
+    scene_begin(&s, 5);
+    s.options.rows = SUNDER_ROWS_FOUND;
+    s.options.kink = 0.5;
+    add_houses(&s, 3, 0, 0, 16, 0);
+    scene_add_box(&s, 16, 13, 10, 10);
+    for (size_t f = 0; f < 4; f++) s.feature[f].fixed = f != 1;
+    scene_separate(&s);
+    const sunder_row *row = sunder_report_rows(s.report, &n);
+    assert_int_equal(n, 1);
+    assert_true(fabs(row->kink_before) <= 1e-9);
+    assert_true(fabs(row->kink_after - 2) <= 1e-6);
+    assert_true(fabs(s.summary.kink_mean - 2) <= 1e-6 && fabs(s.summary.kink_p95 - 2) <= 1e-6);
+    assert_true(s.summary.kink_share == 1);
+    scene_end(&s);
+}
+
+static void check_refusals(void **state)
+{
+    (void)state;
+    scene s;
+    begin(&s, 5);
+    add_houses(&s, 3, 0, 0, 12, 0);
+    sunder_layer *layer;
+    sunder_report *report;
+    assert_int_equal(sunder_layer_new(s.feature, s.n, &layer, NULL), SUNDER_OK);
+    s.options.keep_worlds = true;
+    assert_int_equal(sunder_layer_separate(layer, &s.options, &report, NULL), SUNDER_EARG);
+    s.options.keep_worlds = false;
+    s.options.rows = (sunder_rows)7;
+    assert_int_equal(sunder_layer_separate(layer, &s.options, &report, NULL), SUNDER_EARG);
+    s.options.rows = SUNDER_ROWS_FOUND;
+    s.options.kink = NAN;
+    assert_int_equal(sunder_layer_separate(layer, &s.options, &report, NULL), SUNDER_EARG);
+    sunder_layer_free(layer);
+    scene_end(&s);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(check_street),   cmocka_unit_test(check_none),   cmocka_unit_test(check_ends),
+        cmocka_unit_test(check_between),  cmocka_unit_test(check_corner), cmocka_unit_test(check_ring),
+        cmocka_unit_test(check_barrier),  cmocka_unit_test(check_block),  cmocka_unit_test(check_kinks),
+        cmocka_unit_test(check_refusals),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
