@@ -24,11 +24,11 @@ const gis_command gis_commands[] = {
      gis_command_check},
     {GIS_SUM, "sum", "P Q [OUTPUT]", 2, 3, "Minkowski sum P + Q, exactly", "\"POLYGON ((0 0, 4 0, 0 3))\" disc:1",
      gis_command_sum},
-    {GIS_PAIR, "pair", "P Q [OUTPUT]", 2, 3, "Least translation of Q that takes its interior off P",
+    {GIS_PAIR, "pair", "P Q [OUTPUT]", 2, 3, "Least translation of Q that separates its interior from P",
      "square:4 \"POLYGON ((1 1, 5 1, 5 2))\" --gap 0.5", gis_command_pair},
     {GIS_BUFFER, "buffer", "INPUT OUTPUT", 2, 2, "Grows, shrinks, opens or closes features by a shape, exactly",
      "--operation close --shape square:6m --dissolve houses.gpkg blocks.gpkg", gis_command_buffer},
-    {GIS_ROUTE, "route", "OBSTACLES [OUTPUT]", 1, 2, "Shortest way for a robot among obstacles, contact allowed",
+    {GIS_ROUTE, "route", "OBSTACLES [OUTPUT]", 1, 2, "Shortest path of a robot among obstacles; contact is allowed",
      "\"POLYGON ((2 -9, 4 -9, 4 3, 2 3))\" --robot square:2 --from 0,0 --to 6,0", gis_command_route},
     {GIS_PLAN, "plan", "INPUT PLAN", 2, 2, "Cuts a layer into shards, for many machines",
      "--gap 3m --shards 16 houses.gpkg houses.plan", gis_command_plan},
@@ -135,7 +135,7 @@ static int no_command(void)
         n += (size_t)snprintf(names + n, sizeof names - n, "%s%s", joint, gis_commands[i].name);
     }
     gis_error error;
-    gis_fail_usage(&error, "which command? %s; `sunder --help` tells more", names);
+    gis_fail_usage(&error, "a command is missing: %s; `sunder --help` describes them", names);
     return gis_say_failure(&error);
 }
 

@@ -138,8 +138,8 @@ bool gis_interrupted(void)
 const char *gis_interruption(void)
 {
     switch (atomic_load(&interrupted)) {
-    case SIGXFSZ: return GIS_INTERRUPTED ": a file would be larger than this process may make one (ulimit -f)";
-    case SIGXCPU: return GIS_INTERRUPTED ": this process may not work for longer (ulimit -t)";
+    case SIGXFSZ: return GIS_INTERRUPTED ": a file would exceed the size limit of this process (ulimit -f)";
+    case SIGXCPU: return GIS_INTERRUPTED ": the time limit of this process is reached (ulimit -t)";
     default: return GIS_INTERRUPTED;
     }
 }

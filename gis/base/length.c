@@ -56,7 +56,7 @@ bool gis_length_parse(const char *text, size_t n, gis_length *out, const char **
     size_t split = number_part(text, n);
     double value;
     if (!gis_length_parse_number(text, split, &value)) {
-        *why = "not a finite number with a unit (m, km, ft, us-ft, mm) or without";
+        *why = "not a finite number, with or without a unit (m, km, ft, us-ft, mm)";
         return false;
     }
     if (value < 0) {
@@ -102,8 +102,8 @@ bool gis_length_in_layer_units(const gis_length *given, const gis_crs_units *uni
     }
     if (!units->has_crs) {
         return gis_fail(error,
-                        "%s: there is no CRS that would tell its unit; give the length without a unit, or "
-                        "give the layer a CRS (--input-crs), or reproject it first",
+                        "%s: the layer has no CRS, so the length cannot be converted to its unit; give the length "
+                        "without a unit, or give the layer a CRS (--input-crs)",
                         what);
     }
     size_t from = 0, to = 0;

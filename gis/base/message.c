@@ -311,8 +311,7 @@ bool gis_messages_begin(const gis_messages_request *request, gis_error *error)
     if (!request->log) return true;
     if (!gis_link_may_be_followed(request->log, "--log", error)) return false;
     if (!may_replace(request->log))
-        return gis_fail_usage(error, "--log %s: there is a file of that name, which is no log; give another",
-                              request->log);
+        return gis_fail_usage(error, "--log %s: that file exists and is not a log; give another one", request->log);
     messages.log = fopen(request->log, "w");
     if (!messages.log) return gis_fail(error, "--log: cannot write %s: %s", request->log, strerror(errno));
     setvbuf(messages.log, NULL, _IOLBF, 0); /* line by line, so that it can be followed, and is complete if the run is

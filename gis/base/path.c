@@ -73,7 +73,7 @@ bool gis_path_suits_gdal(const char *path, const char *what, gis_error *error)
     const size_t n = strlen(path);
     if (n <= GIS_PATH_LONGEST || strchr("{[<", path[0])) return true;
     return gis_fail(error,
-                    "%s: its path has %zu bytes, and GDAL takes %d at most; run it from a nearer directory, or by "
-                    "way of a link: %s",
+                    "%s: its path has %zu bytes, and GDAL accepts %d at most; change to a directory nearer to it, or "
+                    "use a link: %s",
                     what, n, GIS_PATH_LONGEST, path);
 }

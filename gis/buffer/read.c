@@ -18,7 +18,7 @@ bool gis_buffer_read(const gis_buffer_request *request, gis_buffer *out, gis_err
         return false;
     gis_layer_warn_of_crs(input);
     if (input->other > 0)
-        gis_say_warning(GIS_MESSAGE_PASSED_BY, "%s: %zu features are no polygons; they are written without geometry",
+        gis_say_warning(GIS_MESSAGE_PASSED_BY, "%s: %zu features are not polygons; they are written without geometry",
                         gis_source_name(input->source), input->other);
     return gis_buffer_gather(out, error);
 }

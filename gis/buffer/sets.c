@@ -68,8 +68,7 @@ static bool has_single_values(const gis_buffer *buffer, gis_error *error)
     case OFTDateTime: return true;
     default:
         return gis_fail(error,
-                        "--dissolve-field: field %s is of type %s; numbers, texts, dates and times can be told "
-                        "apart",
+                        "--dissolve-field: field %s is of type %s; use a field of numbers, texts, dates or times",
                         OGR_Fld_GetNameRef(field), OGR_GetFieldTypeName(OGR_Fld_GetType(field)));
     }
 }

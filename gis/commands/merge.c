@@ -54,8 +54,9 @@ static bool all_there(const gis_shard_run *parts, const gis_plan *plan, gis_erro
     bool done = find_missing(parts, plan, missing, &any, error);
     if (done && any) {
         list_missing(missing, plan->shards, list, sizeof list);
-        done = gis_fail(error, "%s: missing of its %u shards: %s; sunder separate --shard K %s makes them",
-                        parts->directory, plan->shards, list, parts->directory);
+        done =
+            gis_fail(error, "%s: it has %u shards, and these are missing: %s; sunder separate --shard K %s makes them",
+                     parts->directory, plan->shards, list, parts->directory);
     }
     free(missing);
     return done;

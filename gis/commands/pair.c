@@ -49,8 +49,8 @@ static bool add_translation(gis_sink *sink, const gis_operands *operands, const 
     sunder_shape_anchor(operands->q, from);
     const double to[2] = {from[0] + answer->dx, from[1] + answer->dy};
     if (!isfinite(to[0]) || !isfinite(to[1]))
-        return gis_fail(error, "the translation leaves the range of doubles, which a layer holds; without OUTPUT it is "
-                               "given exactly");
+        return gis_fail(error, "the translation is beyond the range of doubles, so a layer cannot hold it; without "
+                               "OUTPUT it is printed exactly");
     OGRGeometryH line = gis_geometry_line(from, to);
     gis_sink_layer *layer;
     if (!line) return gis_no_memory(error);

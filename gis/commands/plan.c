@@ -25,8 +25,7 @@ typedef struct plan_run {
 static bool read_call(plan_run *run, const gis_options *options, gis_error *error)
 {
     gis_plan *plan = &run->planned.plan;
-    if (!options->given[OPT_SHARDS])
-        return gis_fail_usage(error, "--shards N is missing: into how many the layer is to be cut");
+    if (!options->given[OPT_SHARDS]) return gis_fail_usage(error, "--shards N is missing: the number of shards");
     if (!(options->number[OPT_SHARDS] >= 1 && options->number[OPT_SHARDS] <= GIS_PLAN_MOST_SHARDS))
         return gis_fail_usage(error, "--shards: 1 to %d", GIS_PLAN_MOST_SHARDS);
     plan->shards = (unsigned)options->number[OPT_SHARDS];
@@ -46,14 +45,14 @@ static bool compare_with_former(plan_run *run, gis_error *error)
     uint64_t checksum;
     bool done = gis_plan_read(run->directory, &former, error);
     if (done && !gis_plan_same_call(&former, &run->planned.plan))
-        done = gis_fail(error, "%s: there is a plan of another call already; remove it, or give another name",
+        done = gis_fail(error, "%s: a plan of another command line exists already; remove it, or give another name",
                         run->directory);
     done = done && gis_layer_checksum(&run->request, &former.facts.source, &checksum, error);
     if (done && checksum != former.facts.checksum)
-        done = gis_fail(error,
-                        "%s: there is a plan already, of %s as it was before it changed; remove it, or give "
-                        "another name",
-                        run->directory, run->request.source.path);
+        done = gis_fail(
+            error,
+            "%s: a plan exists already, but %s has changed since it was made; remove the plan, or give another name",
+            run->directory, run->request.source.path);
     gis_plan_clear(&former);
     run->there = done;
     return done;

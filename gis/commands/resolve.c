@@ -23,7 +23,7 @@ static bool resolve_choice(const gis_options *options, gis_option_id id, const c
             *number = i;
             return true;
         }
-    gis_fail_usage(error, "%s: the library knows nothing of the name %s", gis_option_table[id].names,
+    gis_fail_usage(error, "%s: the library does not know the name %s", gis_option_table[id].names,
                    given ? given : "(none)");
     return false;
 }
@@ -192,13 +192,13 @@ static bool check_before(const gis_options *options, gis_error *error)
     if (options->command->bit != GIS_CHECK) return true;
     for (size_t i = 0; !before && i < sizeof of_moves / sizeof *of_moves; i++)
         if (options->given[of_moves[i]])
-            return gis_fail_usage(error, "%s is about moves; check needs --before ORIGINAL for it",
+            return gis_fail_usage(error, "%s is a rule for moves; check needs --before ORIGINAL with it",
                                   gis_option_table[of_moves[i]].names);
     for (size_t i = 0; before && i < sizeof of_results / sizeof *of_results; i++)
         if (options->given[of_results[i]])
-            return gis_fail_usage(error, "--before: with %.*s the former selection is unknown",
-                                  (int)strcspn(gis_option_table[of_results[i]].names, " "),
-                                  gis_option_table[of_results[i]].names);
+            return gis_fail_usage(
+                error, "--before cannot be given with %.*s: the same selection of the original is not known",
+                (int)strcspn(gis_option_table[of_results[i]].names, " "), gis_option_table[of_results[i]].names);
     return true;
 }
 
@@ -287,9 +287,9 @@ bool gis_resolve_road(const gis_options *options, sunder_sum_options *out, gis_e
     const char *output = output_of(options);
     if (!out->keep_map) return true;
     if (out->algorithm == SUNDER_ALGORITHM_CONVOLUTION)
-        return gis_fail_usage(error, "--planar-map: the convolution makes none; try --algorithm arrangement");
+        return gis_fail_usage(error, "--planar-map: the convolution makes no planar map; use --algorithm arrangement");
     if (!output || strcmp(output, "/vsistdout/") == 0)
-        return gis_fail_usage(error, "--planar-map needs OUTPUT, and one that holds several layers");
+        return gis_fail_usage(error, "--planar-map needs OUTPUT, in a format that holds several layers");
     return true;
 }
 
@@ -297,9 +297,10 @@ bool gis_resolve_buffer(const gis_options *options, gis_buffer_request *out, gis
 {
     const char *shape = options->text[OPT_SHAPE];
     unsigned operation;
-    if (!shape) return gis_fail_usage(error, "--shape is missing: what to grow or shrink by, as in --shape square:6");
+    if (!shape)
+        return gis_fail_usage(error, "--shape is missing: the shape to grow or shrink by, as in --shape square:6");
     const char *meant = gis_shape_is_text(shape) || access(shape, F_OK) == 0 ? NULL : gis_shape_prefix_meant(shape);
-    if (meant) return gis_fail_usage(error, "--shape %s: no such file, and no shape; did you mean %s?", shape, meant);
+    if (meant) return gis_fail_usage(error, "--shape %s: neither a file nor a shape; did you mean %s?", shape, meant);
     if (options->given[OPT_DISSOLVE] && options->given[OPT_DISSOLVE_FIELD])
         return gis_fail_usage(error, "--dissolve makes one set of all features, --dissolve-field one of each value: "
                                      "give one of them");
@@ -341,7 +342,7 @@ bool gis_resolve_route(const gis_options *options, gis_route_request *out, gis_e
     if (!resolve_coordinate(options, OPT_FROM, &out->from, error) ||
         !resolve_coordinate(options, OPT_TO, &out->to, error))
         return false;
-    if (!options->text[OPT_ROBOT]) return gis_fail_usage(error, "--robot SHAPE is missing: what is to be moved");
+    if (!options->text[OPT_ROBOT]) return gis_fail_usage(error, "--robot SHAPE is missing: the shape that moves");
     if (!resolve_invalid(options, &out->invalid, error)) return false;
     out->robot = resolve_shape(options, OPT_ROBOT, out->invalid);
     return true;

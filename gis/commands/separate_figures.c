@@ -151,14 +151,15 @@ static void print_counts(const sunder_layer_summary *summary)
         const char *name;
         size_t before, after;
         const char *note;
-    } rows[] = {{"overlap", before->overlap, after->overlap, ""},
-                {"too close", before->too_close, after->too_close, ""},
-                {"barrier", before->barrier, after->barrier, "meets the stored line or area"},
-                {"barrier drawn", before->barrier_drawn, after->barrier_drawn, "meets what is drawn of it"},
-                {"barrier near", before->barrier_near, after->barrier_near, "meets neither, but lacks the gap"},
-                {"contained", before->contained, after->contained, ""},
-                {"duplicate", before->duplicate, after->duplicate, ""},
-                {"inside blocks", before->inside_blocks, after->inside_blocks, listed}};
+    } rows[] = {
+        {"overlap", before->overlap, after->overlap, ""},
+        {"too close", before->too_close, after->too_close, ""},
+        {"barrier", before->barrier, after->barrier, "meets the stored line or area"},
+        {"barrier drawn", before->barrier_drawn, after->barrier_drawn, "meets its drawn width only"},
+        {"barrier near", before->barrier_near, after->barrier_near, "meets neither, but is nearer than the gap"},
+        {"contained", before->contained, after->contained, ""},
+        {"duplicate", before->duplicate, after->duplicate, ""},
+        {"inside blocks", before->inside_blocks, after->inside_blocks, listed}};
     printf("conflicts           before      after\n");
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         const bool noted = *rows[i].note && (rows[i].before || rows[i].after);
@@ -197,7 +198,7 @@ bool gis_separate_print(const void *separated, gis_error *error)
            gis_separate_optimality_gap(summary));
     print_rows(run);
     if (gis_any_conflict(&summary->after) && (run->chosen & GIS_SEPARATE_CONFLICTS))
-        printf("what remains in conflict is listed, each pair with its reason, in %s_conflicts\n",
+        printf("the remaining conflicts are listed with their reasons in %s_conflicts\n",
                gis_resolve_sink(run->options, NULL, gis_source_name(run->input.source)).main_layer);
     printf("%s; %.3g s\n", run->verified ? "verified on the coordinates as written" : "not verified",
            gis_clock() - run->start);

@@ -24,7 +24,7 @@ bool gis_separate_choose_layers(const char *list, bool points, bool rows, unsign
         rest = rest[n] ? rest + n + 1 : NULL;
     }
     *chosen &= apply;
-    return *chosen || gis_fail_usage(error, "--layers %s: nothing of that applies to this layer", list);
+    return *chosen || gis_fail_usage(error, "--layers %s: none of these applies to this input", list);
 }
 
 bool gis_separate_open_sink(gis_separate_run *run, gis_error *error)

@@ -34,7 +34,7 @@ static bool cannot_sync(int reason)
 static bool sync_open(int file, const char *shown, gis_error *error)
 {
     const bool done = file >= 0 && (fsync(file) == 0 || cannot_sync(errno));
-    return done || gis_fail(error, "%s: cannot be brought to the disk: %s", shown, strerror(errno));
+    return done || gis_fail(error, "%s: cannot be flushed to disk: %s", shown, strerror(errno));
 }
 
 /* An error here is ignored, since the later fsync reports it again. */

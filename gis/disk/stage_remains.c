@@ -119,9 +119,9 @@ static bool move_back(const remains *found, int from, int to, const char *name, 
 {
     if (gis_entry_move(from, to, name, false) == 0) return true;
     const char *why =
-        errno == EEXIST ? "something of that name has come there since; move one of them away" : strerror(errno);
-    return gis_fail(error, "%s/%s cannot be brought back from %s/%s, where a run left it that was killed: %s",
-                    found->directory, name, found->directory, found->name, why);
+        errno == EEXIST ? "a file of that name has appeared there since; move one of the two away" : strerror(errno);
+    return gis_fail(error, "%s/%s cannot be restored from %s/%s, where a killed run left it: %s", found->directory,
+                    name, found->directory, found->name, why);
 }
 
 static bool take_away(const remains *found, const char *entry, gis_error *error)
@@ -162,8 +162,7 @@ static bool settle_stage(remains *found, const char *name, gis_sentences *said, 
     read_record(found);
     if (!found->main) {
         if (gis_entry_is_there(found->inner, name))
-            gis_sentences_add(said,
-                              "%s/%s is left of a run that was ended before it changed anything; it can be removed",
+            gis_sentences_add(said, "%s/%s was left by a run that ended before it changed anything; it can be removed",
                               found->directory, found->name);
         else
             unlinkat(found->outer, found->name, AT_REMOVEDIR); /* succeeds only if it is empty */
@@ -174,18 +173,18 @@ static bool settle_stage(remains *found, const char *name, gis_sentences *said, 
     if (half && !bring_back(found, error)) return false;
     clear_away(found);
     if (half)
-        gis_sentences_add(said,
-                          "%s/%s: an earlier run was killed while it put its files in place; the former ones have "
-                          "been brought back",
-                          found->directory, name);
+        gis_sentences_add(
+            said,
+            "%s/%s: an earlier run was killed while it put its files in place; the former files have been restored",
+            found->directory, name);
     return true;
 }
 
 static void tell_way_back(const remains *found, gis_sentences *said)
 {
     gis_sentences_add(said,
-                      "%s/%s is in use, or left of a run that was killed while it put its files in place; the "
-                      "former ones are in %s/%s/" GIS_STAGE_OLD ": move them back",
+                      "%s/%s is in use, or was left by a run that was killed while it put its files in place; the "
+                      "former files are in %s/%s/" GIS_STAGE_OLD ": move them back",
                       found->directory, found->name, found->directory, found->name);
 }
 

@@ -105,10 +105,10 @@ static gis_sqlite_outcome copy_all(const calls *sqlite, sqlite3 *from, sqlite3 *
     if (reason == BUSY || reason == LOCKED)
         gis_sqlite_fail_in_use(name, error);
     else if (reason == READONLY)
-        gis_fail(error,
-                 "%s: cannot be replaced: its pages are of another size, and its journal (WAL) does not let "
-                 "that be changed; write another file",
-                 name);
+        gis_fail(
+            error,
+            "%s: cannot be replaced: its page size is different, and cannot be changed in WAL mode; write another file",
+            name);
     else
         gis_fail(error, "%s: writing failed: %s", name, sqlite->error_message(to));
     return GIS_SQLITE_FAILED;

@@ -96,10 +96,10 @@ int gis_sqlite_lock(const char *path, gis_error *error)
 
 bool gis_sqlite_fail_in_use(const char *path, gis_error *error)
 {
-    return gis_fail(error,
-                    "%s is in use by another program, which did not let go of it within %g s: close it there, "
-                    "or write another file",
-                    path, gis_sqlite_patience() / 1000.);
+    return gis_fail(
+        error,
+        "%s is in use by another program, which did not release it within %g s: close it there, or write another file",
+        path, gis_sqlite_patience() / 1000.);
 }
 
 bool gis_sqlite_has_journal(const char *path)

@@ -35,8 +35,8 @@ bool gis_sqlite_has_log(const char *path);
  * (base/trust.h); SQLite would apply it to the database. NULL: there is none. GIS_SQLITE_PLANTED is a message for path,
  * ending, path. */
 #define GIS_SQLITE_PLANTED                                                                                             \
-    "%s%s belongs to another user, in a directory in which all may write; SQLite would take it for a part of %s: "     \
-    "look at it, and move it away"
+    "%s%s belongs to another user, in a directory in which all may write; SQLite would read it as a part of %s: "      \
+    "inspect it, and move it away"
 const char *gis_sqlite_planted_companion(const char *path);
 
 #endif

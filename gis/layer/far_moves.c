@@ -35,8 +35,8 @@ void gis_far_moves_warn(const gis_far_moves *of, const gis_layer_input *input, s
     if (!(hypot(move[0], move[1]) > extent)) return;
     gis_feature_name(input, i, who, sizeof who);
     gis_say_warning(GIS_MESSAGE_INVALID,
-                    "%s: it moves by %g, farther than the features with sound coordinates reach (%g): are its own "
-                    "coordinates corrupt?",
+                    "%s: it moves by %g, which is more than the extent of the features with plausible coordinates "
+                    "(%g): are its own coordinates corrupt?",
                     who, hypot(move[0], move[1]), extent);
 }
 

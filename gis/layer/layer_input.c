@@ -248,7 +248,7 @@ void gis_layer_warn_of_others(const gis_layer_input *input, bool any_points)
 {
     if (input->other > 0)
         gis_say_warning(GIS_MESSAGE_PASSED_BY,
-                        "%s: %zu features are no %s; they stay as they are and conflict with nothing%s",
+                        "%s: %zu features are not %s; they stay as they are and conflict with nothing%s",
                         gis_source_name(input->source), input->other, input->points ? "points" : "polygons",
                         any_points && !input->points ? " (for points give their --symbol, as in --symbol disc:4)" : "");
 }

@@ -56,10 +56,9 @@ static bool list_keys(const gis_layer_input *input, int fid_field, known **out, 
         if (strcmp(list[i - 1].key, list[i].key) == 0) {
             char who[GIS_WHO_SIZE];
             gis_feature_name(input, list[i].feature, who, sizeof who);
-            ok = gis_fail(error,
-                          "--before: %s: another feature of %s has the key %s too; give an --id-field that tells "
-                          "features apart",
-                          who, gis_source_path(input->source), list[i].key);
+            ok = gis_fail(
+                error, "--before: %s: another feature of %s has the key %s too; give an --id-field with unique values",
+                who, gis_source_path(input->source), list[i].key);
         }
     if (ok)
         *out = list;
@@ -106,7 +105,7 @@ static bool match_features(pairing *p, gis_error *error)
             m->lost[m->n_lost++] = i;
     }
     if (ok && found < now->n)
-        gis_say_warning(GIS_MESSAGE_PASSED_BY, "--before: %zu features of %s are not in %s; they are passed by",
+        gis_say_warning(GIS_MESSAGE_PASSED_BY, "--before: %zu features of %s are not in %s; they are not compared",
                         now->n - found, gis_source_name(now->source), gis_source_path(m->original.source));
     free_keys(keys, now->n);
     free_keys(own, m->original.n);

@@ -119,7 +119,7 @@ static bool read_symbol(const gis_layer_input *input, const char *text, const ch
     if (!gis_shape_from_text(text, who, &input->units, input->request->invalid, &symbol, NULL, error)) return false;
     if (sunder_shape_is_empty(symbol)) {
         sunder_shape_free(symbol);
-        return gis_fail_usage(error, "%s (%s): the symbol is empty; it must enclose something", who, text);
+        return gis_fail_usage(error, "%s (%s): the symbol is empty; it must have an area", who, text);
     }
     *out = symbol;
     return true;
@@ -153,11 +153,11 @@ static bool own_symbol(const gis_layer_input *input, size_t i, const gis_layer_s
 {
     OGRFeatureH feature = gis_source_feature(input->source, i);
     if (how->symbol_field < 0 || gis_field_is_blank(feature, how->symbol_field))
-        return how->symbol || gis_fail(error, "%s: %s is null, and there is no --symbol to take instead", who,
+        return how->symbol || gis_fail(error, "%s: %s is null, and there is no --symbol to use instead", who,
                                        input->request->symbol_field);
     const char *text = OGR_F_GetFieldAsString(feature, how->symbol_field);
     if (!gis_shape_is_text(text))
-        return gis_fail(error, "%s: %s in %s is no symbol; expected " SYMBOL_FORMS, who, text,
+        return gis_fail(error, "%s: %s in %s is not a symbol; expected " SYMBOL_FORMS, who, text,
                         input->request->symbol_field);
     if (read_symbol(input, text, who, own, error)) return true;
     error->exit_status = GIS_FAILED; /* the data are wrong, not the command line */
@@ -190,7 +190,7 @@ static bool place_enlarged(gis_layer_input *input, size_t i, int size_field, con
                                       error);
     if (!scale_shape(symbol, factor, who, &larger, error)) return false;
     bool ok = sunder_shape_is_empty(larger)
-                  ? gis_fail(error, "%s: its symbol times %g encloses nothing that doubles can tell", who, factor)
+                  ? gis_fail(error, "%s: its symbol times %g is too small to have an area in doubles", who, factor)
                   : place_symbol(input, i, larger, who, error);
     sunder_shape_free(larger);
     return ok;

@@ -249,8 +249,9 @@ static bool check_shard(const gis_options *out, gis_error *error)
     for (int i = 0; i < OPT_N; i++) {
         const gis_option *option = &gis_option_table[i];
         if (out->given[i] && i != OPT_SHARD && !(option->commands & GIS_MERGE))
-            return gis_fail_usage(error, "%.*s: with --shard the plan says that; give it to sunder plan",
-                                  name_length(option), option->names);
+            return gis_fail_usage(
+                error, "%.*s cannot be given with --shard, since it is part of the plan; give it to sunder plan",
+                name_length(option), option->names);
     }
     return out->n_operands == 1 ||
            gis_fail_usage(error, "sunder separate --shard K takes one operand, PLAN; `sunder plan` makes one");
@@ -271,8 +272,8 @@ static bool finish_options(gis_options *out, gis_error *error)
     }
     if (out->given[OPT_SHARD]) return check_shard(out, error);
     if (out->n_operands < command->least)
-        return gis_fail_usage(error, "sunder %s needs %s; `sunder %s --help` tells more", command->name,
-                              command->operands, command->name);
+        return gis_fail_usage(error, "sunder %s needs %s; see `sunder %s --help`", command->name, command->operands,
+                              command->name);
     if (out->given[OPT_OGR_OVERWRITE]) out->given[OPT_UPDATE] = out->given[OPT_OVERWRITE_LAYER] = true;
     if (out->given[OPT_OVERWRITE] && out->given[OPT_UPDATE])
         return gis_fail_usage(error, "--overwrite replaces the whole dataset, --update adds to it: give one of them "

@@ -11,7 +11,7 @@ const char *gis_page_kind(sunder_conflict_kind kind)
         [SUNDER_CONFLICT_OVERLAP] = "overlap",
         [SUNDER_CONFLICT_TOO_CLOSE] = "too close",
         [SUNDER_CONFLICT_BARRIER] = "on a barrier",
-        [SUNDER_CONFLICT_BARRIER_DRAWN] = "on what is drawn of a barrier",
+        [SUNDER_CONFLICT_BARRIER_DRAWN] = "within the drawn width of a barrier",
         [SUNDER_CONFLICT_BARRIER_NEAR] = "too close to a barrier",
         [SUNDER_CONFLICT_CONTAINED] = "one within the other",
         [SUNDER_CONFLICT_DUPLICATE] = "duplicate",
@@ -43,8 +43,8 @@ static const struct {
     [SUNDER_REASON_KEPT] = {"kept", "the two are allowed to overlap", true},
     [SUNDER_REASON_UNRESOLVED] = {"unresolved", "neither a solution was found, nor a proof that there is none", false},
     [CROWDED] = {"crowded",
-                 "proved: among these two and the features that block them some pair has to stay in conflict, "
-                 "whatever is done elsewhere; none of these features can be left out of the proof",
+                 "proved: some pair among these two and the features that block them has to stay in conflict; none of "
+                 "these features can be left out of the proof",
                  true},
 };
 

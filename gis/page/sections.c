@@ -82,7 +82,7 @@ bool gis_page_figures(const gis_page_model *model, const gis_thinning *thinning,
     }
     close_figure(to, detail.failed || !detail.length ? "" : gis_text_get(&detail));
 
-    open_figure(to, "", "of the cost might be saved, at most");
+    open_figure(to, "", "of the cost could be saved, at most");
     gis_print_share_or_more(to, model->request->optimality_gap);
     detail.length = 0;
     gis_text_add(&detail, "cost ");
@@ -135,7 +135,7 @@ bool gis_page_map_note(const gis_page_model *model, const gis_thinning *thinning
         add_barrier_note(model, thinning, to);
         return true;
     }
-    gis_text_add(to, "The layer is large, so that the map is thinned: ");
+    gis_text_add(to, "The layer is large, so the map is thinned: ");
     gis_page_add_number_of(to, thinning->whole, "feature is", "features are");
     gis_text_add(to, " drawn with every corner, those in conflict and the longest moves before all others; ");
     gis_print_count(to, thinning->simpler);
@@ -143,9 +143,8 @@ bool gis_page_map_note(const gis_page_model *model, const gis_thinning *thinning
     gis_print_length(to, thinning->tolerance, &model->unit);
     gis_text_add(to, ", and ");
     gis_print_count(to, thinning->left_out);
-    gis_text_add(
-        to, " no larger than that are left out. This is for drawing alone: what was separated, and proved, are the "
-            "features as they are.");
+    gis_text_add(to, " no larger than that are left out. Only the drawing is simplified: the separation and the proofs "
+                     "are about the original features.");
     add_barrier_note(model, thinning, to);
     return true;
 }

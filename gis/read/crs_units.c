@@ -75,8 +75,8 @@ void gis_crs_units_warn(OGRSpatialReferenceH crs, const char *layer, const doubl
     if (!gis_crs_is_known(crs)) return;
     if (OSRIsGeographic(crs))
         gis_say_warning(GIS_MESSAGE_CRS,
-                        "%s: the coordinates are degrees; distances and moves are measured in them, which are no "
-                        "lengths on the ground",
+                        "%s: the coordinates are degrees; distances and moves are measured in degrees, not in lengths "
+                        "on the ground",
                         layer);
     else
         warn_mercator(crs, layer, box);

@@ -67,7 +67,7 @@ bool gis_shape_from_source(const gis_source_request *request, gis_invalid_policy
     const char *meant = gis_shape_prefix_meant(request->path);
     if (!gis_source_open(&polygons, &opened, error)) {
         if (meant && access(request->path, F_OK) != 0)
-            gis_fail(error, "%s (%s): no such file, and no shape; did you mean %s?", who, request->path, meant);
+            gis_fail(error, "%s (%s): neither a file nor a shape; did you mean %s?", who, request->path, meant);
         return false;
     }
     gis_say_warnings(GIS_MESSAGE_INPUT, gis_source_warnings(opened));
@@ -94,7 +94,7 @@ bool gis_shape_read(const gis_shape_request *request, const gis_crs_units *units
              (gis_crs_may_be_same(crs, gis_source_crs(opened)) ||
               gis_fail(error, "%s %s has another CRS than the layer; reproject one of them first", name, text));
     }
-    if (ok && sunder_shape_is_empty(shape)) ok = gis_fail_usage(error, "%s %s: it encloses nothing", name, text);
+    if (ok && sunder_shape_is_empty(shape)) ok = gis_fail_usage(error, "%s %s: it has no area", name, text);
     if (!ok) {
         sunder_shape_free(shape);
         gis_source_close(opened);

@@ -37,12 +37,12 @@ static bool open_dataset(gis_source *source, const gis_source_request *request, 
             gis_fail(error, "%s: no such file", request->path);
         else if (gis_sqlite_has_journal(request->path))
             gis_fail(error,
-                     "%s cannot be read: %s-journal is left of a transaction that was interrupted; SQLite rolls "
-                     "it back once a program opens the database that may write, such as sqlite3",
+                     "%s cannot be read: %s-journal was left by an interrupted transaction; SQLite rolls it back when "
+                     "a program that may write opens the database, such as sqlite3",
                      request->path, request->path);
         else
             gis_fail(error, "%s: cannot be opened as a vector dataset: %s", request->path,
-                     gis_listener_reason(&listener, "no driver knows it"));
+                     gis_listener_reason(&listener, "no driver recognises it"));
     }
     gis_source_keep_warnings(source, &listener);
     gis_listener_clear(&listener);
@@ -69,7 +69,8 @@ static bool run_statement(gis_source *source, const gis_source_request *request,
     source->is_result = source->layer != NULL;
     if (box) OGR_G_DestroyGeometry(box);
     if (!source->layer)
-        gis_fail(error, "%s: --sql: %s", request->path, gis_listener_reason(&listener, "the statement gives no layer"));
+        gis_fail(error, "%s: --sql: %s", request->path,
+                 gis_listener_reason(&listener, "the statement returns no layer"));
     gis_listener_clear(&listener);
     return source->layer != NULL;
 }

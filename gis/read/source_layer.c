@@ -96,7 +96,7 @@ OGRLayerH gis_choose_layer(GDALDatasetH dataset, const gis_source_request *reque
     if (visible == 1) return only; /* gis_layer_fits() will report if it is unsuitable */
     list_layers(dataset, fit ? takes : 0, listed, sizeof listed);
     if (fit)
-        gis_fail(error, "%s has several layers that may be meant; choose one with %s: %s", path,
+        gis_fail(error, "%s has several suitable layers; choose one with %s: %s", path,
                  request->layer_option ? request->layer_option : "--input-layer", listed);
     else
         gis_fail(error, "%s has no layer of %s; its layers: %s", path, words_for(takes), listed);

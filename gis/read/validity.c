@@ -50,7 +50,7 @@ bool gis_shape_of_feature(const gis_polygons *set, gis_invalid_policy policy, co
         gis_say_warning(GIS_MESSAGE_INVALID, "%s: %s%s; %s", who, said, reason.message,
                         !ok ? "skipped"
                         : sunder_shape_is_empty(*out)
-                            ? "its rings enclose nothing by the even-odd rule: skipped"
+                            ? "its rings enclose no area by the even-odd rule: skipped"
                             : "read as the region that its rings enclose by the even-odd rule");
     return true;
 }

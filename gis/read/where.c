@@ -27,12 +27,12 @@ static void explain_sizes(GDALDatasetH dataset, OGRLayerH layer, const char *whe
     bool own = has_own_sql(dataset);
     if (!column || !column[0]) column = "geom";
     if (own && strcasestr(where, "OGR_GEOM"))
-        snprintf(text, size, "; %s is asked in its own SQL, where the area is ST_Area(\"%s\")",
+        snprintf(text, size, "; a condition on %s is in its own SQL, in which the area is ST_Area(\"%s\")",
                  GDALGetDriverShortName(GDALGetDatasetDriver(dataset)), column);
     else if (own && strcasestr(where, "ST_"))
         snprintf(text, size, "; its geometry is \"%s\"", column);
     else if (!own && strcasestr(where, "ST_"))
-        snprintf(text, size, "; this format is asked in the SQL of OGR, where the area is OGR_GEOM_AREA");
+        snprintf(text, size, "; a condition on this format is in OGR SQL, in which the area is OGR_GEOM_AREA");
 }
 
 bool gis_fail_where(GDALDatasetH dataset, OGRLayerH layer, const char *option, const char *where, const char *reason,

@@ -64,7 +64,7 @@ static bool read_layer(gis_route_input *input, gis_error *error)
     selected.not_finite = gis_invalid_not_finite(input->request->invalid, GIS_NOT_FINITE_LEFT_OUT);
     if (!gis_source_open(&selected, &input->source, error)) {
         if (meant && strstr(error->message, "no such file"))
-            gis_fail(error, "OBSTACLES (%s): no such file, and no shape; did you mean %s?", path, meant);
+            gis_fail(error, "OBSTACLES (%s): neither a file nor a shape; did you mean %s?", path, meant);
         return false;
     }
     gis_say_warnings(GIS_MESSAGE_INPUT, gis_source_warnings(input->source));

@@ -40,8 +40,9 @@ static bool route_vertex(route_writer *w, size_t i, double xy[2], gis_error *err
     const char *text[2];
     sunder_route_vertex(w->route, i, xy);
     if (!isfinite(xy[0]) || !isfinite(xy[1]))
-        return gis_fail(error, "the path leaves the range of doubles, which a layer holds; `sunder route --exact` "
-                               "gives it as JSON");
+        return gis_fail(
+            error,
+            "the path leaves the range of doubles, so a layer cannot hold it; `sunder route --exact` gives it as JSON");
     sunder_route_vertex_text(w->route, i, &text[0], &text[1]);
     w->deviation = fmax(w->deviation, hypot(gis_text_deviation(text[0], xy[0]), gis_text_deviation(text[1], xy[1])));
     return true;

@@ -55,7 +55,7 @@ static bool check_file(const gis_destinations *to, const char *option, const cha
         return gis_fail_usage(error, "%s %s: that is the output; give another file", option, path);
     if (!gis_link_may_be_followed(path, option, error)) return false;
     bool there = stat(path, &info) == 0;
-    if (!there && lstat(path, &info) == 0) return gis_fail(error, "%s: %s is a link that leads nowhere", option, path);
+    if (!there && lstat(path, &info) == 0) return gis_fail(error, "%s: %s is a broken link", option, path);
     if (there && S_ISDIR(info.st_mode)) return gis_fail(error, "%s: %s is a directory", option, path);
     if (there && access(path, W_OK) != 0)
         return gis_fail(error, "%s: cannot write %s: %s", option, path, strerror(errno));

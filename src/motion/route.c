@@ -183,7 +183,7 @@ sunder_status sunder_route_find(const sunder_obstacle *obstacles, size_t n, cons
     if (status != SUNDER_OK) return status;
     if (!(o.gap >= 0) || !isfinite(o.gap))
         return sunder_i_fail(err, SUNDER_EARG, "the gap must be finite and not negative, not %.17g", o.gap);
-    if (sunder_shape_is_empty(robot)) return sunder_i_fail(err, SUNDER_EARG, "the robot encloses nothing");
+    if (sunder_shape_is_empty(robot)) return sunder_i_fail(err, SUNDER_EARG, "the robot has no area");
     status = check_obstacles(obstacles, n, err);
     if (status != SUNDER_OK) return status;
     sunder_sum_options how = {.size = sizeof how, .progress = o.progress, .progress_user = o.progress_user};

@@ -286,7 +286,7 @@ sunder_status sunder_shape_from_rings(const double *xy, const size_t *ring_end, 
                                       sunder_validity validity, sunder_shape **out, sunder_error *err)
 {
     if (validity != SUNDER_VALIDITY_STRICT && validity != SUNDER_VALIDITY_EVEN_ODD)
-        return sunder_i_fail(err, SUNDER_EARG, "there is no such way with invalid rings");
+        return sunder_i_fail(err, SUNDER_EARG, "there is no such treatment of invalid rings");
     sunder_i_input in = {.xy = xy, .ring_end = ring_end, .poly_end = poly_end, .polygons = polygons};
     sunder_status status = read_input(&in, err);
     if (status) return status;

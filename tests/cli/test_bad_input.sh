@@ -195,7 +195,7 @@ mkfifo pipe
 mkdir kept
 touch kept/precious
 for format in GeoJSON GPKG; do
-    refused 1 'no ordinary file' separate in.gpkg pipe --input-layer houses --of $format --overwrite
+    refused 1 'not a regular file' separate in.gpkg pipe --input-layer houses --of $format --overwrite
     refused 1 'is a directory' separate in.gpkg kept --input-layer houses --of $format --overwrite
 done
 rm pipe

@@ -82,9 +82,9 @@ ogr2ogr -update in.gpkg over.gpkg houses -nln others
 found 'jump 3 4;jump 4 3;' over.gpkg
 
 refused 2 'belongs to other commands' separate in.gpkg o.gpkg --before in.gpkg
-refused 2 '--max-shift is about moves' check over.gpkg --max-shift 3
-refused 2 '--allow-jumps is about moves' check over.gpkg --allow-jumps
-refused 2 'the former selection is unknown' check over.gpkg --before in.gpkg --bbox 0,0,9,9
+refused 2 '--max-shift is a rule for moves' check over.gpkg --max-shift 3
+refused 2 '--allow-jumps is a rule for moves' check over.gpkg --allow-jumps
+refused 2 'the same selection of the original is not known' check over.gpkg --before in.gpkg --bbox 0,0,9,9
 refused 1 'nofile.gpkg: no such file' check over.gpkg --before nofile.gpkg
 refused 1 'has no layer of polygons' check in.gpkg -l houses --before rows.gpkg
 refused 1 'in.gpkg is an input' check over.gpkg in.gpkg --overwrite --before in.gpkg

@@ -127,7 +127,7 @@ WKT,a
 "LINESTRING (0 0, 5 5)",2
 CSV
 expect 0 buffer odd.gpkg odd.shp --shape square:2 --stats -
-says err '1 features are no polygons'
+says err '1 features are not polygons'
 ogr2ogr -lco GEOMETRY_NULLABLE=NO full.gpkg odd.gpkg
 expect 0 buffer full.gpkg null.gpkg -l odd --shape square:2 --stats -
 jq -e '.max_deviation == 0' out >/dev/null || fail "what has no geometry reads back as another: $(cat out)"
@@ -229,7 +229,7 @@ same "$(geometry stamped.gpkg halls 3)" "$(geometry squared.gpkg halls 3)"
 ogr2ogr -a_srs EPSG:25833 zone33.gpkg stamp.gpkg
 ogr2ogr -where 'part > 2' none.gpkg stamp.gpkg
 refused 1 'another CRS' buffer halls.gpkg n.gpkg --shape zone33.gpkg
-refused 2 'encloses nothing' buffer halls.gpkg n.gpkg --shape none.gpkg
+refused 2 'has no area' buffer halls.gpkg n.gpkg --shape none.gpkg
 refused 1 'stamp.gpkg is an input' buffer halls.gpkg stamp.gpkg --shape stamp.gpkg --overwrite
 
 # Lengths in other units, on a layer in metres; refusals.
@@ -238,7 +238,7 @@ jq -e '.area > 3 * 304 * 304' out >/dev/null || fail "feet: $(cat out)"
 refused 2 '--shape is missing' buffer halls.gpkg n.gpkg
 refused 2 'did you mean square:?' buffer halls.gpkg n.gpkg --shape sqare:4
 refused 1 'round: no such file' buffer halls.gpkg n.gpkg --shape round
-refused 2 'encloses nothing' buffer halls.gpkg n.gpkg --shape 'POLYGON EMPTY'
+refused 2 'has no area' buffer halls.gpkg n.gpkg --shape 'POLYGON EMPTY'
 refused 2 'greater than 0' buffer halls.gpkg n.gpkg --shape square:0
 refused 2 'must be one of dilate|erode|open|close' buffer halls.gpkg n.gpkg --shape square:1 --operation grow
 refused 2 'give one of them' buffer halls.gpkg n.gpkg --shape square:1 --dissolve --dissolve-field name

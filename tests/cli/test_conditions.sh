@@ -26,10 +26,10 @@ same "$(states)" 'fixed moved moved ' '--fixed-where by size, --sql:'
 
 for option in --where --fixed-where --ignore-where; do
     refused 2 "$option \"OGR_GEOM_AREA < 20\": " separate in.gpkg new.gpkg $option 'OGR_GEOM_AREA < 20'
-    says err 'GPKG is asked in its own SQL, where the area is ST_Area("geom"); its fields are id'
-    refused 2 'where the area is ST_Area("geom")' separate in.sqlite new.gpkg $option 'ogr_geom_area < 20'
+    says err 'a condition on GPKG is in its own SQL, in which the area is ST_Area("geom"); its fields are id'
+    refused 2 'in which the area is ST_Area("geom")' separate in.sqlite new.gpkg $option 'ogr_geom_area < 20'
     refused 2 'its geometry is "geom"' separate in.gpkg new.gpkg $option 'ST_Area(geometry) < 20'
-    refused 2 'this format is asked in the SQL of OGR, where the area is OGR_GEOM_AREA; its fields are id' \
+    refused 2 'a condition on this format is in OGR SQL, in which the area is OGR_GEOM_AREA; its fields are id' \
         separate in.shp new.gpkg $option 'ST_Area(geom) < 20'
     refused 2 'its fields are id' separate in.gpkg new.gpkg $option "kind = 'a'"
     if grep -q area err; then fail "areas where nobody asked for them"; fi

@@ -35,11 +35,11 @@ print('"POLYGON EMPTY",empty')
 PY
 layer nothing.gpkg h POLYGON <nothing.csv
 expect 0 check nothing.gpkg --stats check.json --log log
-same "$(grep -c 'its rings enclose nothing by the even-odd rule: skipped$' log)" 24 "warnings of check:"
+same "$(grep -c 'its rings enclose no area by the even-odd rule: skipped$' log)" 24 "warnings of check:"
 same "$(cut -d';' -f1 out)" 'h: 27 features (skipped 25, invalid 24, null 1), 0 pairs tested'
 same "$(jq -c '[.features, .skipped, .invalid, .null]' check.json)" '[27,25,24,1]'
 expect 0 separate nothing.gpkg apart.gpkg --stats apart.json --log log
-same "$(grep -c 'enclose nothing' log)" 24 "warnings of separate:"
+same "$(grep -c 'enclose no area' log)" 24 "warnings of separate:"
 same "$(jq -c '[.skipped, .invalid, .null]' apart.json)" '[25,24,1]'
 expect 0 check nothing.gpkg --quiet --invalid skip --stats check.json
 same "$(jq -c '[.skipped, .invalid, .null]' check.json)" '[25,24,1]'

@@ -59,7 +59,7 @@ separate --allow-inexact-output --layers main --where "name = 'one'" thirds.gpkg
 [ "$(ogrinfo -ro -al -so stdout.geojson | sed -n 's/^Feature Count: //p')" = 3 ] || fail "standard output is no whole layer"
 refused 1 'several files' separate --of 'ESRI Shapefile' squares.gpkg /vsistdout/
 [ ! -s refused.out ] || fail "something was written before the refusal"
-refused 2 'does not tell the format' separate squares.gpkg /vsistdout/
+refused 2 'the format is not known from the name' separate squares.gpkg /vsistdout/
 
 # ---- inside an archive
 separate squares.gpkg /vsizip/archive.zip/out.gpkg

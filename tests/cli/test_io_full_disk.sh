@@ -60,7 +60,7 @@ says s.json 'standard output is read back in memory, not from there'
 expect 0 separate in.gpkg /vsistdout/ --of GeoJSON --strict --stats s.json --layers main
 # ---- and so is a format that is only written
 if ogrinfo --formats | grep -q PGDUMP; then
-    refused 1 'PGDUMP is only written' separate in.gpkg o.sql --of PGDUMP
+    refused 1 'GDAL cannot read PGDUMP' separate in.gpkg o.sql --of PGDUMP
     expect 0 separate in.gpkg o.sql --of PGDUMP --allow-inexact-output --stats s.json --layers main
     says s.json '"verified": false'
     says s.json 'was not read back: PGDUMP is only written'

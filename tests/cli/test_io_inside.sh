@@ -36,12 +36,12 @@ refused 1 'is an input' buffer in.gpkg p.wkt --shape @p.wkt --of GeoJSON --overw
 ln -s nowhere.gpkg link.gpkg
 for how in '' --overwrite --update; do
     # shellcheck disable=SC2086 # none is no argument
-    refused 1 'link.gpkg is a link that leads nowhere' separate in.gpkg link.gpkg $how
+    refused 1 'link.gpkg is a broken link' separate in.gpkg link.gpkg $how
 done
 ln -s nowhere o_conflicts.fgb
-refused 1 'o_conflicts.fgb is a link that leads nowhere' separate in.gpkg o.fgb --overwrite
+refused 1 'o_conflicts.fgb is a broken link' separate in.gpkg o.fgb --overwrite
 ln -s nowhere s.json
-refused 1 's.json is a link that leads nowhere' separate in.gpkg o.gpkg --stats s.json
+refused 1 's.json is a broken link' separate in.gpkg o.gpkg --stats s.json
 
 # ---- GeoJSON keeps doubles: 17 digits where they do, more where they do not
 doubles() { ogr2ogr -f GPKG back.gpkg "$1" -nln back && sqlite3 back.gpkg 'SELECT quote(geom) FROM back' | cut -c 83-; rm -f back.gpkg; }
@@ -92,7 +92,7 @@ id,WKT
 2,"POLYGON((0 0,4 0,4 4,0 4,0 0))"
 X
 expect 0 check any.gpkg
-grep -q '1 features are no polygons.*for points give their --symbol' err || fail "a point passed by without a word: $(cat err)"
+grep -q '1 features are not polygons.*for points give their --symbol' err || fail "a point passed by without a word: $(cat err)"
 
 # ---- out of memory is no wrong usage: a literal that needs some, with less and less
 # (a sanitizer wants more addresses than there is memory)

@@ -42,7 +42,7 @@ for ((place = calls - 75; place <= calls; place += 9)); do
     rm -rf dir && mv half dir
     run "${again[@]}" --gap 1 --overwrite --log said
     [ "$status" -eq 0 ] || fail "place $place: --overwrite over what is left"
-    says said 'the former ones have been brought back'
+    says said 'the former files have been restored'
     [ "$(files dir)" = "$new" ] || fail "place $place: --overwrite over what is left did not come to the new files"
 done
 [ "$halves" -gt 1 ] || fail "only $halves places between two renames were met: the test proves nothing"
@@ -69,7 +69,7 @@ touch dir/.sunder-abcdef/o.dbf
 echo former >dir/.sunder-abcdef/superseded~/o.shp && echo later >dir/o.shp
 run "${again[@]}" --overwrite
 same "$status" 1 "a file that came to the place of one that stepped aside"
-says err 'something of that name has come there since'
+says err 'a file of that name has appeared there since'
 same "$(cat dir/o.shp dir/.sunder-abcdef/superseded~/o.shp)" $'later\nformer' "a file that came to the place of another"
 
 # A stage of a run that lives is left alone.

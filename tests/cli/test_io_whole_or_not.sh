@@ -79,7 +79,7 @@ if [ ! -w closed ]; then # root may write everywhere
     refused_squares 1 'cannot write in' squares.gpkg closed/out.gpkg
 fi
 refused_squares 1 'cannot write in' squares.gpkg /proc/out.gpkg
-refused_squares 2 'does not tell the format' squares.gpkg out
+refused_squares 2 'the format is not known from the name' squares.gpkg out
 refused_squares 2 'no such format' --of Nonsense squares.gpkg other.gpkg
 
 # ---- a full disk: every format must notice. A limit on the size of files gives the same errors without a device.

@@ -17,5 +17,5 @@ expect 0 separate yard.gpkg o.gpkg -q --overwrite --gap 1 --fixed-where 'id = 1'
 same "$(value o.gpkg yards 2 sunder_st) $(value o.gpkg yards 2 sunder_len | awk '{ print ($1 > 14) }')" 'moved 1'
 
 refused 2 'takes no value' separate yard.gpkg never.gpkg --allow-jumps=yes
-refused 2 'is about moves' check yard.gpkg --allow-jumps
+refused 2 'is a rule for moves' check yard.gpkg --allow-jumps
 finish

@@ -41,7 +41,7 @@ for k in 1 2 3 4 5; do
         "$(value o.gpkg houses_conflicts $k required)" "$(value o.gpkg houses_conflicts $k missing)"
 done >listed
 same "$(cat listed)" "$kinds" "the layer of conflicts:"
-says out 'barrier drawn          3          3  meets what is drawn of it'
+says out 'barrier drawn          3          3  meets its drawn width only'
 same "$(ogrinfo -q o.gpkg -sql "SELECT COUNT(*) AS n FROM layer_styles WHERE f_table_name = 'houses_conflicts' AND
     styleQML LIKE '%barrier_drawn%' AND styleQML LIKE '%missing%'" | sed -n 's/.*= //p')" 1 "styles that know the kind:"
 

@@ -53,5 +53,5 @@ expect 1 separate two.gpkg o.gpkg --overwrite --max-shift-field far --input-crs 
 says err "FID 1: the layer's coordinates are degrees"
 two two.gpkg Real 0 ""
 expect 0 separate two.gpkg o.gpkg -q --overwrite --max-shift-field far --input-crs EPSG:4326
-refused 2 'is about moves' check two.gpkg --max-shift-field far
+refused 2 'is a rule for moves' check two.gpkg --max-shift-field far
 finish

@@ -68,7 +68,7 @@ tail -n 1 all.log | grep -q '^sunder: error: ' || fail 'the log does not hold th
 expect 0 check sound.gpkg --log all.log
 [ -f all.log ] && [ ! -s all.log ] || fail 'a log of nothing is not empty'
 echo 'sunder: important' >notes.txt
-refused 2 'is no log' check sound.gpkg --log notes.txt
+refused 2 'is not a log' check sound.gpkg --log notes.txt
 refused 2 'has another use in this run' check sound.gpkg --log sound.gpkg
 refused 2 'has another use in this run' separate sound.gpkg new.gpkg --log ./new.gpkg
 refused 2 'has another use in this run' separate sound.gpkg new.gpkg --stats all.log --log all.log

@@ -107,7 +107,7 @@ refused 2 'Q (rectangle:2x): the height is missing' pair square:1 rectangle:2x
 refused 2 'Q (disc:-1): the radius, -1: negative' sum square:1 disc:-1
 refused 2 'P (disc:1:): the number of segments is missing' sum disc:1: square:1
 refused 2 'the name of the file is missing' sum @ square:1
-refused 1 'disk:4): no such file, and no shape; did you mean disc:?' sum disk:4 square:1
+refused 1 'disk:4): neither a file nor a shape; did you mean disc:?' sum disk:4 square:1
 refused 2 'P (POLYGON ((0 0, 1 1))): WKT, character 19: a ring of 2 points' sum 'POLYGON ((0 0, 1 1))' square:1
 refused 2 "P (POLYGON ((0 0, 1 0, 1 1), (0.11 0, 0.22 0, 0.33 ...): WKT, character" \
     sum 'POLYGON ((0 0, 1 0, 1 1), (0.11 0, 0.22 0, 0.33 a, 0.44 0))' square:1
@@ -131,7 +131,7 @@ expect 0 sum two.gpkg square:1 -l a --where 'id = 1'
 same "$(area)" 25
 expect 0 sum two.gpkg square:1m -l a # the layer's CRS is in metres
 same "$(area)" 40
-refused 1 'there is no CRS' sum square:1 square:1m
+refused 1 'the layer has no CRS' sum square:1 square:1m
 refused 1 'two.gpkg' sum two.gpkg square:1
 says err a
 says err b

@@ -34,5 +34,5 @@ for option in '--algorithm convolution' '--seed 1' '--decomposition vertical' '-
 done
 refused 2 'negative' pair square:2 square:1 --gap -1
 refused 2 '--gap' pair square:2 square:1 --gap inf
-refused 1 'there is no CRS' pair square:2 square:1 --gap 1m
+refused 1 'the layer has no CRS' pair square:2 square:1 --gap 1m
 finish

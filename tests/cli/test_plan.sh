@@ -109,7 +109,7 @@ done
 
 # ---- What is missing, altered, or of something else ----
 rm plan7/shard-2 plan7/shard-4 plan7/shard-5
-refused 1 'missing of its 7 shards: 2, 4-5' merge plan7 none.gpkg
+refused 1 'it has 7 shards, and these are missing: 2, 4-5' merge plan7 none.gpkg
 shards plan7 2 4 5
 merged plan7
 
@@ -117,7 +117,7 @@ merged plan7
 wrong() {
     run merge plan7 none.gpkg
     same "$status" 1 "merge with $2"
-    says err "missing of its 7 shards: $1;"
+    says err "it has 7 shards, and these are missing: $1;"
     says err "shard-$1"
     [ ! -e none.gpkg ] || fail "merged with $2"
     expect 0 separate --shard "$1" plan7
@@ -144,8 +144,8 @@ wrong 5 'a shard of other options'
 : >plan7/shard-7
 wrong 7 'a shard that is empty'
 
-refused 1 'a plan of another call' plan town.gpkg plan7 "${call[@]/3/4}" --shards 7
-refused 1 'a plan of another call' plan town.gpkg plan7 "${call[@]}" --shards 8
+refused 1 'a plan of another command line' plan town.gpkg plan7 "${call[@]/3/4}" --shards 7
+refused 1 'a plan of another command line' plan town.gpkg plan7 "${call[@]}" --shards 8
 cp -r done7 old
 python3 - old/plan <<'X'
 import sys
@@ -165,7 +165,7 @@ cp -r done7 spoilt
 printf '\7' | dd of=spoilt/status bs=1 seek=60 conv=notrunc 2>/dev/null
 refused 1 'spoilt/status: it was altered' merge spoilt none.gpkg
 cp plan64/features plan64/cells spoilt
-refused 1 'dealt to other shards' separate --shard 1 spoilt
+refused 1 'assigned to other shards' separate --shard 1 spoilt
 mkdir empty
 refused 1 'there is no plan in it' merge empty none.gpkg
 refused 1 'there is no plan in it' plan town.gpkg empty "${call[@]}" --shards 2
@@ -173,7 +173,7 @@ refused 1 'no such directory' separate --shard 1 nowhere
 refused 2 '1 to 7' separate --shard 8 plan7
 refused 2 '1 to 7' separate --shard 0 plan7
 refused 2 'takes one operand' separate --shard 1 plan7 out.gpkg
-refused 2 'with --shard the plan says that' separate --shard 1 plan7 --gap 3
+refused 2 'cannot be given with --shard' separate --shard 1 plan7 --gap 3
 refused 2 'unknown option --gap' merge plan7 none.gpkg --gap 3
 refused 2 '--shards N is missing' plan town.gpkg none "${call[@]}"
 refused 2 '1 to' plan town.gpkg none "${call[@]}" --shards 0
@@ -186,10 +186,10 @@ expect 0 plan changed.gpkg changed "${call[@]}" --shards 2 -q
 shards changed 1 2
 cp town.gpkg changed.gpkg
 ogrinfo -q changed.gpkg -sql 'update buildings set geom = (select geom from buildings where fid = 78) where fid = 77' >/dev/null
-refused 1 'changed.gpkg: features were changed' merge changed none.gpkg
+refused 1 'changed.gpkg: since the layer was read, features were changed' merge changed none.gpkg
 ogrinfo -q changed.gpkg -sql 'delete from buildings where fid = 77' >/dev/null
 refused 1 'it has 1999 features, and had 2000' merge changed none.gpkg
-refused 1 'before it changed' plan changed.gpkg changed "${call[@]}" --shards 2
+refused 1 'has changed since it was made' plan changed.gpkg changed "${call[@]}" --shards 2
 refused 1 'no such file' plan nothing.gpkg none "${call[@]}" --shards 2
 rm -rf changed changed.gpkg
 

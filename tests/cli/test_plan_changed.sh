@@ -47,7 +47,7 @@ for change in "UPDATE houses SET stays = 0 WHERE id = 1" "UPDATE houses SET stay
     *) says err 'since the layer was read' ;;
     esac
     [ ! -e o.gpkg ] || { fail "written after: $change"; rm o.gpkg; }
-    refused 1 'as it was before it changed' plan in.gpkg the.plan "${options[@]}" --shards 2
+    refused 1 'has changed since it was made' plan in.gpkg the.plan "${options[@]}" --shards 2
     refusals=$((refusals + 1))
 done
 [ "$refusals" -eq 12 ] || fail "$refusals changes were tried"
@@ -65,7 +65,7 @@ for change in "UPDATE roads SET broad = 2" "UPDATE roads SET geom = (SELECT geom
     changed "ATTACH 'moved.gpkg' AS other; ${change/roads2/other.roads2}"
     expect 0 merge the.plan o.gpkg
     case $change in
-    DROP*) says err 'whether barriers have changed since the plan was made is not known' ;;
+    DROP*) says err 'it is not known whether barriers have changed since the plan was made' ;;
     *) says err 'barriers have changed since the plan was made' ;;
     esac
     same "$(geometry o.gpkg houses 2)" "$(geometry whole.gpkg houses 2)" "moves after $change:"

@@ -109,9 +109,9 @@ for at in 1 1, ,1 1,2,3 a,b 1/0,2 1/,2 /2,2 1.5/2,2 nan,1 inf,1 1e999,0 0x1,2 '1
     refused 2 'X,Y' route "$wall" --robot square:2 --from "$at" --to 1,1
 done
 refused 2 'needs OUTPUT' route "$wall" --robot square:2 --from 0,0 --to 1,1 --free-space
-refused 2 'encloses nothing' route "$wall" --robot 'POLYGON EMPTY' --from 0,0 --to 1,1
+refused 2 'has no area' route "$wall" --robot 'POLYGON EMPTY' --from 0,0 --to 1,1
 refused 2 'negative' route "$wall" --robot square:2 --from 0,0 --to 1,1 --gap -1
 refused 2 'cannot be read' route 'LINESTRING (0 0, 1)' --robot square:2 --from 0,0 --to 1,1
 refused 1 'no such file' route nothing.gpkg --robot square:2 --from 0,0 --to 1,1
-refused 1 'there is no CRS' route "$wall" --robot square:1m --from 0,0 --to 1,1
+refused 1 'the layer has no CRS' route "$wall" --robot square:1m --from 0,0 --to 1,1
 finish

@@ -73,7 +73,7 @@ if [ -n "$valid" ]; then same "$valid" 0 "faces that are not valid:"; fi
 # Refused at once, nothing written.
 refused 2 'needs OUTPUT' sum "$rooms" $robot --planar-map
 refused 2 'several layers' sum "$rooms" $robot /vsistdout/ --of GeoJSON --planar-map
-refused 2 'makes none' sum "$rooms" $robot none.gpkg --planar-map --algorithm convolution
+refused 2 'makes no planar map' sum "$rooms" $robot none.gpkg --planar-map --algorithm convolution
 refused 2 'must be one of' sum "$rooms" $robot --decomposition best
 refused 2 'must be one of' sum "$rooms" $robot --order sorted
 ogr2ogr -f GPKG taken.gpkg map.gpkg sum_faces

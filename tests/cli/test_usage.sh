@@ -27,7 +27,7 @@ for size in 0 -3 2X 2GB G; do refused 2 'not a size' separate a b "--max-memory=
 for option in --algorithm --decomposition --order --seed --planar-map; do refused 2 "unknown option" pair square:1 square:1 $option; done
 refused 2 'must be one of' sum square:1 square:1 --algorithm quickest
 refused 2 'unknown command' dissolve a b
-refused 2 'which command'
+refused 2 'a command is missing'
 refused 2 'unknown option' --nonsense
 
 # A slip of the pen is told from nonsense.
@@ -94,7 +94,7 @@ refused 2 'four finite numbers' check in.gpkg --bbox 1,2,3,nan
 refused 2 'four finite numbers' check in.gpkg -spat 1 2 3
 refused 2 'greater than its maximum' check in.gpkg --bbox 5,0,1,1
 refused 2 'none of main' separate in.gpkg o.gpkg --layers main,nonsense
-refused 2 'nothing of that applies' separate in.gpkg o.gpkg --layers symbols
+refused 2 'none of these applies' separate in.gpkg o.gpkg --layers symbols
 refused 2 'must be one of text|json' check in.gpkg --messages xml
 refused 2 'cannot be given together' check in.gpkg --sql 'SELECT * FROM houses' --input-layer houses
 refused 2 '--dialect needs --sql' check in.gpkg --dialect sqlite

@@ -95,7 +95,7 @@ judge() {
     fi
     (cd dir && "$SUNDER" "${options[@]}" --log ../next >/dev/null 2>&1)
     after=$(state)
-    if grep -q 'brought back' next && [ "$after" = "$cleared" ] && [ -z "$(ls -d dir/.sunder-* 2>/dev/null)" ]; then
+    if grep -q 'former files have been restored' next && [ "$after" = "$cleared" ] && [ -z "$(ls -d dir/.sunder-* 2>/dev/null)" ]; then
         brought_back=$((brought_back + 1))
     else
         fail "$name $way $place ($call): neither old nor new, and not brought back"

@@ -61,8 +61,8 @@ struck() {
         said='sunder: error: interrupted'
         case $((turn++ % 4)) in
         1) way=signal:HUP ;;
-        2) way=signal:XFSZ said+=': a file would be larger than this process may make one (ulimit -f)' ;;
-        3) way=signal:XCPU said+=': this process may not work for longer (ulimit -t)' ;;
+        2) way=signal:XFSZ said+=': a file would exceed the size limit of this process (ulimit -f)' ;;
+        3) way=signal:XCPU said+=': the time limit of this process is reached (ulimit -t)' ;;
         esac
     fi
     (cd dir && STRIKE_UNDER=. "$strike" "$way" "$2" "$SUNDER" "${args[@]}") 3>report >out 2>err

@@ -35,7 +35,7 @@ class Units:
             raise NotRead(f"{what}: there is no --scale")
         metres = self.crs.metres()
         if metres is None:
-            raise NotRead(f"{what}: there is no CRS that would tell its unit")
+            raise NotRead(f"{what}: the layer has no CRS, so the length cannot be converted to its unit")
         if unit == "mm":
             value *= self.scale
         n, d = UNITS[unit]

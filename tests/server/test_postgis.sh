@@ -69,7 +69,7 @@ bytes_of of_table.gpkg moved >of_table
 "$SUNDER" separate --quiet --gap 3 -l plain --where 'ST_Area(geom) < 1e9' "$db" "$db" --update --output-layer moved
 same_sets=$(sql "SELECT count(*) FROM moved WHERE sunder_st = 'moved'")
 [ "$same_sets" = "$(grep -c 'sunder_st (String) = moved' of_file)" ] || fail "table to table: $same_sets moved"
-refused 2 'is asked in its own SQL, where the area is ST_Area("geom"); its fields are ' \
+refused 2 'is in its own SQL, in which the area is ST_Area("geom"); its fields are ' \
     "$SUNDER" check -l plain --where 'OGR_GEOM_AREA < 9' "$db"
 "$SUNDER" check --quiet --allow-conflicts --gap 3 -l squares squares.gpkg --barrier "$db,layer=moved" >/dev/null
 

@@ -316,8 +316,8 @@ bool gis_mend_multipolygon(gis_rounded *rounded, gis_suspects *suspects, gis_err
     bool again = rounded->set.polygons > 1 && rounded->deviation > 0;
     for (int round = 0; again; round++) {
         if (round == GIS_MULTIPOLYGON_ROUNDS)
-            return gis_fail(error, "rounded to doubles the polygons are no longer apart; `sunder sum --exact` gives "
-                                   "exact ones as JSON");
+            return gis_fail(error, "after rounding to doubles the polygons are no longer disjoint; `sunder sum "
+                                   "--exact` gives exact ones as JSON");
         if (!mend_once(rounded, round, suspects, &again, error)) return false;
     }
     return true;

@@ -306,7 +306,8 @@ static bool mend_polygon(gis_polygons *set, size_t first, double *moved, gis_err
         total += now;
     }
     if (ok && work.polygons)
-        ok = gis_fail(error, "rounded to doubles the sum is no longer valid; `sunder sum --exact` gives it as JSON");
+        ok = gis_fail(error,
+                      "after rounding to doubles the sum is no longer valid; `sunder sum --exact` gives it as JSON");
     gis_polygons_clear(&work);
     *moved = fmax(*moved, total);
     return ok;

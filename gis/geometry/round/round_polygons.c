@@ -19,7 +19,7 @@ static bool append_ring(const sunder_sum *sum, size_t polygon, size_t ring, gis_
     if (sunder_sum_vertices(sum, vertex, n, xy, deviation, &why) != SUNDER_OK)
         return gis_core_failed(error, NULL, &why);
     if (!isfinite(*deviation))
-        return gis_fail(error, "the sum leaves the range of doubles, which a layer or decimals hold; "
+        return gis_fail(error, "the sum leaves the range of doubles, so neither a layer nor decimals can hold it; "
                                "`sunder sum --exact` gives it as JSON");
     size_t m = 0;
     for (size_t i = 0; i < n; i++) {

@@ -110,8 +110,9 @@ static bool take_words(const char *argument, gis_barrier_request *out, gis_error
         if (!take_value(argument, key, value, out, error)) return false;
     }
     if (given[KEY_WIDTH] && given[KEY_WIDTH_FIELD])
-        return gis_fail_usage(error, "--barrier %s: width= is that of all, width-field= of each: give one of them",
-                              argument);
+        return gis_fail_usage(
+            error, "--barrier %s: width= gives one width for all, width-field= one for each: give one of them",
+            argument);
     return true;
 }
 

@@ -111,7 +111,7 @@ static bool in_layer_crs(const reading *r, OGRGeometryH geometry, const char *wh
     else {
         OGR_G_DestroyGeometry(copy);
         gis_fail(error, "%s: cannot be transformed to the layer's CRS: %s", who,
-                 gis_listener_reason(&listener, "a coordinate is not finite there"));
+                 gis_listener_reason(&listener, "a transformed coordinate is not finite"));
     }
     gis_listener_clear(&listener);
     return ok;

@@ -33,11 +33,11 @@ static bool holds_all(const gis_shard_run *parts, gis_error *error)
     const bool same = opened && file.size == parts->facts.source.features &&
                       gis_spool_features(parts->spool) <= parts->facts.source.features;
     gis_disk_file_close(&file);
-    return same || !opened ? same
-                           : gis_fail(error,
-                                      "%s: the plan is about %zu features, and its files are about others; make it "
-                                      "anew",
-                                      parts->directory, parts->facts.source.features);
+    return same || !opened
+               ? same
+               : gis_fail(error,
+                          "%s: the plan is for %zu features, but its files are for another number; make the plan anew",
+                          parts->directory, parts->facts.source.features);
 }
 
 bool gis_plan_check(const gis_plan *plan, const gis_shard_run *parts, bool status, gis_error *error)

@@ -196,14 +196,12 @@ static bool may_be_believed(const char *directory, gis_error *error)
 {
     struct stat status;
     if (stat(directory, &status) != 0 || (status.st_uid != geteuid() && status.st_uid != 0))
-        return gis_fail(
-            error,
-            "%s: it belongs to another user (%lu), whose plan could have any file read and replaced; if you "
-            "trust that user, take a copy of your own (cp -r)",
-            directory, (unsigned long)status.st_uid);
+        return gis_fail(error,
+                        "%s: it belongs to another user (%lu), and a plan can make this program read and replace any "
+                        "file; if you trust that user, make a copy of your own (cp -r)",
+                        directory, (unsigned long)status.st_uid);
     return !(status.st_mode & S_IWOTH) ||
-           gis_fail(error, "%s: all users may write into it, so that it may hold anything; make the plan anew",
-                    directory);
+           gis_fail(error, "%s: all users may write into it, so it cannot be trusted; make the plan anew", directory);
 }
 
 bool gis_plan_read(const char *directory, gis_plan *plan, gis_error *error)

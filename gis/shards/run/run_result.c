@@ -71,10 +71,10 @@ static bool pass_feature(passing *at, const gis_source *source, size_t i, gis_er
 /* Fails because the source differs from what was read the first time: the results do not fit its features any more. */
 static bool input_changed(const gis_source *source, gis_error *error)
 {
-    return gis_fail(error,
-                    "%s: features were changed, added or removed since the layer was read, or what the options ask of "
-                    "their fields",
-                    gis_source_path(source));
+    return gis_fail(
+        error,
+        "%s: since the layer was read, features were changed, added or removed, or field values that the options use",
+        gis_source_path(source));
 }
 
 static bool begin_batch(passing *at, const gis_layer_input *input, gis_layer_checksums *sums, gis_error *error)

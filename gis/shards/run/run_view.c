@@ -44,7 +44,7 @@ typedef struct filling {
 
 static bool is_numbered(const filling *f, const gis_spool_feature *feature, gis_error *error)
 {
-    return feature->index < f->n || gis_fail(error, "a spool holds more than the layer that it is of");
+    return feature->index < f->n || gis_fail(error, "a spool has more features than its layer");
 }
 
 static bool take_feature(void *user, const gis_spool_feature *feature, gis_error *error)

@@ -100,12 +100,13 @@ static void choose_options(gis_shard_run *p)
 
 static bool open_spool(gis_shard_run *p, double memory, gis_error *error)
 {
-    const bool done = gis_spool_open(p->directory, &p->spool, error) &&
-                      (gis_spool_parts(p->spool) == parts_of(p->shards) ||
-                       gis_fail(error, "%s: its cells are dealt to other shards; make the plan anew", p->directory)) &&
-                      (p->request->barriers == 0 || gis_barriers_open(p->directory, &p->barriers, error)) &&
-                      choose_parts(p, memory, error) &&
-                      gis_layout_make(p->spool, p->facts.gap, p->request->rules.block_field != NULL, &p->layout, error);
+    const bool done =
+        gis_spool_open(p->directory, &p->spool, error) &&
+        (gis_spool_parts(p->spool) == parts_of(p->shards) ||
+         gis_fail(error, "%s: its cells are assigned to other shards; make the plan anew", p->directory)) &&
+        (p->request->barriers == 0 || gis_barriers_open(p->directory, &p->barriers, error)) &&
+        choose_parts(p, memory, error) &&
+        gis_layout_make(p->spool, p->facts.gap, p->request->rules.block_field != NULL, &p->layout, error);
     p->layout.barriers = p->barriers;
     p->layout.features = p->facts.source.features;
     p->layout.memory = memory;
@@ -306,12 +307,12 @@ bool gis_shard_run_compare_barriers(gis_shard_run *parts, const gis_layer_input 
     const bool read = gis_layer_spool_barriers(input, parts->facts.barrier_reach, parts->spool, parts->scratch, &why) &&
                       gis_barriers_open(parts->scratch, &now, &why);
     if (!read)
-        gis_say_warning(GIS_MESSAGE_INPUT, "whether barriers have changed since the plan was made is not known: %s",
+        gis_say_warning(GIS_MESSAGE_INPUT, "it is not known whether barriers have changed since the plan was made: %s",
                         why.message);
     else if (gis_spool_checksum(now.all) != gis_spool_checksum(parts->barriers.all))
         gis_say_warning(GIS_MESSAGE_INPUT,
-                        "barriers have changed since the plan was made (%s%s); moves and conflicts are those beside "
-                        "the barriers as they were; make the plan anew for others",
+                        "barriers have changed since the plan was made (%s%s); moves and conflicts are for the "
+                        "barriers as they were then; make the plan anew for the present ones",
                         parts->request->barrier[0].dataset, parts->request->barriers > 1 ? ", or another of them" : "");
     gis_barriers_close(&now);
     return gis_go_on(error);

@@ -19,7 +19,7 @@ bool gis_spool_mark_check(const gis_spool_mark *mark, const char what[8], const 
 {
     const gis_spool_mark own = gis_spool_mark_of(what);
     if (memcmp(mark->what, what, sizeof mark->what) != 0)
-        return gis_fail(error, "%s: it is no such file as a plan has", path);
+        return gis_fail(error, "%s: it is not a file of a plan", path);
     if (mark->order != own.order)
         return gis_fail(error, "%s: it was written on a machine with another order of bytes", path);
     if (mark->version != own.version)
@@ -130,7 +130,7 @@ static bool read_content(gis_spool_index *index, gis_disk_file *file, gis_error 
     if (file->size < entries + sizeof checksum)
         return gis_fail(error, "%s: it ends too early: it was cut off", file->path);
     if (head.cells != (file->size - entries - sizeof checksum) / sizeof(stored_entry))
-        return gis_fail(error, "%s: it does not hold as many cells as it says: it was cut off, or changed", file->path);
+        return gis_fail(error, "%s: its number of cells is not the stated one: it was cut off, or changed", file->path);
     if (!read_entries(index, file, (size_t)head.cells, entries, &checksum, error) ||
         !gis_disk_file_read(file, entries + head.cells * sizeof(stored_entry), &index->checksum, sizeof checksum,
                             error))

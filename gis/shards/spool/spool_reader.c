@@ -45,7 +45,7 @@ static bool open_features(gis_spool *spool, const char *directory, gis_error *er
         end += entry->bytes;
     }
     if (file->size == end) return true;
-    return gis_fail(error, "%s: it has %llu bytes, and should have %llu: it was cut off, or is of another plan",
+    return gis_fail(error, "%s: it has %llu bytes, and should have %llu: it was cut off, or belongs to another plan",
                     file->path, (unsigned long long)file->size, (unsigned long long)end);
 }
 

@@ -124,7 +124,7 @@ static void tell_values(gis_sink_layer *layer)
         const gis_field_change *change = &layer->own_changes[i];
         const char *name = layer->request.fields[i].name;
         if (layer->written && change->index < 0 && CSLGetField(layer->own_created, (int)i)[0])
-            gis_sentences_add(losses, "layer %s: field %s is not there when it is read", layer->name, name);
+            gis_sentences_add(losses, "layer %s: field %s is missing when it is read", layer->name, name);
         if (change->nulls) add_phrase(&nulls, "%s", name);
         if (change->count)
             gis_sentences_add(losses, "layer %s, field %s: %zu value%s back as written", layer->name, name,

@@ -52,8 +52,9 @@ static bool leave_unread(gis_sink_layer *layer, gis_sink_result *result, gis_err
     }
     if (!sink->format.only_written)
         return gis_fail(error, "%s: layer %s cannot be read back after writing; %s", sink->request.path, layer->name,
-                        sink->format.abilities ? "is the disk full?"
-                                               : "the driver may not read what it writes, or no layer of this kind");
+                        sink->format.abilities
+                            ? "is the disk full?"
+                            : "the driver may be unable to read what it writes, or layers of this kind");
     result->exact = false;
     result->deviation = INFINITY;
     result->unread = true;

@@ -58,13 +58,13 @@ static GDALDriverH driver_for(const char *path)
 static bool check_able(const gis_abilities *able, const char *path, bool connection, gis_error *error)
 {
     if (able->refused && !connection)
-        return gis_fail_usage(error, "%s: nothing can be written as %s: %s", path, able->driver, able->refused);
+        return gis_fail_usage(error, "%s: cannot be written as %s: %s", path, able->driver, able->refused);
     char **endings = CSLTokenizeString2(able->endings ? able->endings : "", " ", 0);
     const bool directory = (able->has & GIS_TAKES_DIRECTORY) && !extension_of(path)[0];
     const bool ends = !able->endings || connection || directory || CSLFindString(endings, extension_of(path)) >= 0 ||
                       strncmp(path, "/vsistdout", 10) == 0 || strcmp(path, "/dev/stdout") == 0;
     CSLDestroy(endings);
-    return ends || gis_fail_usage(error, "%s: the name of a file of %s has to end in one of these: %s", path,
+    return ends || gis_fail_usage(error, "%s: the name of a file of format %s has to end in one of these: %s", path,
                                   able->driver, able->endings);
 }
 
@@ -73,7 +73,8 @@ bool gis_format_find(const char *path, const char *name, const char *const *laye
 {
     gis_format format = {.driver = name ? GDALGetDriverByName(name) : driver_for(path)};
     if (!format.driver && name) return gis_fail_usage(error, "--of %s: GDAL has no such format", name);
-    if (!format.driver) return gis_fail_usage(error, "%s: the name does not tell the format; give it with --of", path);
+    if (!format.driver)
+        return gis_fail_usage(error, "%s: the format is not known from the name; give it with --of", path);
     format.name = GDALGetDescription(format.driver);
     if (!can_create(format.driver))
         return gis_fail_usage(error, "--of %s: GDAL cannot create vector data in this format", format.name);

@@ -73,10 +73,10 @@ static bool check_is_file(const char *path, gis_error *error)
 {
     struct stat status;
     if (lstat(path, &status) == 0 && S_ISLNK(status.st_mode) && stat(path, &status) != 0)
-        return gis_fail(error, "%s is a link that leads nowhere; remove it, or make what it leads to", path);
+        return gis_fail(error, "%s is a broken link; remove it, or create its target", path);
     if (!gis_link_may_be_followed(path, "the output", error)) return false;
     if (stat(path, &status) == 0 && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode))
-        return gis_fail(error, "%s is no ordinary file; it is not replaced", path);
+        return gis_fail(error, "%s is not a regular file; it is not replaced", path);
     return true;
 }
 
@@ -114,8 +114,8 @@ static bool check_files(const gis_sink *sink, gis_error *error)
 static void settle_journal(const gis_sink *sink)
 {
     const char *path = sink->request.path;
-    gis_say_warning(GIS_MESSAGE_REMAINS,
-                    "%s-journal is left of a transaction that was interrupted; SQLite rolls it back", path);
+    gis_say_warning(GIS_MESSAGE_REMAINS, "%s-journal was left by an interrupted transaction; SQLite rolls it back",
+                    path);
     GDALDatasetH dataset = sink->request.update ? open_quietly(path, GDAL_OF_UPDATE, &sink->format) : NULL;
     if (dataset) GDALClose(dataset);
 }
@@ -164,7 +164,8 @@ static bool check_whole(gis_sink *sink, gis_error *error)
     if (gis_sink_is_directory(path)) { /* a directory is replaced only if it is a dataset of the same format */
         GDALDatasetH old = open_quietly(path, GDAL_OF_READONLY, &sink->format);
         if (!old)
-            return gis_fail(error, "%s is a directory, and no %s dataset: it is not replaced", path, sink->format.name);
+            return gis_fail(error, "%s is a directory, and not a %s dataset: it is not replaced", path,
+                            sink->format.name);
         GDALClose(old);
     }
     return true;
@@ -212,16 +213,16 @@ bool gis_sink_check_reprojection(const gis_sink *sink, gis_error *error)
 {
     OGRSpatialReferenceH crs = sink->source ? gis_source_crs(sink->source) : NULL;
     if ((sink->format.abilities & GIS_NEEDS_WGS84) && !(crs && is_wgs84(crs)))
-        return gis_fail(error, "%s: %s holds coordinates of WGS 84 alone; write another format, or reproject the layer",
+        return gis_fail(error, "%s: %s holds only coordinates of WGS 84; write another format, or reproject the layer",
                         sink->request.path, sink->format.name);
     if (sink->format.only_written && !sink->request.allow_inexact && !sink->format.reprojects)
         return gis_fail(error,
-                        "%s: %s is only written, so that the written features could not be verified; write "
-                        "another format, or give --allow-inexact-output",
+                        "%s: GDAL cannot read %s, so the written features could not be verified; write another format, "
+                        "or give --allow-inexact-output",
                         sink->request.path, sink->format.name);
     if (!sink->format.reprojects || sink->request.allow_inexact || !crs || is_wgs84(crs)) return true;
     return gis_fail(error,
-                    "%s: %s would reproject the coordinates to WGS 84, so that the written features could not "
-                    "be verified; write another format, or give --allow-inexact-output",
+                    "%s: %s would reproject the coordinates to WGS 84, so the written features could not be verified; "
+                    "write another format, or give --allow-inexact-output",
                     sink->request.path, sink->format.name);
 }

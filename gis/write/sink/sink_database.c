@@ -108,8 +108,7 @@ static char *locking_statement(const gis_sink *sink)
 static bool fail_locked(const gis_sink *sink, const char *reason, gis_error *error)
 {
     return gis_fail(error,
-                    "%s is in use by another program, which did not let go of it within %g s (%s); nothing was "
-                    "changed",
+                    "%s is in use by another program, which did not release it within %g s (%s); nothing was changed",
                     sink->request.path, gis_sqlite_patience() / 1000., reason);
 }
 
@@ -185,7 +184,7 @@ bool gis_sink_unbroken(gis_sink *sink, gis_error *error)
     char *mark = gis_sql_ask(sink->dataset, "SELECT 1 FROM sqlite_temp_master WHERE name = '" MARK "'");
     bool there = mark != NULL;
     CPLFree(mark);
-    return there || gis_fail(error, "%s: writing failed, and the database took it all back; is the disk full?",
+    return there || gis_fail(error, "%s: writing failed, and the database rolled back all changes; is the disk full?",
                              sink->request.path);
 }
 

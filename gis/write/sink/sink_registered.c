@@ -87,7 +87,7 @@ bool gis_sink_check_registered(const gis_sink_layer *layer, gis_error *error)
                                           : is_in_geometry_columns(layer, name);
     CPLFree(name);
     return found || gis_fail(error,
-                             "%s: layer %s was written, but the database does not list it so that a reader would find "
-                             "it; has it triggers that forbid this? Nothing was changed",
+                             "%s: layer %s was written, but the database does not list it, so readers would not find "
+                             "it; does a trigger prevent this? Nothing was changed",
                              layer->sink->request.path, layer->name);
 }

@@ -84,7 +84,7 @@ bool gis_sink_check_type(const gis_sink *sink, gis_error *error)
         !is_open(type_of_content(sink->source, gis_source_type(sink->source))))
         return true;
     return gis_fail(error,
-                    "%s: the layer %s holds geometries of several kinds, and a layer of %s has one: select them with "
-                    "--where, or write another format",
+                    "%s: the layer %s holds geometries of several kinds, and a layer of %s can hold only one kind: "
+                    "select them with --where, or write another format",
                     request->path, gis_source_name(sink->source), sink->format.name);
 }

@@ -41,11 +41,12 @@ sunder_status sunder_i_rules_of(const sunder_layer_options *options, sunder_i_ru
     if ((int)options->contained < SUNDER_CONTAINMENT_BLOCK || (int)options->contained > SUNDER_CONTAINMENT_SEPARATE)
         return sunder_i_fail(err, SUNDER_EARG, "no such treatment of contained features: %d", (int)options->contained);
     if (!(options->thin >= 0) || !isfinite(options->thin))
-        return sunder_i_fail(err, SUNDER_EARG, "what counts as thin, %g, is negative or not finite", options->thin);
+        return sunder_i_fail(err, SUNDER_EARG, "the tolerance of thin overlaps, %g, is negative or not finite",
+                             options->thin);
     if (!(options->effort >= 0) || !isfinite(options->effort))
         return sunder_i_fail(err, SUNDER_EARG, "the effort, %g, is negative or not finite", options->effort);
     if (!(options->barrier_reach >= 0))
-        return sunder_i_fail(err, SUNDER_EARG, "the reach of barriers, %g, is negative or no number",
+        return sunder_i_fail(err, SUNDER_EARG, "the reach of barriers, %g, is negative or not a number",
                              options->barrier_reach);
     if ((int)options->rows < SUNDER_ROWS_NONE || (int)options->rows > SUNDER_ROWS_FOUND)
         return sunder_i_fail(err, SUNDER_EARG, "no such choice of rows: %d", (int)options->rows);
