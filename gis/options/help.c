@@ -84,7 +84,7 @@ static bool has_any(unsigned command, int group)
 
 void gis_help_command(const gis_command *command)
 {
-    printf("Usage: sunder %s [options] %s\n%s.\n\n", command->name, command->operands, command->summary);
+    printf("Usage: sunder %s [options] %s\n%s.\n", command->name, command->operands, command->summary);
     for (int group = 0; group < GIS_GROUP_HIDDEN; group++) {
         if (group == GIS_GROUP_IDENTITY || !has_any(command->bit, group)) continue;
         printf("%s\n", group_titles[group]);
