@@ -294,6 +294,12 @@ static sunder_status uphold_pairs(sunder_i_solver *s, bool *changed, sunder_erro
     return sunder_i_solver_uphold(s, err);
 }
 
+static sunder_status place_lone_bodies(sunder_i_solver *s, bool *changed, sunder_error *err)
+{
+    (void)changed;
+    return sunder_i_solver_place_lone_bodies(s, err);
+}
+
 /* Proves once more the groups of bodies that were changed since; no layout gets worse by that. */
 static sunder_status prove_all(sunder_i_solver *s, bool *changed, sunder_error *err)
 {
@@ -331,6 +337,7 @@ static const stage passes[] = {
     {"uphold", has_let_go, uphold_pairs, 1, 0, 0},
     {"take better", has_let_go, take_better, 1, 0, 0},
     {"uphold", NULL, uphold_pairs, 1, 0, 0},
+    {"place lone bodies", NULL, place_lone_bodies, 1, 0, 0},
     {"prove all", NULL, prove_all, 1, 0, 0},
     {"gather groups", has_no_effort, gather_groups, 1, 0, 0},
     {"gather", NULL, gather_clusters, 1, 0, 0},

@@ -412,7 +412,7 @@ def check(name):
             right = world.is_free((F(dx), F(dy))) and least * (1 - 1e-12) <= off <= least * (1 + 1e-6) + 1e-6
         if not right:
             wrong.append(f"{name} {k}: {status} by {off}, {sorted(why)}; right: {found and float(found[0]) ** 0.5}")
-    if left * 12 > len(moves):
+    if left * 25 > len(moves):
         wrong.append(f"{name}: {left} of {len(moves)} are unresolved")
     return wrong
 

@@ -319,6 +319,14 @@ double sunder_i_farthest_near(const sunder_i_model *model, uint32_t p, uint32_t 
 /* Returns twice a length such that any longer move of the body leaves it farther from the whole barrier, of which
  * `part` is one part, than it has to keep. */
 double sunder_i_far_from_barrier(const sunder_i_model *model, uint32_t body, uint32_t part);
+
+/* ---- barriers_about.c -------------------------------------------------------------------------------------------- */
+
+/* Sets `whole` to the barriers that come within `reach` of the box of the body at its original position, each by its
+ * first part, ascending. Sets *far to a length such that the body, moved by more, is apart from all of these barriers;
+ * 0 if there is none. Returns false if memory is out. */
+bool sunder_i_barriers_about(const sunder_i_model *model, uint32_t body, double reach, sunder_i_list *whole,
+                             double *far);
 /* Makes the unions of the members of these n bodies, if they are blocks and have none yet. */
 sunder_status sunder_i_model_unite(sunder_i_model *model, const uint32_t *body, size_t n, sunder_error *err);
 /* Returns the shape of a body: that of its only member, or the union of all members. Returns NULL if the union was not

@@ -88,14 +88,6 @@ void sunder_i_count_relations(const sunder_i_model *model, const sunder_i_relati
  * called before any such question. */
 sunder_status sunder_i_report_cover_diagonals(sunder_i_solver *solver, sunder_error *err);
 
-/* ---- barriers_about.c -------------------------------------------------------------------------------------------- */
-
-/* Sets `whole` to the barriers that come within `reach` of the box of the body at its original position, each by its
- * first part, ascending. Sets *far to a length such that the body, moved by more, is apart from all of these barriers;
- * 0 if there is none. Returns false if memory is out. */
-bool sunder_i_barriers_about(const sunder_i_model *model, uint32_t body, double reach, sunder_i_list *whole,
-                             double *far);
-
 /* ---- pair_reasons.c ---------------------------------------------------------------------------------------------- */
 
 /* Determines why conflicts between features of different bodies remain, as far as each pair alone shows it: the reason

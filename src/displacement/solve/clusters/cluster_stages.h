@@ -160,6 +160,12 @@ sunder_status sunder_i_solver_is_improved(const sunder_i_solver *solver, bool *i
 /* Looks for better sides in the wanted clusters that were solved since the last time. */
 sunder_status sunder_i_solver_improve(sunder_i_solver *solver, sunder_error *err);
 
+/* ---- lone_bodies.c ----------------------------------------------------------------------------------------------- */
+
+/* After moves that made a conflict worse were undone: moves each body without a limit that is in conflict with barriers
+ * alone, until none of its conflicts has a solution that keeps the others no worse. */
+sunder_status sunder_i_solver_place_lone_bodies(sunder_i_solver *solver, sunder_error *err);
+
 /* ---- in_contact.c ------------------------------------------------------------------------------------------------ */
 
 /* After contact groups were gathered: moves wanted groups that have moved to places in contact without a margin, if

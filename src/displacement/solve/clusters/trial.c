@@ -33,14 +33,27 @@ static bool is_to_be_parted(const sunder_i_trial *t, const sunder_i_relation *r)
     return sunder_i_is_conflict(r) && !(held && held->infeasible);
 }
 
+/* Was the pair r in conflict before the trial, and in overlap if it overlaps now? A barrier counts as a whole. */
+static bool was_in_conflict(const sunder_i_trial *t, const sunder_i_relation *r)
+{
+    const sunder_i_relations *now = &t->solver->now;
+    const sunder_i_relation first = {.a = r->a, .b = sunder_i_whole_of(&t->solver->model, r->b)};
+    bool conflict = false, overlap = false;
+    for (size_t k = sunder_i_lower_bound(&first, now->pair, now->n, sizeof first, sunder_i_by_id_pair);
+         k < now->n && now->pair[k].a == r->a && sunder_i_whole_of(&t->solver->model, now->pair[k].b) == first.b; k++) {
+        conflict = conflict || sunder_i_is_conflict(&now->pair[k]);
+        overlap = overlap || now->pair[k].overlap;
+    }
+    return conflict && (overlap || !r->overlap);
+}
+
 /* Checks one pair after the move: every conflict has to be an old one, may not overlap unless it did before, and may be
  * no worse than at the start. *on: the check continues. */
 static sunder_status check_pair(void *context, const sunder_i_relation *r, bool *on, sunder_error *err)
 {
     sunder_i_trial *t = context;
     if (!sunder_i_solver_is_always_listed(t->solver, r)) return SUNDER_OK;
-    const sunder_i_relation *old = sunder_i_relations_find(&t->solver->now, r->a, r->b);
-    bool breaks = !old || !sunder_i_is_conflict(old) || (r->overlap && !old->overlap) || is_to_be_parted(t, r);
+    bool breaks = !was_in_conflict(t, r) || is_to_be_parted(t, r);
     const sunder_status status = breaks ? SUNDER_OK : sunder_i_solver_breaks_rule(t->solver, r, &breaks, err);
     t->well = *on = !breaks;
     return status;

@@ -476,7 +476,7 @@ bool sunder_i_search_free_body(sunder_i_search *search, uint32_t i, double limit
     return find_free_place(search, i, limit, all, false, place);
 }
 
-bool sunder_i_search_free_body_anywhere(sunder_i_search *s, uint32_t i, double place[2])
+bool sunder_i_search_free_body_anywhere(sunder_i_search *s, uint32_t i, double limit, double place[2])
 {
-    return find_free_place(s, i, INFINITY, beyond_all(s, i), true, place);
+    return find_free_place(s, i, limit, beyond_all(s, i), true, place);
 }

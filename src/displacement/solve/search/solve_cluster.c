@@ -9,6 +9,7 @@
 #include "base/invariant.h"
 #include "base/stage_switch.h"
 
+#include <math.h>
 #include <string.h>
 
 void sunder_i_search_round(const sunder_i_search *search, double *move)
@@ -89,11 +90,11 @@ static uint32_t count_movers(const sunder_i_search *s, uint32_t *mover)
     return movers;
 }
 
-static bool is_unsolved_lone_body(const solving *x)
+static bool is_lone_body(const solving *x)
 {
     const sunder_i_barriers *barriers = x->s->model->barriers;
     uint32_t mover = 0;
-    return !x->done && barriers && barriers->parts > 0 && may_give_up(x) && count_movers(x->s, &mover) == 1 &&
+    return barriers && barriers->parts > 0 && may_give_up(x) && count_movers(x->s, &mover) == 1 &&
            !(sunder_i_search_limit(x->s, mover) < INFINITY);
 }
 
@@ -194,19 +195,25 @@ static sunder_status spread_cluster(solving *x, int jumps, sunder_error *err)
 }
 
 /* For one movable body among fixed ones, without a limit: moves it to the nearest free position that it can see,
- * however far away. An example is a symbol in a long arm of an area, with room only where the arm begins. */
+ * however far away, unless it stands at a free position that is no farther. An example is a symbol in a long arm of an
+ * area, with room only where the arm begins. */
 static sunder_status place_lone_body(solving *x, int jumps, sunder_error *err)
 {
     sunder_i_search *s = x->s;
     uint32_t mover = 0;
-    double place[2];
+    double place[2], stood[2];
     (void)jumps;
     (void)err;
     count_movers(s, &mover);
-    if (!sunder_i_search_free_body_anywhere(s, mover, place)) return SUNDER_OK;
-    memcpy(s->t + 2 * (size_t)mover, place, sizeof place);
+    double *at = s->t + 2 * (size_t)mover;
+    memcpy(stood, at, sizeof stood);
+    const double farthest = x->done ? hypot(at[0], at[1]) * (1 - NO_NEARER) : INFINITY;
+    if (!(farthest > 0) || !sunder_i_search_free_body_anywhere(s, mover, farthest, place)) return SUNDER_OK;
+    memcpy(at, place, sizeof place);
     s->program.n = 0;
-    x->done = sunder_i_search_descend(s);
+    const bool solved = sunder_i_search_descend(s);
+    if (x->done && !solved) memcpy(at, stood, sizeof stood);
+    x->done = x->done || solved;
     return SUNDER_OK;
 }
 
@@ -245,7 +252,7 @@ static const stage stages[] = {
     {"waive margins", is_unsolved_question, waive_margins, MOST_JUMPS},
     {"begin from lifted", was_lifted, begin_from_lifted, MOST_JUMPS},
     {"spread", is_unsolved, spread_cluster, 0},
-    {"place lone body", is_unsolved_lone_body, place_lone_body, 0},
+    {"place lone body", is_lone_body, place_lone_body, 0},
     {"ask whether cheapest", may_be_cheapest, ask_whether_cheapest, 0},
     {"give up", may_give_up_pairs, give_up, 0},
 };

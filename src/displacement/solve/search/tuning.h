@@ -8,7 +8,7 @@
 
 /* SUNDER_I_SEARCH_TUNING_VERSION is the version of the values below. It is raised with each change of a value, so that
  * a record can name the values by their version (tests/house/TUNING). */
-#define SUNDER_I_SEARCH_TUNING_VERSION 2
+#define SUNDER_I_SEARCH_TUNING_VERSION 3
 
 /* ---- One descent (descend.c, constrain.c, limits.c) -------------------------------------------------------------- */
 
@@ -227,6 +227,8 @@
  * Places are looked for beyond the present move by at most FARTHEST_LEAP times the sum of the gap and the size of the
  * body (or the typical size in the cluster, if that is smaller). */
 #define FARTHEST_LEAP 8
+/* A lone body leaves a solution for a free place that is nearer to its start by the share NO_NEARER or more. */
+#define NO_NEARER 0x1p-30
 
 /* ---- Away from one another (spread.c) ---------------------------------------------------------------------------- */
 

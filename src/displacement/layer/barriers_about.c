@@ -4,8 +4,8 @@
  * move, and these have no end: a direction that leads into a shadow stays in it. So if these barriers leave no move of
  * that length or shorter, they leave none at all. A proof needs a few barriers near the body, as a rule; the length
  * grows with the farthest of them. */
+#include "displacement/layer/model.h"
 #include "displacement/layer/reads.h"
-#include "displacement/report/report.h"
 
 #include "base/extremes.h"
 
