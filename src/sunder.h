@@ -519,6 +519,7 @@ typedef struct sunder_trace_event {
     const uint32_t *thing;          /* [things] features, and from the number of features on barriers; ascending */
     size_t things;                  /* 0 for the scope "layer", 2 for "pair" */
     double cost_before, cost_after; /* sums of weight times squared length of the moves; NAN if not measured */
+    const char *table;              /* the table that has the stage or step (docs/trace.md); NULL if none has */
 } sunder_trace_event;
 
 /* A trace callback. It is called by the thread that called sunder_layer_separate(). The events and their order are the

@@ -53,6 +53,7 @@ void gis_trace_event(const sunder_trace_event *event, void *user)
     put_word(json, "stage", event->stage);
     if (event->round) gis_json_put_size(json, "round", (size_t)event->round);
     gis_json_put_string(json, "scope", event->scope);
+    put_word(json, "table", event->table);
     put_word(json, "step", event->step);
     gis_json_put_string(json, "outcome", event->outcome);
     if (event->things) put_features(json, trace->input, event);

@@ -8,7 +8,7 @@
 
 #include <stdbool.h>
 
-/* table: "layer", "search", "cluster" or "group", a table of stages; "program", a method of quadratic programming;
+/* table: the name of a table of stages (docs/trace.md lists the tables); "program", a method of quadratic programming;
  * "memo", results that are stored for repeated use. stage: the name in the table. */
 static inline bool sunder_i_stage_is_on(const char *table, const char *stage)
 {

@@ -16,12 +16,19 @@ ogr2ogr -f CSV /vsistdout/ traced.gpkg buildings_conflicts -select fid_a,fid_b,b
 python3 - one.jsonl remaining >lines <<'P' || fail "$(cat lines)"
 import csv, json, sys
 events = [json.loads(line) for line in open(sys.argv[1])]
-known = {"pass", "stage", "round", "scope", "step", "outcome", "features", "barriers", "cost_before", "cost_after"}
+known = {"pass", "stage", "round", "scope", "table", "step", "outcome", "features", "barriers", "cost_before", "cost_after"}
 assert events and all(set(e) <= known for e in events), "unknown keys"
 assert all({"scope", "outcome"} <= set(e) for e in events), "a line without scope or outcome"
 assert {e["scope"] for e in events} == {"layer", "cluster", "group", "pair"}, "a scope is missing"
 stages = {e.get("stage") for e in events}
 assert {"settle", "reconsider", "improve"} <= stages, stages
+# What the search does within a stage is in tables, too, and a step that is part of another has its line before that one's.
+tables = {(e.get("table"), e.get("step")) for e in events}
+for row in (("layer", None), ("search", None), ("settle", "commit"), ("optimise", "take over"), ("cluster", "descend"),
+            ("give up", "relax gradually"), ("retry", "resolve overlaps"), ("improve", "try places and sides"), ("group", "grow tree")):
+    assert row in tables, row
+within = [k for k, e in enumerate(events) if e.get("table") == "give up"]
+assert all(events[k + 1].get("table") == "give up" or events[k + 1].get("step") == "give up" for k in within), "give up"
 # Each row of the layer of conflicts has its line, with the same reason.
 said = sorted((tuple(e["features"]), tuple(b[1] for b in e.get("barriers", [])), e["outcome"])
               for e in events if e.get("step") == "why it remains")

@@ -37,7 +37,8 @@ static sunder_trace_event event_of(const sunder_i_model *model, const char *scop
                                 .step = step->step,
                                 .outcome = step->outcome,
                                 .cost_before = step->before,
-                                .cost_after = step->after};
+                                .cost_after = step->after,
+                                .table = step->table};
 }
 
 /* Returns the members of the n bodies by the caller's numbers, ascending and without duplicates; the caller frees it.
@@ -92,19 +93,25 @@ void sunder_i_trace_pair(const sunder_i_model *model, const char *step, const ch
     if (!sunder_i_is_traced(model)) return;
     const uint32_t p = model->layer->number[a], q = model->layer->number[b];
     const uint32_t thing[2] = {p < q ? p : q, p < q ? q : p};
-    const sunder_i_trace_step done = {step, outcome, NAN, NAN};
+    const sunder_i_trace_step done = {NULL, step, outcome, NAN, NAN};
     sunder_trace_event event = event_of(model, "pair", &done);
     event.thing = thing;
     event.things = 2;
     model->rules.trace(&event, model->rules.trace_user);
 }
 
-void sunder_i_trace_layer(const sunder_i_model *model, const char *outcome)
+double sunder_i_trace_layer_cost(const sunder_i_model *model)
+{
+    double cost = 0;
+    for (uint32_t b = 0; b < model->bodies && sunder_i_is_traced(model); b++)
+        cost += sunder_i_trace_cost(model, &b, 1, NULL);
+    return cost;
+}
+
+void sunder_i_trace_layer(const sunder_i_model *model, const sunder_i_trace_step *step)
 {
     if (!sunder_i_is_traced(model)) return;
-    double cost = 0;
-    for (uint32_t b = 0; b < model->bodies; b++) cost += sunder_i_trace_cost(model, &b, 1, NULL);
-    const sunder_i_trace_step done = {NULL, outcome, NAN, cost};
-    const sunder_trace_event event = event_of(model, "layer", &done);
+    sunder_trace_event event = event_of(model, "layer", step);
+    event.cost_after = sunder_i_trace_layer_cost(model);
     model->rules.trace(&event, model->rules.trace_user);
 }

@@ -8,8 +8,9 @@
 
 #include "displacement/layer/model.h"
 
-/* What one stage did. Both strings are constants. */
+/* What one stage did. The strings are constants. */
 typedef struct sunder_i_trace_step {
+    const char *table; /* the table that has the stage (stage_table.h); NULL: none has */
     const char *step, *outcome;
     double before, after; /* costs before and after; NAN: not measured */
 } sunder_i_trace_step;
@@ -40,7 +41,9 @@ sunder_status sunder_i_trace_emit(const sunder_i_model *model, const char *scope
                                   const uint32_t *body, size_t n, sunder_error *err);
 /* Passes an event about the things a and b to the caller. */
 void sunder_i_trace_pair(const sunder_i_model *model, const char *step, const char *outcome, uint32_t a, uint32_t b);
-/* Passes an event about the whole layer, with its present cost, to the caller. */
-void sunder_i_trace_layer(const sunder_i_model *model, const char *outcome);
+/* Returns the present cost of the whole layer; 0 if there is no trace. */
+double sunder_i_trace_layer_cost(const sunder_i_model *model);
+/* Passes an event about the whole layer to the caller, with its present cost in place of step->after. */
+void sunder_i_trace_layer(const sunder_i_model *model, const sunder_i_trace_step *step);
 
 #endif

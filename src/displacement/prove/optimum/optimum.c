@@ -5,12 +5,12 @@
  * until it is free of all neighbours in their present positions; then it is accepted. If it collides with another group
  * the two are joined. Groups for which branching does not complete are bounded by blocks (blocks.c). */
 #include "displacement/prove/optimum/optimum.h"
+#include "displacement/layer/stage_table.h"
 #include "displacement/prove/optimum/blocks.h"
 #include "displacement/prove/optimum/tree.h"
 #include "displacement/prove/optimum/tuning.h"
 
 #include "base/extremes.h"
-#include "base/stage_switch.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -258,10 +258,12 @@ static sunder_status prove_parts(const sunder_i_model *model, const sunder_i_wai
 
 /* The state that the stages of one group share. */
 typedef struct proving {
+    sunder_i_stage_run run;
     const sunder_i_model *model;
     const sunder_i_waived *waived;
     const uint32_t *group_of;
     sunder_i_group *g;
+    uint64_t steps;
     double known;               /* the bound that was proved before; the proof ends if it suffices */
     double before;              /* the cost at the beginning; a cheaper layout found here may have to be undone later */
     size_t movers;              /* the number of movable bodies */
@@ -269,70 +271,80 @@ typedef struct proving {
     bool conflicted, unlimited; /* it has many remaining conflicts: only blocks and parts prove much; or it is
                                  * unlimited: prices of area do */
     bool spent, exhausted_tree; /* the tree of a large group, or of a small one, used all its steps */
-    bool over;                  /* no stage is left to run */
 } proving;
 
-static bool is_too_large(const proving *x) { return x->movers > MOST_TOGETHER; }
+/* The steps that the present stage may take. */
+static uint64_t steps_of_stage(const proving *x) { return x->steps / x->run.budget; }
 
-static bool has_many_conflicts(const proving *x) { return x->conflicted; }
+static bool is_too_large(const void *state) { return ((const proving *)state)->movers > MOST_TOGETHER; }
 
-static bool is_beyond_branching(const proving *x) { return x->movers > BRANCHED; }
+static bool has_many_conflicts(const void *state) { return ((const proving *)state)->conflicted; }
 
-static bool is_large_and_unlimited(const proving *x) { return x->unlimited && x->movers > LARGE_FREE_CROWD; }
+static bool is_beyond_branching(const void *state) { return ((const proving *)state)->movers > BRANCHED; }
 
-static bool is_small(const proving *x) { return x->movers <= BRANCHED; }
+static bool is_large_and_unlimited(const void *state)
+{
+    const proving *x = state;
+    return x->unlimited && x->movers > LARGE_FREE_CROWD;
+}
 
-static bool is_worth_blocks(const proving *x) { return x->movers > FEW && !x->asked; }
+static bool is_small(const void *state) { return ((const proving *)state)->movers <= BRANCHED; }
+
+static bool is_worth_blocks(const void *state)
+{
+    const proving *x = state;
+    return x->movers > FEW && !x->asked;
+}
 
 /* If a group costs little more than when it was last examined fully (a rounding error undid its move, or it has lost or
  * gained a few bodies), neither blocks nor parts are evaluated again. */
-static sunder_status prove_in_parts(proving *x, uint64_t steps, sunder_error *err)
+static void prove_in_parts(void *state)
 {
-    x->over = true;
-    if (x->asked || x->unlimited) return SUNDER_OK;
-    return prove_parts(x->model, x->waived, x->g, x->conflicted ? steps / CROWD_LOOK : steps, err);
+    proving *x = state;
+    const uint64_t steps = x->conflicted ? steps_of_stage(x) / CROWD_LOOK : steps_of_stage(x);
+    x->run.over = true;
+    if (x->asked || x->unlimited) return;
+    x->run.status = prove_parts(x->model, x->waived, x->g, steps, x->run.err);
 }
 
-static sunder_status polish_layout(proving *x, uint64_t steps, sunder_error *err)
+static void polish_layout(void *state)
 {
+    proving *x = state;
+    const sunder_i_group *g = x->g;
     bool better;
-    (void)steps;
-    const sunder_status status =
-        attempt_layout(x->model, x->waived, x->g, x->g->body, x->g->move, x->g->n, false, &better, err);
-    x->over = x->known >= goal_of(x->model, x->g);
-    return status;
+    x->run.status = attempt_layout(x->model, x->waived, x->g, g->body, g->move, g->n, false, &better, x->run.err);
+    x->run.over = x->known >= goal_of(x->model, g);
 }
 
-static sunder_status prove_as_dense_group(proving *x, uint64_t steps, sunder_error *err)
+static void prove_as_dense_group(void *state)
 {
-    x->over = true;
-    if (x->asked) return SUNDER_OK;
+    proving *x = state;
+    x->run.over = true;
+    if (x->asked) return;
     x->g->asked = x->before;
-    return prove_dense_group(x->model, x->waived, x->g, steps, err);
+    x->run.status = prove_dense_group(x->model, x->waived, x->g, steps_of_stage(x), x->run.err);
 }
 
 /* A body that a perturbation has sent to another side has other neighbours now; the next round knows them. */
-static sunder_status shake_large(proving *x, uint64_t steps, sunder_error *err)
+static void shake_large(void *state)
 {
-    const bool again = x->g->shaken_at >= ASKED_SHARE * x->before;
-    const sunder_status status = x->g->search->shake(x->model, x->waived, x->g, again ? steps / AGAIN : steps, err);
-    if (!again) x->g->shaken_at = x->before;
-    x->over = x->g->shaken && sunder_i_group_is_cheaper(x->g);
-    return status;
+    proving *x = state;
+    sunder_i_group *g = x->g;
+    const bool again = g->shaken_at >= ASKED_SHARE * x->before;
+    const uint64_t steps = again ? steps_of_stage(x) / AGAIN : steps_of_stage(x);
+    x->run.status = g->search->shake(x->model, x->waived, g, steps, x->run.err);
+    if (!again) g->shaken_at = x->before;
+    x->run.over = g->shaken && sunder_i_group_is_cheaper(g);
 }
 
-static sunder_status leave_to_prices(proving *x, uint64_t steps, sunder_error *err)
-{
-    (void)steps;
-    (void)err;
-    x->over = true;
-    return SUNDER_OK;
-}
+static void leave_to_prices(void *state) { ((proving *)state)->run.over = true; }
 
-static sunder_status grow_tree(proving *x, uint64_t steps, sunder_error *err)
+static void grow_tree(void *state)
 {
+    proving *x = state;
     sunder_i_group *g = x->g;
     const size_t n = g->n;
+    const uint64_t steps = steps_of_stage(x);
     const sunder_i_task task = {.model = x->model,
                                 .waived = x->waived,
                                 .group_of = x->group_of,
@@ -342,44 +354,42 @@ static sunder_status grow_tree(proving *x, uint64_t steps, sunder_error *err)
                                 .goal = goal_of(x->model, g),
                                 .keep = x->model->rules.keep_trees};
     sunder_i_tree tree;
-    sunder_status status = sunder_i_tree_init(&tree, &task) ? SUNDER_OK : sunder_i_failure_cause(err);
-    if (!status) status = run_tree(x->model, x->waived, g, &tree, steps, x->movers > BRANCHED, err);
-    if (!status && !keep_guests(g, &tree, n)) status = sunder_i_failure_cause(err);
-    if (!status && task.keep && !sunder_i_tree_keep(&tree, &g->trees)) status = sunder_i_failure_cause(err);
+    sunder_status status = sunder_i_tree_init(&tree, &task) ? SUNDER_OK : sunder_i_failure_cause(x->run.err);
+    if (!status) status = run_tree(x->model, x->waived, g, &tree, steps, x->movers > BRANCHED, x->run.err);
+    if (!status && (!keep_guests(g, &tree, n) || (task.keep && !sunder_i_tree_keep(&tree, &g->trees))))
+        status = sunder_i_failure_cause(x->run.err);
+    x->run.status = status;
     x->spent = x->movers > BRANCHED && (tree.steps >= steps || blocks_are_dear(&tree, steps));
     x->exhausted_tree = x->movers <= BRANCHED && tree.steps >= steps;
     sunder_i_tree_free(&tree);
-    x->over = g->joins.n || g->bound >= goal_of(x->model, g);
-    return status;
+    x->run.over = g->joins.n || g->bound >= goal_of(x->model, g);
 }
 
-static sunder_status shake_small(proving *x, uint64_t steps, sunder_error *err)
+static void shake_small(void *state)
 {
-    return x->g->search->shake(x->model, x->waived, x->g, steps, err);
+    proving *x = state;
+    x->run.status = x->g->search->shake(x->model, x->waived, x->g, steps_of_stage(x), x->run.err);
 }
 
-static sunder_status prove_by_blocks(proving *x, uint64_t steps, sunder_error *err)
+static void prove_by_blocks(void *state)
 {
+    proving *x = state;
     sunder_i_group *g = x->g;
+    const uint64_t steps = steps_of_stage(x);
     sunder_status status = SUNDER_OK;
     bool promising = !x->spent;
     double priced = 0;
     g->asked = x->before;
-    if (promising && x->unlimited) status = sunder_i_group_ask_prices(x->model, g, &priced, err);
+    if (promising && x->unlimited) status = sunder_i_group_ask_prices(x->model, g, &priced, x->run.err);
     if (!status && promising && (x->exhausted_tree || priced > 0))
         status = look_at_blocks(x->model, x->waived, g, QUICK_AS_MUCH * sunder_i_max(g->bound, priced), steps,
-                                &promising, err);
-    return status || !promising ? status : prove_blocks(x->model, x->waived, g, steps, err);
+                                &promising, x->run.err);
+    if (!status && promising) status = prove_blocks(x->model, x->waived, g, steps, x->run.err);
+    x->run.status = status;
 }
 
-typedef struct stage {
-    const char *name;
-    bool (*applies)(const proving *x); /* the precondition; NULL: none */
-    sunder_status (*run)(proving *x, uint64_t steps, sunder_error *err);
-    uint64_t share; /* the budget: the steps of the group are divided by this; 0: the stage needs none */
-} stage;
-
-static const stage stages[] = {
+/* The steps of the group are divided by the budget. */
+static const sunder_i_stage stages[] = {
     {"prove in parts", is_too_large, prove_in_parts, 1},
     {"polish", NULL, polish_layout, 0},
     {"prove as crowd", has_many_conflicts, prove_as_dense_group, 1},
@@ -390,26 +400,28 @@ static const stage stages[] = {
     {"prove by blocks", is_worth_blocks, prove_by_blocks, 1},
 };
 
-/* Runs one stage. If it changed cost or bound and the layer is traced, it is recorded. */
-static sunder_status run_stage(proving *x, const stage *y, uint64_t steps, sunder_error *err)
+static const char *look(const void *state, const double before[2], double now[2])
 {
-    sunder_i_group *g = x->g;
-    const double cost = g->cost, bound = g->bound;
-    const sunder_status status = y->run(x, y->share ? steps / y->share : 0, err);
-    if (status || !sunder_i_is_traced(x->model)) return status;
-    if (!(g->cost < cost) && !(g->bound > bound)) return SUNDER_OK;
+    const sunder_i_group *g = ((const proving *)state)->g;
     const bool proved = sunder_i_group_is_optimal(g);
-    const char *outcome = g->cost < cost ? proved ? "cheaper, and proved to be the least" : "cheaper"
-                          : proved       ? "proved to be the least"
-                                         : "bound raised";
-    const sunder_i_trace_step step = {y->name, outcome, cost, g->cost};
-    return sunder_i_trace_note(&g->log, &step) ? SUNDER_OK : sunder_i_failure_cause(err);
+    now[0] = g->cost;
+    now[1] = g->bound;
+    if (g->cost < before[0]) return proved ? "cheaper, and proved to be the least" : "cheaper";
+    return proved ? "proved to be the least" : "bound raised";
 }
+
+static const sunder_i_stage_table table = {"group", stages, sizeof stages / sizeof *stages, look};
 
 static sunder_status prove_afresh(const sunder_i_model *model, const sunder_i_waived *waived, const uint32_t *group_of,
                                   sunder_i_group *g, double known, uint64_t steps, sunder_error *err)
 {
-    proving x = {.model = model, .waived = waived, .group_of = group_of, .g = g, .known = known};
+    proving x = {.run = {.log = sunder_i_is_traced(model) ? &g->log : NULL, .err = err},
+                 .model = model,
+                 .waived = waived,
+                 .group_of = group_of,
+                 .g = g,
+                 .steps = steps,
+                 .known = known};
     g->state = SUNDER_I_IS_PROVED;
     g->cost = cost_of(model, g->body, g->n, g->move);
     if (!isfinite(g->cost)) return SUNDER_OK;
@@ -419,11 +431,7 @@ static sunder_status prove_afresh(const sunder_i_model *model, const sunder_i_wa
     if (!x.asked) g->asked = x.movers > MOST_TOGETHER ? x.before : 0;
     x.conflicted = sunder_i_group_has_many_conflicts(model, waived, g);
     x.unlimited = sunder_i_group_is_unlimited(model, waived, g);
-    sunder_status status = SUNDER_OK;
-    for (size_t k = 0; k < sizeof stages / sizeof *stages && !status && !x.over; k++)
-        if (sunder_i_stage_is_on("group", stages[k].name) && (!stages[k].applies || stages[k].applies(&x)))
-            status = run_stage(&x, &stages[k], steps, err);
-    return status;
+    return sunder_i_stages_run(&table, &x);
 }
 
 sunder_status sunder_i_group_prove(const sunder_i_model *model, const sunder_i_waived *waived, const uint32_t *group_of,

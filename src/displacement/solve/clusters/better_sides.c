@@ -18,24 +18,24 @@ static bool is_cluster_improved(const sunder_i_solver *s, const sunder_i_cluster
     return improved || cheapest;
 }
 
-sunder_status sunder_i_solver_is_improved(const sunder_i_solver *solver, bool *improved, sunder_error *err)
+bool sunder_i_solver_is_to_improve(sunder_i_solver *solver)
 {
-    bool *wanted = sunder_i_solver_connected_with(solver, sunder_i_is_wanted);
-    *improved = true;
+    bool *wanted = sunder_i_solver_connected_with(solver, sunder_i_is_wanted), any = false;
     for (size_t e = 0; e < solver->edges && wanted; e++)
         for (int k = 0; k < 2; k++) {
             const uint32_t b = k ? solver->edge[e].b : solver->edge[e].a;
-            if (wanted[b] && !sunder_i_is_improved(solver, b)) *improved = false;
+            any = any || (wanted[b] && !sunder_i_is_improved(solver, b));
         }
+    solver->failed = solver->failed || !wanted;
     sunder_i_free(wanted);
-    return wanted ? SUNDER_OK : sunder_i_failure_cause(err);
+    return any;
 }
 
 static sunder_status note_improved(const sunder_i_solver *s, sunder_i_cluster *c, double before, const double *move,
                                    sunder_error *err)
 {
     const double after = sunder_i_trace_cost(&s->model, c->body, c->n, move);
-    const sunder_i_trace_step step = {"better sides", "cheaper", before, after};
+    const sunder_i_trace_step step = {NULL, "better sides", "cheaper", before, after};
     if (!(after < before)) return SUNDER_OK;
     return sunder_i_trace_note(&c->log, &step) ? SUNDER_OK : sunder_i_failure_cause(err);
 }

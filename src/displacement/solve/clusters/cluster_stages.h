@@ -49,8 +49,8 @@ sunder_status sunder_i_find_unsolvable(const sunder_i_model *model, const sunder
 /* ---- lifted_limits.c --------------------------------------------------------------------------------------------- */
 
 /* Lifts all limits, except if there are barriers, and sets aside the bodies connected with pairs that no moves within
- * their limits can separate. *lifted: there were limits, and they are lifted now. */
-sunder_status sunder_i_solver_lift_limits(sunder_i_solver *solver, bool *lifted, sunder_error *err);
+ * their limits can separate. solver->had_limits: there were limits, and they are lifted now. */
+sunder_status sunder_i_solver_lift_limits(sunder_i_solver *solver, sunder_error *err);
 /* While limits are lifted: clusters that cost more than their limits allow, and would become part of a crowd of more
  * than MOST_LIFTED bodies by running into others, return home and are set aside. */
 sunder_status sunder_i_solver_set_far_aside(sunder_i_solver *solver, sunder_error *err);
@@ -72,9 +72,9 @@ sunder_status sunder_i_solver_begin_holding(sunder_i_solver *solver, sunder_erro
 void sunder_i_solver_hold_coarse(sunder_i_solver *solver);
 /* Is any body held? */
 bool sunder_i_solver_any_held(const sunder_i_solver *solver);
-/* Releases held bodies that are still in conflict, or whose moves may be of use. *any if there are such: then all
- * bodies connected with them have begun again, and are what the present pass works on. */
-sunder_status sunder_i_solver_let_go(sunder_i_solver *solver, bool *any, sunder_error *err);
+/* Releases held bodies that are still in conflict, or whose moves may be of use. solver->any_let_go: there are
+ * such; then all bodies connected with them have begun again, and are what the present pass works on. */
+sunder_status sunder_i_solver_let_go(sunder_i_solver *solver, sunder_error *err);
 /* For the report: held bodies are no longer fixed, and the bounds of their contact groups are dropped, since they were
  * proved for fixed bodies. */
 void sunder_i_solver_end_holding(sunder_i_solver *solver);
@@ -94,11 +94,10 @@ typedef struct sunder_i_held_layout {
     sunder_i_relaxations relaxations;
 } sunder_i_held_layout;
 
-/* Stores the present layout. On failure the caller frees it, too. */
-sunder_status sunder_i_solver_keep_held(const sunder_i_solver *solver, sunder_i_held_layout *layout, sunder_error *err);
+/* Stores the present layout in solver->held_layout. */
+sunder_status sunder_i_solver_keep_held(sunder_i_solver *solver, sunder_error *err);
 /* Returns to the stored layout, cluster by cluster, where it is better than the present one. */
-sunder_status sunder_i_solver_take_better(sunder_i_solver *solver, const sunder_i_held_layout *layout,
-                                          sunder_error *err);
+sunder_status sunder_i_solver_take_better(sunder_i_solver *solver, sunder_error *err);
 void sunder_i_held_layout_free(sunder_i_held_layout *layout);
 
 /* ---- move_inside.c ----------------------------------------------------------------------------------------------- */
@@ -155,8 +154,9 @@ sunder_status sunder_i_solver_retry(sunder_i_solver *solver, sunder_error *err);
 
 /* ---- better_sides.c ---------------------------------------------------------------------------------------------- */
 
-/* *improved if better sides were looked for in each wanted cluster since it was last solved. */
-sunder_status sunder_i_solver_is_improved(const sunder_i_solver *solver, bool *improved, sunder_error *err);
+/* Is there a wanted cluster in which better sides have not been looked for since it was last solved? Sets
+ * solver->failed if memory is out. */
+bool sunder_i_solver_is_to_improve(sunder_i_solver *solver);
 /* Looks for better sides in the wanted clusters that were solved since the last time. */
 sunder_status sunder_i_solver_improve(sunder_i_solver *solver, sunder_error *err);
 

@@ -149,11 +149,11 @@ static bool was_let_go(const sunder_i_solver *solver, uint32_t b)
     return sunder_i_is_in(solver, SUNDER_I_HOLDING, b, SUNDER_I_LET_GO);
 }
 
-/* Releases the held bodies that are in conflict, and those whose moves may be of use. *any if any body was released. */
-static void mark_let_go(sunder_i_solver *solver, bool *any)
+/* Releases the held bodies that are in conflict, and those whose moves may be of use. Returns whether there are any. */
+static bool mark_let_go(sunder_i_solver *solver)
 {
     const sunder_i_model *model = &solver->model;
-    *any = false;
+    bool any = false;
     for (uint32_t b = 0; b < model->bodies; b++)
         if (sunder_i_is_in(solver, SUNDER_I_HOLDING, b, SUNDER_I_HELD))
             sunder_i_body_event(&solver->states, b, SUNDER_I_IS_LET_GO);
@@ -164,7 +164,8 @@ static void mark_let_go(sunder_i_solver *solver, bool *any)
         if (model->body[i].held) sunder_i_body_event(&solver->states, i, SUNDER_I_IS_LET_GO);
         if (model->body[j].held) sunder_i_body_event(&solver->states, j, SUNDER_I_IS_LET_GO);
     }
-    for (uint32_t b = 0; b < model->bodies; b++) *any = *any || was_let_go(solver, b);
+    for (uint32_t b = 0; b < model->bodies; b++) any = any || was_let_go(solver, b);
+    return any;
 }
 
 /* Sets root[] for the clusters of released bodies and for all clusters with an edge to one. */
@@ -195,11 +196,11 @@ static bool keep_infeasible(sunder_i_solver *solver)
     return ok;
 }
 
-sunder_status sunder_i_solver_let_go(sunder_i_solver *solver, bool *any, sunder_error *err)
+sunder_status sunder_i_solver_let_go(sunder_i_solver *solver, sunder_error *err)
 {
     sunder_i_model *model = &solver->model;
-    mark_let_go(solver, any);
-    if (!*any) return SUNDER_OK;
+    solver->any_let_go = mark_let_go(solver);
+    if (!solver->any_let_go) return SUNDER_OK;
     bool *root = sunder_i_calloc(model->bodies, sizeof *root), *back = sunder_i_calloc(model->bodies, sizeof *back);
     sunder_status status = root && back ? SUNDER_OK : sunder_i_failure_cause(err);
     if (!status) mark_roots(solver, root);

@@ -54,9 +54,10 @@ static bool keep_states(const sunder_i_model *model, sunder_i_held_layout *layou
     return layout->state != NULL;
 }
 
-sunder_status sunder_i_solver_keep_held(const sunder_i_solver *solver, sunder_i_held_layout *layout, sunder_error *err)
+sunder_status sunder_i_solver_keep_held(sunder_i_solver *solver, sunder_error *err)
 {
     const sunder_i_model *model = &solver->model;
+    sunder_i_held_layout *layout = solver->held_layout;
     const size_t n = model->bodies;
     layout->move = copy_items(model->move, 2 * n, sizeof *layout->move);
     layout->held = sunder_i_alloc(n, sizeof *layout->held);
@@ -217,9 +218,9 @@ static bool put_back_pairs(sunder_i_solver *solver, const sunder_i_held_layout *
     return ok && sunder_i_relaxations_index(&model->relaxations, model);
 }
 
-sunder_status sunder_i_solver_take_better(sunder_i_solver *solver, const sunder_i_held_layout *layout,
-                                          sunder_error *err)
+sunder_status sunder_i_solver_take_better(sunder_i_solver *solver, sunder_error *err)
 {
+    const sunder_i_held_layout *layout = solver->held_layout;
     bool *back = sunder_i_calloc(solver->model.bodies, sizeof *back), any = false;
     sunder_status status =
         back && find_better_held(solver, layout, back, &any) ? SUNDER_OK : sunder_i_failure_cause(err);

@@ -46,14 +46,14 @@ static bool set_infeasible_aside(sunder_i_solver *s)
     return ok;
 }
 
-sunder_status sunder_i_solver_lift_limits(sunder_i_solver *solver, bool *lifted, sunder_error *err)
+sunder_status sunder_i_solver_lift_limits(sunder_i_solver *solver, sunder_error *err)
 {
     sunder_i_model *model = &solver->model;
-    *lifted = false;
+    bool limited = false;
     for (size_t b = 0; b < model->bodies; b++)
-        *lifted = *lifted || (!model->body[b].fixed && model->body[b].limit < INFINITY);
-    *lifted = *lifted && solver->barriers.parts == 0;
-    if (!*lifted) return SUNDER_OK;
+        limited = limited || (!model->body[b].fixed && model->body[b].limit < INFINITY);
+    solver->had_limits = limited && solver->barriers.parts == 0;
+    if (!solver->had_limits) return SUNDER_OK;
     solver->limit = sunder_i_alloc(model->bodies, sizeof *solver->limit);
     solver->went = sunder_i_calloc(2 * model->bodies, sizeof *solver->went);
     if (!solver->limit || !solver->went) return sunder_i_failure_cause(err);

@@ -1,4 +1,5 @@
-/* Contact groups of the layout: proves for each a lower bound of its cost, and finds cheaper layouts.
+/* Contact groups of the layout: proves for each a lower bound of its cost, and finds cheaper layouts. The order of the
+ * steps of a round is a table.
  *
  * Each group is examined separately, all from the positions at the round's start; a cheaper layout of a group is taken.
  * Groups are treated as one in the next round if one is in the way of the other's cheaper layout, or if both proofs had
@@ -13,6 +14,7 @@
 #include "displacement/layer/resolution.h"
 #include "displacement/prove/optimum/optimum.h"
 #include "displacement/solve/clusters/cluster_stages.h"
+#include "displacement/solve/clusters/layer_stages.h"
 #include "displacement/solve/clusters/tuning.h"
 
 #include "base/extremes.h"
@@ -324,8 +326,8 @@ static sunder_status put_back_offenders(taking *t, bool *any, sunder_error *err)
     return status || *any ? status : mend_first(t, any, err);
 }
 
-/* Uses the cheaper layouts that pass the exact check; *any if the groups should be proved once more. */
-static sunder_status take_over(sunder_i_solver *s, bool *any, sunder_error *err)
+/* Uses the cheaper layouts that pass the exact check. Sets groups.unproved if groups should be proved once more. */
+static sunder_status take_over(sunder_i_solver *s, sunder_error *err)
 {
     const size_t n = s->model.bodies;
     taking t = {s,
@@ -335,7 +337,6 @@ static sunder_status take_over(sunder_i_solver *s, bool *any, sunder_error *err)
                 {0, 0}};
     sunder_status status = t.by && t.before && t.budget ? SUNDER_OK : sunder_i_failure_cause(err);
     bool again = false;
-    *any = false;
     if (!status) {
         for (size_t b = 0; b < n; b++) t.by[b] = SUNDER_I_NOBODY;
         sunder_i_changes_clear(&s->changes);
@@ -352,21 +353,21 @@ static sunder_status take_over(sunder_i_solver *s, bool *any, sunder_error *err)
     }
     for (size_t k = 0; !status && k < s->groups.n; k++) {
         sunder_i_group *g = &s->groups.group[k];
-        *any = *any || (is_group_wanted(s, g) && g->state != SUNDER_I_IS_PROVED);
+        s->groups.unproved = s->groups.unproved || (is_group_wanted(s, g) && g->state != SUNDER_I_IS_PROVED);
         if (sunder_i_group_is_cheaper(g)) g->state = SUNDER_I_IS_PROVED;
     }
     sunder_i_free_all(t.budget, t.by, t.before);
     return status;
 }
 
-/* Joins groups where one is in the way of the other's cheaper layout, or that have a common guest; *any if there are
- * such. False if memory is out. */
-static bool join_groups(sunder_i_solver *s, bool *any)
+/* Joins groups where one is in the way of the other's cheaper layout, or that have a common guest. Sets groups.unproved
+ * if there are such. */
+static sunder_status join_groups(sunder_i_solver *s, sunder_error *err)
 {
     sunder_i_groups *groups = &s->groups;
     bool ok = true;
     uint32_t *host = sunder_i_alloc(s->model.bodies, sizeof *host);
-    *any = false;
+    groups->unproved = false;
     for (size_t b = 0; host && b < s->model.bodies; b++) host[b] = groups->of[b];
     for (size_t k = 0; k < groups->n && host && ok; k++) {
         sunder_i_group *g = &groups->group[k];
@@ -379,14 +380,14 @@ static bool join_groups(sunder_i_solver *s, bool *any)
                 continue;
             }
             ok = note_joined(groups, g->number, host[b]);
-            *any = joined = true;
+            groups->unproved = joined = true;
         }
         /* A body in no group does not make the proof incomplete. */
         if (!joined) g->joins.n = 0;
     }
     ok = ok && host;
     sunder_i_free(host);
-    return ok;
+    return ok ? SUNDER_OK : sunder_i_failure_cause(err);
 }
 
 static sunder_status prove_each(sunder_i_solver *s, sunder_error *err)
@@ -411,30 +412,43 @@ static sunder_status trace_groups(sunder_i_solver *s, sunder_error *err)
     return status;
 }
 
-/* Proves the present groups once; *again if there should be another round. */
-static sunder_status prove_all(sunder_i_solver *s, bool *again, sunder_error *err)
+static sunder_status prove_all(sunder_i_solver *s, sunder_error *err)
 {
-    bool moved = false;
     hold_pinned_groups(s);
     sunder_status status = prove_each(s, err);
     if (!status) status = trace_groups(s, err);
     if (!status) charge_bodies(s);
-    if (!status) status = join_groups(s, again) ? take_over(s, &moved, err) : sunder_i_failure_cause(err);
-    *again = *again || moved;
     return status;
 }
 
+static bool has_diagonals(sunder_i_solver *s) { return s->groups.with_diagonals; }
+
+static sunder_status cover_diagonals(sunder_i_solver *s, sunder_error *err)
+{
+    return sunder_i_model_cover_diagonals(&s->model, err);
+}
+
+static bool has_unproved(sunder_i_solver *s) { return s->groups.unproved; }
+
+static const sunder_i_layer_stage optimising[] = {
+    {"cover diagonals", has_diagonals, cover_diagonals, 1, 0, 0},
+    {"prove", NULL, prove_all, 1, 0, 0},
+    {"join groups", NULL, join_groups, 1, 0, 0},
+    {"take over", NULL, take_over, 1, 0, 0},
+    {"list waivers", has_unproved, sunder_i_solver_list_waivers, 1, 0, 0},
+    {"gather groups", has_unproved, sunder_i_solver_gather_groups, 1, 0, 0},
+};
+
+static const sunder_i_layer_table table = {"optimise", SUNDER_I_TABLE_OF_STEPS, optimising,
+                                           sizeof optimising / sizeof *optimising, NULL};
+
 sunder_status sunder_i_solver_optimise(sunder_i_solver *solver, sunder_error *err)
 {
-    bool again = solver->model.rules.effort > 0;
-    if (!again) return SUNDER_OK;
+    if (!(solver->model.rules.effort > 0)) return SUNDER_OK;
     sunder_status status = sunder_i_solver_list_waivers(solver, err);
     if (!status) status = sunder_i_solver_gather_groups(solver, err);
-    for (int round = 0; round < OPTIMISED && again && !status; round++) {
-        if (solver->groups.with_diagonals) status = sunder_i_model_cover_diagonals(&solver->model, err);
-        if (!status) status = prove_all(solver, &again, err);
-        if (again && !status) status = sunder_i_solver_list_waivers(solver, err);
-        if (again && !status) status = sunder_i_solver_gather_groups(solver, err);
-    }
+    solver->groups.unproved = true;
+    for (int round = 0; round < OPTIMISED && solver->groups.unproved && !status; round++)
+        status = sunder_i_solver_run_stages(solver, &table, 0, 0, err);
     return status;
 }

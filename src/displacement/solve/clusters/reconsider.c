@@ -269,7 +269,7 @@ static sunder_status trace_verdict(const sunder_i_solver *s, const question *q, 
     const char *outcome = verdict == SUNDER_I_FEASIBLE     ? "a solution of all pairs was found"
                           : verdict == SUNDER_I_INFEASIBLE ? "proved: no solution of all pairs"
                                                            : "undecided within the budget";
-    const sunder_i_trace_step step = {"branch and bound", outcome, NAN, NAN};
+    const sunder_i_trace_step step = {NULL, "branch and bound", outcome, NAN, NAN};
     return sunder_i_trace_emit(&s->model, "cluster", &step, q->body.item, q->body.n, err);
 }
 

@@ -132,7 +132,7 @@ static sunder_status note_retried(const sunder_i_solver *s, sunder_i_cluster *c,
                                   sunder_error *err)
 {
     const char *outcome = c->restored_n ? "pairs solved that were given up" : "no pair solved that was given up";
-    const sunder_i_trace_step step = {"ask again", outcome, before,
+    const sunder_i_trace_step step = {NULL, "ask again", outcome, before,
                                       sunder_i_trace_cost(&s->model, c->body, c->n, move)};
     return sunder_i_trace_note(&c->log, &step) ? SUNDER_OK : sunder_i_failure_cause(err);
 }

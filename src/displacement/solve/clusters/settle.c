@@ -1,10 +1,12 @@
-/* The rounds: clusters are solved, their moves checked exactly, and what is found makes work for the next round.
+/* The rounds: clusters are solved, their moves checked exactly, and what is found makes work for the next round. The
+ * order of the steps of a round is a table.
  *
  * No edge is removed meanwhile. So each round adds an edge between clusters, or takes a pair of one inside the other a
  * state further (layer/inclusion.h), or widens the margin of a cluster whose result failed the exact check (a limited
  * number of times), or is the last: the loop ends. */
 #include "displacement/layer/resolution.h"
 #include "displacement/solve/clusters/cluster_stages.h"
+#include "displacement/solve/clusters/layer_stages.h"
 #include "displacement/solve/clusters/tuning.h"
 
 #include "base/union_find.h"
@@ -34,7 +36,8 @@ static sunder_status solve_clusters(void *context, size_t begin, size_t end, sun
     return SUNDER_OK;
 }
 
-/* Notes that the bodies of solved clusters have to be improved again, and keeps measured pairs for the report. */
+/* Notes that the bodies of solved clusters have to be improved again, and keeps measured pairs for the report. From now
+ * on bodies start from their own moves. */
 static sunder_status note_solved(sunder_i_solver *s, sunder_error *err)
 {
     for (size_t k = 0; k < s->clusters; k++) {
@@ -51,6 +54,7 @@ static sunder_status note_solved(sunder_i_solver *s, sunder_error *err)
             return sunder_i_failure_cause(err);
         s->measured[s->measured_n++] = c->measured;
     }
+    for (size_t k = 0; k < s->members; k++) s->carrier[s->body[k]] = SUNDER_I_NOBODY;
     return SUNDER_OK;
 }
 
@@ -71,6 +75,7 @@ static void carry_inner_body(sunder_i_solver *s, uint32_t f, uint32_t g)
 
 static void mark_due(sunder_i_solver *s, uint32_t b)
 {
+    s->unsettled = true;
     if (!s->model.body[b].fixed) sunder_i_body_event(&s->states, b, SUNDER_I_MEETS_CONFLICT);
 }
 
@@ -93,16 +98,15 @@ static bool are_together(const sunder_i_solver *s, uint32_t i, uint32_t j)
     return sunder_i_solver_has_member(s, sunder_i_union_find(s->parent, other), still);
 }
 
-/* A relaxed pair r of two clusters affects neither of them, unless it is worse than at the start: then they become one,
- * and *any is set. */
-static sunder_status heed_relaxation(sunder_i_solver *s, const sunder_i_relation *r, bool *any, sunder_error *err)
+/* A relaxed pair r of two clusters affects neither of them, unless it is worse than at the start: then they become
+ * one. */
+static sunder_status heed_relaxation(sunder_i_solver *s, const sunder_i_relation *r, sunder_error *err)
 {
     const uint32_t i = s->model.body_of[r->a], j = s->model.body_of[r->b];
     bool worse;
     if (are_together(s, i, j)) return SUNDER_OK;
     const sunder_status status = sunder_i_solver_is_worse(s, r, &worse, err);
     if (status || !worse) return status;
-    *any = true;
     sunder_i_trace_pair(&s->model, "check", "left in conflict, and worse than at the start: solved together", r->a,
                         r->b);
     return solve_together(s, i, j) ? SUNDER_OK : sunder_i_failure_cause(err);
@@ -110,8 +114,8 @@ static sunder_status heed_relaxation(sunder_i_solver *s, const sunder_i_relation
 
 /* Features a and c are in conflict, or one jumped over the other, though they are in one cluster, whose solution should
  * have prevented that: rounding spoiled it. The cluster is solved again with a wider margin, unless its margin has
- * grown MOST_MARGINS times. *any if it is. */
-static void widen_margin(sunder_i_solver *s, uint32_t a, uint32_t c, bool *any)
+ * grown MOST_MARGINS times. */
+static void widen_margin(sunder_i_solver *s, uint32_t a, uint32_t c)
 {
     const uint32_t i = s->model.body_of[a], j = s->model.body_of[c];
     const uint32_t b = s->model.body[i].fixed ? j : i;
@@ -119,36 +123,34 @@ static void widen_margin(sunder_i_solver *s, uint32_t a, uint32_t c, bool *any)
     if (sunder_i_is_due(s, b) && s->widened[b]) return; /* at most once a round */
     s->widened[b]++;
     mark_due(s, b);
-    *any = true;
     sunder_i_trace_pair(&s->model, "check", "in conflict within its cluster: solved with a wider margin", a, c);
 }
 
 /* If a body jumped over a body of another cluster, the two clusters become one; a jump within a cluster widens its
- * margin. *any if there was such a jump. */
-static sunder_status find_jumps(sunder_i_solver *s, bool *any, sunder_error *err)
+ * margin. */
+static sunder_status find_jumps(sunder_i_solver *s, sunder_error *err)
 {
     const sunder_i_model *model = &s->model;
     for (size_t k = 0; k < s->jumps.n; k++) {
         const uint32_t i = model->body_of[s->jumps.pair[k].a], j = model->body_of[s->jumps.pair[k].b];
         if (sunder_i_is_aside(s, i) || sunder_i_is_aside(s, j)) continue;
         if (are_together(s, i, j)) {
-            widen_margin(s, s->jumps.pair[k].a, s->jumps.pair[k].b, any);
+            widen_margin(s, s->jumps.pair[k].a, s->jumps.pair[k].b);
             continue;
         }
         if (!solve_together(s, i, j)) return sunder_i_failure_cause(err);
         sunder_i_trace_pair(model, "check", "jumped over: solved together from now on", s->jumps.pair[k].a,
                             s->jumps.pair[k].b);
-        *any = true;
     }
     return SUNDER_OK;
 }
 
 /* Examines the present conflicts and marks bodies as due: two clusters with a conflict become one, and a conflict
- * within a cluster widens its margin. *any if there is work for another round. */
-static sunder_status find_work(sunder_i_solver *s, bool *any, sunder_error *err)
+ * within a cluster widens its margin. Sets s->unsettled if there is work for another round. */
+static sunder_status find_work(sunder_i_solver *s, sunder_error *err)
 {
     sunder_i_model *model = &s->model;
-    *any = false;
+    s->unsettled = false;
     sunder_i_solver_hold_coarse(s);
     for (size_t k = 0; k < s->now.n; k++) {
         const sunder_i_relation *r = &s->now.pair[k];
@@ -157,7 +159,7 @@ static sunder_status find_work(sunder_i_solver *s, bool *any, sunder_error *err)
         if (!sunder_i_is_conflict(r) || i == j) continue;
         if (!sunder_i_may_move(&model->body[i]) && !sunder_i_may_move(&model->body[j])) continue;
         if (sunder_i_relaxations_find(&model->relaxations, r->a, r->b)) {
-            const sunder_status status = heed_relaxation(s, r, any, err);
+            const sunder_status status = heed_relaxation(s, r, err);
             if (status) return status;
             continue;
         }
@@ -165,7 +167,6 @@ static sunder_status find_work(sunder_i_solver *s, bool *any, sunder_error *err)
             if (!solve_together(s, i, j)) return sunder_i_failure_cause(err);
             sunder_i_trace_pair(model, "check", "in conflict: solved together from now on", r->a, r->b);
             carry_inner_body(s, r->a, r->b);
-            *any = true;
             continue;
         }
         const uint32_t b = model->body[i].fixed ? j : i;
@@ -175,13 +176,14 @@ static sunder_status find_work(sunder_i_solver *s, bool *any, sunder_error *err)
             inclusion->state++;
             sunder_i_trace_pair(model, "check", "not kept inside", r->a, r->b);
             mark_due(s, b);
-            *any = true;
             continue;
         }
-        widen_margin(s, r->a, r->b, any);
+        widen_margin(s, r->a, r->b);
     }
-    return find_jumps(s, any, err);
+    return find_jumps(s, err);
 }
+
+/* ---- A round ----------------------------------------------------------------------------------------------------- */
 
 static bool is_hopeless(const sunder_i_solver *s)
 {
@@ -190,29 +192,46 @@ static bool is_hopeless(const sunder_i_solver *s)
     return false;
 }
 
+static sunder_status solve_all(sunder_i_solver *s, sunder_error *err)
+{
+    sunder_status status = sunder_i_solver_for_clusters(s, solve_clusters, s, err);
+    if (!status) status = sunder_i_solver_trace_clusters(s, err);
+    s->hopeless = !status && is_hopeless(s);
+    return status;
+}
+
+static bool has_hope(sunder_i_solver *s) { return !s->hopeless; }
+
+static sunder_status commit_moves(sunder_i_solver *s, sunder_error *err)
+{
+    sunder_i_pieces_forget(&s->model, SUNDER_I_PIECES_HELD);
+    return sunder_i_solver_commit(s, err);
+}
+
+static const sunder_i_layer_stage settling[] = {
+    {"gather", NULL, sunder_i_solver_gather, 1, 0, 0},
+    {"unite blocks", NULL, sunder_i_solver_unite_blocks, 1, 0, 0},
+    {"grow crowds", NULL, sunder_i_solver_grow_crowds, 1, 0, 0},
+    {"solve", NULL, solve_all, 1, 0, 0},
+    {"commit", has_hope, commit_moves, 1, 0, 0},
+    {"note solved", has_hope, note_solved, 1, 0, 0},
+    {"take relaxations", has_hope, sunder_i_solver_take_relaxations, 1, 0, 0},
+    {"relate", has_hope, sunder_i_solver_relate, 1, 0, 0},
+    {"set far aside", has_hope, sunder_i_solver_set_far_aside, 1, 0, 0},
+    {"find work", has_hope, find_work, 1, 0, 0},
+};
+
+static const sunder_i_layer_table table = {"settle", SUNDER_I_TABLE_OF_STEPS, settling,
+                                           sizeof settling / sizeof *settling, NULL};
+
 sunder_status sunder_i_solver_settle(sunder_i_solver *solver, double from, double to, sunder_error *err)
 {
-    bool any;
-    sunder_status status = find_work(solver, &any, err);
-    for (size_t round = 0; !status && any; round++) {
+    sunder_status status = find_work(solver, err);
+    for (size_t round = 0; !status && solver->unsettled && has_hope(solver); round++) {
         if (!sunder_i_progress(&solver->model.rules,
                                from + (to - from) * (1 - 1 / (1 + SHARE_OF_ROUND * (double)round))))
             return sunder_i_cancelled(err);
-        status = sunder_i_solver_gather(solver, err);
-        if (!status) status = sunder_i_solver_unite_blocks(solver, err);
-        if (!status) status = sunder_i_solver_grow_crowds(solver, err);
-        if (!status) status = sunder_i_solver_for_clusters(solver, solve_clusters, solver, err);
-        if (!status) status = sunder_i_solver_trace_clusters(solver, err);
-        solver->hopeless = !status && is_hopeless(solver);
-        if (status || solver->hopeless) return status;
-        sunder_i_pieces_forget(&solver->model, SUNDER_I_PIECES_HELD);
-        status = sunder_i_solver_commit(solver, err);
-        if (!status) status = note_solved(solver, err);
-        for (size_t k = 0; k < solver->members; k++) solver->carrier[solver->body[k]] = SUNDER_I_NOBODY;
-        if (!status) status = sunder_i_solver_take_relaxations(solver, err);
-        if (!status) status = sunder_i_solver_relate(solver, err);
-        if (!status) status = sunder_i_solver_set_far_aside(solver, err);
-        if (!status) status = find_work(solver, &any, err);
+        status = sunder_i_solver_run_stages(solver, &table, from, to, err);
     }
     return status;
 }

@@ -36,6 +36,7 @@ typedef struct sunder_i_groups {
     size_t joins, capacity;
     double *spent;       /* [bodies] steps that proofs of the body's groups have taken */
     bool with_diagonals; /* a body is SUNDER_I_WITH_DIAGONALS */
+    bool unproved;       /* some have to be proved in another round (optimise.c) */
 } sunder_i_groups;
 
 /* Value of edges_listed: the members of clusters have to be listed again. */
@@ -81,6 +82,9 @@ typedef struct sunder_i_solver {
     bool brief;          /* a question about one conflict: the first cluster without a solution ends the work */
     bool hopeless;       /* then: there is no solution, or none was found */
     double refuted;      /* then: about the least gap for which the proof found shows that there is no solution */
+    bool changed;        /* by the present stage: clusters have to be settled, and it may have another round */
+    bool unsettled;      /* clusters have to be solved in another round (settle.c) */
+    bool failed;         /* memory is out */
     bool had_limits;     /* limits were lifted at first */
     bool may_hold;       /* bodies may be held (coarse_bodies.c) */
     bool any_let_go;     /* held bodies were let go */

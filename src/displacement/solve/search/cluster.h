@@ -82,7 +82,7 @@ sunder_status sunder_i_cluster_resume(const sunder_i_model *model, sunder_i_clus
 
 /* Searches for better sides, starting from a layout without clashes. The result is never more expensive. Bodies outside
  * the cluster keep their places. */
-sunder_status sunder_i_cluster_improve(const sunder_i_model *model, const sunder_i_cluster *cluster, double *move,
+sunder_status sunder_i_cluster_improve(const sunder_i_model *model, sunder_i_cluster *cluster, double *move,
                                        sunder_error *err);
 
 /* Descends from moves that may clash, while bodies outside the cluster keep their places. *found if that ends in a

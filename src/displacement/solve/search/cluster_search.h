@@ -67,6 +67,7 @@ typedef struct sunder_i_search {
     const double *back;     /* ... or when a program ends at these moves, [2 n]; NULL: no such test ... */
     double hope;            /* ... or when its expected final cost exceeds this; INFINITY: no such test */
     const double *lead;     /* [2 n] moves at which the sides of free pairs are chosen; NULL: at the present moves */
+    sunder_i_trace_log *log; /* what its stages did; NULL: the layer is not traced; lent */
     bool failed;            /* memory is out */
 } sunder_i_search;
 

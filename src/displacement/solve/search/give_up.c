@@ -1,4 +1,4 @@
-/* Clusters without a solution: because of limits, fixed bodies, or lack of room.
+/* Clusters without a solution: because of limits, fixed bodies, or lack of room. The order of the stages is a table.
  *
  * Pairs that clash at the end, and clash in the original places, are relaxed (relaxation.c), a few at a time: all
  * others keep their full distance, and relaxed ones stand no worse than at the start. The compromise that the search
@@ -11,6 +11,7 @@
  * clashes; at worst all are in their original places, where every relaxation holds. From there the cluster descends as
  * from any other solution: no body is moved to ease a pair that stays in conflict. (retry_cluster.c asks for the
  * relaxed pairs again.) */
+#include "displacement/layer/stage_table.h"
 #include "displacement/solve/search/search_stages.h"
 #include "displacement/solve/search/tuning.h"
 
@@ -20,6 +21,18 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+/* The state that the stages share. */
+typedef struct giving_up {
+    sunder_i_stage_run run;
+    sunder_i_search *s;
+    const double *start;     /* [2 n] the moves that the search began with */
+    sunder_i_clash *at_home; /* [n] pairs that clash in the original places */
+    size_t n;
+    bool separately; /* the start consists of separate solutions that have run into each other */
+    bool pushed;     /* the solution was made by pushing */
+    bool done;       /* nothing clashes */
+} giving_up;
 
 /* ---- One at a time ----------------------------------------------------------------------------------------------- */
 
@@ -114,13 +127,15 @@ static void try_from_home(sunder_i_search *s)
 static bool restarts_from_home(const sunder_i_search *s) { return s->n >= CROWD && s->n <= LARGE_CROWD; }
 
 /* Relaxes the cheapest candidates, continues the search, and so on, with more candidates each time, until the effort
- * ends. Returns whether nothing clashes in the end.
+ * ends.
  *
  * A crowd restarts from its original places each time: where its search ended, hundreds of bodies are pushed into each
  * other, including relaxed pairs, and the more pairs are relaxed, the fewer of the clashing ones there can still be
  * relaxed. */
-static bool give_up_gradually(sunder_i_search *s, const sunder_i_clash *at_home, size_t n)
+static void relax_gradually(void *state)
 {
+    giving_up *x = state;
+    sunder_i_search *s = x->s;
     const uint64_t work = sunder_i_search_work(s), times = (GIVE_UP_TIMES - 1) * work;
     const uint64_t little = work + PATIENCE + PATIENCE_EACH * (uint64_t)s->n;
     const uint64_t more = restarts_from_home(s) ? GIVE_UP_OF_CROWD : times < GIVE_UP_MOST ? times : GIVE_UP_MOST;
@@ -129,7 +144,7 @@ static bool give_up_gradually(sunder_i_search *s, const sunder_i_clash *at_home,
     for (double share = FIRST_SHARE; !done && !s->failed && sunder_i_search_work(s) < end; share /= MORE) {
         sunder_i_search_settle_components(s);
         if (!s->failed) sunder_i_search_find_clashes(s, s->t);
-        if (s->failed || !relax_cheapest(s, at_home, n, share)) break;
+        if (s->failed || !relax_cheapest(s, x->at_home, x->n, share)) break;
         s->patience = end;
         if (restarts_from_home(s))
             send_all_home(s);
@@ -142,7 +157,7 @@ static bool give_up_gradually(sunder_i_search *s, const sunder_i_clash *at_home,
     s->patience = sunder_i_search_work(s) + little;
     if (done) try_from_home(s);
     s->patience = UINT64_MAX;
-    return done && !s->failed;
+    x->done = done && !s->failed;
 }
 
 /* ---- All of it --------------------------------------------------------------------------------------------------- */
@@ -181,8 +196,9 @@ bool sunder_i_search_waive_margins(sunder_i_search *search)
 
 /* Bodies that are almost at their original places return there, if nothing clashes then. Only unobstructed bodies are
  * that near. */
-static void settle_at_home(sunder_i_search *s)
+static void return_home(void *state)
 {
+    sunder_i_search *s = ((giving_up *)state)->s;
     double *stand = sunder_i_alloc(2 * s->n, sizeof *stand);
     if (!stand) s->failed = true;
     if (s->failed) return;
@@ -210,12 +226,6 @@ static bool was_solved_separately(sunder_i_search *s, const double *start, size_
     return then < clashes && then <= at_home / FEW_LEFT;
 }
 
-/* Returns to the start of the search, if fewer pairs clash there. */
-static void begin_again(sunder_i_search *s, const double *start)
-{
-    if (count_clashes(s, start) < count_clashes(s, s->t)) memcpy(s->t, start, 2 * s->n * sizeof *s->t);
-}
-
 /* Marks in about[] the bodies of clashes whose violation is at least the share FIRST_SHARE of the worst one, and
  * relaxes all pairs with such a body that clash in the original places. */
 static void relax_about(sunder_i_search *s, const sunder_i_clash *at_home, size_t n, bool *about)
@@ -233,72 +243,155 @@ static void relax_about(sunder_i_search *s, const sunder_i_clash *at_home, size_
 
 /* For separate solutions that have run into each other: relaxes the pairs of clashing bodies and descends from `start`,
  * then relaxes those of bodies that clash after that, and so on, at most MOST_RINGS times. Other pairs keep their
- * distance. Pairs that were relaxed without need are tried again later (retry_cluster.c). Returns whether nothing
- * clashes in the end; if not, s->t is `start`. */
-static bool give_up_about(sunder_i_search *s, const double *start, const sunder_i_clash *at_home, size_t n)
+ * distance. Pairs that were relaxed without need are tried again later (retry_cluster.c). If clashes remain in the end,
+ * s->t is `start`. */
+static void relax_in_rings(void *state)
 {
+    giving_up *x = state;
+    sunder_i_search *s = x->s;
     const size_t size = 2 * s->n * sizeof *s->t;
     bool *about = sunder_i_alloc(s->n, sizeof *about), done = false;
+    sunder_i_relaxations_free(&s->relaxations);
     s->failed = s->failed || !about;
     s->patience = sunder_i_search_work(s) + GIVE_UP_MOST + PATIENCE_EACH * (uint64_t)s->n;
     for (int ring = 0; ring < MOST_RINGS && !done && !s->failed; ring++) {
         sunder_i_search_find_clashes(s, s->t);
-        if (!s->failed) relax_about(s, at_home, n, about);
-        memcpy(s->t, start, size);
+        if (!s->failed) relax_about(s, x->at_home, x->n, about);
+        memcpy(s->t, x->start, size);
         s->program.n = 0;
         done = !s->failed && sunder_i_search_descend(s);
     }
     s->patience = UINT64_MAX;
-    if (!done) memcpy(s->t, start, size);
+    if (!done) memcpy(s->t, x->start, size);
     sunder_i_free(about);
-    return done && !s->failed;
+    x->done = done && !s->failed;
 }
 
-/* Lets the last clashes yield, and descends. done: giving up pairs ended without clashes, so bodies that are almost at
- * home return there. pushed: the solution was made by pushing, so bodies that moved together get the same move. */
-static void end_free(sunder_i_search *s, const sunder_i_clash *at_home, size_t n, bool done, bool pushed)
+/* ---- The order --------------------------------------------------------------------------------------------------- */
+
+static bool is_unsolved(const void *state) { return !((const giving_up *)state)->done; }
+
+static bool is_unsolved_large_crowd(const void *state)
 {
-    if (!s->failed) sunder_i_search_yield(s, at_home, n, 0);
-    sunder_i_search_descend_or_stay(s);
-    if (done && !s->failed) settle_at_home(s);
-    if (pushed && !s->failed) sunder_i_search_equalise_moves(s);
+    return is_unsolved(state) && ((const giving_up *)state)->s->n > LARGE_CROWD;
+}
+
+static bool may_relax_gradually(const void *state)
+{
+    const giving_up *x = state;
+    return is_unsolved(x) && (!x->separately || restarts_from_home(x->s));
+}
+
+static bool is_unsolved_together(const void *state)
+{
+    return is_unsolved(state) && !((const giving_up *)state)->separately;
+}
+
+static bool is_unsolved_separately(const void *state)
+{
+    return is_unsolved(state) && ((const giving_up *)state)->separately;
+}
+
+static bool is_done(const void *state) { return ((const giving_up *)state)->done; }
+
+static bool was_pushed(const void *state) { return ((const giving_up *)state)->pushed; }
+
+static void push_from_home(void *state)
+{
+    giving_up *x = state;
+    x->done = x->pushed = sunder_i_search_push_from_home(x->s, x->start, x->at_home, x->n, LEFT_BY_PUSHING);
+}
+
+/* Returns to the start of the search, if fewer pairs clash there. */
+static void begin_again(void *state)
+{
+    giving_up *x = state;
+    sunder_i_search *s = x->s;
+    if (count_clashes(s, x->start) < count_clashes(s, s->t)) memcpy(s->t, x->start, 2 * s->n * sizeof *s->t);
+}
+
+static void clip_moves(void *state) { sunder_i_search_clip(((giving_up *)state)->s); }
+
+/* Violations by rounding only are no reason to relax a pair. */
+static void yield_and_repair(void *state)
+{
+    giving_up *x = state;
+    sunder_i_search_yield(x->s, x->at_home, x->n, MENDED * x->s->tolerance);
+    if (!x->s->failed) sunder_i_search_repair(x->s);
+}
+
+static void yield_last(void *state)
+{
+    giving_up *x = state;
+    sunder_i_search_yield(x->s, x->at_home, x->n, 0);
+}
+
+static void descend_last(void *state) { sunder_i_search_descend_or_stay(((giving_up *)state)->s); }
+
+static void equalise_moves(void *state) { sunder_i_search_equalise_moves(((giving_up *)state)->s); }
+
+static const sunder_i_stage stages[] = {
+    {"push from home", NULL, push_from_home, 0},
+    {"begin again", is_unsolved_large_crowd, begin_again, 0},
+    {"relax gradually", may_relax_gradually, relax_gradually, 0},
+    {"begin again", is_unsolved_together, begin_again, 0},
+    {"relax in rings", is_unsolved_separately, relax_in_rings, 0},
+    {"clip", is_unsolved, clip_moves, 0},
+    {"yield and repair", is_unsolved, yield_and_repair, 0},
+};
+
+/* After the stages above, and after pushing at home. */
+static const sunder_i_stage last_stages[] = {
+    {"yield", NULL, yield_last, 0},
+    {"descend again", NULL, descend_last, 0},
+    {"return home", is_done, return_home, 0},
+    {"equalise moves", was_pushed, equalise_moves, 0},
+};
+
+static const char *look(const void *state, const double before[2], double now[2])
+{
+    const giving_up *x = state;
+    (void)before;
+    now[0] = sunder_i_search_cost(x->s, x->s->t);
+    now[1] = x->done;
+    return x->done ? "solved but for pairs given up" : "not solved";
+}
+
+static const sunder_i_stage_table table = {"give up", stages, sizeof stages / sizeof *stages, look};
+static const sunder_i_stage_table last = {"give up", last_stages, sizeof last_stages / sizeof *last_stages, look};
+
+static giving_up begin_giving_up(sunder_i_search *s, const double *start)
+{
+    giving_up x = {.run = {.log = s->log, .failed = &s->failed}, .s = s, .start = start};
+    x.at_home = sunder_i_search_at_home(s, &x.n);
+    s->failed = s->failed || !x.at_home;
+    return x;
+}
+
+/* Memory for a step of the trace may be out. */
+static void end_giving_up(giving_up *x)
+{
+    x->s->failed = x->s->failed || sunder_i_stages_run(&last, x);
+    sunder_i_free(x->at_home);
 }
 
 bool sunder_i_search_give_up_at_home(sunder_i_search *search, const double *start)
 {
-    size_t n = 0;
     if (search->failed || sunder_i_search_movers(search) <= LARGE_CROWD) return false;
-    sunder_i_clash *at_home = sunder_i_search_at_home(search, &n);
-    search->failed = !at_home;
-    const bool pushed = !search->failed && sunder_i_search_push_from_home(search, start, at_home, n, LEFT_AT_HOME);
-    if (pushed) end_free(search, at_home, n, true, true);
-    sunder_i_free(at_home);
-    return pushed;
+    giving_up x = begin_giving_up(search, start);
+    if (!search->failed)
+        x.pushed = x.done = sunder_i_search_push_from_home(search, start, x.at_home, x.n, LEFT_AT_HOME);
+    if (x.pushed)
+        end_giving_up(&x);
+    else
+        sunder_i_free(x.at_home);
+    return x.pushed;
 }
 
 void sunder_i_search_give_up(sunder_i_search *search, const double *start)
 {
-    size_t n = 0;
-    bool done = false;
-    sunder_i_clash *at_home = sunder_i_search_at_home(search, &n);
-    search->failed = search->failed || !at_home;
-    const bool separately = !search->failed && search->n >= CROWD && was_solved_separately(search, start, n);
-    const bool pushed = !search->failed && sunder_i_search_push_from_home(search, start, at_home, n, LEFT_BY_PUSHING);
-    if (!search->failed) done = pushed;
-    if (!search->failed && !done && search->n > LARGE_CROWD) begin_again(search, start);
-    if (!search->failed && !done && (!separately || restarts_from_home(search)))
-        done = give_up_gradually(search, at_home, n);
-    if (!search->failed && !done && !separately) begin_again(search, start);
-    if (!search->failed && !done && separately) {
-        sunder_i_relaxations_free(&search->relaxations);
-        done = give_up_about(search, start, at_home, n);
-    }
-    if (!search->failed && !done) sunder_i_search_clip(search);
-    if (!search->failed && !done) {
-        /* Violations by rounding only are no reason to relax a pair. */
-        sunder_i_search_yield(search, at_home, n, MENDED * search->tolerance);
-        if (!search->failed) sunder_i_search_repair(search);
-    }
-    end_free(search, at_home, n, done, pushed);
-    sunder_i_free(at_home);
+    giving_up x = begin_giving_up(search, start);
+    x.separately = !search->failed && search->n >= CROWD && was_solved_separately(search, start, x.n);
+    sunder_i_stages_run(&table, &x);
+    end_giving_up(&x);
 }

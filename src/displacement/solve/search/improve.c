@@ -1,4 +1,6 @@
-/* Better sides: from a free start, cheaper places of single bodies and other sides of pairs, while they are found. */
+/* Better sides: from a free start, cheaper places of single bodies and other sides of pairs, while they are found. The
+ * order of the stages is a table. */
+#include "displacement/layer/stage_table.h"
 #include "displacement/solve/search/neighbourhood.h"
 #include "displacement/solve/search/search_stages.h"
 #include "displacement/solve/search/tuning.h"
@@ -273,59 +275,146 @@ static bool is_free_start(sunder_i_search *s)
     return missed <= s->tolerance || (missed <= MENDED * s->tolerance && !s->failed && sunder_i_search_descend(s));
 }
 
-/* From the free layout s->t to the cheapest layout found, which is stored in `best`. near: [2 n] scratch. */
-static void improve_layout(sunder_i_search *s, rank *order, double *best, double *near)
+/* ---- The order --------------------------------------------------------------------------------------------------- */
+
+/* The state that the stages share. */
+typedef struct improving {
+    sunder_i_stage_run run;
+    sunder_i_search *s;
+    rank *order;            /* [n] scratch */
+    double *best, *near;    /* [2 n] the cheapest layout found; one that is found from a start near home */
+    double cost, near_cost; /* the costs of both */
+    double before;          /* the cost of the layout that the last stages began with */
+} improving;
+
+static bool is_to_be_proved(const void *state)
 {
-    const size_t size = 2 * s->n * sizeof *best;
-    memcpy(best, s->t, size);
-    double cost = sunder_i_search_cost(s, s->t);
-    sunder_i_search_attempt(s, best, &cost); /* without proofs this was done for the first solution */
-    if (!sunder_i_search_runs_without_proofs(s) &&
-        sunder_i_search_is_cheapest(s)) { /* without proofs this was asked about the first solution */
-        memcpy(best, s->t, size);
-        return;
-    }
-    /* Descends from here, and from a start that keeps all bodies near home; the cheaper result is kept. */
-    memcpy(near, best, size);
-    double near_cost = cost;
-    const double start = cost;
-    try_all(s, order, best, &cost);
-    memcpy(s->t, near, size);
-    if (sunder_i_search_movers(s) <= LARGE_CROWD) try_near(s, near, &near_cost);
-    if (near_cost < start) try_all(s, order, near, &near_cost);
-    if (near_cost < cost) {
-        memcpy(best, near, size);
-        cost = near_cost;
-    }
-    memcpy(s->t, best, size);
-    const double ordered = cost;
-    sunder_i_search_reorder(s, best, &cost);
-    if (cost < ordered) try_all(s, order, best, &cost);
+    return !sunder_i_search_runs_without_proofs(((const improving *)state)->s);
 }
 
-sunder_status sunder_i_cluster_improve(const sunder_i_model *model, const sunder_i_cluster *cluster, double *move,
+static bool is_no_large_crowd(const void *state)
+{
+    return sunder_i_search_movers(((const improving *)state)->s) <= LARGE_CROWD;
+}
+
+static bool has_gained_near_home(const void *state)
+{
+    return ((const improving *)state)->near_cost < ((const improving *)state)->before;
+}
+
+static bool has_gained(const void *state)
+{
+    return ((const improving *)state)->cost < ((const improving *)state)->before;
+}
+
+/* Without proofs this was done for the first solution. */
+static void descend_first(void *state)
+{
+    improving *x = state;
+    sunder_i_search_attempt(x->s, x->best, &x->cost);
+}
+
+/* Without proofs this was asked about the first solution. */
+static void ask_whether_cheapest(void *state)
+{
+    improving *x = state;
+    x->run.over = sunder_i_search_is_cheapest(x->s);
+    if (x->run.over) memcpy(x->best, x->s->t, 2 * x->s->n * sizeof *x->best);
+}
+
+static void try_best(void *state)
+{
+    improving *x = state;
+    memcpy(x->near, x->best, 2 * x->s->n * sizeof *x->near);
+    x->before = x->near_cost = x->cost;
+    try_all(x->s, x->order, x->best, &x->cost);
+}
+
+static void start_near_home(void *state)
+{
+    improving *x = state;
+    memcpy(x->s->t, x->near, 2 * x->s->n * sizeof *x->near);
+    try_near(x->s, x->near, &x->near_cost);
+}
+
+static void try_near_home(void *state)
+{
+    improving *x = state;
+    try_all(x->s, x->order, x->near, &x->near_cost);
+}
+
+static void reorder(void *state)
+{
+    improving *x = state;
+    const size_t size = 2 * x->s->n * sizeof *x->best;
+    if (x->near_cost < x->cost) {
+        memcpy(x->best, x->near, size);
+        x->cost = x->near_cost;
+    }
+    memcpy(x->s->t, x->best, size);
+    x->before = x->cost;
+    sunder_i_search_reorder(x->s, x->best, &x->cost);
+}
+
+/* Places and sides are tried from the layout itself, and from a start that keeps all bodies near home; the cheaper
+ * result is reordered. The budget of a stage is in tuning.h. */
+static const sunder_i_stage stages[] = {
+    {"descend", NULL, descend_first, 0},
+    {"ask whether cheapest", is_to_be_proved, ask_whether_cheapest, 0},
+    {"try places and sides", NULL, try_best, 0},
+    {"start near home", is_no_large_crowd, start_near_home, 0},
+    {"try places and sides", has_gained_near_home, try_near_home, 0},
+    {"reorder", NULL, reorder, 0},
+    {"try places and sides", has_gained, try_best, 0},
+};
+
+static const char *look(const void *state, const double before[2], double now[2])
+{
+    const improving *x = state;
+    (void)before;
+    now[0] = sunder_i_min(x->cost, x->near_cost);
+    now[1] = 0;
+    return "cheaper";
+}
+
+static const sunder_i_stage_table table = {"improve", stages, sizeof stages / sizeof *stages, look};
+
+/* From the free layout s->t to the cheapest layout found, which becomes x->best. */
+static sunder_status improve_layout(improving *x)
+{
+    memcpy(x->best, x->s->t, 2 * x->s->n * sizeof *x->best);
+    x->cost = sunder_i_search_cost(x->s, x->s->t);
+    x->near_cost = INFINITY;
+    return sunder_i_stages_run(&table, x);
+}
+
+sunder_status sunder_i_cluster_improve(const sunder_i_model *model, sunder_i_cluster *cluster, double *move,
                                        sunder_error *err)
 {
     sunder_i_search s;
     bool ok = sunder_i_search_init_about(&s, model, cluster, move);
-    double *best = sunder_i_alloc(2 * s.n, sizeof *best), *near = sunder_i_alloc(2 * s.n, sizeof *near);
-    rank *order = sunder_i_alloc(s.n, sizeof *order);
-    if (ok && best && near && order) {
+    improving x = {.run = {.log = sunder_i_is_traced(model) ? &cluster->log : NULL, .failed = &s.failed, .err = err},
+                   .s = &s,
+                   .order = sunder_i_alloc(s.n, sizeof *x.order),
+                   .best = sunder_i_alloc(2 * s.n, sizeof *x.best),
+                   .near = sunder_i_alloc(2 * s.n, sizeof *x.near)};
+    ok = ok && x.best && x.near && x.order;
+    if (ok) {
         s.settled = SETTLED_BETTER;
         s.effort = BETTER_EFFORT * (uint64_t)cluster->n;
         if (s.effort > BETTER_MOST) s.effort = BETTER_MOST;
         const double before = sunder_i_search_cost(&s, s.t);
         if (is_free_start(&s)) {
-            improve_layout(&s, order, best, near);
-            memcpy(s.t, best, 2 * s.n * sizeof *best);
-            const bool cheaper = sunder_i_search_cost(&s, best) < before;
+            ok = !improve_layout(&x);
+            memcpy(s.t, x.best, 2 * s.n * sizeof *x.best);
+            const bool cheaper = sunder_i_search_cost(&s, x.best) < before;
             s.n = cluster->n;
-            if (cheaper && !s.failed) sunder_i_search_round(&s, move);
+            if (cheaper && ok && !s.failed) sunder_i_search_round(&s, move);
         }
     }
-    ok = ok && best && near && order && !s.failed;
+    ok = ok && !s.failed;
     sunder_i_search_free(&s);
-    sunder_i_free_all(best, near, order);
+    sunder_i_free_all(x.best, x.near, x.order);
     return ok ? SUNDER_OK : sunder_i_failure_cause(err);
 }
 

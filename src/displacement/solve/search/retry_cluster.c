@@ -5,9 +5,10 @@
  * several members of two blocks are in conflict, all these conflicts are tried together, and then each by itself, since
  * one may have no solution where others do. At first only the pair moves, then more and more bodies around it
  * (neighbourhood.c), at last the whole cluster. An overlap without a solution is at least to be separated, before pairs
- * that are only too close are tried. All pairs are tried at one stage before any at the next, so that when the effort
- * ends the small questions have been asked. The effort depends on the numbers of bodies and of pairs only. A stage ends
- * early after a number of failures in a row, or after a certain amount of work. */
+ * that are only too close are tried. All pairs are tried at one level before any at the next, so that when the effort
+ * ends the small questions have been asked. The effort depends on the numbers of bodies and of pairs only. A level ends
+ * early after a number of failures in a row, or after a certain amount of work. The order of the demands is a table. */
+#include "displacement/layer/stage_table.h"
 #include "displacement/solve/search/neighbourhood.h"
 #include "displacement/solve/search/search_stages.h"
 #include "displacement/solve/search/tuning.h"
@@ -16,18 +17,21 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const size_t stage[] = RETRY_STAGES;
-#define STAGES (sizeof stage / sizeof *stage)
+/* The numbers of bodies that move at each level; at level LEVELS the whole cluster moves. */
+static const size_t moved[] = RETRY_STAGES;
+#define LEVELS (sizeof moved / sizeof *moved)
 
 typedef struct retrying {
+    sunder_i_stage_run run;
     sunder_i_search *search;
     const sunder_i_retry *retry;
     size_t n, moving;
     bool *settled;         /* [n] nothing remains to be demanded */
     bool *in_vain;         /* [n] the last try included all bodies around the pair, so a larger one would be the same */
     double *stand;         /* [2 bodies] */
-    uint64_t effort;       /* tries end when the work (sunder_i_search_work()) reaches this */
-    uint64_t in_vain_most; /* work at one stage without a success, after which the stage ends */
+    uint64_t effort;       /* of all demands */
+    uint64_t end;          /* tries end when the work (sunder_i_search_work()) reaches this */
+    uint64_t in_vain_most; /* work at one level without a success, after which the level ends */
     bool any;              /* a try has succeeded */
     sunder_i_neighbourhood neighbourhood;
 } retrying;
@@ -40,6 +44,9 @@ bool sunder_i_can_be_disjoint(const sunder_i_model *model, const sunder_i_relaxa
     return depth > 0 && sunder_i_owed_above(model, relaxation->a, relaxation->b) > 0 &&
            depth <= sunder_i_limit_of(p) + sunder_i_limit_of(q);
 }
+
+/* Begins a stage: its tries may take the total effort divided by its budget. */
+static void begin_stage(retrying *p) { p->end = sunder_i_search_work(p->search) + p->effort / p->run.budget; }
 
 /* ---- What is asked ----------------------------------------------------------------------------------------------- */
 
@@ -111,7 +118,7 @@ static void resume_overlap(sunder_i_search *s, const sunder_i_retry *x)
             sunder_i_relaxations_remove(&s->relaxations, s->model, relaxation_of(s, x, k));
 }
 
-/* ---- At one stage ------------------------------------------------------------------------------------------------ */
+/* ---- At one level ------------------------------------------------------------------------------------------------ */
 
 /* Descends with the whole cluster from its present layout; if that fails, bodies jump, and all descend again. On
  * failure all return. */
@@ -135,16 +142,16 @@ static bool settle_all(retrying *p)
 static bool settle_one(retrying *p, size_t k, size_t level)
 {
     sunder_i_search *s = p->search;
-    if (level == STAGES) return settle_all(p);
+    if (level == LEVELS) return settle_all(p);
     const sunder_i_id_pair *pair = &p->retry[k].body;
     const bool done = sunder_i_neighbourhood_settle(&p->neighbourhood, sunder_i_search_place_of(s, pair->a),
-                                                    sunder_i_search_place_of(s, pair->b), stage[level],
+                                                    sunder_i_search_place_of(s, pair->b), moved[level],
                                                     s->gap + 2 * p->retry[k].missing);
     p->in_vain[k] = !p->neighbourhood.wider;
     return done;
 }
 
-/* Demands the full distance for retry k (`resolve`), or the end of its overlap. If there is no solution at this stage,
+/* Demands the full distance for retry k (`resolve`), or the end of its overlap. If there is no solution at this level,
  * the relaxations are valid again. Returns whether there is one. */
 static bool grant_retry(retrying *p, size_t k, size_t level, bool resolve)
 {
@@ -162,15 +169,12 @@ static bool grant_retry(retrying *p, size_t k, size_t level, bool resolve)
     return false;
 }
 
-/* The demands, in their order: first as few overlaps as possible, then as few pairs. The relaxations between two bodies
- * are tried together first, and then each (single). */
+/* What is demanded, and of which retries. */
 typedef struct request {
-    bool overlap, resolve, single;
+    bool overlap; /* of those that overlap */
+    bool resolve; /* the full distance; otherwise the end of the overlap */
+    bool single;  /* of those about a single relaxation; otherwise of those about all between two bodies */
 } request;
-
-static const request requests[] = {{true, true, false}, {true, true, true},   {true, false, false},
-                                   {true, false, true}, {false, true, false}, {false, true, true}};
-#define REQUESTS (sizeof requests / sizeof *requests)
 
 /* Is retry k left out of request r? It is if it is settled, if r is about another kind of retry, or if the relaxation
  * of a single retry was ended together with others. */
@@ -187,38 +191,38 @@ static bool is_out(const retrying *p, size_t k, const request *r)
     return known || sunder_i_relaxations_find(&p->search->relaxations, t->a, t->b);
 }
 
-/* The failures at one stage since its last success. */
+/* The failures at one level since its last success. */
 typedef struct useless {
     size_t asked;
     uint64_t since; /* work when they began */
     size_t most;
 } useless;
 
-/* Have too many tries failed to continue with the stage? The first stage is never ended early. */
+/* Have too many tries failed to continue with the level? The first level is never ended early. */
 static bool is_useless(const retrying *p, const useless *u, size_t level)
 {
     if (level == 0 || u->asked == 0) return false;
     return u->asked >= u->most || sunder_i_search_work(p->search) > u->since + p->in_vain_most;
 }
 
-/* Tries all retries that request r is about (is_out()), at one stage after the other, until the effort ends. */
+/* Tries all retries that request r is about (is_out()), at one level after the other, until the effort ends. */
 static void ask_request(retrying *p, const request *r)
 {
     sunder_i_search *s = p->search;
     size_t most = RETRIES_IN_VAIN;
     memset(p->in_vain, 0, p->n * sizeof *p->in_vain);
-    for (size_t level = p->moving > FEW ? 0 : STAGES; level <= STAGES; level++) {
+    for (size_t level = p->moving > FEW ? 0 : LEVELS; level <= LEVELS; level++) {
         useless u = {0, sunder_i_search_work(s), most};
         bool any = false;
-        for (size_t k = 0; k < p->n && !s->failed && sunder_i_search_work(s) < p->effort; k++) {
-            if ((p->in_vain[k] && level < STAGES) || is_out(p, k, r) || is_useless(p, &u, level)) continue;
+        for (size_t k = 0; k < p->n && !s->failed && sunder_i_search_work(s) < p->end; k++) {
+            if ((p->in_vain[k] && level < LEVELS) || is_out(p, k, r) || is_useless(p, &u, level)) continue;
             p->settled[k] = grant_retry(p, k, level, r->resolve);
             p->any = p->any || p->settled[k];
             any = any || p->settled[k];
             u.asked++;
             if (p->settled[k]) u = (useless){0, sunder_i_search_work(s), most};
         }
-        /* In a crowd a demand that fails at one stage usually fails at the next. */
+        /* In a crowd a demand that fails at one level usually fails at the next. */
         most = any || p->n <= FEW_RETRIES || p->n / SHARE_OF_RETRIES >= RETRIES_IN_VAIN ? RETRIES_IN_VAIN
                                                                                         : p->n / SHARE_OF_RETRIES;
     }
@@ -265,7 +269,7 @@ static void redeem_pairs(retrying *p, sunder_i_relaxations *list)
         list->item[k] = t;
         sunder_i_relaxations_remove(&s->relaxations, s->model, &t);
         if (sunder_i_search_find_clashes(s, s->t) <= s->tolerance ||
-            (sunder_i_search_work(s) < p->effort && settle_all(p)))
+            (sunder_i_search_work(s) < p->end && settle_all(p)))
             continue;
         if (!s->failed && !sunder_i_relaxations_insert(&s->relaxations, s->model, &t)) s->failed = true;
     }
@@ -282,7 +286,7 @@ static bool grant_from_home(retrying *p, size_t k)
     memcpy(stood, s->t, 2 * s->n * sizeof *stood);
     for (size_t i = 0; i < s->n; i++)
         if (s->mass[i] > 0) s->t[2 * i] = s->t[2 * i + 1] = 0;
-    const bool granted = grant_retry(p, k, STAGES, false);
+    const bool granted = grant_retry(p, k, LEVELS, false);
     if (!granted) memcpy(s->t, stood, 2 * s->n * sizeof *stood);
     sunder_i_free(stood);
     return granted;
@@ -290,17 +294,18 @@ static bool grant_from_home(retrying *p, size_t k)
 
 /* Ends remaining overlaps at the expense of other pairs, which give up their gap: an overlap counts for more than any
  * number of those. */
-static void trade_pairs(retrying *p)
+static void trade_pairs(void *state)
 {
+    retrying *p = state;
     sunder_i_search *s = p->search;
-    for (size_t k = 0; k < p->n && p->moving <= MOST_TRADING && sunder_i_search_work(s) < p->effort && !s->failed;
-         k++) {
+    begin_stage(p);
+    for (size_t k = 0; k < p->n && p->moving <= MOST_TRADING && sunder_i_search_work(s) < p->end && !s->failed; k++) {
         sunder_i_relaxations list = {0};
         const sunder_i_retry *x = &p->retry[k];
         const request r = {x->overlap, false, x->single > 0};
         if (!x->overlap || is_out(p, k, &r)) continue;
         sacrifice_pairs(s, &list);
-        p->settled[k] = list.n && !s->failed && (grant_retry(p, k, STAGES, false) || grant_from_home(p, k));
+        p->settled[k] = list.n && !s->failed && (grant_retry(p, k, LEVELS, false) || grant_from_home(p, k));
         p->any = p->any || p->settled[k];
         if (p->settled[k]) redeem_pairs(p, &list);
         for (size_t t = 0; t < list.n && !p->settled[k]; t++)
@@ -327,10 +332,57 @@ static bool is_in_order(sunder_i_search *s)
     return ok && !s->failed;
 }
 
+/* ---- The order --------------------------------------------------------------------------------------------------- */
+
+/* The relaxations between two bodies are tried together first, and then each. */
+static void ask_requests(retrying *p, bool overlap, bool resolve)
+{
+    begin_stage(p);
+    ask_request(p, &(request){overlap, resolve, false});
+    if (!p->search->failed) ask_request(p, &(request){overlap, resolve, true});
+}
+
+static void resolve_overlaps(void *state) { ask_requests(state, true, true); }
+
+static void end_overlaps(void *state) { ask_requests(state, true, false); }
+
+static void resolve_pairs(void *state) { ask_requests(state, false, true); }
+
+static bool has_gap(const void *state) { return ((const retrying *)state)->search->model->rules.gap > 0; }
+
+static bool has_any_of_many(const void *state)
+{
+    const retrying *p = state;
+    return p->any && p->moving > FEW;
+}
+
+static void descend(void *state) { sunder_i_search_descend_or_stay(((retrying *)state)->search); }
+
+/* First as few overlaps as possible, then as few pairs. The total effort is divided by the budget. */
+static const sunder_i_stage stages[] = {
+    {"resolve overlaps", NULL, resolve_overlaps, 2},
+    {"end overlaps", NULL, end_overlaps, 2},
+    {"resolve pairs", NULL, resolve_pairs, 2},
+    {"trade pairs", has_gap, trade_pairs, 2},
+    {"descend again", has_any_of_many, descend, 0},
+};
+
+static const char *look(const void *state, const double before[2], double now[2])
+{
+    const retrying *p = state;
+    now[0] = sunder_i_search_cost(p->search, p->search->t);
+    now[1] = 0;
+    for (size_t k = 0; k < p->n; k++) now[1] += p->settled[k];
+    return now[1] > before[1] ? "pairs solved that were given up" : "cheaper";
+}
+
+static const sunder_i_stage_table table = {"retry", stages, sizeof stages / sizeof *stages, look};
+
 static void retry_all(sunder_i_search *s, const sunder_i_retry *retry, size_t n)
 {
     if (!is_in_order(s)) return;
-    retrying p = {.search = s,
+    retrying p = {.run = {.log = s->log, .failed = &s->failed},
+                  .search = s,
                   .retry = retry,
                   .n = n,
                   .moving = sunder_i_search_movers(s),
@@ -340,15 +392,9 @@ static void retry_all(sunder_i_search *s, const sunder_i_retry *retry, size_t n)
     if (!p.settled || !p.in_vain || !p.stand || (p.moving > FEW && !sunder_i_neighbourhood_init(&p.neighbourhood, s)))
         s->failed = true;
     const uint64_t pairs = n < MOST_RETRIES ? n : MOST_RETRIES;
-    const uint64_t effort = RETRY_EFFORT + RETRY_EFFORT_EACH * (uint64_t)p.moving + RETRY_EFFORT_PAIR * pairs;
-    p.in_vain_most = effort / SHARE_IN_VAIN > WORK_IN_VAIN ? effort / SHARE_IN_VAIN : WORK_IN_VAIN;
-    for (size_t k = 0; k < REQUESTS && !s->failed; k++) {
-        if (!requests[k].single) p.effort = sunder_i_search_work(s) + effort / 2;
-        ask_request(&p, &requests[k]);
-    }
-    p.effort = sunder_i_search_work(s) + effort / 2;
-    if (!s->failed && s->model->rules.gap > 0) trade_pairs(&p);
-    if (p.any && p.moving > FEW) sunder_i_search_descend_or_stay(s);
+    p.effort = RETRY_EFFORT + RETRY_EFFORT_EACH * (uint64_t)p.moving + RETRY_EFFORT_PAIR * pairs;
+    p.in_vain_most = p.effort / SHARE_IN_VAIN > WORK_IN_VAIN ? p.effort / SHARE_IN_VAIN : WORK_IN_VAIN;
+    if (sunder_i_stages_run(&table, &p)) s->failed = true;
     sunder_i_neighbourhood_free(&p.neighbourhood);
     sunder_i_free_all(p.settled, p.in_vain, p.stand);
 }
@@ -358,6 +404,7 @@ sunder_status sunder_i_cluster_retry(const sunder_i_model *model, sunder_i_clust
 {
     sunder_i_search s;
     bool ok = sunder_i_search_init_about(&s, model, cluster, move);
+    s.log = sunder_i_is_traced(model) ? &cluster->log : NULL;
     if (ok) retry_all(&s, retry, retries);
     ok = ok && !s.failed;
     if (ok && s.restored_n + s.relaxations.n) {
