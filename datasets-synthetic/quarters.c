@@ -14,7 +14,7 @@ static town_building *place(town_block *block, const town_ground *ground, town_p
     return building;
 }
 
-/* The same where no room is asked for: what stands inside another building's yard, or within its walls. */
+/* Does the same without a test for room: for a building in another building's yard, or within its walls. */
 static void place_inside(town_block *block, const town_ground *ground, double s0, double b0, double width, double depth,
                          const char *kind, double height)
 {

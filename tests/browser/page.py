@@ -35,7 +35,7 @@ def near(colour, wanted, tolerance=32):
     return all(abs(a - b) <= tolerance for a, b in zip(colour, wanted))
 
 
-# Of the style sheet, in light.
+# Colours of the style sheet in the light theme.
 GROUND, MOVED, STOOD, UNMOVED = (0xF3, 0xF0, 0xE8), (0x2F, 0xAE, 0x8A), (0xF1, 0xB9, 0x3D), (0xD5, 0xD1, 0xC6)
 BLOCKED, FIXED = (0xE0, 0x70, 0x2E), (0x56, 0x5B, 0x62)
 

@@ -1,7 +1,7 @@
 # shellcheck shell=bash disable=SC1091
-# A page of --report in a real browser: Chromium, headless, draws it and is asked what is seen, goes about in it as a
-# reader would, and listens for what must not happen. Nothing of it depends on fonts; one picture, of the map alone, is
-# compared with the one that is kept (town_before.png), within what smoothing of edges may differ by.
+# Tests a page of --report in headless Chromium: what it draws, how it reacts to a reader's actions, and that it makes
+# no requests and has no errors. The test does not depend on fonts. One picture, of the map alone, is compared with the
+# recorded one (town_before.png), within the differences that smoothing of edges may cause.
 set -u
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 chromium=$(command -v chromium || command -v chromium-browser || command -v google-chrome) ||

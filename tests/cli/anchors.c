@@ -86,7 +86,7 @@ static void free_barriers(barriers *b)
     }
 }
 
-/* Of a layer of this one feature. */
+/* Finds the side anchor, in a layer of this one feature. */
 static sunder_status find_side_anchor(const sunder_shape *shape, const barriers *b, double at[2], sunder_error *err)
 {
     const sunder_feature feature = {.shape = shape, .weight = 1, .max_shift = 1, .block = -1};

@@ -61,7 +61,7 @@ int main(void)
         if (child < 0) fail("fork");
         if (child == 0) close(ends[0]), call(line, ends[1]);
         close(ends[1]);
-        /* The status is told first, what was said waits in the pipe: no call of these fills it. */
+        /* The status is printed first. The output waits in the pipe, which none of these calls fills. */
         if (waitpid(child, &status, 0) != child) fail("waitpid");
         printf("%d\t", WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status));
         pass_on(ends[0]);

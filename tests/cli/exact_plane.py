@@ -227,7 +227,8 @@ def edges_square(e, f):
 
 
 def distance_square(a, b):
-    """Of the closed sets; a fraction. Pairs of edges whose boxes are farther than what was found are left out."""
+    """Square of the distance of the closed sets, as a fraction. Pairs of edges whose boxes are farther apart than the
+    result so far are skipped."""
     if interiors_meet(a, b) if a.area else b.area and interiors_meet(b, a):
         return Fraction(0)
     best = None

@@ -68,7 +68,8 @@ expect() {
     [[ $content != *Sanitizer* && $content != *'runtime error'* ]] || fail "sanitizer: sunder $*"
 }
 
-# A text file, in $content, without a process for it: there are thousands of these questions. Of others what is before a NUL.
+# Reads a text file into $content without starting a process, since there are thousands of such reads. A binary file is
+# read up to its first NUL.
 in_file() { IFS= read -r -d '' content <"$1" || :; }
 
 # What is there, and what is in it. Files that tests make for themselves are not looked at.

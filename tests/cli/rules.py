@@ -120,7 +120,8 @@ class Checker:
 
     @staticmethod
     def part_in_reach(barrier, was, now):
-        """Of lines only the edges that can decide how either stands: near each, by the farther of the two distances."""
+        """For lines: only the edges that can decide the state before or after. These are the edges near either
+        position, up to the greater of the two distances."""
         if barrier.area:
             return barrier
         nearest = [min(plane.box_square(plane.edge_box(e), s.box) for e in barrier.edges) for s in (was, now)]
@@ -243,7 +244,7 @@ class Checker:
         return found
 
     def ask_anchors(self, fids):
-        """Of the program that prints the library's anchors; check_jumps() sees whether they lie in their features."""
+        """Asks the program that prints the library's anchors. check_jumps() checks that they lie in their features."""
         path, _, name = self.layers.original.partition("|")
         source, layer = open_layer(path, name)
         text = []
@@ -268,7 +269,7 @@ class Checker:
         return [e for k, edges in near.items() if self.layers.barriers[k].side for e in edges]
 
     def side_anchors(self, known):
-        """Of all that moved; the plain anchor where no line cuts the feature."""
+        """The side anchors of all moved features; the plain anchor if no line cuts the feature."""
         lay, found = self.layers, {}
         for f in self.moved & known.keys():
             lines = self.side_lines(lay.was[f].box)

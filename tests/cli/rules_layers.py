@@ -96,7 +96,7 @@ class Lattice:
 
 
 class Grid:
-    """What has boxes, by cells; what is huge stands in a list of its own."""
+    """An index of items with boxes, by grid cells. Huge items are in a separate list."""
 
     def __init__(self, size):
         self.size, self.cells, self.large = size, defaultdict(list), []

@@ -38,7 +38,7 @@ def block():
 
 
 def one_place():
-    """All in one place of the curve, but for one far away."""
+    """All features at one place of the curve, except one far away."""
     return [box(i % 5, i % 7, 10, 10) for i in range(24)] + [box(100000, 100000, 10, 10)]
 
 
@@ -84,7 +84,7 @@ def main():
             json.dump({"type": "FeatureCollection", "features": features,
                        "crs": {"type": "name", "properties": {"name": "urn:ogc:def:crs:EPSG::25832"}}}, file)
     with open(f"{sys.argv[1]}/line.geojson", "w", encoding="utf-8") as file:
-        # A road and a river through all of them.
+        # Adds a road and a river through all layouts.
         json.dump({"type": "FeatureCollection", "crs": {"type": "name", "properties": {"name": "urn:ogc:def:crs:EPSG::25832"}},
                    "features": [{"type": "Feature", "properties": {"width": width},
                                  "geometry": {"type": "LineString", "coordinates": points}}

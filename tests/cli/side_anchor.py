@@ -9,7 +9,7 @@ import exact_plane as plane
 
 
 class Cell:
-    """Of one slab, between two edges that follow each other there."""
+    """A cell of one slab, between two edges that are neighbours there."""
 
     def __init__(self, low, high, left, right):
         self.low, self.high, self.left, self.right, self.part = low, high, left, right, None
@@ -96,7 +96,7 @@ class Parts:
             self.parts.append(members)
 
     def intervals(self, y):
-        """Of all parts at a height: (left, right, part)."""
+        """Intervals of all parts at a height, as (left, right, part)."""
         if y in self.levels:
             k = self.levels.index(y)
             border = self.borders[k - 1] if 0 < k < len(self.slabs) else []

@@ -190,7 +190,8 @@ done
 ogr2ogr capitals.gpkg third.gpkg -sql 'SELECT sunder_st AS SUNDER_ST, sunder_dx AS "Sunder_DX", geometry FROM "in"' -nln capitals
 expect 0 separate capitals.gpkg fourth.gpkg -q
 same "$(ogrinfo -ro -so fourth.gpkg capitals | grep -ci '^sunder_[a-z]*: ')" 5 "fields, whatever their capitals:"
-# What is no file is neither replaced nor waited for, even where replacing is asked for.
+# An output path that is not a regular file is not replaced, even with --overwrite, and the program does not wait for
+# it.
 mkfifo pipe
 mkdir kept
 touch kept/precious

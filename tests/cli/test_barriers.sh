@@ -1,6 +1,6 @@
 # shellcheck shell=bash disable=SC1091
-# --barrier: how it is said, what is read of it, and what is kept off. Distances are chosen so that each can be told from
-# the others by the conflicts alone.
+# Tests --barrier: the syntax of its argument, which features are read, and which distances are kept. Distances differ,
+# so that the conflicts show which one was applied.
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 
 # Two houses, 3 and 20 above a road along the x axis.
@@ -95,7 +95,7 @@ X
 found '1 none:1 barrier_drawn 4.5;' --barrier none.gpkg,width=9
 says err 'it has no CRS'
 
-# ---- Reach: what is out of it is not read. A bow tie that --invalid fail would not pass tells ----
+# ---- Reach: barriers out of reach are not read. A bow tie, which --invalid fail refuses, shows it ----
 rm -f tie.gpkg
 printf 'id,WKT\n1,"POLYGON((0 100,9 113,9 100,0 113,0 100))"\n' | layer tie.gpkg tie POLYGON
 expect 0 check in.gpkg -l houses --barrier tie.gpkg,width=8,gap=1 --invalid fail
@@ -104,7 +104,7 @@ refused 1 'layer tie, FID 1' check in.gpkg -l houses --barrier tie.gpkg,gap=71 -
 expect 0 separate in.gpkg o.gpkg -l houses -q --barrier tie.gpkg,gap=1 --max-shift 15 --invalid fail
 refused 1 'layer tie, FID 1' separate in.gpkg never.gpkg -l houses --barrier tie.gpkg,gap=1 --max-shift 17.5 --invalid fail
 refused 1 'layer tie, FID 1' separate in.gpkg never.gpkg -l houses --barrier tie.gpkg --invalid fail
-# In the box around all, but near none of them; the widest of the layer says what is asked of the source.
+# In the box around all features, but near none of them. The reach of the query is that of the widest barrier.
 layer apart.gpkg a POLYGON <<'X'
 id,WKT
 1,"POLYGON((-200 0,-190 0,-190 10,-200 10,-200 0))"
@@ -159,7 +159,7 @@ same "$(value o.gpkg s 1 sunder_st)" blocked
 grep -q 'roads:1' <<<"$(value o.gpkg s_conflicts 1 blocked_by) $(value o.gpkg s_conflicts 2 blocked_by)" ||
     fail "blocked_by names no barrier"
 
-# ---- Nothing, everything, everywhere: whatever barriers are, what is said of the result is verified ----
+# ---- No barrier, barriers at every feature, barriers everywhere: the result is verified in each case ----
 layer three.gpkg t POLYGON <<'X'
 id,WKT
 1,"POLYGON((0 0,10 0,10 10,0 10,0 0))"

@@ -77,7 +77,7 @@ says err '1 features of houses are not in fewer.gpkg'
 # A Shapefile starts at 0, and carries the FIDs that it cannot keep in a field.
 expect 3 separate in.gpkg o.shp -q --gap 1 --max-shift 0.2 --layers main
 found '' o.shp --gap 1 --max-shift 0.2
-# Of several layers the one of the same name.
+# If ORIGINAL has several layers, the one of the same name is used.
 ogr2ogr -update in.gpkg over.gpkg houses -nln others
 found 'jump 3 4;jump 4 3;' over.gpkg
 

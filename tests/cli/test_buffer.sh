@@ -117,7 +117,8 @@ same "$(by_field yes)" 'Integer64 2;Integer(Boolean) 1;Integer64 2;Integer(Boole
 same "$(by_field geom)" 'Integer64 2;String a;Integer64 1;String b;Integer64 1;String c;'
 refused 1 'type IntegerList' buffer kinds.json n.gpkg --input-crs EPSG:25832 --shape square:2 --dissolve-field l
 
-# What a format cannot hold of the attributes is told, and --strict makes it an error; what is empty or null stays so.
+# Attributes that a format cannot hold are reported, and --strict makes them an error. Empty and null values stay as
+# they are.
 expect 0 buffer kinds.json kinds.shp --input-crs EPSG:25832 --shape square:2
 says err 'field l: String instead of IntegerList'
 refused 1 'losses (--strict)' buffer kinds.json n.shp --input-crs EPSG:25832 --shape square:2 --strict

@@ -1,5 +1,5 @@
 # shellcheck shell=bash disable=SC1090,SC1091
-# Completion for bash, as it is installed: it offers what the parser takes, and what stands in the data.
+# Tests the installed completion for bash: it offers what the parser accepts, and names from the data.
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 script=$SUNDER_BUILD/gis/sunder.bash
 [ -f "$script" ] || { echo "skipped: nothing was made from the table of options (cross-compiled)"; exit 77; }

@@ -20,7 +20,7 @@ for format in "${!size[@]}"; do
     expect 0 separate in.$format out.gpkg --overwrite --input-crs EPSG:25832 --output-layer out --fixed-where "${size[$format]} < 20"
     same "$(states)" 'fixed moved moved ' "--fixed-where by size, $format:"
 done
-# The result of a statement is asked in the SQL of OGR, whatever holds it, and has its areas.
+# Conditions on the result of --sql are in OGR SQL for every format, and areas are available in it.
 expect 0 separate in.gpkg out.gpkg --overwrite --sql 'SELECT * FROM "in"' --output-layer out --fixed-where 'OGR_GEOM_AREA < 20'
 same "$(states)" 'fixed moved moved ' '--fixed-where by size, --sql:'
 
@@ -36,7 +36,7 @@ for option in --where --fixed-where --ignore-where; do
 done
 refused 2 'where= "kind = 1"' check in.gpkg --barrier "in.shp,where=kind = 1"
 says err 'its fields are id'
-# Of very many fields the first.
+# If there are very many fields, only the first ones are listed.
 sed 's/$/,/' >many.csv <<X
 WKT,$(seq -f 'field_number_%g' -s , 1 99)
 "POLYGON((0 0,4 0,4 4,0 4,0 0))",$(seq -s , 1 99)

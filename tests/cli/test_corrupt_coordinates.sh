@@ -6,7 +6,7 @@ command -v python3 >/dev/null || { echo "skipped: python3 is not installed"; exi
 export SUNDER
 python3 "$SUNDER_SOURCE/tests/cli/corrupt_coordinates.py" || fail "see above"
 
-# Where the neighbour may not move the conflict is no reason to hold it: it goes, and is told of.
+# If the neighbour may not move, the corrupt feature is not held: it moves, and a warning is printed.
 cat >wild.csv <<'X'
 id,WKT
 1,"POLYGON ((500000 5300000,500010 5300000,500010 5300100,500000 5300100,500000 5300000))"

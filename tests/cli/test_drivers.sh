@@ -41,7 +41,7 @@ written() {
     [ "$command" = separate ] || return
     grep -qx sunder_blk <<<"$names" || { grep -q 'sunder_blk' <<<"$losses" || fail "$driver: sunder_blk is lost, and nobody is told"; return; }
     grep -q 'has no geometry\|geometries are not written\|changes geometries' losses && return
-    # What check is told of blocks is what separate wrote.
+    # With the blocks that separate wrote, check finds the conflicts that separate reported.
     run check "$out" --input-layer "$main" --no-blocks --gap 1 --block-field sunder_blk --quiet --stats after.json
     same "$(jq -c .conflicts after.json)" "$(jq -c .conflicts.after stats.json)" "$driver: conflicts,"
 }

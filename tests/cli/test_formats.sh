@@ -113,7 +113,8 @@ CSV
 refused 1 'FlatGeobuf drops features without geometry, and 2 of layer bare have none' separate bare.gpkg no.fgb
 refused 1 'FlatGeobuf drops features without geometry' buffer bare.gpkg no.fgb --shape square:1
 
-# ---- formats without null: what check is told of blocks is what separate wrote, in one piece, in parts and in shards
+# ---- formats without null: check reads the blocks that separate wrote, for a layer in one piece, in parts and in
+# shards
 python3 - >row.csv <<'PY'
 print("WKT,id")
 for i in range(12):  # pairs that overlap; of every third the two touch another, and are a block of three

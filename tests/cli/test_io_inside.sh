@@ -1,5 +1,6 @@
 # shellcheck shell=bash disable=SC1091
-# The input inside the output, by whatever name; outputs that could not be; what is said of points and of memory.
+# The input is a part of the output, under any name; outputs that are impossible; messages about points and about
+# memory.
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 layer in.gpkg houses POLYGON <<'X'
 id,WKT
@@ -71,7 +72,7 @@ for digits in COORDINATE_PRECISION=17 SIGNIFICANT_FIGURES=17; do
     says lossy.json 'the format rounds coordinates: they are off by up to'
 done
 
-# ---- points are told of --symbol
+# ---- for points the message names --symbol
 layer points.gpkg trees POINT <<'X'
 id,WKT
 1,"POINT(1 1)"

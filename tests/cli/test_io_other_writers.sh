@@ -65,7 +65,7 @@ for mode in delete wal; do
         [ "$status" -eq 0 ] || same "$(ask o.gpkg "SELECT count(*) FROM sqlite_master WHERE name LIKE '%apart%'")" 0 "$mode, $how"
         [ "$how" != write ] || same "$(ask o.gpkg "SELECT count(*) FROM sqlite_master WHERE name = 'held'")" 1 "$mode: what another wrote"
 
-        # To be replaced is no other matter: what the holder writes afterwards is there, whatever it had open.
+        # Replacement is no exception: later writes of the other program are kept, with any files that it has open.
         rm -f o.gpkg* && cp "$mode.gpkg" o.gpkg
         held o.gpkg "$how"
         run separate in.gpkg o.gpkg --gap 1 --overwrite --config SQLITE_BUSY_TIMEOUT 200 -q

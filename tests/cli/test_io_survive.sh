@@ -1,6 +1,6 @@
 # shellcheck shell=bash
-# What comes in goes out: fields with all their properties, FIDs, names, metadata, CRS, Z and M; and what a format
-# cannot hold is told, a field once.
+# The output keeps everything of the input: fields with all their properties, FIDs, names, metadata, CRS, Z and M. What
+# a format cannot hold is reported, once for each field.
 set -eu
 . "$(dirname "${BASH_SOURCE[0]}")/io_layers.sh"
 make_rich
@@ -31,7 +31,7 @@ grep -v POLYGON rich.features | diff - moved.features || fail "attributes change
 heights() { dump "$1" 'Häuser 1' | grep -o '[0-9.]* [0-9.]* [0-9]* [0-9]*[,)]' | sed 's/^[^ ]* [^ ]* //'; }
 [ "$(heights rich.gpkg)" = "$(heights moved.gpkg)" ] || fail "Z or M changed in a move"
 
-# ---- Shapefile: what it cannot hold is said
+# ---- Shapefile: losses are reported
 "$SUNDER" separate rich.gpkg out.shp >/dev/null 2>warnings
 for each in 'field name_of_the_building: called name_of_th' 'no domain kinds' 'field time: Date instead of DateTime' \
     'field key: .*1 value cannot be held as it is (first: FID 7)' 'field small: Integer instead of Int16'; do

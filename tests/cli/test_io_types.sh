@@ -18,7 +18,7 @@ while IFS= read -r name; do
         --output-layer "$name 2" both.gpkg both.gpkg 2>warnings || { cat warnings; fail "update with layer $name"; }
     /usr/bin/python3 "$look" compare in.gpkg "$name" both.gpkg "$name 2" >looked || { cat looked; fail "update, layer $name"; }
 done <names
-# The layers that were there are as they were.
+# Existing layers are unchanged.
 while IFS= read -r name; do
     [ "$(dump in.gpkg "$name" | cksum)" = "$(dump both.gpkg "$name" | cksum)" ] || fail "an update changed layer $name"
 done <names

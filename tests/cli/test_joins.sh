@@ -1,6 +1,6 @@
 # shellcheck shell=bash disable=SC1091
-# What makes a block: touch, also of shapes that interlock; symbols only where a tolerance is asked for; and what the
-# summary tells of overlaps that a small tolerance would join. Numbers of blocks are FIDs.
+# Which features join a block: those that touch, also interlocking ones; symbols only with a tolerance; and what the
+# summary says about overlaps that a small tolerance would join. The number of a block is a FID.
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 
 # A house in the notch of another, drawn 1 mm too wide on all sides: no move parts them before the notch ends.

@@ -1,6 +1,6 @@
 # shellcheck shell=bash disable=SC1091
-# Kinds of conflicts with barriers: on the stored line, on what is drawn of it, near it; how much is missing of what is
-# required; and that the summary counts what the layers say.
+# Kinds of conflicts with barriers: on the stored line, within the drawn width, near it; the column `missing`; and the
+# counts of the summary, which equal those of the layers.
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 
 # A road along the x axis, drawn 10 wide, and a gap of 2: 7 are required. House 4 stands one unit in the last place

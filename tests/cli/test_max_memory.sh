@@ -51,8 +51,8 @@ alike o.gpkg 98.5M --gap 3 --effort 0 --block-field blk
 alike o.geojson 99M --gap 3 --effort 0 --layers main,conflicts
 drawn o.fgb 2G --gap 3 --effort 0
 
-# Barriers: roads through all of it with widths of their own, meadows, one that is far from everything but for one end,
-# and one that none comes near.
+# Barriers: roads through the whole layer with different widths, meadows, one that comes near a feature with one end
+# only, and one that is near none.
 python3 - <<'PYTHON' || fail "no barriers are made"
 import json, random, re, subprocess
 random.seed(3)
@@ -95,7 +95,7 @@ drawn o.gpkg 103M --symbol-field drawn --symbol-size-field larger --effort 0 --m
 alike o.geojson 99M --symbol disc:4 --effort 0 --layers symbols
 alike o.shp 99M --symbol disc:4 --effort 0 --layers main,symbols
 
-# What hangs together is one part, and if that is too large it is said.
+# A connected group is one part, and a warning is printed if it is too large.
 "$SUNDER_BUILD/sunder-town" --buildings 30000 --seed 6 large.gpkg >/dev/null || fail "no town is made"
 run separate large.gpkg o.gpkg -l buildings --effort 0 --max-memory 99M --overwrite
 grep -q 'as one piece' err && fail "a town is told to be one piece"

@@ -40,7 +40,7 @@ same "$(grep -c '15 more like these' err)" 2 'a sum each:'
 expect 1 separate in.gpkg no/such/out.gpkg
 same "$(wc -l <err)" 12 'with an error:'
 tail -n 1 err | grep -q '^sunder: error: ' || fail 'the error is not the last line'
-# What a call lacks is told before anything is said of features.
+# A missing option or field is reported before any message about features.
 for option in --id-field --block-field --max-shift-field --weight-field; do
     expect 1 separate in.gpkg never.gpkg $option nowhere
     same "$(wc -l <err)" 1 "lines about $option:"
@@ -78,7 +78,7 @@ if [ -w /dev/full ]; then
     expect 1 check in.gpkg --log /dev/full -q
     says err '--log: cannot write /dev/full'
 fi
-# What is said to a closed stream goes nowhere, least of all into a file that took its number.
+# A message to a closed stream is dropped; it is not written into a file that got the stream's number.
 status=0
 "$SUNDER" check in.gpkg --log closed.log >&- 2>&- || status=$?
 same "$status $(grep -c '^sunder: ' closed.log) $(wc -l <closed.log)" '1 26 26' 'a log beside closed streams:'

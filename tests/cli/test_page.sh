@@ -1,6 +1,6 @@
 # shellcheck shell=bash disable=SC1091
-# --report: one page that asks for nothing from elsewhere, whatever the layer holds and is called; in place with the output
-# or not at all; the same bytes each time. How it looks is asked in tests/browser.
+# Tests --report: one page that loads no other file, for any content and any names; put in place with the output or not
+# at all; the same bytes each time. tests/browser tests how it looks.
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 export SOURCE_DATE_EPOCH=1700000000
 town=$SUNDER_SOURCE/datasets-synthetic/town.gpkg

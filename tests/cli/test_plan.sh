@@ -79,7 +79,8 @@ for delay in 0.03 0.1; do
     merged killed
     same "$(find killed -name '*.sunder-*')" '' "left in a plan whose steps were killed after $delay s, when all was done:"
 done
-# What a process left that was killed goes; what one still holds stays, and so does what others keep there.
+# Temporary files of a killed process are removed. Those that a process still locks are kept, and so are other users'
+# files there.
 mkdir -m 700 killed/parts.sunder-abcdef .held.sunder-abcdef
 touch {killed/parts,.held}.sunder-abcdef/being-made~ killed/parts.sunder-abcdef/rows killed/shard-2.sunder-abcdef killed/shard-3.sunder-held12 killed/shard-3.backup .held.config
 (flock -x 9 && exec sleep 60) 9<killed/shard-3.sunder-held12 &

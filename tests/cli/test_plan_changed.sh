@@ -1,7 +1,7 @@
 # shellcheck shell=bash disable=SC1091
-# What decides the moves changes between a plan and its merge: each field that an option reads, each answer to a
-# condition, also by way of another table, geometries, the set of features. The merge refuses, and so does the same call
-# of plan. What decides nothing may change. Barriers that changed, or are gone, are told of.
+# Data that decide the moves change between a plan and its merge: each field that an option reads, each result of a
+# condition (also through another table), geometries, the set of features. The merge refuses, and so does the same call
+# of plan. Other data may change. A warning is printed about barriers that changed or are missing.
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 command -v sqlite3 >/dev/null || { echo "skipped: no shell of SQLite"; exit 77; }
 export SOURCE_DATE_EPOCH=1700000000

@@ -43,7 +43,7 @@ alike block '1 64' --gap 2 --effort 0.05
 for layout in chain duplicates great clusters; do
     alike $layout '6' --gap 4 --effort 0 --max-shift 1 --fixed-where 'fid % 3 > 0'
 done
-# Roads and a river through all of them.
+# With roads and a river through all layouts.
 for layout in chain block great; do
     alike $layout '5' --gap 1 --effort 0 --max-shift 15 --barrier line.geojson,width-field=width,gap=0.5
 done

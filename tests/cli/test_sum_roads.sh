@@ -1,5 +1,5 @@
 # shellcheck shell=bash disable=SC1091
-# sunder sum: the roads, decompositions and orders by name; what the statistics say of them; the planar map as layers.
+# Tests sunder sum: algorithms, decompositions and orders by name; their statistics; the planar map as layers.
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 command -v jq >/dev/null || { echo "skipped: jq is not installed"; exit 77; }
 

@@ -1,7 +1,8 @@
 # shellcheck shell=bash disable=SC1091
-# What is left beside roads, and what is known of it: a pair that was given up is solved where it has a solution while the
-# others stay in conflict, and what stays has its proof. In the town of seed 3 fifteen conflicts are left, ten of them without
-# a proof; where pairs are not asked about one by one it is sixteen and thirteen. A regression test, no law.
+# Remaining conflicts beside roads: a pair that was given up is solved if it has a solution while the others stay in
+# conflict, and remaining pairs have a proof. In the town of seed 3 fifteen conflicts remain, ten of them without a
+# proof; without the search for single pairs sixteen remain, thirteen without a proof. This is a regression test, not a
+# law.
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 [ -x "$SUNDER_BUILD/sunder-town" ] || { echo "skipped: no sunder-town"; exit 77; }
 command -v python3 >/dev/null || { echo "skipped: no python3"; exit 77; }

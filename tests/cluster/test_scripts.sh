@@ -1,6 +1,7 @@
 # shellcheck shell=bash disable=SC1091
-# gis/cluster/parallel.sh and make.sh: what one process writes, with blanks in names; a shard that is killed is done once more, what
-# is missing is done by a second start; other hosts are asked by their names. Wrong words are refused, and all scripts are clean.
+# Tests gis/cluster/parallel.sh and make.sh: the output is that of one process, also with blanks in names; a killed
+# shard is run once more, and a second call runs the missing steps; other hosts are called by name. Wrong arguments are
+# refused, and shellcheck has no complaints about the scripts.
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 export SOURCE_DATE_EPOCH=1700000000
 scripts=$SUNDER_SOURCE/gis/cluster

@@ -80,7 +80,8 @@ as_one_process() { # what
 }
 as_one_process "a node and a shard killed"
 
-# A shard that fails for a reason keeps the merge away, and what to do is said; then the same command does what is missing.
+# If a shard fails, the merge does not run, and the message says what to do. Then the same command runs the missing
+# steps.
 slurm_node n2
 rm "a room/nodes/o.gpkg" "$plan/shard-2" "$plan/shard-5"
 stamp=$(stat -c %Y.%i "$plan/shard-1")

@@ -1,25 +1,27 @@
-/* strike.c: runs a program and strikes at one of its system calls that change files.
+/* strike.c: runs a program, and kills it or makes it fail at one of its system calls that change files.
  *
  *   strike kill N COMMAND...       SIGKILL just before the Nth such call
- *   strike errno:NAME N COMMAND... that call fails (ENOSPC, EIO, EDQUOT, EINTR); nothing is done
- *   strike short N COMMAND...      the Nth of those that write more than one byte writes half of them
- *   strike full N COMMAND...       from N bytes written on (all files together) every write fails with ENOSPC; the one
- *                                  in which the disk becomes full is short
- *   strike signal N COMMAND...     SIGTERM at the Nth system call of any kind since the program catches it
+ *   strike errno:NAME N COMMAND... that call fails (ENOSPC, EIO, EDQUOT, EINTR) and does nothing
+ *   strike short N COMMAND...      the Nth call that writes more than one byte writes half of them
+ *   strike full N COMMAND...       after N written bytes (in all files) every write fails with ENOSPC; the write that
+ *                                  fills the disk is short
+ *   strike signal N COMMAND...     SIGTERM at the Nth system call of any kind after the program has installed its
+ *                                  handler
  *   strike signal:NAME N COMMAND... the same with HUP, XCPU or XFSZ
- *   strike signals:K N COMMAND...  the same, and SIGINT K calls later
- *   strike list 0 COMMAND...       strikes nowhere
- *   strike calls 0 COMMAND...      strikes nowhere, and counts as for signals
+ *   strike signals:K N COMMAND...  the same with SIGTERM, and SIGINT K calls later
+ *   strike list 0 COMMAND...       changes nothing
+ *   strike calls 0 COMMAND...      changes nothing, and counts calls as for signals
  *
- * Counted are calls that can fail for want of room or for a broken disk, or that change what a directory shows: open
- * with O_CREAT or for writing, write, pwrite, writev, fsync, fdatasync, close (of what was opened for writing), rename,
- * link, unlink, mkdir, rmdir, ftruncate; on files below the directory STRIKE_UNDER alone (default: where it stands). To
- * be killed anywhere else leaves the same files as to be killed before the next of them. At the end a line to file
- * descriptor 3: "COUNT BYTES STATUS NAME SHOWN WRITES". STATUS is the exit status, or 128 + the signal; NAME the call
- * that was struck, or -; SHOWN the place of the first call that could change what others see as the output: a rename,
- * or a write into a file that is neither a journal nor in a hidden directory; WRITES how many calls could be short.
- * strike itself exits with 0 if the program ended, whatever came of it. SIGALRM never comes to the program: what it
- * would do then, it must do without.
+ * These calls are counted: calls that can fail on a full or broken disk, or that change what a directory shows. They
+ * are open with O_CREAT or for writing, write, pwrite, writev, fsync, fdatasync, close (of a file opened for writing),
+ * rename, link, unlink, mkdir, rmdir and ftruncate, on files below the directory STRIKE_UNDER (by default the working
+ * directory). A kill at any other call leaves the same files as a kill before the next counted one.
+ *
+ * At the end one line is written to file descriptor 3: "COUNT BYTES STATUS NAME SHOWN WRITES". STATUS is the exit
+ * status, or 128 + the signal. NAME is the call that was struck, or -. SHOWN is the number of the first call that could
+ * change the output as others see it: a rename, or a write into a file that is neither a journal nor in a hidden
+ * directory. WRITES is the number of calls that could be short. strike itself exits with 0 if the program ended, with
+ * any status. SIGALRM is not delivered to the program.
  *
  * ptrace needs no privilege and no other program. Registers are read and written for x86-64 and AArch64. */
 #define _GNU_SOURCE
@@ -180,7 +182,7 @@ static bool file_is_written(pid_t pid, uint64_t file)
     return file_is_under(pid, file) && lstat(link, &status) == 0 && (status.st_mode & S_IWUSR);
 }
 
-/* Of the file or, for a rename, at all: may what it changes be seen from outside? */
+/* Can other programs see what the call changes? That is so for every rename, and for writes into certain files. */
 static bool shows(pid_t pid, const registers *r, const char *name)
 {
     char link[64], path[PATH_MAX];

@@ -19,7 +19,8 @@ typedef struct asked {
     bool places, points, failing;
 } asked;
 
-/* Far places are refused, and what is not finite always; nothing else is. Of several faults any may be told. */
+/* Far places may be refused, and coordinates that are not finite have to be; no other refusal is allowed. If there are
+ * several faults, any of them may be reported. */
 static bool allowed(sunder_status status, const asked *a)
 {
     switch (status) {

@@ -1,6 +1,6 @@
-/* Hostile files of layers, read by GDAL from memory. What a file says is asked twice, of features as GDAL has them and
- * of packed ones: both are refused, or both have the same. GDAL itself is not what is asked; it is taken as it is
- * installed. */
+/* Hostile files of layers, read by GDAL from memory. Each file is read twice, as features of GDAL and as packed
+ * records: both readings fail, or both give the same features. GDAL itself is not tested; the installed version is
+ * used. */
 #include "base/gis_error.h"
 #include "geometry/line_arrays.h"
 #include "read/fields.h"
@@ -67,8 +67,8 @@ static bool same_polygons(const gis_polygons *p, const gis_polygons *q)
            (p->polygons == 0 || memcmp(p->poly_end, q->poly_end, p->polygons * sizeof *p->poly_end) == 0);
 }
 
-/* What there is of polygons becomes a shape, or is refused with a reason. Of many corners, by chance, that takes longer
- * than all else, and is asked by other targets. */
+/* Polygons become a shape, or are refused with a reason. Polygons of many corners are skipped, since they take longest;
+ * other targets test them. */
 static void ask_shape(const gis_polygons *set)
 {
     sunder_shape *shape = NULL;

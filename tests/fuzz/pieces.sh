@@ -1,27 +1,27 @@
 #!/usr/bin/env bash
-# Fuzzing for long, a piece at a time. Each piece goes on from the inputs that the former ones found to lead somewhere, and adds its
-# executions and seconds to a tally; so hours can be put together of minutes, on a machine that has other work.
+# Long fuzzing in pieces. Each piece continues with the inputs that earlier pieces found to reach new code, and adds its executions
+# and seconds to a tally. So hours of fuzzing can be composed of minutes, on a machine that has other work.
 #
-#   pieces.sh SECONDS [NAME ...]   a piece of so long for each of the targets (all): built if need be, one process at a time; it
-#                                  begins with all inputs that there are, so it should be several times as long as these take
-#   pieces.sh --keep [NAME ...]    of what was found what is needed to cover as much, into corpus/NAME.tar.gz; the next pieces
-#                                  begin with that alone, for each runs all of its inputs before anything new
-#   pieces.sh --record             RECORD.md, of the tallies
+#   pieces.sh SECONDS [NAME ...]   runs a piece of this length for each of the targets (by default all), one process at a time, and
+#                                  builds them first if needed. A piece begins with all known inputs, so it should be several times
+#                                  as long as these take
+#   pieces.sh --keep [NAME ...]    writes the inputs that are needed for the same coverage to corpus/NAME.tar.gz. The next pieces begin
+#                                  with these only, since each piece runs all of its inputs before anything new
+#   pieces.sh --record             writes RECORD.md from the tallies
 #
-# Several may run at once, of one target too: each has a log of its own, and what it finds goes to the inputs they share.
-# SUNDER_FUZZ_AS_BUILT=yes takes the targets as they were built last; SUNDER_FUZZ_NICE is how nice they are to other work (19).
-# State is in SUNDER_FUZZ_STATE (<build>/fuzz/pieces): inputs, tallies, and in found/ what went wrong; where there is none it
-# begins with what RECORD.md and corpus/ have. A target is done at ten million executions if it makes more than 2000 of them
-# in a second, else after eight hours of one core. Which of the two it is its latest pieces tell, a quarter of an hour of
-# them, for what made it slow may have been mended since. Other work beside, on the other thread of a core that has two,
-# slows them: what is near 2000 is told by pieces with nothing beside.
+# Several processes may run at the same time, also for one target: each has a log of its own, and new inputs go to a common folder.
+# SUNDER_FUZZ_AS_BUILT=yes uses the targets as they were built last; SUNDER_FUZZ_NICE is their nice value (19).
+# State is in SUNDER_FUZZ_STATE (<build>/fuzz/pieces): inputs, tallies, and failing inputs in found/. If there is none, it starts from
+# RECORD.md and corpus/. A target that makes more than 2000 executions in a second is done at ten million executions, any other target
+# after eight hours of one core. The speed is that of the last quarter of an hour of pieces, since a cause of slowness may have been
+# corrected since. Other work on the machine slows the pieces; measure a target near 2000 on a quiet machine.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd -P)
 here=$root/tests/fuzz
 export SUNDER_SOURCE=$root SUNDER_BUILD=${SUNDER_BUILD:-$root/build/release}
 state=${SUNDER_FUZZ_STATE:-$SUNDER_BUILD/fuzz/pieces}
 quick=2000 executions_wanted=10000000 hours_wanted=8
-# awk: what all pieces that take() was told of come to, and how many executions the latest of them made in a second
+# awk: the sums over all pieces passed to take(), and the executions per second of the latest ones
 # shellcheck disable=SC2016 # the words are those of awk
 tally='function take() { n += $2; s += $3; executions[++pieces] = $2; seconds[pieces] = $3 }
     function pace(  i, e, t) { for (i = pieces; i && t < 900; --i) { e += executions[i]; t += seconds[i] } return t ? e / t : 0 }'

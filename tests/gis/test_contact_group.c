@@ -47,7 +47,8 @@ static void lay_out(layer *l, rng *r)
     }
 }
 
-/* Of two diamonds the shortest link is one of corners and sides at an eighth of a turn, or between corners. */
+/* The shortest link between two diamonds runs between corners, or between a corner and a side at an eighth of a
+ * turn. */
 static double distance(const diamond *a, const diamond *b)
 {
     const double dx = fabs(a->x - b->x), dy = fabs(a->y - b->y), size = a->size + b->size;

@@ -1,6 +1,6 @@
-/* Rows that go into a table by the dozen are, row by row, what was given, whatever was done with the memory they came
- * from, on the caller's thread or on another. A row that breaks a rule is told by its key, wherever among those held
- * back it stands; what came before is in. And numbers with what goes along are sorted, alike ones in their order. */
+/* Rows that are inserted in batches equal the given ones, also if the caller reuses their memory, on the caller's
+ * thread and on another. A row that breaks a constraint is reported with its key at any place in a batch, and the rows
+ * before it are inserted. Numbers with attached data are sorted; equal ones keep their order. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -137,7 +137,7 @@ static void test_refused(void **state)
     }
 }
 
-/* What is not asked for goes no further than what has begun. */
+/* After inserts are given up, only the batch that has begun is written. */
 static void test_given_up(void **state)
 {
     (void)state;

@@ -132,7 +132,7 @@ static void lay_barriers(town *t, rng *r, bool any)
         for (int k = 0; k < 300; k++)
             add_line(t, r, (double[]){all[0] + w / 2, all[1] + h / 2}, (double[]){3 * rng_unit(r), 3 * rng_unit(r)}, 2);
     add_line(t, r, (double[]){all[0] - 9 * w, all[1] - 9 * h}, (double[]){1, 1}, 9);
-    /* What is given up is asked about everything in reach, so this is kept small. */
+    /* Proofs about given-up pairs read everything within reach, so the reach is kept small. */
     for (size_t k = 0; k < t->n; k++) t->feature[k].max_shift = fmin(t->feature[k].max_shift, 2);
     t->how.barrier_reach = INFINITY;
     t->how.effort = 0;

@@ -1,6 +1,6 @@
-/* Spools: what is read is what was put in, to the last bit; the order is one along the curve whatever is sorted at a
- * time. Cells have the boxes of what is in them and are dealt in order; what was changed, cut off or is of another
- * version is told. */
+/* Spools: records are read back as they were written, to the last bit. The order along the curve does not depend on the
+ * size of the batches that are sorted. Cells have the boxes of their features and are assigned in order. Files that
+ * were changed, cut off or written by another version are refused. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -381,7 +381,7 @@ static char *bytes_of(const char *name, size_t *n)
     return bytes;
 }
 
-/* What is said of where features lie may be of another day, or of the whole world: then what they have is heeded. */
+/* The declared extent of a layer may be out of date, or the whole world. Then the extent of the features is used. */
 static void test_poor_frames(void **state)
 {
     static const double far[] = {0, 0, 1, 1}, half[] = {-100000, -70000, 0, 70000}, world[] = {-1e9, -1e9, 1e9, 1e9},
@@ -474,7 +474,7 @@ static void test_harm(void **state)
     free_board(b);
 }
 
-/* The mark tells what is wrong before a checksum does. */
+/* The marks of a file are checked before its checksum, so the message says what is wrong. */
 static void test_marks(void **state)
 {
     static const struct {

@@ -206,7 +206,8 @@ static void assert_written_moved(const gis_source *source, size_t i, OGRGeometry
     OGR_G_DestroyGeometry(written);
 }
 
-/* What takes its vertices from shapes is what it was: also where there is no shape, or that of another feature. */
+/* A record that borrows its vertices from shapes equals the original, also if there is no shape, or that of another
+ * feature. */
 static void test_borrowing(void **state)
 {
     enum { WITHOUT = 1, OTHER = 3 };
@@ -336,8 +337,7 @@ static void test_halves(void **state)
     }
 }
 
-/* A row that is not plain has all of it read by GDAL, in whichever half it lies; and what is said is what GDAL's first
- * one makes be said. */
+/* If a row is not plain, in either half, GDAL reads all of it, and the message is that of GDAL's first such feature. */
 static void test_not_plain_in_halves(void **state)
 {
     /* Not finite. */

@@ -1,12 +1,12 @@
-"""How plainly comments and pages are written, in counts per 1,000 words:
+"""Measures the language of comments and pages, in counts per 1,000 words:
 
     python3 words.py ROOT [--rooms] [--show KIND]
 
-Four counts, each with its limit (LIMITS): `person` for who, whom, nobody, he, him, which people are and bodies, pairs and files are not;
-`so many` for so many, so much, so often, which stand for the name of a variable; `of which` for of which, of whom; `long` for
-sentences of more than 40 words. Comments are those of C, Python (docstrings too), shell and CMake; pages are Markdown, without
-their code, and the man page. In pages people may be `who`, and long sentences are allowed more. --rooms prints the counts of each folder;
---show prints the places of one kind.
+There are four counts, each with its limit (LIMITS). `person`: who, whom, nobody, he and him, which are for people and not for bodies,
+pairs and files. `so many`: so many, so much and so often, which should be the name of a variable. `of which`: of which and of whom.
+`long`: sentences of more than 40 words. Comments are those of C, Python (docstrings too), shell and CMake. Pages are Markdown, without
+their code, and the man page; there people may be `who`, and the limit for long sentences is higher. --rooms prints the counts of each
+folder; --show prints the places of one kind.
 """
 import argparse
 import io

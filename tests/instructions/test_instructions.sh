@@ -86,7 +86,7 @@ above() { # COUNTS RECORD: a line for each count that is above, or is missing in
         END { for (name in old) print name ": on record, not counted" }' "$2" "$1"
 }
 
-# Of RECORD, by paragraphs: the counts of machines like this, and the parts of all others.
+# Paragraphs of RECORD: the counts for machines like this one, and the paragraphs for all others.
 like_this() { awk -v RS= 'NR == FNR { here = $0; next } FNR % 2 { mine = $0 == here; next } mine' here "$record"; }
 others() { awk -v RS= 'NR == FNR { here = $0; next } FNR % 2 { there = $0; next } there != here { print there "\n\n" $0 "\n" }' here "$record"; }
 

@@ -1,6 +1,6 @@
 # shellcheck shell=bash
-# Addresses come from one file, gis/package/addresses.cmake: README.md and SECURITY.md are what fill_addresses.cmake makes of
-# them, what is given stands in both, and what is empty again leaves no trace.
+# Addresses come from one file, gis/package/addresses.cmake. fill_addresses.cmake writes them into README.md and
+# SECURITY.md: a given address is in both files, and one that is emptied again leaves no trace.
 set -eu
 work=$SUNDER_BUILD/addresses-test
 rm -rf "$work"

@@ -1,10 +1,9 @@
-"""The blocks of a layer, from the layer and the options alone: which features join, all of them.
+"""The blocks of a layer, computed from the layer and the options alone: all pairs of features that join.
 
-Two join by an equal value of --block-field; by a touch, that is no overlap and a distance whose nearest double is no
-more than the tolerance; or if one lies in the other up to the tolerance and --contained is `block`. They also join by a
-thin overlap: some translation no longer than the tolerance separates the two, or no disc of that diameter
-(inside-disc:, 16 corners) fits into the overlap. Doubles propose places here, and nothing more; what is decided is
-decided in fractions.
+Two features join by an equal value of --block-field; by a touch, which is no overlap and a distance whose nearest double
+is no more than the tolerance; or if one lies in the other up to the tolerance and --contained is `block`. They also join
+by a thin overlap: some translation no longer than the tolerance separates the two, or no disc of that diameter
+(inside-disc:, 16 corners) fits into the overlap. Doubles only propose places; every decision is made in fractions.
 """
 import math
 from fractions import Fraction
@@ -197,8 +196,8 @@ class Blocks:
 
 
 def with_room(segment, p, q, edges, least, halvings):
-    """Of a segment of places of the disc what a quick look leaves: parts inside p and q that are not all nearer to one of the edges than
-    the root of `least`. edges: of p and q, all that are where the two have places in common."""
+    """The pieces of a segment of disc positions that a quick test keeps: they lie inside p and q, and not all of a
+    piece is nearer to one edge than the root of `least`. edges: all edges of p and q within the intersection."""
     if any(all(near_square(end, e) < least for end in segment) for e in edges):
         return
     if not halvings or all(plane.edges_square(segment, e) >= least for e in edges):
@@ -212,7 +211,7 @@ def with_room(segment, p, q, edges, least, halvings):
 
 
 def near_square(p, e):
-    """Of the distance of a place of fractions from an edge."""
+    """Square of the distance of a rational point from an edge."""
     k = math.lcm(*(Fraction(v).denominator for v in p))
     n, m = plane.square_to_edge((int(p[0] * k), int(p[1] * k)), tuple((k * x, k * y) for x, y in e))
     return Fraction(n, m * k * k)

@@ -1,4 +1,4 @@
-"""What a line of the lower bound is about: bodies, what they weigh there, and what they are shifted by."""
+"""The premises of a line of the lower bound: its bodies, their weights there, and their shifts."""
 from collections import namedtuple
 from fractions import Fraction
 

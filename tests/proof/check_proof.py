@@ -2,8 +2,9 @@
 
     python3 check_proof.py PROOF INPUT [--layer NAME] [options of sunder separate]
 
-Nothing is shared with the program; docs/PROOF.md says what is asked, and why the bound and the verdicts follow. Status
-0: all of it holds, with a line that says what; 1: something does not, with what; 2: it cannot be asked.
+It shares no code with the program. docs/PROOF.md says what is checked, and why the bound and the verdicts follow. Status 0:
+everything holds, and a line says what was checked. Status 1: something does not hold, and a line says what. Status 2: the file
+cannot be checked.
 """
 import argparse
 import os

@@ -1,11 +1,12 @@
-"""Is each of the checker's own tests needed? They are switched off, one at a time, and what the test refused is asked again:
+"""Is each of the checker's own tests needed? They are switched off, one at a time, and the files that the test refused are checked again:
 
     python3 checks_off.py RUNS DIRECTORY [--seed S] [--tries N] [--only WORDS]
 
-A test is a demand() of a file in MODULES. RUNS as of forgeries.py: of each kind of change of each member one is drawn. DIRECTORY gets the
-layers of false_proofs.py. With the test off, what it refused is refused by other tests, or accepted. A false proof that is accepted
-shows that the test is needed; so does a forgery of which the judge finds something that is not true, or one that ends in an exception.
-What is accepted and not seen, and tests that nothing meets, stand in UNSEEN, with the reason; a test that is neither fails.
+A test is a call of demand() in a file of MODULES. RUNS as in forgeries.py; of each kind of change of each member one is drawn. DIRECTORY
+gets the layers of false_proofs.py. A file that the test refused is then refused by other tests, or accepted. A false proof that is
+accepted shows that the test is needed. So does an accepted forgery in which the judge finds a false statement, or an exception. Tests
+whose forgeries are accepted without such a finding, and tests that no file reaches, are listed in UNSEEN with the reason. Any other test
+for which no need is shown fails.
 """
 import argparse
 import ast

@@ -72,7 +72,7 @@ def conflict(a, b, reason="unresolved", kind="overlap", blocked_by=(), **more):
 
 
 def body(problem, key, **more):
-    """Of a block, by one of its members, or of a barrier."""
+    """A block, given by one of its members, or a barrier."""
     if isinstance(key, str):
         return {"barrier": key, "weight": None, "shift": [0, 0], **more}
     members = problem.block(key)
@@ -139,7 +139,7 @@ def asked(a, b, part_a, part_b, ways, **more):
 
 
 def ways_out(left, bottom, right, top):
-    """Of a box of relative moves, to the right first."""
+    """The ways out of a box of relative moves, as normals and distances; the way to the right comes first."""
     return [((1, 0), right), ((-1, 0), -left), ((0, 1), top), ((0, -1), -bottom)]
 
 

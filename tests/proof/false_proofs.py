@@ -1,11 +1,11 @@
-"""False proofs, made from scratch by one who has read the checker: each has to be refused, for what is wrong with it.
+"""False proofs, made from scratch with knowledge of the checker. Each has to be refused, with a message about its defect.
 
     python3 false_proofs.py DIRECTORY [NAME ...]
 
-Unlike forgeries.py this changes no honest file: each case has a layer, options and lines of its own, which hold but for one thing. That
-the proof is false is shown as well: by moves that keep all that the claim is about, and cost less than the bound or have what is said to
-have no solution (judge_places.py decides); or by looking up what is claimed. Of some cases nothing is false but the form, and a
-checker without the test in question would end in an exception of Python. DIRECTORY gets the layers.
+Unlike forgeries.py this does not change valid files: each case has a layer, options and lines of its own, and breaks one rule only. That
+the proof is false is shown as well. Either there are moves that keep all demands of the claim and cost less than the bound, or solve a
+conflict that is claimed to have no solution (judge_places.py decides that); or the claimed fact is looked up. In some cases only the
+form is wrong, and a checker without the test in question would end in an exception of Python. DIRECTORY gets the layers.
 """
 import os
 import sys

@@ -46,7 +46,7 @@ case("in-another", "lie in each other", INSIDE, [conflict(1, 2, "max_shift", pro
     [asked(1, 2, part(INSIDE[1]), part(INSIDE[2]), ways_out(-101, -55, 4, 50), clearance=0)], leaf((0, 0))))], {2: (-1, 0)}, IGNORED)
 
 
-# ---- Forces, and what is asked
+# ---- Forces and premises
 
 BOTH_WAYS = ways_out(-19, -10, 1, 10)
 case("force-of-another-case", "another case", OVERLAPPING, [conflict(1, 2, "max_shift", proof=chain(

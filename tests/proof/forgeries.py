@@ -136,7 +136,7 @@ def counted(lines, claim):
     return told
 
 
-# ---- Values, and what becomes of them
+# ---- Values and their changes
 
 def nodes_of(value, path=()):
     yield path, value
@@ -235,7 +235,7 @@ def swapped(run, other):
 
 
 def strangers(runs):
-    """(what, function that says what is wrong)"""
+    """(the options, the function that finds what is wrong)"""
     for run in runs:
         for other in runs:
             if other is not run:
@@ -263,7 +263,8 @@ def wrong_with_options(run, words):
 
 
 def asks_no_less(run, own, other):
-    """Is what may be done with the other options no more than with its own, and no cheaper? Then what is true of these is of those."""
+    """Do the other options allow no more than its own, at no lower cost? Then a statement that holds for the own
+    options holds for these."""
     def most(limit):
         return math.inf if limit is None else limit
     text = "".join(run.text)

@@ -63,7 +63,7 @@ def quoted(name):
 
 
 def value_of(attributes, name):
-    """Of a field, whose name's case does not matter; None: there is no field, or null, or blank."""
+    """The value of a field, whose name is compared without case. None: the field is missing, null, or blank."""
     if name is None:
         return None
     own = [k for k in attributes if k == name] or [k for k in attributes if k.lower() == name.lower()]
@@ -79,7 +79,7 @@ def number_of(attributes, name):
 
 
 class Crs:
-    """Of a layer, by its row in gpkg_spatial_ref_sys."""
+    """The CRS of a layer, by its row in gpkg_spatial_ref_sys."""
 
     def __init__(self, base, srs):
         self.known = srs not in (0, -1)

@@ -255,7 +255,7 @@ class Judge:
 
 
 class TreeOf:
-    """Bodies, by their members; what they weigh, None where they stand still; and what they are shifted by."""
+    """Bodies by their members, with their weights (None: fixed) and shifts."""
 
     def __init__(self, line):
         self.line, self.bound = line, Fraction(line["bound"])
@@ -386,7 +386,7 @@ def fids(body):
 
 
 def kind_of(line):
-    """What tells a line from others."""
+    """The key that identifies a line."""
     if "conflict" in line:
         return "conflict", frozenset((line["a"], line["b"]))
     return ("group", frozenset(frozenset(fids(b)) for b in line["bodies"])) if "group" in line else None

@@ -1,9 +1,9 @@
-"""Can check_proof.py fail? Of a file of --proof that holds, every kind of claim is made a little untrue, one at a time:
+"""Can check_proof.py fail? In a valid file of --proof each kind of claim is made slightly false, one at a time:
 
     python3 mutations.py PROOF INPUT.gpkg [options as of check_proof.py] [--need KIND ...]
 
-Each has to be refused, and for what is wrong with it. Of each kind the smallest tree, or conflict, that has such a claim is
-asked about by itself. Kinds that the file has nothing for are passed over, unless --need names them.
+Each changed file has to be refused, with a message about the change. For each kind the smallest tree, or conflict, with such a claim is
+checked by itself. Kinds that do not occur in the file are skipped, unless --need names them.
 """
 import copy
 import json
@@ -161,7 +161,8 @@ def leave_feature(tree):
 
 
 def fill_shadow(tree):
-    """What only a jump forbids, taken for what the gap does: an anchor is no part."""
+    """Claims that only a jump forbids something, presented as if the gap forbade it: an anchor is no part of a feature.
+    """
     for piece in tree["pieces"]:
         if piece.get("shadow") and not is_side(piece):
             del piece["shadow"]
@@ -413,7 +414,7 @@ def shorten_within(told):
 
 
 def other_reason(told):
-    """What ways forbid is told of the limits; what neighbours forbid, of the pair."""
+    """Facts that the ways forbid, attributed to the limits; facts that neighbours forbid, attributed to the pair."""
     own = {told["a"], told["b"]}
     shadow = any(n.get("shadow") for n in told["proof"])
     stranger = any(not n.get("shadow") and {n["a"], n["b"]} != own for n in told["proof"] if "ways" in n)
@@ -541,7 +542,7 @@ class Asker:
             return
 
     def run(self):
-        # Of several trees of a group, which share the weights of its bodies, none need prove its part without the others.
+        # If several trees of a group share the weights of its bodies, no tree needs the others for its own proof.
         of = Counter(t["group"] for t in self.lines if "group" in t)
         trees = sorted((t for t in self.lines if "group" in t and of[t["group"]] == 1), key=lambda t: len(json.dumps(t)))
         alone = [(self.alone(tree=t), -1) for t in trees]

@@ -46,7 +46,8 @@ class Prices(Bodies):
         return Payer(self.grid, *found, weight, limit).least()
 
     def masses_of(self, body):
-        """What it occupies, by the side of the squares; None: nothing that is asked about."""
+        """The area that a body occupies, by squares of the grid's side; kept for further lines. None: it occupies no
+        square."""
         problem, side = self.problem, self.grid.side
         if (body, side) not in problem.occupied:
             lattice = Lattice(problem, side)
@@ -93,8 +94,8 @@ class Grid:
 
 
 def find_kinks(price):
-    """Of each square (by its lower left node): how much prices turn up at most, along x and along y, from its nodes to the
-    next but one. All of it is 0 at the border, and beyond."""
+    """For each square, by its lower left node: the greatest convex bend of the prices along x and along y, over three
+    neighbouring nodes. It is 0 at the border and beyond."""
     along = [[max(0, a - 2 * b + c) for a, b, c in zip(r, r[1:], r[2:])] for r in price]
     up = [[max(0, a - 2 * b + c) for a, b, c in zip(p, q, r)] for p, q, r in zip(price, price[1:], price[2:])]
     return [[max(x) + max(y) for x, y in zip(zip(p, q, r), zip(u, u[1:], u[2:]))]
@@ -197,7 +198,7 @@ def cut_out(row, start, n):
 
 
 def number(digits, size):
-    """Of digits of `size` times 64 bits."""
+    """The number with these digits of `size` times 64 bits each."""
     if size == 2:
         wide = array("Q", bytes(16 * len(digits)))
         wide[::2] = digits

@@ -1,6 +1,6 @@
-"""What a proof is about, from the input: things on one lattice of integers, what they owe each other, which of them move,
-how far, and at what price. Nothing of this is taken from the proof but for anchors, and those blocks that touch and overlap
-in ways that are not asked about here; see docs/PROOF.md."""
+"""The premises of a proof, from the input: things on one lattice of integers, the distances they owe, which of them
+move, how far, and with what weight. Only anchors, and blocks by touches and overlaps that are not computed here, are
+taken from the proof; see docs/PROOF.md."""
 import argparse
 import math
 from fractions import Fraction
@@ -186,7 +186,7 @@ class Problem:
         return self.lattice(self.options.gap)
 
     def own_limit(self, fid):
-        """A double, or None: no limit. Of what never moves, too."""
+        """A double, or None for no limit. Fixed things have one, too."""
         options, found = self.options, self.options.max_shift
         field = geopackage.number_of(self.attributes[fid], options.max_shift_field)
         if field is not None:
@@ -199,7 +199,7 @@ class Problem:
         return 0.0 if self.is_barrier(key) or key in self.fixed or key in self.skipped else self.own_limit(key)
 
     def body_limit(self, fids):
-        """Of a block, or of a barrier."""
+        """The members of a block, or a barrier."""
         if fids not in self.limits:
             self.limits[fids] = self.least_limit(fids)
         return self.limits[fids]
@@ -348,7 +348,8 @@ class Problem:
         return (self.lattice.point(corner),)
 
     def side_anchor(self, fid):
-        """Of a point the point; else as the barriers cut the feature, or the anchor where they do not."""
+        """The side anchor: a point feature's point; otherwise the point that the rule for cut features gives, or the
+        anchor if no barrier cuts the feature."""
         if self.options.points:
             return self.points[fid][0]
         if fid not in self.side_anchors:

@@ -1,8 +1,8 @@
-"""Invalid polygons by the even-odd rule, in fractions; corners are the nearest doubles at the end.
+"""Invalid polygons by the even-odd rule, in fractions; corners are rounded to the nearest doubles at the end.
 
-Edges are cut where they meet. Of what lies on each other an odd number is boundary, for the inside changes across it. From there
-rings are followed with the inside on their left, at a place where several meet to the next edge of the same inside; corners
-on straight ways are left out. A polygon whose edges neither cross nor overlap has its rings already.
+Edges are cut where they meet. Of several pieces on the same place an odd number is boundary, since the inside changes across it. From
+these pieces rings are followed with the inside on their left. At a place where several pieces meet a ring continues with the next edge
+of the same inside. Corners in straight sides are left out. A polygon whose edges neither cross nor overlap keeps its rings.
 """
 from fractions import Fraction
 
@@ -135,7 +135,8 @@ def twice_area(ring):
 
 
 def area_of(rings):
-    """Of a polygon, in fractions; holes lie in the first ring, where it has rings that neither cross nor share a length."""
+    """The area of a polygon, as a fraction. If its rings neither cross nor share a length, the holes lie in the first
+    ring."""
     found = exact_rings(rings)
     if found is not None:
         return sum(map(twice_area, found), Fraction(0)) / 2  # the inside is on their left

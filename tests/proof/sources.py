@@ -50,7 +50,7 @@ class Source:
         return converted(words + ([self.name] if self.name and not self.sql else []), self.name_of_result())
 
     def name_of_result(self):
-        """Of a statement's result its dataset's name, without directory and ending."""
+        """The layer name of a statement's result: the dataset's name without directory and ending."""
         return os.path.splitext(os.path.basename(self.path))[0] if self.sql else self.name
 
     def fids(self, where):

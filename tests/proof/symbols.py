@@ -53,7 +53,7 @@ def corners_of(ring):
 
 
 class Symbols:
-    """Of one run: --symbol, --symbol-field, --symbol-size-field. A feature that is no point has none."""
+    """The symbols of one run: --symbol, --symbol-field, --symbol-size-field. A feature that is not a point has none."""
 
     def __init__(self, options, units):
         self.options, self.units, self.known = options, units, {}

@@ -77,7 +77,7 @@ proved width "$town" --gap 1 --max-shift 4 --barrier "$town,layer=roads,width-fi
 "$SUNDER" separate "$town" o.gpkg --overwrite -q -l buildings --gap 3 --effort 0 --allow-conflicts --proof pairs.jsonl || fail "effort 0"
 python3 "$here/check_proof.py" pairs.jsonl "$town" --layer buildings --gap 3 --result o.gpkg >said || fail "effort 0: $(cat said)"
 grep -q ' [1-9][0-9]* trees' said || fail "effort 0: $(cat said)"
-# Of a barrier of many parts all have a say in the tree of a pair.
+# The tree of a pair can use all parts of a long barrier.
 beside=(--gap 3 --max-shift 10 --barrier "$roads")
 "$SUNDER" separate "$town" o.gpkg --overwrite -q -l buildings "${beside[@]}" --effort 0 --allow-conflicts --proof parts.jsonl || fail "effort 0, roads"
 python3 "$here/check_proof.py" parts.jsonl "$town" --layer buildings "${beside[@]}" --result o.gpkg >said || fail "effort 0, roads: $(cat said)"
@@ -375,7 +375,7 @@ for size in (1, 2000):  # digits of 64 bits, and of 128
 assert prices.find_kinks([[0] * 6, [0] * 6, [0, 0, 5, 0, 0, 0], [0] * 6, [0] * 6]) == [[10, 5, 10, 0], [5, 0, 5, 0], [10, 5, 10, 0]]
 END
 
-# As often as it is asked, on however many threads, the same bytes.
+# Every call writes the same bytes, with any number of threads.
 cp roads.jsonl first.jsonl
 proved roads "$town" --gap 3 --max-shift 10 --barrier "$roads"
 cmp roads.jsonl first.jsonl || fail "another proof"
@@ -402,7 +402,8 @@ else
     for name in krems_2013 saint_jean_la_poterie; do proved $name "$data/$name.gpkg" --gap 3; done
     ogr2ogr baltimore.gpkg "/vsizip/$data/baltimore_2015_shp.zip" buildings -nln buildings 2>/dev/null || fail "ogr2ogr"
     proved baltimore baltimore.gpkg --gap 3
-    # Blocks that share an effort: what has a solution of reals, and is asked about its lattice, leaves the last of them theirs.
+    # Blocks that share a budget: a conflict with a real solution, whose question about the lattice is expensive, leaves
+    # enough budget for the last of them.
     paris=$data/paris_cite_2014.gpkg
     "$SUNDER" separate "$paris" o.gpkg --overwrite -q --input-layer buildings --output-layer main --layers main,conflicts \
         --bbox 652450,6862380,652940,6862830 --barrier "$paris,layer=roads,width=5" --max-shift 10 --effort 0 --proof paris.jsonl 2>err

@@ -81,7 +81,7 @@ class Verdict:
         self.problem.demand_outside(a, b, reach, None if reach is None else reach * reach)
 
     def check_alone(self, node):
-        """Of a pair by itself, nothing but what its reason is about."""
+        """For a pair by itself: only the nodes that its reason allows."""
         a, b, reason = node["a"], node["b"], self.told["reason"]
         if not node.get("shadow"):
             demand(self.key(a, b) == self.own, "a pair by itself has no neighbours:", a, b)
@@ -117,7 +117,7 @@ class Verdict:
             demand(within * within >= reach[0] ** 2 + reach[1] ** 2, "farther out the two could still be too near:", k, l)
 
     def is_listed(self, a, b):
-        """Of a crowd all is owed, listed or not."""
+        """In a crowd all pairs owe their distance, listed or not."""
         return not self.crowded and self.key(a, b) in self.kinds and self.key(a, b) != self.own
 
     def check_clearance(self, a, b, clearance):
@@ -135,8 +135,8 @@ class Verdict:
             demand(clearance * clearance <= square, "a listed pair is held to more than it had:", a, b)
 
     def stood(self, a, b):
-        """Of another listed pair: were the two in each other at the start, and the square of their least translation; or of
-        their distance."""
+        """State of another listed pair at the start: did the interiors meet, and the square of the least translation,
+        or of the distance."""
         demand(self.is_listed(a, b), "held to what it had, and not listed:", a, b)
         demand(self.kinds[self.key(a, b)] not in ("contained", "duplicate"), "what is contained may stay so")
         square, depth, inside = self.problem.how_it_stood(a, b)
@@ -288,7 +288,7 @@ def corners_behind(ways):
 
 
 def sides(polygon, w):
-    """Of the polygon w times as large."""
+    """The polygon scaled by w."""
     grown = [(w * x, w * y) for x, y in polygon]
     return list(zip(grown, grown[1:] + grown[:1]))
 

@@ -1,9 +1,9 @@
 /* Features beside barriers: lines, points and areas with a width and a gap of their own.
  *
- * What is said of a layer as it stands, and of one that was separated, is asked again by brute force in rationals, with
- * code that shares nothing with src/: does the feature's interior meet the barrier, and if not, is it nearer than half
- * the width and the gap? Coordinates are small integers, so that lines run along walls, through corners, from hole to
- * hole and along the diagonals of decompositions; or these far from the origin. */
+ * The report about a layer as given, and about a separated one, is compared with brute force in rationals that shares
+ * no code with src/: does the feature's interior meet the barrier, and if not, is it nearer than half the width and the
+ * gap? Coordinates are small integers, so that lines run along walls, through corners, from hole to hole and along the
+ * diagonals of decompositions; in some cases they are moved far from the origin. */
 #include "random.h"
 
 #include "sunder.h"
@@ -438,7 +438,7 @@ static uint64_t current; /* the case at hand */
 
 static size_t seen[MET + 1];
 
-/* The report lists what there is, and nothing else; the feature is placed as it stands. */
+/* The report lists exactly the conflicts that exist, for the feature at its place. */
 static void compare(const scene *s, const sunder_report *report)
 {
     static const sunder_conflict_kind kind_of[] = {[NEAR] = SUNDER_CONFLICT_BARRIER_NEAR,
@@ -495,8 +495,8 @@ static void check_as_they_stand(void **state)
     for (int k = 0; k < MOST; k++) figure_clear(&s.made[k].area);
 }
 
-/* Where it is taken apart: what is listed is what there is, as written; and without a limit nothing is, for nothing
- * keeps the feature from going round whatever holds it in. */
+/* After a separation the list equals the conflicts of the result as written. Without a limit there are none, since the
+ * feature can always go around the barrier. */
 static void check_separated(void **state)
 {
     (void)state;

@@ -53,7 +53,8 @@ static void draw_row(rng *r, row *w)
     draw_steps(r, w, fixed, unit);
     double from = at;
     for (size_t k = 0; k < w->n; k++) {
-        /* Neighbours miss what one goes farther than the other; the next but one is beyond all moves. */
+        /* Neighbours differ by less than the longest move; two features that are not neighbours are beyond all
+         * moves. */
         const double to = from + (double)rng_int(r, 600, 900) * (double)MOST * unit, wide = 8000 * MOST * unit;
         add_box(w, from, to, at + (double)rng_int(r, 0, 40) * unit, wide);
         if (k + 1 < w->n) from = to + w->scene.options.gap - (w->t[k + 1] - w->t[k]);

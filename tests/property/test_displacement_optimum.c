@@ -1,8 +1,8 @@
-/* The optimum of small layers, by a branch and bound of its own (support/optimum.c), beside what the library says: its
- * cost is the optimum where nothing stays in conflict, its lower bound no more.
+/* The optimum of small layers, computed by an independent branch and bound (support/optimum.c) and compared with the
+ * library's result. If no conflict remains, the cost is the optimum; the lower bound is never greater.
  *
- * A layer is a few features of convex parts (support/hamlet.c). Where pairs stay in conflict the optimum is that of all
- * others, these being no nearer than they were, and what is said to have no solution has none. */
+ * A layer is a few features of convex parts (support/hamlet.c). If pairs remain in conflict, the optimum is that of all
+ * other pairs, with these no nearer than at the start, and a conflict that is reported without a solution has none. */
 #include "hamlet.h"
 #include "optimum.h"
 #include "random.h"
@@ -19,8 +19,8 @@
 
 #include <cmocka.h>
 
-/* The optimum is found to this, relative to itself; what is said of it may be off by as much, and by what a place of
- * optimum.c may miss. */
+/* Relative accuracy of the optimum. The library's figures may differ by as much, and by the tolerance of places in
+ * optimum.c. */
 static const double CLOSE = 1e-8;
 /* So far from the optimum a cost may be that is said to be at it, relative and absolute: as the interface says. */
 static const double OPTIMAL = 1e-6, OPTIMAL_TOO = 1e-7;
@@ -59,7 +59,7 @@ static bool pose_verdict(const hamlet *t, const sunder_conflict *c, size_t n, co
     return alone;
 }
 
-/* What is said to have no solution has none: none within the limits, whatever that costs. */
+/* A conflict that is reported without a solution has none within the limits, at any cost. */
 static void check_verdict(const hamlet *t, const sunder_conflict *c, size_t n, const sunder_conflict *own, size_t i,
                           tally *sum)
 {

@@ -27,7 +27,7 @@ static void add_grid(rng *r, proof_town *t)
     }
 }
 
-/* Of the features of a conflict's proof all but one, by themselves: how many pairs are left, and for what? */
+/* For the features of a conflict's proof without one of them: how many pairs remain, and with which reasons? */
 static size_t ask_without(const proof_town *t, const sunder_conflict *c, size_t out, bool *proved)
 {
     proof_town part;

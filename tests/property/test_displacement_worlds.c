@@ -1,9 +1,9 @@
-/* Worlds are all there is to their bodies: a part of a layer that holds everything that a world of it saw tells of it
- * what the whole layer tells, to the last bit, if no other world of that wrote there. What is told of worlds, of blocks
- * that nothing happened to and of moves adds up to what is told of the layer.
+/* Worlds are independent of the rest of the layer. Let a part of the layer contain everything that a world read. Then
+ * the part gives the same result for that world as the whole layer, to the last bit, unless another world of the part
+ * changed something there. The results of worlds, of unchanged blocks and of moves add up to the result of the layer.
  *
  * Layers are fields of slanted boxes, most of them apart, some with fixed ones, limits, blocks, and barriers: roads
- * across all of it, and ponds. */
+ * across the whole layer, and ponds. */
 #include "polyset.h"
 #include "random.h"
 #include "run_layer.h"
@@ -172,7 +172,7 @@ static void demand_same_conflicts(const sunder_report *whole, const sunder_repor
     assert_int_equal(j, m);
 }
 
-/* Of the parts of a world, in any order. */
+/* The parts of a world, in any order. */
 static void demand_same_bounds(const sunder_world_bound *one, const sunder_world_bound *other, size_t n)
 {
     sunder_total a[2] = {{.beyond = 0}}, b[2] = {{.beyond = 0}};

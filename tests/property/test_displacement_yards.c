@@ -30,7 +30,7 @@ typedef struct yard {
 
 static double eighths(rng *r, int low, int high) { return (double)rng_int(r, low, high) / 8; }
 
-/* A quadrangle, counter-clockwise but where the yard is turned. */
+/* A quadrangle, counter-clockwise unless the yard is mirrored. */
 static sunder_feature *add(scene *s, const yard *y, const double xy[8])
 {
     char wkt[400];

@@ -159,7 +159,7 @@ static void test_committed(void **state)
     }
 }
 
-/* Status 2 and nothing on standard output for what is no family, no size, no seed. */
+/* For a wrong family, size or seed the status is 2, and standard output is empty. */
 static void test_refused(void **state)
 {
     static const char *const wrong[] = {

@@ -1,10 +1,10 @@
 /* Erosions and closings against brute force.
  *
- * The oracle (support/oracle.h, no code of src/) tells of a point whether it lies in int X + int Y. So B + x is within
- * a closed regular set D exactly when x is not in the sum of the complement of D, cut off by a frame, and -B. Erosions
- * and closings are asked that at all places where they could go wrong: their own corners, what lies between two of
- * them, all differences of corners of D and B (ends of degenerate parts are among them), what lies between two of
- * those, and others drawn at random. Everything is scaled so that all of these are integers. */
+ * The oracle (support/oracle.h, no code of src/) decides whether a point lies in int X + int Y. Let D be a closed
+ * regular set. B + x lies within D exactly if x is not in the sum of -B and the complement of D (cut off by a frame).
+ * This is tested for erosions and closings at all places where they could be wrong: their corners, middles between two
+ * of them, all differences of corners of D and B (which include ends of degenerate parts), middles between two of
+ * those, and random places. Everything is scaled so that all of these are integers. */
 #include "morphology_case.h"
 #include "oracle.h"
 

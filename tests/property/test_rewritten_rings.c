@@ -18,7 +18,7 @@
 
 enum { SETS = PAIR_KINDS + INVALID_KINDS, CASES = 8 * SETS, ROUTES = 4 };
 
-/* What is told of a case, as text. */
+/* The results of a case as text. */
 typedef struct answers {
     FILE *out;
     char *text;

@@ -55,7 +55,7 @@ static void open_operands(sunder_i_operands *g, const sunder_shape *p, const sun
     assert_int_equal(sunder_i_operands_init(g, p, q, &options, NULL), SUNDER_OK);
 }
 
-/* Of each edge of one operand, every vertex of the other whose edges enclose it is met; few others are. */
+/* For each edge of one operand every vertex of the other whose edges enclose it is found, and few others. */
 static void check_cones(sunder_i_operands *g, size_t *asked, size_t *all)
 {
     for (int side = 0; side < 2; side++) {

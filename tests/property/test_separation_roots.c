@@ -82,7 +82,7 @@ static void check(int64_t x, int64_t y, int64_t w)
                  s.lower_bound);
 }
 
-/* Of up to that many bits, and of fewer as often as of more. */
+/* Numbers of at most that many bits; small ones are as frequent as large ones. */
 static int64_t of_bits(rng *r, int most) { return (int64_t)(rng_next(r) >> (64 - rng_int(r, 1, most))); }
 
 /* The inverse of an odd number modulo 2^64 [Newton's steps, each doubles the digits that are right]. */

@@ -133,7 +133,7 @@ static void check_worse_since(void **state)
             for (int c = 0; c < 4; c++) t[c / 2][c % 2] = unit * (double)rng_int(&r, -3, 3);
             polyset moved;
             standing now;
-            bool exact = true; /* sums of tenths may be rounded: then a shape of its own is what is asked about */
+            bool exact = true; /* sums of tenths may be rounded; then the rounded shape is tested */
             polyset_copy(&moved, &q);
             for (size_t v = 0; v < 2 * moved.vertices; v++)
                 exact = add_exactly(&moved.xy[v], t[1][v % 2] - t[0][v % 2]) && exact;

@@ -1,5 +1,6 @@
-/* Sums of several members with one polygon: what is apart is traced by itself, what overlaps a little together, what
- * cannot be traced goes the general road. All of it is the same, byte for byte, as by a road that knows no members. */
+/* Sums of several polygons with one polygon. Polygons that stay apart are traced by themselves, small groups that
+ * overlap are traced together, and the rest goes through the general algorithm. The result equals, byte for byte, that
+ * of the general algorithm for all of them. */
 #include "generate.h"
 #include "minkowski/members.h"
 #include "roads.h"

@@ -1,5 +1,5 @@
-/* What a node sees: never a node too few, whatever the numbers; and far from all. Legs are asked of the exact test,
- * turns of exact orientations. */
+/* Nodes visible from a node: none is missing, for any coordinates, and most others are excluded. Legs are compared with
+ * the exact test, turns with exact orientations. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

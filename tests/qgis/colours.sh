@@ -24,8 +24,8 @@ town=$SUNDER_SOURCE/datasets-synthetic/town.gpkg
     arrows=31,78,200=50 conflicts=231,0,138=50 || fail "the picture lacks a colour"
 cp "$work/picture.png" "${SUNDER_BUILD:-$work}/qgis_colours.png" 2>/dev/null || true
 
-# Conflicts are told apart by what they are with, and whether they are proved: an unresolved one is a thin line with a
-# ring. The rows are written over, so that all of it is there whatever the town's conflicts are.
+# Conflicts have different symbols for different partners, and for proved and unresolved ones: an unresolved one is a
+# thin line with a ring. The rows are overwritten, so that all kinds occur independently of the town.
 rows() { # value of kind, value of reason
     cp "$work/out.gpkg" "$work/rows.gpkg"
     sqlite3 "$work/rows.gpkg" "DELETE FROM layer_styles WHERE f_table_name = 'buildings';

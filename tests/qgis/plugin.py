@@ -30,7 +30,7 @@ TEMPORARY = "TEMPORARY_OUTPUT"
 
 
 class Feedback(QgsProcessingFeedback):
-    """Remembers what it is told; cancels at a percentage, if wished."""
+    """A feedback object that records messages, and can cancel at a given percentage."""
 
     def __init__(self, cancel_at=None):
         super().__init__(False)
@@ -59,7 +59,7 @@ class Feedback(QgsProcessingFeedback):
 
 
 def rows(dataset, layer=None):
-    """Of each feature its FID: geometry as WKB, attributes."""
+    """For each feature, by FID: geometry as WKB, attributes."""
     opened = ogr.Open(dataset.split("|")[0])
     assert opened, dataset
     name = layer or (dataset.split("layername=")[1] if "layername=" in dataset else None)

@@ -65,7 +65,7 @@ for operation in dilate erode open close; do
 done
 ask 0 buffer town.gpkg o.gpkg -l buildings --shape square:4 --operation close --align --dissolve --overwrite -q
 ask 0 buffer town.gpkg o.gpkg -l buildings --shape square:4 --operation open --align --degenerate --overwrite -q
-# Sums, pairs and routes are made by one thread, whatever is asked for.
+# Sums, pairs and routes use one thread for every value of --threads.
 for algorithm in convolution arrangement; do
     ask 0 sum 'POLYGON ((0 0, 9 0, 9 9, 6 9, 6 3, 3 3, 3 9, 0 9))' disc:1 --algorithm $algorithm
     ask 0 sum town.gpkg disc:1:8 o.gpkg --input-layer buildings --algorithm $algorithm --overwrite -q

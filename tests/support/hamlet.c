@@ -204,7 +204,7 @@ typedef struct posing {
     const hamlet *t;
     optimum_problem *m;
     size_t body_of[HAMLET_HOUSES];
-    size_t barriers; /* the body of all of them */
+    size_t barriers; /* the body that contains all of them */
     double anchor[HAMLET_HOUSES][2];
 } posing;
 
@@ -370,8 +370,8 @@ static bool says_parted(const sunder_conflict *c)
            c->kind == SUNDER_CONFLICT_BARRIER_NEAR;
 }
 
-/* A pair that is listed, and so need not keep the distance that it owes; posed with what a bound says of such, or, not
- * `kept`, with what a verdict does, and then with nothing where it overlapped. */
+/* A listed pair, which does not have to keep the distance that it owes. Its demand is posed as a bound states it, or,
+ * if not `kept`, as a verdict does: then there is none if the two overlapped. */
 static void keep_listed_apart(posing *p, size_t a, size_t b, const part_list *g, const part_list *h, double owed,
                               const sunder_conflict *listed, bool kept)
 {

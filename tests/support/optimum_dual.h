@@ -18,7 +18,7 @@ typedef struct optimum_solution {
     double cost, bound;                 /* the bound holds whatever the solution is worth */
 } optimum_solution;
 
-/* Of an infeasible one the bound is at least `enough`, else the verdict is OPTIMUM_STUCK. */
+/* For an infeasible program the bound is at least `enough`; otherwise the verdict is OPTIMUM_STUCK. */
 optimum_verdict optimum_solve(const optimum_problem *m, const optimum_row *row, size_t n, double enough,
                               optimum_solution *s);
 

@@ -18,7 +18,7 @@ typedef struct oracle_boundary {
     size_t n, members;
 } oracle_boundary;
 
-/* Of a valid set, as its rings say it; or of what the even-odd rule makes of any. */
+/* The boundary of a valid set, as its rings describe it; or of the even-odd set of any rings. */
 void oracle_boundary_open(oracle_boundary *boundary, const polyset *set);
 void oracle_boundary_of_even_odd(oracle_boundary *boundary, const even_odd *set);
 /* A line x0 y0 x1 y1 ..., which encloses nothing; n = 1: a point. */

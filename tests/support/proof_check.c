@@ -54,7 +54,7 @@ static bool stood_so(const proof_feature *a, const proof_feature *b, double clea
     return so;
 }
 
-/* Of those that are not convex it is not asked. */
+/* Parts that are not convex are not tested. */
 static bool are_contained(const checking *c, const sunder_proof_node *node)
 {
     const proof_feature *a = &c->feature[node->a], *b = &c->feature[node->b];

@@ -27,7 +27,8 @@ bool is_part_of(const double *part, size_t n, const proof_feature *f);
 /* proof_lines.c: of a line and a polygon. Does it run through the open polygon? The square of their distance. */
 bool proof_line_meets(const proof_feature *line, const proof_feature *polygon);
 void proof_line_square(mpq_t square, const proof_feature *line, const proof_feature *polygon);
-/* Of a convex polygon and one segment: the square of the least translation that takes them apart. False: of others. */
+/* Sets `square` to the square of the least translation that separates a convex polygon and one segment. Returns false
+ * for all other operands. */
 bool proof_line_least(mpq_t square, const proof_feature *line, const proof_feature *polygon);
 /* Are the part's one or two corners on one segment of the line? */
 bool is_part_of_line(const double *part, size_t n, const proof_feature *line);

@@ -19,7 +19,7 @@ typedef struct scene {
 void scene_begin(scene *s, double gap);
 void scene_end(scene *s);
 
-/* Of weight 1, without a limit, in no block; without a shape where wkt is NULL. Lives in the scene. */
+/* Adds a feature of weight 1, without a limit, in no block; without a shape if wkt is NULL. It belongs to the scene. */
 sunder_feature *scene_add(scene *s, const char *wkt);
 /* The axis-parallel rectangle of that width and height with its lower left corner at (x, y). */
 sunder_feature *scene_add_box(scene *s, double x, double y, double w, double h);

@@ -13,7 +13,8 @@ typedef struct scene_board {
     double move[2 * SCENE_BOARD_MOST]; /* none at the beginning */
 } scene_board;
 
-/* Of a scene that has its features: no blocks, jumps allowed, its other options as they are. */
+/* Begins the board of a scene that has its features. Blocks are switched off and jumps allowed; the other options are
+ * the scene's. */
 void scene_board_begin(scene_board *b);
 /* Ends the scene, too. */
 void scene_board_end(scene_board *b);

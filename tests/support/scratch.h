@@ -7,7 +7,7 @@ int scratch_set_up(void **state);
 int scratch_tear_down(void **state);
 /* Its path, from the one to the other. */
 const char *scratch_directory(void);
-/* Of a file in it; good until the fourth call after. */
+/* The path of a file in it, valid until the fourth call after. */
 const char *scratch_path(const char *name);
 
 #endif

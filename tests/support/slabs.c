@@ -114,8 +114,7 @@ static void clear_crossings(crossing *c, size_t n)
     free(c);
 }
 
-/* What a vertical line is asked: does it run through both interiors at once; through the first set outside
- * the second? */
+/* What a vertical line decides: does it cross both interiors at the same place, or the first set outside the second? */
 typedef enum question { MEET, ESCAPE } question;
 
 /* By parity within each member. */
@@ -161,7 +160,7 @@ typedef struct slabs {
     size_t edges, borders;
 } slabs;
 
-/* Of P and Q + (x, y); NULLs for none and for zero. */
+/* Slabs of P and Q + (x, y). NULL: no Q, or zero. */
 static void slabs_open(slabs *s, const polyset *p, const polyset *q, const mpq_t *x, const mpq_t *y)
 {
     s->e = test_alloc(p->vertices + (q ? q->vertices : 0), sizeof *s->e);

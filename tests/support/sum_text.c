@@ -68,7 +68,7 @@ static bool is_bound(double off, const double xy[2], mpq_t place[2])
     return good;
 }
 
-/* The nearest doubles, asked for in both ways, and what is said of how far they are. */
+/* The nearest doubles, computed by both functions, and their reported deviation. */
 static bool doubles_are_right(const sunder_sum *sum, uint32_t v, mpq_t place[2])
 {
     double one[2], all[2], off = 0;

@@ -1,4 +1,4 @@
-/* Operands on which geometry code is slow: what maps contain, and what chance makes of it. */
+/* Operands on which geometry code is slow: extreme cases of maps, and random ones. */
 #ifndef SUNDER_TESTS_HARD_H
 #define SUNDER_TESTS_HARD_H
 

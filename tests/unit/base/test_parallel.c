@@ -1,5 +1,5 @@
-/* Work on several threads: all of it is done, once, on no more threads than were asked for, also where work hands out
- * work; the largest items begin first; and the first failure is what is told. */
+/* Work on several threads: all items are done once, on at most the given number of threads, also if an item starts
+ * parallel work itself. The largest items begin first, and the first failure is reported. */
 #include "base/parallel.h"
 
 #include "sunder.h"

@@ -1,4 +1,4 @@
-/* How many questions are asked in vain, and after how many that pass one is asked again. */
+/* How many failed attempts are made, and after how many skipped ones another attempt is made. */
 #include "base/patience.h"
 
 #include <setjmp.h>

@@ -1,4 +1,4 @@
-/* sunder_layer_check_moves(): what breaks a rule on the way is told by name, and what does not is not. */
+/* sunder_layer_check_moves(): each move that breaks a rule is reported with the rule, and no others are. */
 #include "polyset.h"
 #include "sunder.h"
 

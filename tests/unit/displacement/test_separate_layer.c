@@ -1,4 +1,5 @@
-/* A whole layer on small figures with known answers: what conflicts, what moves, what cannot. */
+/* Whole layers of few features with known answers: which pairs are in conflict, which features move, and which
+ * cannot. */
 #include "scene.h"
 
 #include "displacement/layer/model.h"

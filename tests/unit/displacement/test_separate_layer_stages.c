@@ -1,5 +1,6 @@
-/* The stages that the progress of a separation tells: what is asked about the conflicts that remain is explaining, and
- * no verifying. Work is counted by how often the progress is called, which depends on steps and never on time. */
+/* The stages that the progress of a separation reports: questions about remaining conflicts belong to the stage
+ * `explain`, not to `verify`. Work is measured by the number of progress calls, which depends on steps and not on
+ * time. */
 #include "scene.h"
 
 #include <setjmp.h>
@@ -54,7 +55,7 @@ static void check_questions_are_explaining(void **state)
     const calls none = separate(0), some = separate(1);
     assert_true(none.last == 1 && some.last == 1);
     assert_true(some.solve > 0 && some.explain > 0 && some.verify > 0);
-    /* At effort 0 nothing is asked about conflicts; what is checked is as much as at effort 1. */
+    /* At effort 0 no questions about conflicts are asked; the amount of verification is that of effort 1. */
     assert_true(some.explain > 20 * some.verify);
     assert_true(some.explain > 20 * none.explain);
     assert_true(some.verify < 2 * none.verify + 20);

@@ -304,8 +304,8 @@ static void test_beyond_doubles(void **state)
     polyset_free(&p);
 }
 
-/* Of a ring at once no vertex is said to be further off than of each by itself, and none is forgotten: at home, far out
- * and beyond where doubles hold a fraction; by itself each is compared with its text. */
+/* The deviation of a ring as a whole is at least that of each of its vertices. This holds at the origin, far out, and
+ * beyond the range in which doubles have fractions; the doubles of each vertex are compared with its text. */
 static void test_deviation(void **state)
 {
     (void)state;

@@ -1,5 +1,6 @@
-/* number/ball: what an operation gives holds all that its operands may be, beside rationals of GMP; signs that are told
- * are the true ones, and of numbers that are far apart, or exact and small, they are told. */
+/* number/ball, compared with rationals of GMP: the result of an operation contains all results for numbers in the
+ * operands. A sign that is reported is the true one, and it is reported for numbers that are far apart, or exact and
+ * small. */
 #include "number/ball.h"
 #include "random.h"
 
@@ -73,7 +74,7 @@ static void assert_holds_root(sunder_i_ball b, const mpq_t v)
     mpq_clears(end, square, NULL);
 }
 
-/* Of up to 2000 bits; some short, some near others, some zero. */
+/* Numbers of up to 2000 bits; some short, some near others, some zero. */
 static sunder_i_big random_big(sunder_i_arena *a, rng *r, sunder_i_big near)
 {
     const int64_t bits = rng_once_in(r, 3) ? 40 : 2000;

@@ -12,7 +12,7 @@
 
 #include <cmocka.h>
 
-/* GMP's allocator: counts what it is asked for while our code runs. */
+/* Allocators of GMP that count requests while our code runs. */
 static bool ours;
 static size_t asked;
 

@@ -213,7 +213,7 @@ static void test_points(void **state)
     close_bench(&b);
 }
 
-/* The crossing of pq and rs and what is asked of it. */
+/* Checks the functions on the crossing of pq and rs. */
 static void check_crossing(bench *b, int k, const spot *truth, const mpq_t t)
 {
     sunder_i_lattice *l = &b->l[k];

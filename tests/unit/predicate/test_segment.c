@@ -135,7 +135,7 @@ static bool meet(const spot p[4])
            on_closed(p[2], p[3], p[1]);
 }
 
-/* By what is common: nothing; more than a point; else where that point is. */
+/* Classifies by the common points: none, more than one, or otherwise by where the one point is. */
 static sunder_i_meeting slow_meeting(const spot p[4])
 {
     if (!meet(p)) return SUNDER_I_APART;

@@ -1,5 +1,5 @@
-/* separation/separating_line: what is said to be apart by a length is, by the exact distance; and of convex sets that
- * are clearly farther apart it mostly is said. */
+/* separation/separating_line: two sets that are reported to be apart by a length are so by the exact distance. Convex
+ * sets that are clearly farther apart are usually reported. */
 #include "random.h"
 #include "separation/separation.h"
 

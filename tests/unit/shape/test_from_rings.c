@@ -354,7 +354,8 @@ static void test_empty(void **state)
     sunder_shape_free(NULL);
 }
 
-/* Of long doubles as they are: an emulator may have none longer than doubles, whatever the header says. */
+/* The unit of rounding of long doubles at run time: an emulator may have no more than doubles, whatever the header
+ * says. */
 static long double unit_of_rounding(void)
 {
     volatile long double unit = 1, sum = 2;

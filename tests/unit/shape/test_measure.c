@@ -167,7 +167,7 @@ static void test_area_and_anchor_without_memory(void **state)
     }
 }
 
-/* Of a repaired shape both were worked out when it was made, and making it fails where there is no memory for that. */
+/* For a repaired shape both are computed when it is made, and making it fails if there is no memory for that. */
 static bool make_bow(void *context)
 {
     static const double xy[] = {0, 0, 3, 3, 3, 0, 0, 2};

@@ -105,7 +105,8 @@ static bool same(const sunder_shape *s, const sunder_shape *t)
            s->form->cleaned.poly_end[0] == t->form->cleaned.poly_end[0];
 }
 
-/* Of a small way that refuses what it should not, the comparison would say nothing: it is counted. */
+/* Counts the polygons that the special algorithm takes, since the comparison would prove nothing if it refused all of
+ * them. */
 static void test_against_the_general_way(void **state)
 {
     (void)state;
@@ -183,7 +184,7 @@ static void test_left_to_others(void **state)
     sunder_shape_free(s);
 }
 
-/* Of holes: those that lie in each other, outside, or touch; and what is too many. */
+/* Holes that lie in each other, lie outside, or touch; and too many holes. */
 static void test_holes(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* As src/number/trust.h, but for a library that computes determinants in doubles and believes every one of them: right
- * where coordinates are small integers, so that nothing is rounded that decides, and nowhere else. */
+/* Replaces src/number/trust.h in a library that computes determinants in doubles and trusts every result. Its results
+ * are right if coordinates are small integers, for which no decisive operation is rounded, and not otherwise. */
 #ifndef SUNDER_I_TRUST_H
 #define SUNDER_I_TRUST_H
 

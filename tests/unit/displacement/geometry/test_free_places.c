@@ -161,7 +161,7 @@ static void test_corners(void **state)
     sunder_i_obstacles_free(&o);
 }
 
-/* What was kept is added again as it was, whatever was added before, until there is too much of it. */
+/* Kept results are added again unchanged after any other additions, as long as they fit. */
 static void test_kept(void **state)
 {
     (void)state;

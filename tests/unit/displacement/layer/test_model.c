@@ -1,5 +1,5 @@
-/* What joins features, and how blocks are numbered: by their first members; touch alone can be switched off; what a
- * small tolerance would join is counted where it is 0. */
+/* Which features join a block, and how blocks are numbered: by their first members. Joining by touch can be switched
+ * off; with the tolerance 0 overlaps that a small tolerance would join are counted. */
 #include "scene.h"
 
 #include <math.h>

@@ -53,7 +53,8 @@ static double mass_of(const program *p, const sunder_i_constraint *c)
     return sunder_i_mass(&p->q, c->i) + sunder_i_mass(&p->q, c->j);
 }
 
-/* Moves are what the forces push, what acts is missed by what it yields, and nothing is missed by more. */
+/* Moves follow from the forces; an active constraint is violated by its softness times its force, and no constraint by
+ * more. */
 static void check_optimal(const program *p, size_t trial, double softness, double tolerance)
 {
     double pushed[2 * BODIES] = {0}, far = 1;
@@ -117,7 +118,7 @@ static void check_contradiction(void **state)
     p.constraint[3].force = 0.25;
     assert_true(sunder_i_quadratic_newton(&p.q, 0, 1e-9, &done) && !done);
     for (size_t k = 0; k < p.q.n; k++) assert_true(p.constraint[k].force == (k == 3 ? 0.25 : 0));
-    /* Of a long list the solver as a whole says the same. */
+    /* For a long list the solver as a whole gives the same result. */
     row(&p, 10);
     p.q.most_cost = BODIES * 100.0;
     assert_true(sunder_i_quadratic_solve(&p.q, 0, 1e-9, 1) == INFINITY);

@@ -25,7 +25,7 @@ static void begin(crowd *c)
     sunder_layer_options_init(&c->options);
     c->options.gap = 3;
     c->options.no_blocks = true;
-    c->options.effort = 0x1p-6; /* what is asked then, with next to no work on the bound */
+    c->options.effort = 0x1p-6; /* next to no work is spent on the bound */
 }
 
 static void end(crowd *c)

@@ -1,6 +1,6 @@
-/* Of a crowd in which every question is in vain there is an end of questions: what would free a pair
- * (displacement/report/needs), is there a proof that it has no room (displacement/report/no_room), and has one by
- * itself a solution (displacement/clusters/one_by_one)? */
+/* In a crowd in which every question fails the number of questions is limited: which change would solve a pair
+ * (displacement/report/needs), is there a proof that it has no room (displacement/report/no_room), and does a pair by
+ * itself have a solution (displacement/clusters/one_by_one)? */
 #include "polyset.h"
 #include "scene_solver.h"
 
@@ -71,7 +71,7 @@ enum {
     PROOF_PATIENCE = 8,
     FIRST_EFFORT = 10000,
     PROOFS_IN_VAIN = 32,
-    PROOFS_IN_VAIN_OF_CROWD = 8, /* where the first effort tells nothing of all */
+    PROOFS_IN_VAIN_OF_CROWD = 8, /* if the first effort decides no question */
     PROOFS_IN_VAIN_AT_FIRST = 1024
 };
 
@@ -114,7 +114,7 @@ static void list_all(sunder_report *report, const sunder_i_solver *solver)
     }
 }
 
-/* Of all of a field, and of two far from it. shift: what is known of it as a whole. */
+/* Asks about all pairs of a field, and about a pair far from it. shift: the known limit for the whole field. */
 static sunder_report *ask_for_needs(crowd *c, double shift)
 {
     sunder_report *report = NULL;
@@ -163,8 +163,8 @@ static void test_needs_of_crowd(void **state)
 
 /* ---- Is there a proof? ------------------------------------------------------------------------------------------- */
 
-/* Questions of the first effort, and of greater ones; by where they are asked. told: so many of the field's, at the
- * second effort, are told something of before nothing is. */
+/* Numbers of questions at the first effort and at greater ones, for the field and for the far pair. told: the number of
+ * the field's questions at the second effort that count as decided; all others fail. */
 static size_t asked_first[2], asked_again[2], told;
 
 /* Whatever the effort, it is too little; or the pair has a solution, and is asked about no more. */
@@ -203,8 +203,9 @@ static size_t ask_for_proofs(size_t side, size_t tell)
     return pairs;
 }
 
-/* All are asked about once. Those of the field that more effort tells nothing of are as many as that, in succession,
- * wherever they begin; and the two that are far away go on to the most. Of a larger field not all are asked about. */
+/* All are asked once. At the second effort the questions of the field end after PROOFS_IN_VAIN_OF_CROWD failures in
+ * succession, after any number of decided ones, while those about the far pair continue to the greatest effort. In a
+ * larger field not all are asked. */
 static void test_proofs(void **state)
 {
     (void)state;
@@ -218,7 +219,7 @@ static void test_proofs(void **state)
     assert_int_equal(asked_again[0], 0);
 }
 
-/* Of a field of fewer pairs than that all are asked about at the second effort, and half as many at the third. */
+/* In a field with fewer pairs than that, all are asked at the second effort, and half as many at the third. */
 static void test_proofs_of_few(void **state)
 {
     (void)state;

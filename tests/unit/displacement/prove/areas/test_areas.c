@@ -125,7 +125,7 @@ static void give_edge(const table *t, const long double p[2], const long double 
     }
 }
 
-/* Of the body when it moved by (dx, dy) squares; at[] is the caller's. */
+/* Integrals over the body moved by (dx, dy) squares. The caller frees at[]. */
 static table integrate(const sunder_i_outline *o, double side, long double dx, long double dy)
 {
     const long double move[2] = {dx, dy};
@@ -325,8 +325,8 @@ static void test_prices(void **state)
     assert_true(4 * proved > cases);
 }
 
-/* What stands still pays for where it is, but for what kinks and rounding may take; and prices at the border prove
- * nothing, nor do weights that are too small or too large for the unit. */
+/* A fixed body pays for the area that it occupies, up to bends and rounding. Prices at the border prove nothing, and
+ * neither do weights that are too small or too large for the unit. */
 static void test_limits(void **state)
 {
     static market m;
@@ -371,7 +371,7 @@ static void test_limits(void **state)
 
 /* ---- Ascent ------------------------------------------------------------------------------------------------------ */
 
-/* A coarser grid's prices reach the border; of what comes of them none is within two rows and columns of it. */
+/* The prices of a coarser grid reach the border; prices made of them are 0 within two rows and columns of it. */
 static void test_border(void **state)
 {
     static market m;

@@ -147,7 +147,7 @@ static void check_case(rng *r)
         memcpy(centre, x, sizeof centre);
     }
     assert_true(promise - now <= 1e-3);
-    /* Nothing about is more, but for what the square of the distance hides. */
+    /* No place nearby has a greater value, up to the term of the squared distance. */
     for (int k = 0; k < 200; k++) {
         double other[NUMBERS];
         draw_near(r, &p, centre, 0.05, other);

@@ -112,7 +112,8 @@ static void check_places(rng *r, const set *s)
     }
 }
 
-/* What is said to be covered is; what is not for a gap has it. */
+/* A place that is reported as covered is covered; if a set is not covered because of a gap, the reported place lies in
+ * the gap. */
 static size_t check_cover(rng *r, const set *s, sunder_i_reflex *reflex)
 {
     size_t covered = 0;
@@ -163,8 +164,8 @@ static void check_known(const set *s, const sunder_i_free_sides *known, const su
     sunder_i_free(told.place);
 }
 
-/* What is kept of a region's sides is what is found of them afresh; asked for again it takes no steps; all is free. Of
- * a region that was cut it tells of the sides that are left. */
+/* Kept sides of a region equal those that are found from scratch. Getting them again costs no steps, and all memory is
+ * freed. For a region that was cut, the remaining sides are returned. */
 static void check_sides(rng *r, const set *s)
 {
     sunder_i_free_sides kept = {0};
@@ -325,7 +326,7 @@ static bool is_in(const sunder_i_region *region, const double u[2])
     return region->n > 0;
 }
 
-/* What is not left is forbidden; and nothing is left of what is covered. */
+/* Places outside the remaining region are forbidden, and nothing remains of a covered region. */
 static void test_cover_what_can_be(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* displacement/optimum/tree_regions: what is kept of an open node's regions is what its cuts make of them, to the last
- * bit, also where something else was tried meanwhile. */
+/* displacement/optimum/tree_regions: the kept regions of an open node equal those that its cuts define, to the last
+ * bit, also if other cuts were tried in between. */
 #include "scene_model.h"
 
 #include "displacement/prove/optimum/tree.h"
@@ -80,7 +80,7 @@ static void test_as_made_again(void **state)
     end(&c);
 }
 
-/* A tree that is freed with open nodes leaves nothing behind, and what is asked for beyond the most is not kept. */
+/* A tree that is freed with open nodes leaves no memory, and regions beyond the maximum are not kept. */
 static void test_no_more_than_the_most(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* displacement/proofs/ways_kept: ways between pieces are what they are when made anew, and are counted the same,
- * however often and in whatever order they are asked for, and whatever else has their place. */
+/* displacement/proofs/half_planes_kept: kept lines between pieces equal new ones and count the same number of steps,
+ * for any number and order of requests, and also if others have taken their place in the cache. */
 #include "random.h"
 #include "scene_model.h"
 

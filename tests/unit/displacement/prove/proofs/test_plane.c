@@ -1,5 +1,5 @@
-/* displacement/proofs/plane: what stands in a yard that is too small for it has no solution, though walls touch, so
- * that what claims leave of the plane is a line or a point, which contradicts nothing by itself. */
+/* displacement/proofs/plane: a body in a yard that is too small for it has no solution. Walls touch, so the region that
+ * claims leave of the plane may be a line or a point, which is no contradiction by itself. */
 #include "random.h"
 #include "scene_model.h"
 

@@ -1,5 +1,5 @@
-/* displacement/proofs/plane_obstacles: what is behind the ways of an obstacle lies in the box that is told of it before
- * they are made; and they are made of what places are asked about, and of nothing else. */
+/* displacement/proofs/plane_obstacles: the set behind the ways of an obstacle lies in the box that is known before they
+ * are made. Ways are made only for obstacles near the queried places. */
 #include "random.h"
 #include "scene_model.h"
 

@@ -79,7 +79,7 @@ static sunder_i_verdict decide(const sunder_i_subproblem *q, sunder_i_decision *
     return decision->verdict;
 }
 
-/* What is told of each question with precedents and without, and with how much work. */
+/* The outcome of each question with and without precedents, and the work that it takes. */
 static void test_questions(void **state)
 {
     size_t told[3] = {0};
@@ -135,8 +135,8 @@ static void begin_yard(crowd *c)
     scene_model_related(&c->of, &c->scene);
 }
 
-/* What has no solution, but by fine lines only, is asked about by these alone when a thing is left out: the same is
- * told. */
+/* A question that only fine lines prove infeasible uses only fine lines when a thing is left out; the outcome is the
+ * same. */
 static void test_fine_planes(void **state)
 {
     crowd c;

@@ -44,7 +44,7 @@ static void test_what_was_shaken(void **state)
     assert_non_null(s.groups.joined);
     s.groups.joined[0] = (sunder_i_id_pair){1, 2};
     s.groups.joins = 1;
-    for (int round = 0; round < 2; round++) { /* and again, of what is as it was */
+    for (int round = 0; round < 2; round++) { /* and once more, unchanged */
         gather(&s, 1);
         assert_int_equal(s.groups.group[0].n, 4);
         assert_true(s.groups.group[0].shaken_at == 7 && s.groups.group[0].bound == 0.5);

@@ -1,4 +1,4 @@
-/* Of what several groups are found to be cheaper by, that is taken which holds: groups that run into each other. */
+/* If cheaper layouts of several groups collide, a layout that holds is accepted. */
 #include "scene.h"
 
 #include <math.h>
@@ -9,7 +9,7 @@
 
 #include <cmocka.h>
 
-/* Boxes and frames may not lie in one another; nothing else is asked. */
+/* Boxes and frames may not lie in one another; there are no other rules. */
 static void begin(scene *s)
 {
     scene_begin(s, 0);

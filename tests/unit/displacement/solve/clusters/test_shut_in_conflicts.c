@@ -106,7 +106,7 @@ static void check_place(void **state)
     (void)state;
 }
 
-/* What limits leave no solution is held no worse than it stood, and no more is asked of it. */
+/* A conflict that has no solution within the limits has to be no worse than at the start, and nothing more. */
 static void check_others(void **state)
 {
     yard y;

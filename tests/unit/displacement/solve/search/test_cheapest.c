@@ -1,5 +1,5 @@
-/* displacement/search/cheapest: a solution is said to be the cheapest only where no other start leads to a cheaper one,
- * and mostly where it is; where it is not said nothing is changed. */
+/* displacement/search/cheapest: a solution is reported as the cheapest only if no other start leads to a cheaper one,
+ * and usually whenever that is so. If it is not reported, nothing is changed. */
 #include "random.h"
 #include "scene_board.h"
 

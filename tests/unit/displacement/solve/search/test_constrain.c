@@ -1,6 +1,6 @@
-/* displacement/solve/search: a pair that is free where its way leads gets the sides that it has there, another those of
- * where it stands; what is missed roughly is not forgiven; and a large crowd that goes down roughly first stands free
- * in the end to the last digit, and has nothing left to gain. */
+/* displacement/solve/search: a pair that is free at its target uses the sides of the target, another pair those of its
+ * present place. Violations by rough solutions are corrected: a large crowd that descends roughly first is free at the
+ * end to the last digit, and its cost cannot be improved further. */
 #include "scene_field.h"
 
 #include "displacement/solve/search/search_stages.h"

@@ -42,7 +42,7 @@ static sunder_separation least_of(const scene *s)
     return least;
 }
 
-/* Of a scene that has its two features. */
+/* Begins with a scene that has its two features. */
 static void begin(pair *p, const double stood[4])
 {
     sunder_error err;

@@ -133,9 +133,9 @@ static void test_row(void **state)
     end_row(&b, &s);
 }
 
-/* Of a row that has given all it has every question is in vain, and looks at all between the pair and the row's ends.
- * Once that was asked often what stops them is known: then a question looks at less, and is in vain as before; and what
- * is not in vain is asked as before. */
+/* In a row without any room left every question fails, after reading everything between the pair and the ends of the
+ * row. When the obstruction is known from repeated questions, a question reads less and fails as before. Questions that
+ * succeed are not affected. */
 static void test_known_in_vain(void **state)
 {
     (void)state;
@@ -207,7 +207,7 @@ static void test_together(void **state)
     assert_true(sunder_i_search_find_clashes(&s, s.t) <= s.tolerance);
     size_t same = 0;
     for (size_t k = 1; k < 6; k++) same += s.t[2 * k] == s.t[2 * (k - 1)];
-    assert_int_equal(same, s.relaxations.n); /* all but where the row was opened */
+    assert_int_equal(same, s.relaxations.n); /* all except where the row was opened */
     end_row(&b, &s);
 }
 

@@ -1,5 +1,5 @@
-/* displacement/search/retry_cluster: what was given up is asked again, also where another pair stands a hair too near
- * for the search and cannot do otherwise. */
+/* displacement/search/retry_cluster: a given-up pair is tried again, also if another pair is slightly too near for the
+ * search and cannot be separated. */
 #include "scene_board.h"
 
 #include "displacement/solve/search/cluster.h"

@@ -139,7 +139,8 @@ static void test_same_seed(void **state)
     }
 }
 
-/* Of bodies of many pieces no descent ends in time: those are shaken with patience, and then are tired of it. */
+/* With bodies of many pieces no descent ends within the budget. Such groups are perturbed a limited number of times,
+ * and then no more. */
 static void test_patience(void **state)
 {
     (void)state;
