@@ -11,7 +11,7 @@ if [ $# -ne 5 ] && [ $# -ne 6 ]; then
 fi
 town=$1 xmin=$2 ymin=$3 xmax=$4 ymax=$5 separated=${6-}
 
-# Lines "TAG<tab>CLASS<tab>WIDTH<tab>WKT" for awk. What reaches into the picture counts, not what lies in it alone.
+# Prints lines "TAG<tab>CLASS<tab>WIDTH<tab>WKT" for awk, for all features that reach into the picture.
 layer() { # tag, file, layer, SQL for the class, SQL for the width
     ogr2ogr -f CSV /vsistdout/ "$2" -dialect SQLite -spat "$xmin" "$ymin" "$xmax" "$ymax" -lco GEOMETRY=AS_WKT \
         -lco SEPARATOR=TAB -lco STRING_QUOTING=IF_NEEDED -sql "SELECT $4 AS class, $5 AS width, * FROM \"$3\"" |
@@ -25,7 +25,7 @@ layer() { # tag, file, layer, SQL for the class, SQL for the width
     else
         ogr2ogr -f CSV /vsistdout/ "$separated" -lco SEPARATOR=TAB -sql 'SELECT sunder_st, sunder_dx, sunder_dy FROM buildings' \
             >/dev/null # fails early, and with OGR's own words, where the fields are missing
-        # Drawn before: each written feature, taken back by its own move, in the colour of what became of it.
+        # The old outlines: each written feature, moved back by its own move, in the colour of its status.
         layer old "$separated" buildings sunder_st "sunder_dx || ';' || sunder_dy"
         layer new "$separated" buildings sunder_st 0
         layer arrow "$separated" buildings_displacement "'moved'" 0

@@ -1,8 +1,8 @@
-/* Pairs of polygonal sets on which Minkowski sums are known to be hard, each in its own way.
+/* Pairs of polygonal sets whose Minkowski sums are known to be hard, each for its own reason.
  *
- * The families are those on which Agarwal, Flato and Halperin try their algorithms (comb, fork, star, robot, random,
- * tight passage, and the two that tell orders of insertion apart), drawn anew: the constructions here are ours and are
- * explained where they stand. Coordinates are integers, so what is meant to be degenerate is degenerate. */
+ * The families are those of the experiments of Agarwal, Flato and Halperin (comb, fork, star, robot, random, tight
+ * passage, and the two that distinguish orders of insertion). The constructions here are our own, and are explained in
+ * the files that contain them. Coordinates are integers, so degeneracies are exact. */
 #ifndef FAMILY_H
 #define FAMILY_H
 

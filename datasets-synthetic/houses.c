@@ -117,8 +117,8 @@ static town_plan choose_house_plan(town_random *random)
                       : TOWN_PLAN_U;
 }
 
-/* One house with what belongs to it, its left wall at s. squeeze: how near its neighbours it may stand; negative where
- * it is pushed into them. Returns the width that it takes, 0 where there is no room. */
+/* Adds one house with its additions, with its left wall at s. squeeze: the distance to its neighbours; negative if it
+ * overlaps them. Returns the width that it takes, 0 if there is no room. */
 static double add_house(town_block *block, const town_ground *street, double s, double b0, double squeeze)
 {
     town_random *random = &block->random;

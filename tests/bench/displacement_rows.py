@@ -290,7 +290,7 @@ def neato(boxes, overlap):
             xs, ys = [p[0] for p in corners], [-p[1] for p in corners]
             x, y = (min(xs) + max(xs)) / 2 / POINTS, (min(ys) + max(ys)) / 2 / POINTS
             moves[title] = (x - centre[title][0], y - centre[title][1])
-    # Nothing pins the drawing: the mean move is none of the boxes' own.
+    # The drawing as a whole may be shifted freely, so the mean move is subtracted from all boxes.
     shift = [sum(m[i] for m in moves.values()) / len(moves) for i in (0, 1)]
     return {k: (m[0] - shift[0], m[1] - shift[1]) for k, m in moves.items()}, seconds
 

@@ -30,7 +30,7 @@ scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 wanted=("$@")
 
-# Runs a command; prints "seconds megabytes", or what became of it.
+# Runs a command; prints "seconds megabytes", or how it failed.
 measure() {
   python3 - "$limit" "$@" <<'PYTHON'
 import os, resource, subprocess, sys
@@ -50,7 +50,7 @@ print("%.3f" % (used.ru_utime + used.ru_stime), round(used.ru_maxrss / 1000),
 PYTHON
 }
 
-# Runs a command and prints its millions of instructions, less those of idling, "-", and what became of it.
+# Runs a command and prints its millions of instructions minus those of an idle run, "-", and how it ended.
 count() {
   local note='' status=0
   timeout "$limit" valgrind --tool=callgrind --callgrind-out-file=/dev/null "$@" >/dev/null 2>"$scratch/counted" || status=$?

@@ -158,7 +158,7 @@ def phases(runs):
 
 
 def orders(runs):
-    """What the fat order costs, in parts of what the random order costs."""
+    """The cost of the fat order, as a ratio to that of the random order."""
     for family in ordered(runs, "family"):
         for road in ROADS[1:]:
             for size in ordered(runs, "size"):

@@ -124,8 +124,8 @@ class Page:
             time.sleep(0.05)
 
     def picture(self, selector=None):
-        """What is seen, or an element of it, which is brought into view. The window stays as it is: a page may depend
-        on its size."""
+        """A picture of the visible page, or of an element, which is scrolled into view. The window is not resized,
+        since a page may depend on its size."""
         clip = {}
         if selector:
             box = self.evaluate("(() => { const e = document.querySelector(%s); e.scrollIntoView({block: 'center'});"

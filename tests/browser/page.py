@@ -279,7 +279,8 @@ def ask_town(browser):
     demand(any(near(c, MOVED, 4) for c in colours), "without scripts there is no picture of the map")
 
 
-# ---- A quarter where much is blocked, beside roads: what a reader prints, and goes through by keys -------------------------
+# ---- A quarter with many blocked features, beside roads: printing, and use by keyboard
+# --------------------------------------
 def is_shown(page, selector):
     return page.evaluate("Array.from(document.querySelectorAll(%s), (e) => e.getClientRects().length > 0)" % json.dumps(selector))
 

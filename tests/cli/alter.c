@@ -1,6 +1,6 @@
-/* A library to be loaded before all others: what is bound to a statement of SQLite's is altered, once. ALTER=real or
- * ALTER=geometry says what, ALTER_AT which of these, from 1 on. ALTER=extent: a trigger that keeps a layer's extent is
- * not made. */
+/* A library to be preloaded. It changes one value that is bound to a statement of SQLite. ALTER=real or ALTER=geometry
+ * selects the kind of value, ALTER_AT its number, from 1 on. ALTER=extent: the trigger that maintains a layer's extent
+ * is not created. */
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <stdlib.h>

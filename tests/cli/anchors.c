@@ -19,7 +19,7 @@ typedef struct reader {
 
 static size_t read_count(reader *r) { return (size_t)strtoul(r->at, &r->at, 10); }
 
-/* False where there is too much of it. */
+/* Returns false if the set is too large. */
 static bool read_set(reader *r, size_t *polygons)
 {
     size_t rings = 0, corners = 0;

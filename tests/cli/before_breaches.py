@@ -67,7 +67,7 @@ def to_unit(value, unit):
 
 
 class Town:
-    """The layer as it was and as it was written, and where its features' anchors are."""
+    """The original and the written layer, with the anchors of the features."""
 
     def __init__(self, source, layer, roads, result):
         self.source, self.layer = rules_layers.open_layer(source, layer)

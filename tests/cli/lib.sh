@@ -27,9 +27,9 @@ run() {
     [ "${1:-},$status" != separate,3 ] || demand_upheld "$@"
 }
 
-# After separate IN.gpkg OUT.gpkg ...: what stays in conflict stands no worse, exactly, by code that reads the two
-# layers. Not asked where the words say what upheld.py does not know: other formats, units, symbols, barriers, choices of
-# features or of layers.
+# After separate IN.gpkg OUT.gpkg ...: no remaining conflict is worse than before, exactly, by code that reads the two
+# layers. The check is skipped for calls that upheld.py does not know: other formats, units, symbols, barriers,
+# selections of features or of layers.
 moved_pairs=0
 demand_upheld() {
     local rule=$SUNDER_BUILD/tests/standing_rule input=${2:-} output=${3:-} name= written= gap=0 word

@@ -70,7 +70,7 @@ def calls(command):
             yield "needs a value", name
             value = option["values"][0] if option["values"] else A_VALUE.get(kind, "a")
             twice = "%s %s %s %s" % (name, value, name, value)
-            # Where it may come twice, what is missed is the operand.
+            # If the option may be repeated, the missing operand is reported.
             yield ("sunder %s needs" % command["name"] if option["repeatable"] else "is given twice"), twice
             if kind == "enum":
                 yield "must be one of", name + "=nonsense"

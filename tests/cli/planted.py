@@ -12,7 +12,7 @@ import sys
 
 NOBODY = 65534
 MODES = {"0700": 0o700, "02700": 0o2700, "0755": 0o755, "0770": 0o770, "0777": 0o777, "01700": 0o1700, "0500": 0o500}
-# What a record calls the file that stepped aside; {k} tells the stages apart.
+# The name of a replaced file in a planted record; {k} is the number of the stage.
 NAMES = {
     "plain": "mine{k}",
     "up": "../victim",

@@ -75,7 +75,7 @@ def family(size, seed, coordinates):
     lines = subprocess.run([sys.argv[2]] + name.split(), capture_output=True, text=True, check=True).stdout.splitlines()
     p, q = rings_of(lines[0]), rings_of(lines[1])
     robot = [(-x, -y) for x, y in q[0]]
-    # A room as wide as high as it is, on its floor and against its right wall: its corner furthest right but for the walls.
+    # The goal: on the floor of a room and against its right wall, at the rightmost corner within the outer walls.
     xs = sorted({x for x, _ in p[0]})
     high = max(y for _, y in p[0])
     low = min(y for _, y in p[0])

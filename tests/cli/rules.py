@@ -227,7 +227,8 @@ class Checker:
     # ---- Ways
 
     def anchors(self):
-        """Old anchors: where the displacement layer begins; where a convex ring has its centroid; else as asked for."""
+        """Anchors before the moves: the start of the line in the displacement layer; the centroid of a convex ring;
+        otherwise from the library."""
         lay = self.layers
         given = lay.displacement_anchors()
         found, open_ones = {}, []

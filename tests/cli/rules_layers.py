@@ -216,7 +216,7 @@ class Layers:
         return grid
 
     def place_barriers(self):
-        """Barriers by their edges, so that one costs what of it is near."""
+        """Puts the edges of barriers into the index, so that the cost of a query depends on the nearby edges only."""
         self.barriers, self.edge_grid, self.owed_most = [], Grid(self.size), 0
         for key, rings, lines, half, gap, with_side in self.barriers_raw:
             thing = Thing()

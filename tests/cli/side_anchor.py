@@ -142,8 +142,9 @@ def size_of(box, unit):
 
 
 def side_anchor(members, lines, plain, unit, tolerance=0.0, known=math.inf):
-    """members: outlines of the feature's polygons; lines: all that may cut it or be seen from it; plain: the anchor, as doubles; unit: of
-    the integers, so many to one; tolerance, known (how far lines are known): doubles. None where no line cuts the feature."""
+    """members: outlines of the feature's polygons; lines: all that may cut it or be visible from it; plain: the anchor,
+    as doubles; unit: the number of integer units in one unit of the layer; tolerance, and known (the distance up to
+    which lines are known), are doubles. Returns None if no line cuts the feature."""
     lines = [e for e in lines if e[0] != e[1]]
     box = plane.box_of([p for o in members for e in o.edges for p in e])
     about = [e for e in lines if plane.boxes_near(plane.edge_box(e), box)]

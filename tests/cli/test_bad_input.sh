@@ -175,7 +175,7 @@ expect 0 check in.gpkg -l houses --bbox 100,100,101,101
 expect 0 sum empty.gpkg square:1
 same "$(jq -c .polygons out)" '[]'
 
-# FIDs that come twice, and none.
+# FIDs that occur twice, and features without a FID.
 expect 0 separate in.gpkg twice.gpkg --sql 'SELECT fid, geom FROM houses UNION ALL SELECT fid, geom FROM houses' --contained separate -q
 same "$(count twice.gpkg in)" 4 "nothing is lost:"
 expect 0 check twice.gpkg -l in --no-blocks

@@ -147,7 +147,7 @@ expect 3 separate in.gpkg o.gpkg -l houses -q --overwrite --max-shift 0.5 --barr
 same "$(value o.gpkg houses_conflicts 1 barrier) $(value o.gpkg houses_conflicts 1 barr_fid)" 'roads 1'
 same "$(value o.gpkg houses_conflicts 1 kind) $(value o.gpkg houses_conflicts 1 reason)" 'barrier_near max_shift'
 same "$(value o.gpkg houses_conflicts 1 fid_b)" '(null)'
-# Between a road and a fixed house there is no room; the conflict lists what blocks it.
+# There is no room between a road and a fixed house; the conflict lists what blocks it.
 layer squeeze.gpkg s POLYGON <<'X'
 id,WKT
 1,"POLYGON((0 1,10 1,10 9,0 9,0 1))"
@@ -188,8 +188,9 @@ beside 'LINESTRING(11 -20,11 40)' ,width=1e9 3
 beside 'MULTIPOINT((5 5),(5 5.0000000001),(5 5.000000000000001))' '' 0   # hardly different
 for ((k = 0; k < 60; k++)); do printf '%s5 %s,15 5.%03d' "$([ $k = 0 ] || echo '),(')" 5 $k; done >fan
 beside "MULTILINESTRING(($(cat fan)))" ,width=1 0                        # many at one place
-# A line across the layer with an end or both far away costs what it costs with ends near by, at home and in UTM; the lower
-# bound is no worse than half of it. A road with one corrupt vertex on the way is a line that goes there and comes back.
+# A line across the layer costs the same if one or both of its ends are far away, near the origin and in UTM
+# coordinates, and the lower bound is at least half as large. A road with one corrupt vertex is a line that goes there
+# and comes back.
 layer utm.gpkg t POLYGON <<'X'
 id,WKT
 1,"POLYGON((500000 5300000,500010 5300000,500010 5300010,500000 5300010,500000 5300000))"

@@ -1,7 +1,8 @@
 # shellcheck shell=bash disable=SC1091
-# Barriers with broken geometry (broken_barriers.py): an open ring is closed, as in a layer's polygons; a ring of fewer than
-# three vertices is told of by name; a coordinate that is no number ends the run by name. In each command that reads barriers,
-# with a limit on moves and without: a limit makes GDAL compare geometries with a box, which it does for valid ones alone.
+# Barriers with broken geometry (broken_barriers.py). An open ring is closed, as in polygons of a layer. A ring of fewer
+# than three vertices gets a message that names it. A coordinate that is not finite ends the run with a message that
+# names it. Every command that reads barriers is tested, with and without a limit on moves: with a limit GDAL compares
+# geometries with a box, which works only for valid ones.
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 command -v python3 >/dev/null || { echo "skipped: python3 is not installed"; exit 77; }
 

@@ -99,7 +99,8 @@ X
 expect 0 buffer unique.gpkg halves.gpkg --operation erode --shape 'POLYGON ((0 0, 0.5 0, 0.5 2, 0 2, 0 0))' --explode
 same "$(ogrinfo -ro -q -geom=NO halves.gpkg rows | sed -n 's/^  \(key\|sunder_fid\) .*= //p' | tr '\n' ' ')" '7 1 7 1 9 3 ' 'attributes of pieces:'
 
-# The field keeps its type; values that print alike are told apart, equal ones are not; its name may be that of a column.
+# The field keeps its type. Values that print alike but differ are different sets, equal values are one. The name of the
+# field may be that of a column.
 cat >kinds.json <<'JSON'
 {"type": "FeatureCollection", "features": [
 {"type": "Feature", "properties": {"features": 0.3, "day": "2020-01-02", "yes": true, "geom": "a", "l": [1]}, "geometry": {"type": "Polygon", "coordinates": [[[0, 0], [1, 0], [1, 1], [0, 0]]]}},
@@ -246,7 +247,7 @@ refused 2 'give one of them' buffer halls.gpkg n.gpkg --shape square:1 --dissolv
 refused 1 'no field nam' buffer halls.gpkg n.gpkg --shape square:1 --dissolve-field nam
 refused 1 'exists' buffer halls.gpkg open.gpkg --shape square:1
 refused 1 'input' buffer halls.gpkg halls.gpkg --shape square:1 --overwrite
-# What cannot be made ends all, of several features as of one, and it is said which.
+# A set that cannot be computed ends the run, also if others can; the message names the feature.
 cat >far.csv <<'CSV'
 WKT,name
 "POLYGON((0 0,2 0,2 2,0 0))",near

@@ -16,7 +16,8 @@ X
 expect 0 separate wild.csv wild.gpkg --fixed-where "id = '1'" --oo GEOM_POSSIBLE_NAMES=WKT
 grep -q 'FID 2: it moves by .*are its own coordinates corrupt' err || fail "no warning"
 
-# The same is said of two features alone, of a layer in parts, and of one that is merged from shards; of a sound one, never.
+# The same warning is printed for two features alone, for a layer in parts, and for one that is merged from shards; it
+# is never printed for a layer without corrupt coordinates.
 told() { # WORDS: what separate says of the layer, in words and as JSON, whole and in parts
     local messages
     for messages in text json; do

@@ -23,7 +23,7 @@ ending() {
     esac
 }
 
-# What is written reads back, and what is missing was told.
+# The output reads back, and everything that is missing was reported.
 written() {
     local driver=$1 command=$2 out=$3 main=$4 names losses wanted=3
     jq -r '.losses[]?' stats.json >losses

@@ -1,6 +1,6 @@
 # shellcheck shell=bash
-# Features that conflict with nothing are told of and counted, by separate, check and buffer, in words and in figures: rings
-# that enclose nothing by the even-odd rule, coordinates that are no finite numbers, null and empty geometries.
+# Features that are left out get a message and are counted, by separate, check and buffer, in text and in JSON: rings
+# that enclose no area by the even-odd rule, coordinates that are not finite, null and empty geometries.
 . "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
 command -v python3 >/dev/null || { echo "skipped: python3 is not installed"; exit 77; }
 
@@ -46,7 +46,7 @@ same "$(jq -c '[.skipped, .invalid, .null]' check.json)" '[25,24,1]'
 expect 0 buffer nothing.gpkg grown.gpkg --shape square:1 --stats buffer.json
 same "$(jq -c '[.features, .empty, .invalid, .rounded_again, has("repaired")]' buffer.json)" '[27,25,24,0,false]'
 says out '27 features (invalid 24, null 1)'
-# What the even-odd rule does give is taken, and is not called nothing.
+# An area that the even-odd rule gives is used, and there is no message that the rings enclose none.
 layer bow.gpkg h POLYGON <<'CSV'
 WKT,name
 "POLYGON ((0 0,10 10,10 0,0 10,0 0))",bow

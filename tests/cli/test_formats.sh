@@ -19,7 +19,8 @@ print(json.dumps({'type': 'FeatureCollection', 'crs': {'type': 'name', 'properti
         "$1" "$2" "${3:-False}"
 }
 
-# ---- names that differ in case only: each field of them has its values, the names are told, and no two are the same
+# ---- field names that differ in case only: each field keeps its values, new names are reported, and no two are the
+# same
 for seed in 1 2 3; do
     rm -f case.*
     python3 - $seed >case.names <<'PY'

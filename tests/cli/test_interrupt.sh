@@ -27,8 +27,9 @@ caught() {
     sleep 0.3
 }
 
-# held SIGNALS ARGS: runs the program and sends the signals; sets $status. strike keeps the alarm back by which a run is
-# ended that does not look, so that one signal ends nothing but what hears it. (The subshell does not ignore SIGINT.)
+# held SIGNALS ARGS: runs the program and sends the signals; sets $status. strike withholds SIGALRM, by which the
+# program would end a call that does not poll for signals. So a signal ends only code that polls. (The subshell does not
+# ignore SIGINT.)
 held() {
     local signals=$1 pid child
     shift
@@ -71,7 +72,7 @@ interrupted separate in.gpkg o.gpkg --sql "SELECT * FROM houses WHERE $count > 0
 interrupted check in.gpkg --dialect sqlite --sql "SELECT * FROM houses WHERE $count > 0"
 interrupted separate in.gpkg o.gpkg --fixed-where "$count > 0"
 
-# ---- in a statement of what is written: what is there stays, and the journal goes
+# ---- within an SQL statement of the output: the old content stays, and the journal is removed
 interrupted_writing() {
     "$SUNDER" separate in.gpkg o.gpkg -q --layers main --no-styles && sqlite3 o.gpkg "$1" >mode
     shift

@@ -54,7 +54,7 @@ separate --allow-inexact-output --stats seq.json thirds.gpkg moved.geojsonl 2>/d
 separate --allow-inexact-output --layers main --where "name = 'one'" thirds.gpkg single.geojsonl 2>/dev/null ||
     fail "GeoJSONSeq of one feature is not read back"
 
-# ---- standard output: the main layer, complete, nothing else
+# ---- standard output: the complete main layer, and nothing else
 "$SUNDER" separate --input-layer squares --of GeoJSON squares.gpkg /vsistdout/ >stdout.geojson 2>message
 [ "$(ogrinfo -ro -al -so stdout.geojson | sed -n 's/^Feature Count: //p')" = 3 ] || fail "standard output is no whole layer"
 refused 1 'several files' separate --of 'ESRI Shapefile' squares.gpkg /vsistdout/

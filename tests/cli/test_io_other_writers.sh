@@ -83,7 +83,7 @@ for mode in delete wal; do
     done
 done
 
-# What is no database any more, though it begins as one, is renamed over.
+# A damaged file that begins like a database is replaced by a rename.
 head -c 5000 delete.gpkg >o.gpkg && dd if=/dev/zero of=o.gpkg bs=1 seek=16 count=4984 conv=notrunc 2>/dev/null
 expect 0 separate in.gpkg o.gpkg --overwrite -q
 same "$(ask o.gpkg 'PRAGMA integrity_check')" ok 'over a damaged file'

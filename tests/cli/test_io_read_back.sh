@@ -1,6 +1,6 @@
 # shellcheck shell=bash disable=SC1091
-# A GeoPackage is read back past GDAL where its rows are plain, and by GDAL where they are not: one number that is not
-# what was sent is found either way, and nothing appears.
+# A GeoPackage is read back without GDAL if its rows are plain, and by GDAL otherwise. In both cases one changed number
+# is detected, and no output appears.
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 alter=$SUNDER_BUILD/tests/libalter.so
 [ -e "$alter" ] || { echo "skipped: tests/libalter.so is not built"; exit 77; }

@@ -5,7 +5,7 @@ set -eu
 . "$(dirname "${BASH_SOURCE[0]}")/io_layers.sh"
 make_rich
 
-# ---- GeoPackage to GeoPackage: all of it
+# ---- GeoPackage to GeoPackage: nothing is lost
 "$SUNDER" separate --quiet --strict rich.gpkg out.gpkg
 ogrinfo -ro rich.gpkg | grep -A1 '^Metadata' >rich.metadata
 ogrinfo -ro out.gpkg | grep -A1 '^Metadata' | diff rich.metadata - || fail "the dataset's metadata changed"

@@ -26,7 +26,7 @@ says out 'barrier 1, barrier drawn 3, barrier near 1,'
 counts='{"overlap":0,"too_close":0,"barrier":1,"barrier_drawn":3,"barrier_near":1,"contained":0,"duplicate":0,"inside_blocks":0}'
 same "$(jq -c .conflicts s.json)" "$counts"
 
-# A width without a gap: what is near is on what is drawn.
+# A width without a gap: near features are within the drawn width.
 expect 3 check in.gpkg --barrier roads.gpkg,width=14
 says out 'barrier 1, barrier drawn 4, barrier near 0,'
 # A gap without a width: nothing is drawn.

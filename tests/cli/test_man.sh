@@ -4,7 +4,7 @@
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 page=$SUNDER_SOURCE/gis/sunder.1
 
-# "--gap LENGTH [0]", "--of FORMAT (-f, -of, --format) [by name]", a line each, as they stand in a page.
+# Prints "--gap LENGTH [0]", "--of FORMAT (-f, -of, --format) [by name]", one per line, as in a page.
 headings() { sed -n '/^\.SH OPTIONS/,/^\.SH [A-Z]/ s/^\.B \(\\-.*\)/\1/p' "$1" | sed 's/\\//g' | sort; }
 sed -n '/^\.SH OPTIONS/,$ p' "$page" | sed '1! { /^\.SH/,$ d }' >options
 headings options >page.txt

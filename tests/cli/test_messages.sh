@@ -153,7 +153,7 @@ line = json.loads(open("err", encoding="utf-8").read())
 assert (line["layer"], line["fid"], line["id"]) == ("odd\ufffd", 1, "k" + 4 * "\ufffd"), line
 X
 
-# Numbers part no kinds of what GDAL says; where it says it at all, which 3.10 does not of these.
+# Messages of GDAL that differ only in numbers are of one kind. (GDAL 3.10 does not print this one.)
 {
     echo id,n,WKT
     for i in $(seq 1 25); do echo "$i,12345678901234567890123$i,\"POLYGON(($((10 * i)) 0,$((10 * i + 4)) 0,$((10 * i + 4)) 4,$((10 * i)) 0))\""; done

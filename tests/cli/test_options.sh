@@ -11,7 +11,7 @@ refused 2 'unknown option' separate --options-json a b
 for command in separate check sum pair buffer route plan merge; do "$SUNDER" $command --help >help.$command; done
 python3 "$SUNDER_SOURCE/tests/cli/options.py" help <options.json >said || fail "$(cat said)"
 
-# Each option by itself, in all of its spellings, is asked of the parser: is there a value to it, may it come twice?
+# Each option is given to the parser by itself, in all of its spellings: does it take a value, may it be repeated?
 python3 "$SUNDER_SOURCE/tests/cli/options.py" calls <options.json >calls || fail "no list of calls"
 [ "$(wc -l <calls)" -ge 300 ] || fail "only $(wc -l <calls) calls"
 cut -f 2- calls | tr '\t' ' ' | "$SUNDER_BUILD/tests/calls" >answers || fail "calls ends with $?"
@@ -22,7 +22,7 @@ while IFS=$'\t' read -r words command option status said; do
     [[ $said =~ $words ]] || fail "$command $option: not '$words', but '$said'"
 done <asked
 
-# What is needed is missed, and nothing else is.
+# A missing required option is reported, and no other.
 layer in.gpkg houses POLYGON <<'X'
 id,WKT
 1,"POLYGON((0 0,4 0,4 4,0 4,0 0))"

@@ -157,7 +157,7 @@ P
 expect 3 separate evil.gpkg bytes.gpkg -l fine --gap 3 --max-shift 0.1 --id-field id --report bytes.html --touch-tolerance 0
 page bytes.html
 
-# Where it may go, and where not.
+# Allowed and forbidden destinations of the page.
 refused 2 'give its name' separate in.gpkg o.gpkg --report -
 refused 2 'that is the output' separate in.gpkg o.gpkg --report ./o.gpkg
 refused 2 'that is an input' separate in.gpkg o.gpkg --report in.gpkg

@@ -36,7 +36,7 @@ for n in 1 2 7 64; do
 done
 cp -r plan7 done7
 
-# Done twice, two at once, by way of names that come and go: nothing changes.
+# A shard that runs twice, by two processes at the same time, or by a temporary path, does not change.
 cksum plan7/shard-3 >before3
 expect 0 separate --shard 3 plan7
 says out 'was done already'

@@ -19,7 +19,7 @@ case $row in *'row (Integer64) = 1 '*'houses (Integer64) = 5 '*'kink_bef (Real) 
 [ "$(ogrinfo -q -sql 'SELECT count(*) AS n FROM layer_styles WHERE f_table_name = "street_rows"' o.gpkg | grep -c 'n (Integer) = 1')" = 1 ] ||
     fail "the layer of rows has no style"
 
-# Rows are only reported: what is written besides is what is written without them.
+# Rows are only reported: all other output is the same as without them.
 expect 0 separate street.gpkg plain.gpkg --gap 3 --stats plain.json
 ogrinfo -q plain.gpkg | grep -q rows && fail "rows, unasked"
 [ "$(jq .rows plain.json)" = null ] || fail "figures of rows, unasked"

@@ -39,7 +39,7 @@ for layout in chain block one_place few duplicates great clusters; do
     alike $layout '3' --gap 1 --effort 0 --block-field blk --contained separate --max-shift 20
 done
 alike block '1 64' --gap 2 --effort 0.05
-# What is fixed may be in conflict for ever, and in the way of what moves.
+# Fixed features may stay in conflict, and in the way of features that move.
 for layout in chain duplicates great clusters; do
     alike $layout '6' --gap 4 --effort 0 --max-shift 1 --fixed-where 'fid % 3 > 0'
 done

@@ -53,7 +53,7 @@ expect 0 sum --exact "$huge" "$huge"
 same "$(jq -r '.polygons[0].outer[2][0]|length' out)" 309 "digits of 3.4e308"
 expect 0 sum "$huge" "$huge" --stats -
 
-# Layers, with what they are off by; all of them, empty ones too.
+# Output as layers, with their deviation: all layers are written, empty ones too.
 expect 0 sum "$frame" square:4 o.gpkg --stats o.json
 [ ! -s out ] || fail "something on stdout beside the layers"
 same "$(count o.gpkg sum) $(count o.gpkg sum_degenerate_segments) $(count o.gpkg sum_degenerate_points)" '1 0 1'

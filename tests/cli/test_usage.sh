@@ -30,7 +30,7 @@ refused 2 'unknown command' dissolve a b
 refused 2 'a command is missing'
 refused 2 'unknown option' --nonsense
 
-# A slip of the pen is told from nonsense.
+# A typing error gets a suggestion, an unknown word does not.
 refused 2 'did you mean separate?' seperate a b
 refused 2 'did you mean --overwrite?' separate a b --overwite
 refused 2 'did you mean --gap?' separate a b -gap 3

@@ -17,7 +17,7 @@ export SOURCE_DATE_EPOCH=1700000000
 options=(--gap 3 --effort 0 --input-layer buildings)
 "$build/sunder-town" --buildings "$buildings" --seed 7 town.gpkg >/dev/null
 
-# step NAME COMMAND...: what is left in conflict is no failure.
+# step NAME COMMAND...: remaining conflicts are no failure.
 step() {
     local status=0 name=$1
     shift

@@ -58,7 +58,8 @@ within() { # ROOT COMMAND...
         QT_QPA_PLATFORM=offscreen "$@"
 }
 
-# Packages of the sources as they stand, for the release of that root, into a folder. Nothing of the build is left there.
+# Makes packages of the present sources, for the release of that root, in a folder. No files of the build are left in
+# the root.
 build_packages() { # ROOT FOLDER; ROOT / is this machine
     local tree=$1/var/tmp/sunder-source
     [[ $1 != / ]] || tree=$scratch/source
@@ -77,7 +78,7 @@ build_packages() { # ROOT FOLDER; ROOT / is this machine
     rm -rf "$tree"
 }
 
-# Installs the packages in a root without sources, runs what is in them, takes them away again; says what is left behind.
+# Installs the packages in a root without sources, runs their programs, removes them, and lists the files that are left.
 try_packages() { # ROOT FOLDER
     local root=$1 name
     mkdir -p "$root/packages"

@@ -1,4 +1,4 @@
-# Run in a root where the packages are installed and nothing else of Sunder is: does each do what it is for?
+# Runs in a root where the packages are installed, and no sources of Sunder: does each package work?
 set -eu
 work=$(mktemp -d)
 cd "$work"

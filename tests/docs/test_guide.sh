@@ -1,7 +1,7 @@
 # shellcheck shell=bash
-# The README, the tutorial and the pages of the guide do what they say: each is run as it is written, from a fresh home
-# directory, and what it prints is compared (guide.py). With --record what is printed is put into the pages instead:
-# bash tests/docs/test_guide.sh --record [PAGE ...], with SUNDER_BUILD.
+# The README, the tutorial and the pages of the guide are true: each is run as it is written, from a fresh home
+# directory, and its output is compared (guide.py). With --record the output is written into the pages instead: bash
+# tests/docs/test_guide.sh --record [PAGE ...], with SUNDER_BUILD.
 set -eu
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd -P)
 source=$(cd "$here/../.." && pwd -P)

@@ -52,7 +52,8 @@ scenario() {
     fi
 }
 
-# What a reader finds. SQLite first does what it does when a database is opened: it rolls back what was interrupted.
+# The state of the output as a reader finds it. When a database is opened, SQLite first rolls back an interrupted
+# transaction.
 state() {
     if [ -e "dir/$output-journal" ] || [ -e "dir/$output-wal" ]; then
         ogrinfo -q "dir/$output" >/dev/null 2>&1 # opens for writing

@@ -51,7 +51,7 @@ state() {
     ls -Ad .sunder-* s.json 2>/dev/null)
 }
 
-# struck WAY PLACE; sets $calls, $status, $call, $shown, and $said: what is told of the signal.
+# struck WAY PLACE; sets $calls, $status, $call, $shown, and $said, the expected message about the signal.
 turn=0
 said='sunder: error: interrupted'
 struck() {

@@ -14,7 +14,7 @@ static sunder_place choose_place(fuzz_bytes *bytes, fuzz_scale scale)
     return (sunder_place){{x, y}, {NULL, NULL}};
 }
 
-/* What is asked for: are the places finite, and the points of obstacles; may memory run out? */
+/* Properties of the request: are the places finite, are the points of obstacles finite, may memory run out? */
 typedef struct asked {
     bool places, points, failing;
 } asked;

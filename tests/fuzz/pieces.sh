@@ -68,15 +68,14 @@ piece() { # NAME SECONDS
     begin "$name"
     inputs=$(find "$state/$name" -type f | wc -l)
     local TIMEFORMAT='%U %S'
-    # Leaks are looked for at the end of each input as ever; a seed of its own for each piece. An input that takes little
-    # time is drawn more often than one that takes much, up to thirty times: a hundredth of the inputs took half of the time,
-    # and what leads somewhere is found sooner so. Which of them are rare is hardly asked: with some thousand inputs of some
-    # thousand features each that takes more time than what is asked of them. Nor is the folder looked through each second
-    # for what others may have put there.
-    # The time limit of an input is by the clock, and other work on the machine slows the run down.
-    # Stacks of allocations are one frame deep; run a finding by itself to see more. What was freed is held back up
-    # to 1 MB: with 8 MB a reader's target makes a third fewer executions. Memory is not returned to the system, and
-    # only the first 256 bytes of an allocation are filled with a pattern, not the first four thousand.
+    # Options of libFuzzer. Leaks are looked for at the end of each input; each piece has a seed of its own. Inputs that
+    # take little time are drawn up to thirty times as often as slow ones: a hundredth of the inputs took half of the
+    # time, and new code is found sooner this way. Entropic scheduling by rare features is nearly off, since for some
+    # thousand inputs of some thousand features each it takes more time than the target. The folder is not scanned each
+    # second for inputs of other processes. The time limit of an input is in real time, and other work on the machine
+    # slows the run. Stacks of allocations are one frame deep; run a finding by itself to see more. Freed memory is
+    # quarantined up to 1 MB: with 8 MB the target of a reader makes a third fewer executions. Memory is not returned to
+    # the system, and only the first 256 bytes of an allocation are filled with a pattern, not the first four thousand.
     local checks=malloc_context_size=1:quarantine_size_mb=1:thread_local_quarantine_size_kb=64
     checks=$checks:allocator_release_to_os_interval_ms=-1:max_malloc_fill_size=256
     local schedule=(-entropic=1 -entropic_scale_per_exec_time=1

@@ -1,5 +1,5 @@
-/* What plans and shards are made of is written as it lies in memory, but for bytes that no member has: these are
- * nought. The compiler, where it can be asked, knows them by itself. */
+/* Plans and shards are written as their structs lie in memory, except for padding, whose bytes are zero. The compiler,
+ * if it has a builtin for it, finds the padding by itself. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -266,7 +266,7 @@ static void demand_same_sums(const sunder_report *whole, const gis_joined *j)
     assert_true(s.cost == t->cost && s.lower_bound == t->lower_bound && s.verified == t->verified);
 }
 
-/* Each part in a file of its own, or all of them in one. */
+/* Writes each part into a file of its own, or all of them into one. */
 static void separate_parts(gis_layout *layout, unsigned shards, bool apart)
 {
     gis_part_file file = {0};

@@ -435,7 +435,7 @@ static bool pass(void *user, const gis_spool_feature *feature, gis_error *error)
     return true;
 }
 
-/* All of it read, or the error. */
+/* Reads the whole spool; false: the error. */
 static bool read_all(gis_error *error)
 {
     gis_spool *spool;

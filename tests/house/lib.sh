@@ -1,5 +1,5 @@
 # shellcheck shell=bash
-# What the tests of the house share: where the sources are, the list of floors, and a tally of what is wrong.
+# Functions shared by the tests of the house: the root of the sources, the list of floors, and a count of faults.
 root=$SUNDER_SOURCE
 wrong=0
 

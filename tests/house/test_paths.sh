@@ -1,7 +1,7 @@
 # shellcheck shell=bash disable=SC1091
-# Nothing of the program calls GDAL's functions for paths, which answer "" for what is longer than 2,047 bytes, nor
-# CPLSPrintf(), which cuts texts at 8,000: gis/base/path.h has what is called in their place. Nor are paths put together in
-# arrays of a fixed size.
+# The program does not call GDAL's functions for paths, which return "" for paths longer than 2,047 bytes, or
+# CPLSPrintf(), which cuts texts at 8,000 bytes; gis/base/path.h has functions in their place. Paths are not put
+# together in arrays of a fixed size.
 . "$SUNDER_SOURCE/tests/house/lib.sh" || exit 1
 functions='CPLSPrintf|CPLFormFilename|CPLFormCIFilename|CPLGetPath|CPLGetDirname|CPLGetFilename|CPLGetBasename|CPLGetExtension'
 functions+='|CPLResetExtension|CPLGetCurrentDir|CPLProjectRelativeFilename|CPLExtractRelativePath|CPLCleanTrailingSlash'

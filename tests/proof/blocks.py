@@ -151,7 +151,7 @@ class Blocks:
         return any(plane.parts_them(p, q, x, y) for _, x, y in sorted(places))
 
     def disc_fits(self, p, q, a, b):
-        """Is there a place for the disc in what the two share?"""
+        """Is there room for the disc in the intersection?"""
         lattice = self.problem.lattice
         disc = [tuple(map(lattice, v)) for v in self.disc_told]
         box = [f(x, y) for f, x, y in zip((max, max, min, min), p.box, q.box)]
@@ -228,7 +228,7 @@ def near_edges(p, q, reach):
 
 
 def contacts(p, q, reach):
-    """plane.contact_segments(), but for those that are farther from the origin than reach."""
+    """plane.contact_segments() without those that are farther from the origin than reach."""
     found = set()
     for a, b, sign in ((p, q, 1), (q, p, -1)):
         corners = {v for e in plane.near_edges(b, a.box, reach) for v in e}

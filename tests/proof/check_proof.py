@@ -60,7 +60,7 @@ def check_header(head, options, layer):
 
 
 class Checker:
-    """Of one run's options: any file of --proof may be asked about."""
+    """Checks files of --proof with the options of one run."""
 
     def __init__(self, options):
         self.problem = Problem(options.input, options)

@@ -35,8 +35,8 @@ UNSEEN = {
 
 
 class Switch:
-    """demand(), but for the one that is off; says where it was that refused. Off for good is the comparison of the sum with what the
-    result costs, which the judge makes, too."""
+    """demand() with one test switched off; records which test refused. One test is always off: the comparison of the
+    sum with the cost of the result, which the judge makes, too."""
     off = last = None
 
     def __call__(self, condition, *words):

@@ -35,7 +35,7 @@ def check(problem, told):
 
 
 def is_too_near(problem, a, b):
-    """As they stand at the start."""
+    """For the places at the start."""
     p, q = (problem.whole(k) for k in ((a, b) if problem.whole(a).area else (b, a)))
     owed = problem.required(a, b)
     return plane.interiors_meet(p, q) or (owed > 0 and plane.nearer(p, q, owed))

@@ -104,7 +104,7 @@ case("shadow-without-anchor", "without the anchor", {1: WALL, 2: HOUSE}, lambda 
     "--no-blocks --max-shift-field m --contained separate")
 
 
-# ---- Prices: two houses that lie on each other for 4, and of which each goes 2
+# ---- Prices: two houses that overlap by 4, so that each has to move by 2
 
 PAYERS = {1: box(-8, 0, 2, 10), 2: box(-2, 0, 8, 10)}
 ROW = [0, 0, 140, 280, 420, 280, 140]  # from the fourth column on, these prove 5.8

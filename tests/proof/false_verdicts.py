@@ -59,7 +59,7 @@ AWAY = {4: (9, 0)}
 
 
 def aside(name, refusal, layer, questions, last, listed=(), **more):
-    """A pair in whose way something else is said to be."""
+    """A pair that another feature is claimed to block."""
     blamed = sorted({k for q in questions for k in (q["a"], q["b"])})
     case(name, refusal, {**layer, **ASIDE}, [conflict(3, 4, "no_room", blocked_by=blamed, proof=chain(questions, last)), *listed], AWAY,
          **more)

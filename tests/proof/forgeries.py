@@ -86,7 +86,8 @@ class Run:
         return self.judge.cost_of(line) if "bodies" in line else self.cost
 
     def wrong_with(self, lines):
-        """(None, where it is refused or is no more than true, else what is wrong; whether it is accepted)"""
+        """Returns (None if the lines are refused or claim no more than is true, otherwise what is wrong; whether they
+        are accepted)."""
         status, said = check_proof.answer(self.checker, lambda: read_lines(lines))
         if status:
             in_words = said.startswith("refused: ") and "not in the form of a proof" not in said
@@ -170,7 +171,8 @@ CHANGES = {
 
 
 def changed(line, path, name):
-    """The line with one place of it changed; as text where JSON would not write it so. What is not on the path is shared."""
+    """The line with one value changed, as text if JSON would not write it so. Objects that are not on the path are
+    shared with the original."""
     at = line
     for step in path[:-1]:
         at = at[step]
@@ -248,8 +250,8 @@ def strangers(runs):
 
 
 def wrong_with_options(run, words):
-    """Without the result, which is of the true options. What is accepted, of the same problem by all that decides, claims what
-    is true of it."""
+    """Checks without the result, which belongs to the true options. If the problem with the changed options is the same
+    in all that matters, the accepted claims have to be true for it."""
     at = words.index("--result")
     words = words[:at] + words[at + 2:]
     try:

@@ -39,7 +39,7 @@ def index(value, n, what):
     return value
 
 
-# ---- Kinds of values. Each takes what JSON has, and where it stands, and returns the value.
+# ---- Kinds of values. Each function takes a JSON value and its place in the file, and returns the value.
 
 def number(value, where):
     demand(type(value) in (int, float), "no number:", where)
@@ -231,7 +231,7 @@ class Proof:
         demand([c["conflict"] for c in self.conflicts] == list(range(len(self.conflicts))), "conflicts are not in order")
 
     def entries(self):
-        """(kind of line, what is read of it)"""
+        """Yields (kind of line, its content)."""
         order, at = ["head", *LINES], 0
         for k, line in enumerate(self.lines, 1):
             demand(type(line) is dict and (k > 1 or line.get("sunder_proof") == VERSION), "no proof of this version")

@@ -144,7 +144,7 @@ for k in range(int(sys.argv[1])):
         layer "$3.gpkg" buildings MULTIPOLYGON
 }
 
-# What stands in their way: a road, and an area of two members that overlap.
+# The barriers in their way: a road, and an area of two members that overlap.
 make_among_members() {
     printf 'WKT,w\n"LINESTRING(599990 5000019,600060 5000021)",1\n' | layer street.gpkg street LINESTRING
     printf 'WKT,w\n"MULTIPOLYGON(((600051 4999990,600060 4999990,600060 5000010,600051 5000010,600051 4999990)),((600053 5000005,600070 5000005,600070 5000040,600053 5000040,600053 5000005)))",1\n' |

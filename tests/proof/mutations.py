@@ -302,7 +302,7 @@ def same_side_twice(told):
 
 
 def drop_sides(told):
-    """A chord that is told to be a side."""
+    """Presents a chord as a side."""
     for node in chords(told):
         for key in ("c", "side_b", "side_c"):
             del node[key]
@@ -363,7 +363,8 @@ def push_line(told):
 
 
 def turn_lines(told):
-    """Both by as little as doubles can tell: then they are no edges of what the two stood by."""
+    """Turns both lines by the least that doubles can express: then they are no longer edges of the shapes that touch
+    there."""
     for leaf in leaves_still(told):
         for node, way in leaf["still"]:
             n = told["proof"][node]["ways"][way]["n"]

@@ -1,6 +1,7 @@
-"""Does one set lie in another up to a tolerance? That is, in the other grown by a polygon of 16 corners within the disc of that
-radius (discs.within()), the corners of the sum being the nearest doubles. First by the distances of edges, between a disc that this polygon
-contains and the whole one; what lies between the two is asked of the sum itself. Integers and fractions alone."""
+"""Does one set lie in another up to a tolerance? This means: in the other grown by a polygon of 16 corners within the
+disc of that radius (discs.within()), with the corners of the sum rounded to the nearest doubles. First distances of
+edges are compared with a disc inside this polygon and with the whole disc. Only if they lie between the two is the
+sum computed. All arithmetic is in integers and fractions."""
 from fractions import Fraction
 
 import discs

@@ -1,4 +1,5 @@
-"""What mutations.py does to a line with prices: False where it has nothing of the kind; else the words of the refusal."""
+"""The changes that mutations.py makes to a line with prices. Each function returns False if the line has nothing of its
+kind, otherwise the words of the expected refusal."""
 import copy
 
 FALLS_SHORT = "the prices prove"

@@ -283,7 +283,7 @@ class Problem:
         return self.stood[pair]
 
     def demand_part(self, key, corners):
-        """Corners of a part of it, on the lattice."""
+        """Fails unless the corners, on the lattice, are those of a part of the thing."""
         part = tuple(self.lattice.point(p) for p in corners)
         demand(self.things[key].has_part(part), "a part does not lie in", key)
         return part
@@ -404,7 +404,7 @@ class Problem:
         return (place,), chord
 
     def demand_feature(self, told):
-        """A member of a body: what the file says of it is what the layer and the options do."""
+        """A member of a body: what the file says about it equals what the layer and the options give."""
         fid, limit = told["fid"], told["max_shift"]
         demand(fid in self.things and not self.is_barrier(fid) and fid not in self.skipped, "there is no feature", fid)
         demand(limit == self.own_limit(fid), "the limit of", fid, "is", self.own_limit(fid), "and not", limit)

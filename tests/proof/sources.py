@@ -32,7 +32,8 @@ def converted(words, name):
 
 
 class Source:
-    """A data source, and what is selected of it: the layer's name, statement, dialect, box, CRS; None where they are not given."""
+    """A data source and a selection from it: the layer's name, statement, dialect, box, CRS; None if they are not
+    given."""
 
     def __init__(self, path, name=None, sql=None, dialect=None, bbox=None, crs=None):
         self.path, self.name, self.sql, self.dialect, self.bbox, self.crs = path, name, sql, dialect, bbox, crs

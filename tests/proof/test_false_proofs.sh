@@ -1,6 +1,7 @@
 # shellcheck shell=bash disable=SC1091
-# Are proofs refused that are made from scratch to deceive the checker, each with one thing that does not follow (false_proofs.py)? Of each
-# it is shown, too, that its claim is false. And what is said stays one line, whatever the file has for names.
+# Are proofs refused that were made from scratch to deceive the checker, each with one step that does not follow
+# (false_proofs.py)? For each of them its claim is shown to be false, too. A message is always one line, for all names
+# that the file contains.
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 command -v python3 >/dev/null || { echo "skipped: no python3"; exit 77; }
 export PYTHONDONTWRITEBYTECODE=1

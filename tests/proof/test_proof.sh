@@ -88,7 +88,7 @@ make_hairpin
 proved hairpin between.gpkg --no-blocks --max-shift 10 --barrier hairpin.gpkg,width=1,side=no,gap=0.1
 grep -q '"barrier": "hairpin:1".*"barrier": "hairpin:1"' hairpin.jsonl || fail "no tree has two parts of a road"
 
-# What is printed is what the file proves, and no other number without the file.
+# The printed bound is the proved one, and the same number is printed without --proof.
 same_bound() { # NAME SOURCE OPTIONS...
     local name=$1 source=$2 told=lower_bound
     shift 2
@@ -109,8 +109,8 @@ for effort in 0 1; do
     same_bound through_anchor through_anchor.gpkg --gap 2 --no-blocks --max-shift 3 --barrier across.gpkg,width=1 --allow-jumps --effort $effort
 done
 
-# A road that runs through a house, and comes back beneath it: the pair is listed, and so the house owes nothing to what is
-# beneath it either, when the house above asks for room.
+# A road runs through a house and comes back beneath it. The pair is listed, so the house does not owe a distance to the
+# lower part of the road either when the house above needs room.
 printf 'WKT,w\n"LINESTRING(%s)",1\n' "-30 5,40 5,44 4,40 3,44 2,40 1,44 0,40 -1,44 -2,40 -3,44 -4,40 -5,44 -6,40 -1.1,-10 -1.1" | layer road.gpkg road LINESTRING
 make_houses
 proved back houses.gpkg --gap 1 --max-shift 1 --no-blocks --barrier road.gpkg

@@ -147,8 +147,8 @@ class Verdict:
         return False, square
 
     def check_ways(self, polygon, ways, inside, square):
-        """What lies behind all ways is bounded, and its corners are in conflict: no farther from the polygon than what that
-        is the square of, or with a disc of that size inside it."""
+        """The set behind all ways is bounded, and each of its corners is in conflict: its squared distance from the
+        polygon is at most `square`, or, with `inside`, a disc of that size about it lies inside the polygon."""
         for w in ways:
             for along in ((w[1], -w[0]), (-w[1], w[0])):
                 demand(any(m[0] * along[0] + m[1] * along[1] > 0 for m in ways), "the ways leave a direction out")

@@ -53,8 +53,8 @@ static void draw_row(rng *r, row *w)
     draw_steps(r, w, fixed, unit);
     double from = at;
     for (size_t k = 0; k < w->n; k++) {
-        /* Neighbours differ by less than the longest move; two features that are not neighbours are beyond all
-         * moves. */
+        /* A pair of neighbours lacks exactly the difference of their two moves; boxes that are not neighbours are too
+         * far apart to meet. */
         const double to = from + (double)rng_int(r, 600, 900) * (double)MOST * unit, wide = 8000 * MOST * unit;
         add_box(w, from, to, at + (double)rng_int(r, 0, 40) * unit, wide);
         if (k + 1 < w->n) from = to + w->scene.options.gap - (w->t[k + 1] - w->t[k]);

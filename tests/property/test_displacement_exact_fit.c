@@ -68,7 +68,7 @@ static void add_shape(row *w, bool corners, int64_t from, int64_t to, int64_t le
     add(w, xy, 4, limit);
 }
 
-/* Where coordinates are, and in what steps. */
+/* The range and the step of coordinates. */
 static void draw_grid(rng *r, row *w)
 {
     static const int64_t way[][3] = {{1, 0, 1}, {0, 1, 1},  {-1, 0, 1},   {0, -1, 1},

@@ -57,10 +57,10 @@ typedef struct town {
 typedef struct outcome {
     double move[2 * MOST], cost, longest;
     size_t conflicts, clusters;
-    bool proved;                         /* all groups are said to be at their optimum */
+    bool proved;                         /* are all groups reported as optimal? */
     size_t conflict[2 * MOST * MOST];    /* pairs of features */
     bool overlaps[MOST * MOST];          /* the interiors of each meet */
-    sunder_bound_pair pair[MOST * MOST]; /* what the lower bound stands on */
+    sunder_bound_pair pair[MOST * MOST]; /* the pairs of the lower bound */
     size_t pairs;
 } outcome;
 

@@ -1,8 +1,8 @@
-/* What is said of conflicts that limits leave, against layers whose answer is known.
+/* The reasons of conflicts that remain within limits, compared with layers whose answer is known.
  *
- * Planted: boxes that stand apart are carried off by no more than the limit each, so that there is a solution: no
- * conflict may be blamed on the limits or on want of room. Packed: boxes too wide together for the lane they cannot
- * leave: what remains is for want of room, and said to be. */
+ * Planted: boxes that stand apart are moved by at most their limits, so a solution exists: no conflict may have a
+ * reason of limits or of missing room. Packed: boxes that together are too wide for the lane that they cannot leave:
+ * the remaining conflicts are for want of room, and have that reason. */
 #include "random.h"
 #include "run_layer.h"
 

@@ -28,7 +28,8 @@ static const double OPTIMAL = 1e-6, OPTIMAL_TOO = 1e-7;
  * there is for certain. Where one coordinate uses up all of a limit such a place may be off by a ten-thousandth in the
  * other, and cost as much less. */
 static const double WITHIN = 1e-8;
-/* And so far it is outside of shadows: they are closed, and where there is no room to spare nothing is beside one. */
+/* The distance that a move keeps from shadows. These are closed, and if there is no room to spare no move is free
+ * beside one. */
 static const double BESIDE = 1e-7;
 
 typedef struct tally {

@@ -91,7 +91,7 @@ static void check_exact_fits(void **state)
     for (size_t trial = 0; trial < trials; trial++) {
         rng r = rng_start(test_seed(), trial);
         proof_town t;
-        /* No room to spare, or a unit of it. */
+        /* Boxes with no room to spare, or one unit too little. */
         pack(&r, &t, rng_once_in(&r, 2) ? 0 : -1);
         sunder_report *report = proof_town_separate(&t);
         size_t n;
@@ -190,7 +190,7 @@ static void check_held(void **state)
 
 /* ---- What stops it --------------------------------------------------------------------------------------------- */
 
-/* None of blocked_by can be left out: the pair and all of them but one have a solution. */
+/* No thing of blocked_by can be left out: the pair and all of them except one have a solution. */
 static void check_irreducible(void **state)
 {
     (void)state;
@@ -199,7 +199,7 @@ static void check_irreducible(void **state)
     for (size_t trial = 0; trial < trials; trial++) {
         rng r = rng_start(test_seed(), trial);
         proof_town t;
-        /* A lane, and boxes about that have nothing to do with it or are in the way of those that do. */
+        /* A lane, and further boxes nearby, some of which block those of the lane. */
         pack(&r, &t, 64);
         sunder_report *report = proof_town_separate(&t);
         size_t n, open = 0;

@@ -12,7 +12,7 @@
 
 #include <cmocka.h>
 
-/* Rows of boxes nearly 2 from each other, where 3 are asked for; a few do not move. */
+/* Rows of boxes about 2 apart, with a gap of 3; a few are fixed. */
 static void add_grid(rng *r, proof_town *t)
 {
     const size_t columns = (size_t)rng_int(r, 8, 10), rows = PROOF_TOWN_MOST / columns;
@@ -109,7 +109,8 @@ static void check_that_fit(void **state)
         const double lack = (double)rng_int(&r, 1, 8) / 8;
         memset(&t, 0, sizeof t);
         t.gap = 3;
-        /* From the middle each goes half of what all between lack, along x alone. */
+        /* The limit of each box is half of what all gaps of its row lack, along x alone, so a row could solve its
+         * conflicts from the middle. */
         const double limit = lack * (double)(columns - 1) / 2;
         for (size_t k = 0; k < rows * columns; k++)
             proof_town_add_box(&t, (13 - lack) * (double)(k % columns), 13 * (double)(k / columns), 10, 10, limit);

@@ -334,7 +334,7 @@ static void check_bound(const town *t, const sunder_report *report, bool may_ove
         mpq_set_d(y, p[k].least);
         mpq_mul(x, x, y);
         mpq_add(value, value, x);
-        /* Least is no more than what the result needed. */
+        /* The reported least translation is no longer than the relative move in the result. */
         double a[2], b[2];
         sunder_report_move(report, p[k].a, &a[0], &a[1]);
         sunder_report_move(report, p[k].b, &b[0], &b[1]);

@@ -1,9 +1,9 @@
-/* What becomes of a town is a matter of the town: alone, or in a layer with others out of reach, in whatever order
- * these come, its features make the same moves to the last bit, and the same is said of its conflicts and proved of its
- * pairs and groups.
+/* The result for a town depends only on the town. By itself, or in a layer with other towns out of reach, in any order
+ * of these, its features get the same moves to the last bit, its conflicts the same reasons, and its pairs and groups
+ * the same proofs.
  *
- * Towns are crowds of slanted boxes that overlap and lie in each other, some without a solution for limits and fixed
- * ones. Each has its coordinates wherever it stands in the list; its own features keep their order. */
+ * Towns are crowds of slanted boxes that overlap and lie in each other; limits and fixed features leave some without a
+ * solution. Each has coordinates of its own at any place of the list; its features keep their order. */
 #include "polyset.h"
 #include "random.h"
 #include "run_layer.h"
@@ -301,8 +301,8 @@ typedef struct house {
     bool fixed;
 } house;
 
-/* In the first, what was asked once more and granted runs into others, and something is given up then, so it is asked
- * again. The second has something given up that would come out otherwise if it were asked again, too. */
+/* In the first town a retried pair runs into other features, a pair is given up then, and it is tried again. The second
+ * town has a given-up pair whose result would change if it were tried again, too. */
 static const house late[] = {{{1000.58, 3562, 1031.66, 3562, 1031.66, 3579.79, 1000.58, 3579.79}, 1, false},
                              {{1008.66, 3561.9, 1014.83, 3566.43, 1012.29, 3569.88, 1006.13, 3565.35}, 1, false},
                              {{1013.43, 3560.24, 1032.66, 3560.24, 1032.66, 3576.97, 1013.43, 3576.97}, 1, false},

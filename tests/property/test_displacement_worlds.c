@@ -250,7 +250,7 @@ static bool is_joined(const sunder_report *whole, const sunder_report *part, siz
     return world == SIZE_MAX || in_whole > in_part;
 }
 
-/* What a part of the field tells of the worlds that are complete in it. Returns how many those are. */
+/* Compares what a part of the field reports about the worlds that are complete in it. Returns their number. */
 static size_t look_at_part(const field *f, const sunder_report *whole, const bool *there)
 {
     static sunder_feature chosen[MOST];
@@ -281,7 +281,7 @@ static void add_blocks(const field *f, bool *there)
             there[k] = there[m] && f->feature[m].block == f->feature[k].block;
 }
 
-/* All that meets what a world saw; what meets a box drawn at random. */
+/* Tests the part that meets everything that a world read, and the part that meets a random box. */
 static size_t look_at_parts(const field *f, rng *r, const sunder_report *whole)
 {
     size_t worlds, footprints, same = 0;

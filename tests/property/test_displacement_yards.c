@@ -124,8 +124,8 @@ static size_t take_out(double (*free)[2], size_t n, double from, double to)
     return n;
 }
 
-/* May the hut leave by the gate? Straight, its anchor touching no wall, nor it the anchors of those; NAN: too near to
- * tell. */
+/* May the hut leave through the gate in a straight line, so that its anchor meets no wall and the hut no anchor of the
+ * walls? NAN: too close to decide. */
 static double may_leave(const yard *y, const scene *s, size_t walls)
 {
     const double *b = y->hut, at[2] = {(b[0] + b[2]) / 2, (b[1] + b[3]) / 2};

@@ -12,7 +12,8 @@
 
 #include <cmocka.h>
 
-/* A question lets the two go and who is next to them: more boxes would stand where the result has them. */
+/* A question moves the two and their neighbours; in a longer row more boxes would have to keep the places of the
+ * result. */
 enum { MOST = 2, TALL = 400 };
 
 /* Boxes between walls; stood: what is between each and the next at the start. */
@@ -22,8 +23,8 @@ typedef struct row {
     bool listed[MOST + 1];
 } row;
 
-/* Can they stand so that all keep what they owe at that gap? From the left each goes as far left as it may. all: what
- * is listed besides `pair` owes it, too. */
+/* Can all boxes stand so that each pair keeps the distance that it owes at that gap? From the left, each box is placed
+ * as far left as possible. all: listed pairs other than `pair` owe it, too. */
 static bool has_solution(const row *r, size_t pair, double gap, bool all)
 {
     double end = r->at[0] + r->wide[0];

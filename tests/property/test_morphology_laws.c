@@ -1,6 +1,6 @@
-/* The laws of growing and shrinking: an opening is inside, a closing around; both are idempotent and blind to a shift;
- * dilation and erosion are adjoint; members that overlap count as their union. An opening is held against the closing
- * of the complement, which leaves it but for what fits exactly. */
+/* Laws of dilation, erosion, opening and closing: an opening is a subset, a closing a superset; both are idempotent and
+ * invariant under shifts of the shape; dilation and erosion are adjoint; overlapping members count as their union. An
+ * opening is compared with the closing of the complement, which is its complement up to exact fits. */
 #include "morphology_case.h"
 #include "oracle.h"
 #include "sum_text.h"

@@ -20,7 +20,7 @@
 
 /* ---- Figures ---- */
 
-/* Nothing, or a power of two of either sign. */
+/* Zero, or a power of two of either sign. */
 static double offset(rng *r)
 {
     if (rng_once_in(r, 4)) return 0;

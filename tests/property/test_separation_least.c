@@ -195,7 +195,7 @@ static bool free_beside(const polyset *p, const polyset *q, const mpq_t x, const
     return free_there;
 }
 
-/* 0: a boundary of the outside or of a hole; 1: a degenerate segment; 2: a degenerate point. */
+/* Returns 0 for the boundary of the outside or of a hole, 1 for a degenerate segment, 2 for a degenerate point. */
 static int surroundings(const polyset *p, const polyset *q, const mpq_t x, const mpq_t y)
 {
     ray *r = malloc(2 * (p->vertices + q->vertices) * sizeof *r);

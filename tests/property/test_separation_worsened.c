@@ -38,7 +38,7 @@ static void restage(rng *r, const polyset *from, polyset *to, int way, double ha
     polyset_move(to, rng_once_in(r, 2) ? hair : 0, rng_once_in(r, 2) ? -hair : 0);
 }
 
-/* Rings the right way round again. */
+/* Makes a shape, with its rings in the right direction again. */
 static sunder_shape *shape_of(polyset *s)
 {
     double area = 0;
@@ -218,8 +218,8 @@ static void convex_depth(mpq_t best, const polyset *p, const polyset *q)
     mpq_clear(depth);
 }
 
-/* A parallelogram and a copy of it, or another convex polygon, put off by what doubles round: edges are parallel but
- * for the last place, and contacts cross anywhere. */
+/* A parallelogram and a copy of it, or another convex polygon, shifted by an amount that doubles round. Their edges are
+ * parallel up to the last place, and contacts cross anywhere. */
 static void check_nearly_parallel(void **state)
 {
     (void)state;

@@ -95,7 +95,7 @@ static void test_subject(void **state)
     assert_true(bad > 0 || traced >= n / 20);
 }
 
-/* What is to be traced and what is not, one case for each. */
+/* One case for each condition under which a sum is traced, or is not. */
 static void test_cases(void **state)
 {
     (void)state;

@@ -1,6 +1,6 @@
-/* Sums of two simple polygons off their reduced convolution, against the oracle byte for byte, holes among them. The
- * tracing is called by itself, so that the general road cannot answer for it; where it declines there is nothing to
- * compare, but it may not always do so. */
+/* Sums of two simple polygons by their reduced convolution, byte for byte as the oracle's, holes included. The tracing
+ * is called by itself, so that the general algorithm cannot replace it. If it declines there is nothing to compare, and
+ * it must not always decline. */
 #include "generate.h"
 #include "minkowski/reduced_convolution.h"
 #include "oracle.h"
@@ -160,7 +160,7 @@ static void test_larger(void **state)
     assert_true(traced > n / 2);
 }
 
-/* What is to be traced and what is not, one case for each. */
+/* One case for each condition under which a sum is traced, or is not. */
 static void test_cases(void **state)
 {
     (void)state;

@@ -160,7 +160,7 @@ static bool is_taut(const scene *s, uint32_t u, uint32_t v, uint32_t w)
     const int turn = sunder_i_filtered_orient(&s->space.filter, a, b, c);
     if (turn > 0) return low[0] == 0 && low[1] == 0;
     if (turn < 0) return high[0] == 0 && high[1] == 0;
-    /* Straight on; back is no way. */
+    /* Does bc continue ab straight on? A way back does not count. */
     const sunder_i_filter *g = &s->space.filter;
     return sunder_i_filtered_cmp(g, a, b) == sunder_i_filtered_cmp(g, b, c);
 }

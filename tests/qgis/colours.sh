@@ -44,8 +44,8 @@ rows barrier_drawn "'max_shift'" barrier=106,27,154=600 || fail "a conflict with
 rows contained "'kept'" kept=150,150,150=600 || fail "an allowed conflict is not grey"
 rows too_close NULL found=231,0,138=600 || fail "a conflict without a reason is not magenta"
 
-# Pushes are not drawn until their box in the legend is marked. Then: the wider the harder. Of equal forces all lines are as wide as the widest; of one great force among small ones
-# the others are thin.
+# Pushes are not drawn until their box in the legend is ticked. The greater the force, the wider the line. If all forces
+# are equal, all lines have the greatest width; beside one great force the lines of small ones are thin.
 cp "$work/out.gpkg" "$work/pushes.gpkg"
 ogrinfo -q -dialect sqlite -sql "UPDATE buildings_pushes SET force = 1" "$work/pushes.gpkg"
 drawn() { # layer, least number of pixels: how many

@@ -85,8 +85,8 @@ refused 1 'ended' "$SUNDER" separate --quiet --gap 3 -l squares squares.gpkg "$d
 sql 'DROP EVENT TRIGGER ended'
 "$SUNDER" separate --quiet --gap 3 -l squares squares.gpkg "$db" --update --output-layer ended
 
-# The server goes when the input has been read, while the shape is waited for, and comes back. Where the system does not
-# tell what the program waits for the server goes at some moment; the end is the same.
+# The server stops after the input has been read, while the program waits for the shape, and starts again. On systems
+# that do not tell for what a process waits, the server stops at some moment; the result is the same.
 before=$(tables)
 mkfifo shape
 "$SUNDER" buffer --quiet -l plain "$db" "$db" --update --output-layer grown --shape @- <shape >gone.out 2>gone.err &

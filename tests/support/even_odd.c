@@ -181,7 +181,7 @@ static bool set_is_left(const cutter *c, const piece *p)
  * from's. */
 static bool sooner(const spot *at, const spot *from, const spot *u, const spot *v)
 {
-    /* Half a turn: 0 for what lies right of `from`, 1 for straight on, 2 for left of it. */
+    /* Half-turns: 0 for directions right of `from`, 1 for straight on, 2 for directions left of it. */
     const int half_u = 1 + turn(at, from, at, u), half_v = 1 + turn(at, from, at, v);
     if (half_u != half_v) return half_u < half_v;
     return turn(at, u, at, v) < 0;

@@ -40,8 +40,8 @@ static double side_distance(const side *s, double x, double y)
     return hypot(x - s->ax - t * dx, y - s->ay - t * dy);
 }
 
-/* 1 keeps the gap, 0 does not, -1 more bits are needed. With many bits what is next to nothing is nothing. What doubles
- * see farther than the gap by `spare` is not asked. */
+/* Returns 1 if the place keeps the gap, 0 if it does not, -1 if more bits are needed. With many bits a difference near
+ * zero counts as zero. Pairs that doubles see farther apart than the gap plus `spare` are skipped. */
 static int keeps(const figure *f, const mpf_t x, const mpf_t y, double spare, int level, numbers *w)
 {
     const double dx = mpf_get_d(x), dy = mpf_get_d(y), far = f->gap + spare;

@@ -64,10 +64,10 @@ typedef enum hamlet_rules {
     HAMLET_ALL = 7
 } hamlet_rules;
 
-/* The whole layer, but that listed pairs (their ways excepted) are to stand no worse: to keep the distance that they
- * had, where they did not overlap. Where they did, the list counts, if `besides` is NULL: those that it says to be too
- * close are to be disjoint. Those that overlap still no deeper in each other, unless one could go deeper as it lay in
- * the other. Else `besides` owes all that it owes, and those that overlapped nothing. */
+/* Poses the whole layer, with relaxed demands on listed pairs (their ways excepted). A listed pair that did not overlap
+ * has to keep its former distance. For one that overlapped, with `besides` NULL: if it is listed as too close, it has
+ * to be disjoint; if it still overlaps, it may be no deeper, unless one could go deeper because it lay in the other.
+ * With `besides` that pair owes its full distance, and pairs that overlapped owe nothing. */
 void hamlet_pose(const hamlet *t, const sunder_conflict *listed, size_t n, const sunder_conflict *besides,
                  optimum_problem *m);
 /* One pair alone; with the sides of both and their blocks towards all barriers, and the ways of these past each other,

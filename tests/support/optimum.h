@@ -34,10 +34,10 @@ typedef struct optimum_problem {
     size_t pieces, room;
 } optimum_problem;
 
-/* What body b with the convex part q may not do to body a with the convex part p, at least one of which has area: come
- * nearer than the radius; or (radius 0) let the interiors meet; or (negative radius) overlap so deeply that no
- * translation of that length separates them. Corners counter-clockwise, multiples of 2^-10 below 2^23, so that
- * differences and turns of three are exact. */
+/* Forbids that body b with the convex part q comes nearer than the radius to body a with the convex part p, at least
+ * one of which has an area; with radius 0, that their interiors meet; with a negative radius, that they overlap so
+ * deeply that no translation of that length separates them. Corners are counter-clockwise, multiples of 2^-10 below
+ * 2^23, so that differences and turns of three are exact. */
 void optimum_keep_apart(optimum_problem *m, size_t a, size_t b, const double *p, size_t np, const double *q, size_t nq,
                         double radius);
 /* The way of an anchor of body b, relative to body a, may not meet the convex part q of a. The anchor is outside. */

@@ -61,9 +61,9 @@ void optimum_keep_apart(optimum_problem *m, size_t a, size_t b, const double *p,
     memcpy(piece->xy, corner, 2 * n * sizeof *corner);
 }
 
-/* The sides that turn their backs on the origin follow each other; one that it lies along is none of them. A part that
- * is seen end on has a shadow without area, which no relative move but one on it can be in: left out, as the infimum is
- * the same. */
+/* The sides that face away from the origin are consecutive; a side whose line contains it is none of them. If all of a
+ * part lies on a line through the origin, its shadow has no area, and only relative moves along the line are in it.
+ * Such a part is left out, since the infimum is the same. */
 void optimum_keep_off(optimum_problem *m, size_t a, size_t b, const double *q, size_t nq, const double anchor[2])
 {
     const double origin[2] = {0, 0};

@@ -15,7 +15,7 @@ void hpoint_init(hpoint *p)
 
 void hpoint_clear(hpoint *p) { mpz_clears(p->x, p->y, p->w, NULL); }
 
-/* Near n / d * 2^-shift; relative error below 1e-15 but where it leaves the range of doubles. */
+/* Approximates n / d * 2^-shift, with a relative error below 1e-15 within the range of doubles. */
 static double near_ratio(const mpz_t n, const mpz_t d, long shift)
 {
     long e, f;

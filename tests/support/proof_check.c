@@ -62,7 +62,7 @@ static bool are_contained(const checking *c, const sunder_proof_node *node)
            (node->b < c->n && is_convex_part(b->xy, b->corners) && is_part_of(b->xy, b->corners, a));
 }
 
-/* What it asks for: inside, or else beyond what that is the square of. */
+/* The demand on a held pair: to stay inside, or else to keep a distance whose square is `square`. */
 static const char *check_held(const checking *c, const sunder_proof_node *node, bool *inside, mpq_t square)
 {
     const sunder_conflict *listed = find_listed(c, node->a, node->b);

@@ -33,18 +33,18 @@ bool proof_line_least(mpq_t square, const proof_feature *line, const proof_featu
 /* Are the part's one or two corners on one segment of the line? */
 bool is_part_of_line(const double *part, size_t n, const proof_feature *line);
 
-/* proof_ways.c: what lies behind all the ways, an open convex polygon, must be in conflict: nearer than what `most` is
- * the square of; or deeper inside. */
+/* proof_ways.c: the set behind all ways, an open convex polygon, must be in conflict: at a squared distance of less
+ * than `most`, or deeper inside. */
 const char *proof_check_ways(const checking *c, const sunder_proof_node *node, bool inside, const mpq_t most);
-/* Where two ways' lines cross; false if nowhere. Does v lie behind all ways, or on their lines? exact, first: NULL, or
- * what stands for the d of way a, or the first. */
+/* The crossing of two ways' lines; false if there is none. Does v lie behind all ways, or on their lines? exact, first:
+ * NULL, or a replacement for the d of way a, or of the first way. */
 bool proof_crossing(const sunder_proof_way *a, const mpq_t *exact, const sunder_proof_way *b, vec *v);
 bool proof_is_behind_all(const sunder_proof_way *way, const mpq_t *first, size_t n, const vec *v);
 /* How far the polygon goes along the way's n. */
 void proof_farthest(mpq_t d, const hull *k, const sunder_proof_way *way);
 
-/* proof_shadow.c: the node is about an anchor and what it may not jump over, or a side anchor and a side, and what lies
- * behind all the ways is in the shadow of that. */
+/* proof_shadow.c: the node is about an anchor and a thing that it may not jump over, or about a side anchor and a side;
+ * and the set behind all the ways is in its shadow. */
 const char *proof_check_shadow(const checking *c, const sunder_proof_node *node);
 
 /* proof_check.c: did the two meet at the start? The square of their least way out then, else of their distance. False:

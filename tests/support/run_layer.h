@@ -4,7 +4,7 @@
 
 #include "sunder.h"
 
-/* The rule that nothing is made worse is asked of the report (upheld.h). Freed by the caller. */
+/* Separates and checks the rule that nothing gets worse (upheld.h). The caller frees the report. */
 sunder_report *run_separate(const sunder_feature *feature, size_t n, const sunder_layer_options *options);
 sunder_report *run_check(const sunder_feature *feature, size_t n, const sunder_layer_options *options);
 

@@ -15,7 +15,7 @@ typedef struct scene {
     sunder_layer_summary summary;
 } scene;
 
-/* No features, and the usual options but for the gap. */
+/* Begins a scene without features, with the given gap and default options. */
 void scene_begin(scene *s, double gap);
 void scene_end(scene *s);
 

@@ -17,8 +17,8 @@ typedef struct scene_model {
     bool placed;
 } scene_model;
 
-/* By the scene's options; its features stay the scene's. Nothing is related: blocks are those of the features' numbers,
- * and what stands is looked for among all. */
+/* Begins a model with the scene's options; the features belong to the scene. Pairs are not related: blocks come from
+ * the features' numbers, and searches look at all features. */
 void scene_model_begin(scene_model *m, const scene *s);
 /* The same, placed and related as at the start of a run, with its seams. */
 void scene_model_related(scene_model *m, const scene *s);

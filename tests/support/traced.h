@@ -9,8 +9,8 @@
 typedef sunder_status tracing(sunder_sum *sum, const sunder_shape *p, const sunder_i_point *at_p, const sunder_shape *q,
                               const sunder_i_point *at_q, bool *done, sunder_error *error);
 
-/* Canonical text of the traced sum, freed by the caller; NULL where tracing declines, and then the sum has to be as it
- * was. Adds to *holes how many it has; NULL: not asked. */
+/* Returns the canonical text of the traced sum, freed by the caller; NULL if tracing declines, and then the sum must be
+ * unchanged. Adds the number of holes to *holes, unless it is NULL. */
 char *traced_text(tracing *trace, const polyset *p, const polyset *q, size_t *holes);
 
 #endif

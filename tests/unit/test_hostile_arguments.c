@@ -59,7 +59,7 @@ static void test_ends(void **state)
 
 static size_t spent;
 
-/* Nothing more once 64 MB have been handed out, whatever came back. */
+/* Allocations fail after 64 MB in total, including freed ones. */
 static void *within_means(size_t size)
 {
     spent += size;

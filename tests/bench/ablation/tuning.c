@@ -31,7 +31,7 @@ static bool has(const stage_set *set, const char *name)
     return false;
 }
 
-/* False if there is no room for it. */
+/* Returns false if the set is full or the name is too long. */
 static bool add(stage_set *set, const char *name)
 {
     if (has(set, name)) return true;

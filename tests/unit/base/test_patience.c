@@ -8,7 +8,7 @@
 
 #include <cmocka.h>
 
-/* How many of n questions are asked if all fail. */
+/* Returns how many of n attempts are made if all fail. */
 static size_t asked_in_vain(sunder_i_patience *p, size_t n)
 {
     size_t asked = 0;

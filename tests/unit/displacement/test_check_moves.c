@@ -31,7 +31,7 @@ static void begin(scene *s, double gap)
     s->options.gap = gap;
 }
 
-/* A feature, and where it went. */
+/* Adds a feature with its place before and after. */
 static sunder_feature *add(scene *s, const char *was, const char *is)
 {
     sunder_feature *f = &s->was[s->n];

@@ -38,7 +38,7 @@ static bool make(street *s)
     return true;
 }
 
-/* A road through one of them, a pole beside another, and the one far off as an area. */
+/* A road through one feature, a pole beside another, and an area at the one far away. */
 static sunder_status set_barriers(const street *s, sunder_layer *layer, sunder_error *err)
 {
     static const double xy[] = {-5, 3, 5, 4, 15, -3, 40, 5};

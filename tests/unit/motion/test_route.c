@@ -322,7 +322,7 @@ static bool refuse(double fraction, void *user)
     return false;
 }
 
-/* Enough corners that the progress is asked for. */
+/* There are enough corners for the progress function to be called. */
 static void stops(void **state)
 {
     double xy[2 * 4000];

@@ -1,5 +1,5 @@
-/* outline/pairs.h: what is added, with what was taken back left out, comes line by line and rising, whether it came in
- * rows of one line, of one part, or singly. */
+/* outline/pairs.h: added pairs, without those that were removed, are returned line by line and ascending, whether they
+ * were added in rows of one line, in rows of one part, or singly. */
 #include "failing.h"
 #include "outline/pairs.h"
 #include "random.h"
@@ -88,7 +88,7 @@ static void test_none(void **state)
     demand_equal(&pairs, &t, wanted);
 }
 
-/* Rows take a word for each pair and one for what they have in common; a single pair takes two. */
+/* A row takes one word for each pair and one for the common number; a single pair takes two. */
 static void test_room(void **state)
 {
     (void)state;

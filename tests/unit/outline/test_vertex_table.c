@@ -83,7 +83,7 @@ static uint32_t find(const sunder_i_vertex_table *t, const sunder_i_hpoint *p, u
     const sunder_i_vertex_lines lines = {line, {first, second}, 2};
     bool is_new;
     const uint32_t found = sunder_i_vertex_table_find(t, p->ax, p->ay, &lines, &is_new);
-    assert_false(is_new); /* all that is asked for is there */
+    assert_false(is_new); /* every requested vertex exists */
     return found;
 }
 

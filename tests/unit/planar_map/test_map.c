@@ -271,7 +271,7 @@ static void test_degenerate_point(void **state)
                                 {{0, 0}, {-4, 0}, {-4, -4}, {0, -4}},
                                 {{0, 0}, {0, -4}, {4, -4}, {4, 0}}};
     for (int i = 0; i < 4; i++) polygon(&b, 4, ring[i], true);
-    expect_size(&b, 5, 4, 2); /* the outline, and the centre alone */
+    expect_size(&b, 5, 4, 2); /* the outline, and the centre as an isolated vertex */
     const sunder_i_location l = locate(&b, 0, 0, 1);
     assert_int_equal(l.place, SUNDER_I_AT_VERTEX);
     assert_int_equal(sunder_i_planar_map_vertex_out(b.map, l.id), SUNDER_I_NOWHERE);

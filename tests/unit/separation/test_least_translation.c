@@ -478,8 +478,8 @@ static void memory_runs_out(void **state)
     sunder_set_allocator(NULL, NULL, NULL);
 }
 
-/* A bound that is asked for without the translation is the one that comes with it. It matters to neither whether
- * coordinates are short, or as long as those of a map, whose numbers go another way onto the lattice. */
+/* A bound that is computed without the translation equals the one computed with it, for short coordinates and for those
+ * of a map, whose numbers are put onto the lattice by other code. */
 static void bound_alone(void **state)
 {
     static const double gaps[] = {0, 0.1, 1, 3.7};

@@ -1,4 +1,4 @@
-/* shape: what is refused and with which words; what is cleaned; standard shapes; copies that move; the getters. */
+/* shape: refused inputs and their messages; cleaning; standard shapes; moved copies; the getters. */
 #include "polyset.h"
 #include "shape/shape.h"
 

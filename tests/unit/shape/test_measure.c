@@ -1,6 +1,6 @@
-/* shape/measure, shape/anchor: the area beside rational arithmetic by brute force, the anchor in doubles beside the
- * same rule in integers alone, on coordinates of every size, where no memory is to be had; and what copies keep. (That
- * it is the rule's: tests/cli/test_side_anchors.sh.) */
+/* shape/measure, shape/anchor: the area is compared with brute force in rationals, and the anchor in doubles with the
+ * same rule in integers, for coordinates of every size and with no memory available. Copies keep both.
+ * (tests/cli/test_side_anchors.sh tests that the anchor follows the documented rule.) */
 #include "failing.h"
 #include "generate.h"
 #include "shape/shape.h"

@@ -47,7 +47,7 @@ static void check_beside_barrier(void **state)
     sunder_layer_summary s;
     double t[2];
     assert_null(beside_road(-1, INFINITY, &s, t)); /* 1 off: 1 more is needed */
-    assert_int_equal(s.before.barrier_near, 1);    /* and at the edge of what is drawn, which is no overlap */
+    assert_int_equal(s.before.barrier_near, 1);    /* and touches the drawn edge, which is no overlap */
     assert_int_equal(s.before.barrier_drawn, 0);
     assert_near(t[0], 1, HAIR);
     assert_near(s.lower_bound, 1, 1e-6);

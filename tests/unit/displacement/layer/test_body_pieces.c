@@ -118,7 +118,7 @@ static void test_made_when_asked(void **state)
     scene_end(&s);
 }
 
-/* What was forgotten is made again as it was. */
+/* Pieces that were dropped from the cache are made again, equal to the first ones. */
 static void test_forgotten(void **state)
 {
     (void)state;

@@ -70,7 +70,8 @@ static void check_order(const scene *s, bool as_given)
         const size_t before = work.number[k - 1];
         const int order = by_place(s, before, f);
         assert_true(order <= 0);
-        /* Those alike in everything come as they are listed; of what is absent corners and demands come first. */
+        /* Features that are equal in everything keep the order of the list. Ignored ones are excepted: they are ordered
+         * by corners and demands first. */
         if (order == 0 && !s->feature[f].ignored) assert_true(before < f);
     }
     sunder_i_ordered_clear(&work);

@@ -1,5 +1,5 @@
-/* displacement/layer/relaxation: an overlap that stays is held to the shortest way out of it where the two stand, if
- * that is no longer than the one that parted them at first. */
+/* displacement/layer/relaxation: a remaining overlap is limited to its depth along the shortest way out at the present
+ * places, if that is no longer than the first least translation. */
 #include "polyset.h"
 #include "scene.h"
 
@@ -78,9 +78,9 @@ static void check(bool barrier)
     layer l;
     begin(&l, barrier);
     expect(&l, 2, 0, true, 3, 0);    /* less deep, the same way */
-    expect(&l, -1, 4.5, true, 0, 3); /* 4 deep that way, 1.5 the other */
+    expect(&l, -1, 4.5, true, 0, 3); /* 4 deep in that direction, 1.5 in the other */
     expect(&l, -4, -6, true, 0, -3);
-    expect(&l, -1, 0, false, 3, 0); /* deeper any way: as it was */
+    expect(&l, -1, 0, false, 3, 0); /* deeper in each direction: unchanged */
     expect(&l, 5, 0, true, 0, 0);   /* no longer in each other, and to stay so */
     end(&l);
 }

@@ -129,8 +129,8 @@ static void test_brought_up_to_date(void **state)
     assert_true(most > 20);
 }
 
-/* What a relaxation holds a pair to, taken a little below, is what it had, and never more: its distance, or a way out
- * of each other. */
+/* The demand of a relaxation, slightly reduced, is satisfied by the start and is never stricter: it is the former
+ * distance, or a way out of the overlap. */
 static void test_below_what_it_had(void **state)
 {
     (void)state;

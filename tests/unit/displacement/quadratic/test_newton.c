@@ -1,6 +1,6 @@
-/* Newton steps on quadratic programs: what they end with keeps the optimality conditions, of soft programs and of hard
- * ones; of contradictions the forces prove that all solutions are too dear; what is not solved is left as it was; and a
- * compromise of a terrace takes a fraction of the work that it takes the dual methods. */
+/* Newton steps on quadratic programs: results satisfy the optimality conditions, for soft and for hard programs. If
+ * constraints contradict each other, the forces prove that every solution costs too much. A program that is not solved
+ * is left unchanged. A compromise for a terrace takes a fraction of the work of the dual methods. */
 #include "displacement/quadratic/methods.h"
 #include "random.h"
 

@@ -1,6 +1,6 @@
-/* The quadratic program on constraints that can and that cannot hold together: what is returned is a number, the moves
- * and forces are numbers, and what is missed is what the moves miss; mended, it is as good as solved. And the nearest
- * place: its forces say that it is the nearest, or that there is none. */
+/* Quadratic programs with and without solutions: all results are numbers, and the returned violation is that of the
+ * moves. A mended program is as accurate as a solved one. For the nearest place the forces prove that it is the
+ * nearest, or that there is none. */
 #include "displacement/quadratic/nearest.h"
 #include "random.h"
 
@@ -27,8 +27,8 @@ static void demand(program *p, uint32_t i, uint32_t j, const double n[2], double
     p->constraint[p->q.n++] = (sunder_i_constraint){.i = i, .j = j, .n = {n[0], n[1]}, .d = d};
 }
 
-/* Contacts at random. In half of the programs some are asked for from both sides at once, or nearly: what asks must
- * miss something then, and no force is enough. Sizes from molehills to mountains. */
+/* Draws random contacts. In half of the programs some bodies are pushed from both sides, exactly or nearly: then
+ * constraints must be violated, and no force is enough. Sizes vary over many orders of magnitude. */
 static bool draw(rng *r, program *p)
 {
     memset(p, 0, sizeof *p);
@@ -88,7 +88,7 @@ static void check_programs(void **state)
     assert_true(solved > 0 && beyond > 0);
 }
 
-/* What the forces add up to, by bodies; returns the sum of what they demand. */
+/* Sums the forces on each body; returns the sum of force times demand. */
 static double sum_forces(const program *p, double net[2 * BODIES])
 {
     double won = 0;
@@ -104,8 +104,8 @@ static double sum_forces(const program *p, double net[2 * BODIES])
     return won;
 }
 
-/* The optimality conditions: what acts holds with equality, and pushes by as much as was moved. Where walls all but
- * oppose each other both are many times what is between them, and so is what rounding leaves. */
+/* The optimality conditions: active constraints hold with equality, and the forces equal the moves times the masses. If
+ * walls are nearly opposite, forces and rounding errors are many times the distance between them. */
 static void check_found(const program *p, size_t trial, double size)
 {
     double net[2 * BODIES], all = size, far = size;
@@ -276,8 +276,8 @@ static void check_mended(void **state)
     assert_true(mended > 0 && left > 0);
 }
 
-/* A bound on the cost changes nothing where a solution costs less; where there is none it is usually found that it
- * would cost more. */
+/* A bound on the cost changes nothing if a solution costs less. If there is no solution, the program usually ends with
+ * a proof that it would cost more. */
 static void check_dear(void **state)
 {
     (void)state;

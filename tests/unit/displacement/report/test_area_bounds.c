@@ -70,7 +70,7 @@ static void test_limits_and_weights_count(void **state)
     scene_end(&s);
 }
 
-/* What is proved of two crowds is what is proved of each. */
+/* The bound of two crowds that are far apart is the sum of both bounds. */
 static void test_far_crowds_add_up(void **state)
 {
     (void)state;

@@ -67,7 +67,7 @@ static void end(crowd *c)
 enum {
     NEED_IN_VAIN = 200000,
     NEED_PATIENCE = 32,
-    CROWD_PATIENCE = 4, /* where it is known what the crowd needs */
+    CROWD_PATIENCE = 4, /* if the need of the crowd is known */
     PROOF_PATIENCE = 8,
     FIRST_EFFORT = 10000,
     PROOFS_IN_VAIN = 32,

@@ -1,4 +1,4 @@
-/* The board of held squares: what it says of points and of segments is what the subsums say one by one. */
+/* The board of held squares: its answers for points and segments equal those of all subsums one by one. */
 #include "failing.h"
 #include "generate.h"
 #include "separation/obstacle/board.h"

@@ -456,7 +456,8 @@ static void test_places(void **state)
     assert_true(moved > test_count(60) / 4);
 }
 
-/* More payers than are asked at once: prices, places and what is proved are the same bits on any number of threads. */
+/* More payers than are processed at a time: prices, places and the bound have the same bits for every number of
+ * threads. */
 static void test_threads(void **state)
 {
     (void)state;

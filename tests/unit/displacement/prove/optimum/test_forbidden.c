@@ -1,5 +1,5 @@
-/* displacement/prove/optimum: forbidden sets of few and of many pieces, what they cover, and what is free of them;
- * against looking at every piece. Pieces are rectangles, grown, so that the oracle needs no more than a distance. */
+/* displacement/prove/optimum: forbidden sets of few and of many pieces, their coverage and their free places, compared
+ * with a loop over all pieces. Pieces are grown rectangles, so the oracle needs only a distance. */
 #include "random.h"
 
 #include "displacement/prove/optimum/region.h"
@@ -96,7 +96,7 @@ static void check_places(rng *r, const set *s)
             assert_true(most > way ? some == way : some >= most && some <= way);
         }
         for (int e = 1; e < 8 && way > 1; e++) {
-            /* On the way out all is forbidden, but for seams of pieces that touch. */
+            /* Up to the exit every place is forbidden, except on seams between pieces that touch. */
             const double on = way * e / 8, off = on + 0x1p-10;
             assert_true(depth_of(s, u[0] + on * dir[0], u[1] + on * dir[1]) > 0 ||
                         depth_of(s, u[0] + off * dir[0], u[1] + off * dir[1]) > 0);
@@ -149,7 +149,7 @@ static size_t check_cover(rng *r, const set *s, sunder_i_reflex *reflex)
     return covered;
 }
 
-/* The sides of the region as `known` tells of them, and from nothing: the same places, for as many steps. */
+/* The sides of the region computed from `known` equal those computed from scratch, in places and in steps. */
 static void check_known(const set *s, const sunder_i_free_sides *known, const sunder_i_region *region)
 {
     sunder_i_free_sides fresh = {0}, told = {0};
@@ -197,7 +197,7 @@ static void check(size_t n, size_t i)
     rng r = rng_start(test_seed(), i);
     sunder_i_reflex reflex = {0};
     make(&r, n, &s);
-    /* Sorted on memory of its own. */
+    /* Sorts in memory of its own. */
     assert_true(sunder_i_forbidden_index(&s.forbidden));
     assert_true(sunder_i_forbidden_is_many(&s.forbidden) == (n > MANY_PIECES));
     check_places(&r, &s);
@@ -249,8 +249,8 @@ static void test_down_into_a_notch(void **state)
     sunder_i_free(s.forbidden.tree.box);
 }
 
-/* A region across some pieces of a set of few, which overlap by little: it takes long to prove that they cover it, and
- * it is proved; with one of them gone there is a gap, and it is told. */
+/* A region across some pieces of a small set, which overlap by little: it takes long to prove that they cover it, and
+ * it is proved. Without one of them there is a hole, and it is found. */
 static void test_across_narrow_overlaps(void **state)
 {
     (void)state;

@@ -374,8 +374,8 @@ static void test_a_ray_along_a_slot(void **state)
     scene_end(&s);
 }
 
-/* Four that press on each other obliquely, and one of them goes just by a corner: the branching comes no nearer than a
- * few parts in ten million, where dividing tells no more. */
+/* Four boxes press on each other obliquely, and one just passes a corner. Branching ends a few parts in ten million
+ * below the cost, and dividing improves nothing there. */
 static void test_no_nearer_by_dividing(void **state)
 {
     (void)state;

@@ -150,7 +150,7 @@ static void begin(sunder_i_solver *s, sunder_i_body *body)
     assert_null(sunder_i_solver_check_states(s));
 }
 
-/* The checker: what it passes, and what it finds. */
+/* The checker: states that it accepts, and faults that it finds. */
 static void check_checker(void **state)
 {
     (void)state;

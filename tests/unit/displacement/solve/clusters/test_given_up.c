@@ -137,8 +137,8 @@ static void check_rows(void **state)
     check_row(MOST, 0);
 }
 
-/* Two houses in a quarter: from the one limits let nothing part it, the other comes out if the quarter goes half of the
- * way. The first is then deeper inside, which is no worse. */
+/* Two houses in a quarter. Limits do not let the first leave it; the second gets out if the quarter moves half of the
+ * way. The first is then deeper inside, which is allowed. */
 static void check_inside(void **state)
 {
     (void)state;
@@ -260,9 +260,9 @@ static bool count_looks(double fraction, void *user)
     return true;
 }
 
-/* Terraces back to back, house by house, in streets too narrow for all of them to be taken apart within the limit.
- * Without it they would fill the town and go out of it: what cannot stay where it went is not made room for. And what
- * blocks solved by themselves is not given up because they ran into each other. */
+/* Terraces back to back, house by house, in streets too narrow to separate all of them within the limit. Without it
+ * they would fill the town and leave it, so no room is made for bodies that cannot stay where they went. Pairs that
+ * blocks solved by themselves are not given up because the blocks ran into each other. */
 static void check_terraces(void **state)
 {
     (void)state;

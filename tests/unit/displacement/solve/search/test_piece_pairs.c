@@ -1,5 +1,5 @@
-/* Which pairs of pieces of two bodies are looked at: those whose boxes come near each other, in order, whatever
- * is passed by beforehand; against looking at all of them. Few pieces and many, near and far. */
+/* Which pairs of pieces of two bodies are examined: those whose boxes come near each other, in order, for every kind of
+ * pruning; compared with a loop over all of them. Few pieces and many, near and far. */
 #include "random.h"
 
 #include "displacement/solve/search/cluster_search.h"

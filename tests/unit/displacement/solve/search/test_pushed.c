@@ -159,7 +159,7 @@ static void test_known_in_vain(void **state)
         assert_false(sunder_i_pushed_reaches(&p, k, k + 1, right, 1));
     }
     assert_true(s.steps - steps < 70 * first);
-    /* What the ends may give is what they may give now, whenever the ways were found. */
+    /* The room at the ends is that of the present positions, also for ways that were found earlier. */
     s.t[2 * 70] = -0.4;
     assert_true(sunder_i_pushed_is_in_vain(&p, 69, 70, right, 1.39));
     s.t[2 * 70] = 0;
@@ -170,7 +170,8 @@ static void test_known_in_vain(void **state)
     end_row(&b, &s);
 }
 
-/* The same beginning with all at home and owing all: that is what such a crowd is told by. With more room it is not. */
+/* The same with all bodies at home and all demands in force, which is how such a crowd is recognised. With more room it
+ * is not. */
 static void test_crowd(void **state)
 {
     (void)state;

@@ -61,7 +61,7 @@ static void test_a_hair_beside(void **state)
     assert_true(is_granted(1.3));
 }
 
-/* What misses more than rounding leaves is no place to begin at. */
+/* A position with violations above rounding is not accepted as a start. */
 static void test_out_of_order(void **state)
 {
     (void)state;

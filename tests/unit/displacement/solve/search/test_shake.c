@@ -90,7 +90,7 @@ static void shake(grid *g, uint64_t steps)
     assert_int_equal(sunder_i_group_shake(&g->of.model, &none, &g->group, steps, &err), SUNDER_OK);
 }
 
-/* All stand the gap apart, up to a share of it, and cost what the group says. */
+/* All bodies keep the gap, up to a share of it, and the cost is that of the group. */
 static void check_layout(const grid *g, size_t wide, double off)
 {
     double cost = 0;

@@ -1,6 +1,6 @@
-/* displacement/search/take_back: of what a search has given up it gets back what has a solution, the least first, and
- * nothing else is changed; and displacement/search/ease: a pair that is left in conflict gets a margin where there is
- * room for one. */
+/* displacement/search/take_back: pairs that a search gave up and that have a solution are restored, the smallest
+ * violation first, and nothing else is changed. displacement/search/ease: a pair that is left in conflict gets a margin
+ * if there is room for one. */
 #include "scene_board.h"
 
 #include "displacement/solve/search/search_stages.h"
@@ -158,8 +158,9 @@ static void test_in_vain(void **state)
     assert_true(is_whole_asked_after(TAKE_BACK_IN_VAIN, TAKE_BACK_FEW - 4)); /* few will do */
 }
 
-/* Of two that cannot both be had the one is taken back that misses less, whichever is listed first: the second is to go
- * to the right off the first and up off the third, and may go as far as the farther of these, but not both. */
+/* If two pairs cannot both be solved, the one with the smaller violation is restored, independently of the order of the
+ * list. The second body has to go right, off the first, and up, off the third; its limit allows the longer of these
+ * moves, but not both. */
 static void test_least_first(void **state)
 {
     (void)state;
