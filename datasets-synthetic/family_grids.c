@@ -1,4 +1,4 @@
-/* Families that tell orders of insertion apart. */
+/* Families whose cost depends on the order of insertion. */
 #include "family.h"
 
 static size_t at_least_one(size_t n) { return n ? n : 1; }

@@ -38,7 +38,7 @@ static void house(family_set *set, town_random *random, size_t most, int64_t cx,
     family_end_member(set);
 }
 
-/* A regular polygon, near the circle, or so much larger that rounding leaves every corner distinct. */
+/* Makes a regular polygon with corners near the circle. The radius is enlarged if rounding would make corners equal. */
 static void brush(family_set *set, size_t n, int64_t radius)
 {
     if (radius < (int64_t)(n * n)) radius = (int64_t)(n * n);

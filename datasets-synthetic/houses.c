@@ -13,7 +13,7 @@ static double quarter_metres(double length) { return floor(length * 4 + 0.5) / 4
 typedef struct terrace_house {
     bool stands;
     double front, depth;          /* b of the front and the back */
-    double wing_left, wing_right; /* b of the end of a wing behind that side; depth where there is none */
+    double wing_left, wing_right; /* b of the end of a wing behind that side; equals depth if there is none */
     double wing_width;
 } terrace_house;
 

@@ -1,9 +1,8 @@
 /* A small generator of random numbers with the same values on every machine.
  *
- * SplitMix64 (Steele, Lea, Flood, OOPSLA 2014): a counter and a mixing function. Streams are told apart by hashing what
- * they are for (seed, column, row, purpose), so that every block of the town can be drawn by itself, in any order.
- * Draws stand in statements of their own: the order in which the arguments of one call are worked out is the
- * compiler's. */
+ * SplitMix64 (Steele, Lea, Flood, OOPSLA 2014): a counter and a mixing function. A stream is identified by a hash of
+ * its use (seed, column, row, purpose), so every block of the town can be drawn by itself, in any order. Each draw is a
+ * statement of its own, since C does not specify the order in which arguments of a call are evaluated. */
 #ifndef TOWN_RANDOM_H
 #define TOWN_RANDOM_H
 

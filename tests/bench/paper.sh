@@ -66,7 +66,7 @@ mkdir -p "$out/inputs"
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 
-# The choices of an option, from the program's own help; nothing where it has no such option.
+# The choices of an option, from the program's own help; empty if there is no such option.
 choices() { "$sunder" sum --help | sed -n "s/.*$1 \([a-z-]*|[a-z|-]*\).*/\1/p" | tr '|' ' '; }
 algorithms=$(choices --algorithm) decompositions=$(choices --decomposition) orders=$(choices --order)
 

@@ -22,7 +22,7 @@ def pick(runs, **wanted):
 
 
 def counted_in(run, column):
-    """A figure of a run; operations are those of the union where the road has phases, else all."""
+    """A figure of a run. Operations are those of the union if the algorithm has phases, otherwise all."""
     text = run.get("union_" + column) or run[column]
     return float(text) if text else None
 

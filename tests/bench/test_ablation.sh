@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Does the ablation harness measure what it says? On a few clusters of a synthetic town: without a variation nothing differs,
-# also from the ordinary program; a stage that is switched off and a changed constant are seen; a run is continued.
+# Does the ablation harness measure what it claims? On a few clusters of a synthetic town: without a variation no result
+# differs, also not from the ordinary program; a switched-off stage and a changed constant have an effect; an
+# interrupted run is continued.
 set -euo pipefail
 build=${SUNDER_BUILD:?}
 [[ -x $build/sunder_ablation && -x $build/sunder-town ]] || { echo "skipped: no sunder_ablation (it needs GDAL)"; exit 77; }

@@ -41,7 +41,7 @@ BLOCKED, FIXED = (0xE0, 0x70, 0x2E), (0x56, 0x5B, 0x62)
 
 
 def quiet(page, name):
-    """The page complains of nothing, and asks for nothing but itself."""
+    """The page logs no errors, and requests no other resource."""
     demand(not page.complaints, "%s: %s" % (name, page.complaints))
     elsewhere = [url for url in page.requests if not url.startswith(address(name))]
     demand(not elsewhere, "%s asks for %s" % (name, elsewhere))
@@ -178,7 +178,7 @@ def ask_hands(page):
     unit = start[2] / width
     demand(abs(dragged[0] - start[0] + 100 * unit) < 0.01 and abs(dragged[1] - start[1] - 60 * unit) < 0.01,
            "dragging: %s, then %s" % (start, dragged))
-    # The wheel leaves what is under the pointer where it is.
+    # Zooming by the wheel keeps the place under the pointer fixed.
     px, py = x + width / 4, y + height / 4
     under = lambda at: (at[0] - width / 4 * at[2] / width, at[1] + height / 4 * at[2] / width)
     page.mouse("mouseWheel", px, py, deltaX=0, deltaY=-240)
@@ -324,7 +324,8 @@ def ask_print(browser):
 
 
 def ask_free_with(page, where):
-    """What would free a pair is there as a whole: within its cell, and the cell within what is seen of the table."""
+    """The text about what would free a pair is completely visible: within its cell, and the cell within the visible
+    part of the table."""
     cut = page.evaluate("Array.from(document.querySelectorAll('#blocked tbody td:last-child')).filter((td) => {"
                         "const r = td.getBoundingClientRect(), s = td.closest('.scroll').getBoundingClientRect();"
                         "return r.width > 0 && (r.right > s.right + 1 || td.scrollWidth > td.clientWidth + 1 ||"

@@ -134,7 +134,7 @@ class Judge:
             self.expect(k, not kinds, f"free, and listed as {kinds}")
 
     def moved(self, k, was, now, b, width, fields):
-        """What is worse than it stood."""
+        """The conflicts that are worse than at the start."""
         required = Fraction(width) / 2 + GAP
         then, met = interiors_meet(was, b), interiors_meet(now, b)
         if not met and distance_square(now, b) >= required * required:

@@ -154,7 +154,7 @@ def crossing_move(unit, anchor, edges, aim):
 
 
 def side(town, fid):
-    """The anchor comes onto the nearest road, or just beyond it. No road meets the feature where it stood."""
+    """Moves the anchor onto the nearest road, or just beyond it. No road met the feature at its start."""
     if fid not in town.anchor:
         return
     edges, shape = town.road_edges(fid), outline(town.geometry(fid))

@@ -53,7 +53,7 @@ def forms(r, x, half):
 
 
 def broken_rings(ring):
-    """The same ring, closed, where one vertex has a coordinate that is no number."""
+    """The same ring, closed, with a coordinate that is not a number in one vertex."""
     for k, (x, y) in enumerate(ring):
         at = ring[:k] + [(x, NAN) if k % 2 else (NAN, y)] + ring[k + 1:]
         yield at + at[:1]

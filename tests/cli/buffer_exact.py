@@ -65,7 +65,7 @@ def read(path, key):
 
 
 def exact(point):
-    """Whole numbers where they are: those are fast."""
+    """Integers if possible, since they are fast."""
     return tuple(int(v) if v == int(v) else F(v) for v in point)
 
 

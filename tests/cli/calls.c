@@ -1,9 +1,9 @@
-/* calls.c: the program called many times by one process. Loading GDAL takes longer than most questions about the words
- * of a call; here it is loaded once, and each call is a fork of it.
+/* calls.c: calls the program many times in one process. Loading GDAL takes longer than most tests of arguments; here it
+ * is loaded once, and each call runs in a fork.
  *
- * Calls are lines on stdin, words parted by blanks, without the program's name. Each is answered by a line on stdout:
- * the exit status, a tab, and what the call said on stderr, its line ends as blanks. What it says on stdout is not
- * kept. */
+ * Calls are lines on stdin, arguments separated by blanks, without the program's name. Each is answered by a line on
+ * stdout: the exit status, a tab, and the output on stderr with blanks for its line ends. The call's output on stdout
+ * is dropped. */
 #include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>

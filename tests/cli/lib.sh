@@ -72,7 +72,7 @@ expect() {
 # read up to its first NUL.
 in_file() { IFS= read -r -d '' content <"$1" || :; }
 
-# What is there, and what is in it. Files that tests make for themselves are not looked at.
+# Lists all files with their content, except files that the tests make for themselves.
 listing() {
     find . -mindepth 1 ! -name out ! -name err ! -name before ! -name after \( -type f -exec cksum {} + -o -print \) | sort
 }

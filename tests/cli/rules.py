@@ -328,7 +328,7 @@ class Checker:
                     self.check_side(a, barrier, edges, way)
 
     def check_side(self, a, barrier, edges, way):
-        """Lines on which the way begins say nothing, nor do points."""
+        """Points, and lines on which the path begins, cannot be crossed."""
         edges = [tuple((self.factor * x, self.factor * y) for x, y in e) for e in edges if e[0] != e[1]]
         self.count["ways (side)"] += 1
         if not any(plane.edges_meet(way, e) and not plane.on_edge(e, way[0]) for e in edges):

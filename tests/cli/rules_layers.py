@@ -1,5 +1,5 @@
-"""What rules.py asks about: two layers, barriers, conflicts and anchors, on one lattice of integers, with grids to find what
-is near."""
+"""The data of rules.py: two layers, barriers, conflicts and anchors, on one lattice of integers, with grids to find
+near items."""
 from collections import defaultdict
 
 from osgeo import gdal, ogr

@@ -1,5 +1,5 @@
-/* Reads lines "NAME<tab>GAP<tab>WKT<tab>WKT<tab>WKT<tab>WKT": a pair as it stood, and as it stands. Prints those that
- * break the rule that nothing is made worse, in rationals by brute force; exits with 1 if there is any. */
+/* Reads lines "NAME<tab>GAP<tab>WKT<tab>WKT<tab>WKT<tab>WKT": a pair before and after. Prints those that break the rule
+ * that no conflict gets worse, in rationals by brute force; exits with 1 if there is any. */
 #include "standing.h"
 
 #include <stdlib.h>

@@ -181,7 +181,7 @@ same "$(count twice.gpkg in)" 4 "nothing is lost:"
 expect 0 check twice.gpkg -l in --no-blocks
 expect 0 separate in.gpkg unnumbered.gpkg --dialect sqlite --sql 'SELECT geometry FROM (SELECT geom AS geometry FROM houses)' -q
 same "$(count unnumbered.gpkg in)" 2
-# Fields of an earlier run are replaced, and that is said, one line each.
+# Fields of an earlier run are replaced, and one line reports each.
 expect 0 separate unnumbered.gpkg third.gpkg
 for field in sunder_dx sunder_dy sunder_len sunder_st sunder_blk; do
     same "$(grep -c "^sunder: warning: .*$field" err)" 1 "warnings about $field:"

@@ -100,7 +100,7 @@ rm -f tie.gpkg
 printf 'id,WKT\n1,"POLYGON((0 100,9 113,9 100,0 113,0 100))"\n' | layer tie.gpkg tie POLYGON
 expect 0 check in.gpkg -l houses --barrier tie.gpkg,width=8,gap=1 --invalid fail
 refused 1 'layer tie, FID 1' check in.gpkg -l houses --barrier tie.gpkg,gap=71 --invalid fail
-# Four limits away, since it is asked which longer one would free a conflict.
+# The reach is four limits, since the program also computes which longer limit would free a conflict.
 expect 0 separate in.gpkg o.gpkg -l houses -q --barrier tie.gpkg,gap=1 --max-shift 15 --invalid fail
 refused 1 'layer tie, FID 1' separate in.gpkg never.gpkg -l houses --barrier tie.gpkg,gap=1 --max-shift 17.5 --invalid fail
 refused 1 'layer tie, FID 1' separate in.gpkg never.gpkg -l houses --barrier tie.gpkg --invalid fail
@@ -119,7 +119,7 @@ id,w,WKT
 X
 expect 0 check in.gpkg -l houses --barrier wide.gpkg,width-field=w,gap=1 --invalid fail
 refused 1 'layer w, FID 1' check in.gpkg -l houses --barrier wide.gpkg,width-field=w,gap=71 --invalid fail
-# A longer limit would not free what a barrier beyond the limit stands in the way of.
+# A longer limit is not proposed if a barrier beyond the limit blocks the solution.
 layer shut.gpkg s POLYGON <<'X'
 id,WKT
 1,"POLYGON((0 0,10 0,10 10,0 10,0 0))"

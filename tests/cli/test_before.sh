@@ -66,7 +66,7 @@ X
 found 'jump 3 4;jump 4 3;' over.gpkg
 found '' over.gpkg --allow-jumps
 
-# Lost, and matched by a key where FIDs mean nothing.
+# A lost feature; features matched by a key if their FIDs changed.
 ogr2ogr -where 'id <> 40' -sql 'SELECT * FROM houses WHERE id <> 40 ORDER BY id DESC' fewer.gpkg in.gpkg -nln houses 2>/dev/null
 found 'lost 4;' fewer.gpkg --id-field id
 expect 3 check fewer.gpkg --before in.gpkg --id-field id

@@ -31,7 +31,7 @@ alike() { # BROKEN SOUND OPTIONS: of --barrier
 }
 alike open closed ''
 alike open closed ,as=boundary
-# With an index GDAL looks for what meets a box, and compares that with the box.
+# With a spatial index GDAL selects by boxes first, and then compares the geometry with the box.
 for name in one_0 one_1 open; do ogr2ogr -q indexed_$name.gpkg $name.gpkg 2>/dev/null; done
 alike indexed_one_0 closed_0 ''
 alike indexed_one_1 closed_1 ''

@@ -217,7 +217,8 @@ else
     echo "not asked: GEOS areas, since this GDAL is without SpatiaLite"
 fi
 
-# A shape from a data source: all polygons of its layer, whatever --where and --bbox select from the input.
+# A shape from a data source: all polygons of its layer, independently of --where and --bbox, which select from the
+# input.
 layer stamp.gpkg stamp POLYGON <<'CSV'
 WKT,part
 "POLYGON ((-2 -2, 2 -2, 2 0, -2 0, -2 -2))",1

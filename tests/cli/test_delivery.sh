@@ -73,7 +73,7 @@ chmod 444 s.json
 [ -w s.json ] || refused 1 's.json' separate in.gpkg o.gpkg --stats s.json # (root writes everything)
 chmod 644 s.json
 
-# What succeeds replaces the statistics, also through a link, which stays one, and leaves nothing else.
+# A successful run replaces the statistics, also through a link, which stays a link, and leaves no other file.
 ln -s s.json link.json
 listing | awk '{ print $NF }' | sort >before
 expect 0 sum @p.wkt square:1 --stats link.json

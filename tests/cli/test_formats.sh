@@ -71,7 +71,8 @@ for end in fgb shp tab gpkg gdb; do
     same "$(losses s.json | grep -c 'String instead of .*List$')" 3 "$end: $(losses s.json)"
 done
 
-# ---- a layer of unknown type where each has one: Multi Polygon, where all are polygons; -nlt asks for it anywhere
+# ---- a layer of unknown type in a format that needs one: Multi Polygon if all features are polygons; -nlt requests it
+# for any format
 squares 3 "{'n': i}" 'i == 1' >mixed.geojson
 expect 0 separate mixed.geojson mixed.gdb --quiet
 ogrinfo -ro -so mixed.gdb mixed | grep -q '^Geometry: Multi Polygon' || fail "the geodatabase's layer is no Multi Polygon"
@@ -104,7 +105,7 @@ same "$(ogrinfo -q -ro fids.geojson fids | sed -n 's/^  sunder_fid (.*) = //p' |
 expect 0 separate fids.gpkg kept.geojson --where 'fid > 0' --layers main --quiet
 same "$(ogrinfo -q -ro kept.geojson fids | grep -c sunder_fid)" 0 'positive FIDs are kept:'
 
-# ---- features without geometry where there is no place for them
+# ---- features without geometry in formats that cannot hold them
 layer bare.gpkg bare POLYGON <<'CSV'
 WKT,name
 "POLYGON ((0 0,10 0,10 10,0 10,0 0))",a

@@ -1,7 +1,8 @@
 # shellcheck shell=bash disable=SC1091
-# SIGINT and SIGTERM where a run waits or works without end: for a pipe, in a statement of a database that it reads or
-# writes, in one statement that nothing can cut short. Each is held there until the signal comes; nothing depends on how
-# long that takes. (At every system call of ordinary runs: tests/faults/test_signals.sh. In the library: tests/watch.)
+# SIGINT and SIGTERM while a run waits or works without end: for a pipe, in a statement of a database that it reads or
+# writes, in a statement that cannot be interrupted. Each run is kept there until the signal arrives, so the test does
+# not depend on time. (tests/faults/test_signals.sh sends signals at every system call of ordinary runs, tests/watch
+# tests the library.)
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 strike=$SUNDER_BUILD/tests/strike
 [ -x "$strike" ] && "$strike" list 0 true 3>report 2>/dev/null || { echo "skipped: no process can be traced here"; exit 77; }

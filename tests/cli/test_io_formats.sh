@@ -14,7 +14,7 @@ wkt,name
 CSV
 ogr2ogr -f GPKG thirds.gpkg thirds.csv -nln squares -nlt POLYGON -a_srs EPSG:25832 -oo GEOM_POSSIBLE_NAMES=wkt -oo KEEP_GEOM_COLUMNS=NO
 
-# ---- exact formats: verified, and the very doubles, whatever the way through formats
+# ---- exact formats: verified, with equal doubles after any sequence of formats
 separate --stats gpkg.json thirds.gpkg first.gpkg
 for each in shp geojson fgb sqlite; do
     separate --stats "$each.json" thirds.gpkg "exact.$each"

@@ -34,8 +34,9 @@ if [ -x "$strike" ] && "$strike" list 0 true 3>report 2>/dev/null; then
         STRIKE_UNDER=at "$strike" list 0 "$SUNDER" separate --layers main -q "$town" "at/o.$each" 3>report 2>err
         read -r _ bytes status _ <report
         [ "$status" -eq 0 ] || fail "$each is not written at all"
-        # What is to be put in place is noted with its files' numbers and times, which are not equally long in every run:
-        # one that writes a byte less may end before the last bytes are asked for. No earlier place is spared so.
+        # The record of the files to be put in place contains their inode numbers and times, whose length varies between
+        # runs. A run that writes a byte less may end before the last bytes are reached; this cannot happen at earlier
+        # places.
         for place in $((bytes / 3)) $((bytes - 64)) $((bytes - 8)) $((bytes - 1)); do
             rm -rf at/*
             STRIKE_UNDER=at "$strike" full "$place" "$SUNDER" separate --layers main -q "$town" "at/o.$each" 3>report 2>err

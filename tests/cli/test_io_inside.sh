@@ -86,7 +86,7 @@ id,WKT
 X
 run separate lines.gpkg o.gpkg
 if grep -q symbol err; then fail "lines are told of --symbol"; fi
-# ... in a layer of any type, too, where nothing is an error
+# ... also in a layer of any type, where that is not an error
 layer any.gpkg things GEOMETRY <<'X'
 id,WKT
 1,"POINT(1 1)"

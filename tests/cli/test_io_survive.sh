@@ -65,7 +65,7 @@ dump named.gpkg named >named.features
 grep -q '  fid (.* = 3000000017' named.features && grep -q '  geom (String) = g' named.features ||
     { cat named.features; fail "fields called fid and geom were lost"; }
 
-# ---- a member that lies within another is no hole of it, and does not become one in a Shapefile
+# ---- a member that lies within another is not a hole of it, and does not become one in a Shapefile
 printf 'wkt,n\n"MULTIPOLYGON (((0 0,10 0,10 10,0 10,0 0)),((2 2,4 2,4 4,2 4,2 2)))",1\n' >member.csv
 ogr2ogr -f GPKG member.gpkg member.csv -a_srs EPSG:25832 -oo GEOM_POSSIBLE_NAMES=wkt -oo KEEP_GEOM_COLUMNS=NO
 "$SUNDER" separate --quiet --stats member.json member.gpkg member.shp

@@ -59,7 +59,7 @@ same "$(grep -c 'touch-tolerance' out)" 0 "degrees are no lengths:"
 expect 0 separate bare.gpkg o.gpkg --overwrite --gap 0.005 --touch-tolerance 0
 same "$(grep -c 'touch-tolerance' out)" 0 "the gap is less than what would be told:"
 
-# Symbols: fifty on each other are fifty, unless a tolerance is asked for.
+# Symbols: fifty that overlap are fifty bodies, unless a tolerance is given.
 {
     echo id,size,WKT
     for i in $(seq 50); do echo "$i,$((i % 3 + 1)),POINT($((i / 2)) 0)"; done

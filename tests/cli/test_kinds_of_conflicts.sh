@@ -51,7 +51,7 @@ for k in 1 2; do expect 0 separate --shard $k plan -q; done
 expect 3 merge plan parts.gpkg --stats p.json -q
 same "$(jq -c .conflicts p.json)" "$(jq -c .conflicts s.json)" "in parts:"
 
-# What features lack of each other; members of a block owe each other nothing.
+# The column `missing` for pairs of features; members of a block owe each other no distance.
 layer pairs.gpkg houses POLYGON <<'X'
 id,grp,WKT
 a,,"POLYGON((0 0,10 0,10 10,0 10,0 0))"

@@ -1,6 +1,6 @@
 # shellcheck shell=bash disable=SC1091
-# A layer separated in parts, for want of memory, is written as one that is held whole: the same bytes in every format,
-# the same figures. What it puts on the disk goes, whatever becomes of the run.
+# A layer that is separated in parts to save memory gives the same output as a whole one: the same bytes in every
+# format, the same statistics. Its files on disk are removed, however the run ends.
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 export SOURCE_DATE_EPOCH=1700000000
 mkdir scratch

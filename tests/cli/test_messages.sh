@@ -57,7 +57,7 @@ same "$(wc -l <all.log)" 25 'lines of the log:'
 expect 1 separate in.gpkg quiet.gpkg --quiet
 says err 'sunder: error: '
 
-# The log: all of it, what ended the run too; not in the place of anything else.
+# The log contains all messages, also the one that ended the run; it never replaces another file.
 expect 0 check in.gpkg --log all.log --id-field id
 says err 'all are in the log'
 same "$(wc -l <err)" 11 'with a log:'
@@ -165,7 +165,7 @@ if ogrinfo -ro -al -q wide.csv -oo GEOM_POSSIBLE_NAMES=WKT 2>&1 | grep -q overfl
     same "$(tail -n 1 err | cut -d' ' -f3-8)" '15 more like these, the first' "the sum of GDAL's own:"
 fi
 
-# A terminal: a bar where stderr is one, and nothing else changes.
+# On a terminal: a progress bar if stderr is one, and no other difference.
 on_terminal() {
     python3 - "$SUNDER" "$@" <<'X'
 import os, pty, subprocess, sys

@@ -38,7 +38,7 @@ expect 0 route "MULTIPOLYGON (${squares#, })" --robot square:10 --from=15,15 --t
 same "$(jq -c '[.length,.path]' out)" '[160,[[15,15],[15,35],[35,35],[35,55],[55,55],[55,75],[75,75],[75,95],[95,95]]]'
 expect 0 route "MULTIPOLYGON (${squares#, })" --robot square:10 --from=95,15 --to=15,95
 same "$(jq -c '[.length,.path]' out)" '[160,[[95,15],[15,15],[15,95]]]'
-# Far away things take nothing from the precision here: neither of the answer nor of the search for it.
+# Distant obstacles do not reduce the precision near the origin, neither of the answer nor of the search.
 far=''
 for x in 0 12 24 36; do
     for y in 1 10 25 35; do far="$far, POLYGON (($x $y, $((x + 7)) $y, $((x + 7)) $((y + 4)), $x $((y + 6))))"; done

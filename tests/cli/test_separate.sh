@@ -99,7 +99,7 @@ same "$(value short.gpkg houses_conflicts 1 reason) $(value short.gpkg houses 1 
 jq -e '.displacement.max <= 0.25' s.json >/dev/null || fail "a move is longer than --max-shift"
 expect 0 separate in.gpkg long.gpkg --max-shift 1.0000001 -q
 
-# What is not selected is neither written nor in the way.
+# Features that are not selected are neither written nor obstacles.
 expect 0 separate in.gpkg sel.gpkg --where "id <> 'b'" --stats s.json
 same "$(count sel.gpkg houses) $(jq -c .moved s.json)" '5 2'
 expect 0 separate in.gpkg sel2.gpkg --bbox 199,0,220,10 -q
@@ -124,7 +124,7 @@ expect 0 separate in.gpkg p.gpkg --progress --overwrite
 says err '100 - done.'
 same "$(tr -cd 'a-z ' <err | xargs)" 'read solve explain verify write done' 'stages in the bar:'
 
-# A second run on the result has nothing to do, and says what it replaces.
+# A second run on the result moves no feature, and reports the fields that it replaces.
 expect 0 separate o.gpkg again.gpkg -l houses --stats s.json
 same "$(jq -c .moved s.json)" 0
 says err 'sunder_dx'

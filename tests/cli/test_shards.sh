@@ -6,7 +6,7 @@ for tool in python3 jq; do command -v $tool >/dev/null || { echo "skipped: $tool
 export SOURCE_DATE_EPOCH=1700000000
 python3 "$SUNDER_SOURCE/tests/cli/shard_layouts.py" . || fail "no layouts"
 figures() { jq -c 'del(.seconds, .peak_rss_bytes)' "$1"; }
-# A page tells where the output went, and a plan calls files by whole paths.
+# Removes paths that differ: a page names the output, and a plan has absolute paths.
 page() { sed "s#$PWD/##g; s#parts/o#whole/o#g" "$1"; }
 
 # All of 1 .. n, the odd ones backwards first.

@@ -5,8 +5,9 @@
 town=$SUNDER_SOURCE/datasets-synthetic/town.gpkg
 names='read solve explain verify write'
 
-# Many conflicts remain, and each is asked what would free it (that this is done in `explain` is counted in steps by
-# tests/unit/displacement/test_separate_layer_stages.c, for no verdict depends on time).
+# Many conflicts remain, and for each the program computes what would free it.
+# (tests/unit/displacement/test_separate_layer_stages.c tests by counting steps that this happens in the stage
+# `explain`; no verdict may depend on time.)
 expect 3 separate "$town" o.gpkg -l buildings --gap 3 --max-shift 1 --effort 3 --stats s.json --progress --report r.html
 same "$(jq -r '.seconds | keys_unsorted | join(" ")' s.json)" "$names total" 'stages of --stats:'
 jq -e '.seconds | .explain > 0 and .verify > 0 and .solve > 0' s.json >/dev/null || fail "a stage took no time: $(jq -c .seconds s.json)"

@@ -12,8 +12,8 @@ upheld() {
     same "$(json .verified s.json)" true "verified:"
 }
 
-# A house that sticks out of its outline beside a block: the way out is inside. With the block nearer there is none, and
-# it stays as it is.
+# A house that sticks out of its outline beside a block: it can be moved inside. If the block is nearer there is no
+# solution, and the house does not move.
 layer corner.gpkg corner POLYGON <<'X'
 k,WKT
 outline,"POLYGON((0 0,100 0,100 100,0 100,0 0))"

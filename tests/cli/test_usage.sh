@@ -1,5 +1,5 @@
 # shellcheck shell=bash disable=SC2016,SC1091
-# Version, help, and what is refused as wrong usage: one line, exit status 2, nothing done.
+# Version, help, and wrong usage: one line, exit status 2, no other effect.
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 
 expect 0 --version

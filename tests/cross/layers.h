@@ -60,7 +60,7 @@ static inline char *layers_path(const char *name)
     return NULL;
 }
 
-/* Whether a question could be asked. What is there has to be readable, if anything is. */
+/* Could the question be asked? Existing files have to be readable. */
 typedef enum layers_answer {
     LAYERS_MISSING = -2,
     LAYERS_UNREADABLE = -1,

@@ -1,6 +1,6 @@
 # shellcheck shell=bash
-# The programs of docs/examples compile without warnings against the library that was built, as C and, where there is a
-# compiler of it, as the C of C++; each prints what the comment at its top says.
+# The programs of docs/examples compile without warnings against the built library, as C and, if a C++ compiler is
+# there, as C++; each prints what the comment at its top says.
 set -eu
 if grep -q '^SUNDER_SANITIZE:STRING=.' "$SUNDER_BUILD/CMakeCache.txt"; then
     echo "skipped: the build carries a sanitizer"
@@ -13,7 +13,7 @@ library=$(find "$SUNDER_BUILD" -maxdepth 2 -name libsunder.a | head -n 1)
 trouble=0 run=0
 for example in "$SUNDER_SOURCE"/docs/examples/*.c; do
     name=$(basename "$example")
-    # What stands indented below "Prints:" in the first comment.
+    # The indented lines below "Prints:" in the first comment.
     awk '/^ \*\// { exit } printing && /^ \*     / { print substr($0, 8) } /^ \* Prints:$/ { printing = 1 }' "$example" >"$work/expected"
     [ -s "$work/expected" ] || { echo "FAILED: $name does not say what it prints"; trouble=1; }
     "$cc" -std=c17 -Wall -Wextra -Wpedantic -Werror "-I$SUNDER_SOURCE/src" "$example" "$library" -lgmp -lm -pthread -o "$work/example"

@@ -25,8 +25,8 @@ unset PKG_CONFIG_PATH LD_LIBRARY_PATH SUNDER
 # Pages of the guide find the programs as their README says; the README and the tutorial have to see to that themselves.
 found=$build:$source/gis/cluster:$PATH bare=$work/bin:$PATH
 
-# What a page wants beyond the programs: the installed library, a database server, a clone. Status 1, and why, where it is
-# missing. Argument of library: the page's home.
+# Requirements of a page besides the programs: the installed library, a database server, a clone. Returns 1 and prints
+# the reason if it is missing. Argument of library: the page's home.
 installable() {
     command -v pkg-config >/dev/null || { echo "pkg-config is not installed"; return 1; }
     ! grep -q '^SUNDER_SANITIZE:STRING=.' "$build/CMakeCache.txt" || { echo "the build carries a sanitizer"; return 1; }

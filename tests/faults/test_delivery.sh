@@ -118,7 +118,7 @@ for name in ${SUNDER_FAULTS_SCENARIOS:-$scenarios}; do
     scenario "$name" || { echo "not tried: $name (no shell of SQLite)"; continue; }
     runs=0 ended_old=0 ended_new=0 brought_back=0 after_all=0
     start && old=$(state)
-    # What the next run comes to that finds the old state: it is refused, where there is an output.
+    # The outcome of the next run that finds the old state: it is refused if there is an output.
     (cd dir && "$SUNDER" "${options[@]}" >/dev/null 2>&1)
     cleared=$(state)
     struck list 0

@@ -45,7 +45,7 @@ separate-files  o.shp     separate in.gpkg o.shp --gap 3 --progress=plain --over
 separate-update o.gpkg    separate in.gpkg o.gpkg --gap 3 --update --output-layer more
 '
 
-# Every file, but that the statistics tell times.
+# The content of every file except the statistics, which contain times.
 state() {
     (cd dir && find . -type f ! -name s.json -print0 | sort -z | xargs -0 cksum
     ls -Ad .sunder-* s.json 2>/dev/null)

@@ -1,5 +1,5 @@
-/* A layer of hostile shapes, beside barriers as hostile: what separate leaves is what check finds on the features as
- * moved, and no listed pair stands worse than it stood. */
+/* A layer of hostile shapes beside hostile barriers: the conflicts that separate reports are those that check finds for
+ * the moved features, and no listed pair is worse than at the start. */
 #include <string.h>
 
 #include "bytes.h"
@@ -72,7 +72,7 @@ static void demand_agreement(const sunder_feature *features, size_t n, const fuz
     for (size_t i = 0; i < n; ++i) sunder_shape_free(shapes[i]);
 }
 
-/* Zero, which is what bytes are past the end of the input, is what is done by default. */
+/* Zero, the value of all bytes past the end of the input, selects the defaults. */
 static void choose_ways(fuzz_bytes *bytes, sunder_layer_options *options)
 {
     const unsigned byte = fuzz_byte(bytes), ways = byte / 3;

@@ -1,9 +1,9 @@
-/* A layer separated in parts and joined again is what it is when separated whole, to the last bit, in however many
- * shards: moves, statuses, blocks, conflicts, pushes, sums.
+/* A layer that is separated in parts and joined again gives the result of the whole layer, to the last bit, for every
+ * number of shards: moves, statuses, blocks, conflicts, pushes, sums.
  *
- * Layers are towns of slanted boxes, some of them crowded, some in rows that touch, some fixed or limited, some of
- * blocks whose members are far from each other. Some with barriers: roads through all of it or of a few metres,
- * meadows, many in one place, some far away. */
+ * Layers are towns of slanted boxes, some of them crowded, some in rows that touch, some fixed or limited, some in
+ * blocks whose members are far from each other. Some have barriers: roads through the whole town or of a few metres,
+ * meadows, many at one place, some far away. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -106,7 +106,7 @@ static void free_board(board *b)
     free(b);
 }
 
-/* Where features lie, or not quite: some lie outside. */
+/* The declared extent of the features; some lie outside. */
 static const double frame[4] = {-90000, -70000, 100000, 65000};
 
 static bool put_board(const board *b, const double *around, unsigned parts, gis_spool_settle *settle, gis_error *error)
@@ -322,7 +322,7 @@ static bool note(void *user, const unsigned char *record, gis_error *error)
     return true;
 }
 
-/* The same order, whatever fits into memory at a time: also where not even one record does. */
+/* The order is the same for every amount of memory, even if it does not hold a single record. */
 static void test_order(void **state)
 {
     static const size_t runs[] = {1, 700, 4096, 100000, GIS_SORT_BYTES};

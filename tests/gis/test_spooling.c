@@ -1,5 +1,5 @@
-/* A layer that is read a batch at a time onto the disk is, feature by feature and to the last bit, what a layer read
- * whole is: shapes, demands, FIDs, ids, statuses, and what is known of all of it. */
+/* A layer that is read to disk in batches equals a layer that is read whole, feature by feature and to the last bit:
+ * shapes, demands, FIDs, ids, statuses, and the properties of the layer. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

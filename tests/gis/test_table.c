@@ -307,7 +307,7 @@ static void make_by(const char *name, const char *const *statement)
     GDALClose(dataset);
 }
 
-/* Keys as they come, with gaps, below zero, at both ends of what there is, and rows that lie in one half alone. */
+/* Keys with gaps, below zero, at both ends of the range of integers, and tables whose rows lie in one half only. */
 static void test_halves(void **state)
 {
     static const struct {

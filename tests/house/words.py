@@ -129,7 +129,7 @@ def split(line, text):
 
 
 def files_of(root):
-    """The files that are under version control, or where there is none, all."""
+    """The files under version control, or all files if there is no version control."""
     listed = subprocess.run(["git", "-C", root, "ls-files", "-z"], capture_output=True, check=False)
     names = listed.stdout.decode().split("\0") if listed.returncode == 0 else [
         str(path.relative_to(root)) for path in pathlib.Path(root).rglob("*") if "build" not in path.parts]

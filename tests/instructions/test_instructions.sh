@@ -25,7 +25,7 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cd "$work"
 
-# ---- What counts depend on ----
+# ---- Conditions on which counts depend ----
 cached() { sed -n "s/^$1:[A-Z]*=//p" "$build/CMakeCache.txt" | head -n 1; }
 processor() { sed -n "s/^$1[[:space:]]*: //p" /proc/cpuinfo | head -n 1; }
 libraries() { # the files that are loaded: their names hold versions

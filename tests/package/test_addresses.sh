@@ -28,7 +28,7 @@ fill -DSUNDER_TRACKER=https://example.net/issues
 fill
 same "emptied again"
 
-# Nothing in the sources names a place of its own.
+# No source contains an address of its own.
 for page in README.md SECURITY.md CONTRIBUTING.md .github gis/qgis/sunder/metadata.txt; do
     if grep -rnE 'https?://(www\.)?(github|gitlab|codeberg)\.' "$SUNDER_SOURCE/$page"; then fail "$page names an address"; fi
 done

@@ -1,4 +1,5 @@
-"""Finding, running, ending the program; what it says, in plain words. A stand-in plays it where it must hang."""
+"""Finding, running and ending the program; its messages in plain words. A stand-in replaces it in cases in which it has
+to hang."""
 import os
 import re
 import stat

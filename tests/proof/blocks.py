@@ -164,8 +164,8 @@ class Blocks:
         return self.disc_fits_at_a_corner(disc, p, q, near, a, b)
 
     def disc_fits_at_a_corner(self, disc, p, q, near, a, b):
-        """If it fits anywhere it does where two of its contacts with the edges cross, or one ends: for what is left to it is
-        closed and bounded, and its extreme places are such."""
+        """If the disc fits anywhere, it fits at a crossing or an end of contact segments: the remaining set is closed
+        and bounded, and its extreme points are of this kind."""
         sides = list(zip(disc, disc[1:] + disc[:1]))
         segments, ends = set(), set()
         for e in {e for edges in near for e in edges}:

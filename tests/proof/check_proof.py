@@ -122,7 +122,7 @@ def answer(checker, lines):
 
 
 def printable(said):
-    """One line, whatever the file has for names."""
+    """The text as one line, for all names that the file contains."""
     return "".join(c if c.isprintable() else ascii(c)[1:-1] for c in said)
 
 

@@ -81,7 +81,7 @@ def cases_refused_by(cases):
 
 
 def places_of():
-    """Every demand() of the modules: {(file, line): what it says}"""
+    """Every demand() of the modules: {(file, line): its message}"""
     found = {}
     for name, module in MODULES.items():
         with open(module.__file__, encoding="utf-8") as file:

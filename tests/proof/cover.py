@@ -32,7 +32,7 @@ def square(x0, y0, x1, y1):
 
 
 def clip(region, line):
-    """What of it keeps the line; corners with the lines of the sides that begin there."""
+    """The part of a region behind the line; corners with the lines of the sides that begin there."""
     a, b, c = line
     side = [a * x + b * y - c * w for (x, y, w), _ in region]
     if not side or min(side) >= 0:
@@ -69,8 +69,8 @@ def hull(points):
 
 
 class Piece:
-    """The convex polygon A - B grown by an open disc of radius `owed`; with 0 its interior; negative: what is farther than
-    that from all outside. A shadow: of all places that the way from the origin reaches through it."""
+    """The convex polygon A - B grown by an open disc of radius `owed`; with 0 its interior; with a negative value the
+    points farther than that from its outside. A shadow: the points behind it, as seen from the origin."""
 
     def __init__(self, a, b, owed, shadow):
         self.corners = hull([(p[0] - q[0], p[1] - q[1]) for p in a for q in b])
@@ -86,7 +86,7 @@ class Piece:
         self.inside = 2 if owed == 0 else (math.ceil(-FINE * owed) + 2) ** 2
 
     def holds(self, fine, corner):
-        """Is the corner in it, whatever was rounded?"""
+        """Is the corner in it, for any rounding?"""
         if self.shadow:
             return self.is_shaded(corner)
         x, y = fine

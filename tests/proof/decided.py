@@ -15,7 +15,7 @@ MOST_STEPS = 20_000
 
 
 def check(problem, told):
-    """A conflict without a proof of its own."""
+    """Checks a conflict without a proof of its own."""
     a, b, reason = told["a"], told["b"], told["reason"]
     demand(reason == "unresolved" or not told["blocked_by"], "blocked_by is not what decides about", a, "and", b)
     still = not problem.is_barrier(a) and all(limit_of(problem, k) == 0 for k in (a, b))

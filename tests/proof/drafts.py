@@ -114,7 +114,7 @@ def question(a, b, part_a, part_b, ways, **more):
 
 
 def leaf(*forces, **more):
-    """forces: (node, way), or (node, way, force), or (node, way, force, behind)."""
+    """A leaf. forces: (node, way), or (node, way, force), or (node, way, force, behind)."""
     told = [(*f, 1, False) if len(f) == 2 else (*f, False) if len(f) == 3 else f for f in forces]
     return {"forces": [dict(zip(("node", "way", "force", "behind"), f)) for f in told], **more}
 

@@ -25,7 +25,7 @@ case("piece-of-others", "another pair", SQUARES, lambda problem: proof(problem, 
     problem, [3, 1, 2], 0.9, [piece(1, 2, 1, 2, part(SQUARES[1]), part(SQUARES[2]))], empty([0]))]), APART,
     "--no-blocks --weight-field w")
 
-# A child by itself that is the half of what its parent is about; a cut beyond a limit; more than two owe each other.
+# A single child that covers half of its parent's moves; a cut beyond a limit; a distance owed by more than two.
 HALF = [node(None), node(0, [cut("cone", [1, 0], 1000)], [[0, 1]])]
 case("cone-of-an-only-child", "no child's first cut", SQUARES, lambda problem: proof(problem, trees=[tree(problem, [1, 2], 100, [], HALF)]),
      APART)

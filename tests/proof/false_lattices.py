@@ -61,7 +61,7 @@ LAYER = {1: DIAMOND, 2: {**ring((100, -100), (-100, 100), (-100, -100)), "m": 0}
 case("places-on-the-line", "another place on the line", LAYER, [
     about(LAYER, 2, 1, lines((1, 1), 0, ((-1, 0), 20), ((0, -1), 20))), about(LAYER, 3, 1, lines((-1, -1), 0, ((1, 0), 20), ((0, 1), 20))),
     about(LAYER, 4, 1, lines((1, -1), 2, ((-1, 0), 20), ((0, 1), 20)))], RESTS, {1: (1, -1)})
-# No limit: `within` is taken for one, and longer moves are on the line, too. The ways to this leaf are asked about first.
+# No limit: `within` replaces it, although longer moves are on the line, too. The ways to this leaf are checked first.
 WALLS = [box(-200, -100, 4, 110)["polygons"][0], box(6, -100, 210, 110)["polygons"][0]]
 LAYER = {1: {**HOUSE, "m": None}, 2: {"polygons": WALLS, "m": 0}}
 case("lattice-without-limit", "without a limit", LAYER, [

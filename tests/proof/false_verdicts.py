@@ -185,7 +185,7 @@ pushed("inside-held", "may go deeper", AROUND, ways_out(0, -49, 19, 49), held=Tr
 
 
 def hemmed(name, refusal, other, limit, below, ways, up, kind="overlap", options=LIMITS, **more):
-    """A house that has to go up along another one, which is said to push it aside."""
+    """A house that has to move up along another one, which is claimed to block it."""
     layer = {1: box(0, 0, 10, 10, m=limit), 2: other, 3: box(-10, -20, 20, below, m=0)}
     questions = [asked(2, 1, part(other)[:4], part(layer[1]), first(ways, 1), **more)]
     moves = up if up == STUMBLES else {1: (0, up)}

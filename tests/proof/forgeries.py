@@ -223,7 +223,8 @@ def other_options(words):
 
 
 def swapped(run, other):
-    """(what, lines): of another run on the same layer, by other options or beside other barriers, what could be taken for this one's."""
+    """Yields (what, lines): parts of another run on the same layer, with other options or other barriers, in place of
+    this run's."""
     def of(lines, *kinds):
         return [line for line in lines if any(kind in line for kind in kinds)]
     proofs = {key(line): line["proof"] for line in of(other.lines, "proof")}

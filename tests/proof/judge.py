@@ -341,7 +341,7 @@ class VerdictOf:
                     todo.append([*path[:-1], (path[-1][0], k), (way["next"], None)])
 
     def finds_moves(self, path):
-        """Moves within the limits that keep the ways of a path, and none of those before."""
+        """Searches for moves within the limits that keep the ways of a path, and none of the earlier ways."""
         sides, resting = [], self.resting(path)
         for at, taken in path[:-1]:
             node = self.nodes[at]

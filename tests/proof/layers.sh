@@ -204,7 +204,7 @@ make_rings() {
     { echo WKT,w && printf '"POLYGON((%s))",1\n' "$@"; } | layer "$file" buildings POLYGON
 }
 
-# Seven triangles; three of them have no place together, though each two of these have one.
+# Seven triangles. Three of them have no joint solution, though each two of these have one.
 make_crowd() {
     make_rings crowd.gpkg '599994.2 5000007.3,599993.9 4999994.2,600005.4 5000000.5' \
         '600004.8 5000003.8,599997 4999997.6,600006.3 4999993.9' '599996.1 4999990.5,600005 4999995.8,599996 5000000.9' \

@@ -11,7 +11,7 @@ SAME_UNIT = 1e-9
 
 
 class Units:
-    """crs: geopackage.Crs; scale: of the sheet, text or None."""
+    """Converts lengths. crs: geopackage.Crs; scale: that of the sheet, text or None."""
 
     def __init__(self, crs, scale):
         self.crs = crs

@@ -354,7 +354,7 @@ def one_line(told):
 
 
 def push_line(told):
-    """A line a little farther than where the two stood."""
+    """Moves a line slightly beyond the places of the two."""
     for leaf in leaves_still(told):
         node, way = leaf["still"][0]
         told["proof"][node]["ways"][way]["d"] += 1e-6
@@ -426,7 +426,8 @@ def other_reason(told):
 
 
 def crowd_without_room(told):
-    """What a few cannot do together, told as if the others of them were held to no more than they had."""
+    """A claim that a few pairs have no joint solution, presented as if the others were only held to their former
+    distance."""
     if not told.get("crowded") or len(told["blocked_by"]) < 3:
         return False
     told["reason"] = "no_room"
@@ -527,7 +528,8 @@ class Asker:
         return check_proof.answer(self.checker, lambda: json.loads(json.dumps(lines)))
 
     def ask(self, name, candidates, mutate):
-        """candidates: lists of lines, smallest first; the first that has such a claim is asked about, true and untrue."""
+        """candidates: lists of lines, smallest first. The first one that contains such a claim is checked, in its true
+        and its false form."""
         for lines, target in candidates:
             mutated = copy.deepcopy(lines)
             words = mutate(mutated, target)

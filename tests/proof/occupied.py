@@ -54,7 +54,7 @@ def sides_of(ring):
 
 
 def parts_of(polygons, lattice):
-    """Lists of edges: what any of them encloses, by the even-odd rule, is occupied."""
+    """Lists of edges. The area that any list encloses by the even-odd rule is occupied."""
     for polygon in polygons:
         rings = [lattice.ring(r) for r in polygon]
         edges = [e for r in rings for e in sides_of(r)]

@@ -58,7 +58,7 @@ class Prices(Bodies):
     # ---- Which bodies owe the gap to each other
 
     def demand_strangers(self):
-        """Every feature owes the gap to those of all other bodies; two that stand still owe each other nothing."""
+        """Every feature owes the gap to the features of all other bodies; two fixed bodies owe each other nothing."""
         problem, of = self.problem, {}
         demand(sum(problem.body_limit(body) == 0 for body in self.bodies) < 2, "two who pay prices stand still")
         demand(problem.options.contained != "ignore", "features may lie in each other, and owe nothing then")
@@ -103,11 +103,12 @@ def find_kinks(price):
 
 
 class Payer:
-    """A body, and what it pays: `weight` times the square of its move (in squares), and the price of what it occupies. Let h be the
-    price that one of its places meets at moves from (x, y) to (x + 1, y + 1). Along one axis h is linear but for one turn, of d,
-    at a node; where that is up, h is below its chord by no more than d / 4. So it is no less than the bilinear mean of its values at
-    the four corners less (d + d') / 4, d and d' the greatest turns that the place's square meets there. That holds of the sum over all
-    places, and |t|^2 is below its own bilinear mean by no more than half the square of the side of a part."""
+    """A body and its costs: `weight` times the square of its move (in squares), and the price of the area that it
+    occupies. Let h be the price at one of its points during moves from (x, y) to (x + 1, y + 1). Along one axis h is
+    linear except for one bend, by d, at a node; if the bend is convex, h is at most d / 4 below its chord. So h is
+    at least the bilinear mean of its values at the four corners minus (d + d') / 4, where d and d' are the greatest
+    bends that the point's square meets there. The same holds for the sum over all points, and |t|^2 is below its own
+    bilinear mean by at most half the square of the side of a part."""
 
     def __init__(self, grid, corner, hats, areas, weight, limit):
         self.grid, self.hats, self.areas = grid, hats, areas
@@ -139,7 +140,7 @@ class Payer:
         return self.limit is None or square <= self.limit
 
     def least(self):
-        """In parts of a mass's price: what it pays wherever it may go is no less."""
+        """A lower bound of the body's cost over all its moves, in parts of a mass's price."""
         weight, reach = self.weight, FIRST_LOOK
         while True:
             price = self.sums(self.grid.price_rows, self.hats, reach)

@@ -1,4 +1,4 @@
-"""Barriers in another CRS than the layer: their coordinates are those that ogr2ogr makes of them, in a file of its own."""
+"""Barriers in another CRS than the layer: their coordinates are those that ogr2ogr writes to a file."""
 from form import NotRead
 from sources import converted
 

@@ -1,5 +1,5 @@
-"""What `separate` wrote, beside the proof: the same conflicts, moves that begin at the anchors and keep limits and blocks, and what
-they cost."""
+"""The output of `separate`, compared with the proof: the same conflicts, moves that begin at the anchors and keep
+limits and blocks, and their cost."""
 from fractions import Fraction
 
 from form import demand, shown
@@ -52,7 +52,8 @@ class Result:
             demand(self.moves[fid] == self.moves[members[0]], "the result moves", fid, "and not the block of", members[0])
 
     def check_place(self, fid):
-        """Every corner is the double nearest to what it was and the move; not asked of what was repaired."""
+        """Every corner is the double nearest to the sum of the original corner and the move; repaired features are not
+        checked."""
         (dx, dy) = self.moves[fid]
         if self.problem.options.points:
             now = sorted(line[0] for line in self.main[fid][2])

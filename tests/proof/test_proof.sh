@@ -15,7 +15,7 @@ of() {
     [[ " $* " != *" --sql "* ]] || named=()
 }
 
-# proved NAME SOURCE OPTIONS...: of separate, but for --layer of `buildings`
+# proved NAME SOURCE OPTIONS...: separates and checks the proof, with --layer buildings
 proved() {
     local name=$1 source=$2
     shift 2
@@ -143,7 +143,8 @@ proved crossed crossed.gpkg --gap 0.7 --no-blocks
 python3 "$here/check_proof.py" crowd.jsonl crowd.gpkg --layer buildings --gap 30 --result o.gpkg >said || fail "a crowd: $(cat said)"
 grep -Eq 'bound [1-9].* [1-9][0-9]* trees' said || fail "a group in parts: $(cat said)"
 
-# A house between a wall that stands fast and a line that it overlaps: through the line would be nearest, but for its side.
+# A house between a fixed wall and a line that it overlaps: the nearest way would be through the line, but it has to
+# stay on its side.
 make_side
 proved side wall.gpkg --no-blocks --fixed-where 'w = 1 AND fid = 2' --barrier side.gpkg
 grep -q 'bound 16[89]' said || fail "through the line: $(cat said)"
@@ -251,7 +252,8 @@ for k in range(12):
 assert told == {False, True}
 END
 
-# Whether one lies in another up to the tolerance, by the last digit of a corner of what that is grown to: as it is, and one unit beyond.
+# Containment up to the tolerance that depends on the last digit of a corner of the grown polygon: on it, and one unit
+# beyond.
 make_hanging at
 make_hanging beyond
 proved beyond beyond.gpkg --gap 3

@@ -26,7 +26,7 @@ class Tree(Bodies):
     # ---- What forces prove
 
     def read_forces(self, told, node):
-        """[(cut, force)], all on the way to the node."""
+        """Reads [(cut, force)], all on the path to the node."""
         forces = []
         for cut, force in told:
             index(cut, len(self.cuts), "cut")
@@ -172,7 +172,7 @@ class Tree(Bodies):
         return value, regions, False
 
     def check_limit(self, i, j, n, d):
-        """-n.t_i >= d takes away nothing of |t_i| <= L."""
+        """Fails unless -n.t_i >= d excludes no move with |t_i| <= L."""
         limit = self.problem.body_limit(self.bodies[i])
         demand(j is None and limit is not None and d <= 0 and d * d >= (n[0] ** 2 + n[1] ** 2) * Fraction(limit) ** 2,
                "a limit's cut takes away what the limit leaves")

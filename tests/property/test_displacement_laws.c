@@ -157,7 +157,7 @@ static size_t find(size_t *parent, size_t x)
     return x;
 }
 
-/* The box of all that the house sweeps in either run, were it to move straight. */
+/* The box of the area that the house sweeps in either run on straight moves. */
 static void swept(const house *h, const double *p, const double *q, double box[4])
 {
     box[0] = box[1] = INFINITY;

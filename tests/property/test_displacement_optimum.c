@@ -24,9 +24,9 @@
 static const double CLOSE = 1e-8;
 /* So far from the optimum a cost may be that is said to be at it, relative and absolute: as the interface says. */
 static const double OPTIMAL = 1e-6, OPTIMAL_TOO = 1e-7;
-/* Limits are less by this share of them where a place of optimum.c, which may overstep them by 1e-9, is to be one that
- * there is for certain. Where one coordinate uses up all of a limit such a place may be off by a ten-thousandth in the
- * other, and cost as much less. */
+/* Limits are reduced by this share if a place of optimum.c, which may exceed them by 1e-9, has to be certainly allowed.
+ * If one coordinate uses up a whole limit, such a place may be wrong by a ten-thousandth in the other coordinate, and
+ * cost less by as much. */
 static const double WITHIN = 1e-8;
 /* The distance that a move keeps from shadows. These are closed, and if there is no room to spare no move is free
  * beside one. */

@@ -1,8 +1,8 @@
-/* Conflicts that are said to have no room: each proof followed by code of its own (support/proof_check.c), in
- * rationals, at coordinates far larger than their limits too.
+/* Conflicts with the reason no_room: each proof is verified by independent code (support/proof_check.c), in rationals,
+ * also for coordinates far larger than the limits.
  *
- * Planted: boxes that fit exactly, or but for a unit in the last place, and were carried off by as much as the limit:
- * no conflict may be said to have no room. Packed: a lane too narrow by little: all that remains has a proof. */
+ * Planted: boxes that fit exactly, or up to a unit in the last place, and were moved by at most the limit: no conflict
+ * may have this reason. Packed: a lane that is slightly too narrow: every remaining conflict has a proof. */
 #include "proof_town.h"
 #include "random.h"
 #include "sunder_proof.h"
@@ -237,7 +237,7 @@ static void check_irreducible(void **state)
 
 /* ---- Corridors -------------------------------------------------------------------------------------------------- */
 
-/* Where a road goes from, and along; across is to its left. */
+/* The start and the direction of a road; across is to its left. */
 typedef struct street {
     double from[2], along[2];
 } street;

@@ -1,5 +1,5 @@
-/* Layers where it is known which conflicts have no room, and what is to be reported of them; independent code verifies
- * each proof (support/proof_check.c), in rationals. */
+/* Layers in which the conflicts without room, and their report, are known. Independent code verifies each proof
+ * (support/proof_check.c), in rationals. */
 #include "proof_town.h"
 #include "random.h"
 

@@ -20,7 +20,7 @@ enum { LONGEST = 20 };
 typedef struct row {
     proof_town town;
     double lack[LONGEST]; /* of each house and the next */
-    double owed[LONGEST]; /* the same where it is not left, else nothing */
+    double owed[LONGEST]; /* the same if the pair is solved, otherwise 0 */
 } row;
 
 /* Boxes beside each other, so high that none can pass another; every third row ends at a house that stands, or has one
@@ -42,7 +42,7 @@ static void add_row(rng *r, row *out)
     }
 }
 
-/* What the houses from `first` to `last` have to go apart beyond what they may, if `pair` is solved, too. */
+/* The amount that the houses from `first` to `last` lack beyond their limits, if `pair` is solved, too. */
 static double excess(const row *r, size_t pair, size_t first, size_t last)
 {
     double sum = -r->town.plain[first].max_shift - r->town.plain[last].max_shift;

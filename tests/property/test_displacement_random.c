@@ -271,7 +271,7 @@ static void check_pairs(const town *t, const sunder_report *report, const house 
             if (conflict(&now[a], &now[b], o->gap))
                 fail_msg("features %zu and %zu are in conflict and not listed", a, b);
         }
-    /* And what is listed is there. */
+    /* Each listed conflict exists. */
     for (size_t k = 0; k < n; k++)
         if (o->gap > 0 && !conflict(&now[c[k].a], &now[c[k].b], o->gap))
             fail_msg("%zu and %zu are listed for nothing", c[k].a, c[k].b);
@@ -365,7 +365,7 @@ static void check_bound(const town *t, const sunder_report *report, bool may_ove
     }
     mpq_set_d(x, s.pair_bound);
     assert_true(s.pair_bound == 0 || mpq_cmp(x, value) <= 0);
-    /* Trees prove a little less of pairs than their least translations do, and nothing of those that may lie in each
+    /* Trees prove slightly less for pairs than their least translations do, and nothing for pairs that may lie in each
      * other. */
     assert_true(may_overlap || s.pair_bound * (1 - 0x1p-17) <= s.lower_bound);
     assert_true(s.lower_bound <= s.cost * (1 + 1e-12));
@@ -427,7 +427,7 @@ static void check_same(const town *t, const sunder_report *a, const sunder_repor
 }
 
 /* A check of the features as written, blocks given by number, counts what `after` says. */
-/* Nothing broke a rule on the way: neither did the moves, nor, told from the coordinates alone, the features. */
+/* No move broke a rule; and the features, compared by their coordinates alone, broke none. */
 static void check_way(const town *t, const sunder_feature *now, const sunder_layer_options *o)
 {
     sunder_layer *before = NULL, *after = NULL;

@@ -32,7 +32,7 @@ typedef struct country {
     sunder_layer_options options;
 } country;
 
-/* An order of all features, or of those of a town. */
+/* An order of all features, or of the features of a town. */
 typedef struct order {
     size_t town[MOST], house[MOST];
     size_t n;
@@ -75,7 +75,7 @@ static void found(country *c, rng *r, size_t towns, size_t houses, double far)
     const int which = (int)rng_int(r, 0, 2); /* limits for all, for some, for none */
     for (c->towns = 0; c->towns < towns; c->towns++) {
         const size_t k = c->towns;
-        /* What no one oversteps in one town is little in another. */
+        /* Towns have limits of different sizes: one that no feature exceeds in one town is small in another. */
         const bool limited = which == 0 || (which == 1 && rng_once_in(r, 2));
         const double limit = limited ? (rng_once_in(r, 3) ? 60 : 6) * rng_unit(r) : INFINITY;
         const size_t n = (size_t)rng_int(r, 1, (int64_t)houses), row = (size_t)rng_int(r, 1, 5);

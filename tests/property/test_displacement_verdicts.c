@@ -1,9 +1,9 @@
-/* Verdicts against small layers with planted solutions, and the rule that nothing is made worse.
+/* Verdicts on small layers with planted solutions, and the rule that no conflict gets worse.
  *
- * A layer is laid out at peace: houses in rows, in outlines that may hold them, in yards; blocks by number; some fixed;
- * then each block is carried off by no more than its limit. So there is a solution, and no conflict may be listed as
- * max_shift or no_room. Whatever is listed stands no worse than it stood, in rationals by brute force. That the planted
- * layer is at peace, with what joins at the start as blocks, is asked of a check of it. */
+ * A layer is laid out without conflicts: houses in rows, in outlines that may contain them, in yards; blocks by number;
+ * some fixed. Then each block is moved by at most its limit. So there is a solution, and no conflict may be listed as
+ * max_shift or no_room. No listed pair is worse than at the start, in rationals by brute force. A check confirms that
+ * the planted layer has no conflicts, with the features that join at the start as blocks. */
 #include "polyset.h"
 #include "random.h"
 #include "run_layer.h"

@@ -1,5 +1,5 @@
-/* What the three unions of subsums do, in counts of operations and sizes of maps, on the families that tell them apart.
- * Never time. */
+/* The three unions of subsums, measured by counts of operations and sizes of maps, never by time, on the families that
+ * distinguish them. */
 #include "generated.h"
 
 #include <setjmp.h>

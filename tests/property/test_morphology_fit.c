@@ -1,7 +1,7 @@
-/* Does a convex D fit into what P and Q have in common? Against a brute force in whole numbers that shares nothing with
- * it. Where D fits at all it fits at a corner of the set of its places, and that is where two of these lines meet:
- * through a side of P or Q moved by minus a corner of D, through minus a side of D moved to a corner of P or Q. Every
- * such place is tried. Small coordinates, so that exact fits, along a line and at a point, are as common as others. */
+/* Does a convex D fit into the intersection of P and Q? Compared with a brute force in integers that shares no code. If
+ * D fits, it fits at a corner of the set of its positions. There two of these lines meet: the line of a side of P or Q,
+ * moved by minus a corner of D; or the line of a side of -D, moved to a corner of P or Q. Every such place is tried.
+ * Coordinates are small, so exact fits, along a line and at a point, are frequent. */
 #include "failing.h"
 #include "morphology/morphology.h"
 #include "random.h"

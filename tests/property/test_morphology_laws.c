@@ -72,8 +72,8 @@ static void add_slim_parts(polyset *out, const polyset *b, const double *segment
     free(t);
 }
 
-/* What the closing of the complement by -B leaves of the frame is what B reaches from the inside of the erosion; with
- * what it reaches from the erosion's parts without area, exact fits, that makes the opening. */
+/* Let the closing of the complement by -B be removed from the frame. What remains is the sum of B and the interior of
+ * the erosion. Together with the sum of B and the erosion's parts without area (exact fits), this is the opening. */
 static bool opening_is_what_closing_leaves(const polyset *p, const polyset *b, const sunder_sum *opened)
 {
     polyset c, turned;

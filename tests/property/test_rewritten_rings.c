@@ -1,9 +1,8 @@
-/* Operands whose rings are written in another way: sums, pairs, growths and routes are the same. A set is drawn, valid
- * or not, and written once more: rings turned round, begun at another vertex, closed twice, with repeated vertices and
- * ones on straight edges; members and holes in another order. All that is told of the two must be equal to the last
- * letter: the cleaned rings, exact texts, doubles, the order of what ties, and the number of operations. (The last is
- * not asked of repaired sets: their lattice is that of all vertices as given, so a vertex in the middle of an edge
- * makes it finer.) */
+/* Operands whose rings are written in another way give the same sums, pairs, buffers and routes. A set is drawn, valid
+ * or not, and written once more: rings reversed, begun at another vertex, closed twice, with repeated vertices and
+ * vertices on straight edges; members and holes in another order. All results must be equal to the last letter: the
+ * cleaned rings, exact texts, doubles, the order of ties, and the number of operations. (The number is not compared for
+ * repaired sets: their lattice contains all given vertices, so a vertex in the middle of an edge makes it finer.) */
 #include "generate.h"
 #include "roads.h"
 #include "sum_text.h"

@@ -115,7 +115,7 @@ static void check_meeting(void **state)
     assert_true(asked * 4 < all * 3);
 }
 
-/* Is the start of the line in the interior of some subsum? Every side is asked exactly. */
+/* Is the start of the line in the interior of some subsum? Every side is tested exactly. */
 static bool is_held(sunder_i_operands *g, const sunder_i_carrier *line, const sunder_i_fraction *zero)
 {
     for (size_t k = 0; k < g->subsums; k++) {

@@ -1,8 +1,8 @@
-/* The nearest free placement, searched square by square as for large operands, and in one go: the same point, the same
- * contact, on pairs of all kinds of trouble, also translated so that they overlap by little. Of ragged outlines that
- * are large enough for the squares to matter, stars of equal spikes and round outlines, whose pieces are cut up, among
- * them. Every fourth on a wide lattice. And the same with a gap: the same least length, rounded down, and the same
- * contact, with an answer hardly longer. */
+/* The nearest free placement, searched square by square as for large operands, equals the one found without squares:
+ * the same point and the same contact. Pairs of all kinds of degeneracy are drawn, also translated so that they overlap
+ * by little, and ragged outlines that are large enough for squares to matter, among them stars of equal spikes and
+ * round outlines, whose pieces are cut. Every fourth pair is on a wide lattice. With a gap: the same least length,
+ * rounded down, the same contact, and an answer that is hardly longer. */
 #include "failing.h"
 #include "generate.h"
 #include "separation/least_translation.h"

@@ -1,7 +1,7 @@
-/* Sums with a convex operand, traced along the outline, against the oracle byte for byte: polygons of all kinds, with
- * holes and bays that close, by convex shapes from small to larger than they are. The tracing is called by itself, so
- * that the general road cannot answer for it; where it declines there is nothing to compare, but it may not always do
- * so. */
+/* Sums with a convex operand, traced along the outline, byte for byte as the oracle's: polygons of all kinds, with
+ * holes and bays that close, and convex shapes from small to larger than the polygon. The tracing is called by itself,
+ * so that the general algorithm cannot replace it. If it declines there is nothing to compare, and it must not always
+ * decline. */
 #include "generate.h"
 #include "minkowski/convolution.h"
 #include "oracle.h"
@@ -61,7 +61,7 @@ static double width_of(const polyset *p)
     return high - low;
 }
 
-/* 1: traced, and as the oracle says; 0: declined; -1: wrong. */
+/* Returns 1 if traced and equal to the oracle's sum, 0 if declined, -1 if wrong. */
 static int trace_one(subject kind, uint64_t seed, size_t i)
 {
     static const double share[] = {0.02, 0.1, 0.2, 0.4, 1.5};

@@ -1,7 +1,7 @@
-/* Layers of members that lie deep in each other, as rings of reach around one place do, or services that overlap: most
- * of their sides are inside other members, and what is left of them is small. No cell parts them until it is as small
- * as their distances. The sum by the convolution is that of another road, and what it takes follows the layer: the
- * memory of a layer four times as long is counted, which no timing disturbs. */
+/* Layers of members that overlap deeply, such as rings of reach around one place, or overlapping service areas. Most of
+ * their sides are inside other members, and the outline is small. No cell separates them until it is as small as their
+ * distances. The sum by the convolution equals that of another algorithm, and its cost is proportional to the layer:
+ * the memory for a layer four times as long is compared, which no timing disturbs. */
 #include "generate.h"
 #include "roads.h"
 #include "sum_text.h"

@@ -14,7 +14,7 @@
 
 #include <cmocka.h>
 
-/* How many subsums there are, and how many are said to be needed. */
+/* Counts the subsums, and those that are reported as needed. */
 static void count_needed(const polyset *p, const polyset *q, size_t count[2])
 {
     sunder_shape *a = polyset_shape(p), *b = polyset_shape(q);

@@ -50,7 +50,7 @@ static void draw(polyset *set, rng *r, spacing kind)
     cells c;
     random_cells(&c, r, (int)rng_int(r, 1, CELLS_MAX), (int)rng_int(r, 1, CELLS_MAX), kind, false,
                  (int)rng_int(r, 20, 95));
-    c.on[0][0][1] = c.on[0][0][0]; /* where nothing is on, it is half a square */
+    c.on[0][0][1] = c.on[0][0][0]; /* half a square if no square is set */
     polyset_init(set);
     cells_outline(set, &c, rng_once_in(r, 2), rng_once_in(r, 2));
 }

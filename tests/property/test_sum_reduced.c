@@ -74,7 +74,7 @@ static void random_operands(polyset *p, polyset *q, rng *r, subject kind)
     }
 }
 
-/* 1: traced, and as the oracle says; 0: declined; -1: wrong. */
+/* Returns 1 if traced and equal to the oracle's sum, 0 if declined, -1 if wrong. */
 static int trace_one(subject kind, uint64_t seed, size_t i, size_t *holes)
 {
     rng r = rng_start(seed * 31 + (uint64_t)kind, i);

@@ -33,7 +33,7 @@ static sunder_shape *even_odd_shape(const polyset *p)
     return s;
 }
 
-/* near: Q stands about where P does. */
+/* near: Q is placed near P. */
 static void open_case(repaired *c, rng *r, invalid_kind kind, int most_p, int most_q, bool near)
 {
     polyset_init(&c->p);

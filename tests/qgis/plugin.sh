@@ -26,7 +26,7 @@ for command in separate check buffer sum pair route; do
     grep -q "sunder:$command" log || fail "sunder:$command is not in the list"
 done
 
-# As a script would call it: status 3 is no failure, what remains is a warning.
+# A call by a script: status 3 is no failure, and remaining conflicts are a warning.
 "$process" run sunder:separate --INPUT="$town|layername=buildings" --GAP=3 --MAX_SHIFT=1 --OUTPUT="$work/moved.gpkg" \
     --CONFLICTS="$work/conflicts.gpkg" --REPORT="$work/moves.html" >log 2>&1 || { cat log; fail "separate failed"; }
 grep -q 'WARNING:.* conflicts could not be solved' log || { cat log; fail "conflicts that remain are not told"; }

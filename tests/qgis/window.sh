@@ -18,7 +18,7 @@ PATH=$(dirname "$SUNDER"):$PATH
 cp "$SUNDER_SOURCE/datasets-synthetic/town.gpkg" "$work"
 QT_QPA_PLATFORM=offscreen "$process" plugins enable sunder >"$work/log" 2>&1 || fail "the plug-in cannot be enabled"
 
-# The window ends by itself; the time only ends what hangs.
+# The window closes by itself; the timeout only ends a hanging run.
 timeout 240 xvfb-run -a -s "-screen 0 1280x860x24 -nolisten tcp" "$qgis" --noversioncheck --nologo \
     --code "$here/window.py" >"$work/log" 2>&1 || fail "QGIS ended with status $?"
 for wanted in '^done$' '^Houses: Separated: 280 features, categorizedSymbol' '^Houses: Moves: [0-9]* features, singleSymbol' \

@@ -35,7 +35,7 @@ done
 if grep -q '^repository=' "$addresses/gis/qgis/metadata.txt"; then fail "an address that was not given"; fi
 
 "$process" plugins enable sunder >"$work/log" 2>&1 || fail "the plug-in cannot be enabled"
-# The setting of Processing says where the program is; there is none on the PATH.
+# The setting of Processing names the program; it is not on the PATH.
 ini=$work/profile/profiles/default/QGIS/QGIS3.ini
 printf '\n[Processing]\nConfiguration\\SUNDER_PROGRAM=%s\n' "$SUNDER" >>"$ini"
 PATH=/usr/bin:/bin "$process" run sunder:pair --P_SHAPE=square:4 --Q_SHAPE=square:2 --OUTPUT="$work/pair.gpkg" >"$work/log" 2>&1 ||

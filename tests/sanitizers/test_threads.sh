@@ -1,8 +1,7 @@
 #!/usr/bin/env bash
-# Do threads ever meet in one place without a lock? Everything that works on threads, in a build with gcc's thread sanitizer
-# (build/thread): the commands with 2 and 4 of them over a made town.
-# GDAL, SQLite and GMP are as installed: what they do between themselves is not seen, and what the sanitizer says of their
-# insides alone is passed over, with its reason, in threads.supp.
+# Are there data races? All multi-threaded work runs in a build with gcc's thread sanitizer (build/thread): the commands
+# with 2 and 4 threads on a synthetic town. GDAL, SQLite and GMP are the installed ones: races between them are not
+# seen, and reports about their insides alone are suppressed in threads.supp, with reasons.
 set -eu
 skip() { echo "skipped: $1"; exit 77; }
 echo 'int main(void) { return 0; }' | cc -x c -fsanitize=thread - -o /dev/null 2>/dev/null || skip "no thread sanitizer"

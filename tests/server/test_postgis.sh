@@ -73,7 +73,7 @@ refused 2 'is in its own SQL, in which the area is ST_Area("geom"); its fields a
     "$SUNDER" check -l plain --where 'OGR_GEOM_AREA < 9' "$db"
 "$SUNDER" check --quiet --allow-conflicts --gap 3 -l squares squares.gpkg --barrier "$db,layer=moved" >/dev/null
 
-# The connection goes in the midst of what is written: a table of that name is made, and its maker ended.
+# The connection is lost during writing: when a table of that name is created, its session is terminated.
 tables() { sql "SELECT string_agg(tablename, ' ' ORDER BY tablename) FROM pg_tables WHERE schemaname = 'public'"; }
 sql "CREATE FUNCTION ended() RETURNS event_trigger LANGUAGE plpgsql AS \$\$ BEGIN
     IF EXISTS (SELECT FROM pg_event_trigger_ddl_commands() WHERE object_identity LIKE '%ended%conflicts') THEN

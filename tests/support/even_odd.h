@@ -13,7 +13,7 @@ typedef struct even_odd_corner {
     size_t member;
 } even_odd_corner;
 
-/* The closure of what each member encloses by the rule: corners of the boundary, none of them straight. */
+/* The closure of the set that each member encloses by the rule: corners of the boundary, none of them straight. */
 typedef struct even_odd {
     even_odd_corner *corner;
     size_t n, members;

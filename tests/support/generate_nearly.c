@@ -121,7 +121,7 @@ static void magnitudes(polyset *set, rng *r, int members)
     }
 }
 
-/* What Q is, beside versions of an outline at a stand: directions that P has too, nearly, or none of them. */
+/* Makes Q for versions of an outline in one place: its directions are also directions of P, nearly so, or different. */
 static void robot(polyset *q, rng *r, const stand *t)
 {
     stand own = *t;

@@ -333,7 +333,7 @@ static double area_outside(const double *xy, size_t n, const part_list *of, size
     return area;
 }
 
-/* All of p in q: what is not leaves an area that is no rounding, for all is on a grid. */
+/* Is p a subset of q? Everything is on a grid, so any area outside q is larger than rounding. */
 static bool lies_in(const part_list *p, const part_list *q)
 {
     double area = 0, size = 0;

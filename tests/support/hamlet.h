@@ -53,7 +53,7 @@ typedef enum hamlet_kind {
 
 /* n features. kinds: what there may be. */
 void hamlet_found(rng *r, hamlet *t, size_t n, int kinds);
-/* No blocks but those said, tolerance 0, nothing may stay in another. */
+/* Separates with the given blocks only, tolerance 0, and no feature allowed within another. */
 sunder_report *hamlet_separate(const hamlet *t, double effort);
 
 /* Which rules a problem holds to. */

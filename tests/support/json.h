@@ -1,4 +1,4 @@
-/* Just enough JSON to read what the program prints and what the tests keep: a tree, numbers kept as their text. */
+/* Reads JSON as far as the program's output and the recorded answers need it: a tree, with numbers kept as text. */
 #ifndef SUNDER_TESTS_JSON_H
 #define SUNDER_TESTS_JSON_H
 
@@ -12,7 +12,7 @@ typedef struct json {
     bool truth;
     char *text;        /* of a string or number */
     char *name;        /* of a member of an object */
-    struct json *item; /* of an array or object, n of them */
+    struct json *item; /* the n elements of an array or object */
     size_t n;
 } json;
 

@@ -227,8 +227,8 @@ void morphology_complement(polyset *out, const polyset *d, double frame)
 
 /* ---- Cases ---- */
 
-/* Two simple polygons; or a board, its parts disjoint members; and what to grow and shrink by: a smaller board, a
- * simple or a convex polygon, or one that comes off the board's own grid, so that fits are exact. */
+/* P: two simple polygons, or a board whose parts are disjoint members. B, to grow and shrink by: a smaller board, a
+ * simple or a convex polygon, or one with coordinates of the board's grid, so that fits are exact. */
 void morphology_case(polyset *p, polyset *b, rng *r)
 {
     cells board, small;

@@ -8,8 +8,8 @@
 /* The finest scale that a case may need, so that products of two integers are exact doubles. */
 #define MORPHOLOGY_FINEST (1L << 20)
 
-/* Two simple polygons; or a board, its parts disjoint members; and what to grow and shrink by: a smaller board, a
- * simple or a convex polygon, or one that comes off the board's own grid, so that fits are exact. */
+/* P: two simple polygons, or a board whose parts are disjoint members. B, to grow and shrink by: a smaller board, a
+ * simple or a convex polygon, or one with coordinates of the board's grid, so that fits are exact. */
 void morphology_case(polyset *p, polyset *b, rng *r);
 /* Prints case i, and how to see it again. */
 void morphology_show(const char *what, size_t i, const polyset *p, const polyset *b);

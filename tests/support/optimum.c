@@ -1,13 +1,14 @@
-/* Plain branch and bound. A place outside a convex piece is beyond one of its sides, or (where the piece is rounded) in
- * the sector of one of its corners and at least the radius from it. Of a sector between directions d and e the convex
- * hull is bounded by the chord: m.(u - corner) >= radius * min(m.d/|d|, m.e/|e|), m = d + e. So a node is a set of
- * half-planes, one to three for each piece that was branched on; its bound is that of optimum_dual.c. The solution of a
- * node that lies in a piece, deepest first, is branched on: over all sides and sectors of a new piece, over the two
- * halves of a sector whose chord it lies beyond. The children of a node cover it, and a chord differs from its arc by
- * the square of its length, so bounds converge. Limits are cut out by tangents, as they are overstepped.
+/* Plain branch and bound. A place outside a convex piece is beyond one of its sides, or (if the piece is rounded) in
+ * the sector of one of its corners and at least the radius from it. The convex hull of a sector between directions d
+ * and e is bounded by the chord: m.(u - corner) >= radius * min(m.d/|d|, m.e/|e|), m = d + e. So a node is a set of
+ * half-planes, one to three for each piece that was branched on; its bound is that of optimum_dual.c. If the solution
+ * of a node lies in pieces, the deepest one is branched on: over all sides and sectors of a new piece, or over the two
+ * halves of a sector whose chord the solution lies beyond. The children of a node cover it, and a chord differs from
+ * its arc by the square of its length, so bounds converge. Limits are replaced by tangents, added when a solution
+ * exceeds a limit.
  *
- * Rows are valid as doubles: normals of sides are exact, their distances rounded down; the directions that part sectors
- * may be any, and neighbours share them. */
+ * Rows are valid as doubles: normals of sides are exact, their distances rounded down; the directions that divide
+ * sectors may be any, and neighbours share them. */
 #include "optimum.h"
 
 #include "optimum_dual.h"
@@ -38,7 +39,7 @@ typedef struct search {
 
 static double dot(const double *p, const double *q) { return p[0] * q[0] + p[1] * q[1]; }
 
-/* v less what rounding of some operations on numbers of that size may have added. */
+/* A lower bound of v, if some operations on numbers of that size were rounded. */
 static double down(double v, double size) { return v - 8 * 0x1p-53 * (fabs(v) + size); }
 
 /* ---- Rows ---- */
@@ -139,7 +140,7 @@ static void leave_open(search *s, double bound)
     s->answer.open = true;
 }
 
-/* Solves the node, cutting limits; false where nothing below it counts. */
+/* Solves the node, adding tangents of limits. Returns false if the node can be closed. */
 static bool bound_node(search *s, optimum_solution *at)
 {
     for (int cuts = 0; cuts < 60; cuts++) {
@@ -225,7 +226,7 @@ static void branch(search *s, const optimum_piece *p, double bound)
     const choice *taken = NULL;
     for (size_t k = 0; k < choices; k++)
         if (s->choice[k].piece == piece) taken = &s->choice[k];
-    if (taken && !taken->sector) { /* beyond a side, but for more rounding than there can be */
+    if (taken && !taken->sector) { /* beyond a side, up to the greatest rounding error */
         leave_open(s, bound);
         return;
     }

@@ -87,7 +87,7 @@ static void drop(active_set *s, size_t j)
     factor(s);
 }
 
-/* Takes row p into force. False where nothing is left to move: then the forces are those of a certificate. */
+/* Makes row p active. Returns false if there is nothing left to move: then the forces are a certificate. */
 static bool enforce(active_set *s, size_t p, double h)
 {
     double y[DIMENSIONS], z[DIMENSIONS];

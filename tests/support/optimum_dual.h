@@ -15,7 +15,7 @@ typedef enum optimum_verdict { OPTIMUM_SOLVED, OPTIMUM_INFEASIBLE, OPTIMUM_STUCK
 
 typedef struct optimum_solution {
     double t[2 * (OPTIMUM_BODIES + 1)]; /* 0 for fixed ones */
-    double cost, bound;                 /* the bound holds whatever the solution is worth */
+    double cost, bound;                 /* the bound is valid for any solution */
 } optimum_solution;
 
 /* For an infeasible program the bound is at least `enough`; otherwise the verdict is OPTIMUM_STUCK. */

@@ -29,7 +29,8 @@ bool oracle_covers(const oracle *o, const char *x, const char *y);
  * whenever the lemma in oracle_arrangement.c holds (tests run both). Freed by the caller. */
 char *oracle_sum_text(const polyset *p, const polyset *q, bool all_segments);
 char *oracle_even_odd_text(const polyset *p, const polyset *q, bool all_segments);
-/* Is `ours` the text of P + Q? 1, or else -1, and what it takes to see case `i` of that kind again is printed. */
+/* Returns 1 if `ours` is the text of P + Q. Otherwise returns -1 and prints how case `i` of that kind can be
+ * repeated. */
 int oracle_verdict(const char *ours, const polyset *p, const polyset *q, const char *kind, uint64_t seed, size_t i);
 
 /* The triangles of a set, member by member, 6 coordinates each, counter-clockwise; found by trying everything, O(n^4)

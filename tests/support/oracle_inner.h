@@ -45,7 +45,7 @@ typedef struct subsum {
 
 struct oracle {
     mpq_t unit; /* of the grid, in that of the input */
-    long shift; /* 2^-shift is near it: what approximations take for it */
+    long shift; /* approximations use 2^-shift, which is near it */
     bool small; /* grid coordinates of operands and their sums below 2^60 */
     zset p, q;
     size_t subsums;

@@ -1,10 +1,10 @@
 /* Canonical rings, segments and points of the oracle, as text.
  *
- * Components first: walking boundary pieces so that the next one bounds the same covered sector gives the closed walks
- * that bound each connected component C of the interior of the sum; one of them is positive (the outer), the others
- * negative; each negative one belongs to the least positive one that winds around it. Then rings: within the pieces of
- * one C the next piece is the first of C counter-clockwise from where we came, which goes round one component of the
- * plane minus cl C. */
+ * Components first. Boundary pieces are followed so that the next one bounds the same covered sector. This gives the
+ * closed walks that bound each connected component C of the interior of the sum; one of them is positive (the outer),
+ * the others are negative. Each negative one belongs to the smallest positive one that winds around it. Then rings:
+ * among the pieces of one C the next piece is the first of C counter-clockwise from the direction of arrival, so that a
+ * ring goes round one component of the plane minus cl C. */
 #include "oracle_inner.h"
 
 #include <stdlib.h>

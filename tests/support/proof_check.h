@@ -16,11 +16,11 @@ typedef struct proof_feature {
     bool sides;  /* of a barrier: it may not be crossed */
 } proof_feature;
 
-/* Follows the proof of conflict k of the report: its parts lie in their features, its ways leave nothing out, no
- * clearance is more than is owed, its leaves contradict the limits, and blocked_by names its features. NULL if all is
- * so, else what is not. thing: n features, and behind them the barriers. Features that lie in
- * each other must not be allowed to overlap; of a line that a listed feature overlapped it is asked whether it is
- * deeper only where it has one segment, and the feature is convex: else it is taken for wrong. */
+/* Verifies the proof of conflict k of the report: its parts lie in their features, its ways leave no case out, no
+ * clearance exceeds the owed distance, its leaves contradict the limits, and blocked_by names its features. Returns
+ * NULL if all this holds, otherwise the fault. thing: n features, followed by the barriers. Features that lie in each
+ * other must not be allowed to overlap. Whether a line that a listed feature overlapped is deeper is tested only for a
+ * line of one segment and a convex feature; otherwise the proof counts as wrong. */
 const char *proof_check(const proof_feature *thing, size_t n, size_t things, double gap, const sunder_report *report,
                         size_t k);
 

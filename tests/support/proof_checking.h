@@ -16,7 +16,7 @@ typedef struct checking {
     const sunder_conflict *listed;
     size_t listed_n;
     const sunder_proof *proof;
-    size_t *path_node, *path_way; /* on the way from the root */
+    size_t *path_node, *path_way; /* on the path from the root */
     bool *seen;
 } checking;
 

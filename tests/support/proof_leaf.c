@@ -36,8 +36,7 @@ static void root_above(mpq_t r, const mpq_t s)
     mpz_clear(n);
 }
 
-/* The sum of the leaf's forces, each with the sign that it has for block b; or of those that push the slack of that
- * node's pair. */
+/* The sum of the leaf's forces, each with its sign for block b; or of the forces on the slack of that node's pair. */
 static void sum_net(const checking *c, const sunder_proof_node *leaf, size_t b, const sunder_proof_node *slack,
                     vec *net)
 {

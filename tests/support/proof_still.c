@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stdint.h>
 
-/* A line of a way: what moves, and the normal as that sees it. */
+/* The line of a way: the moving feature, and the normal in terms of its move. */
 typedef struct line {
     size_t feature;
     vec n;

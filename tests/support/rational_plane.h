@@ -16,7 +16,7 @@ void vec_set_d(vec *v, const double *xy);
 void vec_sub(vec *r, const vec *p, const vec *q);
 void vec_dot(mpq_t r, const vec *p, const vec *q);
 void vec_cross(mpq_t r, const vec *p, const vec *q);
-/* 1 where p, q, r turn left, -1 right, 0 straight. */
+/* Returns 1 if p, q, r turn left, -1 if right, 0 if straight. */
 int vec_side(const vec *p, const vec *q, const vec *r);
 
 /* Counter-clockwise, strictly convex; a segment or a point has two corners or one. */

@@ -1,4 +1,4 @@
-/* A layer separated or checked, as tests ask for it. What fails, fails the test. */
+/* Separates or checks a layer for a test. Any failure fails the test. */
 #ifndef SUNDER_TESTS_RUN_LAYER_H
 #define SUNDER_TESTS_RUN_LAYER_H
 

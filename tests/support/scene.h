@@ -1,5 +1,5 @@
-/* A small layer, set up feature by feature, and its last report: what unit tests of displacement begin with. What
- * fails, fails the test. */
+/* A small layer, built feature by feature, and its last report: a fixture for unit tests of displacement. Any failure
+ * fails the test. */
 #ifndef SUNDER_TESTS_SCENE_H
 #define SUNDER_TESTS_SCENE_H
 

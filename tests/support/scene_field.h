@@ -1,4 +1,4 @@
-/* A field of shapes as one cluster of the search: what tests of large crowds begin with. What fails, fails the test. */
+/* A field of shapes as one cluster of the search: a fixture for tests of large crowds. Any failure fails the test. */
 #ifndef SUNDER_TESTS_SCENE_FIELD_H
 #define SUNDER_TESTS_SCENE_FIELD_H
 

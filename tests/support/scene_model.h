@@ -1,5 +1,5 @@
-/* A scene's layer as the search and the proofs have it: what unit tests of their rooms begin with. What fails, fails
- * the test. */
+/* A scene's layer in the form that the search and the proofs use: a fixture for unit tests of these rooms. Any failure
+ * fails the test. */
 #ifndef SUNDER_TESTS_SCENE_MODEL_H
 #define SUNDER_TESTS_SCENE_MODEL_H
 

@@ -1,4 +1,4 @@
-/* A solver over a scene's model, its conflicts joined: what unit tests of clusters begin with. What fails, fails the
+/* A solver of a scene's model with its conflicts joined: a fixture for unit tests of clusters. Any failure fails the
  * test. */
 #ifndef SUNDER_TESTS_SCENE_SOLVER_H
 #define SUNDER_TESTS_SCENE_SOLVER_H

@@ -105,8 +105,8 @@ static double reach_of(const contact *p)
     return hypot(p->at[0] + s * p->along[0], p->at[1] + s * p->along[1]);
 }
 
-/* In doubles; the length is infinite where it is surely on none of the two. Where two are nearly parallel, doubles do
- * not say where they cross: then it is what the length is not below. */
+/* The length in doubles; infinite if the place is certainly on neither of the two. If both are nearly parallel, doubles
+ * cannot locate the crossing; then a lower bound of the length is returned. */
 static double rough_length(const contact *all, const candidate *c)
 {
     const contact *p = &all[c->first], *q = &all[c->second];

@@ -1,4 +1,4 @@
-/* Where a point stands to a canonical sum, from its text alone. */
+/* Locates a point relative to a canonical sum, from the text of the sum alone. */
 #include "json.h"
 #include "sum_text.h"
 

@@ -1,4 +1,4 @@
-/* Sums traced along outlines by one road called by itself, so that the general one cannot answer for it. */
+/* Sums traced along outlines, by a direct call of one algorithm, so that the general one cannot replace it. */
 #ifndef SUNDER_TESTS_TRACED_H
 #define SUNDER_TESTS_TRACED_H
 

@@ -9,7 +9,7 @@ static bool is_within(sunder_conflict_kind kind)
     return kind == SUNDER_CONFLICT_CONTAINED || kind == SUNDER_CONFLICT_DUPLICATE;
 }
 
-/* A check of the layer as it was given tells the kinds of pairs: that part of src/ is trusted here. It is not
+/* The kinds of pairs come from sunder_layer_check() on the original layer; that part of src/ is trusted here. It is not
  * cancelled. */
 static sunder_report *check(const sunder_feature *feature, size_t n, const sunder_layer_options *options)
 {

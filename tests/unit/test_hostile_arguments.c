@@ -150,7 +150,8 @@ static void test_sizes(void **state)
     assert_true(answers > n / 3);
 }
 
-/* Sides lost below all doubles beside the gap say nothing of what is far: these two are 0.14 apart, not 1. */
+/* Sides that are lost below all doubles relative to the gap must not affect distant features: these two are 0.14 apart,
+ * not 1. */
 static void test_least_square(void **state)
 {
     (void)state;

@@ -17,7 +17,7 @@
 
 enum {
     MOST = 30000000,      /* steps between two looks, or from the answer to the return */
-    ENOUGH = 40 * 1000000 /* steps, after which a call is told to stop */
+    ENOUGH = 40 * 1000000 /* steps after which a call is stopped */
 };
 
 static uint64_t steps, last, longest;

@@ -52,7 +52,7 @@ static bool look_up(const char *table, const char *stage)
     return !has(&off, name);
 }
 
-/* Memos are asked for millions of times: answers are kept by the addresses of the two constants. */
+/* Memos call this millions of times, so answers are cached by the addresses of the two constant strings. */
 bool sunder_i_stage_is_on(const char *table, const char *stage)
 {
     static _Thread_local struct {

@@ -227,7 +227,7 @@ static size_t crossings_of(sunder_shape *area)
     return sides;
 }
 
-/* The same of areas: in, out of it, out of it and in again, past it. */
+/* The same for areas: within, out of it, out of it and in again, past it. */
 static void check_sides_of_areas(void **state)
 {
     static const struct {
@@ -250,7 +250,7 @@ static void check_sides_of_areas(void **state)
     }
 }
 
-/* Areas that cross themselves, some of them where no doubles are. */
+/* Areas that cross themselves, some of them at places that are not doubles. */
 static void check_sides_of_repaired_areas(void **state)
 {
     static const struct {

@@ -217,7 +217,7 @@ static bool attempt_anchor(void *context)
         const double from[2] = {anchor[0], anchor[1] - 500}, to[2] = {anchor[0], anchor[1] + 500};
         const sunder_i_side side = {.from = from, .to = to}, *const sides[1] = {&side};
         lines both = {{&side}, 1};
-        /* All parts are as good as the largest, so that the room of each is asked for. */
+        /* All parts are as good as the largest, so the room of each is computed. */
         const sunder_i_side_scope scope = {1e6, find_lines, &both};
         status = sunder_i_side_anchor(shape, sides, 1, &scope, anchor, NULL);
         if (!status) assert_true(anchor[0] != from[0]);

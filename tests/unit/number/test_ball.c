@@ -156,7 +156,7 @@ static void what_is_far_apart_is_told(void **state)
     assert_int_equal(sunder_i_ball_sign(sunder_i_ball_sub(tiny, one)), -1);
     assert_int_equal(sunder_i_ball_sign(sunder_i_ball_mul(huge, tiny)), 1);
     assert_int_equal(sunder_i_ball_sign(sunder_i_ball_sub(sunder_i_ball_sqrt(huge), one)), 1);
-    /* 1 - 3 / 3 may be anything near zero, and nothing is known of what it divides. */
+    /* 1 - 3 / 3 may be any number near zero, so nothing is known about a quotient by it. */
     const sunder_i_ball zero = sunder_i_ball_sub(one, sunder_i_ball_div(three, three));
     const sunder_i_ball anything = sunder_i_ball_div(huge, zero);
     assert_int_equal(sunder_i_ball_sign(zero), 0);

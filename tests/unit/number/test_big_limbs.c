@@ -1,5 +1,5 @@
-/* number/big_limbs: numbers longer than GMP is given at once, against GMP itself; and that GMP's own
- * allocator, which ends the process where there is no memory, is never asked on our behalf, for numbers of any size. */
+/* number/big_limbs: numbers that are longer than one operand of GMP, compared with GMP itself. GMP's own allocator,
+ * which ends the process if there is no memory, is never called by our code, for numbers of any size. */
 #include "failing.h"
 #include "gmp_numbers.h"
 #include "number/big_limbs.h"

@@ -11,7 +11,7 @@
 
 #include <cmocka.h>
 
-/* 256 times what these sums take; the attempt took gigabytes. */
+/* 256 times the memory that these sums need; a former version took gigabytes. */
 #define ALLOWED ((size_t)64 << 20)
 
 static size_t held;

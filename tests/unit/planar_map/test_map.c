@@ -1,5 +1,5 @@
-/* planar_map/: the degenerate positions one by one, on maps small enough to say what they must be; every way to look at
- * them; numbers of every size; and every allocation failing once. */
+/* planar_map/: each degenerate position, on maps small enough to know the result; every kind of query; numbers of every
+ * size; and every allocation failing once. */
 #include "failing.h"
 #include "planar_map/planar_map.h"
 #include "predicate/predicate.h"
@@ -361,8 +361,8 @@ static void test_faces(void **state)
 
 /* ---- Numbers ---- */
 
-/* Corners over denominators of sixty bits, on coordinates of sixty bits: nothing that a double, or three, could tell
- * apart. */
+/* Corners with denominators of sixty bits, at coordinates of sixty bits, which neither one double nor the sum of three
+ * distinguishes. */
 static void test_large_numbers(void **state)
 {
     (void)state;

@@ -39,8 +39,7 @@ typedef struct known {
 #define POCKET "POLYGON((-9 -9,13 -9,13 13,-9 13,-9 -9),(0 0,0 4,4 4,4 0,0 0))"
 #define POCKET8 "POLYGON((-10 -10,18 -10,18 18,-10 18,-10 -10),(0 0,0 8,8 8,8 0,0 0))"
 
-/* Walls that are nearly collinear: over the foot on one of them the other one is nearer than the gap, by 1e-13
- * of it. */
+/* Walls that are nearly collinear: at the foot on one of them the other one is nearer than the gap, by 1e-13 of it. */
 #define NEAR_WALLS                                                                                                     \
     "POLYGON((-4096 -1024,4095.999999999999 -1024,4095.999999999999 0.0001220703125,0 0,-4096 0,-4096 -1024))"
 #define NEAR_POST "POLYGON((-1 -1,2.384185791015625e-07 -1,2.384185791015625e-07 9,-1 9,-1 -1))"

@@ -248,8 +248,8 @@ static void test_check_finds(void **state)
     sunder_shape_free(s);
 }
 
-/* Rings of few corners share what is the same for all of them, and one that is clean as given is kept once: that has to
- * show nowhere, whether the first corner is repeated, a corner is no corner, or the ring runs clockwise. */
+/* Rings of few corners share data, and a ring that is clean as given is stored once. The results must not depend on
+ * that, if the first corner is repeated, a vertex is not a corner, or the ring is clockwise. */
 static void test_few_corners(void **state)
 {
     (void)state;

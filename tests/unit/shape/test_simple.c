@@ -1,6 +1,6 @@
-/* The sweep that tells rings without any contact from others, beside all pairs of edges: random rings on small grids,
- * where corners fall on edges and edges on each other; stars, which are mostly simple; two rings. And long spikes by
- * the public road, with one corner that touches or crosses. */
+/* The sweep that recognises rings without any contact, compared with all pairs of edges: random rings on small grids,
+ * in which corners fall on edges and edges on each other; stars, which are mostly simple; two rings. And long spikes
+ * through the public interface, with one corner that touches or crosses. */
 #include "generate.h"
 #include "shape/build.h"
 
@@ -99,7 +99,7 @@ static void test_against_all_pairs(void **state)
 
 #define SPIKES 600
 
-/* A star of spikes whose boxes meet nearly all others; its last corner but one somewhere else. */
+/* A star of spikes whose boxes meet nearly all others; the last corner but one is displaced. */
 static void spikes(double *xy, rng *r)
 {
     for (int i = 0; i < SPIKES; i++) {

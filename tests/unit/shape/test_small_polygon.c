@@ -1,5 +1,5 @@
-/* shape: a small polygon that is sound as it was given has a way of its own. The same polygon with a corner given twice
- * goes the general way: both give the same shape, pieces included, or refuse the polygon for the same reason. */
+/* shape: a small valid polygon has an algorithm of its own. The same polygon with a repeated corner uses the general
+ * algorithm. Both give the same shape, pieces included, or refuse the polygon for the same reason. */
 #include "failing.h"
 #include "random.h"
 #include "shape/small_polygon.h"
@@ -196,7 +196,7 @@ static void test_holes(void **state)
                               {3, 3, 3, 2.5, 2.5, 2.5, 2.5, 3}, {-1, -1, 10, -1, 10, 10, -1, 10}};
     memcpy(d.xy, outer, sizeof outer);
     memcpy(d.xy + 8, hole[0], sizeof hole[0]);
-    assert_true(take(&d, &s)); /* both run the same way as given */
+    assert_true(take(&d, &s)); /* both run in the same direction as given */
     assert_int_equal(s->form->cleaned.rings, 2);
     assert_null(sunder_i_shape_check(s));
     sunder_shape_free(s);

@@ -1,5 +1,6 @@
-/* unions/: the planar map beneath a sum, walked as users walk it; orders of insertion and measures of fatness; options
- * out of range, stops, and every allocation failing once. That all roads lead to the same sum is asked in property/. */
+/* unions/: the planar map beneath a sum, through the public interface; orders of insertion and measures of fatness;
+ * options out of range, stops, and every allocation failing once. tests/property tests that all algorithms give the
+ * same sum. */
 #include "failing.h"
 #include "generate.h"
 #include "generated.h"
@@ -105,7 +106,7 @@ static void check_covered(const sunder_sum *sum, const sunder_map *m)
         const uint32_t on = sunder_map_edge_covered(m, h >> 1);
         assert_true(on <= left && on <= right);
         slits += !on && left && right;
-        if (!left || right) continue; /* edges inside, and those of holes from the other side, add nothing */
+        if (!left || right) continue; /* edges inside, and edges of holes from the other side, add nothing */
         vertex_at(m, sunder_map_origin(m, h), a[0], a[1]);
         vertex_at(m, sunder_map_origin(m, sunder_map_twin(h)), b[0], b[1]);
         mpq_mul(part, a[0], b[1]);
@@ -180,7 +181,7 @@ static void test_map_of_four(void **state)
     sunder_sum_method method;
     assert_int_equal(sunder_minkowski_sum(a, b, &how, &sum, NULL), SUNDER_OK);
     sunder_sum_get_method(sum, &method);
-    assert_int_equal(method.algorithm, SUNDER_ALGORITHM_ARRANGEMENT); /* what AUTO is with a map */
+    assert_int_equal(method.algorithm, SUNDER_ALGORITHM_ARRANGEMENT); /* the algorithm that AUTO selects with a map */
     assert_int_equal(method.decomposition, SUNDER_DECOMPOSITION_ANGLE_BISECTOR);
     assert_int_equal(method.pieces_p, 2);
     assert_int_equal(method.pieces_q, 1);

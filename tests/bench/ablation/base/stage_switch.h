@@ -1,4 +1,4 @@
-/* As src/base/stage_switch.h, but for a library whose stages are switched off by name before a run (../tuning.h). */
+/* Replaces src/base/stage_switch.h in a library whose stages can be switched off by name before a run (../tuning.h). */
 #ifndef SUNDER_I_STAGE_SWITCH_H
 #define SUNDER_I_STAGE_SWITCH_H
 

@@ -210,7 +210,7 @@ static bool go_on_once(void *user)
     return go_on;
 }
 
-/* A search that is told to stop, even while cells are made, reports failure. */
+/* A search that is stopped on request, even while cells are made, reports failure. */
 static void test_stopped(void **state)
 {
     (void)state;

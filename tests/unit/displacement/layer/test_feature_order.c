@@ -1,4 +1,5 @@
-/* The order of work: by where features lie, whatever their list's order, how far from each other, and how alike. */
+/* The order of work depends on the places of features only: for any order of the list, any distances, and equal
+ * features. */
 #include "random.h"
 #include "scene.h"
 

@@ -22,7 +22,7 @@ typedef struct layer {
     sunder_layer work;
     sunder_i_barriers parts;
     sunder_i_model model;
-    sunder_i_relaxation relaxation; /* of things 0 and 1, as they stand at first */
+    sunder_i_relaxation relaxation; /* of things 0 and 1, at their first places */
 } layer;
 
 /* A box of 10 by 10, and one that stands 3 into its side, or a barrier of that place; the gap is 1. */

@@ -1,4 +1,5 @@
-/* How things stand at the start: of some alone, and what a pair that is left is held to. */
+/* The relations of things at the start, also for a few things only, and the demand on a pair that is left in
+ * conflict. */
 #include "random.h"
 #include "scene_model.h"
 
@@ -92,7 +93,8 @@ static bool are_alike(const sunder_i_relation *a, const sunder_i_relation *b)
            a->contained == b->contained && a->kept == b->kept;
 }
 
-/* Relations that are updated, move after move, equal those computed afresh, whether the neighbours are given or not. */
+/* Relations that are updated, move after move, equal those computed from scratch, whether the neighbours are given or
+ * not. */
 static void test_brought_up_to_date(void **state)
 {
     (void)state;

@@ -29,7 +29,7 @@ static void join(drawn *g, uint32_t a, uint32_t b)
     g->joined[a][b] = g->joined[b][a] = true;
 }
 
-/* Points, some of them at one place or in one line, joined where they are near; now and then one more, far away. */
+/* Draws points, some of them at one place or on one line, joined if they are near; sometimes one more, far away. */
 static void draw(rng *r, drawn *g)
 {
     memset(g, 0, sizeof *g);

@@ -124,7 +124,7 @@ static void check_contradiction(void **state)
     assert_true(sunder_i_quadratic_solve(&p.q, 0, 1e-9, 1) == INFINITY);
 }
 
-/* The same where next to nothing is missed, so that forces grow slowly. */
+/* The same with a tiny violation, so that forces grow slowly. */
 static void check_slight_contradiction(void **state)
 {
     (void)state;

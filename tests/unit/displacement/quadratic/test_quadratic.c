@@ -238,8 +238,8 @@ static void demand_both(solved_crowd *c, uint32_t of)
         c->constraint[c->q.n++] = (sunder_i_constraint){.i = SUNDER_I_GROUND, .j = of, .n = {k ? -1 : 1, 0}, .d = 10};
 }
 
-/* Mended about a few constraints more it keeps all, and is dearer than the solution of all by no more than was allowed;
- * where that is nothing, or they contradict each other, all is as it was. */
+/* Mended near a few further constraints, the solution keeps all constraints, and costs more than the solution of all by
+ * at most the allowed amount. If that amount is zero, or constraints contradict each other, nothing is changed. */
 static void check_mended(void **state)
 {
     (void)state;

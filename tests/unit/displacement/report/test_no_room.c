@@ -36,8 +36,8 @@ static sunder_feature *add_strewn(scene *s, rng *r)
     return scene_add(s, wkt);
 }
 
-/* Hundreds of squares that move as one, among as many that stand: wherever they go some two meet, and it takes hundreds
- * of them to say so, for each conflict anew. */
+/* Hundreds of squares that move as one block, among as many fixed ones: at every place some two of them meet. Each
+ * conflict needs its own proof, with hundreds of them. */
 static void check_strewn_block(void **state)
 {
     rng r = rng_start(7, 0);

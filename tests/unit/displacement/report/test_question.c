@@ -77,7 +77,7 @@ enum {
 
 /* ---- What would free it? ----------------------------------------------------------------------------------------- */
 
-/* Questions, by where their layer is, and of what: limits, or gaps; and for proofs. */
+/* Numbers of questions for the field and for the far pair: about limits, about gaps, and for proofs. */
 static size_t asked_limit[2], asked_gap[2], asked_proof[2];
 
 /* No layer has a solution. */
@@ -147,7 +147,7 @@ static void test_needs(void **state)
     end(&c);
 }
 
-/* The crowd's answer stays, and few are asked for one of their own. */
+/* The answer for the crowd is kept, and only a few pairs are asked for an answer of their own. */
 static void test_needs_of_crowd(void **state)
 {
     (void)state;
@@ -231,7 +231,7 @@ static void test_proofs_of_few(void **state)
 
 /* ---- Has it a solution? ------------------------------------------------------------------------------------------ */
 
-/* All pairs are given up, as they stand. Each has a solution, which takes half of the field. */
+/* All pairs are given up at their present places. Each has a solution, which needs half of the field. */
 static void test_one_by_one(void **state)
 {
     (void)state;
@@ -258,9 +258,9 @@ static void test_one_by_one(void **state)
     assert_int_equal(sunder_i_solver_ask_one_by_one(&c.solver, &changed, &err), SUNDER_OK);
     uint64_t work = 0;
     for (size_t b = 0; b < model->bodies; b++) work += c.solver.asked_work[b];
-    /* The two that are far away go on from theirs. Of the field's a few were asked with less and less, and then as many
-     * briefly as there are powers of two; each ends at the next look at a program after its effort, or where too many
-     * bodies take part. */
+    /* The questions about the far pair continue. For pairs of the field a few questions have decreasing efforts, then a
+     * number of brief ones for each power of two. Each ends at the next program after its effort, or if too many bodies
+     * take part. */
     assert_true(changed);
     assert_true(n > 1000 && work > ALONE_PATIENCE * EFFORT_BRIEFLY_ALONE && work < 40 * EFFORT_BRIEFLY_ALONE);
     c.of.model = *model;

@@ -60,7 +60,7 @@ static void check_segment(const sunder_i_operands *g, rng *r, size_t *held, size
         one = one && square == first;
     }
     assert_true(!is || all);
-    const double step = 2 * reach / h->n, low = 1e-6; /* well inside its square, so that rounding is no question */
+    const double step = 2 * reach / h->n, low = 1e-6; /* well inside its square, so that rounding does not matter */
     const double fx = fmod(ax + reach, step) / step, fy = fmod(ay + reach, step) / step;
     const double gx = fmod(ax + dx + reach, step) / step, gy = fmod(ay + dy + reach, step) / step;
     const bool clear = fmin(fmin(fx, fy), fmin(gx, gy)) > low && fmax(fmax(fx, fy), fmax(gx, gy)) < 1 - low;

@@ -232,7 +232,7 @@ static void draw_market(rng *g, market *m)
     m->prices.unit = ldexp(1, (int)rng_int(g, -14, 4));
     draw_prices(g, &m->prices, height);
     assert_true(sunder_i_masses_make(&m->body.outline, l, &m->payer.masses));
-    /* So that what it pays to stay takes it some squares far. */
+    /* The cost of staying is worth a move of some squares. */
     const double stays = height * m->prices.unit * (double)m->payer.masses.total / (double)SUNDER_I_MASS_OF_SQUARE;
     m->payer.weight = fmax(stays / pow(1 + 7 * rng_unit(g), 2), m->prices.unit * 0x1p-18);
     m->payer.limit = rng_once_in(g, 3) ? side * 5 * rng_unit(g) : INFINITY;

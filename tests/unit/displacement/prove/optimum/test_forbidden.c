@@ -41,7 +41,7 @@ static void add(set *s, const double box[4], double radius)
     f->grain = 0x1p-46 * f->size;
 }
 
-/* n rectangles about the middle, enough of them that they overlap; some are grown by nothing. */
+/* Makes n rectangles around the centre, enough to overlap; some are not grown. */
 static void make(rng *r, size_t n, set *s)
 {
     memset(s, 0, sizeof *s);
@@ -79,7 +79,7 @@ static void check_places(rng *r, const set *s)
         const double angle = (double)rng_int(r, 0, 62) / 10 + 0.05, dir[2] = {cos(angle), sin(angle)};
         const double depth = sunder_i_forbidden_depth(&s->forbidden, u), oracle = depth_of(s, u[0], u[1]);
         assert_true(fabs(depth - oracle) <= hair);
-        for (size_t g = 0; g <= s->forbidden.pieces; g++) { /* whatever was guessed, beyond all pieces, too */
+        for (size_t g = 0; g <= s->forbidden.pieces; g++) { /* for any guess, also beyond all pieces */
             const double asked[] = {0x1p-40 * s->forbidden.size, depth * 0.75, depth, depth + 1};
             size_t guess = g;
             for (int e = 0; e < 4; e++)

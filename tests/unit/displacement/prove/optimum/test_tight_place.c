@@ -71,7 +71,7 @@ static void test_row_between_walls(void **state)
     scene_end(&s);
 }
 
-/* A slot narrower than what would go in by the last bit of its coordinates is none. */
+/* A slot that is too narrow by the last bit of the coordinates is not used. */
 static void test_too_narrow(void **state)
 {
     (void)state;
@@ -316,7 +316,7 @@ static void test_by_a_corner(void **state)
     scene_end(&s);
 }
 
-/* A box goes to the very end of its limit, which just parts it from what stands. */
+/* A box needs all of its limit to separate from an obstacle. */
 static void test_all_of_a_limit_to_part(void **state)
 {
     (void)state;

@@ -157,8 +157,8 @@ static sunder_i_half_plane way_of(double angle, double d)
     return (sunder_i_half_plane){.n = {cos(angle), sin(angle)}, .d = d};
 }
 
-/* Whatever is within reach and beyond one of the ways is beyond the line; of those at the ends of their arcs hardly
- * so. */
+/* Each place within reach and beyond one of the ways is beyond the line; places at the ends of the ways' arcs are only
+ * just so. */
 static void test_chord(void **state)
 {
     (void)state;
@@ -186,7 +186,7 @@ static void test_chord(void **state)
     sunder_i_free(c.scratch);
 }
 
-/* One of the ways does for all: those of a wall, and round its corner what is beyond the wall before. */
+/* One of the ways is enough if it bounds the others: for a wall, and for a corner whose other sides lie behind it. */
 static void test_only_way(void **state)
 {
     (void)state;

@@ -104,7 +104,7 @@ static void expect_same(const sunder_i_decision *kept, const sunder_i_decision *
     }
 }
 
-/* With what was kept, and without. */
+/* Asks with the cache and without it. */
 static void ask_both(sunder_i_subproblem *q, sunder_i_planes *planes, size_t *told)
 {
     sunder_i_decision kept, anew;

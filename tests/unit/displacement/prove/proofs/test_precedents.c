@@ -25,7 +25,7 @@ typedef struct crowd {
     size_t required_n;
 } crowd;
 
-/* Two blocks, each in the midst of the other, and what most of their houses are held to: nothing, or little. */
+/* Two interlocking blocks. Most of their houses have no demand, or a small one. */
 static void begin(rng *r, crowd *c)
 {
     memset(c, 0, sizeof *c);

@@ -1,5 +1,5 @@
-/* displacement/clusters/contact_groups: what it cost when they were shaken is known of groups that are made of others,
- * whether or not anything was proved of them, and of parts of one it is not. */
+/* displacement/clusters/contact_groups: groups that are made of other groups keep the cost at which these were
+ * perturbed, whether or not a bound was proved for them; parts of a group do not keep it. */
 #include "scene_solver.h"
 
 #include <setjmp.h>

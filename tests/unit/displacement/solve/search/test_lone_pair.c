@@ -1,5 +1,5 @@
-/* displacement/search/lone_pair: two features that are alone go apart by their least translation, the lighter one
- * farther; where anything else has a say all is as it was. */
+/* displacement/search/lone_pair: two features without neighbours separate by their least translation, the lighter one
+ * moving farther; if anything else has an influence, nothing is changed. */
 #include "random.h"
 #include "scene_board.h"
 
@@ -78,7 +78,7 @@ static void add_any(rng *r, scene *s)
     scene_add(s, wkt)->weight = rng_once_in(r, 3) ? 0.25 + rng_unit(r) : 1;
 }
 
-/* What the exact core says of the two is what they pay, and they keep the gap and the margin. */
+/* The cost equals that of the exact least translation, and the pair keeps the gap and the margin. */
 static void test_the_least_is_paid(void **state)
 {
     (void)state;
@@ -149,7 +149,7 @@ static void add_slanted(scene *s, const double o[2], const double e[2], double a
     scene_add(s, wkt);
 }
 
-/* Two that keep the gap but for the rounding of their corners: the way apart may have no length that doubles know. */
+/* Two that keep the gap up to the rounding of their corners: the least translation may be too short for doubles. */
 static void test_hardly_too_near(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* What pairs miss, kept: whatever stands in the slot of a pair at a place is that pair's at that place, and the last
- * that was put there is found again. */
+/* The cache of violations of pairs: an entry in the slot of a pair at a place is the violation of that pair at that
+ * place, and the last entry is found again. */
 #include "random.h"
 
 #include "displacement/solve/search/measures.h"

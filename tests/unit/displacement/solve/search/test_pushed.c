@@ -112,8 +112,9 @@ static void test_put_back(void **state)
     end_row(&b, &s);
 }
 
-/* A row of sixty: no few about a pair could give way, and all of what the limits leave is taken back, least first: of
- * ten that miss 0.5 and fifty that miss 1 within 2 either way, seven of the former, since the margins take a hair. */
+/* A row of sixty: no few bodies about a pair could give way. All that the limits allow is restored, the smallest
+ * violations first. With ten pairs that lack 0.5 and fifty that lack 1, and limits of 2 at either end, seven of the
+ * former are restored, since margins take a little. */
 static void test_row(void **state)
 {
     (void)state;
@@ -193,7 +194,8 @@ static void test_crowd(void **state)
     }
 }
 
-/* What a program told the bodies of a row by hairs becomes one move, and what that takes from the last is made good. */
+/* Moves of the bodies of a row that a program gave slightly different values become one move, and the last body makes
+ * up the difference. */
 static void test_together(void **state)
 {
     (void)state;

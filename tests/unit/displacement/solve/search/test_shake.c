@@ -1,5 +1,5 @@
-/* displacement/solve/search/shake: a group that is shaken never becomes dearer, stays apart, and the same seed gives
- * the same bytes; and displacement/prove/optimum: what was asked of a group is not asked of it again. */
+/* displacement/solve/search/shake: a perturbed group never becomes more expensive and stays separated, and the same
+ * seed gives the same bytes. displacement/prove/optimum: a group is not examined twice for the same question. */
 #include "scene_model.h"
 
 #include "displacement/solve/search/shake.h"
