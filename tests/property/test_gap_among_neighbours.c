@@ -1,7 +1,7 @@
 /* The interval that contains a conflict's largest gap by the report, need_gap to need_gap_most, compared with the true
  * largest gap. Layers are rows of tall boxes between two walls, whose limits allow moves along the row only. There the
- * largest gap is a sum: with it the pair in question and all unlisted pairs keep it, and no listed pair is worse than at
- * the start. */
+ * largest gap is a sum: with it the pair in question and all unlisted pairs keep it, and no listed pair is worse than
+ * at the start. */
 #include "random.h"
 #include "scene.h"
 
