@@ -100,7 +100,8 @@ static void drop_row(sunder_i_quadratic *p, equations *e, size_t r)
 /* Solves the equations and drops constraints with negative forces, repeatedly until all forces are positive. In the
  * first HASTY rounds all such constraints are dropped at once, which is usually right. After that the forces move
  * towards the solution only until one of them becomes zero, and that one constraint is dropped. Returns false if the
- * number of factorisations or the work exceeds its limit, or a factorisation fails. */
+ * number of factorisations or the work exceeds its limit, or a factorisation fails or gives a force that is not
+ * finite. */
 static bool find_forces(sunder_i_quadratic *p, equations *e, double softness)
 {
     size_t from = 0;
@@ -111,6 +112,7 @@ static bool find_forces(sunder_i_quadratic *p, equations *e, double softness)
         size_t first = SIZE_MAX, least = SIZE_MAX;
         for (size_t k = 0; k < e->n; k++) {
             const double now = p->constraint[e->set[k]].force;
+            if (!isfinite(e->force[k])) return false;
             if (e->force[k] > 0) continue;
             if (least == SIZE_MAX) least = k;
             if (hasty <= 0 && now / (now - e->force[k]) <= step) {

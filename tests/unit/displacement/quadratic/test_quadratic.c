@@ -1,6 +1,7 @@
 /* Quadratic programs with and without solutions: all results are numbers, and the returned violation is that of the
  * moves. A mended program is as accurate as a solved one. For the nearest place the forces prove that it is the
  * nearest, or that there is none. */
+#include "displacement/quadratic/methods.h"
 #include "displacement/quadratic/nearest.h"
 #include "random.h"
 
@@ -303,11 +304,31 @@ static void check_dear(void **state)
     assert_true(found > 0 && dear > 0);
 }
 
+/* Distances up to the greatest double, and light and heavy bodies: the forces exceed all doubles, and no constraint is
+ * negative. The active set is left as it is. */
+static void check_forces_beyond_doubles(void **state)
+{
+    (void)state;
+    for (size_t trial = 0; trial < test_count(200); trial++) {
+        rng r = rng_start(test_seed(), trial);
+        program p;
+        draw(&r, &p);
+        for (size_t k = 0; k < BODIES; k++) p.mass[k] = pow(10, -20 * rng_unit(&r));
+        for (size_t k = 0; k < p.q.n; k++) {
+            p.constraint[k].d = pow(10, 300 + 8 * rng_unit(&r));
+            p.constraint[k].force = 1;
+        }
+        assert_true(sunder_i_quadratic_equations(&p.q, 0, 1e-9));
+        for (size_t k = 0; k < p.q.n; k++)
+            if (isnan(p.constraint[k].force)) fail_msg("trial %zu: a force is not a number", trial);
+    }
+}
+
 int main(void)
 {
     printf("seed %llu\n", (unsigned long long)test_seed());
     const struct CMUnitTest tests[] = {cmocka_unit_test(check_programs), cmocka_unit_test(check_nearest),
-                                       cmocka_unit_test(check_crowd), cmocka_unit_test(check_mended),
-                                       cmocka_unit_test(check_dear)};
+                                       cmocka_unit_test(check_crowd),    cmocka_unit_test(check_mended),
+                                       cmocka_unit_test(check_dear),     cmocka_unit_test(check_forces_beyond_doubles)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
