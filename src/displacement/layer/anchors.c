@@ -37,10 +37,10 @@ typedef struct holder_search {
 static double distance_to_outline(holder_search *l, uint32_t g, const double a[2])
 {
     const sunder_i_model *model = l->model;
-    const size_t vertices = sunder_i_thing_shape(model, g)->vertices;
-    if (!sunder_i_reserve(&l->outline, &l->room, 4 * vertices + 2, sizeof *l->outline)) return -1;
+    const size_t room = sunder_i_outline_room(model, g);
+    if (!sunder_i_reserve(&l->outline, &l->room, 4 * room + 2, sizeof *l->outline)) return -1;
     const double *origin = model->body[model->body_of[g]].origin, *corner = l->outline;
-    const size_t n = sunder_i_outline_of(model, g, l->outline + 2 * vertices + 2, l->outline);
+    const size_t n = sunder_i_outline_of(model, g, l->outline + 2 * room + 2, l->outline);
     const double at[2] = {a[0] - origin[0], a[1] - origin[1]};
     double most = 0;
     for (size_t k = 0; k < n; k++) {

@@ -16,7 +16,7 @@ static void box_of_far_pieces(const sunder_shape *shape, const sunder_i_body *bo
     sunder_i_box_clear(box);
     for (uint32_t p = 0; p < shape->pieces; from = shape->piece_end[p++]) {
         for (uint32_t k = from; k < shape->piece_end[p]; k++) {
-            double corner[4];
+            double corner[2 * SUNDER_I_FAR_MOST];
             const size_t n = sunder_i_far_corner(body, shape, p, k, corner);
             for (size_t l = 0; l < n; l++) sunder_i_box_include(box, corner + 2 * l);
         }

@@ -25,6 +25,42 @@ struct sunder_i_pieces_store {
     size_t held; /* bytes */
 };
 
+/* ---- Bodies with far corners ------------------------------------------------------------------------------------- */
+
+static uint32_t corners_of(const sunder_shape *shape)
+{
+    return shape->pieces ? shape->piece_end[shape->pieces - 1] : 0;
+}
+
+/* Writes the corners of piece p of a body with far corners (far_corners.c) to `corner` and extends `box` by them.
+ * Returns the number of corners. */
+static uint32_t take_far_corners(const sunder_i_body *body, const sunder_shape *shape, uint32_t p, double *corner,
+                                 double box[4])
+{
+    uint32_t n = 0;
+    for (uint32_t k = p ? shape->piece_end[p - 1] : 0; k < shape->piece_end[p]; k++)
+        n += (uint32_t)sunder_i_far_corner(body, shape, p, k, corner + 2 * (size_t)n);
+    for (uint32_t k = 0; k < n; k++) sunder_i_box_include(box, corner + 2 * (size_t)k);
+    return n;
+}
+
+/* Writes the corners of all pieces of a shape in a body with far corners to `corner`. Returns their number. */
+static size_t take_all_far_corners(const sunder_i_body *body, const sunder_shape *shape, double *corner)
+{
+    double box[4];
+    size_t n = 0;
+    sunder_i_box_clear(box);
+    for (uint32_t p = 0; p < shape->pieces; p++) n += take_far_corners(body, shape, p, corner + 2 * n, box);
+    return n;
+}
+
+size_t sunder_i_outline_room(const sunder_i_model *model, uint32_t thing)
+{
+    const sunder_shape *shape = sunder_i_thing_shape(model, thing);
+    const bool far = model->body[model->body_of[thing]].far;
+    return far ? SUNDER_I_FAR_MOST * (size_t)corners_of(shape) : shape->vertices;
+}
+
 /* ---- Outlines ---------------------------------------------------------------------------------------------------- */
 
 static int by_place(const void *a, const void *b)
@@ -93,32 +129,12 @@ size_t sunder_i_outline_of(const sunder_i_model *model, uint32_t thing, double *
             from_origin(shape, sunder_i_piece_vertices(shape)[k], body, out + 2 * (size_t)k);
         if (is_its_outline(shape, out)) return n;
     }
-    if (body->far) {
-        memcpy(point, shape->xy, 2 * (size_t)n * sizeof *point);
-        sunder_i_draw_in(body, point, n);
-    } else
-        for (uint32_t v = 0; v < n; v++) from_origin(shape, v, body, point + 2 * (size_t)v);
+    if (body->far) return sunder_i_convex_hull(point, take_all_far_corners(body, shape, point), out);
+    for (uint32_t v = 0; v < n; v++) from_origin(shape, v, body, point + 2 * (size_t)v);
     return sunder_i_convex_hull(point, n, out);
 }
 
 /* ---- Making ------------------------------------------------------------------------------------------------------ */
-
-static uint32_t corners_of(const sunder_shape *shape)
-{
-    return shape->pieces ? shape->piece_end[shape->pieces - 1] : 0;
-}
-
-/* Writes the corners of piece p of a body with far corners (far_corners.c) to `corner` and extends `box` by them.
- * Returns the number of corners. */
-static uint32_t take_far_corners(const sunder_i_body *body, const sunder_shape *shape, uint32_t p, double *corner,
-                                 double box[4])
-{
-    uint32_t n = 0;
-    for (uint32_t k = p ? shape->piece_end[p - 1] : 0; k < shape->piece_end[p]; k++)
-        n += (uint32_t)sunder_i_far_corner(body, shape, p, k, corner + 2 * (size_t)n);
-    for (uint32_t k = 0; k < n; k++) sunder_i_box_include(box, corner + 2 * (size_t)k);
-    return n;
-}
 
 /* Makes the convex pieces of member f of the body. Advances *piece and *corner past what was written. */
 static void cut_member(const sunder_i_model *model, const sunder_i_body *body, uint32_t f, sunder_i_body_piece **piece,
@@ -201,7 +217,7 @@ static sunder_i_body_pieces *make_pieces(const sunder_i_model *model, const sund
     const uint32_t *member = model->member + body->member;
     for (uint32_t m = 0; m < body->members; m++)
         if (model->present[member[m]]) corners += corners_of(sunder_i_thing_shape(model, member[m]));
-    if (body->far) corners += body->pieces; /* a piece with far corners may get one corner more */
+    if (body->far) corners *= SUNDER_I_FAR_MOST;
     const size_t of_pieces = ((size_t)body->pieces + anchors) * sizeof(sunder_i_body_piece),
                  of_doubles = (2 * corners + 4 * (size_t)runs) * sizeof(double);
     sunder_i_body_pieces *made = take_room(model->store, sizeof *made + of_pieces + of_doubles);
@@ -233,7 +249,7 @@ static sunder_i_body_piece *make_outlines(const sunder_i_model *model, const sun
     const uint32_t *member = model->member + body->member;
     size_t corners = 0, most = 0;
     for (uint32_t m = 0; m < body->members; m++) {
-        const size_t n = model->present[member[m]] ? sunder_i_thing_shape(model, member[m])->vertices : 0;
+        const size_t n = model->present[member[m]] ? sunder_i_outline_room(model, member[m]) : 0;
         corners += n + 1;
         most = n > most ? n : most;
     }

@@ -6,9 +6,11 @@
 
 /* Sets the body's origin, its reach, and `far`: whether it has far corners. */
 void sunder_i_find_far_corners(const sunder_i_model *model, sunder_i_body *body);
-/* Writes to `out` what replaces corner k of piece p of a shape in a body with far corners, relative to the body's
- * origin, and returns the number of corners written: 0, 1 or 2, so `out` needs room for two. A whole piece gets at most
- * one corner more than it has. */
+/* The most corners that replace one corner of a body with far corners. */
+#define SUNDER_I_FAR_MOST 6
+/* Writes to `out`, which has room for SUNDER_I_FAR_MOST corners, what replaces corner k of piece p of a shape in a body
+ * with far corners, relative to the body's origin, and returns the number of corners written. Together, what replaces
+ * the corners of a piece one after the other is a convex piece of at least one corner. */
 size_t sunder_i_far_corner(const sunder_i_body *body, const sunder_shape *shape, uint32_t p, uint32_t k, double *out);
 /* Replaces the n corners of a convex set, as given, by their substitutes relative to the body's origin. The body has
  * far corners. */

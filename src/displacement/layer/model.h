@@ -362,8 +362,9 @@ static inline const sunder_i_body_pieces *sunder_i_pieces_of(const sunder_i_mode
  * those of sunder_i_pieces_of(). */
 const sunder_i_body_piece *sunder_i_outlines_of(const sunder_i_model *model, const sunder_i_body *body);
 /* Writes the convex hull of a present thing, relative to its body's origin, to `out` and returns the number of corners.
- * `out` has room for one corner more than the shape has vertices; `point` is scratch for all vertices. */
+ * `point` is scratch for sunder_i_outline_room() points; `out` has room for one more. */
 size_t sunder_i_outline_of(const sunder_i_model *model, uint32_t thing, double *point, double *out);
+size_t sunder_i_outline_room(const sunder_i_model *model, uint32_t thing);
 /* Sets up the store of pieces, without any. Returns false if memory is out; sunder_i_pieces_end() frees it, also
  * then. */
 bool sunder_i_pieces_begin(sunder_i_model *model);
@@ -373,8 +374,8 @@ void sunder_i_pieces_end(sunder_i_model *model);
 void sunder_i_pieces_forget(sunder_i_model *model, size_t most);
 /* The number of bytes below which freeing pieces does not pay. */
 #define SUNDER_I_PIECES_HELD ((size_t)4 << 20)
-/* Returns the number of corners that a piece, an anchor or a side has as given. The search may use one more or fewer,
- * if some are far (far_corners.h). */
+/* Returns the number of corners that a piece, an anchor or a side has as given. The search may use more or fewer, if
+ * some are far (far_corners.h). */
 size_t sunder_i_corners_as_given(const sunder_i_model *model, const sunder_i_body_piece *piece);
 /* Writes the corners of a piece in coordinates of the layer to `out`, which has room for all of them; corners of
  * repaired shapes are rounded to doubles. */

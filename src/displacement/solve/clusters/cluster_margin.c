@@ -15,7 +15,7 @@ double sunder_i_solver_margin(const sunder_i_solver *solver, const uint32_t *b, 
     unsigned widened = 0;
     for (size_t k = 0; k < n; k++) {
         const sunder_i_body *body = &solver->model.body[b[k]];
-        if (body->pieces == 0 || body->held || (body->fixed && body->far)) continue;
+        if (body->pieces == 0 || (body->held && !body->far)) continue;
         for (int c = 0; c < 4; c++) {
             const double far = fabs(body->origin[c & 1]) + fabs(body->box[c]);
             if (far > largest) largest = far;

@@ -7,9 +7,10 @@
  * place, if one of these holds:
  *
  *     its last place is coarse beside how far the neighbour may have to move, which is its size and the distance owed
- *     it has far corners (../../layer/far_corners.h): its moves may be of use, but its neighbours share its margin
+ *     it has far corners (../../layer/far_corners.h), or a coordinate beyond any on the Earth: its moves may be of use,
+ *     but its neighbours share its margin
  *
- * If a conflict with a held body remains, or it is held for its far corners alone, it is released, and its cluster is
+ * If a conflict with a held body remains, or it is not coarse beside any neighbour, it is released, and its cluster is
  * solved once more from the original places. The better of the two layouts is taken (held_or_free.c).
  *
  * Nothing is proved of a layout with held bodies: a contact group that has one keeps no bound, and the layer's bound
@@ -85,8 +86,9 @@ static void hold_beside(sunder_i_solver *solver, uint32_t b, uint32_t neighbour)
     home_box(&solver->model, other, beside);
     if (last_place(box) < last_place(beside) + COARSE_BITS) return;
     const double stretch = stretch_of(solver, beside);
-    const bool coarse = ldexp(COARSE_PLACES, last_place(box)) > stretch;
-    if (!body->held && (coarse || body->far) && is_free_to_hold(solver, b)) {
+    const bool coarse = ldexp(COARSE_PLACES, last_place(box)) > stretch,
+               beyond = last_place(box) > BEYOND_EXPONENT - 53;
+    if (!body->held && (coarse || beyond || body->far) && is_free_to_hold(solver, b)) {
         fix_body(solver, body, stretch);
         sunder_i_body_event(&solver->states, b, SUNDER_I_IS_HELD);
     }
