@@ -11,7 +11,7 @@ typedef struct town_block {
     /* the site */
     int64_t column, row;
     town_random random;
-    town_street streets[4]; /* counter-clockwise, the block on their left */
+    town_street streets[4]; /* counter-clockwise, with the block on their left */
     double trouble;         /* how often something is wrong, 0 .. 1 */
 
     /* what stands on it */

@@ -20,9 +20,9 @@ void family_convex_member(family_set *set, town_random *random, size_t n, int64_
 {
     const size_t start = set->vertices;
     const double first = town_random_between(random, 0, 1) / (double)n;
-    /* Directions at least half a share of the turn apart: each vertex stands out from the chord of its neighbours by
-     * radius (pi / n)^2 / 2 or more, which soon outgrows what rounding takes. Where it does not yet, the circle
-     * grows. */
+    /* Draws directions at least half a share of the turn apart. Then each vertex is farther from the chord of its
+     * neighbours than radius (pi / n)^2 / 2, which exceeds rounding if the radius is large enough; otherwise the radius
+     * is doubled. */
     const town_random directions = *random;
     for (;; radius *= 2) {
         *random = directions;

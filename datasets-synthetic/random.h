@@ -13,7 +13,7 @@ typedef struct town_random {
     uint64_t state;
 } town_random;
 
-/* The stream of one purpose at one place of the town. */
+/* Returns the stream for one purpose at one place of the town. */
 town_random town_random_at(uint64_t seed, int64_t column, int64_t row, uint64_t purpose);
 
 uint64_t town_random_next(town_random *random);

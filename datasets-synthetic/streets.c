@@ -81,7 +81,7 @@ static double drift(uint64_t seed, int64_t column, int64_t row, uint64_t axis)
     return value;
 }
 
-/* The crossing south-west of a block. */
+/* Returns the crossing south-west of a block. */
 static town_point crossing(uint64_t seed, int64_t column, int64_t row)
 {
     town_random random = town_random_at(seed, column, row, PURPOSE_CROSSING);

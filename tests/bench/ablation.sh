@@ -96,7 +96,7 @@ make_corpus() {
 # Results of the corpus, one line for each cluster. A variation that runs away is stopped.
 run() { SUNDER_TUNING=$1 nice "$build/run_corpus" "$corpus" --most $((20 * light)); }
 
-# "NAME,CHANGED,..." as in the heading, from the results of the program as it is and those of a variation.
+# Prints "NAME,CHANGED,..." as in the heading, from the results without a variation and those with it.
 compare() { # VARIATION CHANGES
     awk -F'\t' -v OFS=, -v name="\"$1\"" '
         NR == FNR { digest[$1] = $8; cost[$1] = $4; bound[$1] = $5; next }

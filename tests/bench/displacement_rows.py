@@ -78,7 +78,7 @@ def column(path, layer, *names):
 
 
 def units_of(layer="l"):
-    """What moves as one: FID -> block, or itself."""
+    """The units that move as one: FID -> block, or the feature itself."""
     return {fid: ("block", block) if block is not None else fid for fid, block in column("o.gpkg", layer, "sunder_blk")}
 
 
@@ -142,7 +142,7 @@ def optimality(d):
 
 
 def roads():
-    """All roads 5 m wide; drivable ones, no gap to them; and no gap at all."""
+    """All roads, 5 m wide; drivable ones without a gap to them; and no gap at all."""
     head("layer", "run", "conflicts before", "units in violation", "solved", *(f"left: {r}" for r in REASONS),
          "unresolved of conflicts before", "moved", "longest m", "cost m2", "bound m2", "gap to the bound", "s", "MB",
          "rules")
@@ -325,7 +325,8 @@ def rings_of(geometry):
 
 
 def peers():
-    """On the boxes of Sunder's blocks, grown by half the gap; conflicts are asked of the buildings themselves."""
+    """Runs the peers on the boxes of Sunder's blocks, grown by half the gap; conflicts are counted among the buildings
+    themselves."""
     head("layer", "system", "conflicts left", "sum of lengths m", "cost m2", "longest m", "s")
     gap = 3
     for name in CHOSEN:

@@ -167,7 +167,8 @@ one() {
   echo "[[\"$name\",$size,$seed,\"$algorithm\",\"$decomposition\"],\"$status\",$summary,[\"$order\",\"$hash\"]]" >>"$scratch/runs"
 }
 
-# What needs the library's inside, where that program was built: pieces at every size, measures of fatness up to the limit of time.
+# Measurements that need the library's internals, if that program was built: pieces at every size, measures of fatness
+# up to the time limit.
 count_inside() { # pieces|orders
   if [[ -x $pieces ]]; then
     SUNDER_BENCH_SECONDS=0.1 timeout "$((2 * limit))" "$pieces" "$out/inputs/${name}_$size.wkt" "$1" | sed "s/^/$name,$size,/" >>"$out/$1.csv" ||

@@ -1,4 +1,4 @@
-"""A road network around a town, for displacement_rows.py: many polylines, few of them near."""
+"""A road network around a town, for displacement_rows.py: many polylines, a few of them near the town."""
 import math
 import os
 import random

@@ -133,7 +133,7 @@ static inline double bench_median(double *t, size_t n)
     return n % 2 ? t[n / 2] : (t[n / 2 - 1] + t[n / 2]) / 2;
 }
 
-/* The value of a variable of the environment, or what stands for none. */
+/* Returns the value of an environment variable, or the default. */
 static inline double bench_setting(const char *name, double otherwise)
 {
     const char *s = getenv(name);

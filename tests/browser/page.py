@@ -53,7 +53,7 @@ def map_box(page):
 
 
 def place(page):
-    """The piece of the map that the address tells: x, y, width; after the moment that it takes to follow."""
+    """The part of the map in the page's address: x, y, width; read after the address has been updated."""
     time.sleep(0.6)
     page.rest()
     words = page.evaluate("location.hash")
@@ -358,7 +358,7 @@ def ask_keys(browser):
 
 
 def ask_marks(browser):
-    """Far away one disc stands for many conflicts; closer there are more of them."""
+    """When zoomed out one disc stands for many conflicts; zoomed in there are more discs."""
     page = browser.open(address("quarter.html"), 1280, 900)
     marks = lambda: int(page.evaluate("document.querySelector('.map canvas').dataset.marks"))
     page.evaluate("document.querySelector('[data-do=all]').click()")

@@ -42,7 +42,7 @@ expect 0 separate "$town" lone.gpkg -l buildings --where 'fid = 1' --gap 3 --rep
 expect 0 separate "$town" none.gpkg -l buildings --where 'fid < 0' --gap 3 --report none.html -q
 expect 3 separate "$town" roads.gpkg -l buildings --where 'fid <= 60' --max-shift 1 --barrier "$town,layer=roads,width=13" \
     --report roads.html -q
-# Two houses, one of them on a road that it cannot leave.
+# Two houses. One of them is on a road that it cannot leave.
 layer under.gpkg houses POLYGON <<'X'
 id,WKT
 1,"POLYGON((0 0,10 0,10 10,0 10,0 0))"

@@ -149,7 +149,7 @@ class World:
         return not any(segments_meet(self.anchor, end, p, q) for p, q in self.walls)
 
     def lines(self):
-        """Segments (p, d, bounded) that bound what is forbidden."""
+        """The segments (p, d, bounded) that bound the forbidden set."""
         out = []
         for p, q in self.pieces:
             ring = hull([sub(e, b) for e in (p, q) for b in self.body])

@@ -44,7 +44,8 @@ int sqlite3_bind_blob(void *statement, int at, const void *bytes, int size, void
     if (!other) abort();
     memcpy(other, bytes, (size_t)size);
     other[size - 9] ^= 1;
-    if (destroy && destroy != (void (*)(void *)) - 1) destroy((void *)bytes); /* neither static nor SQLite's to copy */
+    /* neither static nor to be copied by SQLite */
+    if (destroy && destroy != (void (*)(void *)) - 1) destroy((void *)bytes);
     return bind(statement, at, other, size, free);
 }
 

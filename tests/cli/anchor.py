@@ -33,8 +33,8 @@ def intervals(members, y):
 
 
 def anchor(members, unit):
-    """members: the edges of each, in integers, `unit` of them to one; each is what its edges enclose by the even-odd
-    rule."""
+    """members: the edges of each member, as integers, `unit` of them to one; a member is the set that its edges enclose
+    by the even-odd rule."""
     levels = levels_of([e for edges in members for e in edges])
     low = min(y for y in levels if covered(members, y, 1))
     high = max(y for y in levels if covered(members, y, -1))

@@ -1,8 +1,9 @@
 """Houses beside features with one corrupt vertex, drawn by SUNDER_SEED: one by one, in chains of two to five, in rows, on
-all sides of the corrupt feature, beside several such features. With the vertex at 1e10 and beyond the layer has no more
-conflicts left than with the corrupt features declared fixed; where it has as many, it costs no more. Where houses stand on
-one straight side, far from the corrupt vertex, it costs no more than beside a fixed feature with the vertex at 1e7 or 1e8.
-With the vertex at 1e16 and beyond, where it could move by multiples of its last place only, that feature stays."""
+all sides of the corrupt feature, beside several such features. With the vertex at 1e10 and beyond, the layer has no more
+conflicts left than with the corrupt features declared fixed; with the same number its cost is not greater. If the houses
+stand on one straight side, far from the corrupt vertex, the cost is no greater than beside a fixed feature with the vertex
+at 1e7 or 1e8. With the vertex at 1e16 and beyond, where a move could only be a multiple of its last place, that feature
+does not move."""
 import csv
 import json
 import os

@@ -113,7 +113,7 @@ layer() {
 # A layer made of a text that says nan may hold none: GDAL 3.10 keeps null for it. Is that so? is_null FILE LAYER FID FIELD
 is_null() { [ "$(value "$@")" = '(null)' ]; }
 
-# The value of one field of one feature: value FILE LAYER FID FIELD
+# Prints the value of one field of one feature: value FILE LAYER FID FIELD
 value() { ogrinfo -q -ro "$1" "$2" -fid "$3" | sed -n "s/^  $4 (.*) = //p"; }
 geometry() { ogrinfo -q -ro "$1" "$2" -fid "$3" | grep -E '^  [A-Z]+ .*\('; }
 count() { ogrinfo -ro -so "$1" "$2" | sed -n 's/^Feature Count: //p'; }

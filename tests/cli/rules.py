@@ -362,7 +362,7 @@ class Checker:
 
 
 def leaves_once(shape, way):
-    """Is what the way has in the closed set one piece, that with its start?"""
+    """Is the part of the path within the closed set one piece that contains the start?"""
     (x, y), (x1, y1) = way
     u = (x1 - x, y1 - y)
     whole = u[0] * u[0] + u[1] * u[1]

@@ -131,7 +131,7 @@ def random_case(r, k):
     at = [(0, 0), (scale * 2**20, scale * 2**21)][r.randrange(2)]
 
     def put(chain):
-        # The lattice has to hold what is added up.
+        # Sums of coordinates have to be on the lattice, too.
         return [(round((x + at[0]) * 2**30) / 2**30, round((y + at[1]) * 2**30) / 2**30) for x, y in chain]
     rings = [ring_of(r, scale)]
     if r.randrange(4) == 0:

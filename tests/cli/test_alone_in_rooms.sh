@@ -1,6 +1,6 @@
 # shellcheck shell=bash disable=SC1091
-# Symbols without a limit, each alone among barriers with sides and without (alone_in_rooms.py): each goes to the nearest
-# free place, or is left with a proof that there is none, which a checker follows.
+# Symbols without a limit, each alone among barriers with and without sides (alone_in_rooms.py). Each moves to the
+# nearest free place, or stays with a proof that there is none, which a checker verifies.
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 command -v python3 >/dev/null || { echo "skipped: no python3"; exit 77; }
 

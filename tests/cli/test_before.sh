@@ -1,5 +1,5 @@
 # shellcheck shell=bash disable=SC1091
-# check --before: what broke a rule on the way from an original, whoever moved it.
+# check --before: finds each rule that was broken since an original, by any program.
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 
 layer in.gpkg houses POLYGON <<'X'

@@ -47,7 +47,7 @@ run merge plan merged.gpkg --quiet
 same "$status" "$whole" "merged"
 for made in parts merged; do same "$(written $made.gpkg)" "$(written whole.gpkg)" "$made"; done
 
-# Rings that enclose nothing are named.
+# A message names rings that enclose no area.
 run separate in.gpkg o.gpkg --barrier short.gpkg
 same "$(grep -c '^sunder: warning: barrier short.gpkg, layer b, FID [0-9]*: invalid: polygon [01], ring [01], vertex 0 .*under three' err)" 10
 run separate in.gpkg o.gpkg --overwrite --barrier short.gpkg --max-shift 10
@@ -61,7 +61,7 @@ for k in 0 1; do
     expect 0 check in.gpkg --barrier nan_$k.gpkg --invalid skip
 done
 
-# --bbox: what GDAL cannot compare with it is named.
+# --bbox: a message names a geometry that GDAL cannot compare with the box.
 for command in "check open.gpkg" "separate open.gpkg n.gpkg" "buffer open.gpkg n.gpkg --shape disc:1"; do
     # shellcheck disable=SC2086
     refused 1 ': GDAL cannot compare it with the box of --bbox: a ring is not closed' $command --bbox 110300,20,110310,30

@@ -137,7 +137,7 @@ expect 0 buffer eroded.gpkg still.gpkg -l halls --shape square:4 --stats -
 same "$(jq -c '[.features,.empty]' out)" '[4,2]'
 same "$(ogrinfo -ro -q still.gpkg halls | grep -c EMPTY)" 2 "what was empty"
 
-# The same for every number of threads, and what comes out is valid.
+# The result is the same for every number of threads, and valid.
 text() { ogr2ogr -f CSV /vsistdout/ "$1" "$2" -lco GEOMETRY=AS_WKT; }
 valid() { ogrinfo -ro -q -dialect sqlite -sql "SELECT min(ST_IsValid(geom)) AS v FROM $2 WHERE NOT ST_IsEmpty(geom)" "$1" 2>/dev/null | sed -n 's/.*v (.*) = //p'; }
 for operation in dilate erode open close; do

@@ -1,7 +1,7 @@
 # shellcheck shell=bash disable=SC1091
-# Houses pressed together between roads; some have to stay in conflict. If rounding makes one of these slightly worse
-# than at the start, no other pair loses its solution. (By sending one of the two home, and whoever stood there after
-# it, 18 pairs were left of this town, where 11 are now.)
+# Houses in a dense crowd between roads, some of which have to stay in conflict. If rounding makes one of these
+# conflicts slightly worse than at the start, no other pair loses its solution. (When one of the two was sent home, and
+# then each house that stood there, 18 pairs of this town remained in conflict; now 11 remain.)
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 command -v python3 >/dev/null || { echo "skipped: no python3"; exit 77; }
 

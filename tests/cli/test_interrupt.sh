@@ -63,7 +63,7 @@ interrupted sum @pipe square:1 o.gpkg
 interrupted route square:1 o.gpkg --robot @pipe --from 5,5 --to 6,6
 interrupted buffer in.gpkg o.fgb --shape @pipe
 
-# ---- in a statement of what is read
+# ---- within an SQL statement of the input
 for command in "separate in.gpkg o.gpkg" "check in.gpkg" "buffer in.gpkg o.shp --shape square:1" \
     "route in.gpkg --robot square:1 --from 20,20 --to 30,30" "sum in.gpkg square:1 o.gpkg" "pair square:1 in.gpkg"; do
     # shellcheck disable=SC2086 # words

@@ -19,8 +19,8 @@ separate --stats gpkg.json thirds.gpkg first.gpkg
 for each in shp geojson fgb sqlite; do
     separate --stats "$each.json" thirds.gpkg "exact.$each"
     [ "$(verified "$each.json")" = true ] || { cat "$each.json"; fail "$each is not verified"; }
-    # Back to a GeoPackage: the stored bytes of the geometries tell whether every double came through. Rings may
-    # start elsewhere, so each vertex is taken by itself.
+    # Back to a GeoPackage: the stored bytes of the geometries show whether every double was kept. Rings may start at
+    # another vertex, so vertices are compared one by one.
     layer=squares
     if [ "$each" = shp ]; then layer=exact; fi # a Shapefile's layer is called after its file
     ogr2ogr -f GPKG "back_$each.gpkg" "exact.$each" "$layer" -nln squares -lco GEOMETRY_NAME=geom

@@ -1,6 +1,6 @@
 # shellcheck shell=bash disable=SC1091
-# What is called written is there, feature by feature: on a disk that becomes full at any byte, and in streams and formats
-# that nothing can read back.
+# Everything that is reported as written is there, feature by feature: on a disk that becomes full at any byte, and in
+# streams and formats that cannot be read back.
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 town=$SUNDER_SOURCE/datasets-synthetic/town.gpkg
 strike=$SUNDER_BUILD/tests/strike

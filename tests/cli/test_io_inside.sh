@@ -44,7 +44,7 @@ refused 1 'o_conflicts.fgb is a broken link' separate in.gpkg o.fgb --overwrite
 ln -s nowhere s.json
 refused 1 's.json is a broken link' separate in.gpkg o.gpkg --stats s.json
 
-# ---- GeoJSON keeps doubles: 17 digits where they do, more where they do not
+# ---- GeoJSON keeps doubles: with 17 digits if they suffice, otherwise with more
 doubles() { ogr2ogr -f GPKG back.gpkg "$1" -nln back && sqlite3 back.gpkg 'SELECT quote(geom) FROM back' | cut -c 83-; rm -f back.gpkg; }
 layer plain.gpkg houses POLYGON <<'X'
 id,r,WKT

@@ -62,7 +62,7 @@ run separate in.gpkg dir/o.shp -q --layers main
 same "$(cat dir/o_displacement.dbf)" keep 'a file that came later'
 [ "$status" -eq 0 ] && [ -e dir/o.shp ] || fail "what was left stands in the way"
 
-# A file that came to the place of one that stepped aside is not replaced by it: both stay, and it is said.
+# If another file has appeared in the place of a replaced one, it is not overwritten: both stay, and a message says so.
 rm -rf dir && mkdir -m 700 dir dir/.sunder-abcdef dir/.sunder-abcdef/superseded~
 printf 'main o.shp\nold o.shp\nnew 1 o.dbf\n' >dir/.sunder-abcdef/record~
 touch dir/.sunder-abcdef/o.dbf

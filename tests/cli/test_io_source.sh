@@ -35,7 +35,7 @@ refused 2 'crs' separate --input-layer squares --input-crs EPSG:nonsense squares
 separate --input-layer squares --input-crs EPSG:3857 squares.gpkg crs.gpkg 2>/dev/null
 ogrinfo -ro -so crs.gpkg squares | grep -q 'ID\["EPSG",3857\]' || fail "--input-crs"
 
-# ---- --sql: FIDs that repeat are written to a field; nothing is lost; the name is that of the file
+# ---- --sql: repeated FIDs are written to a field, nothing is lost, and the layer has the name of the file
 separate --sql 'SELECT fid, name, geom FROM squares UNION ALL SELECT fid, name, geom FROM squares WHERE fid < 3' \
     --contained separate squares.gpkg twice.gpkg
 [ "$(count twice.gpkg squares)" = 5 ] || fail "features with repeated FIDs were lost"
@@ -60,8 +60,8 @@ dump mixed_out.gpkg mixed >mixed.features
 grep -q '  POINT (3 3)' mixed.features && grep -q '  LINESTRING (0 0,50 50)' mixed.features || fail "a skipped geometry changed"
 grep -q 'CURVEPOLYGON (COMPOUNDCURVE (CIRCULARSTRING (' mixed.features || fail "an arc did not stay an arc"
 grep -q 'GEOMETRYCOLLECTION (POINT (' mixed.features || fail "a collection did not stay one"
-# The arc bulges out to x = 40, where the last feature starts at 39: they must be apart. GDAL's chords of the moved arc
-# are another rounding of it than those that were moved, so 1e-9 of the 1 that they overlapped by may show.
+# The arc bulges out to x = 40, where the last feature starts at 39, so the two must be separated. GDAL's chords of the
+# moved arc differ from the moved chords by rounding, so 1e-9 of the overlap of 1 may remain.
 deep() { "$SUNDER" check --quiet --no-blocks --allow-conflicts "$1" | awk -F '\t' '$11 + 0 > 1e-9' | grep -q .; }
 deep mixed.gpkg || fail "the test's own layer has no overlaps"
 ! deep mixed_out.gpkg || fail "overlaps remain"

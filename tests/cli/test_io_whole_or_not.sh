@@ -63,7 +63,7 @@ before=$(sum out*.shp out*.shx out.dbf out_displacement.dbf/file)
 refused_squares 1 'out_displacement.dbf is a directory' --overwrite --gap 5 squares.gpkg out.shp
 [ "$(sum out*.shp out*.shx out.dbf out_displacement.dbf/file)" = "$before" ] || fail "a refused run changed the output"
 
-# ---- a file that is no dataset, a directory
+# ---- an output that is not a dataset; a directory
 mkdir precious && echo keep >precious/file
 refused_squares 1 'not replaced' --of 'ESRI Shapefile' --overwrite squares.gpkg precious
 [ "$(cat precious/file)" = keep ] || fail "a directory was replaced"

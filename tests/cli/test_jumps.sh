@@ -10,7 +10,7 @@ id,WKT
 X
 expect 3 separate yard.gpkg o.gpkg -q --gap 1 --fixed-where 'id = 1'
 same "$(value o.gpkg yards 2 sunder_st)" blocked
-# Where it may not lie in the wall either, that is proved, though nothing limits it.
+# If it may not lie in the wall either, the conflict has a proof, although there is no limit.
 expect 3 separate yard.gpkg o.gpkg -q --overwrite --gap 1 --fixed-where 'id = 1' --contained separate
 same "$(value o.gpkg yards_conflicts 1 reason)" jump
 expect 0 separate yard.gpkg o.gpkg -q --overwrite --gap 1 --fixed-where 'id = 1' --allow-jumps

@@ -46,8 +46,9 @@ for kind in points houses; do
     ogrinfo -q -al -ro $kind-parts.gpkg $kind >parts.txt
     cmp -s whole.txt parts.txt || fail "$kind: other moves in parts"
 done
-# Houses that the middle line of a road cuts in half, or nearly so, with another road on one side: away from that, though
-# the part there is a little larger. Upright and level roads, the other road on either side.
+# Houses that the middle line of a road cuts in half, or nearly so, with another road on one side. They move away from
+# the other road, although the part there is a little larger. Vertical and horizontal roads, with the other road on
+# either side.
 layer roads.gpkg roads LINESTRING <<'X'
 id,WKT
 1,"LINESTRING(0 0,300 0)"

@@ -1,6 +1,6 @@
 # shellcheck shell=bash disable=SC1091
-# --max-shift-field: 0 is fixed, null is --max-shift, and what is no limit is an error that names the feature. Through
-# GeoPackage and Shapefile, numbers and texts.
+# --max-shift-field: 0 means fixed, null means --max-shift, and an invalid limit is an error that names the feature.
+# With GeoPackage and Shapefile, numbers and texts.
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 
 # Two squares that overlap by 2 along x, the second with a neighbour that is far away.

@@ -19,7 +19,7 @@ cat figures
 [ ! -s wrong ] || fail "$(head -20 wrong)"
 grep -q '^238 calls' figures || fail "238 calls were meant: $(cat figures)"
 
-# A condition of 12,000 bytes, alone, beside --where, and through a plan.
+# A condition of 12,000 bytes, by itself, together with --where, and in a plan.
 condition="id = 1 OR id IN ($(seq -s, 1000000 1001500))"
 [ ${#condition} -gt 12000 ] || fail "the condition is too short"
 cp paths/in.gpkg .

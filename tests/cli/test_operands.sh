@@ -17,7 +17,7 @@ expect 0 sum 'POLYGONZM ((0 0 7 1, 4 0 7 1, 4 4 7 1, 0 4 7 1, 0 0 7 1))' square:
 same "$(area)" 25
 expect 0 sum 'POLYGON ((0 0 7, 4 0 7, 4 4 7, 0 4 7))' square:1
 same "$(area)" 25
-# What PostGIS calls EWKT: an SRID in front.
+# EWKT of PostGIS: an SRID before the WKT.
 for srid in 'SRID=25832;' ' srid=0; ' 'SRID=4326;'; do
     expect 0 sum "$srid$square" square:1
     same "$(area)" 25 "$srid"

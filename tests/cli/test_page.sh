@@ -11,7 +11,8 @@ id,WKT
 2,"POLYGON((3 0,7 0,7 4,3 4,3 0))"
 X
 
-# page FILE: it is whole, nothing in it leads elsewhere, its data are JSON, and the hashes allow what is in it.
+# page FILE: the page is complete, has no links to elsewhere, its data are JSON, and the hashes of the policy match its
+# script and style.
 page() {
     python3 - "$1" <<'P' || fail "$1 is no such page"
 import base64, hashlib, html.parser, json, re, sys

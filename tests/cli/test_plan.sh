@@ -97,7 +97,7 @@ same "$(find killed -name '*.*' ! -name plan.json | sort | tr '\n' ' ')" 'killed
 kill $holder $other
 wait $holder $other 2>/dev/null
 rm -rf killed held .held.*
-# A signal that asks leaves nothing.
+# A run that a signal ends leaves no files.
 for delay in 0.02 0.06; do
     rm -rf asked
     "$SUNDER" plan town.gpkg asked "${call[@]}" --shards 3 -q 2>err &

@@ -30,7 +30,7 @@ if command -v flock >/dev/null; then
     rmdir .sunder-locked
 fi
 
-# ---- what was begun and abandoned: plans, shards
+# ---- abandoned beginnings: plans, shards
 for kind in marked nothin unmark opened; do mkdir -m 700 .x.plan.sunder-$kind; done
 touch .x.plan.sunder-{marked,opened}/being-made~ .x.plan.sunder-marked/cells .x.plan.sunder-unmark/mine
 chmod 755 .x.plan.sunder-opened

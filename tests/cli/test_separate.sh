@@ -107,7 +107,7 @@ same "$(count sel2.gpkg houses)" 1
 expect 0 separate in.gpkg sel3.gpkg --sql "SELECT * FROM houses WHERE id < 'c'" -q
 same "$(count sel3.gpkg in)" 2 "with --sql the layer is named after the file:"
 
-# Which layers; other formats; the pipe.
+# Selection of layers; other formats; a pipe.
 expect 0 separate in.gpkg l.gpkg --layers main,conflicts -q
 same "$(count l.gpkg houses)$(count l.gpkg houses_displacement 2>/dev/null)" 6
 expect 0 separate in.gpkg l2.gpkg --layers displacement -q

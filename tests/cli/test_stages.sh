@@ -19,7 +19,7 @@ same "$(grep -o '<dt>seconds</dt><dd>.*</dd>' r.html | sed 's/<[^>]*>//g' | tr -
 SOURCE_DATE_EPOCH=1 "$SUNDER" separate "$town" same.gpkg -l buildings --gap 3 --max-shift 1 --report same.html -q --allow-conflicts
 grep -q '<dt>seconds</dt>' same.html && fail 'seconds on a page that has to be the same for each run'
 
-# Percents for programs stay what they are.
+# Percentages for programs have not changed.
 expect 3 separate "$town" plain.gpkg -l buildings --gap 3 --max-shift 1 --effort 0 --progress=plain
 cmp -s err <(seq 0 100) || fail 'percents, a line each'
 

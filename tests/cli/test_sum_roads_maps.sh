@@ -1,7 +1,7 @@
 # shellcheck shell=bash disable=SC1091
-# Every road to the sums of polygons of maps: buildings of the committed town, and buildings and countries kept beside the
-# repository in ../shared, where they are. P is a feature and Q another one near it in the layer's order, reflected, so
-# that coordinates of the sum stay what maps have.
+# All algorithms for sums, on polygons of maps: buildings of the committed town, and buildings and countries kept beside
+# the repository in ../shared, if they are there. P is a feature and Q another one near it in the layer's order,
+# reflected, so that coordinates of the sum are like those of maps.
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 command -v jq >/dev/null || { echo "skipped: jq is not installed"; exit 77; }
 

@@ -1,5 +1,5 @@
 # shellcheck shell=bash disable=SC1091
-# sunder separate with limits: what stays in conflict stands no worse, exactly, by code that reads the two layers.
+# sunder separate with limits: no remaining conflict is worse than before, exactly, by code that reads the two layers.
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 [ -x "$SUNDER_BUILD/tests/standing_rule" ] || { echo "skipped: no standing_rule"; exit 77; }
 command -v python3 >/dev/null || { echo "skipped: no python3"; exit 77; }

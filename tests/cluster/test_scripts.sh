@@ -45,7 +45,8 @@ for way in "${ways[@]}"; do
     : >asked
     with "$way" --jobs 2
     same "$(wc -l <asked)" 1 "$way, shards worked on the second time:"
-    # Killed: parallel.sh and slurm.sh try again by themselves; make.sh says what to do, which is the same command.
+    # A killed shard: parallel.sh and slurm.sh try again by themselves; make.sh prints the command to be given again,
+    # which is the same.
     anew
     status=0
     SUNDER="a room/killer" bash "$scripts/$way" "$town" "a room/other.gpkg" 5 -- "${words[@]}" >said 2>&1 || status=$?

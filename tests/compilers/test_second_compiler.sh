@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Does the second compiler, clang where the build is made with gcc and gcc where it is made with clang, compile all C files of
-# the project without a warning, and do the unit tests pass in what it makes? The build is one of its own, inside the build
-# that runs the tests. Warnings of the first compiler are errors in continuous integration (SUNDER_WERROR).
+# Does the second compiler (clang if the build uses gcc, gcc if it uses clang) compile all C files of the project
+# without a warning, and do the unit tests pass in its build? That build is inside the one that runs the tests. In
+# continuous integration warnings of the first compiler are errors, too (SUNDER_WERROR).
 set -euo pipefail
 source=${SUNDER_SOURCE:?}
 build=${SUNDER_BUILD:?}

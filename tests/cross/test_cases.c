@@ -1,5 +1,5 @@
-/* Exact hard cases kept beside the repository in ../shared/cases (its README says what they hold and where they come
- * from): sums of the library and of the oracle, and the least translation, against the known answers. */
+/* Exact hard cases kept beside the repository in ../shared/cases (its README describes them and their origin): sums of
+ * the library and of the oracle, and the least translation, compared with the known answers. */
 #include "expect.h"
 #include "oracle.h"
 #include "sum_text.h"

@@ -104,7 +104,7 @@ judge() {
     fi
 }
 
-# The places of one way: all of 1..N in steps, or $budget of them.
+# The calls to strike for one way: all of 1..N in steps, or $budget of them.
 places() {
     local n=$1 step=$2 i
     if [ "$budget" = all ]; then

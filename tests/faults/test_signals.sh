@@ -31,7 +31,7 @@ print("POLYGON((" + ",".join("%.3f %.3f" % q for q in p + p[:1]) + "))")
 X
 done
 
-# name, what is there before, the run
+# name, files that exist before, command
 scenarios='
 pair-text       -         pair @p.wkt @q.wkt --gap 1
 pair            -         pair @p.wkt @q.wkt o.gpkg
@@ -127,7 +127,7 @@ while read -r name former words; do
         struck signals:$again "$place"
         judge signals:$again "$place"
     done
-    # And towards the end, where the output comes to its place.
+    # Also near the end, while the output is put in place.
     for place in $(places $((first - 20)) $((all + 1))); do
         struck signal "$place"
         judge signal "$place"

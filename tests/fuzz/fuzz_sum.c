@@ -3,7 +3,7 @@
 #include "bytes.h"
 #include "equal.h"
 
-/* Zero, which is what bytes are past the end of the input, is the default road. */
+/* Zero, the value of all bytes past the end of the input, selects the default algorithm. */
 static sunder_sum_options choose_road(fuzz_bytes *bytes)
 {
     unsigned road = fuzz_byte(bytes), order = fuzz_byte(bytes);

@@ -1,7 +1,7 @@
-/* What hangs together in a spool, by boxes and by shapes, beside what a comparison of each feature with each says.
+/* Connected groups in a spool, by boxes and by shapes, compared with a comparison of all pairs of features.
  *
- * Layers are diamonds, whose boxes meet far more often than they do, in crowds of all densities, some of them fixed,
- * some in blocks whose members are far from each other, some much larger, some far away. */
+ * Layers are diamonds, whose boxes meet far more often than the diamonds do, in crowds of all densities, some of them
+ * fixed, some in blocks whose members are far from each other, some much larger, some far away. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -185,7 +185,7 @@ static bool see(void *user, const gis_spool_feature *feature, gis_error *error)
     return true;
 }
 
-/* Reads all, and checks what the cells say. */
+/* Reads all records, and checks the data of the cells. */
 static void read_board(const board *b, unsigned parts)
 {
     gis_spool *spool;
@@ -209,7 +209,7 @@ static void read_board(const board *b, unsigned parts)
         last = cell->part;
     }
     for (size_t i = 0; i < b->n; i++) assert_true(r->found[i]);
-    /* Each is found again by itself, where it was. */
+    /* Each record is found again by its place. */
     for (size_t i = 0; i < b->n; i++) {
         const uint64_t place = r->place[i];
         r->found[i] = false;

@@ -251,7 +251,7 @@ static void test_rules(void **state)
     compare_spool(&request);
 }
 
-/* FIDs of a result mean nothing, and need not rise; those of a plain layer may be there twice. */
+/* FIDs of an SQL result need not ascend; those of a plain layer may be repeated. */
 static void test_fids(void **state)
 {
     gis_layer_input_request request = request_for("polygons.gpkg");
@@ -336,7 +336,7 @@ static void test_batches(void **state)
             request.facts = &facts;
         }
     }
-    /* What was known before has to hold. */
+    /* Wrong facts about the layer are noticed. */
     facts.features++;
     assert_true(gis_source_open(&request, &source, &error));
     bool any = true, done = true;

@@ -1,5 +1,5 @@
-/* A GeoPackage's table that is read past GDAL is, feature by feature, what GDAL reads; and a row that is not plain has
- * GDAL read all of it. */
+/* A GeoPackage's table that is read without GDAL gives, feature by feature, the features that GDAL reads; and if a row
+ * is not plain, GDAL reads the whole table. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -286,7 +286,7 @@ static void test_other_fields(void **state)
 /* ---- In halves --------------------------------------------------------------------------------------------------- */
 
 #define LAYER "\"a \"\"layer\"\"\""
-/* 6000 rows more, copies of those there are, by keys that a term in i gives, of 1 to 6000. */
+/* Inserts 6000 more rows, copies of existing ones, with keys by a term in i, which is 1 to 6000. */
 #define MORE(key)                                                                                                      \
     "INSERT INTO " LAYER " (fid, geom, \"say \"\"so\"\"\", small, large, real) "                                       \
     "WITH RECURSIVE k(i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM k WHERE i < 6000) "                                  \

@@ -14,8 +14,8 @@ sources() { (cd "$root/$1" && find . \( -name '*.c' -o -name '*.h' -o -name '*.i
 # The folders of a tree, from the lowest floor to the highest.
 floors() { sed -n '/^```floors$/,/^```$/p' "$root/$1/README.md" | sed '/^```/d' | awk '{print $1}' | tac; }
 
-# Lines "from to file" for each include of another folder's header. One process reads them all: a process for each file and
-# each line of it takes minutes where starting one is slow.
+# Lines "from to file" for each include of another folder's header. One process reads all files: a process for each file
+# and line would take minutes on systems that start processes slowly.
 includes() {
     (cd "$root/$1" && sources "$1" | xargs awk '
         function folder(path) { return sub("/[^/]*$", "", path) ? path : "." }

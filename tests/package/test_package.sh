@@ -57,7 +57,8 @@ cmake --build "$work/build" >"$work/build.log"
 expect "find_package, shared" "$work/build/shared"
 expect "find_package, static" "$work/build/static"
 
-# All headers in C and in C++, each of them first, and a user of them all that is an older caller besides.
+# All headers in C and in C++, each of them first, and a program that uses all of them and was compiled as an older
+# caller.
 libdir=$(dirname "$(find "$prefix" -name 'libsunder.so' | head -n 1)")
 flags=(-Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror "-I$prefix/include")
 link=("-L$libdir" -lsunder -lm)
@@ -91,7 +92,7 @@ else
     echo "there is no compiler of C++: left out"
 fi
 
-# What the headers refer to is installed.
+# The files to which the headers refer are installed.
 for page in REFERENCES.md api.md; do
     if ! [ -s "$prefix/share/doc/sunder/$page" ]; then
         echo "$page is named in the headers, and not installed"
@@ -99,7 +100,7 @@ for page in REFERENCES.md api.md; do
     fi
 done
 
-# Only what the headers declare leaves the shared library.
+# The shared library exports only the functions that the headers declare.
 if command -v nm >/dev/null; then
     nm -D --defined-only "$libdir/libsunder.so" | awk '$2 ~ /[TDBR]/ {print $3}' | sort >"$work/exported"
     # A declaration says which it is, and each of a header that is experimental as a whole says so.

@@ -68,7 +68,7 @@ class Checker:
         self.result = Result(self.problem, options.result) if options.result else None
 
     def check(self, lines):
-        """lines: as JSON has them, to be gone through twice. What holds, in words."""
+        """lines: an iterable of JSON objects, read twice. Returns what holds, in words."""
         proof, problem = form.Proof(lines, self.known), self.problem
         check_header(proof.head, problem.options, problem.name)
         problem.blocks.demand_all(proof.blocks)

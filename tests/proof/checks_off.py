@@ -71,7 +71,7 @@ def refused_by(runs, drawn):
 
 
 def cases_refused_by(cases):
-    """{place of a demand: [false proof]}"""
+    """{place of a demand: [the false proofs that it refuses]}"""
     found = defaultdict(list)
     for case in cases:
         Switch.last = None

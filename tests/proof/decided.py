@@ -103,7 +103,7 @@ def shadows_between(problem, a, b):
 
 
 def covers(region, reach, pieces):
-    """Is all of the region that is no farther from the origin than reach (None: all of it) in the union of the pieces?"""
+    """Is the part of the region within `reach` of the origin (None: all of it) in the union of the pieces?"""
     todo, steps, last = [region], 0, None
     far = None if reach is None else reach * reach
     while todo:

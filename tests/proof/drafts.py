@@ -120,8 +120,8 @@ def leaf(*forces, **more):
 
 
 def chain(questions, last, on=0):
-    """A verdict's nodes: way `on` of each question leads to the next one, that of the last to the leaf `last`; each other way to a leaf by
-    itself, or to the one that is given with it: (n, d, leaf)."""
+    """A verdict's nodes. Way `on` of each question leads to the next one, and that of the last question to the leaf
+    `last`. Each other way leads to a leaf by itself, or to the one that is given with it: (n, d, leaf)."""
     nodes, leaves, first_leaf = [], [last], len(questions)
     for k, told in enumerate(questions):
         ways = []

@@ -65,7 +65,7 @@ case("line-of-a-feature", "does not lie in", COLLECTION, lambda problem: proof(p
     problem, [1, 2], 1, [piece(0, 1, 1, 2, [[5, 5], [30, 5]], part(COLLECTION[2]))], empty([0]))]), {})
 
 
-# ---- The gate: a house goes 8 to the right, out of what is fixed. A tree says that the gate is in the way of its anchor.
+# ---- The gate: a house moves 8 to the right, out of a fixed feature. A tree claims that the gate blocks its anchor.
 
 WALL, HOUSE = box(-20, -50, 8, 60, m=0), box(0, 0, 10, 10)
 GATE = [[7, -50], [7, 60]]

@@ -74,7 +74,8 @@ class Case:
                      for v, w in zip(moves.get(q[0], (0, 0)), moves.get(p[0], (0, 0))))
 
     def pair_allows(self, told, places, p, q, u):
-        """By what the reason is about: the pair alone, with sides, without jumps, all that is not listed."""
+        """The moves that the reason allows: for the pair alone, with sides, without jumps, or with all unlisted pairs.
+        """
         if told is None or told["reason"] == "no_room":
             return places.bodies_may(p, q, u)
         a, b = told["a"], told["b"]
@@ -90,7 +91,7 @@ class Case:
         return True
 
     def wrong(self):
-        """None, or what is wrong with the case."""
+        """Returns None, or what is wrong with the case."""
         if not self.is_false():
             return "what it claims is not shown to be false"
         status, said = self.answer()

@@ -150,7 +150,7 @@ def nodes_of(value, path=()):
 
 
 def changes_of(value, sizes):
-    """Names of changes; a value that is the same afterwards is no forgery, and is left out where it is made."""
+    """Names of changes. A change after which the value is the same is no forgery, and is skipped when it is made."""
     if type(value) in (int, float):
         found = ["up", "down", "more", "less", "twice", "half", "minus", "zero", "least", "least below", "most", "most below",
                  "true", "text", "null", "list", *WORDS]

@@ -211,8 +211,9 @@ def read_line(text):
 
 
 class Proof:
-    """head; blocks (lists of FIDs); conflicts, as the lines have them but without their proofs. Verdicts and trees are read one at a time, for
-    files may be larger than memory. lines: as JSON has them, to be gone through twice. known: what was read of lines before, by id()."""
+    """The content of a file: head; blocks (lists of FIDs); conflicts as the lines have them, without their proofs.
+    Verdicts and trees are read one at a time, since files may be larger than memory. lines: an iterable of JSON
+    objects, read twice. known: the content of lines that were read before, by id()."""
 
     def __init__(self, lines, known):
         self.lines, self.known, self.head = lines, known, None

@@ -264,7 +264,7 @@ class TreeOf:
         self.shifts = [tuple(map(Fraction, b["shift"])) for b in line["bodies"]]
 
     def reach(self, i, j):
-        """Where the relative move of what costs less than the bound is: a centre, and the square of a radius."""
+        """The range of the relative move at a cost below the bound: a centre, and the square of a radius."""
         mass = sum((1 / self.weights[k] for k in (i, j) if self.weights[k] is not None), Fraction(0))
         return [float(b - a) for a, b in zip(self.shifts[i], self.shifts[j])], self.bound * mass
 
@@ -287,7 +287,7 @@ class VerdictOf:
         self.alone = not self.crowded and self.reason != "no_room"
 
     def asks_no_more(self, node):
-        """Is the question about what the reason is about?"""
+        """Is the question within the subject of the reason?"""
         if self.alone and not node.get("shadow") and {node["a"], node["b"]} != self.own:
             return False
         if self.alone and node.get("shadow") and self.reason == "max_shift":

@@ -43,7 +43,8 @@ class Places:
         return p.area and plane.interiors_meet(p, q)
 
     def stood(self, a, b):
-        """(the square of the distance, or -1; that of the least translation; whether one lay in the other)"""
+        """Returns (the square of the distance, or -1; the square of the least translation; whether one lay in the
+        other)."""
         if (a, b) not in self.start:
             p, q = self.moved(a, b, (0, 0))
             meet = p.area and plane.interiors_meet(p, q)

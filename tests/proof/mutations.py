@@ -43,7 +43,8 @@ def children_of(tree):
     return found
 
 
-# ---- Mutations of a tree: False where it has nothing of the kind; else the words of the refusal
+# ---- Changes of a tree. Each function returns False if the tree has nothing of its kind, otherwise the words of the
+# refusal
 
 def change_forces(tree):
     for node in tree["nodes"]:
@@ -236,7 +237,7 @@ TREES = {"forces": change_forces, "pull": pull, "elsewhere": force_from_elsewher
          **{kind: push_cut(kind) for kind in CUTS}}
 
 
-# ---- Mutations of a conflict's proof
+# ---- Changes of a conflict's proof
 
 def drop_way(told):
     for node in told["proof"]:
@@ -394,7 +395,7 @@ def reach_line(told):
 
 
 def hold_own(told):
-    """The conflict itself, held to what it had."""
+    """The conflict itself, held to its former distance."""
     for node in told["proof"]:
         if "clearance" in node and {node["a"], node["b"]} == {told["a"], told["b"]}:
             node["held"] = True

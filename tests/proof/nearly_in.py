@@ -74,6 +74,6 @@ def edge_is_near(p, q, b, most, d, halvings):
 
 
 def roots_add_up_to_less(s, t, most):
-    """sqrt(s) + sqrt(t) <= most, exactly."""
+    """Is sqrt(s) + sqrt(t) <= most? Exact."""
     rest = most * most - s - t
     return rest >= 0 and 4 * s * t <= rest * rest

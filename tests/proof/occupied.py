@@ -92,14 +92,14 @@ def in_squares(polygons, lattice):
 
 
 def height(edge, x):
-    """(numerator, denominator) of y at x."""
+    """y of the edge at x, as (numerator, denominator)."""
     x0, y0, x1, y1 = edge[:4]
     return y0 * (x1 - x0) + (x - x0) * (y1 - y0), x1 - x0
 
 
 def places_between(edges, left, side):
-    """Between which, and from left to left + side, no edge ends, meets a row, or crosses another. What is no whole number is
-    between two that follow each other."""
+    """The x between which, and from left to left + side, no edge ends, meets a row, or crosses another. A place that is
+    no integer is between two consecutive ones."""
     right, spans = left + side, []
     cuts = {left, right} | {x for e in edges for x in (e[0], e[2]) if left < x < right}
 
@@ -132,7 +132,7 @@ def places_between(edges, left, side):
 
 
 def take_slab(edges, a, b, column, side, found):
-    """What of the union is between a and b, where edges do not cross; how many widths of a unit may be lost."""
+    """Adds the part of the union between a and b, where edges do not cross. Rounding may lose some widths of a unit."""
     active = [e for e in edges if e[0] <= a and e[2] >= b]
     active.sort(key=lambda e: Fraction(*height((2 * e[0], 2 * e[1], 2 * e[2], 2 * e[3]), a + b)))
     inside, below, lost = set(), None, 0

@@ -29,7 +29,7 @@ def in_union(corners, outlines):
 
 
 def left_of(edge, sides):
-    """What of a convex polygon is on the left of the edge's line, which goes through it."""
+    """The part of a convex polygon on the left of the edge's line, which passes through it."""
     (ax, ay), (bx, by) = edge
     found = []
     for p, q in sides:

@@ -43,7 +43,8 @@ strange() {
     [ $? = 1 ] && grep -q '^refused: ' said || fail "$name for $source $*: $(cat said)"
 }
 
-# not_asked WORDS NAME SOURCE OPTIONS...: beyond the checker, or what the program never writes a proof for
+# not_asked WORDS NAME SOURCE OPTIONS...: a case that the checker does not handle, or for which the program writes no
+# proof
 not_asked() {
     local words=$1 name=$2 source=$3
     shift 3
@@ -319,7 +320,7 @@ not_asked 'there is no field' degrees degrees.gpkg --weight-field nothing
 not_asked 'no such column' degrees degrees.gpkg --where 'colour = 1'
 not_asked 'No such file' symbols symbols.gpkg --symbol @nowhere.wkt
 
-# Other formats, and what is selected of a source.
+# Other formats, and selections of a source.
 make_formats
 formats=(--gap 2 --no-blocks)
 proved shp buildings.shp "${formats[@]}" --where 'w < 5' --fixed-where 'w = 2' --barrier alley.fgb,width=3

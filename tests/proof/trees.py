@@ -112,7 +112,7 @@ class Tree(Bodies):
     # ---- Nodes
 
     def check(self):
-        """What the tree is proved to bound from below."""
+        """Checks the tree; returns the bound that it proves."""
         children = [[] for _ in self.nodes]
         for k, node in enumerate(self.nodes):
             parent = node["parent"]

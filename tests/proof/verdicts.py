@@ -261,7 +261,8 @@ class Verdict:
         return key if self.problem.is_barrier(key) else self.problem.block(key)
 
     def limit_of(self, body):
-        """0 for a barrier, None where there is none; of a slack, told by its pair and its clearance, that."""
+        """The limit of a body: 0 for a barrier, None if there is none; for a slack, identified by its pair and its
+        clearance, the clearance."""
         if isinstance(body, tuple) and body[0] == "slack":
             return -body[2]
         if not isinstance(body, tuple):
@@ -280,7 +281,7 @@ def farthest(polygon, line):
 
 
 def corners_behind(ways):
-    """Where the lines of two ways cross, not beyond any: homogeneous integers."""
+    """The crossings of the lines of two ways that are beyond no way, as homogeneous integers."""
     for p, q in combinations(ways, 2):
         x, y, w = crossing(p, q)
         if w and all(m[0] * x + m[1] * y <= m[2] * w for m in ways):

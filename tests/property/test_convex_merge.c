@@ -203,7 +203,7 @@ static void test_sums_are_hulls(void **state)
     }
 }
 
-/* The checker tells ranks that fall, and corners that turn too far. */
+/* The checker finds descending ranks, and corners that turn too far. */
 static void test_checker(void **state)
 {
     (void)state;

@@ -390,7 +390,7 @@ static void subject_free(subject *s)
     sunder_shape_free(s->shape);
 }
 
-/* Decomposes P in all ways, and Q with it in the mixed one. Takes the shape. NULL, or what is wrong. */
+/* Decomposes P in all ways, and Q with it in the mixed one. Takes the shape. Returns NULL, or the fault. */
 static char *try_shape(const polyset *raw, sunder_shape *shape, rng *r, bool wide, bool prove)
 {
     subject s = {.raw = raw, .shape = shape};

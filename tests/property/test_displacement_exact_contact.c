@@ -84,7 +84,7 @@ static void test_rows_end_in_contact(void **state)
     }
 }
 
-/* Both boxes, where they were and where they go, are between 2^21 and 2^22: so all units are one. */
+/* Both boxes, before and after, are between 2^21 and 2^22, so all coordinates have the same unit. */
 static void test_pairs_end_in_contact(void **state)
 {
     (void)state;
@@ -110,7 +110,7 @@ static void test_pairs_end_in_contact(void **state)
     }
 }
 
-/* The smallest: what each went was 1.0000000000000071. */
+/* The smallest case: the moves were 1.0000000000000071. */
 static void test_two_squares_that_overlap_by_2(void **state)
 {
     (void)state;

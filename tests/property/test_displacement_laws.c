@@ -212,8 +212,8 @@ static bool leaves_more(const account *p, const account *q)
     return p->overlaps != q->overlaps ? p->overlaps > q->overlaps : p->conflicts > q->conflicts;
 }
 
-/* What rounding and its margin may add to the cost of moves: each keeps within 2^-47 of its coordinates, a millionth of
- * a millimetre here, of what it was asked for. */
+/* The amount that rounding and its margin may add to the cost of moves: each move is within 2^-47 of its coordinates,
+ * here a millionth of a millimetre, of the ideal one. */
 static double slack(const town *t, const outcome *o)
 {
     double sum = 0;

@@ -156,7 +156,7 @@ static void check_packed(void **state)
         double width[8];
         for (int k = 0; k < n; k++) width[k] = (double)rng_int(&r, 64, 120) / 8;
         const double excess = (double)rng_int(&r, 1, 6) / 8;
-        /* Overlapping, so that what lies in the lane hangs together with its walls. */
+        /* The boxes overlap, so the row in the lane is connected with its walls. */
         const double share = excess / (n + 1);
         double x = 400000;
         add_box(&t, x - 10, 5000000, 10, 40)->fixed = true;

@@ -22,7 +22,8 @@
 /* Relative accuracy of the optimum. The library's figures may differ by as much, and by the tolerance of places in
  * optimum.c. */
 static const double CLOSE = 1e-8;
-/* So far from the optimum a cost may be that is said to be at it, relative and absolute: as the interface says. */
+/* The distance from the optimum up to which a cost counts as optimal, relative and absolute, as the interface documents
+ * it. */
 static const double OPTIMAL = 1e-6, OPTIMAL_TOO = 1e-7;
 /* Limits are reduced by this share if a place of optimum.c, which may exceed them by 1e-9, has to be certainly allowed.
  * If one coordinate uses up a whole limit, such a place may be wrong by a ten-thousandth in the other coordinate, and

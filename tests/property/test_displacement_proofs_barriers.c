@@ -1,5 +1,5 @@
-/* Conflicts beside barriers that are said to have no room, or none on their side: each proof followed by code of its
- * own (support/proof_check.c), in rationals, and untruths about shadows and chords refused. */
+/* Conflicts beside barriers with the reasons no_room and side: each proof is verified by independent code
+ * (support/proof_check.c), in rationals, and false statements about shadows and chords are refused. */
 #include "proof_town.h"
 #include "random.h"
 #include "sunder_proof.h"

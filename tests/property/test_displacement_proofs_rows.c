@@ -1,6 +1,6 @@
-/* Rows of houses where limits let a few pairs separate: each remaining pair has a proof exactly where a sum along the
- * row shows that there is no room, naming the houses in that sum and no more. Proofs hold for rows of rotated houses.
- * Independent code verifies each proof (support/proof_check.c). */
+/* Rows of houses with limits that let a few pairs separate. A remaining pair has a proof exactly if a sum along the row
+ * shows that there is no room, and the proof names the houses of that sum and no more. Proofs also hold for rows of
+ * rotated houses. Independent code verifies each proof (support/proof_check.c). */
 #include "proof_town.h"
 #include "random.h"
 
@@ -19,7 +19,7 @@ enum { LONGEST = 20 };
 
 typedef struct row {
     proof_town town;
-    double lack[LONGEST]; /* of each house and the next */
+    double lack[LONGEST]; /* between each house and the next */
     double owed[LONGEST]; /* the same if the pair is solved, otherwise 0 */
 } row;
 

@@ -1,10 +1,10 @@
 /* Laws of a separated layer, on random towns.
  *
- * Checked with rational arithmetic and code that shares nothing with src/: the features as written keep the gap, save
- * the pairs that are listed and those inside a block; each move shifts every vertex by one vector, exactly. No move is
- * longer than allowed; no pair that is listed stands worse than it stood. The lower bound is computed again from the
- * written pairs, and every pair's least separation is at most what the result gave it. The report is the same for every
- * number of threads, and a check of the result agrees with it. */
+ * They are checked in rational arithmetic by code that shares nothing with src/. The features as written keep the gap,
+ * except for listed pairs and pairs inside a block. Each move shifts every vertex by one vector, exactly. No move
+ * exceeds its limit, and no listed pair is worse than at the start. The lower bound is computed again from the written
+ * pairs, and every pair's least separation is at most the one in the result. The report is the same for every number of
+ * threads, and a check of the result agrees with it. */
 #include "passage_oracle.h"
 #include "random.h"
 #include "run_layer.h"

@@ -199,7 +199,7 @@ static void plant(rng *r, layer *l)
 {
     memset(l, 0, sizeof *l);
     sunder_layer_options_init(&l->options);
-    l->options.allow_jumps = true; /* what is planted may lie behind a neighbour */
+    l->options.allow_jumps = true; /* a planted place may lie behind a neighbour */
     l->options.gap = rng_once_in(r, 4) ? 0 : eighths(r, 1, 24);
     l->options.contained = (sunder_containment)rng_int(r, 0, 2);
     l->options.touch_tolerance = l->options.gap > 0 && rng_once_in(r, 2) ? l->options.gap / 4 : 0;

@@ -85,7 +85,7 @@ static void lay_out(field *f, rng *r)
     }
 }
 
-/* A way from one side to the other, with a width; or a pond. */
+/* Adds a road from one side to the other, with a width; or a pond. */
 static void add_barrier(field *f, rng *r)
 {
     const size_t k = f->barriers++;

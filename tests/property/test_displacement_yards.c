@@ -22,7 +22,7 @@
 #define MOST_TOLD 256
 
 typedef struct yard {
-    double x, y, w, h, wall; /* what is free, and how thick its walls are */
+    double x, y, w, h, wall; /* the free inside, and the thickness of its walls */
     double gate[2];          /* in the right wall, from and to; both NAN: none */
     double hut[4];           /* its box */
     bool turned;             /* x and y are swapped */
@@ -140,7 +140,7 @@ static double may_leave(const yard *y, const scene *s, size_t walls)
         sunder_shape_anchor(s->feature[k].shape, p);
         const double in_yard[2] = {p[y->turned], p[!y->turned]};
         angles_of(b, in_yard, angle);
-        /* The wall goes the other way. */
+        /* The wall moves in the opposite direction. */
         for (int turn = -3; turn <= 3; turn += 2) n = take_out(free, n, angle[0] + turn * PI, angle[1] + turn * PI);
     }
     for (size_t k = 0; k < n; k++) widest = fmax(widest, free[k][1] - free[k][0]);

@@ -1,5 +1,5 @@
-/* The gap that a conflict of two features by themselves is said to do with, against the two asked directly: with that
- * gap their limits are enough, and with a hundredth of the layer's more they are not. */
+/* The value of need_gap for a conflict of two features alone, compared with the two directly: with that gap their
+ * limits are long enough, and with a gap larger by a hundredth of the layer's they are not. */
 #include "generate.h"
 #include "scene.h"
 

@@ -240,9 +240,9 @@ static void test_members(void **state)
 
 /* ---- The layer's question ---------------------------------------------------------------------------------------- */
 
-/* A bar in a slot that is too narrow by w on both sides: the translation that parts them is as long as they are, the
- * overlap two strips of width w. They are one block exactly where no disc fits, and what is as wide as the disc's box
- * fits it. */
+/* A bar in a slot that is too narrow by w on both sides. The translation that separates them is as long as they are,
+ * and the overlap consists of two strips of width w. They are one block exactly if no disc fits, and a strip as wide as
+ * the disc's box lets it fit. */
 static bool join(double w, double tolerance)
 {
     const double slot[] = {0, 0, 10, 0, 10, 90, 0, 90, 20, 0, 30, 0, 30, 90, 20, 90},

@@ -282,7 +282,7 @@ static bool integers_only(const polyset *s)
     return true;
 }
 
-/* Convex ones, slivers, and a large one beside a small one, besides what the kinds have. */
+/* Adds convex shapes, slivers, and a large one beside a small one to the kinds. */
 static void vary(polyset *p, polyset *q, rng *r)
 {
     const int way = (int)rng_int(r, 0, 7);

@@ -173,7 +173,7 @@ static void random_large(polyset *p, rng *r, size_t kind, int n)
     }
 }
 
-/* Moved at random, by up to so far. */
+/* The same for a random shift of at most `far`. */
 static void expect_same_moved(polyset *p, polyset *q, rng *r, double far, size_t *done, uint64_t seed, size_t i)
 {
     const double move[2] = {rint(far * rng_unit(r)), rint(far * rng_unit(r))};

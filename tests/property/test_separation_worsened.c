@@ -109,7 +109,7 @@ static bool add_exactly(double *to, double d)
     return lost == 0;
 }
 
-/* Asked again and again of one pair that is moved about, as it stands and as a shape of its own there. */
+/* The same pair is compared at many places, as a translated shape and as a shape of its own. */
 static void check_worse_since(void **state)
 {
     size_t worse_n = 0, asked = 0;

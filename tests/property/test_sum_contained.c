@@ -216,7 +216,7 @@ static void test_row(void **state)
         polyset_rectangle(&q, -2, -2, 2, 2); /* sums are 6 wide */
         count_candidates(&p, &q, count);
         assert_int_equal(count[0], 160);
-        /* The upright sides reach a quarter out of the neighbours, and end on the outline of the next but one. */
+        /* The vertical sides reach a quarter out of the neighbours, and end on the outline of the next but one. */
         assert_int_equal(count[1], 160);
         polyset_free(&p);
         polyset_init(&p);

@@ -1,5 +1,5 @@
-/* Larger sums against the oracle, byte for byte: what small operands do not reach in the library (cells split many
- * times, long lists of crossings on one segment) against what the oracle can still do. */
+/* Larger sums against the oracle, byte for byte. They reach code of the library that small operands do not (cells split
+ * many times, long lists of crossings on one segment), and are small enough for the oracle. */
 #include "generate.h"
 #include "oracle.h"
 #include "sum_text.h"

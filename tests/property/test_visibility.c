@@ -150,7 +150,7 @@ static bool is_tangent(const scene *s, uint32_t v, const sunder_i_filtered_point
     return !sides(s, v, p, q, &low, &high) || low == 0 || high == 0;
 }
 
-/* Can a shortest path come from u to v and go on to w? */
+/* Can a shortest path come from u to v and continue to w? */
 static bool is_taut(const scene *s, uint32_t u, uint32_t v, uint32_t w)
 {
     int low[2], high[2];
@@ -206,7 +206,8 @@ static void nothing_is_missed(void **state)
         }
         free_scene(&s);
     }
-    /* Else there is nothing to miss, or nothing is left out: most nodes are hidden, and with a leg before even more. */
+    /* Otherwise nothing could be missed, or nothing would be excluded: most nodes are hidden, and even more after a
+     * leg. */
     print_message("of %zu nodes %zu are seen; of %zu after a leg %zu\n", all, seen, after, onward);
     assert_true(all > 1000 && after > 1000);
     assert_true(seen > all / 100 && seen < all / 4);

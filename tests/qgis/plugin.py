@@ -117,7 +117,7 @@ class Case(unittest.TestCase):
         return copied
 
     def by_program(self, *words):
-        """What the program makes of the town."""
+        """The program's own result for the town."""
         written = self.file("program.gpkg")
         self.sunder("separate", "--input-layer=buildings", TOWN, written, "--quiet", "--overwrite", "--allow-conflicts",
                     *words)
@@ -653,7 +653,7 @@ class OtherCommands(Case):
 
 class SpellingTest(unittest.TestCase):
     def test_enumerators_name_their_enumeration(self):
-        """With Qt 6 an enumerator is a member of its enumeration alone. Here QGIS says what is one."""
+        """With Qt 6 an enumerator is a member of its enumeration only. QGIS itself lists the enumerators here."""
         import ast
         import glob
         import qgis.core

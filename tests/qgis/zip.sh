@@ -1,6 +1,6 @@
 # shellcheck shell=bash
-# What `cmake --build . --target qgis-plugin` makes is what QGIS installs: unpacked into the plug-ins of a fresh profile, it is
-# enabled and runs, and it holds no more than the plug-in.
+# QGIS installs the zip that `cmake --build . --target qgis-plugin` makes: unpacked into the plug-ins of a fresh
+# profile, it is enabled and runs, and it contains only the plug-in.
 set -eu
 process=$(command -v qgis_process.bin || command -v qgis_process) || { echo "skipped: qgis_process is not installed"; exit 77; }
 work=$(mktemp -d)
@@ -25,7 +25,7 @@ for file in "$SUNDER_SOURCE"/gis/qgis/sunder/*.py "$SUNDER_SOURCE"/gis/qgis/sund
 done
 [ -z "$(find "$plugins" -name '__pycache__' -o -name '*.pyc')" ] || fail "compiled files are in the zip"
 
-# Addresses are those that the build is given, and none where it is given none.
+# The zip has the addresses that the build was given, and none if none were given.
 addresses=$work/addresses
 cmake -S "$SUNDER_SOURCE" -B "$addresses" -D SUNDER_TESTS=OFF -D SUNDER_EMAIL=who@example.net -D SUNDER_HOMEPAGE=https://example.net/ \
     -D SUNDER_TRACKER=https://example.net/issues >"$work/log" 2>&1 || fail "no configuration with addresses"

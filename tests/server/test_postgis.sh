@@ -58,7 +58,7 @@ grep -q '"verified": true' stats.json || fail "PostGIS keeps doubles, and is not
 sql 'SELECT ST_AsText(geom, 17) FROM squares ORDER BY 1' | grep -q 'POLYGON((100 0,110 0,110 10,100 10,100 0))' ||
     fail "a geometry changed"
 
-# The other way: a table as input is what the file is, feature by feature and double by double.
+# The other direction: a table as input gives the same as the file, feature by feature and double by double.
 bytes_of() { ogrinfo -ro -q "$1" -dialect SQLite -sql "SELECT hex(ST_AsBinary(geom)) AS g, sunder_st, sunder_dx FROM $2 ORDER BY 1" | grep ' = '; }
 "$SUNDER" separate --quiet --gap 3 -l squares squares.gpkg of_file.gpkg --output-layer moved
 ogr2ogr -f PostgreSQL "$db" squares.gpkg squares -nln plain -lco GEOMETRY_NAME=geom -preserve_fid

@@ -1,5 +1,6 @@
-/* All edges of a member are cut where they meet, pieces that lie on one another an even number of times are dropped,
- * and of those that are left each has the set on one side: that to which a ray meets an odd number of the others. */
+/* All edges of a member are cut at their intersections, and pieces that lie on one another an even number of times are
+ * dropped. Each remaining piece has the set on one side: the side on which a ray meets an odd number of the other
+ * pieces. */
 #include "even_odd.h"
 
 #include <stdlib.h>
@@ -165,7 +166,7 @@ static bool set_is_left(const cutter *c, const piece *p)
         if (q->gone || q == p) continue;
         if (upright) {
             const bool a = mpq_cmp(q->a.y, m.y) <= 0, b = mpq_cmp(q->b.y, m.y) <= 0;
-            /* Drawn upwards, the piece is met by the ray to the left where the middle is right of it. */
+            /* Directed upwards, the piece is met by the ray to the left if the middle is right of it. */
             if (a != b && turn(&q->a, &q->b, &q->a, &m) * (a ? 1 : -1) < 0) in = !in;
         } else if (mpq_cmp(q->a.x, m.x) <= 0 && mpq_cmp(m.x, q->b.x) < 0 && turn(&q->a, &q->b, &q->a, &m) < 0) {
             in = !in;

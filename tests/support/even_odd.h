@@ -9,7 +9,8 @@
 
 typedef struct even_odd_corner {
     mpq_t x, y;
-    size_t next, prev; /* along the boundary, the set on the left; where boundaries touch, each corner is one of them */
+    /* along the boundary, with the set on the left; if boundaries touch, each has a corner of its own */
+    size_t next, prev;
     size_t member;
 } even_odd_corner;
 

@@ -8,9 +8,9 @@
 /* Exact area of the polygons of a canonical text, as "num/den"; freed by the caller. */
 char *expect_area(const json *sum);
 
-/* How the canonical text of a sum departs from a record of ../shared/cases (its README says what the fields mean):
- * area, points, segments, the boundary as a set of directed pieces and, where no rings touch, how many rings. NULL if
- * in nothing; else a sentence, freed by the caller. */
+/* Compares the canonical text of a sum with a record of ../shared/cases (its README describes the fields): area,
+ * points, segments, the boundary as a set of directed pieces and, if no rings touch, the number of rings. Returns NULL
+ * if they agree, otherwise a sentence, freed by the caller. */
 char *expect_compare(const char *sum_text, const json *record);
 
 #endif

@@ -1,12 +1,12 @@
 /* Least translations with a gap by brute force, for tests. Shares no code with the library.
  *
- * The least translation is the nearest to the origin of: feet of perpendiculars on lines at the gap from a side of one
- * set moved to a corner of the other, nearest points of circles about the differences of two corners, and places where
- * two of all these cross. Each that is no farther than an answer to be judged is computed in long binary fractions and
- * asked whether it keeps the gap, corner against side. What differs from the gap by less than 2^-2700 there counts as
- * equal: places are of degree 4 at most over the coordinates, which have 60 bits here, and the squares that are
- * compared are integers of less than 700 bits in a common unit, so that the product with the three conjugates bounds
- * what is not zero from below by 2^-2100. */
+ * The least translation is the nearest to the origin of three kinds of places: feet of perpendiculars on lines at the
+ * gap from a side of one set moved to a corner of the other, nearest points of circles about the differences of two
+ * corners, and crossings of two of these curves. Each place that is no farther than the answer under test is computed
+ * in long binary fractions, and it is tested whether it keeps the gap, corner against side. A difference from the gap
+ * of less than 2^-2700 counts as equality. Reason: places have degree 4 at most over the coordinates, which have 60
+ * bits here, and the squares that are compared are integers of less than 700 bits in a common unit; so the product with
+ * the three conjugates bounds a nonzero difference from below by 2^-2100. */
 #ifndef SUNDER_TESTS_GAP_ORACLE_H
 #define SUNDER_TESTS_GAP_ORACLE_H
 

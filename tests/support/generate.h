@@ -21,7 +21,7 @@ typedef struct cells {
  * there. bends_only: collinear vertices are left out. */
 void cells_outline(polyset *set, const cells *c, bool pinched, bool bends_only);
 
-/* What spacing the lines of a board have. */
+/* The spacing of the lines of a board. */
 typedef enum spacing {
     SPACING_UNIT,   /* 0, 1, 2, ... */
     SPACING_SMALL,  /* steps of 1 to 3 */

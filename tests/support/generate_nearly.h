@@ -1,5 +1,5 @@
-/* Random operands whose members nearly coincide: what several digitisations of one thing look like, and what splits no
- * square and sorts along no line as quickly as it should. All are valid. */
+/* Random operands whose members nearly coincide, like several digitisations of one thing. They are slow cases for
+ * splitting squares and for sorting along lines. All are valid. */
 #ifndef SUNDER_TESTS_GENERATE_NEARLY_H
 #define SUNDER_TESTS_GENERATE_NEARLY_H
 
@@ -15,7 +15,7 @@ typedef enum nearly_kind {
     NEARLY_FAR,        /* fine detail, and another member far away */
     NEARLY_EDGES,      /* walls on one line that overlap in part, or are off it by a little */
     NEARLY_MAGNITUDES, /* members within the unit square, of map coordinates, and tiny ones */
-    NEARLY_FITS,       /* a pocket, and what nearly fits into it */
+    NEARLY_FITS,       /* a pocket, and a shape that nearly fits into it */
     NEARLY_KINDS
 } nearly_kind;
 

@@ -51,7 +51,7 @@ typedef enum hamlet_kind {
     HAMLET_SIDES = 4 /* some barriers may not be crossed: such as meet no feature */
 } hamlet_kind;
 
-/* n features. kinds: what there may be. */
+/* Makes n features. kinds: the allowed kinds of features. */
 void hamlet_found(rng *r, hamlet *t, size_t n, int kinds);
 /* Separates with the given blocks only, tolerance 0, and no feature allowed within another. */
 sunder_report *hamlet_separate(const hamlet *t, double effort);
@@ -70,8 +70,8 @@ typedef enum hamlet_rules {
  * With `besides` that pair owes its full distance, and pairs that overlapped owe nothing. */
 void hamlet_pose(const hamlet *t, const sunder_conflict *listed, size_t n, const sunder_conflict *besides,
                  optimum_problem *m);
-/* One pair alone; with the sides of both and their blocks towards all barriers, and the ways of these past each other,
- * as rules says. */
+/* Poses one pair by itself; depending on `rules` with the sides of both and their blocks towards all barriers, and with
+ * the paths of these past each other. */
 void hamlet_pose_pair(const hamlet *t, const sunder_conflict *pair, int rules, optimum_problem *m);
 
 #endif

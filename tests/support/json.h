@@ -11,7 +11,7 @@ typedef struct json {
     json_kind kind;
     bool truth;
     char *text;        /* of a string or number */
-    char *name;        /* of a member of an object */
+    char *name;        /* name of a member of an object */
     struct json *item; /* the n elements of an array or object */
     size_t n;
 } json;

@@ -18,7 +18,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double MISSED = 1e-9; /* what a place may miss and count as outside */
+static const double MISSED = 1e-9; /* a place may violate a demand by this and count as outside */
 
 /* A piece that was branched on: into which sector? */
 typedef struct choice {

@@ -1,8 +1,8 @@
-/* The least cost of taking a few bodies apart, by a plain branch and bound of its own: for tests of what the library
- * says of its own results. Shares no code with src/.
+/* The least cost of separating a few bodies, by an independent branch and bound: for tests of the library's statements
+ * about its own results. Shares no code with src/.
  *
- * A body moves by t, no farther than its limit; its cost is weight * |t|^2. Pieces say what the move of one body
- * relative to another's, u = t_b - t_a, must stay out of. */
+ * A body moves by t, no farther than its limit; its cost is weight * |t|^2. A piece forbids a set of relative moves u =
+ * t_b - t_a of two bodies. */
 #ifndef SUNDER_TESTS_OPTIMUM_H
 #define SUNDER_TESTS_OPTIMUM_H
 
@@ -15,8 +15,9 @@ typedef struct optimum_body {
     double weight, limit; /* limit 0: fixed; INFINITY: none */
 } optimum_body;
 
-/* An open convex set: all places nearer than the radius to the polygon's interior; where that is negative, those that
- * are farther than as much from all outside; or a shadow, which ends nowhere, its sides moved out by the radius. */
+/* An open convex set: all places nearer than the radius to the polygon's interior; with a negative radius all places
+ * farther than its absolute value from the polygon's outside; or a shadow, which is unbounded, with its sides moved
+ * outward by the radius. */
 typedef struct optimum_piece {
     size_t a, b; /* bodies */
     double radius;

@@ -1,11 +1,11 @@
-/* The arrangement of the oracle: all segments, all crossings, and what is left uncovered.
+/* The arrangement of the oracle: all segments, all crossings, and the uncovered parts.
  *
- * Which segments. Where x is a boundary point of O, P and x - Q touch without their interiors meeting. If x lies in the
- * relative interior of edge e of P + vertex v of Q, and the corner of Q at v reaches strictly to the outer side of
- * the line through e once it is turned round and set on e (a corner that is reflex, or has a leg that leaves through
- * the outer side), then the two interiors meet near that contact, and so they do at every point of the relative
- * interior: the segment carries nothing but covered points. The other segments are enough. With all_segments even those
- * are arranged, as a check. */
+ * Which segments are needed? If x is a boundary point of O, P and x - Q touch without their interiors meeting. Let x
+ * lie in the relative interior of edge e of P + vertex v of Q. Suppose that the corner of Q at v, turned round and put
+ * on e, reaches strictly to the outer side of the line through e (it is reflex, or has a leg that leaves through the
+ * outer side). Then the two interiors meet near that contact, and so they do at every point of the relative interior:
+ * all points of the segment are covered. The other segments suffice. With all_segments the omitted ones are arranged,
+ * too, as a check. */
 #include "oracle_inner.h"
 
 #include <math.h>

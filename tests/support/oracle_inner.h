@@ -1,4 +1,4 @@
-/* What the files of the oracle share. */
+/* Declarations that the files of the oracle share. */
 #ifndef SUNDER_TESTS_ORACLE_INNER_H
 #define SUNDER_TESTS_ORACLE_INNER_H
 

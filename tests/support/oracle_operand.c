@@ -203,7 +203,7 @@ typedef struct diagram {
     bool *joined; /* [n * n] there is a segment */
 } diagram;
 
-/* Nothing in the way of a segment between places i and j, and its middle inside? */
+/* Is the segment between places i and j unobstructed, with its middle inside? */
 static bool admissible(const diagram *g, size_t m, size_t i, size_t j)
 {
     const zpoint *a = &g->z->v[g->at[i]], *b = &g->z->v[g->at[j]];

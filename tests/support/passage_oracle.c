@@ -1,6 +1,6 @@
-/* A point is held if it is on an edge, or sees an odd number of a member's edges upwards. A way meets an edge if some
- * share of it, from 0 to 1, is on the edge: the two lines are solved for it, and where they are one, both are ordered
- * along it. */
+/* A point is inside if it is on an edge, or if a vertical ray upwards meets an odd number of a member's edges. A path
+ * meets an edge if a point of it, at a parameter from 0 to 1, is on the edge. The crossing of both lines is computed;
+ * if they coincide, both segments are ordered along the line. */
 #include "passage_oracle.h"
 
 #include <stdlib.h>

@@ -50,7 +50,7 @@ void proof_line_square(mpq_t square, const proof_feature *line, const proof_feat
     mpq_clear(own);
 }
 
-/* Is the place in the polygon, and on no edge of it? By a ray to the right. */
+/* Is the place inside the polygon, and on none of its edges? By a ray to the right. */
 static bool is_inside(const proof_feature *polygon, const vec *at)
 {
     vec p, q, v, w;

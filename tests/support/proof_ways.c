@@ -1,4 +1,4 @@
-/* Do the ways of a node leave nothing out that keeps the clearance? */
+/* Do the ways of a node cover every place that keeps the clearance? */
 #include "proof_checking.h"
 
 /* Is there a direction in which none of the ways is ever reached? If so, one along a way's line. */

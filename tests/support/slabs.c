@@ -38,7 +38,7 @@ static size_t load_edges(edge *e, const polyset *s, int set, const mpq_t *x, con
     return n;
 }
 
-/* y of the edge at x. */
+/* Sets `out` to y of the edge at x. */
 static void height(mpq_t out, const edge *e, const mpq_t x)
 {
     mpq_t t, u;
@@ -226,7 +226,8 @@ void area_by_slabs(mpq_t area, const polyset *set)
     slabs_open(&s, set, NULL, NULL, NULL);
     for (size_t i = 0; i + 1 < s.borders; i++) {
         if (!slab_middle(middle, &s, i)) continue;
-        covered_length(length, s.e, s.edges, middle); /* nothing crosses within a slab: so long on an average, too */
+        /* edges do not cross within a slab, so the middle gives the mean length */
+        covered_length(length, s.e, s.edges, middle);
         mpq_sub(width, s.x[i + 1], s.x[i]);
         mpq_mul(width, width, length);
         mpq_add(area, area, width);

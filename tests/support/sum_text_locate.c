@@ -50,7 +50,7 @@ static bool on_segment(const json *from, const json *to, const place *p)
     return on;
 }
 
-/* +1 inside, 0 on, -1 outside. */
+/* Returns +1 inside, 0 on, -1 outside. */
 static int locate(const json *ring, const place *p)
 {
     bool in = false;

@@ -11,7 +11,7 @@
 
 #include <cmocka.h>
 
-/* A sum with nothing in it yet but its origins, where the placed operands are added. */
+/* Makes an empty sum with its origins, to which the placed operands are added. */
 static sunder_sum *blank_sum(const sunder_shape *a, const sunder_shape *b, sunder_i_placed *placed)
 {
     sunder_sum *sum = NULL, *blank = calloc(1, sizeof *blank);

@@ -118,7 +118,7 @@ static void test_largest_begin_first(void **state)
     for (size_t k = 0; k < ITEMS; k++) size[k] = k == 7 ? SIZE_MAX : k % 5;
     memset(&t, 0, sizeof t);
     assert_int_equal(sunder_i_parallel_largest_first(1, size, ITEMS, count, &t, &err), SUNDER_OK);
-    for (size_t k = 0; k < ITEMS; k++) assert_int_equal(t.order[k], k); /* on one thread in their order */
+    for (size_t k = 0; k < ITEMS; k++) assert_int_equal(t.order[k], k); /* in order on one thread */
     memset(&t, 0, sizeof t);
     t.threads = 2;
     assert_int_equal(sunder_i_parallel_largest_first(2, size, ITEMS, count, &t, &err), SUNDER_OK);

@@ -122,8 +122,8 @@ static void check_limits(void **state)
     }
 }
 
-/* Far from the origin many moves round to the same vertices. Where one of them rounds no vertex it is the move, even if
- * a shorter one would keep the limit. */
+/* Far from the origin many moves round to the same vertices. If one of them is exact for all vertices it is the move,
+ * even if a shorter one would keep the limit. */
 static void check_exact_moves(void **state)
 {
     const double move = 5 + 0x1p-33;
@@ -147,7 +147,7 @@ static void check_jumps(void **state)
         scene s;
         begin(&s, 0);
         add(&s, HOUSE, "POLYGON ((12 0, 16 0, 16 4, 12 4, 12 0))");
-        /* The neighbour stays; or goes as far, or out of the way at once, which leaves the ways to meet no one. */
+        /* The neighbour stays, or moves equally far, or moves away, so that the paths do not meet it. */
         add(&s, NEIGHBOUR,
             k == 1   ? "POLYGON ((18 0, 22 0, 22 4, 18 4, 18 0))"
             : k == 2 ? "POLYGON ((6 64, 10 64, 10 68, 6 68, 6 64))"

@@ -272,7 +272,7 @@ static void check_nothing_worse(void **state)
     assert_int_equal(s.summary.moved, 0);
     assert_true(s.summary.verified);
     scene_end(&s);
-    /* What overlaps stays no deeper, though a neighbour presses. */
+    /* An overlap gets no deeper, although a neighbour presses. */
     scene_begin(&s, 0);
     scene_add_box(&s, 0, 0, 10, 10)->fixed = true;
     scene_add_box(&s, 6, 0, 10, 10)->max_shift = 1;

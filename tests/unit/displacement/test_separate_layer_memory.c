@@ -169,7 +169,7 @@ static void check_separate_with_gap(void **state) { run(false, 1, INFINITY); }
 static void check_separate_without_room(void **state) { run(false, 0, 1.1); }
 static void check_beside_barriers(void **state) { run_beside(true, 1, INFINITY, true); }
 
-/* Nothing moved; but the sides of features that the road cuts are found. */
+/* No feature moved; but the sides of features that the road cuts are computed. */
 static void check_moves_beside_barriers(void **state)
 {
     street s = {.check = true, .moves = true, .limit = INFINITY, .barriers = true};

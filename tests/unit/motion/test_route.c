@@ -125,7 +125,7 @@ static void every_rung(void **state)
     }
     sunder_shape *q = shape_of(robot, 4);
     const sunder_obstacle o = {q, NULL, NULL, 0};
-    /* A third, written long: outside by less than any double could tell. */
+    /* A coordinate of 1/3, and one that is outside the obstacle by less than any double could distinguish. */
     const sunder_place from = {
         {0, 0}, {"-200000000000000000000000000000000000000001/100000000000000000000000000000000000000000", "1/3"}};
     const sunder_place inside = {

@@ -101,7 +101,7 @@ static void test_ends(void **state)
     assert_true(sunder_i_accumulator_double(&t, 1074) == -0x1p-1074);
 }
 
-/* Totals of any doubles, some of them joined from parts: nearest, and never above. */
+/* Sums of any doubles, some of them joined from parts: rounded to nearest, and never above. */
 static void test_totals(void **state)
 {
     (void)state;

@@ -164,7 +164,7 @@ static double apart_of(const numbers *n)
     return apart;
 }
 
-/* p / v and q / w close to each other, of any length: where the room allows, the lowest bits tell their order. */
+/* p / v and q / w close to each other, of any length: if their lengths allow, the lowest bits decide their order. */
 static void test_low_bits(void **state)
 {
     (void)state;

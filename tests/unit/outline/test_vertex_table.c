@@ -97,7 +97,7 @@ static void test_lines(void **state)
     sunder_i_vertex_table places;
     rng r = rng_start(test_seed(), 8);
     open_lattice(&l, false);
-    assert_true(sunder_i_vertex_table_init(&places, &l, 0x1p58, 0, 0)); /* it grows, and keeps what it knows */
+    assert_true(sunder_i_vertex_table_init(&places, &l, 0x1p58, 0, 0)); /* it grows, and keeps its entries */
     for (int i = 0; i < SIDE * SIDE; i++) {
         const sunder_i_hpoint p = point(&l, &r, i, (int64_t)1 << 50);
         const sunder_i_vertex_lines lines = {(uint32_t)(i % SIDE), {SIDE + (uint32_t)(i / SIDE), 0}, i % 7 ? 1 : 0};

@@ -196,7 +196,7 @@ static void test_wrapped_vertex(void **state)
     close_bed(&b);
 }
 
-/* The union of what follows has a hole with an antenna, an isolated point and a segment: by each road alike. */
+/* The union of the following boxes has a hole with an antenna, an isolated point and a segment, in each algorithm. */
 static void build_holes(bed *b, bool unite)
 {
     box(b, 0, 0, 10, 4, unite);

@@ -108,7 +108,7 @@ static void test_map(void **state)
     assert_true(t.zero >= 10000);
 }
 
-/* The sign is the true one where no memory is to be had. */
+/* The sign is the true one if no memory is available. */
 static void test_orient_without_memory(void **state)
 {
     (void)state;

@@ -93,7 +93,7 @@ static void product(mpq_t r, const spot *a, const spot *b, const spot *c, const 
     mpq_clears(p, q, NULL);
 }
 
-/* a + t (b - a). */
+/* Sets s to a + t (b - a). */
 static void between(spot *s, const spot *a, const spot *b, const mpq_t t)
 {
     mpq_t p;

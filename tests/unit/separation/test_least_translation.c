@@ -155,7 +155,7 @@ static void known_answers(void **state)
         }
 }
 
-/* Translations of both operands by the same vector change nothing, exactly, even where they need more bits. */
+/* Translations of both operands by the same vector change nothing, exactly, even if they need more bits. */
 static void translated_alike(void **state)
 {
     static const double SHIFT[][2] = {{1, 2}, {451234.567, 5411234.567}, {0x1p60, -0x1p-60}, {1e300, 1e-300}};

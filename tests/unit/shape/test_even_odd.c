@@ -105,8 +105,8 @@ static int winding(const polyset *set, size_t ring, int64_t x, int64_t y)
     return n;
 }
 
-/* What a sound polygon shows at any point: every ring winds round it once or not at all, always the same way round; at
- * most one hole holds it, and then the outer ring does too. */
+/* Properties of a sound polygon at any point: every ring winds round it once or not at all, always in the same
+ * direction; at most one hole contains it, and then the outer ring does too. */
 static bool looks_sound(const polyset *set, rng *g)
 {
     int way[64] = {0};

@@ -100,7 +100,7 @@ static void test_empty_rings(void **state)
         assert_true(sunder_shape_repaired(s));
         sunder_shape_free(s);
     }
-    /* A polygon without rings among others is no fault. */
+    /* A polygon without rings among others is allowed. */
     const size_t ring_end[] = {3}, poly_end[] = {0, 1, 1};
     sunder_shape *s = NULL;
     assert_int_equal(sunder_shape_from_rings(xy, ring_end, poly_end, 3, SUNDER_VALIDITY_STRICT, &s, NULL), SUNDER_OK);
@@ -150,7 +150,7 @@ static void test_cleaning(void **state)
         assert_true(anchor[0] == 2 && anchor[1] == 2);
         sunder_shape_free(s);
     }
-    /* Numbers at both ends of what doubles hold. */
+    /* Numbers at both ends of the range of doubles. */
     sunder_shape *s = sound("POLYGON((0 0,1e300 0,1e300 1e-300,0 1e-300))");
     assert_true(sunder_shape_area(s) == 1e300 * 1e-300 || fabs(sunder_shape_area(s) - 1) < 1e-15);
     sunder_shape_free(s);

@@ -13,7 +13,7 @@
 
 enum { CORNERS = 24 };
 
-/* A polygon on an ellipse, counter-clockwise. */
+/* Draws a polygon on an ellipse, counter-clockwise. */
 static void draw(rng *r, double *xy, size_t n)
 {
     const double a = rng_unit(r) + 0.1, b = rng_unit(r) + 0.1, turn = rng_unit(r), x = 8 * rng_unit(r);
@@ -53,8 +53,8 @@ static void test_corners_are_differences(void **state)
     }
 }
 
-/* Rounding leaves no edge between the last corner and the first, whose normal would be noise: what lies deep within
- * would count as outside of it. */
+/* Rounding must not leave an edge between the last corner and the first, since its normal would be noise: places deep
+ * inside would count as outside of it. */
 static void test_no_edge_of_noise(void **state)
 {
     (void)state;

@@ -93,7 +93,7 @@ static void check_kept_inside(void **state)
     /* The outline gives way by nearly 3, and would leave the house 1 of the 4 that it had; it need not move. */
     assert_near(scene_length(&s, 0), 3, 0.01);
     assert_int_equal(sunder_report_status(s.report, 2), SUNDER_FEATURE_UNMOVED);
-    /* Nearer the edge it is pushed in, by what the edge comes too far. */
+    /* Near the edge it is pushed inward, by the amount that the edge comes too far. */
     scene_end(&s);
     scene_begin(&s, 0);
     s.options.contained = SUNDER_CONTAINMENT_IGNORE;

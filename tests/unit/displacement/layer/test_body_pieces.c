@@ -17,8 +17,8 @@
 
 #include <cmocka.h>
 
-/* A wall shared makes one body of the first two; the third is no convex shape, and has more pieces than a run;
- * the last is a row of six. */
+/* The first two share a wall and are one body; the third is not convex, and has more pieces than a run; the last is a
+ * row of six. */
 static void draw(scene *s)
 {
     scene_begin(s, 1);

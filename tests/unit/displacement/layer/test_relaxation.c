@@ -81,7 +81,7 @@ static void check(bool barrier)
     expect(&l, -1, 4.5, true, 0, 3); /* 4 deep in that direction, 1.5 in the other */
     expect(&l, -4, -6, true, 0, -3);
     expect(&l, -1, 0, false, 3, 0); /* deeper in each direction: unchanged */
-    expect(&l, 5, 0, true, 0, 0);   /* no longer in each other, and to stay so */
+    expect(&l, 5, 0, true, 0, 0);   /* no longer overlapping; this has to stay so */
     end(&l);
 }
 

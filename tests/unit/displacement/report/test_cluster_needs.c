@@ -1,4 +1,5 @@
-/* What would free the pairs that are left of a crowd: of each a limit, from one layout of all of it; and a gap. */
+/* Changes that would free the remaining pairs of a crowd: for each pair a limit, from one layout of the whole crowd;
+ * and a gap. */
 #include "polyset.h"
 #include "run_layer.h"
 
@@ -43,7 +44,7 @@ static void add_box(crowd *c, double x, double y, double w, double h, double lim
         (sunder_feature){.shape = polyset_shape_of_wkt(wkt), .weight = 1, .max_shift = limit, .block = -1};
 }
 
-/* Squares of 10 that stand nearly 12 from middle to middle. */
+/* Adds squares of side 10 whose centres are nearly 12 apart. */
 static void add_grid(crowd *c, size_t rows, size_t columns, double limit)
 {
     for (size_t k = 0; k < rows * columns; k++) {
@@ -93,7 +94,7 @@ static void test_grid(void **state)
     end(&c);
 }
 
-/* One of them may not move, in the middle: the others give way to it, too. */
+/* One body in the middle is fixed: the others give way to it, too. */
 static void test_about_one_that_stands(void **state)
 {
     (void)state;

@@ -62,8 +62,8 @@ static void end(crowd *c)
     free(c->feature);
 }
 
-/* Copies of the constants of report/tuning.h, which says what each of them limits: patience and efforts of questions
- * and proofs about one cluster. */
+/* Copies of the constants of report/tuning.h, which documents each of them: patience and efforts of questions and
+ * proofs about one cluster. */
 enum {
     NEED_IN_VAIN = 200000,
     NEED_PATIENCE = 32,
@@ -167,7 +167,7 @@ static void test_needs_of_crowd(void **state)
  * the field's questions at the second effort that count as decided; all others fail. */
 static size_t asked_first[2], asked_again[2], told;
 
-/* Whatever the effort, it is too little; or the pair has a solution, and is asked about no more. */
+/* Every effort is too small; or, for the first ones, the pair counts as decided. */
 static sunder_status decide_in_vain(const sunder_i_subproblem *q, sunder_i_decision *decision, sunder_error *err)
 {
     (void)err;

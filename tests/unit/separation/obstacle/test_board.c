@@ -52,7 +52,7 @@ static void check_segment(const sunder_i_operands *g, rng *r, size_t *held, size
     const double dx = length * (2 * rng_unit(r) - 1), dy = length * (2 * rng_unit(r) - 1);
     const bool is = sunder_i_board_segment(h, g->error, ax, ay, dx, dy);
     ++*(is ? held : open);
-    bool all = true, one = true; /* square held; all in one square */
+    bool all = true, one = true; /* the squares are held; all points are in one square */
     const uint32_t first = sunder_i_board_square(h, ax, ay);
     for (int i = 0; i <= 64; i++) {
         const uint32_t square = sunder_i_board_square(h, ax + dx * i / 64, ay + dy * i / 64);

@@ -225,7 +225,7 @@ static void test_down_into_a_notch(void **state)
     memset(&s, 0, sizeof s);
     s.forbidden = (sunder_i_forbidden){.piece = s.piece, .edge = s.edge};
     for (int k = 0; k < 110; k++) {
-        /* A saw: left of x = 0, but for a notch whose ground is at (-8, 0), between slopes made of steps. */
+        /* A saw: all of x < 0 except a notch with its bottom at (-8, 0) between slopes made of steps. */
         const double y = k < 55 ? -8 - k / 8.0 : 8 + (k - 55) / 8.0;
         add(&s, (double[4]){-40, y - 1, 0, y + 1}, 0);
     }

@@ -133,8 +133,8 @@ static void test_slot_beside_a_line(void **state)
     scene_end(&s);
 }
 
-/* What may not be jumped over throws shadows that overlap in narrow strips, so that halves of a region are hard to find
- * covered; a slot ends where they do. */
+/* Obstacles that may not be jumped over have shadows that overlap in narrow strips, so it takes long to prove that
+ * halves of a region are covered; a slot ends at these strips. */
 static void test_slot_among_shadows(void **state)
 {
     (void)state;
@@ -184,7 +184,7 @@ static void test_lines_hide_on_no_diagonal(void **state)
     scene_end(&s);
 }
 
-/* Beside a point that is owed nothing, without a gap: places are looked for farther and farther from nothing. */
+/* Beside a point to which no distance is owed, with gap 0: the search radius has to grow from zero. */
 static void test_beside_a_point(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* displacement/proofs/chain: of a long row each pair that is left is proved to have no room, by the fewest links, in
- * steps that grow with the row and no faster. The one line for what several ways have in common. */
+/* displacement/proofs/chain: each remaining pair of a long row is proved to have no room, with the fewest links, in
+ * steps that grow linearly with the row. The common line of several ways. */
 #include "polyset.h"
 #include "scene_model.h"
 

@@ -60,7 +60,7 @@ static void add_yard(rng *r, scene *s)
     }
 }
 
-/* In the plane, and nowhere else. */
+/* Decides the pair in the plane only. */
 static sunder_i_verdict decide(const sunder_i_model *model, size_t features)
 {
     const uint32_t a = 0, b = (uint32_t)features - 1, body[2] = {model->body_of[a], model->body_of[b]};

@@ -56,8 +56,8 @@ static void end(layer *l)
     scene_end(&l->scene);
 }
 
-/* One of three that move, and another or what stands, under some of the rules, with some features heeded alone, and
- * some pair held to less. */
+/* Draws a question: one of three movable bodies and another one or the ground, under some of the rules, with only some
+ * features considered, and some pair with a reduced demand. */
 static void draw_question(rng *r, const layer *l, uint32_t body[2], uint32_t *feature, sunder_i_requirement *required,
                           sunder_i_subproblem *q)
 {

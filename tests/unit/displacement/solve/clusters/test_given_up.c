@@ -164,8 +164,9 @@ static void check_inside(void **state)
     for (size_t k = 0; k < 3; k++) sunder_shape_free((sunder_shape *)feature[k].shape);
 }
 
-/* A house between one that is within a hair of its limit and two that stand: what is given up leaves a hair too much,
- * which sends others home though nothing had to be looked at for that before. It ended in a segmentation fault. */
+/* A house between one that is within rounding of its limit and two fixed ones. The pair that is given up is slightly
+ * too near, which sends others home, although nothing had to be examined for that before. This ended in a segmentation
+ * fault. */
 static void check_last_hair(void **state)
 {
     (void)state;

@@ -39,9 +39,9 @@ static void check_optimum(scene *s, double cost)
     scene_end(s);
 }
 
-/* An L within a frame within another, which the search sends far from each other. Then the L may go home, and so may
- * the frames, which are of another group: together they are in each other's way. The L is to be home when the frames
- * are asked again. */
+/* An L within a frame within another frame, which the search sends far from each other. Then the L may go home, and so
+ * may the frames, which are another group; together they are in each other's way. The L has to be home when the frames
+ * are examined again. */
 static void test_who_goes_home_first(void **state)
 {
     (void)state;

@@ -48,7 +48,7 @@ static void end(yard *y)
     scene_end(&y->scene);
 }
 
-/* Which side of the yard the pair is of: the one that is not the house is told by its middle. */
+/* The side of the yard to which the pair belongs, from the middle of the member that is not the house. */
 static int side_of(const yard *y, const sunder_i_relaxation *t, double width)
 {
     for (uint32_t e = 0; e < 2; e++) {

@@ -98,7 +98,7 @@ static void test_nothing_is_cheaper(void **state)
         sunder_i_free(cluster.restored);
         scene_board_end(&b);
     }
-    /* Both were asked: those that are the cheapest, and those that are not. */
+    /* Both cases occurred: solutions that are the cheapest, and solutions that are not. */
     assert_true(10 * said > 3 * all && beaten > 0);
 }
 

@@ -39,7 +39,7 @@ static void find_corner(double x, double t[2])
     }
 }
 
-/* From a hair below the place. */
+/* Descends from slightly below the place. */
 static void go_down(double x)
 {
     const sunder_i_relations none = {0};
