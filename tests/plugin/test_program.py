@@ -93,13 +93,13 @@ class Plain(unittest.TestCase):
     def test_sentences_stay_sentences(self):
         for line, plain in (
                 ("for points give their --symbol, as in --symbol disc:4",
-                 'for points give their symbol ("Points: the symbol drawn at each"), as in disc:4'),
+                 'for points give their symbol ("Points: the symbol at each point"), as in disc:4'),
                 ("there is no symbol; give --symbol or --symbol-field; give an --id-field",
-                 'there is no symbol; give the symbol ("Points: the symbol drawn at each") or the field of the symbols '
-                 '("Points: field that holds each one\'s symbol"); give a key field ("Key field, for lists and messages")'),
+                 'there is no symbol; give the symbol ("Points: the symbol at each point") or the field of the symbols '
+                 '("Points: field with the symbol of each point"); give a key field ("Key field, for lists and messages")'),
                 ("not finite; --invalid skip leaves such features out",
                  'not finite; "Skip" at "Invalid geometries" leaves such features out'),
-                ("--touch-tolerance 0.3 would join them", '"Features so near are one block" 0.3 would join them'),
+                ("--touch-tolerance 0.3 would join them", '"Features at most this far apart are one block" 0.3 would join them'),
                 ("`sunder sum --exact` gives it", "`sunder sum --exact` gives it"),
                 ("or give --allow-inexact-output", "or give --allow-inexact-output (in a terminal)")):
             self.assertEqual(program.plain("sunder: error: " + line, {}), plain)

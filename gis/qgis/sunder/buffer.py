@@ -7,9 +7,9 @@ class Buffer(Algorithm):
     title = "Buffer by a shape"
     text = """Grows, shrinks, opens or closes polygons by a shape, exactly.
 
-A square keeps right angles right, where round buffers leave arcs of short segments. Closing with Dissolve merges
-buildings that are near each other into blocks. Nothing is rounded on the way; the result is rounded once and is
-valid."""
+With a square right angles stay right angles; round buffers would leave arcs of short segments. Closing with Dissolve
+merges buildings that are near each other into blocks. Intermediate results are exact; the final result is rounded once
+and is valid."""
     main = "buffered"
     inputs = (Input("INPUT", "Layer", (POLYGONS,), None, None),)
     outputs = (

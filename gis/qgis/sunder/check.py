@@ -8,7 +8,7 @@ class Check(Algorithm):
     title = "Check for overlaps and gaps"
     text = """Lists pairs of features that overlap or are nearer than a gap, exactly.
 
-Works on any layer. With the layer before it was moved, also lists moves that break a rule."""
+It works on any layer. If the layer before the moves is given, too, moves that break a rule are also listed."""
     main = "conflicts"
     inputs = (Input("INPUT", "Layer to check", (POLYGONS, POINTS), None, None),)
     outputs = (Output("OUTPUT", "", "Conflicts", LINES, True, None),)

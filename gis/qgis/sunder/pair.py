@@ -5,11 +5,11 @@ from .sum import SHAPES
 
 class Pair(Algorithm):
     command = "pair"
-    title = "Least move that parts two shapes"
-    text = """The shortest translation of Q that takes its interior off P, exactly.
+    title = "Least move that separates two shapes"
+    text = """The shortest translation of Q that separates its interior from P, exactly.
 
 Each of P and Q is a layer, whose polygons are one set together, or a shape: square:6, rectangle:4x3, disc:3, or WKT of a
-polygon. The layer has that translation as a line."""
+polygon. The result is a layer with this translation as a line."""
     main = "pair"
     group_name = "Shapes"
     inputs = (Input("P", "P: a layer, which stays", (POLYGONS,), "P_SHAPE", "or P as a shape: " + SHAPES),

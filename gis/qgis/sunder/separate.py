@@ -31,7 +31,7 @@ after."""
     )
     numbers = (("FEATURES", "Features"), ("MOVED", "Features moved"), ("CONFLICTS_BEFORE", "Conflicts before"),
                ("CONFLICTS_AFTER", "Conflicts that remain"),
-               ("CONFLICTS_STAYING", "Conflicts that remain between what was told to stay"),
+               ("CONFLICTS_STAYING", "Conflicts that remain between features that may not move"),
                ("TOTAL", "Sum of moves"), ("LONGEST", "Longest move"),
                ("COST", "Cost"), ("LOWER_BOUND", "Proved lower bound of the cost"))
 
@@ -55,8 +55,8 @@ after."""
         text = ("%d conflict%s could not be solved; each is listed, with its reason, in the layer of conflicts." %
                 (left, "" if left == 1 else "s"))
         if self.staying:
-            text += (" %d of them %s between features that were told to stay, or between these and barriers: neither may "
-                     "move." % (self.staying, "is" if self.staying == 1 else "are"))
+            text += (" %d of them %s between features that never move, or between these and barriers." %
+                     (self.staying, "is" if self.staying == 1 else "are"))
         return text
 
     def figures(self, figures):
