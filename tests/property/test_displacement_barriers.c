@@ -82,7 +82,7 @@ static void figure_clear(figure *f)
     for (size_t k = 0; k < CORNERS; k++) mpq_clears(f->at[k].x, f->at[k].y, NULL);
 }
 
-/* The corner after k in its ring. */
+/* Returns the corner after k in its ring. */
 static size_t next_of(const figure *f, size_t k)
 {
     size_t first = 0;

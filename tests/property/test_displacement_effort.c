@@ -1,8 +1,8 @@
-/* The lower bound of a layer is valid wherever the effort ends: what little effort proves, no layout that more effort
- * finds goes below, whichever way the proof took (one tree, blocks of a large group, parts of a very large one).
+/* The lower bound of a layer is valid for every effort: no layout found with more effort costs less than the bound
+ * proved with little, whichever method proved it (one tree, blocks of a large group, parts of a very large one).
  *
- * Layers are rows and crowds of slanted boxes that overlap, so that groups are of five to some dozens; and one crowd of
- * hundreds. */
+ * Layers are rows and crowds of slanted boxes that overlap, with groups of five to some dozens of boxes; and one crowd
+ * of hundreds. */
 #include "polyset.h"
 #include "random.h"
 #include "run_layer.h"

@@ -461,7 +461,7 @@ static void agree_as_proved(agreement *sum, size_t i, const town *t, const outco
                  (unsigned long long)test_seed(), i, p->cost, q->cost);
 }
 
-/* A bound reckoned by features is less than that of the blocks that they make, so what it proves is proved. */
+/* A bound computed by features is less than one by the blocks that they form, so it is valid for these. */
 static void agree(agreement *sum, size_t i, const town *t, const outcome *p, const outcome *q)
 {
     size_t root[MOST] = {0};
@@ -505,7 +505,7 @@ static void test_place(void **state)
         if (rng_once_in(&r, 2)) limit_all(&t, (double)rng_int(&r, 1, 80) / 8);
         separate(&t, run);
         u = t;
-        /* From 2^18 and 2^22 up to twice that, or elsewhere. */
+        /* Coordinates from 2^18 and 2^22 up to twice that, or elsewhere. */
         const bool near = rng_once_in(&r, 2);
         for (int c = 0; c < 2; c++) {
             const int64_t farthest = near ? 800000 : 80000000;

@@ -39,7 +39,7 @@ static sunder_feature *add_box(town *t, double x, double y, double w, double h)
     return f;
 }
 
-/* No feature moved farther than it may, and what is fixed did not; exactly. */
+/* No feature moved farther than its limit, and fixed ones did not move; exact. */
 static void demand_within(const town *t, const sunder_report *report)
 {
     mpq_t sum, square;

@@ -84,8 +84,8 @@ static void check_verdict(const hamlet *t, const sunder_conflict *c, size_t n, c
     optimum_free(&m);
 }
 
-/* Does a place cost less than that which is one for certain: by which no limit is overstepped by a hair, and no shadow
- * is touched, which is a jump though it costs no more than one beside it? found: what one costs that may. */
+/* Does a certain place cost less than `than`? A certain place exceeds no limit even slightly, and touches no shadow,
+ * which would be a jump although it costs no more than a place beside it. found: the cost of a place that may do so. */
 static bool costs_less(const optimum_problem *m, double found, double than)
 {
     if (found >= than) return false;
@@ -240,7 +240,8 @@ static void test_oracle_in_company(void **state)
     optimum_free(&m);
 }
 
-/* From (0, 0) behind a wall from (2, -1) to (2, 1): what has to go right by 4 goes round an end's shadow. */
+/* From (0, 0) behind a wall from (2, -1) to (2, 1): a body that has to move right by 4 goes round the shadow of an
+ * end. */
 static void test_oracle_of_shadows(void **state)
 {
     (void)state;

@@ -80,7 +80,8 @@ static void check_packed(void **state)
         proof_town_free(&t);
     }
     print_message("%zu with a proof, %zu without\n", proved, open);
-    assert_true(open * 25 <= proved); /* some are soluble: the search left two for one, and some too near to tell */
+    /* some have a solution: the search gave up two pairs instead of one, or they are too near to decide */
+    assert_true(open * 25 <= proved);
 }
 
 static void check_exact_fits(void **state)
@@ -175,7 +176,7 @@ static void check_held(void **state)
         const double low = x - off + lean, high = x - off - lean;
         const double wall[] = {x - 90, y - 60, low, y - 60, high, y + 60, x - 90, y + 60};
         proof_town_add(&t, wall, 4, 0);
-        /* Its lower left corner is what the wall is near to. */
+        /* The wall is near the lower left corner of the house. */
         const double house[] = {x - lean / 60, y + 1, x + 9, y, x + 9, y + 12, x + 4, y + 12};
         proof_town_add(&t, house, 4, limit);
         proof_town_add_box(&t, x + 9 + t.gap - limit / 4, y - 40, 30, 90, 0);
@@ -257,9 +258,9 @@ static void add_beside(rng *r, proof_town *t, const street *at, double s, double
     proof_town_add(t, xy, 4, limit);
 }
 
-/* A block on both sides of a straight road that it is too near to, and at one end a house that stands fast and is too
- * near to it: it could slide along the road, exactly, if the road's ends were multiples of some step apart; most often
- * they are not. A third of the roads are of round numbers, along which there is a step as a rule. */
+/* A block on both sides of a straight road to which it is too near, and at one end a fixed house that is too near to
+ * it. It could slide along the road, exactly, if the ends of the road were multiples of some step apart; usually they
+ * are not. A third of the roads have round coordinates, along which there usually is a step. */
 static void check_corridors(void **state)
 {
     (void)state;

@@ -45,7 +45,8 @@ static void add_some_barrier(rng *r, proof_town *t, double x, double y, double w
                            width, gap, rng_once_in(r, 2));
 }
 
-/* Houses among lines, points and areas that stand too near to them, or run through them; half of these have sides. */
+/* Houses among lines, points and areas that are too near to them, or run through them; half of the barriers have
+ * sides. */
 static void check_beside_barriers(void **state)
 {
     (void)state;
@@ -101,8 +102,8 @@ static void check_refused(const proof_town *t, const sunder_report *report, size
     }
 }
 
-/* A house with a line through it, near the edge that it could leave by but for its side; a fixed one, or another line
- * or area with sides, leaves it too little room on the other. */
+/* A house with a line through it, near the edge at which it could leave if the line had no sides. A fixed house, or
+ * another line or area with sides, leaves it too little room on the other side. */
 static void check_beside_sides(void **state)
 {
     (void)state;

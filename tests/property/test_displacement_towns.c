@@ -213,7 +213,7 @@ static void gather(const sunder_report *report, const order *o, size_t which, fa
     }
 }
 
-/* Is the same said of each town by itself as of it among the others? */
+/* Does each town have the same results by itself as among the others? */
 static void look_at_each(const country *c, const order *all, const sunder_report *report, size_t number)
 {
     static order alone;

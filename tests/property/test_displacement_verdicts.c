@@ -302,8 +302,8 @@ static plot *add_slanted(layer *l, const double o[2], const double e[2], double 
     return p;
 }
 
-/* A slanted corridor between fixed walls: what stands in it, too near to both or between them exactly, is pressed along
- * it by others, and doubles hold no such move. The rest, beside it, has room. */
+/* A slanted corridor between fixed walls. A body in it that is too near to both walls, or exactly between them, is
+ * pressed along it by others, and doubles hold no such move. The rest, beside the corridor, has room. */
 static void check_corridors(void **state)
 {
     (void)state;

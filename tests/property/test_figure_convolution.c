@@ -117,7 +117,7 @@ static void compare(const sunder_i_morphology_operands *o, const sunder_i_figure
     sunder_sum_free(curve);
 }
 
-/* Each island of a set: eroded, and (open) what that leaves grown again. */
+/* Compares each island of a set: eroded, and (open) dilated again. */
 static void compare_islands(const sunder_i_morphology_operands *o, const sunder_sum *whole, bool open, tally *t)
 {
     for (size_t i = 0; i < whole->polygons; i++) {

@@ -16,7 +16,7 @@
  * result. */
 enum { MOST = 2, TALL = 400 };
 
-/* Boxes between walls; stood: what is between each and the next at the start. */
+/* Boxes between walls; stood: the distance between each and the next at the start. */
 typedef struct row {
     size_t n;
     double at[MOST + 2], wide[MOST + 2], limit[MOST + 2], stood[MOST + 1], gap;

@@ -1,7 +1,7 @@
-/* The interval that a conflict's largest gap is said to be in, need_gap to need_gap_most, against a branch and bound
- * over the moves of one box among boxes that stand. The signed distance of two boxes (the distance, or minus the depth)
- * changes by no more than the move: so its value at the middle of a square bounds it in all of the square, from both
- * sides. */
+/* The interval that contains a conflict's largest gap by the report, need_gap to need_gap_most, compared with a branch
+ * and bound over the moves of one box among fixed boxes. The signed distance of two boxes (the distance, or minus the
+ * depth) changes by no more than the move, so its value at the middle of a square bounds it in the whole square, from
+ * both sides. */
 #include "random.h"
 #include "scene.h"
 

@@ -1,6 +1,5 @@
-/* How large the sums of the families are, and how much is done for them, as functions of the sizes of P and Q: counts
- * of the output and of operations, never time. The families come from sunder-families, so this asks too whether the
- * generator draws what it says. */
+/* The sizes of the sums of the families, and the work for them, as functions of the sizes of P and Q: counts of the
+ * output and of operations, never time. The families come from sunder-families, so the generator is tested, too. */
 #include "generated.h"
 
 #include <setjmp.h>
@@ -132,7 +131,7 @@ static void test_tight(void **state)
         }
 }
 
-/* The inputs kept in tests/golden are what the generator draws, to the byte. */
+/* The inputs in tests/golden equal the generator's output, byte for byte. */
 static void test_committed(void **state)
 {
     static const char *const kept[][2] = {{"fork", "fork --size 16"},

@@ -135,7 +135,7 @@ static char *text_of(const polyset *p, const polyset *b, sunder_operation operat
     return text;
 }
 
-/* Applied to its own result it changes nothing (but that parts without area are gone). */
+/* A second application changes nothing (except that parts without area disappear). */
 static bool is_idempotent(const sunder_sum *once, const polyset *b, sunder_operation operation)
 {
     const long k = morphology_scale(once);
@@ -181,7 +181,7 @@ static bool is_blind_to_shifts(const polyset *p, const polyset *b, sunder_operat
     return same;
 }
 
-/* dilate(X) in Y exactly when X in erode(Y). */
+/* dilate(X) lies in Y exactly if X lies in erode(Y). */
 static bool is_adjoint(const polyset *y, const polyset *b, rng *r, size_t *fits)
 {
     polyset x;
@@ -261,7 +261,7 @@ static void test_laws(void **state)
     assert_true(fits > n / 20 && fits < n);
 }
 
-/* Members that overlap count as their union. */
+/* Overlapping members count as their union. */
 static void test_overlaps(void **state)
 {
     const size_t n = test_count(80);

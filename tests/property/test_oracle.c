@@ -1,5 +1,5 @@
-/* The oracle against itself: with all segments and with the extreme ones only; P + Q and Q + P; and its text against
- * its membership test, point by point. What it says of known cases is in cross/test_cases.c. */
+/* The oracle compared with itself: with all segments and with the extreme ones only; P + Q and Q + P; and its text with
+ * its membership test, point by point. cross/test_cases.c compares it with known cases. */
 #include "generate.h"
 #include "oracle.h"
 #include "sum_text.h"

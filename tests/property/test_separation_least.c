@@ -179,7 +179,7 @@ static size_t all_rays(ray *r, const polyset *s, size_t n)
     return n;
 }
 
-/* Is the point a little way along (dx, dy) free? Features of these inputs are at least about 1e-7 apart. */
+/* Is the point slightly beside it, along (dx, dy), free? Features of these inputs are at least about 1e-7 apart. */
 static bool free_beside(const polyset *p, const polyset *q, const mpq_t x, const mpq_t y, long dx, long dy)
 {
     mpq_t u, v, e;

@@ -1,5 +1,6 @@
-/* Ways of points past random sets, against brute force in rationals: ways along edges, through corners, of no length,
- * that end where an edge begins; starts inside, outside and on the boundary; coordinates of one size and of many. */
+/* Straight paths of points past random sets, compared with brute force in rationals: paths along edges, through
+ * corners, of length zero, that end where an edge begins; starts inside, outside and on the boundary; coordinates of
+ * similar and of very different sizes. */
 #include "generate.h"
 #include "passage_oracle.h"
 #include "separation/separation.h"
@@ -123,7 +124,7 @@ static void repaired_shapes_are_passed(void **state)
     assert_true(sum.held > 0 && sum.met > 0 && sum.held + sum.met < sum.asked);
 }
 
-/* Each rung says what the exact one does, or that it does not know. */
+/* Each rung gives the exact answer, or none. */
 static void rungs_agree(void **state)
 {
     const uint64_t seed = test_seed();

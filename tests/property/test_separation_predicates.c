@@ -1,4 +1,4 @@
-/* Overlap, containment, the gap and the distance of random pairs, as they stand and translated, against slabs in
+/* Overlap, containment, the gap and the distance of random pairs, with and without translations, compared with slabs in
  * rationals and plain enumeration. */
 #include "generate.h"
 #include "separation/separation.h"

@@ -202,7 +202,7 @@ static void depth_along(mpq_t out, const double *a, const double *b, const polys
     mpq_clears(n[0], n[1], t, NULL);
 }
 
-/* Two convex sets are parted with least way along the normal of an edge of one of them. */
+/* The least translation of two convex sets is along the normal of an edge of one of them. */
 static void convex_depth(mpq_t best, const polyset *p, const polyset *q)
 {
     mpq_t depth;

@@ -190,9 +190,10 @@ static size_t memory_for(deep_kind kind, use how, int n, uint64_t seed)
     return most;
 }
 
-/* Four times the members: linear is 4, all pairs of members is 16. Tables double, which is worth another factor of up
- * to 2 between two sizes. Left out is the union of squares that are turned and not grown: near their corners, all on
- * one circle, what covers a side is others together, ever more of them. */
+/* Memory for four times the members: linear growth gives 4, all pairs of members would give 16. Tables double in size,
+ * which adds a factor of up to 2 between two sizes. The union of squares that are turned and not grown is left out:
+ * near their corners, which are all on one circle, each side is covered by many others together, the more the larger
+ * the layer. */
 static void test_memory(void **state)
 {
     (void)state;

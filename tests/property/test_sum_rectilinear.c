@@ -124,7 +124,7 @@ static void test_bars(void **state)
     }
 }
 
-/* Rectangles without common interior, of the shape's area. */
+/* The rectangles have disjoint interiors, and the area of the shape. */
 static void test_cut(void **state)
 {
     (void)state;

@@ -215,7 +215,7 @@ static void test_cases(void **state)
     }
 }
 
-/* A hole, and no memory at any place. */
+/* A sum with a hole, with every allocation failing once. */
 static void test_memory(void **state)
 {
     (void)state;

@@ -188,7 +188,7 @@ static const char *judge(const polyset *p, const polyset *q, double gap, double 
     return what;
 }
 
-/* Only where corners times a moderate number are integers: the brute force takes doubles. */
+/* Only if corners times a moderate number are integers, since the brute force takes doubles. */
 static const char *ask_gap(const repaired *c, size_t i)
 {
     static const double GAPS[] = {1, 0.5, 2, 3.25};
@@ -257,7 +257,7 @@ static const char *judge_route(const sunder_route *route, const oracle *o, const
     return NULL;
 }
 
-/* Where the robot begins and ends in the way, the obstacles are all that is compared. */
+/* If the robot's start or goal is not free, only the obstacles are compared. */
 static const char *ask_route(const repaired *c, size_t i)
 {
     const double *p = c->p.xy, *q = c->q.xy, far = 4 * fabs(p[2] - p[0]) + 1;

@@ -1,7 +1,7 @@
-/* Every road, with every decomposition and every order, to the sums of known inputs: the golden cases; the cases and
- * the families kept beside the repository in ../shared, where they are; the families as sunder-families draws them.
- * Operands of up to 30 vertices with all combinations; larger ones, by each road, with the angle bisector and one
- * order and seed, or (with SUNDER_TEST_SCALE above 1) with nearly all combinations too. */
+/* All algorithms, with every decomposition and every order, for sums of known inputs: the golden cases; the cases and
+ * families kept beside the repository in ../shared, if they are there; the families as sunder-families draws them.
+ * Operands of up to 30 vertices with all combinations; larger ones with each algorithm, the angle bisector and one
+ * order and seed, or (with SUNDER_TEST_SCALE above 1) with nearly all combinations. */
 #include "generated.h"
 #include "random.h"
 #include "roads.h"

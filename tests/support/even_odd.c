@@ -279,7 +279,7 @@ void even_odd_denominator(const even_odd *e, mpz_t factor)
     }
 }
 
-/* v times factor as a double; false if it is none. */
+/* Sets *out to v times factor; false if that is not a double. */
 static bool as_double(double *out, const mpq_t v, const mpz_t factor)
 {
     mpq_t t, back;

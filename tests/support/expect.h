@@ -1,4 +1,4 @@
-/* Comparing a canonical sum, as text, with what is known about it. */
+/* Compares a canonical sum, as text, with its known properties. */
 #ifndef SUNDER_TESTS_EXPECT_H
 #define SUNDER_TESTS_EXPECT_H
 

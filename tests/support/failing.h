@@ -1,4 +1,4 @@
-/* An allocator that fails on request and knows what is still allocated. */
+/* An allocator that fails on request and counts the live allocations. */
 #ifndef SUNDER_TESTS_FAILING_H
 #define SUNDER_TESTS_FAILING_H
 

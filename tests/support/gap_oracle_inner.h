@@ -65,7 +65,7 @@ size_t drop_far_tracks(track *t, size_t n, double limit);
 /* In doubles: false if the place is known to be farther than the limit, or not to be. *sure: x and y are good to 1e-9
  * of the figure. */
 bool rough_place(place *p, double size, double limit, bool *sure);
-/* The place to that many bits; false if there is none. */
+/* Computes the place to that many bits; false if there is none. */
 bool locate(mpf_t x, mpf_t y, const place *p, int level, numbers *w);
 
 #endif

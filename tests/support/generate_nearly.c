@@ -139,7 +139,7 @@ static void robot(polyset *q, rng *r, const stand *t)
     }
 }
 
-/* A U, and nearly what it leaves free, turned round. */
+/* A U, and a shape that nearly fills its free inside, reflected. */
 static void fits(polyset *p, polyset *q, rng *r, const stand *t)
 {
     stand at = *t;

@@ -208,7 +208,7 @@ typedef struct posing {
     double anchor[HAMLET_HOUSES][2];
 } posing;
 
-/* Features of one block are one body. The anchors are the library's, nearest doubles of it. */
+/* Features of one block are one body. Anchors are the library's, which are nearest doubles. */
 static void start(posing *p, const hamlet *t, optimum_problem *m)
 {
     *p = (posing){.t = t, .m = m};

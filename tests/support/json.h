@@ -19,7 +19,7 @@ typedef struct json {
 /* NULL if the text is not one JSON value. */
 json *json_read(const char *text);
 void json_free(json *value);
-/* A member, NULL if there is none (or value is NULL). */
+/* Returns a member, or NULL if there is none (or value is NULL). */
 const json *json_get(const json *value, const char *name);
 /* Number of items, 0 for NULL. */
 size_t json_count(const json *value);

@@ -119,7 +119,7 @@ static bool enforce(active_set *s, size_t p, double h)
     }
 }
 
-/* D(scale * force), and its rounding taken off. */
+/* Returns D(scale * force) minus a bound of its rounding. */
 static double dual_value(const optimum_problem *m, const optimum_row *row, size_t n, const double *force, double scale)
 {
     double sum = 0, all = 0, g[OPTIMUM_BODIES + 1][2] = {{0}}, size[OPTIMUM_BODIES + 1][2] = {{0}};

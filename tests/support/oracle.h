@@ -13,8 +13,8 @@
 
 typedef struct oracle oracle;
 
-/* Both operands on one integer grid, their triangles and all sums of these. Valid sets as sunder_shape_from_rings()
- * takes. */
+/* Puts both operands on one integer grid, with their triangles and all sums of these. Takes sets that are valid for
+ * sunder_shape_from_rings(). */
 oracle *oracle_new(const polyset *p, const polyset *q);
 /* The same of any rings, taken by the even-odd rule (even_odd.h). */
 oracle *oracle_new_even_odd(const polyset *p, const polyset *q);

@@ -119,7 +119,7 @@ void oracle_load(oracle *o, zset *z, const polyset *set)
         }
 }
 
-/* The numerator of v at that denominator. */
+/* Sets z to the numerator of v over that denominator. */
 static void over(mpz_t z, const mpq_t v, const mpz_t factor)
 {
     mpz_divexact(z, factor, mpq_denref(v));

@@ -1,6 +1,6 @@
 /* Polygonal sets as plain arrays, for tests: the same arrays that sunder_shape_from_rings() takes.
  *
- * Helpers here end the process on a failed allocation or a wrong call: a test has nothing better to do. */
+ * Helpers here end the process on a failed allocation or a wrong call. */
 #ifndef SUNDER_TESTS_POLYSET_H
 #define SUNDER_TESTS_POLYSET_H
 

@@ -105,7 +105,7 @@ static bool is_part(const checking *c, size_t thing, const double *part, size_t 
     return f->line ? is_part_of_line(part, corners, f) : is_convex_part(part, corners) && is_part_of(part, corners, f);
 }
 
-/* Is the node about parts of its two features, is the distance owed, and do its ways leave nothing out? */
+/* Is the node about parts of its two features, is its distance owed, and do its ways leave no case out? */
 static const char *check_question(const checking *c, const sunder_proof_node *node)
 {
     const double *a = c->proof->corner + 2 * node->part_a, *b = c->proof->corner + 2 * node->part_b;

@@ -40,7 +40,7 @@ const char *proof_check_ways(const checking *c, const sunder_proof_node *node, b
  * NULL, or a replacement for the d of way a, or of the first way. */
 bool proof_crossing(const sunder_proof_way *a, const mpq_t *exact, const sunder_proof_way *b, vec *v);
 bool proof_is_behind_all(const sunder_proof_way *way, const mpq_t *first, size_t n, const vec *v);
-/* How far the polygon goes along the way's n. */
+/* The greatest value of the way's n over the polygon. */
 void proof_farthest(mpq_t d, const hull *k, const sunder_proof_way *way);
 
 /* proof_shadow.c: the node is about an anchor and a thing that it may not jump over, or about a side anchor and a side;

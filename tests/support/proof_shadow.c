@@ -1,6 +1,6 @@
-/* What lies behind all the ways of a node about a shadow is an open convex set that may have no end. It is in the
- * shadow, which is closed and convex, exactly when the corners of the one are in the other, and the directions
- * along its lines in which it has no end lead from the origin through what casts the shadow. */
+/* The set behind all ways of a node about a shadow is open and convex, and may be unbounded. The shadow is closed and
+ * convex. The set lies in it exactly if the set's corners do, and if the directions along its lines in which it is
+ * unbounded lead from the origin through the part that casts the shadow. */
 #include "passage_oracle.h"
 #include "proof_checking.h"
 
@@ -175,7 +175,8 @@ static const char *check_side_of(const checking *c, const sunder_proof_node *nod
     return check_side_anchor(c, node->a, anchor);
 }
 
-/* Is the end of a chord in the shadow of the side from `corner` to `other`, and off the way through the corner? */
+/* Is the end of a chord in the shadow of the side from `corner` to `other`, and not on the line from the anchor through
+ * the corner? */
 static bool is_shaded_end(const vec *anchor, const vec *corner, const vec *other, const vec *end)
 {
     const int turn = vec_side(anchor, corner, other), far = vec_side(corner, other, anchor);
@@ -183,7 +184,7 @@ static bool is_shaded_end(const vec *anchor, const vec *corner, const vec *other
            vec_side(corner, other, end) != far;
 }
 
-/* Does the way from the anchor through the corner meet the line of the chord, and not before the corner? */
+/* Does the ray from the anchor through the corner meet the line of the chord, not before the corner? */
 static bool is_passed_beyond(const vec chord[2], const vec *anchor, const vec *corner)
 {
     vec e, to;

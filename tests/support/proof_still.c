@@ -68,8 +68,8 @@ static bool find_unit(const checking *c, size_t feature, size_t x, double limit,
     return any && same;
 }
 
-/* n.t = 0 for t of i and j units: i and j are multiples of q and -p, divided by what those have in common; p and q: the
- * coordinates of n in units, as whole numbers. Is that, in lengths, beyond the limit? */
+/* Let t be i and j units with n.t = 0. Then i and j are multiples of q and -p divided by their greatest common divisor,
+ * where p and q are the coordinates of n in units, as integers. Is the shortest such t longer than the limit? */
 static bool is_far(const vec *n, const int unit[2], double limit)
 {
     mpq_t p, q, whole, square;

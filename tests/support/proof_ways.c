@@ -1,7 +1,7 @@
 /* Do the ways of a node cover every place that keeps the clearance? */
 #include "proof_checking.h"
 
-/* Is there a direction in which none of the ways is ever reached? If so, one along a way's line. */
+/* Is there a direction in which none of the ways is reached? If so, there is one along a way's line. */
 static bool is_open(const sunder_proof_way *way, size_t n)
 {
     vec w, m;

@@ -9,10 +9,11 @@
 #define ROAD_ORDERS 3
 #define ROADS (ROAD_ALGORITHMS * ROAD_DECOMPOSITIONS * ROAD_ORDERS)
 
-/* Road number i of ROADS, with a seed. Neighbours differ in the algorithm, then in the decomposition. */
+/* Returns number i of the ROADS combinations of algorithm, decomposition and order, with a seed. Neighbours differ in
+ * the algorithm, then in the decomposition. */
 sunder_sum_options road_options(size_t i, uint64_t seed);
-/* Canonical text of the sum by one road, on big integers throughout if force_wide; NULL if it fails. Checks what the
- * sum says of how it was made. */
+/* Returns the canonical text of the sum by one algorithm, on big integers throughout if force_wide; NULL if it fails.
+ * Checks the statistics of the sum. */
 char *road_text(const sunder_shape *p, const sunder_shape *q, const sunder_sum_options *how, bool force_wide);
 /* Is that the text `want`? If not, and if `shown`, says so with the operands. */
 bool road_agrees(const polyset *p, const polyset *q, const sunder_sum_options *how, bool force_wide, const char *want,

@@ -5,7 +5,7 @@
 /* Before all tests of a group, and after them. */
 int scratch_set_up(void **state);
 int scratch_tear_down(void **state);
-/* Its path, from the one to the other. */
+/* Returns its path; valid between the two calls. */
 const char *scratch_directory(void);
 /* The path of a file in it, valid until the fourth call after. */
 const char *scratch_path(const char *name);

@@ -1,7 +1,7 @@
-/* The least translation that parts two sets lies on the boundary of those that do not: on a segment that an edge of one
- * makes with a vertex of the other. So it is an end of such a segment, the foot of the perpendicular from the origin,
- * or a crossing of two. Candidates are sorted by their lengths in doubles; those that may be the shortest are made in
- * rationals and asked, by vertical slabs, whether they part the two. */
+/* The least translation that separates two sets lies on the boundary of those that do not, on a segment made by an edge
+ * of one and a vertex of the other. So it is an end of such a segment, the foot of the perpendicular from the origin,
+ * or a crossing of two segments. Candidates are sorted by their lengths in doubles; those that may be the shortest are
+ * computed in rationals, and vertical slabs decide whether they separate the two. */
 #include "standing.h"
 
 #include "slabs.h"
@@ -276,7 +276,7 @@ bool stands_apart(const standing *s, double gap)
     return apart;
 }
 
-/* Do they stand to each other as they did? Then there is nothing to compare. */
+/* Is the relative position unchanged? Then there is nothing to compare. */
 static bool same_shift(const polyset *a_was, const polyset *b_was, const polyset *a_is, const polyset *b_is)
 {
     bool same = true;

@@ -4,10 +4,10 @@
 
 #include "sunder.h"
 
-/* Which listed pair stands worse than it stood, in rationals by brute force (standing.h); NULL if none does, else a
- * sentence, freed by the caller. Each feature is compared as it was given and as it is written. Left out: pairs with
- * barriers, pairs inside a block, pairs that were contained or duplicates and still are (no worse by definition), and
- * repaired features, whose corners are no doubles. */
+/* Which listed pair is worse than at the start, in rationals by brute force (standing.h)? Returns NULL if none is,
+ * otherwise a sentence, freed by the caller. Each feature is compared as it was given and as it is written. Left out
+ * are pairs with barriers, pairs inside a block, pairs that were contained or duplicates and still are (not worse by
+ * definition), and repaired features, whose corners are not doubles. */
 char *upheld_breach(const sunder_feature *feature, size_t n, const sunder_layer_options *options,
                     const sunder_report *report);
 

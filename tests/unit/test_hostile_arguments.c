@@ -111,8 +111,8 @@ static double random_size(rng *r)
     }
 }
 
-/* Three questions about one pair agree, whatever the sizes. There is an answer, unless the gap is more than 2^700 times
- * as long as the least length: then the search may say that it fails, but nothing that is not so. */
+/* Three questions about one pair agree, for all sizes. There is an answer unless the gap is more than 2^700 times as
+ * long as the least length: then the search may report a failure, but must not return anything false. */
 static void test_sizes(void **state)
 {
     (void)state;

@@ -25,7 +25,8 @@ static void ever_fewer(void **state)
     (void)state;
     sunder_i_patience p = sunder_i_patience_of(4, 2);
     assert_int_equal(asked_in_vain(&p, 4), 4);
-    /* Then the next, the second after it, the fourth after that, and so on. */
+    /* Attempts are then made at growing distances: the next one, the second after it, the fourth after that, and so
+     * on. */
     assert_int_equal(asked_in_vain(&p, 1), 1);
     assert_int_equal(asked_in_vain(&p, 2), 1);
     assert_int_equal(asked_in_vain(&p, 4), 1);

@@ -16,7 +16,7 @@ enum { MOST = 4 };
 
 typedef struct scene {
     sunder_feature was[MOST], is[MOST];
-    sunder_barrier barrier; /* of the layer as it was, if it has one */
+    sunder_barrier barrier; /* of the original layer, if it has one */
     size_t n;
     sunder_layer_options options;
     sunder_report *report;

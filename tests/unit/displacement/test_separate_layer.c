@@ -81,7 +81,7 @@ static void check_fixed(void **state)
     assert_int_equal(sunder_report_status(s.report, 0), SUNDER_FEATURE_FIXED);
     assert_int_equal(sunder_report_status(s.report, 1), SUNDER_FEATURE_MOVED);
     assert_near(scene_length(&s, 1), 0.5, HAIR);
-    /* Nothing can be done between two fixed ones. */
+    /* A conflict between two fixed features remains. */
     s.feature[1].fixed = true;
     scene_separate(&s);
     assert_int_equal(scene_left(&s), 1);
@@ -244,7 +244,7 @@ static void check_yard_without_gate(void **state)
         assert_true(s.summary.verified);
         scene_end(&s);
     }
-    /* A gate: the way out is free where the anchor sees it, and then the house may leave. */
+    /* A gate: if the path of the anchor is free, the house may leave. */
     scene s;
     scene_begin(&s, 3);
     scene_add(&s, "POLYGON ((0 0, 20 0, 20 20, 0 20, 0 13, 5 13, 5 15, 15 15, 15 5, 5 5, 5 7, 0 7, 0 0))")->max_shift =

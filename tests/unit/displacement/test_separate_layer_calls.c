@@ -1,4 +1,4 @@
-/* What the calls for a layer refuse, and how they end when they are stopped. */
+/* Arguments that the calls for a layer refuse, and how the calls end when they are stopped. */
 #include "scene.h"
 #include "upheld.h"
 

@@ -115,8 +115,8 @@ static void expect_frames(const sunder_sum *sum, const double m[4])
     assert_true(found[0] && found[1] && found[2]);
 }
 
-/* Three frames, each inside the hole of the next, drawn so slanted (by matrices of determinant 1) that their areas
- * taken in doubles are mostly noise: each hole belongs to its own frame, in whatever order the members come. */
+/* Three frames, each inside the hole of the next, so slanted (by matrices of determinant 1) that their areas in doubles
+ * are mostly noise: each hole belongs to its own frame, for any order of the members. */
 static void test_nested_slivers(void **state)
 {
     (void)state;

@@ -1,4 +1,5 @@
-/* sunder_morphology() and sunder_shape_union(): known answers, what is refused, stopping, and memory that runs out. */
+/* sunder_morphology() and sunder_shape_union(): known answers, refused arguments, stopping, and memory that runs
+ * out. */
 #include "failing.h"
 #include "sum_text.h"
 

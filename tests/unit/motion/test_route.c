@@ -145,7 +145,8 @@ static void every_rung(void **state)
     sunder_shape_free(q);
 }
 
-/* Above and below differ by less than any double tells: told apart to 2^-256 of the length, and equal beyond. */
+/* The path above and the path below differ in length by less than any double can express: they are distinguished down
+ * to 2^-256 of the length, and equal beyond. */
 static void nearly_tied(void **state)
 {
     static const struct {
@@ -219,7 +220,7 @@ static void lines_inside_the_robot(void **state)
         }
 }
 
-/* All corners of a route as texts, "-" if there is none. */
+/* Prints all corners of a route as texts, "-" if there is none. */
 static void tell(const sunder_route *r, char *out, size_t size)
 {
     size_t n = (size_t)snprintf(out, size, "%s", sunder_route_vertices(r) ? "" : "-");

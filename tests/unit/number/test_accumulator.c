@@ -73,7 +73,7 @@ static void test_random_sums(void **state)
         else
             mpq_div_2exp(sum, sum, (mp_bitcnt_t)-e);
         const double d = sunder_i_accumulator_double(&t, e);
-        if (isinf(d)) { /* from DBL_MAX and half a unit on */
+        if (isinf(d)) { /* from DBL_MAX plus half a unit on */
             mpq_set_d(a, DBL_MAX);
             mpq_set_d(b, 0x1p970);
             mpq_add(a, a, b);
@@ -94,7 +94,7 @@ static void test_ends(void **state)
     sunder_i_accumulator_sub(&t, 0x1p-1074, 0x1p-1074);
     assert_true(sunder_i_accumulator_sign(&t) < 0 && sunder_i_accumulator_double(&t, 0) == 0);
     assert_true(sunder_i_accumulator_double(&t, 1074) == -0x1p-1074);
-    assert_true(sunder_i_accumulator_double(&t, 1073) == 0); /* half of the least: a tie, to even */
+    assert_true(sunder_i_accumulator_double(&t, 1073) == 0); /* half of the least double: a tie, to even */
     for (int k = 0; k < 1000; k++) sunder_i_accumulator_add(&t, DBL_MAX, DBL_MAX);
     assert_true(sunder_i_accumulator_sign(&t) > 0 && isinf(sunder_i_accumulator_double(&t, 0)));
     for (int k = 0; k < 1000; k++) sunder_i_accumulator_sub(&t, DBL_MAX, DBL_MAX);

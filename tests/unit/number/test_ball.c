@@ -58,7 +58,7 @@ static void assert_holds(sunder_i_ball b, const mpq_t v)
     assert_true(sign == 0 || sign == mpq_sgn(v));
 }
 
-/* The root of v, by its square. */
+/* Demands that the ball contains the root of v, by its square. */
 static void assert_holds_root(sunder_i_ball b, const mpq_t v)
 {
     assert_true(is_canonical(b));
@@ -94,7 +94,7 @@ static void set_big(mpq_t out, sunder_i_big v)
     mpz_clear(z);
 }
 
-/* One of the numbers becomes what an operation makes of two, and so on: radii grow. */
+/* Replaces one of the numbers by the result of an operation on two others; radii grow with repetition. */
 static void step(rng *r, sunder_i_ball ball[NUMBERS], mpq_t value[NUMBERS])
 {
     const int64_t i = rng_int(r, 0, NUMBERS - 1), j = rng_int(r, 0, NUMBERS - 1), k = rng_int(r, 0, NUMBERS - 1);

@@ -52,7 +52,7 @@ static void close_work(work *w)
     sunder_i_arena_free(&w->arena);
 }
 
-/* As many limbs as that, about, leaning towards what goes wrong: runs of ones and zeros, powers of two. */
+/* Draws a number of about that many limbs, often with difficult patterns: runs of ones and zeros, powers of two. */
 static void draw(mpz_t v, rng *g, long limbs)
 {
     random_mpz(v, g, (unsigned)(64 * limbs));
@@ -61,7 +61,7 @@ static void draw(mpz_t v, rng *g, long limbs)
     if (mpz_sgn(v) == 0) mpz_set_ui(v, 1);
 }
 
-/* Lengths about the bound, and far beyond it. */
+/* Draws lengths around the bound, and far beyond it. */
 static long length(rng *g)
 {
     switch (rng_int(g, 0, 3)) {

@@ -47,7 +47,7 @@ static void test_extent(void **state)
     assert_int_equal(e.low_bit, -2);
 }
 
-/* value = n * 2^exponent + origin, exactly. */
+/* Demands that value = n * 2^exponent + origin, exactly. */
 static void check_value(sunder_i_lattice *l, int64_t n, double origin, double value)
 {
     mpq_t x, y;

@@ -1,5 +1,5 @@
-/* number/surd: signs and digits of numbers with square roots, against intervals of long binary fractions, and the cases
- * where nothing but exact arithmetic knows that a number is zero. */
+/* number/surd: signs and digits of numbers with square roots, compared with intervals of long binary fractions, and
+ * cases in which only exact arithmetic recognises that a number is zero. */
 #include "number/surd.h"
 #include "random.h"
 

@@ -62,7 +62,7 @@ static void test_cmp_products(void **state)
     for (int i = 0; i < ROUNDS; i++) {
         sunder_i_i128 a = random_i128(&g, 127), b = random_i128(&g, 127), c = random_i128(&g, 127),
                       d = random_i128(&g, 127);
-        if (i % 3 == 0) { /* a * b and b * a, or one off */
+        if (i % 3 == 0) { /* a * b and b * a, or different by one */
             c = b;
             d = a;
         }

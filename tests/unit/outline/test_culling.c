@@ -1,5 +1,5 @@
-/* Sums of members that are tiny beside their distances: clusters that doubles cannot tell from points. No amount of
- * looking closer in doubles takes them apart, and memory must not go into the attempt. */
+/* Sums of members that are tiny compared with their distances: clusters that doubles cannot distinguish from points. No
+ * further splitting in doubles separates them, and memory must not be spent on it. */
 #include "roads.h"
 #include "sum_text.h"
 

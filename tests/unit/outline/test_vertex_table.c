@@ -1,5 +1,5 @@
-/* outline/vertex_table.h: every point gets the number of its place, however its integers are written, spread out or
- * crowded in less than doubles can tell apart; and finding it takes a few comparisons in either case. */
+/* outline/vertex_table.h: every point gets the number of its place for any representation of its integers, also if
+ * points are so close that doubles cannot distinguish them; finding it takes a few comparisons in either case. */
 #include "failing.h"
 #include "outline/vertex_table.h"
 #include "random.h"
@@ -119,7 +119,7 @@ static void test_lines(void **state)
     sunder_i_lattice_free(&l);
 }
 
-/* Points of one value have one hash; others nearly never. */
+/* Points of equal value have equal hashes; different points almost never do. */
 static void test_hash(void **state)
 {
     (void)state;

@@ -124,7 +124,7 @@ static void test_empty(void **state)
     close_bed(&b);
 }
 
-/* A grid with verticals; each line comes in several overlapping pieces, both ways. */
+/* A grid with vertical lines; each line consists of several overlapping pieces in both directions. */
 static void test_grid_of_overlaps(void **state)
 {
     (void)state;

@@ -93,7 +93,7 @@ static int cross_sign(const spot *p, const spot *q, const spot *s, const spot *r
     return turn;
 }
 
-/* A spot on the line pq, or a hair beside it. */
+/* Makes a spot on the line pq, or slightly beside it. */
 static void spot_near(bed *b, spot *r, const spot *p, const spot *q)
 {
     mpq_t t, u;

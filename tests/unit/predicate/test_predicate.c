@@ -67,7 +67,7 @@ static void random_spots(rng *g, int round, spot *p, int n)
         p[i].x = coordinate(g, round % 4);
         p[i].y = coordinate(g, round % 4);
     }
-    if (round % 7 == 6 && n > 2) { /* collinear: the third in the middle, or as far again */
+    if (round % 7 == 6 && n > 2) { /* collinear: the third in the middle, or at twice the distance */
         p[2].x = p[0].x / 4 + p[1].x / 4;
         p[2].y = p[0].y / 4 + p[1].y / 4;
         p[0] = (spot){p[2].x - p[1].x / 8, p[2].y - p[1].y / 8};

@@ -126,7 +126,7 @@ static bool on_closed(spot a, spot b, spot p)
            (a.y < b.y ? a.y : b.y) <= p.y && p.y <= (a.y < b.y ? b.y : a.y);
 }
 
-/* Do they share a point at all? */
+/* Do the segments have a common point? */
 static bool meet(const spot p[4])
 {
     return (side(p[0], p[1], p[2]) * side(p[0], p[1], p[3]) < 0 &&
@@ -233,7 +233,7 @@ static void test_distances(void **state)
         spot p[4];
         random_segments(&g, i, p);
         least_distance2(d, p);
-        /* The gap: the floor of the distance, one more, or anything. */
+        /* The gap is the floor of the distance, one more, or any number. */
         mpz_fdiv_q(root, mpq_numref(d), mpq_denref(d));
         mpz_sqrt(root, root);
         int64_t gap = mpz_sizeinbase(root, 2) < 60 ? mpz_get_si(root) + rng_int(&g, 0, 1) : 0;

@@ -395,7 +395,7 @@ static void distances(void **state)
     assert_true(d == 0 && a[0] == 4 && a[1] == 2 && b[0] == 4 && b[1] == 2);
     assert_int_equal(sunder_pair_distance(p, p, &d, a, b, NULL), SUNDER_OK);
     assert_true(d == 0 && a[0] == b[0] && a[1] == b[1] && a[0] > 0 && a[0] < 4);
-    /* Far from the origin and close together: nothing cancels. */
+    /* Far from the origin and close together: there is no cancellation. */
     const double t[2] = {4 + 0x1p-40, 0};
     assert_int_equal(sunder_i_distance(p, NULL, p, t, &d, a, b, NULL), SUNDER_OK);
     assert_true(d == 0x1p-40);

@@ -32,7 +32,7 @@ static sunder_shape *draw(rng *r, const double at[2], double size, bool convex)
     return shape;
 }
 
-/* Lengths about the distance, some of them its very neighbours. */
+/* Draws lengths near the distance, some of them its neighbouring doubles. */
 static double length_about(rng *r, double distance)
 {
     switch (rng_int(r, 0, 4)) {
@@ -71,7 +71,7 @@ static void test_against_distance(void **state)
     assert_true(said > clear / 2 && clear > 0);
 }
 
-/* Translations count: two squares, moved to and from each other by what doubles hold. */
+/* Translations are applied: two squares, moved apart and together by amounts that doubles represent. */
 static void test_translated(void **state)
 {
     (void)state;

@@ -22,7 +22,7 @@ static sunder_status build(const char *wkt, sunder_validity validity, sunder_sha
     return status;
 }
 
-/* A strict shape, sound in every respect. */
+/* Makes a shape by strict validity, and checks its invariants. */
 static sunder_shape *sound(const char *wkt)
 {
     sunder_shape *s = NULL;
@@ -213,7 +213,7 @@ static void test_touching(void **state)
     }
 }
 
-/* The checker has to find what is broken. Each fault is undone before the next. */
+/* The checker has to find each fault. A fault is undone before the next one. */
 static void test_check_finds(void **state)
 {
     (void)state;
@@ -493,7 +493,7 @@ static void test_translate(void **state)
     assert_false(exact);
     assert_null(sunder_i_shape_check(t));
     sunder_shape_free(t);
-    /* Far away all places fall together, and nothing is left. */
+    /* Far away all places coincide, and the shape is empty. */
     assert_int_equal(sunder_shape_translate(s, 1e30, 1e30, &t, &exact, &err), SUNDER_OK);
     assert_false(exact);
     assert_true(sunder_shape_is_empty(t));

@@ -15,7 +15,7 @@
 
 #include <cmocka.h>
 
-/* sum += (a - o) x (b - o). */
+/* sum += (a - o) x (b - o) */
 static void add_triangle(mpq_t sum, const double o[2], const double a[2], const double b[2])
 {
     mpq_t u[2], v[2], cross, t;
@@ -39,7 +39,7 @@ static bool is_nearest(mpq_t q, double d)
 {
     mpq_t error, other;
     mpq_inits(error, other, NULL);
-    if (isinf(d)) { /* from the middle between DBL_MAX and what would follow it */
+    if (isinf(d)) { /* from the middle between DBL_MAX and the next power of two on */
         mpq_set_d(error, DBL_MAX);
         mpq_set_d(other, 0x1p970);
         mpq_add(error, error, other);

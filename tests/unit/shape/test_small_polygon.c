@@ -200,14 +200,14 @@ static void test_holes(void **state)
     assert_int_equal(s->form->cleaned.rings, 2);
     assert_null(sunder_i_shape_check(s));
     sunder_shape_free(s);
-    for (int k = 1; k < 6; k += k == 2 ? 3 : 1) { /* outside, on the wall, round it all */
+    for (int k = 1; k < 6; k += k == 2 ? 3 : 1) { /* outside, on the wall, around the outer ring */
         memcpy(d.xy + 8, hole[k], sizeof hole[k]);
         assert_false(take(&d, &s));
     }
     d = (drawn){.n = 12, .rings = 3, .ring_end = {4, 8, 12}};
     memcpy(d.xy, outer, sizeof outer);
     memcpy(d.xy + 8, hole[0], sizeof hole[0]);
-    for (int k = 3; k < 5; k++) { /* corner to corner, in each other */
+    for (int k = 3; k < 5; k++) { /* corner to corner, one within the other */
         memcpy(d.xy + 16, hole[k], sizeof hole[k]);
         assert_false(take(&d, &s));
     }

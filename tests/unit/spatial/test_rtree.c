@@ -1,4 +1,4 @@
-/* spatial/rtree.c, against looking at every box: as it was built, and as boxes move. */
+/* spatial/rtree.c, compared with a loop over all boxes: as built, and after boxes have moved. */
 #include "random.h"
 
 #include "spatial/rtree.h"

@@ -141,7 +141,8 @@ static void test_crowds(void **state)
     }
 }
 
-/* Round corners: as fine as the gap is wide; where it is next to nothing beside the obstacle two tangents will do. */
+/* Rounded corners: their resolution depends on the width of the gap; if the gap is tiny compared with the obstacle two
+ * tangents suffice. */
 static void test_corners(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-/* Blocks and what lies in another feature, on small figures with known answers. */
+/* Blocks and contained features, on small layers with known answers. */
 #include "scene.h"
 
 #include <math.h>
@@ -19,7 +19,7 @@ static void check_blocks(void **state)
 {
     scene s;
     scene_begin(&s, 0);
-    /* Two that touch, a third that overlaps one of them. */
+    /* Two features that touch, and a third that overlaps one of them. */
     scene_add_box(&s, 0, 0, 10, 10);
     scene_add_box(&s, 10, 0, 10, 10);
     scene_add_box(&s, 19, 1, 10, 10);
@@ -32,17 +32,17 @@ static void check_blocks(void **state)
     sunder_report_move(s.report, 0, &a[0], &a[1]);
     sunder_report_move(s.report, 1, &b[0], &b[1]);
     assert_memory_equal(a, b, sizeof a);
-    /* The block weighs two: it goes a third of the way. */
+    /* The block has weight 2, so it moves a third of the way. */
     assert_near(hypot(a[0], a[1]), 1.0 / 3, HAIR);
     assert_near(scene_length(&s, 2), 2.0 / 3, HAIR);
     assert_int_equal(scene_left(&s), 0);
-    /* Without blocks each is on its own, and touching is no conflict. */
+    /* Without blocks each feature is a body of its own, and touching is no conflict. */
     s.options.no_blocks = true;
     scene_separate(&s);
     assert_int_equal(s.summary.blocks, 0);
     assert_int_equal(s.summary.before.overlap, 1);
     assert_int_equal(scene_left(&s), 0);
-    /* Numbers of the caller's hold all the same. */
+    /* Block numbers given by the caller are still used. */
     s.feature[0].block = s.feature[2].block = 7;
     scene_separate(&s);
     assert_int_equal(s.summary.blocks, 1);

@@ -36,7 +36,7 @@ static void draw_scene(rng *g, scene *s)
 
 static int by_double(double a, double b) { return (a > b) - (a < b); }
 
-/* What the head of order.c says, of two places of the list. */
+/* The documented order (head of feature_order.c) of two places of the list. */
 static int by_place(const scene *s, size_t i, size_t j)
 {
     const sunder_feature *a = &s->feature[i], *b = &s->feature[j];

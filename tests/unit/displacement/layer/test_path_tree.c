@@ -1,5 +1,5 @@
-/* Which bodies came near a box on their way from their original place: by the tree, and by looking at all; as bodies
- * move a little, far, and back, and where each feature has a move of its own. */
+/* The bodies whose paths from their original places come near a box: by the tree, and by a loop over all bodies; for
+ * small, large and reversed moves, and for features with moves of their own. */
 #include "random.h"
 #include "scene_model.h"
 

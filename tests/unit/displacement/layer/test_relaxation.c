@@ -25,7 +25,7 @@ typedef struct layer {
     sunder_i_relaxation relaxation; /* of things 0 and 1, at their first places */
 } layer;
 
-/* A box of 10 by 10, and one that stands 3 into its side, or a barrier of that place; the gap is 1. */
+/* A box of 10 by 10, and another one, or a barrier, that reaches 3 into its side; the gap is 1. */
 static void begin(layer *l, bool barrier)
 {
     static const char bar[] = "POLYGON ((7 4, 17 4, 17 8, 7 8, 7 4))";

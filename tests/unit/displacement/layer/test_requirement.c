@@ -16,7 +16,7 @@
 
 #include <cmocka.h>
 
-/* Boxes that overlap, touch, lie in each other, and stand nearer than the gap or farther. */
+/* Boxes that overlap, touch, contain each other, or are nearer or farther than the gap. */
 static void draw_scene(rng *g, scene *s)
 {
     scene_begin(s, 2);

@@ -1,4 +1,4 @@
-/* The sparse factorisation against elimination on the full matrix. */
+/* The sparse factorisation, compared with elimination on the full matrix. */
 #include "displacement/quadratic/sparse.h"
 #include "random.h"
 

@@ -1,4 +1,4 @@
-/* Crowds: many features on one place. What their area proves, and how near to that they come to rest. */
+/* Crowds: many features at one place. The bound by their area, compared with the cost of the layout that is found. */
 #include "random.h"
 #include "scene.h"
 

@@ -71,7 +71,7 @@ static double longest_need(crowd *c, size_t least)
     return longest;
 }
 
-/* Is all of it solved with that limit for all? */
+/* Is the whole crowd solved with that limit for all? */
 static void demand_solved_within(crowd *c, double limit)
 {
     sunder_layer_summary summary;
@@ -106,8 +106,8 @@ static void test_about_one_that_stands(void **state)
     end(&c);
 }
 
-/* Terraces of more than a hundred houses are not solved without limits, where they run into each other: they are
- * stretched, all of them. */
+/* Terraces of more than a hundred houses are not solved without limits, since they run into each other: the whole crowd
+ * is stretched instead. */
 static void test_terraces(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-/* What would free a conflict, on figures with known answers. */
+/* Changes that would free a conflict, on small layers with known answers. */
 #include "scene.h"
 
 #include <math.h>

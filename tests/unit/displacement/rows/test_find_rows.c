@@ -1,4 +1,4 @@
-/* Rows in small figures: which neighbours are in one, and what ends it. */
+/* Rows in small layers: which neighbours belong to a row, and where it ends. */
 #include "scene.h"
 
 #include <math.h>
@@ -105,7 +105,7 @@ static void check_ends(void **state)
     }
 }
 
-/* A shed that stands nearer to two houses than they stand to each other takes their link away. */
+/* A shed that is nearer to two houses than they are to each other removes their link. */
 static void check_between(void **state)
 {
     (void)state;

@@ -83,7 +83,7 @@ static void give(const table *t, int64_t i, int64_t j, const long double one[4],
     at[t->columns + 1] += sign * one[3];
 }
 
-/* What is between the piece and the floor of the table. */
+/* Adds the area between the piece and the floor of the table. */
 static void give_under(const table *t, const long double p[2], const long double q[2])
 {
     const long double dx = q[0] - p[0];
@@ -104,7 +104,7 @@ static int by_size(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* An edge from right to left is above what it gives. */
+/* Adds the area under an edge; an edge from right to left bounds it from above. */
 static void give_edge(const table *t, const long double p[2], const long double q[2])
 {
     static long double share[4 * 8192];
@@ -393,7 +393,7 @@ static void test_border(void **state)
     }
 }
 
-/* What one pays at a move by whole squares, by float prices. */
+/* The cost of one payer for a move by whole squares, with float prices. */
 static double paid_by(const sunder_i_grid *l, const sunder_i_payer *payer, const float *price, int64_t dx, int64_t dy)
 {
     const sunder_i_masses *m = &payer->masses;

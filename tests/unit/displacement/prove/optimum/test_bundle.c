@@ -25,7 +25,7 @@ typedef struct problem {
     bool still; /* the last member does not move */
 } problem;
 
-/* Block k has members k, k + 1 and k + 2, all where they are at rest and at the square of that. */
+/* Block k has members k, k + 1 and k + 2. Its layouts place them at rest, at the cost of the squared distance. */
 static void make(rng *r, problem *p)
 {
     size_t count[MEMBERS] = {0};
@@ -44,7 +44,7 @@ static void make(rng *r, problem *p)
         }
 }
 
-/* The least layout of the block at x. */
+/* Returns the cheapest layout of the block at x. */
 static size_t least_of(const problem *p, size_t k, const double *x, double *value)
 {
     size_t least = 0;
@@ -78,7 +78,7 @@ static void add_cuts(sunder_i_bundle *b, const problem *p, const double *x)
     }
 }
 
-/* Sums over a member's copies are 0, and what does not move has none. */
+/* The sum over the copies of a member is 0, and a fixed body has no copies. */
 static void check_sums(const problem *p, const double *x)
 {
     for (uint32_t member = 0; member < MEMBERS; member++)

@@ -297,7 +297,7 @@ static void test_cover_by_a_strip(void **state)
         }
 }
 
-/* What is added behind the tree is found as well. */
+/* Pieces that are added after the tree was built are found, too. */
 static void test_behind_the_tree(void **state)
 {
     (void)state;

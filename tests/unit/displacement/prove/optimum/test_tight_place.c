@@ -1,5 +1,5 @@
-/* Places with no room to spare: the cheapest layout leads through a passage just as wide as what goes in, which a
- * margin for rounding would close. */
+/* Places with no room to spare: the cheapest layout leads through a passage exactly as wide as the body, which a margin
+ * for rounding would close. */
 #include "scene.h"
 
 #include <math.h>
@@ -411,8 +411,8 @@ static void test_within_limits_too(void **state)
     scene_end(&s);
 }
 
-/* A triangle goes as far as its limit lets it, along an axis, and what it missed that by is a thousand times as much
- * across. */
+/* A triangle moves by all of its limit along an axis; what the move falls short of the limit allows a thousand times as
+ * much across. */
 static void test_nothing_left_of_a_limit(void **state)
 {
     (void)state;

@@ -35,7 +35,7 @@ static sunder_feature *add_house(rng *r, scene *s)
     return scene_add(s, wkt);
 }
 
-/* A crowd of houses: more bodies than are kept, some of them blocks, some without a limit, and some that stand. */
+/* A crowd of houses: more bodies than the cache holds, some of them blocks, some without a limit, and some fixed. */
 static void begin(rng *r, layer *l)
 {
     memset(l, 0, sizeof *l);

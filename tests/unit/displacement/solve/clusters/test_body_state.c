@@ -16,7 +16,7 @@
 
 enum { BODIES = 3, EVENTS_DRAWN = 20000 };
 
-/* The same as facts that know nothing of each other. */
+/* The same states as independent facts. */
 typedef struct facts {
     bool due, improved, cheapest; /* the search */
     bool wanted, doubtful, asked; /* the pass, and questions */
@@ -175,7 +175,7 @@ static void check_checker(void **state)
     body[2].held = body[2].fixed = false;
 
     s.limit = limit;
-    assert_non_null(sunder_i_solver_check_states(&s)); /* limits are lifted, but not of these bodies */
+    assert_non_null(sunder_i_solver_check_states(&s)); /* limits are lifted, but not for these bodies */
     for (uint32_t b = 0; b < BODIES; b++) sunder_i_body_event(&s.states, b, SUNDER_I_LIMIT_IS_LIFTED);
     sunder_i_body_event(&s.states, 1, SUNDER_I_IS_SET_ASIDE);
     assert_null(sunder_i_solver_check_states(&s));

@@ -18,7 +18,7 @@
 
 #include "polyset.h"
 
-/* What lies in one heap is a large crowd, which takes a disc of a radius of some 180; clusters/tuning.h. */
+/* Bodies in one heap are a large crowd, which takes a disc with a radius of some 180 (clusters/tuning.h). */
 enum { HEAP = 1050, SMALL_HEAP = 8, ALONE = 12, HELD = 4, MOST = HEAP + SMALL_HEAP + 2 * ALONE + HELD };
 
 typedef struct crowd {

@@ -17,7 +17,7 @@ static void begin(scene *s)
     s->options.contained = SUNDER_CONTAINMENT_SEPARATE;
 }
 
-/* West of them, a line that no feature may cross. */
+/* To their west is a line that no feature may cross. */
 static void separate_beside_a_line(scene *s)
 {
     const double xy[] = {0, -2, 4, 14};

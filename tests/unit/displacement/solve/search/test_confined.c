@@ -1,5 +1,5 @@
-/* displacement/search/confined: of two that are shut in no place is looked for farther off than those are that may be
- * free; what is found is the same. */
+/* displacement/search/confined: for two bodies that are shut in, places are searched no farther off than those that may
+ * be free; the places found are the same. */
 #include "random.h"
 #include "scene_model.h"
 
@@ -18,7 +18,7 @@ enum { YARDS = 40 };
 
 static const double margin = 0x1p-30;
 
-/* A house in a yard that is too small for it, and as near to one side as may be: all conflicts are left as they are. */
+/* A house in a yard that is too small for it, as near to one side as allowed: all conflicts are left as they are. */
 static void begin(rng *r, scene *s, scene_model *of)
 {
     const double width = 2.5 + rng_unit(r), height = 2.5 + rng_unit(r);
@@ -56,7 +56,7 @@ static size_t find(const scene_model *of, const double target[2], double place[2
     return n;
 }
 
-/* What is found with the knowledge that the two are shut in, and without. */
+/* Compares the places that are found if it is known that the two are shut in, and if it is not. */
 static void compare(rng *r, scene_model *of, size_t found[2], uint64_t all[2])
 {
     sunder_i_id_pair two = {0, 1};

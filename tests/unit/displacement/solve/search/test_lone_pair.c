@@ -33,7 +33,7 @@ static scene *scene_of(pair *p, double gap)
     return &p->board.scene;
 }
 
-/* What the exact core says of the two; to be cleared. */
+/* The exact answer for the two; to be cleared. */
 static sunder_separation least_of(const scene *s)
 {
     sunder_separation least;
@@ -113,8 +113,8 @@ static void test_the_least_is_paid(void **state)
     assert_true(2 * parted > all);
 }
 
-/* Nothing is in conflict; a limit that is too short; a third body; a pair that was given up; a mode that lets the one
- * lie in the other. */
+/* Other influences: no conflict; a limit that is too short; a third body; a given-up pair; a mode in which one may lie
+ * in the other. */
 static void test_others_have_a_say(void **state)
 {
     (void)state;
@@ -134,7 +134,7 @@ static void test_others_have_a_say(void **state)
     }
 }
 
-/* A box of that size along e and across it. */
+/* Adds a box of that size along e and across it. */
 static void add_slanted(scene *s, const double o[2], const double e[2], double along, double across, double w, double h)
 {
     char wkt[400];

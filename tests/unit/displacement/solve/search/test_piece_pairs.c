@@ -28,7 +28,7 @@ typedef struct world {
     uint32_t number[2];
 } world;
 
-/* A body of n pieces; what is small and near together, or all about. */
+/* A body of n pieces, small and close together, or scattered. */
 static void add_body(rng *r, world *w, size_t b, size_t n)
 {
     sunder_i_body *body = &w->body[b];

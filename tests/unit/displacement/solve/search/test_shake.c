@@ -157,8 +157,8 @@ static void test_patience(void **state)
     end(&g);
 }
 
-/* However many steps there are, a small group is perturbed once for each of its variants; a group with a fixed body is
- * not, nor is a single body; and without steps nothing happens. */
+/* With any number of steps a small group is perturbed once for each of its variants; a group with a fixed body is not,
+ * nor is a single body; and without steps nothing happens. */
 static void test_ends(void **state)
 {
     (void)state;

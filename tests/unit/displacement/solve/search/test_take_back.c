@@ -187,8 +187,8 @@ static void test_least_first(void **state)
     }
 }
 
-/* Two that owe each other 3, stood 1 apart, are left so, and stand a hair nearer; right of them a fixed one, 3 away, or
- * farther. */
+/* Two bodies that owe each other 3 stood 1 apart, are left in conflict, and are slightly nearer now; a fixed one is to
+ * their right, 3 away or farther. */
 static void ask_for_margin(double room, bool others, bool expected)
 {
     const double x[] = {0, 11, 24 + room}, hair = 0x1p-40;
