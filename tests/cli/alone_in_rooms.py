@@ -1,9 +1,9 @@
 """Symbols without a limit, each alone among barriers that SUNDER_SEED draws: lines and areas, convex and concave, with
-sides and without, as=boundary; arms, gates and closed rooms; gap 0. And the nearest free place of each by brute force
-in rationals, which shares nothing with the program.
+sides and without, as=boundary; arms, gates and closed rooms; with a gap and without. And the nearest free place of each
+by brute force, which shares nothing with the program: in rationals, or with a gap as alone_with_gap.py says.
 
-    alone_in_rooms.py make       writes NAME.gpkg and NAME_KIND_SIDE.gpkg for each symbol NAME, as copies of
-                                 empty_symbols.gpkg and empty_KIND_SIDE.gpkg, and NAME.symbol
+    alone_in_rooms.py make       writes NAME.gpkg and NAME_KIND_SIDE.gpkg for each group NAME, as copies of
+                                 empty_symbols.gpkg and empty_KIND_SIDE.gpkg, and NAME.symbol and NAME.gap
     alone_in_rooms.py check      compares NAME.out.gpkg with what is right
 
 A move t of the symbol S, a convex polygon about the point a, is free if no barrier meets the interior of S + t, and the
@@ -17,10 +17,15 @@ So the free place nearest to a is a itself, a foot of the perpendicular on one o
 cross. They are tested by distance. Lines are closed: where all free places are beside such a point, its distance is not
 attained, and the program may come as near to it as it likes.
 
-A symbol without a free place is left in conflict with some barriers, and it has to be proved of at least one that there
-is none. Another conflict may stay unresolved, in few worlds: a place may solve it, and leave the first no worse, that
-the search does not find. In small whole numbers these lines meet all the time, and free places are single points, which
-doubles may not hold, or lines, whose ends are forbidden; so there a symbol may be left, too."""
+A symbol without a free place is left in conflict with some barriers, and it has to be proved of each that it cannot be
+left while the symbol stands no worse to the others. Few may stay unresolved (LEFT of all worlds). The only solution may
+be on the border of a shadow, which is closed: in small whole numbers these lines meet all the time. Or the symbol lay in
+an area at the start, and may go deeper, of which proofs know nothing. With a gap a conflict may also stay unresolved if
+the symbol has left a barrier that it overlapped, and would overlap it again: fewer overlaps go before fewer conflicts.
+
+In small whole numbers free places are single points, too, which doubles may not hold, or lines, whose ends are
+forbidden; so there a symbol may be left."""
+import itertools
 import os
 import random
 import shutil
@@ -29,7 +34,11 @@ import struct
 import sys
 from fractions import Fraction as F
 
+import alone_with_gap
+
 INFINITE = float("inf")
+LEFT = 2 / 150  # the share of worlds that may be unresolved
+ROUND = 1 / 16  # of the gap, by which a place may be farther than the nearest: round corners are polygons in the search
 SURELY = 1e-6  # of products of coordinates of at most some hundred, which doubles give to 1e-10
 
 
@@ -113,8 +122,8 @@ class World:
     """anchor, symbol (about the origin, convex, counter-clockwise); barriers: (kind, points, sides), kind 'line', 'area' or
     'boundary'."""
 
-    def __init__(self, anchor, symbol, barriers):
-        self.anchor, self.barriers = anchor, barriers
+    def __init__(self, anchor, symbol, barriers, gap):
+        self.anchor, self.barriers, self.gap = anchor, barriers, gap
         self.body = [add(anchor, p) for p in symbol]
         self.pieces = []  # segments whose neighbourhood is forbidden
         self.walls = []   # segments that the anchor may not meet
@@ -139,6 +148,8 @@ class World:
     def is_free(self, t):
         moved = [add(p, t) for p in self.body]
         if any(segment_meets_open(moved, p, q) for p, q in self.pieces):
+            return False
+        if self.gap and any(alone_with_gap.is_too_near(moved, p, q, self.gap) for p, q in self.pieces):
             return False
         inner = (sum(p[0] for p in moved) / F(len(moved)), sum(p[1] for p in moved) / F(len(moved)))
         if any(is_inside(ring, inner) is not False for ring in self.areas):
@@ -223,10 +234,17 @@ class World:
                            lambda p=p, d=d, s=s, turn=turn: (p[0] + F(s, turn) * d[0], p[1] + F(s, turn) * d[1]))
 
     def nearest(self):
-        """The square of the distance of the nearest free place, and is it attained? None: there is none."""
-        lines, found = self.lines(), None
+        """The distance of the nearest free place; None: there is none, or with a gap none was found."""
         rings = [edges(hull([sub(e, b) for e in (p, q) for b in self.body])) for p, q in self.pieces]
         walls = [(sub(p, self.anchor), sub(q, self.anchor)) for p, q in self.walls]
+        if self.gap:
+            return alone_with_gap.nearest(rings, walls, self.gap, self.is_free)
+        found = self.nearest_in_rationals(rings, walls)
+        return None if found is None else float(found[0]) ** 0.5
+
+    def nearest_in_rationals(self, rings, walls):
+        """The square of the distance of the nearest free place, and is it attained? None: there is none."""
+        lines, found = self.lines(), None
         walls = [(p, q, 1 if side((0, 0), p, q) > 0 else -1) for p, q in walls]
         last = (INFINITE, 0)
         for off, x, y, exactly in sorted(((x * x + y * y, x, y, exactly) for x, y, exactly in self.candidates(lines)), key=lambda c: c[:3]):
@@ -315,7 +333,7 @@ def is_simple(ring):
     return all(not segments_meet(*own[i], *own[k]) for k in range(len(own)) for i in range(k - 1) if (i, k) != (0, len(own) - 1))
 
 
-def draw(r, shape, spread):
+def draw(r, shape, spread, gap):
     """A world, its coordinates `spread` times as large and no longer round unless that is 1; None: it is not fair."""
     def place(p):
         return tuple(spread * x + (r.randint(-spread // 3, spread // 3) if spread > 1 else 0) for x in p)
@@ -332,7 +350,7 @@ def draw(r, shape, spread):
             if len(points) > 1:
                 barriers.append(("line", points, r.random() < 0.7))
     symbol = [(spread * x, spread * y) for x, y in shape]
-    world = World((0, 0), symbol, barriers)
+    world = World((0, 0), symbol, barriers, gap)
     a = world.anchor
     on = any(cross(p, q, a) == 0 and dot(sub(p, a), sub(q, a)) <= 0 for p, q in world.pieces)
     fair = not on and all(kind == "line" or is_simple(points) for kind, points, _ in barriers)
@@ -343,19 +361,33 @@ def draw(r, shape, spread):
 
 APART = 1 << 16  # of worlds, which stand in rows of ROW
 ROW = 16
-GROUPS = {"square": (1, 16), "flat": (2, 16), "triangle": (3, 16), "diamond": (4, 1)}  # which shape, and the spread
+GROUPS = {"square": (1, 16, 0), "flat": (2, 16, 0), "triangle": (3, 16, 0), "diamond": (4, 1, 0),
+          "square_gap": (0, 16, 11), "triangle_gap": (3, 16, 5)}  # which shape, the spread, and the gap
 KINDS = ("line", "area", "boundary")
 
 
-def worlds(name):
-    shape, spread = GROUPS[name]
-    r = random.Random(f"{os.environ.get('SUNDER_SEED', '1')} {name}")
-    out = []
-    while len(out) < 25 * int(os.environ.get("SUNDER_TEST_SCALE", "1")):
-        world = draw(r, SHAPES[shape], spread)
+# Worlds, as (seed, place among its worlds), which once ended with a conflict unresolved that has a solution, or farther
+# away than the nearest free place.
+AGAIN = {"square": [(8, 23), (18, 12), (24, 23), (35, 2), (41, 10), (59, 3)],
+         "flat": [(3, 23), (22, 0), (30, 15), (42, 8), (106, 5)],
+         "triangle": [(21, 12), (96, 23)],
+         "triangle_gap": [(2, 6)]}
+
+
+def drawn(name, seed):
+    shape, spread, gap = GROUPS[name]
+    r = random.Random(f"{seed} {name}")
+    while True:
+        world = draw(r, SHAPES[shape], spread, gap)
         if world:
-            out.append(world)
-    return out
+            yield world
+
+
+def worlds(name):
+    """The worlds of a group: those of the seed, and then those of AGAIN."""
+    count = 25 * int(os.environ.get("SUNDER_TEST_SCALE", "1"))
+    out = list(itertools.islice(drawn(name, os.environ.get("SUNDER_SEED", "1")), count))
+    return out + [next(itertools.islice(drawn(name, seed), k, None)) for seed, k in AGAIN.get(name, [])]
 
 
 def points(list_of):
@@ -384,37 +416,44 @@ def make(name):
                                    struct.pack("<BII", 1, 3, 1) + points(ring + ring[:1]))
             layer = f"{kind}_{'yes' if side else 'no'}"
             write(f"{name}_{layer}", layer, own)
-    shape, spread = GROUPS[name]
+    shape, spread, gap = GROUPS[name]
     ring = [f"{spread * x} {spread * y}" for x, y in SHAPES[shape]]
     with open(name + ".symbol", "w", encoding="ascii") as f:
         f.write(f"POLYGON(({','.join(ring + ring[:1])}))")
+    with open(name + ".gap", "w", encoding="ascii") as f:
+        f.write(str(gap))
 
 
 def check(name):
+    """What is wrong in a group, and how many worlds are unresolved."""
     base = sqlite3.connect(f"{name}.out.gpkg")
     moves = dict((fid - 1, row) for fid, *row in base.execute("SELECT fid, sunder_dx, sunder_dy, sunder_st FROM symbols"))
-    reasons = {}
-    for fid, reason in base.execute("SELECT fid_a, reason FROM symbols_conflicts"):
+    reasons, eased = {}, set()
+    for fid, reason, before, kind in base.execute("SELECT fid_a, reason, before, kind FROM symbols_conflicts"):
         reasons.setdefault(fid - 1, set()).add(reason)
+        if before == 0 and kind != "barrier":
+            eased.add(fid - 1)
     wrong, left, round_numbers = [], 0, GROUPS[name][1] == 1
-    for k, world in enumerate(worlds(name)):
+    all_of = worlds(name)
+    first_again = len(all_of) - len(AGAIN.get(name, []))
+    for k, world in enumerate(all_of):
         dx, dy, status = moves[k]
         found, why = world.nearest(), reasons.get(k, set())
         off = float(F(dx) ** 2 + F(dy) ** 2) ** 0.5
         open_ended = "unresolved" in why
-        left += open_ended
-        if found is None:
-            right = status == "blocked" and (bool(why & {"side", "no_room"}) or (round_numbers and open_ended))
+        left += open_ended and k not in eased
+        is_free = status != "blocked" and world.is_free((F(dx), F(dy)))
+        if found is None and not (world.gap and is_free):
+            right = status == "blocked" and (bool(why & {"side", "no_room"}) or (round_numbers and open_ended) or k in eased)
         elif status == "blocked":
             right = round_numbers and open_ended
+        elif world.gap:
+            right = is_free and (found is None or off <= found * (1 + 1e-6) + ROUND * world.gap)
         else:
-            least = float(found[0]) ** 0.5
-            right = world.is_free((F(dx), F(dy))) and least * (1 - 1e-12) <= off <= least * (1 + 1e-6) + 1e-6
-        if not right:
-            wrong.append(f"{name} {k}: {status} by {off}, {sorted(why)}; right: {found and float(found[0]) ** 0.5}")
-    if left * 25 > len(moves):
-        wrong.append(f"{name}: {left} of {len(moves)} are unresolved")
-    return wrong
+            right = is_free and found * (1 - 1e-12) <= off <= found * (1 + 1e-6) + 1e-6
+        if not right or (k >= first_again and open_ended):
+            wrong.append(f"{name} {k}: {status} by {off}, {sorted(why)}; right: {found}")
+    return wrong, left
 
 
 def main():
@@ -422,7 +461,10 @@ def main():
         for name in GROUPS:
             make(name)
         return
-    wrong = [line for name in GROUPS for line in check(name)]
+    found = [check(name) for name in GROUPS]
+    wrong, left = [line for lines, _ in found for line in lines], sum(n for _, n in found)
+    if left > LEFT * sum(len(worlds(name)) for name in GROUPS):
+        wrong.append(f"{left} worlds are unresolved")
     print(*wrong, sep="\n")
     sys.exit(bool(wrong))
 

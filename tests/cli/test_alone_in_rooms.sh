@@ -11,7 +11,7 @@ done
 python3 "$SUNDER_SOURCE/tests/cli/alone_in_rooms.py" make || fail "alone_in_rooms.py"
 for symbol in *.symbol; do
     name=${symbol%.symbol}
-    options=(--symbol "$(cat "$symbol")")
+    options=(--symbol "$(cat "$symbol")" --gap "$(cat "$name.gap")")
     for side in yes no; do
         for kind in line area boundary; do
             as=$kind

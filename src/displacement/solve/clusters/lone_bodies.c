@@ -4,13 +4,14 @@
  * conflicts has a solution that keeps its other conflicts no worse than at the start and makes no new one. This is the
  * question that the report asks about each conflict that remains. So if there is a solution the body goes there, after
  * an exact check (trial.c), and its remaining conflicts are asked about anew. At the end no conflict of the body has a
- * solution, and the report finds the proofs of that (report/no_room.c, report/pair_reasons.c).
+ * solution, and the report finds the proofs of that (report/no_room.c, report/pair_reasons.c). There is an exception:
+ * the body stays where it is if it would overlap more barriers at the solution, since fewer overlaps go before fewer
+ * conflicts.
  *
  * First it is asked whether there is no solution at all, which is so for most conflicts. A solution that is found is
  * rarely free in doubles, since it touches what is in its way. So the next questions demand a margin: from all
  * barriers; and if no such place is free, only from those that the body is not in conflict with, since on a straight
  * road there is no margin to be had from a conflict on either side. */
-#include "displacement/layer/resolution.h"
 #include "displacement/layer/rounding.h"
 #include "displacement/prove/proofs/feasibility.h"
 #include "displacement/solve/clusters/cluster_stages.h"
@@ -81,33 +82,33 @@ static sunder_status list_conflicts(lone_body *l, sunder_error *err)
     return status;
 }
 
-/* Is feature a in conflict with any part of the barrier whose first part is `whole`? */
-static bool is_in_conflict(const sunder_i_solver *s, uint32_t a, uint32_t whole)
+static size_t count_overlaps(const lone_body *l)
 {
-    const sunder_i_relation key = {.a = a, .b = whole};
-    for (size_t k = sunder_i_lower_bound(&key, s->now.pair, s->now.n, sizeof key, sunder_i_by_id_pair);
-         k < s->now.n && s->now.pair[k].a == a && sunder_i_whole_of(&s->model, s->now.pair[k].b) == whole; k++)
-        if (sunder_i_is_conflict(&s->now.pair[k])) return true;
-    return false;
+    size_t n = 0;
+    for (size_t k = 0; k < l->n; k++) n += l->overlaps[k];
+    return n;
 }
 
-/* Moves the body to u, rounded. *solved if the exact check lets it stay there, and the conflict has ended; otherwise
- * the body goes back. */
-static sunder_status try_place(const lone_body *l, const sunder_i_requirement *conflict, const double u[2],
-                               bool *solved, sunder_error *err)
+/* Moves the body to u, rounded, and lists its conflicts there. *better if the exact check lets it stay there, with
+ * fewer overlaps, or as many and fewer conflicts. Otherwise the body goes back, and the list with it. */
+static sunder_status try_place(lone_body *l, const double u[2], bool *better, sunder_error *err)
 {
     sunder_i_solver *s = l->solver;
-    sunder_i_trial there = {.solver = s, .along = 3}, back = {.solver = s, .along = 3};
+    sunder_i_trial there = {.solver = s, .along = 3, .from_start = true}, back = there;
+    const size_t conflicts = l->n, overlaps = count_overlaps(l);
     double to[2], stood[2];
-    *solved = false;
+    *better = false;
     memcpy(stood, s->model.move + 2 * (size_t)l->body, sizeof stood);
     sunder_i_round_move(&s->model, l->body, u, to, NULL);
     sunder_status status = sunder_i_trial_take(&there, l->body) ? SUNDER_OK : sunder_i_failure_cause(err);
     if (!status) status = sunder_i_trial_place(&there, to, err);
-    *solved = !status && there.well && !is_in_conflict(s, conflict->a, conflict->b);
-    if (!status && there.well && !*solved) {
+    if (!status && there.well) status = list_conflicts(l, err);
+    const size_t now = count_overlaps(l);
+    *better = !status && there.well && (now < overlaps || (now == overlaps && l->n < conflicts));
+    if (!status && there.well && !*better) {
         status = sunder_i_trial_take(&back, l->body) ? SUNDER_OK : sunder_i_failure_cause(err);
         if (!status) status = sunder_i_trial_place(&back, stood, err);
+        if (!status) status = list_conflicts(l, err);
     }
     sunder_i_trial_free(&there);
     sunder_i_trial_free(&back);
@@ -125,8 +126,8 @@ static sunder_status decide(const lone_body *l, const sunder_i_subproblem *q, su
 }
 
 /* Asks about one conflict among the things of q. *verdict: what is known of a solution without a margin. */
-static sunder_status ask_with_margins(const lone_body *l, size_t at, sunder_i_subproblem *q, sunder_i_verdict *verdict,
-                                      bool *solved, sunder_error *err)
+static sunder_status ask_with_margins(lone_body *l, sunder_i_subproblem *q, sunder_i_verdict *verdict, bool *solved,
+                                      sunder_error *err)
 {
     const double margin = MARGINS * sunder_i_solver_margin(l->solver, &l->body, 1);
     double touching[2] = {0, 0};
@@ -140,16 +141,16 @@ static sunder_status ask_with_margins(const lone_body *l, size_t at, sunder_i_su
         if (!status && k == 0 && *verdict == SUNDER_I_FEASIBLE)
             memcpy(touching, decision.solution.move, sizeof touching);
         if (!status && k > 0 && decision.verdict == SUNDER_I_FEASIBLE)
-            status = try_place(l, &l->required[at], decision.solution.move, solved, err);
+            status = try_place(l, decision.solution.move, solved, err);
         sunder_i_decision_clear(&decision);
         if (status || *solved || *verdict == SUNDER_I_INFEASIBLE) return status;
     }
-    return *verdict == SUNDER_I_FEASIBLE ? try_place(l, &l->required[at], touching, solved, err) : SUNDER_OK;
+    return *verdict == SUNDER_I_FEASIBLE ? try_place(l, touching, solved, err) : SUNDER_OK;
 }
 
-/* Asks about one conflict; *solved if the body was moved to a solution. Only barriers near the body take part at first,
- * then more. */
-static sunder_status ask(const lone_body *l, size_t at, bool *solved, sunder_error *err)
+/* Asks about one conflict; *solved if the body was moved to a better place. Only barriers near the body take part at
+ * first, then more. */
+static sunder_status ask(lone_body *l, size_t at, bool *solved, sunder_error *err)
 {
     const sunder_i_model *model = &l->solver->model;
     const sunder_i_body *b = &model->body[l->body];
@@ -181,7 +182,7 @@ static sunder_status ask(const lone_body *l, size_t at, bool *solved, sunder_err
         q.feature = thing.item;
         q.features = thing.n;
         if (!ok) status = sunder_i_failure_cause(err);
-        if (!status && thing.n > before) status = ask_with_margins(l, at, &q, &verdict, solved, err);
+        if (!status && thing.n > before) status = ask_with_margins(l, &q, &verdict, solved, err);
         before = thing.n;
         reach *= LONE_GROWTH;
     }
@@ -193,10 +194,9 @@ static sunder_status ask(const lone_body *l, size_t at, bool *solved, sunder_err
 static sunder_status place_body(lone_body *l, sunder_error *err)
 {
     bool solved = true;
-    sunder_status status = SUNDER_OK;
+    sunder_status status = list_conflicts(l, err);
     while (solved && !status) {
         solved = false;
-        status = list_conflicts(l, err);
         for (int overlap = 1; overlap >= 0; overlap--)
             for (size_t k = 0; k < l->n && !solved && !status; k++)
                 if (l->overlaps[k] == overlap) status = ask(l, k, &solved, err);
@@ -206,7 +206,7 @@ static sunder_status place_body(lone_body *l, sunder_error *err)
 
 sunder_status sunder_i_solver_place_lone_bodies(sunder_i_solver *solver, sunder_error *err)
 {
-    const size_t bodies = solver->model.bodies, most = solver->now.n;
+    const size_t bodies = solver->model.bodies, most = solver->start.n; /* no conflict is new */
     if (!solver->barriers.parts || most == 0) return SUNDER_OK;
     bool *lone = sunder_i_calloc(bodies, sizeof *lone);
     lone_body l = {.solver = solver,

@@ -53,7 +53,7 @@ static sunder_status check_pair(void *context, const sunder_i_relation *r, bool 
 {
     sunder_i_trial *t = context;
     if (!sunder_i_solver_is_always_listed(t->solver, r)) return SUNDER_OK;
-    bool breaks = !was_in_conflict(t, r) || is_to_be_parted(t, r);
+    bool breaks = (!t->from_start && !was_in_conflict(t, r)) || is_to_be_parted(t, r);
     const sunder_status status = breaks ? SUNDER_OK : sunder_i_solver_breaks_rule(t->solver, r, &breaks, err);
     t->well = *on = !breaks;
     return status;

@@ -1,6 +1,6 @@
 /* Trials: some bodies are moved, and an exact check decides. They stay there if no pair comes into a new conflict, no
  * old conflict becomes an overlap or stands worse than at the start, and no feature jumps over another. Otherwise all
- * return. */
+ * return. With `from_start` conflicts and overlaps of the start may come back. */
 #ifndef SUNDER_I_TRIAL_H
 #define SUNDER_I_TRIAL_H
 
@@ -18,8 +18,9 @@ typedef struct sunder_i_trial {
     size_t *budget; /* number of bodies that may still be moved without success, for pairs of this cluster */
     const sunder_i_id_pair *parted; /* two bodies of which no pair may be in conflict then, except infeasible ones; or
                                 * NULL */
-    sunder_i_list near, about;      /* scratch; neighbours of the bodies before the trial */
-    bool well;                      /* the trial has succeeded, as far as it was checked */
+    bool from_start;
+    sunder_i_list near, about; /* scratch; neighbours of the bodies before the trial */
+    bool well;                 /* the trial has succeeded, as far as it was checked */
 } sunder_i_trial;
 
 /* Adds a body at its present move. False if memory is out. */
