@@ -207,7 +207,8 @@ class World:
         return self.is_free((t[0] + step * d[0], t[1] + step * d[1]))
 
     def is_surely_taken(self, x, y, rings, walls):
-        """In doubles: is the place deep in what one obstacle forbids, and so all about it?"""
+        """In doubles: is the place so deep in the forbidden set of one obstacle that all places around it are
+        forbidden, too?"""
         for ring in rings:
             if all((bx - ax) * (y - ay) - (by - ay) * (x - ax) > SURELY for (ax, ay), (bx, by) in ring):
                 return True
@@ -234,7 +235,7 @@ class World:
                            lambda p=p, d=d, s=s, turn=turn: (p[0] + F(s, turn) * d[0], p[1] + F(s, turn) * d[1]))
 
     def nearest(self):
-        """The distance of the nearest free place; None: there is none, or with a gap none was found."""
+        """Returns the distance of the nearest free place; None: there is none, or with a gap none was found."""
         rings = [edges(hull([sub(e, b) for e in (p, q) for b in self.body])) for p, q in self.pieces]
         walls = [(sub(p, self.anchor), sub(q, self.anchor)) for p, q in self.walls]
         if self.gap:
@@ -243,7 +244,7 @@ class World:
         return None if found is None else float(found[0]) ** 0.5
 
     def nearest_in_rationals(self, rings, walls):
-        """The square of the distance of the nearest free place, and is it attained? None: there is none."""
+        """Returns the square of the distance of the nearest free place, and whether it is attained; None if there is none."""
         lines, found = self.lines(), None
         walls = [(p, q, 1 if side((0, 0), p, q) > 0 else -1) for p, q in walls]
         last = (INFINITE, 0)

@@ -1,6 +1,5 @@
-"""The anchor of a feature, by the rule as it is documented (src/shape/anchor.c), in fractions and by other means: members
-are sorted along the line each by itself, and their intervals are joined.
-"""
+"""The anchor of a feature by the documented rule (src/shape/anchor.c), in fractions and by another algorithm: the
+crossings of each member with the line are sorted, and the intervals of all members are joined."""
 from fractions import Fraction
 
 from side_anchor import at_height, levels_of

@@ -89,7 +89,7 @@ def main():
             laws.trouble.append(f"{law}: never asked where all is proved")
         print(f"{law}: {all_} groups, {more} with more conflicts, {dearer} dearer; {asked.get(law, 0)} pairs of runs "
               "all proved")
-        # More conflicts are no breach: what is left is not part of the law.
+        # A larger number of conflicts is no violation: the law does not cover remaining conflicts.
         if dearer > 2 and 100 * dearer >= all_:
             laws.trouble.append(f"{law}: {dearer} of {all_} groups break the law")
     for line in laws.trouble:

@@ -60,7 +60,7 @@ def broken_rings(ring):
 
 
 def cases(r):
-    """The broken ones and the sound ones, those that are short, those that are not finite, each list by x."""
+    """Lists of broken rings and sound ones, of short ones, and of those that are not finite, each by x."""
     broken, sound, short, nans, x = [], [], [], [], 0
     for half in (6, 900):
         for form in range(4):

@@ -53,7 +53,7 @@ def write(path, features):
 
 
 def read(path, key):
-    """Geometries by FID; numbers as they are written, which is exact."""
+    """Reads geometries by FID, with numbers as they are written, which is exact."""
     if not os.path.exists(path):
         sys.exit(f"{path} is missing")
     with open(path, encoding="utf-8") as file:

@@ -67,7 +67,7 @@ def edges_meet(e, f):
 
 
 def locate(outline, p):
-    """1 inside, 0 on the boundary, -1 outside."""
+    """Returns 1 inside, 0 on the boundary, -1 outside."""
     inside = False
     x, y = p
     for (ax, ay), (bx, by) in outline.edges:

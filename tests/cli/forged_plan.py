@@ -37,7 +37,7 @@ def get(data, at):
 
 
 def seal_spool(cells, features):
-    """The checksums of cells, and of the list of them; the latter."""
+    """Corrects the checksums of cells, and of the list of cells; returns the latter."""
     for at in range(MARK + CELLS_HEAD, len(cells) - 8 - ENTRY + 1, ENTRY):
         start, size = get(cells, at + 56), get(cells, at + 64)
         if start + size <= len(features):

@@ -22,7 +22,7 @@ refused() {
     [ -z "$(ls -d .sunder-* 2>/dev/null)" ] || fail "a staging directory is left: $*"
 }
 
-# Feature dumps. 15 digits do not tell neighbouring doubles apart; tests that need that compare the stored bytes.
+# Prints features. 15 digits do not distinguish neighbouring doubles; tests that need this compare the stored bytes.
 dump() { ogrinfo -q -ro "$1" "${@:2}"; }
 
 # Layer "Häuser 1" of rich.gpkg: names of its own for everything, constraints, subtypes, Z and M, a null and an empty

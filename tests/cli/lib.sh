@@ -117,7 +117,7 @@ is_null() { [ "$(value "$@")" = '(null)' ]; }
 value() { ogrinfo -q -ro "$1" "$2" -fid "$3" | sed -n "s/^  $4 (.*) = //p"; }
 geometry() { ogrinfo -q -ro "$1" "$2" -fid "$3" | grep -E '^  [A-Z]+ .*\('; }
 count() { ogrinfo -ro -so "$1" "$2" | sed -n 's/^Feature Count: //p'; }
-# One value of a JSON text: json .result.area FILE
+# Prints one value of a JSON text: json .result.area FILE
 if command -v jq >/dev/null; then
     json() { jq -r "$1" "$2"; }
 else

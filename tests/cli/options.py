@@ -1,5 +1,6 @@
-"""What --options-json says, on stdin, beside --help (`help`: files help.COMMAND), or as calls that the parser is to refuse
-for a reason that shows that it knows the option so (`calls`: a pattern of words, the command, the option)."""
+"""Reads the output of --options-json on stdin. Compares it with --help (`help`: files help.COMMAND), or prints calls
+that the parser has to refuse for a reason that shows how it knows the option (`calls`: a pattern of the message, the
+command, the option)."""
 import json
 import re
 import sys

@@ -103,7 +103,7 @@ def square_of_distance(at, a, b):
 
 
 def fault(polygons):
-    """Why this is no valid multipolygon of simple features, or None."""
+    """Returns why this is not a valid multipolygon of simple features, or None."""
     rings = [ring for polygon in polygons for ring in polygon]
     sides = [(r, i, ring[i], ring[(i + 1) % len(ring)]) for r, ring in enumerate(rings) for i in range(len(ring))]
     for k, (r, i, a, b) in enumerate(sides):

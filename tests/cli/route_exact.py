@@ -55,7 +55,7 @@ def exact(points):
 
 
 def inside(rings, p):
-    """Even-odd, for a point on no edge."""
+    """Is a point that is on no edge inside, by the even-odd rule?"""
     odd = False
     for ring in rings:
         for a, b in zip(ring, ring[1:] + ring[:1]):

@@ -111,8 +111,8 @@ def maze(teeth):
 
 
 def keyhole():
-    """A key with a bit, pushed along a slot that it exactly fits to its one place at the end; and a hole without a way in,
-    where the key's place is a free point by itself."""
+    """A key with a bit is pushed along a slot that it exactly fits, to its only place at the end; and a hole without an
+    entrance, in which the key's place is an isolated free point."""
     key = [(0.0, 0.0), (6.0, 0.0), (6.0, 1.0), (0.0, 2.0)]
     lock = [[(0.0, -3.0), (20.0, -3.0), (20.0, 5.0), (0.0, 5.0), (0.0, 2.0), (8.0, 2.0), (14.0, 1.0), (14.0, 0.0), (0.0, 0.0)]]
     path = three_widths([lock], key, (-9.0, 0.0), (8.0, 0.0), "key in a keyhole")

@@ -32,7 +32,7 @@ class Options:
 
 
 def split_spec(spec):
-    """--barrier's argument; `where=` takes the rest, a comma that belongs to a name is written \\, ."""
+    """The argument of --barrier; `where=` takes the rest, and a comma within a name is written \\, ."""
     spec, _, where = spec.partition(",where=")
     words = [w.replace("\0", ",") for w in spec.replace("\\,", "\0").split(",")]
     found = dict(w.split("=", 1) for w in words[1:])
@@ -235,7 +235,7 @@ class Layers:
                 self.areas.add(k, thing.shape.box)
 
     def near_barriers(self, box, d):
-        """The barriers whose edges come near the box, each with these edges; those whose area may hold it too."""
+        """The barriers with edges near the box, each with these edges; and those whose area may contain the box."""
         box = widen(box, d)
         found = {k: [] for k in self.areas.near(box) if plane.boxes_near(self.barriers[k].shape.box, box)}
         for k, edge in self.edge_grid.near(box):

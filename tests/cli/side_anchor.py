@@ -119,8 +119,8 @@ class Parts:
 
 
 def room(point, box, lines, reach):
-    """Beyond the point, away from the middle of the box: the square of the way to the first line, if that is no farther
-    than the reach."""
+    """The room beyond the point, in the direction away from the middle of the box: the square of the distance to the
+    first line, if it is within the reach."""
     px, py = point
     dx, dy = px - Fraction(box[0] + box[2], 2), py - Fraction(box[1] + box[3], 2)
     best = reach * reach

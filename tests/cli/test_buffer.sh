@@ -1,5 +1,6 @@
 # shellcheck shell=bash disable=SC1091
-# sunder buffer: the four operations on layers, what is kept of features, dissolving, degenerate parts, figures, refusals.
+# sunder buffer: the four operations on layers, the attributes that are kept, dissolving, degenerate parts, statistics,
+# refusals.
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 town=$SUNDER_SOURCE/datasets-synthetic/town.gpkg
 

@@ -1,6 +1,6 @@
 # shellcheck shell=bash disable=SC1091
-# The end of a run: the output, the file of --stats and standard output all come, or no file has changed. What fails here
-# fails after all the work is done.
+# The end of a run: either the output, the file of --stats and standard output are all complete, or no file has changed.
+# The failures here happen after all the work is done.
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 
 layer in.gpkg houses POLYGON <<'X'
@@ -11,7 +11,7 @@ X
 echo 'of an earlier run' >s.json
 echo precious >taken.dbf
 
-# failed WORDS STDOUT ARGS: status 1, one line on stderr, and every file as it was.
+# failed WORDS STDOUT ARGS: demands status 1, one line on stderr, and unchanged files.
 failed() {
     local words=$1 to=$2 status=0
     shift 2

@@ -4,8 +4,8 @@
 . "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
 command -v python3 >/dev/null || { echo "skipped: python3 is not installed"; exit 77; }
 
-# ---- Rings that enclose nothing: traced an even number of times from any vertex in either direction; a hole that is the
-# outer ring, started elsewhere; there and back along a path. Each is one feature of an otherwise clean layer.
+# ---- Rings that enclose no area: traced an even number of times from any vertex in either direction; a hole that is
+# the outer ring, started elsewhere; there and back along a path. Each is one feature of an otherwise clean layer.
 python3 - >nothing.csv <<'PY'
 import random
 draw = random.Random(7)

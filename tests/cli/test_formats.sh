@@ -1,6 +1,6 @@
 # shellcheck shell=bash
-# What a format lacks: names that differ in case only, 64-bit integers, lists, null, layers of unknown type, negative FIDs, features
-# without geometry. It is written in another way and told, or refused before the work.
+# Limits of formats: names that differ in case only, 64-bit integers, lists, null, layers of unknown type, negative
+# FIDs, features without geometry. Such data are written in another way with a message, or refused before the work.
 . "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
 command -v jq >/dev/null && command -v python3 >/dev/null || { echo "skipped: jq or python3 is not installed"; exit 77; }
 losses() { jq -r '.losses[]' "$1"; }
@@ -50,7 +50,8 @@ PY
     done
 done
 
-# ---- 64-bit integers where there are none: reals, told; those beyond 2^53 that no real holds are counted
+# ---- 64-bit integers in formats without them: written as reals, with a message; those beyond 2^53 that no real equals
+# are counted
 squares 4 "{'bid': [12345678901, 9007199254740992, 9007199254740993, None][i]}" >wide.geojson
 for end in tab gdb; do
     expect 0 separate wide.geojson wide.$end --layers main --quiet --stats s.json

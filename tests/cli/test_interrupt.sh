@@ -18,7 +18,7 @@ mkfifo pipe
 count='(WITH RECURSIVE c(x) AS (SELECT 1 UNION ALL SELECT x + 1 FROM c LIMIT 1000000000000) SELECT count(*) FROM c)'
 deaf="instr(zeroblob(50000000), CAST(zeroblob(1000000) || x'01' AS BLOB))"
 
-# caught PID: it catches signals by now, and had some time to come to where it stays.
+# caught PID: waits until it catches signals, and a little longer, so that it has reached the place where it stays.
 caught() {
     local mask
     until mask=$(sed -n 's/^SigCgt:\s*//p' "/proc/$1/status" 2>/dev/null) && [ $((0x${mask:-0} >> 14 & 1)) -eq 1 ]; do
@@ -43,7 +43,7 @@ held() {
     read -r _ _ status _ <report
 }
 
-# interrupted ARGS: by either signal, with 1, one line, and every file as it was.
+# interrupted ARGS: either signal ends the run with status 1, one line, and unchanged files.
 turn=0
 interrupted() {
     local signals=(INT TERM) signal

@@ -1,5 +1,6 @@
 # shellcheck shell=bash
-# Formats: what is verified of each, standard output, formats that move coordinates, dates fixed by SOURCE_DATE_EPOCH.
+# Formats: which properties are verified for each, standard output, formats that change coordinates, dates fixed by
+# SOURCE_DATE_EPOCH.
 set -eu
 . "$(dirname "${BASH_SOURCE[0]}")/io_layers.sh"
 make_squares

@@ -1,6 +1,6 @@
 # shellcheck shell=bash
-# Output appears whole or not at all: existing data is replaced only when asked, and a run that fails leaves the
-# directory as it was.
+# Output appears completely or not at all: existing data are replaced only on request, and a run that fails leaves the
+# directory unchanged.
 set -eu
 . "$(dirname "${BASH_SOURCE[0]}")/io_layers.sh"
 make_squares

@@ -1,6 +1,6 @@
 # shellcheck shell=bash disable=SC1091
-# The side of a point is that of the point itself, whatever its symbol. A feature in an area of as=boundary stays in it
-# with its anchor. A feature that a road cuts in half belongs to the side with more room.
+# The side of a point feature is that of the point itself, for any symbol. The anchor of a feature in an area with
+# as=boundary stays in it. A feature that a road cuts in half belongs to the side with more room.
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 export PYTHONDONTWRITEBYTECODE=1 SOURCE_DATE_EPOCH=1700000000
 kept() { /usr/bin/python3 "$SUNDER_SOURCE/tests/cli/kept_sides.py" "$@" || fail "kept_sides.py $*"; }

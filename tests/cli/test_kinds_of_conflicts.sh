@@ -3,8 +3,8 @@
 # counts of the summary, which equal those of the layers.
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 
-# A road along the x axis, drawn 10 wide, and a gap of 2: 7 are required. House 4 stands one unit in the last place
-# nearer to the line than half the width, house 3 exactly at the edge of what is drawn.
+# A road along the x axis, drawn 10 wide, and a gap of 2: the required distance is 7. House 4 is nearer to the line than
+# half the width by one unit in the last place, house 3 is exactly at the drawn edge.
 layer in.gpkg houses POLYGON <<'X'
 id,WKT
 1,"POLYGON((0 -2,10 -2,10 8,0 8,0 -2))"
@@ -29,7 +29,7 @@ same "$(jq -c .conflicts s.json)" "$counts"
 # A width without a gap: near features are within the drawn width.
 expect 3 check in.gpkg --barrier roads.gpkg,width=14
 says out 'barrier 1, barrier drawn 4, barrier near 0,'
-# A gap without a width: nothing is drawn.
+# A gap without a width: there is no drawn width.
 expect 3 check in.gpkg --barrier roads.gpkg,gap=7
 says out 'barrier 1, barrier drawn 0, barrier near 4,'
 
@@ -70,7 +70,7 @@ says out 'overlap                1          0'
 says out 'inside blocks          1          1  1 listed: it overlaps, reason same_block'
 
 # House b gives way to the fixed house a, and keeps its conflict with the fixed house c above, so it is blocked: the
-# summary counts it where sunder_st does.
+# summary counts it as sunder_st does.
 layer jam.gpkg houses POLYGON <<'X'
 id,WKT
 a,"POLYGON((0 0,10 0,10 10,0 10,0 0))"

@@ -1,6 +1,6 @@
 # shellcheck shell=bash disable=SC1091
-# The manual page, --help and the parser know the same options, with the same values, spellings and defaults; so do the
-# pages of the commands, which are made of it; the examples of the manual page run.
+# The manual page, --help and the parser know the same options, with the same values, spellings and defaults, and so do
+# the pages of the commands, which are made from it; the examples of the manual page run.
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 page=$SUNDER_SOURCE/gis/sunder.1
 

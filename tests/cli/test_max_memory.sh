@@ -12,7 +12,7 @@ ogr2ogr -q numbered.gpkg town.gpkg -nln buildings -dialect SQLite \
     -sql "select *, case when fid % 60 < 2 then fid / 60 when fid % 97 = 1 then 1000 + fid / 970 end as blk from buildings" &&
     mv numbered.gpkg town.gpkg || fail "blocks are not numbered"
 
-# alike OUTPUT MEMORY ARGS: with and without --max-memory
+# alike OUTPUT MEMORY ARGS: compares runs with and without --max-memory
 page=()
 alike() {
     local output=$1 memory=$2 first second

@@ -100,7 +100,7 @@ for shape in disc:0 disc:-1 disc:1:2 disc:1:0 disc:1:x disc:nan disc:inf disc: i
              rectangle:2 rectangle:2x0 rectangle:2x rectangle:x2 disc:1:99999999999; do
     refused 2 "P ($shape): " sum "$shape" square:1
 done
-# The operand and what is wrong with it are both named.
+# A message names both the operand and its fault.
 refused 2 'P (disc:): the radius is missing' sum disc: square:1
 refused 2 'P (square:): the side is missing' sum square: square:1
 refused 2 'Q (rectangle:2x): the height is missing' pair square:1 rectangle:2x

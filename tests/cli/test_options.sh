@@ -1,5 +1,5 @@
 # shellcheck shell=bash disable=SC1091
-# --options-json, from which other programs know the options, says what --help and the parser say.
+# --options-json, from which other programs learn the options, agrees with --help and the parser.
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 command -v python3 >/dev/null || { echo "skipped: python3 is not installed"; exit 77; }
 
@@ -38,7 +38,7 @@ same "$(json '[.commands[].options[] | select(.needed) | .name] | sort | join(" 
 same "$(json '[.commands[] | .name + ":" + ([.operands[] | select(.needed) | .name] | join(","))] | join(" ")' options.json)" \
     'separate:INPUT,OUTPUT check:INPUT sum:P,Q pair:P,Q buffer:INPUT,OUTPUT route:OBSTACLES plan:INPUT,PLAN merge:PLAN,OUTPUT' 'operands:'
 
-# A default that can be typed is what holds without it.
+# Giving a default explicitly changes nothing.
 expect 0 separate in.gpkg plain.gpkg --quiet
 mapfile -t typed < <(json '.commands[] | select(.name == "separate") | .options[] | select(.default != null) | .name + "=" + .default' options.json)
 [ "${#typed[@]}" -ge 6 ] || fail "only ${#typed[@]} defaults"

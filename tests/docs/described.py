@@ -14,7 +14,7 @@ WORDS = 6
 
 
 def words(text):
-    """Runs of letters and digits: punctuation and links are what Doxygen changes."""
+    """Sequences of letters and digits, since Doxygen changes punctuation and links."""
     return re.findall(r"\w+", text)
 
 

@@ -26,7 +26,7 @@ import sys
 
 
 def blocks_of(lines):
-    """(language, first line, line after the last, name of the file, comments before it) of each fenced block."""
+    """For each fenced block: (language, first line, line after the last, name of the file, comments before it)."""
     blocks, start, prose, comments = [], None, "", []
     for at, line in enumerate(lines):
         if line.startswith("```"):
@@ -56,7 +56,7 @@ def succeeds(command):
 
 
 def reason_to_leave_out(comments):
-    """Why a block is not run; empty where it is."""
+    """The reason why a block is not run; empty if it is run."""
     for each in comments:
         if each.startswith("not run: "):
             return each[len("not run: "):]
@@ -66,7 +66,8 @@ def reason_to_leave_out(comments):
 
 
 def script_of(blocks, folder):
-    """One shell's work: blocks are read from files in .blocks, by number, and what each prints goes into another."""
+    """The script of one shell: blocks are read from files in .blocks, by number, and the output of each is written to
+    another file."""
     script = ["set -euo pipefail"]
     for number, (language, body, name, comments) in enumerate(blocks):
         file = os.path.join(folder, ".blocks", str(number))
@@ -87,7 +88,7 @@ def script_of(blocks, folder):
 
 
 def said_in(folder, number):
-    """What a block printed; None if it did not run."""
+    """The output of a block; None if it did not run."""
     file = os.path.join(folder, ".blocks", f"{number}.said")
     if not os.path.exists(file):
         return None
@@ -96,7 +97,7 @@ def said_in(folder, number):
 
 
 def parts_of(page, lines):
-    """The blocks with their text, the lines they stand on, and where their file has no name, an end with that."""
+    """The blocks with their text, and their lines; ends the program if a file has no name."""
     parts, places = [], []
     for language, start, end, name, comments in blocks_of(lines):
         if language not in ("sh", "text") and (not name or os.path.basename(name) != name):

@@ -22,7 +22,8 @@ stop() { :; }
 trap 'stop; rm -rf "$work"' EXIT
 export LC_ALL=C.UTF-8 SUNDER_SOURCE=$source
 unset PKG_CONFIG_PATH LD_LIBRARY_PATH SUNDER
-# Pages of the guide find the programs as their README says; the README and the tutorial have to see to that themselves.
+# The programs are on the PATH of the pages of the guide, as their README says; the README and the tutorial set the PATH
+# themselves.
 found=$build:$source/gis/cluster:$PATH bare=$work/bin:$PATH
 
 # Requirements of a page besides the programs: the installed library, a database server, a clone. Returns 1 and prints
@@ -37,7 +38,7 @@ library() {
     cmake --install "$build" --prefix "$1/.local" >"$work/install.log" 2>&1 || { cat "$work/install.log"; exit 1; }
 }
 
-# A clone is built by the page itself. Compiling takes minutes: in its place CMake gives it what this build has.
+# A page that needs a clone builds it itself. Since compiling takes minutes, CMake copies this build instead.
 clone() {
     installable || return 1
     git -C "$source" rev-parse --git-dir >/dev/null 2>&1 || { echo "the sources are no clone of a repository"; return 1; }
@@ -99,7 +100,7 @@ for page in "${pages[@]}"; do
 done
 [ "$ran" -gt 0 ] || trouble=1
 
-# A page that says something else is found out, and so are one whose command fails and one that prints more.
+# A page with a wrong output fails, and so does one whose command fails, and one whose output is longer.
 if [ -z "$record" ] && [ $# -eq 0 ]; then
     refused() { # what
         mkdir "$work/wrong-$1"

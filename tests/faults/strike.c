@@ -105,14 +105,14 @@ static void set_registers(pid_t pid, const registers *r)
 
 static enum way { LIST, KILL, FAIL, SHORT, FULL, SIGNAL, SIGNALS, CALLS } way;
 static int reason, sent = SIGTERM;
-static bool catches; /* the program has a handler for SIGTERM by now */
+static bool catches; /* the program has installed a handler for SIGTERM */
 static uint64_t place, again, count, writes, written, shown;
 static char under[PATH_MAX], struck[64] = "-";
 
 typedef struct thread {
     pid_t pid;
     bool inside;   /* between the start of a call and its end */
-    bool replaced; /* its result is ours to give */
+    bool replaced; /* strike provides its result */
     long result;
 } thread;
 
@@ -134,7 +134,7 @@ static void read_text(pid_t pid, uint64_t at, char *text, size_t size)
 {
     struct iovec to = {text, size - 1}, from = {(void *)(uintptr_t)at, size - 1};
     ssize_t got = process_vm_readv(pid, &to, 1, &from, 1, 0);
-    if (got <= 0) { /* a text near the end of a mapping: as far as it goes */
+    if (got <= 0) { /* a text near the end of a mapping: read as far as it goes */
         from.iov_len = to.iov_len = 4096 - at % 4096 < size - 1 ? 4096 - at % 4096 : size - 1;
         got = process_vm_readv(pid, &to, 1, &from, 1, 0);
     }
@@ -163,7 +163,7 @@ static bool path_is_under(pid_t pid, uint64_t directory, uint64_t at)
     return is_under(whole);
 }
 
-/* Opened for writing, and below the directory. */
+/* Is the file opened for writing, and below the directory? */
 static bool file_is_under(pid_t pid, uint64_t file)
 {
     char link[64], path[PATH_MAX];
@@ -203,7 +203,7 @@ static call call_at(pid_t pid, const registers *r)
 {
     const uint64_t first = argument(r, 0), second = argument(r, 1), third = argument(r, 2);
     const uint64_t here = (uint64_t)AT_FDCWD, opens = O_CREAT | O_WRONLY | O_RDWR;
-    (void)here; /* not needed where every call is given its directory */
+    (void)here; /* not needed if every call gets its directory */
     switch (call_of(r)) {
     case SYS_write: return (call){file_is_under(pid, first) ? "write" : NULL, true};
     case SYS_pwrite64: return (call){file_is_under(pid, first) ? "pwrite" : NULL, true};
@@ -250,7 +250,7 @@ static void shorten(thread *it, registers *r, uint64_t bytes, const char *name)
     set_registers(it->pid, r);
 }
 
-/* A disk that became full: what would go beyond it is not written. */
+/* A full disk: bytes beyond its size are not written. */
 static void strike_full(thread *it, registers *r, const call *at)
 {
     uint64_t bytes = argument(r, 2);

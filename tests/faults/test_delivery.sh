@@ -25,7 +25,7 @@ X
 "$strike" list 0 true 3>probe 2>message || { echo "skipped: $(cat message)"; exit 77; }
 rm -f probe message
 
-# scenario NAME: what is there before (`old`), and the run that is struck (`args`).
+# scenario NAME: sets the files that exist before (`old`), and the run that is struck (`args`).
 scenarios="gpkg-overwrite shp-overwrite fgb-overwrite geojson-overwrite gpkg-update wal-update gpkg-replace-layer shp-new"
 [ "$budget" = all ] && scenarios="$scenarios shp-update fgb-update geojson-update" # replaced much as with --overwrite
 scenario() {
@@ -71,7 +71,7 @@ start() {
     rm -rf dir && cp -a pristine dir
 }
 
-# struck WAY PLACE: the run; sets $calls, $bytes, $status, $call, $writes.
+# struck WAY PLACE: runs; sets $calls, $bytes, $status, $call, $writes.
 struck() {
     start
     (cd dir && STRIKE_UNDER=. "$strike" "$1" "$2" "$SUNDER" "${args[@]}") 3>report >out 2>err

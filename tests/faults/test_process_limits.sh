@@ -68,7 +68,7 @@ while read -r name former words; do
     [ "$limited" -eq "$budget" ] || fail "$name: $limited of $budget runs met the limit"
 done <<<"$scenarios"
 
-# ---- SIGHUP: heard, unless it is ignored when the run begins
+# ---- SIGHUP ends the run, unless it is ignored when the run begins
 cp pristine/in.gpkg .
 mkfifo pipe
 hung_up() { # hung_up COMMAND...: waits until the signal is known, sends it; sets $status

@@ -69,7 +69,7 @@ struck() {
     read -r calls _ status call shown _ <report
 }
 
-# What a run that is ended by its second signal leaves of a transaction SQLite rolls back.
+# SQLite rolls back the transaction of a run that its second signal ended.
 settle() {
     [ ! -s dir/o.gpkg-journal ] || ogrinfo -q dir/o.gpkg >/dev/null 2>&1
     rm -f dir/o.gpkg-journal
@@ -87,7 +87,7 @@ judge() {
         ;;
     signal-[03])
         [ "$now" = "$new" ] || fail "$name $way $place ($call): done, and the output is not the new one: $now"
-        # Between the decision and the first change that shows are some calls.
+        # There are some calls between the decision and the first visible change.
         [ "$place" -gt $((first - 40)) ] || fail "$name $way $place of $first ($call): the signal was not heard"
         completed=$((completed + 1))
         ;;
@@ -102,7 +102,7 @@ judge() {
     esac
 }
 
-# places FROM TO: as many as the budget is, spread.
+# places FROM TO: $budget places between the two.
 places() { for ((i = 0; i < budget; i++)); do echo $(($1 + (seed + i * ($2 - $1) / budget) % ($2 - $1))); done; }
 
 while read -r name former words; do

@@ -28,7 +28,7 @@ void fuzz_fail_allocations(unsigned after)
     allocations_left = after;
 }
 
-/* Asked by one thread at a time, whichever. */
+/* Called by one thread at a time, which may be any. */
 static _Atomic unsigned looks_left;
 static _Atomic bool out_of_patience;
 
@@ -118,7 +118,7 @@ sunder_shape *fuzz_shape(fuzz_bytes *bytes, fuzz_scale scale, size_t max_vertice
             }
         }
         ring_end[rings++] = n;
-        if (choices & 32) /* each ring a polygon of its own, else holes of the first */
+        if (choices & 32) /* each ring becomes a polygon; otherwise a hole of the first */
             poly_end[polygons++] = rings;
     }
     if (!(choices & 32)) poly_end[polygons++] = rings;

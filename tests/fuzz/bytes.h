@@ -1,6 +1,6 @@
-/* From a fuzzer's bytes to arguments. Most bytes give small shapes on a small grid, where everything touches and
- * coincides. Some give map coordinates, some doubles of 16 binary orders of magnitude, and a few doubles of 64 orders,
- * or any at all, but not many: products of thousands of bits take most of the time wherever they are let. */
+/* Converts a fuzzer's bytes to arguments. Most bytes give small shapes on a small grid, in which everything touches and
+ * coincides. Some give map coordinates, some doubles of 16 binary orders of magnitude, and a few doubles of 64 orders
+ * or arbitrary ones. These are rare, since products of thousands of bits would take most of the time. */
 #ifndef SUNDER_TEST_FUZZ_BYTES_H
 #define SUNDER_TEST_FUZZ_BYTES_H
 

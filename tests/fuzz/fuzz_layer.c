@@ -15,7 +15,7 @@ typedef struct fuzz_barriers {
     size_t n;
 } fuzz_barriers;
 
-/* None where no bytes are left: areas, two lines or points each; lengths down to none, and up to the scale's own. */
+/* Takes areas, lines or points, with lengths from zero up to the scale's own; none if no bytes are left. */
 static void take_barriers(fuzz_bytes *bytes, fuzz_scale scale, fuzz_barriers *out)
 {
     *out = (fuzz_barriers){.n = 0};
@@ -131,7 +131,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         sunder_status status = sunder_layer_separate(layer, &options, &report, NULL);
         fuzz_fail_allocations(0);
         FUZZ_DEMAND((report != NULL) == (status == SUNDER_OK));
-        fuzz_patience(0); /* what is demanded of a result is demanded to the end */
+        fuzz_patience(0); /* the checks of a result run to their end */
         if (report) {
             demand_bounds(report);
             demand_agreement(features, n, &barriers, &options, report);

@@ -1,5 +1,5 @@
-/* Growing and shrinking hostile shapes: an opening has no more area than the set and a closing no less; the random
- * order of work, and threads, change nothing. */
+/* Growing and shrinking hostile shapes: an opening has no more area than the set, a closing no less; the random order
+ * of work and threads change nothing. */
 #include <stdlib.h>
 
 #include "bytes.h"

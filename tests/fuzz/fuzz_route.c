@@ -1,5 +1,5 @@
-/* Routes among hostile obstacles: there and back are equally long, and the same is in the way. That no leg collides is
- * proved inside; a path that failed its proof would be an error that is not allowed here. */
+/* Routes among hostile obstacles: the routes there and back have equal length, and the same obstacles are in the way.
+ * The library itself proves that no leg collides; a path that fails this proof is an error that is not allowed here. */
 #include <stdlib.h>
 
 #include "bytes.h"

@@ -1,4 +1,4 @@
-/* Shapes from hostile rings, and what can be asked of one shape. */
+/* Shapes from hostile rings, and all functions of one shape. */
 #include <math.h>
 
 #include "bytes.h"

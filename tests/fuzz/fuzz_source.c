@@ -16,7 +16,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The first byte of an input chooses: '0' to '3' one of these, with layers of all kinds. */
+/* The first byte of an input, '0' to '3', chooses one of these formats, with layers of all kinds. */
 typedef struct fuzz_format {
     const char *driver, *path;
 } fuzz_format;
@@ -84,7 +84,7 @@ static void ask_shape(const gis_polygons *set)
     sunder_shape_free(shape);
 }
 
-/* Lines and points of features that hold others, and what the fields say. */
+/* The lines and points of features that have other geometries, and the values of fields. */
 static void ask_feature(OGRFeatureH feature, OGRGeometryH geometry)
 {
     gis_lines lines = {0};
@@ -108,7 +108,7 @@ static void ask_feature(OGRFeatureH feature, OGRGeometryH geometry)
     }
 }
 
-/* The values of all fields, which must be the same in all ways of reading. */
+/* The values of all fields, which must be equal for all ways of reading. */
 static void compare_fields(OGRFeatureH p, OGRFeatureH q)
 {
     FUZZ_DEMAND(OGR_F_GetFieldCount(p) == OGR_F_GetFieldCount(q));

@@ -1,5 +1,5 @@
-/* Sums of two hostile shapes: P + Q by any road and Q + P by the default one are the same set, so their canonical forms
- * are equal. */
+/* Sums of two hostile shapes: P + Q by any algorithm and Q + P by the default one are the same set, so their canonical
+ * forms are equal. */
 #include "bytes.h"
 #include "equal.h"
 

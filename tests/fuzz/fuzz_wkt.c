@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A refusal says why; what is taken without repair is the same with it. */
+/* A refusal gives a reason; a text that is accepted without repair gives the same shape with repair. */
 static void ask_wkt(const char *text)
 {
     sunder_shape *strict = NULL, *repaired = NULL;

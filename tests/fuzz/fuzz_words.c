@@ -42,7 +42,7 @@ static void ask_barrier(const char *text)
     }
 }
 
-/* What the program's table of commands is for, help, is not asked for. */
+/* The program's table of commands is used by --help only, which is not called here. */
 const gis_command gis_commands[1];
 const size_t gis_n_commands = 0;
 

@@ -1,7 +1,7 @@
 # shellcheck shell=bash
-# Runs one fuzz target: the inputs that once failed, those on record (corpus/, of pieces.sh), then a fixed number of new ones. The number
-# of runs is fixed, and not the time, so a seed replays a run; an input that takes minutes is a failure of its own (a hang). Targets
-# that read texts begin from some in seeds/, as none would be come upon by chance.
+# Runs one fuzz target: inputs that once failed, recorded inputs (corpus/, by pieces.sh), then a fixed number of new
+# ones. The number is fixed, and not the time, so a seed replays a run; an input that takes minutes is a failure of its
+# own (a hang). Targets that read texts begin with some in seeds/, since random bytes would hardly ever form one.
 set -eu
 name=$1
 program=$SUNDER_BUILD/fuzz/$name
@@ -18,8 +18,8 @@ rm -rf "$corpus"
 mkdir -p "$corpus/kept" "$corpus/new"
 if [ -f "$kept" ]; then
     tar -xzf "$kept" -C "$corpus/kept"
-    # An ordinary run takes at most two thousand of them, at regular steps in the order of their names, which are
-    # hashes.
+    # An ordinary run takes at most two thousand recorded inputs, at regular steps in the order of their names, which
+    # are hashes.
     inputs=("$corpus/kept"/*) every=$((${#inputs[@]} / 2000 + 1))
     for ((k = 0; ${SUNDER_TEST_SCALE:-1} == 1 && k < ${#inputs[@]}; ++k)); do ((k % every == 0)) || rm "${inputs[k]}"; done
     "$program" "$corpus/kept" -runs=0 -max_len=600 -entropic=0 -timeout=100 -rss_limit_mb=4096 >"$corpus/log" 2>&1 || { tail -n 60 "$corpus/log"; exit 1; }

@@ -1,5 +1,5 @@
-/* The area of rings as doubles beside the exact one, in rationals: near the origin and far from it, fat and thin, with
- * holes, open and closed, and where squares leave the range of doubles. */
+/* The area of rings in doubles, compared with the exact one in rationals: near the origin and far from it, fat and
+ * thin, with holes, open and closed, and with squares beyond the range of doubles. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -12,7 +12,7 @@
 #include <gmp.h>
 #include <math.h>
 
-/* Twice the signed area of n corners; their products in *size, without signs. */
+/* Sets `twice` to twice the signed area of n corners, and `size` to the sum of the absolute values of the products. */
 static void exact_ring(mpq_t twice, mpq_t size, const double *xy, size_t n)
 {
     mpq_t a, b;
@@ -21,7 +21,7 @@ static void exact_ring(mpq_t twice, mpq_t size, const double *xy, size_t n)
     mpq_set_ui(size, 0, 1);
     for (size_t i = 0; i < n; i++) {
         const double *p = xy + 2 * i, *q = xy + 2 * ((i + 1) % n);
-        for (int k = 0; k < 2; k++) { /* both are taken from the first corner, as products are */
+        for (int k = 0; k < 2; k++) { /* both are relative to the first corner, as the products are */
             mpq_t c;
             mpq_init(c);
             mpq_set_d(a, p[k]);

@@ -53,7 +53,7 @@ static double distance(const diamond *a, const diamond *b)
 {
     const double dx = fabs(a->x - b->x), dy = fabs(a->y - b->y), size = a->size + b->size;
     if (dx + dy <= size) return 0;
-    const double along = (dx - dy) / 2; /* the diamond of size about a, and b's middle */
+    const double along = (dx - dy) / 2; /* the diamond of that size about a, and the centre of b */
     return fabs(along) <= size / 2 ? (dx + dy - size) / sqrt(2) : hypot(fmax(dx, dy) - size, fmin(dx, dy));
 }
 
@@ -142,7 +142,7 @@ static void test_largest(void **state)
     assert_true(cells > 6 && fewer > 0);
 }
 
-/* Ten thousand on top of each other, and two more: a number of pairs that is not to be gone through. */
+/* Ten thousand diamonds on top of each other, and two more: too many pairs to be enumerated. */
 static void test_pile(void **state)
 {
     (void)state;

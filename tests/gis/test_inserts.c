@@ -17,7 +17,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { ROWS = 13000 }; /* more than are held back or under way at a time */
+enum { ROWS = 13000 }; /* more than are buffered at a time */
 
 static GDALDatasetH dataset;
 static unsigned threads; /* that rows go in on */
@@ -47,7 +47,7 @@ static void begin(gis_sqlite_inserts *rows)
     assert_true(gis_sqlite_inserts_begin(rows, database(), "INSERT INTO t (k, b, x, s, n) VALUES ", 5, threads));
 }
 
-/* The row of that key; n: its number. Bytes and text are spoilt once they were given. */
+/* Adds row number n with that key. The caller's bytes and text are overwritten afterwards. */
 static bool add(gis_sqlite_inserts *rows, int64_t key, int64_t n, int64_t *failed, const char **reason)
 {
     unsigned char bytes[64];
@@ -111,7 +111,7 @@ static void test_rows(void **state)
     }
 }
 
-/* The last column is unique: the number of an earlier row is refused. */
+/* The last column is unique, so the number of an earlier row is refused. */
 static void refuse(int64_t bad)
 {
     gis_sqlite_inserts rows;
@@ -152,8 +152,8 @@ static void test_given_up(void **state)
     assert_true(in > 0 && in < ROWS && in % 64 == 0);
 }
 
-/* The rows as they were given, in two calls: keys that follow each other, with gaps, below zero, the greatest there is,
- * falling. */
+/* Demands that the rows, given in two calls, are stored: keys that are consecutive, have gaps, are below zero, are the
+ * greatest possible, descend. */
 static void demand_pairs(int64_t first, int64_t step, size_t gap_at)
 {
     enum { PAIRS = 1234, CUT = 333 };

@@ -24,7 +24,7 @@
 
 enum { FULL = 0xff };
 
-/* Two values in a list, with every bit set, are stored: behind the numbers of all lists the bytes are zero, as the
+/* Two values in a list, with every bit set, are stored: the bytes after the counts of all lists are zero, as the
  * compiler would clear them. */
 #define ASSERT_STORED(type, array, count)                                                                              \
     do {                                                                                                               \

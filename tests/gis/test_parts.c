@@ -149,7 +149,7 @@ static void clear_barriers(town *t)
     t->barriers = 0;
 }
 
-/* Numbers may have holes; here these are between all of them. */
+/* Numbers of barriers may have gaps; here there is one after each. */
 static size_t number_of(const town *t, size_t thing)
 {
     return thing < t->n || thing == SIZE_MAX ? thing : t->n + 2 * (thing - t->n);

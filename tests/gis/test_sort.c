@@ -1,5 +1,5 @@
-/* The order in which a spool has its features: records sorted by their keys, whatever fits into memory at a time, and
- * the curve that keys are places on. */
+/* The order of features in a spool: records sorted by their keys, with any amount of memory, and the curve on which
+ * keys are places. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -16,7 +16,7 @@
 
 enum { MOST = 3000 };
 
-/* Keys that often agree, records of several sizes. */
+/* Records of several sizes, with keys that are often equal. */
 typedef struct keyed {
     gis_sort_head head;
     uint64_t number, more[3];
@@ -68,7 +68,7 @@ static void test_keys(void **state)
         }
 }
 
-/* Each position once, and from one to the next a step to a cell beside it: that is what makes it this curve. */
+/* Each position occurs once, and consecutive positions are in neighbouring cells: this characterises the curve. */
 static void test_curve(void **state)
 {
     enum { BITS = 6, SIDE = 1 << BITS };

@@ -44,7 +44,7 @@ static void add_ring(gis_polygons *to, const double *at, double size, bool clock
     }
 }
 
-/* Squares with holes, several of them; some are bow-ties. */
+/* Draws shapes of several squares with holes; some are bow-ties. */
 static sunder_shape *draw_shape(rng *random)
 {
     gis_polygons set = {0};
@@ -496,7 +496,7 @@ static void test_marks(void **state)
     free_board(b);
 }
 
-/* A spool that is not finished leaves the former one, and nothing else. */
+/* A spool that is not finished leaves the former one, and no other files. */
 static void test_given_up(void **state)
 {
     board *b = draw_board(20);
@@ -528,7 +528,7 @@ static void test_full_disk(void **state)
     done = done && gis_disk_file_flush(&file, &error);
     assert_false(done);
     assert_non_null(strstr(error.message, "/dev/full: cannot be written: No space left"));
-    gis_leftover_forget(file.leftover); /* it is not ours to take away */
+    gis_leftover_forget(file.leftover); /* the device must not be removed */
     file.leftover = NULL;
     gis_disk_file_close(&file);
 }

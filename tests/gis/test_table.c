@@ -176,7 +176,7 @@ static void test_plain(void **state)
     assert_read_alike("plain.gpkg");
 }
 
-/* The shape of feature i, in which places of vertices are as they were read. */
+/* The shape of feature i, with the positions of vertices as they were read. */
 static sunder_shape *shape_of(const gis_source *source, size_t i)
 {
     gis_polygonal_part part = {0};
@@ -189,7 +189,7 @@ static sunder_shape *shape_of(const gis_source *source, size_t i)
     return shape;
 }
 
-/* The geometry of feature i, moved, as it is written past GDAL. */
+/* Demands that the geometry of feature i, moved, is that of the row written without GDAL. */
 static void assert_written_moved(const gis_source *source, size_t i, OGRGeometryH geometry)
 {
     const int map[] = {0, 1, 2, 3};

@@ -175,7 +175,7 @@ class Blocks:
         least = min(min(Fraction(*plane.square_to_edge((0, 0), s)) for s in sides), Fraction(disc[0][0] ** 2 + disc[0][1] ** 2))
 
         def has_room(x, y):
-            """A disc within the disc, as a quick look."""
+            """A quick test with a disc inside the disc."""
             return all(near_square((x, y), e) >= least for e in edges)
         edges = sorted({e for own in near for e in own})
         segments = sorted(segments)

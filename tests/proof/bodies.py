@@ -5,7 +5,7 @@ from fractions import Fraction
 from form import demand
 
 
-# What is kept of a tree, or of prices, that hold.
+# The data that are kept of a tree, or of prices, that hold.
 Proved = namedtuple("Proved", "group bound bodies weights shifts own_weight nodes cuts")
 
 

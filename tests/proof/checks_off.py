@@ -61,7 +61,7 @@ def one_of_each(runs, seed):
 
 
 def refused_by(runs, drawn):
-    """{place of a demand: [(number of the run, forgery)]}"""
+    """{place of a demand: [(number of the run, forgery) that it refuses]}"""
     found = defaultdict(list)
     for k, what in drawn:
         Switch.last = None
@@ -96,7 +96,7 @@ EXCEPTIONS = KeyError, TypeError, ValueError, IndexError, ArithmeticError, Recur
 
 
 def ask(runs, place, asked, tries):
-    """(what the judge found, how many were accepted, how many asked)"""
+    """Returns (what the judge found, how many were accepted, how many were checked)."""
     Switch.off, accepted, n = place, 0, 0
     for k, what in asked[:tries]:
         n += 1

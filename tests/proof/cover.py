@@ -156,7 +156,7 @@ def fine_of(corner):
 
 
 def halves(places):
-    """A line across the longest extent of these, in the middle."""
+    """A line across the longest extent of these places, in the middle."""
     n = len(places)
     best, along = -1, (1, 0)
     for i in range(n):

@@ -138,7 +138,7 @@ def is_free(middle, far, pieces):
 
 
 def is_beyond(part, far):
-    """Is the convex polygon farther from the origin than that? far: the square."""
+    """Is the convex polygon farther from the origin than the root of `far`?"""
     corners = [(Fraction(x, w), Fraction(y, w)) for (x, y, w), _ in part]
     edges = list(zip(corners, corners[1:] + corners[:1]))
     if len(corners) > 2 and all(p[0] * q[1] - p[1] * q[0] >= 0 for p, q in edges):

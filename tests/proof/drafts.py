@@ -98,7 +98,7 @@ def cut(kind, n, d, i=0, j=1, **more):
 
 
 def empty(pieces, i=0, j=1):
-    """A tree's only node: what it is about has no place."""
+    """The only node of a tree, which claims that there is no allowed place."""
     return [node(None, empty={"i": i, "j": j, "pieces": pieces})]
 
 

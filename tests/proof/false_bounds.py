@@ -14,7 +14,7 @@ def case(name, refusal, layer, lines, moves, options="--no-blocks", **more):
 # ---- Trees
 
 def force_from_elsewhere(problem):
-    """Two of three children lean on a cut of the third."""
+    """Two of three children use the force on a cut of the third."""
     far, all_of_it = cut("cone", [1, 0], 1000), cut("cone", [0, 0], 0)
     nodes = [node(None), node(0, [far, far], [[0, 1]]), *[node(0, [all_of_it] * 2, [[0, 1]])] * 2]
     return proof(problem, trees=[tree(problem, [1, 2], 100, [], nodes)])
@@ -34,7 +34,7 @@ case("cut-within-a-limit", "what the limit leaves", {3: SQUARES[3]}, lambda prob
 case("more-than-is-owed", "more is asked", SQUARES, lambda problem: proof(problem, trees=[tree(
     problem, [1, 2], 100, [piece(0, 1, 1, 2, part(SQUARES[1]), part(SQUARES[2]), clearance=100)], empty([0]))]), APART)
 
-# Two houses that are no block, as one body: where one has to go the other does not.
+# Two houses that are not a block, presented as one body: one has to move, the other does not.
 PUSHED = {1: box(0, 0, 10, 10), 2: box(500, 0, 510, 10), 3: box(-20, -20, 1, 30, m=0)}
 
 

@@ -69,9 +69,9 @@ case("lattice-without-limit", "without a limit", LAYER, [
     leaf((0, 3), still=[[0, 3], [1, 3]]), STUMBLES, on=3, within=1000)
 
 
-# ---- By what is listed and held to its depth
+# ---- With a listed pair that is held to its depth
 
-# A floor that the house is in by 2. Its slanted way says less than where the parts let go of each other.
+# A floor that the house overlaps by 2. Its slanted way says less than the line at which the two parts cease to overlap.
 N = 0.6012345678901234, 0.7990123456789012
 BACK = -N[0], -N[1]
 LAYER = {1: box(0, 0, 10, 10, m=2.05), 2: box(-20, -40, 30, 2, m=0), 3: {**ring((-99, 91), (101, -59), (101, 91)), "m": 0},

@@ -13,7 +13,7 @@ def case(name, refusal, layer, told, moves, options=LIMITS, **more):
     CASES.append(Case(name, refusal, layer, lambda problem: proof(problem, told), moves, options, conflict=0, **more))
 
 
-# ---- Without a proof of the file's own
+# ---- Reasons without a proof in the file
 
 OVERLAPPING = {1: box(0, 0, 10, 10, m=1), 2: box(9, 0, 19, 10, m=1)}
 FAR = {1: box(0, 0, 10, 10, m=0, k=1), 2: box(90, 0, 100, 10, m=0, k=1)}
@@ -75,7 +75,7 @@ aside("in-the-way-though-fixed", "neither", {k: {**f, "m": 0} for k, f in NEAR.i
 case("fixed-by-a-proof", "nothing is claimed", NEAR, [conflict(1, 2, "fixed", proof=chain([LEAVE], leaf((0, 0))))],
      lambda problem: problem.may_move(1))
 
-# Two that lie in each other by 8, and are listed. A slack of 8 takes them apart, so nothing has to move.
+# Two listed features that overlap by 8. A slack of 8 separates them, so nothing has to move.
 DEEP = {1: box(0, 0, 10, 10, m=0.125), 2: box(2, 0, 12, 10, m=0.125)}
 THERE, BACK = ways_out(-12, -10, 8, 10), ways_out(-8, -10, 12, 10)
 
@@ -220,7 +220,7 @@ chord("chord-before-the-corner", "before the corner", [(6, 66), (40, 5), (6, -56
 chord("chord-beyond-the-sides", "no side shadows", [(10, 5.125), (10, 5), (10, 4.875)], 11, {2: (8, 1)})
 
 
-# ---- A file that says something else when it is read again: what limits-that-suffice says, and then less
+# ---- A file whose second reading differs from the first: first the content of limits-that-suffice, then less
 
 class Changing:
     def __init__(self, before, after):

@@ -42,7 +42,7 @@ class Run:
         self.cost = sum((Fraction(problem.weight(f)) * result.square(f) for f in result.moved()), Fraction(0))
 
     def forgeries(self):
-        """(number of the line, path in it, name of the change)"""
+        """Yields (number of the line, path in it, name of the change)."""
         yield from self.of_lines()
         for k, line in enumerate(self.lines):
             if self.only not in self.text[k]:
@@ -82,7 +82,7 @@ class Run:
         return counted(lines, name.endswith("claim")) if "and" in name else lines
 
     def cost_of(self, line):
-        """What the bodies of a line, or all, cost in the result."""
+        """The cost in the result of the bodies of a line, or of all bodies."""
         return self.judge.cost_of(line) if "bodies" in line else self.cost
 
     def wrong_with(self, lines):

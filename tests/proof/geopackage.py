@@ -95,7 +95,7 @@ class Crs:
         return self.known and self.definition.startswith("GEOGCS")
 
     def metres(self):
-        """In its unit of length; None: there is no CRS."""
+        """Metres in the CRS's unit of length; None: there is no CRS."""
         if not self.known:
             return None
         inside = re.search(r"(?:PROJCS|LOCAL_CS)\[.*", self.definition, re.DOTALL)

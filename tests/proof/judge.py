@@ -30,7 +30,7 @@ class Judge:
         self.still = {fids(b) for line in lines for b in line.get("bodies", ()) if b["weight"] is None}
 
     def wrong_with(self, lines):
-        """What the first line says that is found not to be true, or None."""
+        """Returns a statement of the first line that is false, or None."""
         old = {id(line) for line in self.lines}
         self.places.list_conflicts([line for line in lines if "conflict" in line])
         by_group = {}
@@ -278,7 +278,7 @@ class TreeOf:
 
 
 class VerdictOf:
-    """What the words of a conflict make of its questions."""
+    """The kinds of questions that a conflict's words allow."""
 
     def __init__(self, line, places):
         self.line, self.nodes, self.places = line, line["proof"], places
@@ -328,7 +328,7 @@ class VerdictOf:
         return self.places.pair_may(a, b, u, None if self.crowded or {a, b} == self.own else self.places.kind(a, b))
 
     def paths(self):
-        """[(node, its way)] down to each leaf; the way of a leaf is None."""
+        """The paths [(node, its way)] down to each leaf; the way of a leaf is None."""
         todo = [[(0, None)]]
         while todo:
             path = todo.pop()
@@ -415,7 +415,7 @@ def side_of(cut):
 
 
 def inner(drawn, corners):
-    """A place of the convex hull of corners, mostly near one of them."""
+    """A random place of the convex hull of corners, usually near one of them."""
     shares = [drawn.random() ** 3 + 1e-9 for _ in corners]
     shares[drawn.randrange(len(corners))] += drawn.choice((0, 2, 1000))
     return [sum(s * c[k] for s, c in zip(shares, corners)) / sum(shares) for k in (0, 1)]

@@ -9,7 +9,8 @@ SWEEPS, ROUNDS, HAIR = 40, 8, 1e-9
 
 
 def cheapest(weights, shifts, sides, bound):
-    """Are there moves that keep all sides for less than bound, the sum of w |t - a|^2? What has no weight stands still."""
+    """Are there moves that keep all sides and cost less than bound, the sum of w |t - a|^2? A body without a weight is
+    fixed."""
     floats = [([(k, float(x), float(y)) for k, x, y in terms if weights[k] is not None], float(d)) for terms, d in sides]
     w = [0.0 if v is None else float(v) for v in weights]
     a = [[float(v) for v in s] for s in shifts]

@@ -119,7 +119,7 @@ class Places:
 
 
 def polygon_between(centre, reach, sides):
-    """What of a square the sides (x, y, d), x X + y Y >= d, leave: corners, in doubles."""
+    """The part of a square in which x X + y Y >= d holds for all sides (x, y, d): its corners, in doubles."""
     reach = min(float(reach), 1e12)
     corners = [(centre[0] + sx * reach, centre[1] + sy * reach) for sx, sy in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
     for x, y, d in ((float(a), float(b), float(c)) for a, b, c in sides):

@@ -162,7 +162,8 @@ make_abroad() {
     ogr2ogr far.gpkg near.gpkg -t_srs EPSG:4326 2>/dev/null || fail "ogr2ogr: near.gpkg"
 }
 
-# Points with a symbol of their own (s), or none, and a factor of it (f); one feature is two points, one is a line.
+# Points with a symbol of their own (s), or none, and a factor of its size (f); one feature is two points, one is a
+# line.
 make_symbols() {
     printf '%s\n' WKT,s,f,k '"POINT(0 0)",square:4,,1' '"POINT(3 1)",disc:2m,1.3,2' '"POINT(1.5 3.1)",,0.7,3' '"MULTIPOINT(40 0,42 1)",,2,4' \
         '"POINT(44.25 0.5)","MULTIPOLYGON(((0 0,4 0,4 4,2 2,1.1 1.3,0 0)),((3 3,6 3,6 6,3 6),(4 4,5 4,5 5)))",1.1,1' \

@@ -62,7 +62,7 @@ def pull(tree):
 
 
 def force_from_elsewhere(tree):
-    """A force on a cut of a sister."""
+    """Uses a force on a cut of a sister node."""
     first = [0]
     for node in tree["nodes"]:
         first.append(first[-1] + len(node["cuts"]))
@@ -127,7 +127,7 @@ def move_anchor(tree):
 
 
 def move_shade(tree):
-    """What casts a shadow, off its feature, or off the block that it lies in."""
+    """Moves the part that casts a shadow off its feature, or off its block."""
     for piece in tree["pieces"]:
         part = piece["A"] if len(piece["A"]) > 2 else piece["B"]
         if piece.get("shadow") and not is_side(piece) and len(part) > 2:
@@ -152,7 +152,7 @@ def move_side(tree):
 
 
 def leave_feature(tree):
-    """A side anchor out of its feature."""
+    """Moves a side anchor out of its feature."""
     for piece in tree["pieces"]:
         if piece.get("shadow") and is_side(piece):
             part = piece["A"] if len(piece["A"]) == 1 else piece["B"]
@@ -375,7 +375,7 @@ def turn_lines(told):
 
 
 def hold_roughly(told):
-    """What holds of the distance, claimed of the double that is just below."""
+    """Claims for the next smaller double what holds for the distance."""
     for node in told["proof"]:
         if node.pop("held", False):
             return ("has no way", "more than it had", "not told exactly")

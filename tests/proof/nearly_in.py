@@ -49,14 +49,15 @@ def nearly_in(a, b, d, hair):
 
 
 def no_room_inside(a, b):
-    """No hole of b is within a's box: what is beyond b, and in a, comes out at a's edges."""
+    """No hole of b is within a's box: so a part of a outside b crosses a's edges."""
     boxes = [plane.box_of(ring) for ring in b.rings]
     return not any(box != b.box and a.box[0] <= box[0] and a.box[1] <= box[1] and box[2] <= a.box[2] and box[3] <= a.box[3]
                    for box in boxes)
 
 
 def edge_is_near(p, q, b, most, d, halvings):
-    """By its middle: no other place of the edge is farther than that by more than half its length. most: what is farther is out."""
+    """By the middle of the edge: no other place of it is farther away by more than half its length. most: an edge
+    farther than this is out."""
     middle = Fraction(p[0] + q[0], 2), Fraction(p[1] + q[1], 2)
     square = Fraction(0)
     if plane.locate(b, middle) < 0:

@@ -69,8 +69,8 @@ def parts_of(polygons, lattice):
 
 
 def in_squares(polygons, lattice):
-    """{(column, row): 24 times the integrals of 1, x, y, x y over what is occupied of the square, (x, y) the place in it}, or
-    None: it spans too much."""
+    """Returns {(column, row): 24 times the integrals of 1, x, y, x y over the occupied part of the square, with (x, y)
+    relative to it}, or None if the squares span too much."""
     edges = []  # from left to right, with the number of their part
     for k, part in enumerate(parts_of(polygons, lattice)):
         edges += [(*min(p, q), *max(p, q), k) for p, q in part if p[0] != q[0]]
@@ -175,8 +175,8 @@ def under(a, b, p, q):
 
 
 def masses(squares, lattice):
-    """Two tables, as lists of rows with (column, row) of the first: of nodes the integrals of their hats, of squares what is
-    occupied of them; both in masses. The first are no more than they are, the second no less."""
+    """Two tables, as lists of rows with (column, row) of the first: for nodes the integrals of their hats, for squares
+    the occupied area; both in masses. The first are rounded down, the second up."""
     side = lattice.side
     columns, rows = ([key[c] for key in squares] for c in (0, 1))
     corner = min(columns), min(rows)

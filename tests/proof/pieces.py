@@ -5,7 +5,8 @@ from exact import plane
 
 
 def in_polygon(corners, outline):
-    """A convex polygon with area within a polygon: no edge goes through it, and a place of it is inside."""
+    """Does a convex polygon with area lie in a polygon? It does if no edge crosses it, and one of its places is inside.
+    """
     box = plane.box_of(corners)
     sides = list(zip(corners, corners[1:] + corners[:1]))
     for edge in plane.near_edges(outline, box):

@@ -27,7 +27,7 @@ class Prices(Bodies):
         self.grid = Grid(told["prices"])
 
     def check(self):
-        """Sum of what bodies pay at least, less the worth of all area."""
+        """The sum of the least costs of the bodies, minus the price of all area."""
         self.demand_strangers()
         parts = PARTS ** 2
         paid = sum(self.least(body, weight) for body, weight in zip(self.bodies, self.weights))
@@ -155,7 +155,7 @@ class Payer:
         return self.least_of_squares(price, reach, PARTS ** 2 * spent)
 
     def least_of_squares(self, price, reach, least):
-        """`least`: what a move that it may make costs, or less."""
+        """`least`: a lower bound of the cost of an allowed move."""
         weight, parts = self.weight, PARTS ** 2
         kinks = self.sums(self.grid.kink_rows, self.areas, reach)
         asked = []

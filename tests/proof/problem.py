@@ -21,7 +21,7 @@ from unions import union_outline
 
 
 def split_spec(spec):
-    """--barrier's argument; `where=` takes the rest, a comma that belongs to a name is written \\, ."""
+    """The argument of --barrier; `where=` takes the rest, and a comma within a name is written \\, ."""
     spec, _, where = spec.partition(",where=")
     words = [w.replace("\0", ",") for w in spec.replace("\\,", "\0").split(",")]
     return {"path": words[0], "where": where or None, **dict(w.split("=", 1) for w in words[1:])}
@@ -37,7 +37,7 @@ class Thing:
         self.parts = {}
 
     def whole(self):
-        """The union of its members, whose common walls and what several cover are inside."""
+        """The union of its members; common walls and areas that several cover are inside."""
         members = [o for o in self.outlines if o.box]
         if any(have_common_walls(one, other) for k, one in enumerate(members) for other in members[:k]):
             return union_outline(members, self.lines)
@@ -51,7 +51,7 @@ class Thing:
         return any(o.box and plane.locate(o, p) >= 0 for o in self.outlines)
 
     def has_part(self, part):
-        """Does the convex hull of these corners lie in it?"""
+        """Does the convex hull of these corners lie in the thing?"""
         if part not in self.parts:
             corners = hull(part)
             self.parts[part] = (any(in_polygon(corners, o) for o in self.outlines if o.box) if len(corners) > 2 else
@@ -209,8 +209,8 @@ class Problem:
         return min(limits) if limits else None
 
     def weight(self, fid):
-        """A double: what the area is of the median of all areas, or its root, times the field's value. Each of these is one
-        operation of doubles, of areas that are the nearest doubles to the true ones."""
+        """The weight, as a double: the quotient of the area and the median of all areas, or its root, times the field's
+        value. Each of these is one operation of doubles, on areas that are the nearest doubles to the true ones."""
         options, found = self.options, 1.0
         if options.weight != "1":
             found = self.area(fid) / self.median_area()
@@ -328,7 +328,7 @@ class Problem:
         demand(bool(told.get("inside_block")) == (b in self.block(a)), a, "and", b, "are of one block, or are not")
 
     def demand_shadow(self, a, told_a, b, told_b):
-        """The parts of a shadow: an anchor, and a part of what may not be passed."""
+        """Checks the two parts of a shadow: an anchor, and a part of a thing that may not be passed."""
         if self.is_barrier(a) or self.is_barrier(b):
             if self.is_barrier(a):
                 return self.demand_side(a, told_a, b, told_b), self.demand_side_anchor(b, told_b)
@@ -416,7 +416,7 @@ class Problem:
         demand(tuple(told) == self.anchor(fid), "that is not the anchor of", fid)
 
     def anchor(self, fid):
-        """Doubles, of what the rings enclose, before its corners are rounded."""
+        """The anchor as doubles, of the set that the rings enclose before its corners are rounded."""
         if fid not in self.anchors:
             members = [[(ring[k - 1], p) for ring in members_of(rings) for k, p in enumerate(ring)]
                        for rings in self.given[fid]]
@@ -432,8 +432,9 @@ class Problem:
                 yield [max(low[c], -high[c], 0) for c in (0, 1)]
 
     def demand_outside(self, a, b, reach, square=None):
-        """With --contained ignore: no relative move within the limits takes one of the two features into the other. reach: the longest
-        along x and y, or with `square` the square of the longest; None: there is none."""
+        """With --contained ignore: fails unless no relative move within the limits takes one of the two features into
+        the other. reach: the longest move along x and y, or with `square` the square of the longest; None: there is
+        no limit."""
         if self.options.contained != "ignore" or self.is_barrier(a) or self.is_barrier(b):
             return
         for x, y in self.ways_inside(a, b):

@@ -18,7 +18,7 @@ def is_between(p, q, at):
 
 
 def meetings(e, f):
-    """Places that the two have in common, ends of what they share; and whether they cross, or share a length."""
+    """The common points of two edges, or the ends of their common piece; and whether they cross, or share a length."""
     (a, b), (c, d) = e, f
     sides = side(a, b, c), side(a, b, d), side(c, d, a), side(c, d, b)
     if sides[0] * sides[1] < 0 and sides[2] * sides[3] < 0:
@@ -54,7 +54,7 @@ def cut(edges):
 
 
 def is_inside_on_left(boundary, p, q):
-    """Along a ray from the middle of the piece, square to it."""
+    """Is the inside on the left of the piece? By a ray from its middle, perpendicular to it."""
     x, y = (p[0] + q[0]) / 2, (p[1] + q[1]) / 2
     wx, wy = p[1] - q[1], q[0] - p[0]
     inside = False
@@ -67,7 +67,7 @@ def is_inside_on_left(boundary, p, q):
 
 
 def turn_rank(back, out):
-    """Ascending by the angle, clockwise from the one direction on."""
+    """A key that ascends with the clockwise angle from the direction back."""
     cross, dot = back[0] * out[1] - back[1] * out[0], back[0] * out[0] + back[1] * out[1]
     half = 0 if cross < 0 else 1 if cross == 0 and dot < 0 else 2 if cross > 0 else 3
     return half, dot / cross if cross else 0
@@ -106,7 +106,7 @@ def without_straight(ring):
 
 
 def exact_rings(rings):
-    """The rings of a polygon in fractions, by the even-odd rule; None where its own are those."""
+    """The rings of a polygon in fractions, by the even-odd rule; None if these are its own rings."""
     exact = [[(Fraction(x), Fraction(y)) for x, y in ring] for ring in rings]
     edges = [(ring[k - 1], p) for ring in exact for k, p in enumerate(ring) if ring[k - 1] != p]
     pieces, crossing = cut(edges)

@@ -1,6 +1,6 @@
-"""Layers as the command reads them. A table of a GeoPackage is read as it is; for other formats, --sql, --bbox and
---input-crs ogr2ogr writes a GeoPackage first, with the same FIDs and coordinates. What a driver of GDAL reads is trusted,
-for the command and for this checker."""
+"""Layers as the command reads them. A table of a GeoPackage is read directly; for other formats, --sql, --bbox and
+--input-crs ogr2ogr writes a GeoPackage first, with the same FIDs and coordinates. The drivers of GDAL are trusted,
+by the command and by this checker."""
 import os
 import subprocess
 import tempfile

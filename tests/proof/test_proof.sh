@@ -74,7 +74,7 @@ refuted squares squares.gpkg "${crowd[@]}" --need leaf --need way --need clearan
     --need crowd
 proved width "$town" --gap 1 --max-shift 4 --barrier "$town,layer=roads,width-field=width,gap=0"
 
-# Without effort, and where conflicts remain, pairs alone may prove more than groups: then trees are theirs.
+# Without effort, or if conflicts remain, pairs alone may prove more than groups: then the trees are those of pairs.
 "$SUNDER" separate "$town" o.gpkg --overwrite -q -l buildings --gap 3 --effort 0 --allow-conflicts --proof pairs.jsonl || fail "effort 0"
 python3 "$here/check_proof.py" pairs.jsonl "$town" --layer buildings --gap 3 --result o.gpkg >said || fail "effort 0: $(cat said)"
 grep -q ' [1-9][0-9]* trees' said || fail "effort 0: $(cat said)"
@@ -84,7 +84,7 @@ beside=(--gap 3 --max-shift 10 --barrier "$roads")
 python3 "$here/check_proof.py" parts.jsonl "$town" --layer buildings "${beside[@]}" --result o.gpkg >said || fail "effort 0, roads: $(cat said)"
 grep -q ' [1-9][0-9]* trees' said || fail "effort 0, roads: $(cat said)"
 proved pairs "$town" --gap 5 --max-shift 1 --barrier "$roads"
-# Two of them may be in one tree.
+# Two of these parts may be in one tree.
 make_hairpin
 proved hairpin between.gpkg --no-blocks --max-shift 10 --barrier hairpin.gpkg,width=1,side=no,gap=0.1
 grep -q '"barrier": "hairpin:1".*"barrier": "hairpin:1"' hairpin.jsonl || fail "no tree has two parts of a road"
@@ -117,7 +117,8 @@ make_houses
 proved back houses.gpkg --gap 1 --max-shift 1 --no-blocks --barrier road.gpkg
 grep -q 'bound 0.12' said || fail "a listed road owes: $(cat said)"
 
-# A road through a house, 3 from its lower edge: the one above may not push it deeper into that, and goes all the way itself.
+# A road through a house, 3 from its lower edge. The upper house may not push it deeper into the road, so it makes the
+# whole move itself.
 make_through
 through=(--gap 1 --max-shift 1 --no-blocks --barrier through.gpkg)
 proved through houses.gpkg "${through[@]}"
@@ -131,7 +132,7 @@ printf 'WKT,w\n"POLYGON((0 0,10 3,10 0.5,0.3 10.1,0 0))",1\n"POLYGON((9 0,20 0,2
     layer crossed.gpkg buildings POLYGON
 proved crossed crossed.gpkg --gap 0.7 --no-blocks
 
-# A group of more than are proved together: parts of it have trees of their own, and the file has those of all parts.
+# A group that is too large to be proved as one: its parts have trees, and the file contains those of all parts.
 {
     echo "WKT,w"
     for i in {0..195}; do
@@ -171,15 +172,16 @@ proved bend bent.gpkg "${bend[@]}"
 grep -q '"reason": "no_room"' bend.jsonl || fail "a house on a bend has no proof: $(cat bend.jsonl)"
 refuted bend bent.gpkg "${bend[@]}" --need slack --need "claimed slack" --need "short slack"
 
-# A block on both sides of a road, and a house that stands too near to it at one end: in the reals it would slide along the
-# road, by the lattice of its coordinates it cannot.
+# A block on both sides of a road, and a house that is too near to it at one end. In real numbers the block could slide
+# along the road, on the lattice of its coordinates it cannot.
 make_lane
 lane=(--gap 3 --max-shift 2 --no-blocks --block-field k --fixed-where 'w = 2' --allow-jumps --barrier lane.gpkg,width=5,gap=0,side=no)
 proved lane lanes.gpkg "${lane[@]}"
 grep -q '"still": ' lane.jsonl || fail "a block beside a road has no lattice: $(cat lane.jsonl)"
 refuted lane lanes.gpkg "${lane[@]}" --need "let go" --need "one line" --need "pushed line" --need "turned lines" \
     --need "held roughly" --need "held itself"
-# The same of houses that the road runs through, at the waist of one: no part of that is as deep in it as the whole.
+# The same for houses that the road runs through, at the narrow part of one: no part of it is as deep in the road as the
+# whole.
 make_pierced
 proved pierced pierced.gpkg "${lane[@]}"
 grep -q '"slack": true, "held": true' pierced.jsonl || fail "a block that a road runs through: $(cat pierced.jsonl)"
@@ -294,7 +296,8 @@ proved symbols symbols.gpkg --gap 0.5 --symbol disc:1.5:8 --symbol-field s --sym
 refuted symbols symbols.gpkg --gap 0.5 --symbol disc:1.5:8 --symbol-field s --symbol-size-field f --max-shift 1 --touch-tolerance 0.2 --need part --need way
 proved symbols symbols.gpkg --gap 0.5 --symbol square:3 --symbol-size-field f --contained block --weight sqrt-area
 
-# A barrier in another CRS, whose doubles are those that ogr2ogr makes of it; the street that it was made of differs in the last digits.
+# A barrier in another CRS, with the doubles that ogr2ogr writes; the street from which it was made differs in the last
+# digits.
 make_abroad
 abroad=(--gap 2 --max-shift 4 --no-blocks --barrier)
 proved abroad abroad.gpkg "${abroad[@]}" far.gpkg,width=3

@@ -44,7 +44,7 @@ class Tree(Bodies):
         return self.exact[k]
 
     def push(self, forces):
-        """(value, the net force on each body)."""
+        """Returns (value, the net force on each body)."""
         value, net = Fraction(0), {}
         for (i, j, n, d), f in forces:
             own = d
@@ -68,7 +68,7 @@ class Tree(Bodies):
     # ---- Regions and pieces
 
     def root(self, i, j):
-        """The square about all relative moves of what costs less than the bound, in units of the lattice."""
+        """The square that contains all relative moves that cost less than the bound, in units of the lattice."""
         centre = [(self.shifts[j][c] - self.shifts[i][c]) * self.unit for c in (0, 1)]
         squared = max(self.bound, Fraction(0)) * self.mass(i, j) * self.unit ** 2
         reach = isqrt(-(-squared.numerator // squared.denominator)) + 1
@@ -178,7 +178,8 @@ class Tree(Bodies):
                "a limit's cut takes away what the limit leaves")
 
     def forces_below(self, node):
-        """What the forces that the discs of a node stand on prove: they are of the nodes above. There are none at the root."""
+        """The bound by the forces that the discs of a node use: these are forces of the nodes above. There are none at
+        the root."""
         parent = node["parent"]
         told = node["by"] if "by" in node else [] if parent is None else self.nodes[parent]["forces"]
         return self.push(self.read_forces(told, parent))
@@ -220,7 +221,7 @@ class Discs:
 
 
 def add_up(trees):
-    """What trees together prove: by groups, whose bodies that may move are their own."""
+    """The bound that trees prove together, by groups that share no body that may move."""
     group_of, total = {}, Fraction(0)
     by_group = {}
     for tree in trees:

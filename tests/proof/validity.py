@@ -9,7 +9,7 @@ from repair import exact_rings, twice_area
 
 
 def leave_out_broken(layer, policy):
-    """Without polygons a feature is nothing, as if it were skipped."""
+    """A feature without polygons counts as skipped."""
     for fid, (attributes, polygons, lines) in layer.features.items():
         finite = all(math.isfinite(v) for rings in polygons for ring in rings for p in ring for v in p)
         if not finite and policy != "skip":

@@ -199,7 +199,8 @@ class Verdict:
         limit = self.problem.body_limit(body)  # `within` is none: of longer moves not all are multiples of a shorter one
         demand(limit is not None, "a lattice without a limit")
         unit = [self.unit_of(body, x, Fraction(limit)) for x in (0, 1)]
-        # p i + q j = 0 for whole numbers i and j of units: they are multiples of q and -p, divided by what those share.
+        # p i + q j = 0 for integers i and j of units: they are multiples of q and -p, divided by their greatest common
+        # divisor.
         p, q = px * unit[0], py * unit[1]
         whole = p.denominator * q.denominator
         p, q = int(p * whole), int(q * whole)
@@ -209,7 +210,7 @@ class Verdict:
         return body
 
     def demand_far(self, node, way):
-        """A line that no slack is long enough to reach by itself, so that the two may come no nearer to it."""
+        """Fails unless the line is so far that no slack alone can reach it, so the two may come no nearer to it."""
         demand(node.get("held") and way is node["ways"][0], "a line that is not told exactly")
         a, b = node["a"], node["b"]
         inside, square = self.stood(a, b)
@@ -220,7 +221,8 @@ class Verdict:
                "a line that the slack may reach by itself")
 
     def unit_of(self, body, x, limit):
-        """What the coordinate of every corner is a multiple of, wherever it is a double within the limit."""
+        """The unit of which the coordinate of every corner is a multiple, at every place within the limit that is a
+        double."""
         things = [self.problem.things[k] for k in body]
         at = [Fraction(p[x], self.unit) for t in things for o in [*t.polygons] for ring in o for p in ring]
         low = min(map(abs, at)) - limit  # no coordinate is nearer to 0, if that is greater than 0
@@ -232,7 +234,8 @@ class Verdict:
         return unit
 
     def wins(self, leaf):
-        """Do the forces win more than the limits can lose? In fractions: products of doubles may come to nothing."""
+        """Is the sum of the forces greater than the greatest loss by the limits? In fractions, since products of
+        doubles may underflow."""
         won, net = Fraction(0), {}
         for f in leaf["forces"]:
             node = self.nodes[f["node"]]
