@@ -50,15 +50,22 @@ static sunder_status measure_kinks(const sunder_i_model *model, const sunder_i_r
     return SUNDER_OK;
 }
 
-/* Counts the bodies of all rows; one that belongs to two rows is counted once. */
-static sunder_status count_bodies(const sunder_i_model *model, const sunder_i_rows *rows, size_t edges, size_t *n,
+/* Counts the bodies of each row and of all rows. A body that a row passes twice, such as a block at a corner, is
+ * counted once, and so is a body of two rows. */
+static sunder_status count_bodies(sunder_report *report, const sunder_i_model *model, const sunder_i_rows *rows,
                                   sunder_error *err)
 {
-    bool *in_row = sunder_i_calloc(model->bodies, sizeof *in_row);
-    if (!in_row) return sunder_i_failure_cause(err);
-    for (size_t e = 0; e < edges; e++) in_row[rows->edge[e].i] = in_row[rows->edge[e].j] = true;
-    for (size_t b = 0; b < model->bodies; b++) *n += in_row[b];
-    sunder_i_free(in_row);
+    size_t *last = sunder_i_calloc(model->bodies, sizeof *last); /* each body's last row, from 1; 0: none */
+    if (!last) return sunder_i_failure_cause(err);
+    for (size_t r = 0, e = 0; r < rows->rows; r++)
+        for (; e < rows->row_end[r]; e++)
+            for (int side = 0; side < 2; side++) {
+                size_t *row = &last[side ? rows->edge[e].j : rows->edge[e].i];
+                report->row[r].bodies += *row != r + 1;
+                report->summary.row_features += *row == 0;
+                *row = r + 1;
+            }
+    sunder_i_free(last);
     return SUNDER_OK;
 }
 
@@ -68,7 +75,7 @@ static void fill_row(sunder_report *report, const sunder_i_model *model, const s
 {
     size_t *feature = report->row_feature + *features, k = 0;
     const bool ring = edge[n - 1].j == edge[0].i;
-    sunder_row row = {.feature = feature, .bodies = n + !ring, .ring = ring};
+    sunder_row row = {.feature = feature, .ring = ring};
     for (size_t e = 0; e < n; e++) {
         if (k == 0 || feature[k - 1] != edge[e].f) feature[k++] = edge[e].f;
         feature[k++] = edge[e].g;
@@ -95,7 +102,7 @@ sunder_status sunder_i_report_rows(sunder_report *report, const sunder_i_model *
     if (!report->row || !report->row_feature) return sunder_i_failure_cause(err);
     for (size_t r = 0, e = 0; r < rows->rows; e = rows->row_end[r++])
         fill_row(report, model, rows->edge + e, rows->row_end[r] - e, &features);
-    const sunder_status status = count_bodies(model, rows, edges, &summary->row_features, err);
+    const sunder_status status = count_bodies(report, model, rows, err);
     return status ? status : measure_kinks(model, rows, edges, summary, err);
 }
 

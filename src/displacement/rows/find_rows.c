@@ -6,7 +6,7 @@
 #include "displacement/rows/row_pairs.h"
 #include "displacement/rows/row_rule.h"
 
-#include "base/parallel.h"
+#include "base/watch.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -26,13 +26,17 @@ typedef struct row_search {
 
 /* ---- Edges ------------------------------------------------------------------------------------------------------- */
 
-static void measure_walls(row_search *s)
+/* Returns false if the work is to stop, as the other functions that return a bool do, also if memory is out. */
+static bool measure_walls(row_search *s)
 {
-    for (size_t f = 0; f < s->model->features; f++)
+    for (size_t f = 0; f < s->model->features; f++) {
+        if (!sunder_i_step()) return false;
         if (s->model->present[f]) sunder_i_walls_add(sunder_i_thing_shape(s->model, f), &s->walls[f]);
+    }
+    return true;
 }
 
-/* Lists the pairs that stand side by side, with no line of a barrier between them. Returns false if memory is out. */
+/* Lists the pairs that stand side by side, with no line of a barrier between them. */
 static bool list_edges(row_search *s)
 {
     sunder_i_list near = {0};
@@ -43,7 +47,8 @@ static bool list_edges(row_search *s)
     for (size_t k = 0; k < s->pairs.n && ok; k++) {
         const sunder_i_row_pair *pair = &s->pairs.pair[k];
         bool crossed = false;
-        if (!sunder_i_row_side_by_side(s->model, s->walls, pair, &s->edge[s->edges])) continue;
+        ok = sunder_i_step();
+        if (!ok || !sunder_i_row_side_by_side(s->model, s->walls, pair, &s->edge[s->edges])) continue;
         ok = sunder_i_row_link_is_crossed(s->model, pair, &near, &crossed);
         if (!crossed) s->distance[s->edges++] = pair->distance;
     }
@@ -87,12 +92,13 @@ static bool has_edge(const row_search *s, uint32_t body, uint32_t e)
 }
 
 /* Chooses the edge on each side of each body, and drops those that only one of their bodies has chosen. */
-static void choose_sides(row_search *s)
+static bool choose_sides(row_search *s)
 {
     for (size_t b = 0; b < s->model->bodies; b++)
         for (unsigned k = 0; k < 4; k++) s->side[b][k] = NONE;
     for (size_t e = 0; e < s->edges; e++) {
         const double *to = s->edge[e].along, back[2] = {-to[0], -to[1]};
+        if (!sunder_i_step()) return false;
         offer_edge(s, s->edge[e].i, to, (uint32_t)e);
         offer_edge(s, s->edge[e].j, back, (uint32_t)e);
     }
@@ -104,6 +110,7 @@ static void choose_sides(row_search *s)
             if (!has_edge(s, other, e)) s->side[b][k] = NONE;
         }
     }
+    return true;
 }
 
 /* ---- Rows -------------------------------------------------------------------------------------------------------- */
@@ -150,8 +157,7 @@ static void append_row(row_search *s, uint32_t body, unsigned side, sunder_i_row
         rows->row_end[rows->rows++] = *n;
 }
 
-/* Lists the rows: first those with two ends, each from the end with the lower number, then rings. Returns false if
- * memory is out. */
+/* Lists the rows: first those with two ends, each from the end with the lower number, then rings. */
 static bool list_rows(row_search *s, sunder_i_rows *rows)
 {
     size_t n = 0;
@@ -172,13 +178,11 @@ sunder_status sunder_i_rows_find(const sunder_i_model *model, sunder_i_rows *row
     *rows = (sunder_i_rows){0};
     s.walls = sunder_i_calloc(model->features, sizeof *s.walls);
     s.side = sunder_i_alloc(model->bodies, sizeof *s.side);
-    sunder_status status = s.walls && s.side ? SUNDER_OK : sunder_i_failure_cause(err);
-    if (!status) measure_walls(&s);
-    if (!status) status = sunder_i_row_pairs_find(model, &s.pairs, err);
-    if (!status && (!sunder_i_row_pairs_thin_out(&s.pairs, model->bodies) || !list_edges(&s)))
+    const bool begun = s.walls && s.side && measure_walls(&s);
+    sunder_status status = begun ? sunder_i_row_pairs_find(model, &s.pairs, err) : sunder_i_failure_cause(err);
+    if (!status && !(sunder_i_row_pairs_thin_out(&s.pairs, model->bodies) && list_edges(&s) && choose_sides(&s) &&
+                     list_rows(&s, rows)))
         status = sunder_i_failure_cause(err);
-    if (!status) choose_sides(&s);
-    if (!status && !list_rows(&s, rows)) status = sunder_i_failure_cause(err);
     sunder_i_free_all(s.walls, s.pairs.pair, s.edge, s.distance, s.side);
     return status;
 }

@@ -6,8 +6,11 @@
 #include "displacement/rows/row_rule.h"
 
 #include "base/parallel.h"
+#include "base/sort.h"
+#include "base/watch.h"
 #include "separation/separation.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -109,14 +112,22 @@ sunder_status sunder_i_row_pairs_find(const sunder_i_model *model, sunder_i_row_
 
 /* The bodies near each body. */
 typedef struct neighbour {
-    uint32_t body;
     double distance;
+    uint32_t body;
 } neighbour;
 
 typedef struct neighbours {
-    neighbour *of; /* those of body i are [end[i - 1], end[i]), ascending */
+    neighbour *of; /* those of body i are [end[i - 1], end[i]), the nearest first */
     size_t *end;   /* [bodies] */
 } neighbours;
+
+static size_t first_of(const neighbours *n, uint32_t body) { return body ? n->end[body - 1] : 0; }
+
+static int by_distance(const void *x, const void *y)
+{
+    const neighbour *p = x, *q = y;
+    return p->distance != q->distance ? (p->distance < q->distance ? -1 : 1) : p->body < q->body ? -1 : 1;
+}
 
 static bool list_neighbours(const sunder_i_row_pairs *pairs, size_t bodies, neighbours *out)
 {
@@ -129,39 +140,64 @@ static bool list_neighbours(const sunder_i_row_pairs *pairs, size_t bodies, neig
         if (pairs->pair[k].j + 1 < bodies) out->end[pairs->pair[k].j + 1]++;
     }
     for (size_t i = 1; i < bodies; i++) out->end[i] += out->end[i - 1];
-    /* Pairs are sorted by (i, j): a body is first the j of pairs with lower numbers, then the i of the others. */
     for (size_t k = 0; k < pairs->n; k++) {
         const sunder_i_row_pair *p = &pairs->pair[k];
-        out->of[out->end[p->j]++] = (neighbour){p->i, p->distance};
+        out->of[out->end[p->i]++] = (neighbour){p->distance, p->j};
+        out->of[out->end[p->j]++] = (neighbour){p->distance, p->i};
     }
-    for (size_t k = 0; k < pairs->n; k++) {
-        const sunder_i_row_pair *p = &pairs->pair[k];
-        out->of[out->end[p->i]++] = (neighbour){p->j, p->distance};
+    for (uint32_t i = 0; i < bodies; i++) {
+        const size_t first = first_of(out, i), n = out->end[i] - first;
+        if (!sunder_i_steps(n)) return false;
+        if (n) sunder_i_sort_few(out->of + first, n, sizeof *out->of, by_distance);
     }
     return true;
 }
 
-/* Returns whether a third body is nearer to both bodies of the pair than they are to each other. */
-static bool stands_between(const neighbours *n, const sunder_i_row_pair *p)
+/* The number of neighbours that are compared in one step of the watch. */
+#define COMPARED 1024
+
+/* Sets *between to whether a third body is nearer to both bodies of the pair than they are to each other. away: the
+ * distance of each body from p->i. Returns false if the work is to stop.
+ *
+ * Such a body is usually among the nearest neighbours of p->j, which are tried first. */
+static bool find_between(const neighbours *n, const double *away, const sunder_i_row_pair *p, bool *between)
 {
-    size_t k = p->i ? n->end[p->i - 1] : 0, l = n->end[p->j - 1];
-    while (k < n->end[p->i] && l < n->end[p->j]) {
-        const neighbour *a = &n->of[k], *b = &n->of[l];
-        if (a->body == b->body && a->distance < p->distance && b->distance < p->distance) return true;
-        k += a->body <= b->body;
-        l += b->body <= a->body;
+    const size_t first = first_of(n, p->j);
+    size_t k = first;
+    while (k < n->end[p->j] && n->of[k].distance < p->distance && !(away[n->of[k].body] < p->distance)) k++;
+    *between = k < n->end[p->j] && n->of[k].distance < p->distance;
+    return sunder_i_steps(1 + (k - first) / COMPARED);
+}
+
+/* Keeps the neighbours among the pairs [begin, end), which have the same i, and appends them to *kept. away: [bodies]
+ * INFINITY, as afterwards. */
+static bool keep_neighbours(const neighbours *n, double *away, size_t begin, size_t end, sunder_i_row_pair *pair,
+                            size_t *kept)
+{
+    const uint32_t i = pair[begin].i;
+    bool ok = true;
+    for (size_t k = first_of(n, i); k < n->end[i]; k++) away[n->of[k].body] = n->of[k].distance;
+    for (size_t k = begin; k < end && ok; k++) {
+        bool between;
+        ok = find_between(n, away, &pair[k], &between);
+        if (!between) pair[(*kept)++] = pair[k];
     }
-    return false;
+    for (size_t k = first_of(n, i); k < n->end[i]; k++) away[n->of[k].body] = INFINITY;
+    return ok;
 }
 
 bool sunder_i_row_pairs_thin_out(sunder_i_row_pairs *pairs, size_t bodies)
 {
     neighbours n = {0};
-    const bool listed = list_neighbours(pairs, bodies, &n);
-    const size_t all = pairs->n;
-    pairs->n = 0;
-    for (size_t k = 0; k < all && listed; k++)
-        if (!stands_between(&n, &pairs->pair[k])) pairs->pair[pairs->n++] = pairs->pair[k];
-    sunder_i_free_all(n.of, n.end);
-    return listed;
+    double *away = sunder_i_alloc(bodies, sizeof *away);
+    bool ok = away && list_neighbours(pairs, bodies, &n);
+    size_t kept = 0;
+    for (size_t i = 0; away && i < bodies; i++) away[i] = INFINITY;
+    for (size_t k = 0, end; k < pairs->n && ok; k = end) {
+        for (end = k + 1; end < pairs->n && pairs->pair[end].i == pairs->pair[k].i;) end++;
+        ok = keep_neighbours(&n, away, k, end, pairs->pair, &kept);
+    }
+    pairs->n = kept;
+    sunder_i_free_all(n.of, n.end, away);
+    return ok;
 }

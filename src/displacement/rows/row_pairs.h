@@ -39,7 +39,7 @@ typedef struct sunder_i_row_pairs {
 /* Finds all pairs. The caller frees pairs->pair, also after a failure. */
 sunder_status sunder_i_row_pairs_find(const sunder_i_model *model, sunder_i_row_pairs *pairs, sunder_error *err);
 /* Removes the pairs that are no neighbours in the relative neighbourhood graph: those with a third body that is nearer
- * to both than they are to each other. Returns false if memory is out. */
+ * to both than they are to each other. Returns false if memory is out or the work is to stop. */
 bool sunder_i_row_pairs_thin_out(sunder_i_row_pairs *pairs, size_t bodies);
 
 /* ---- side_by_side.c ---------------------------------------------------------------------------------------------- */

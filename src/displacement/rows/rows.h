@@ -16,7 +16,7 @@ typedef struct sunder_i_row_edge {
 } sunder_i_row_edge;
 
 /* The rows of a layer. The edges of a row are consecutive, and the j of one is the i of the next. A row of n bodies has
- * n - 1 edges, or n if it is a ring. */
+ * n - 1 edges, or n if it is a ring; a block that it passes twice counts twice here. */
 typedef struct sunder_i_rows {
     sunder_i_row_edge *edge; /* [row_end[rows - 1]] */
     size_t *row_end;         /* [rows] the index past the last edge of each row */

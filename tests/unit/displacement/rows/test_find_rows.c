@@ -1,4 +1,5 @@
 /* Rows in small layers: which neighbours belong to a row, and where it ends. */
+#include "failing.h"
 #include "scene.h"
 
 #include <math.h>
@@ -134,14 +135,11 @@ static void check_corner(void **state)
     scene_end(&s);
 }
 
-/* Houses around a round place: the row is a ring. */
-static void check_ring(void **state)
+enum { HOUSES = 40 };
+
+/* Houses around a round place. */
+static void add_ring(scene *s)
 {
-    (void)state;
-    enum { HOUSES = 40 };
-    scene s;
-    size_t n;
-    begin(&s, 5);
     for (int k = 0; k < HOUSES; k++) {
         const double turn = 2 * acos(-1) * k / HOUSES, c = cos(turn), d = sin(turn);
         char wkt[512];
@@ -153,8 +151,18 @@ static void check_ring(void **state)
                            p[0] * d + p[1] * c);
         }
         snprintf(wkt + at, sizeof wkt - (size_t)at, "))");
-        scene_add(&s, wkt);
+        scene_add(s, wkt);
     }
+}
+
+/* The row of houses around a round place is a ring. */
+static void check_ring(void **state)
+{
+    (void)state;
+    scene s;
+    size_t n;
+    begin(&s, 5);
+    add_ring(&s);
     const sunder_row *row = rows_of(&s, &n);
     assert_int_equal(n, 1);
     assert_true(row->ring);
@@ -162,6 +170,23 @@ static void check_ring(void **state)
     assert_int_equal(row->bodies, HOUSES);
     for (size_t k = 0; k < HOUSES; k++) assert_int_equal(row->feature[k], k);
     assert_int_equal(s.summary.row_pairs, HOUSES);
+    scene_end(&s);
+}
+
+/* A row that passes a block twice counts it once: two houses of the ring, a quarter turn apart, are one block. */
+static void check_passed_twice(void **state)
+{
+    (void)state;
+    scene s;
+    size_t n;
+    begin(&s, 5);
+    add_ring(&s);
+    s.feature[0].block = s.feature[HOUSES / 4].block = 7;
+    const sunder_row *row = rows_of(&s, &n);
+    assert_int_equal(n, 1);
+    assert_int_equal(row->features, HOUSES);
+    assert_int_equal(row->bodies, HOUSES - 1);
+    assert_int_equal(s.summary.row_features, HOUSES - 1);
     scene_end(&s);
 }
 
@@ -254,13 +279,109 @@ static void check_refusals(void **state)
     scene_end(&s);
 }
 
+/* ---- Cut short --------------------------------------------------------------------------------------------------- */
+
+enum { STREET = 30 };
+
+typedef struct cut_short {
+    sunder_layer *layer;
+    sunder_layer_options options;
+    size_t calls, most; /* of progress: the call `most` stops the work; 0: none does */
+} cut_short;
+
+static bool count_calls(double fraction, void *user)
+{
+    cut_short *c = user;
+    (void)fraction;
+    return ++c->calls != c->most;
+}
+
+static void begin_street(scene *s, cut_short *c)
+{
+    static const double xy[] = {47, -50, 47, 50};
+    static const size_t end[] = {2};
+    const sunder_barrier barrier = {.geometry = {.xy = xy, .line_end = end, .lines = 1}, .gap = 0};
+    begin(s, 60); /* each house is within reach of all others */
+    s->options.no_blocks = true;
+    s->options.effort = 0;
+    add_houses(s, STREET, 0, 0, 12, 0);
+    for (size_t f = 0; f < s->n; f++) s->feature[f].fixed = true;
+    *c = (cut_short){.options = s->options};
+    assert_int_equal(sunder_layer_new(s->feature, s->n, &c->layer, NULL), SUNDER_OK);
+    assert_int_equal(sunder_layer_set_barriers(c->layer, &barrier, 1, NULL), SUNDER_OK);
+}
+
+/* Returns false after a failure of the expected kind; then there is no report. */
+static bool try_street(cut_short *c, sunder_status expected)
+{
+    sunder_report *report = NULL;
+    size_t n;
+    const sunder_status status = sunder_layer_separate(c->layer, &c->options, &report, NULL);
+    if (status) {
+        assert_int_equal(status, expected);
+        assert_null(report);
+        return false;
+    }
+    const sunder_row *row = sunder_report_rows(report, &n);
+    assert_int_equal(n, 2);
+    assert_int_equal(row[0].bodies + row[1].bodies, STREET);
+    sunder_report_free(report);
+    return true;
+}
+
+static bool try_street_without_memory(void *context) { return try_street(context, SUNDER_ENOMEM); }
+
+/* Each allocation fails in turn. */
+static void check_memory(void **state)
+{
+    (void)state;
+    scene s;
+    cut_short c;
+    begin_street(&s, &c);
+    failing_begin();
+    const bool sound = failing_loop(try_street_without_memory, &c, true);
+    failing_end();
+    assert_true(sound);
+    sunder_layer_free(c.layer);
+    scene_end(&s);
+}
+
+/* Each call of the progress function stops the work in turn. It is called more often with rows than without
+ * them, since finding rows counts its steps. */
+static void check_stops(void **state)
+{
+    (void)state;
+    scene s;
+    cut_short c;
+    size_t calls[2]; /* without rows, with them */
+    begin_street(&s, &c);
+    c.options.progress = count_calls;
+    c.options.progress_user = &c;
+    assert_true(try_street(&c, SUNDER_OK));
+    calls[1] = c.calls;
+    c.options.rows = SUNDER_ROWS_NONE;
+    sunder_report *report;
+    c.calls = 0;
+    assert_int_equal(sunder_layer_separate(c.layer, &c.options, &report, NULL), SUNDER_OK);
+    sunder_report_free(report);
+    calls[0] = c.calls;
+    assert_true(calls[1] > calls[0]);
+    c.options.rows = SUNDER_ROWS_FOUND;
+    for (c.most = 1, c.calls = 0; !try_street(&c, SUNDER_ECANCEL); c.most++, c.calls = 0)
+        assert_int_equal(c.calls, c.most);
+    assert_true(c.most > calls[0]);
+    sunder_layer_free(c.layer);
+    scene_end(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(check_street),   cmocka_unit_test(check_none),   cmocka_unit_test(check_ends),
-        cmocka_unit_test(check_between),  cmocka_unit_test(check_corner), cmocka_unit_test(check_ring),
-        cmocka_unit_test(check_barrier),  cmocka_unit_test(check_block),  cmocka_unit_test(check_kinks),
-        cmocka_unit_test(check_refusals),
+        cmocka_unit_test(check_street),       cmocka_unit_test(check_none),     cmocka_unit_test(check_ends),
+        cmocka_unit_test(check_between),      cmocka_unit_test(check_corner),   cmocka_unit_test(check_ring),
+        cmocka_unit_test(check_passed_twice), cmocka_unit_test(check_barrier),  cmocka_unit_test(check_block),
+        cmocka_unit_test(check_kinks),        cmocka_unit_test(check_refusals), cmocka_unit_test(check_memory),
+        cmocka_unit_test(check_stops),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
