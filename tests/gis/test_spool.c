@@ -480,7 +480,7 @@ static void test_marks(void **state)
     static const struct {
         long at;
         const char *said;
-    } cases[] = {{0, "no such file"}, {8, "version"}, {12, "order of bytes"}};
+    } cases[] = {{0, "not a file of a plan"}, {8, "version"}, {12, "order of bytes"}};
     static const char *const names[] = {"features", "cells"};
     board *b = draw_board(3);
     write_board(b, frame, 1, NULL);
