@@ -350,17 +350,21 @@ class Row:
             self.edges.append((fids[edge.f], fids[edge.g], edge.axis, edge.offset))
         self.bodies = len({b for b, _ in row} | {e.other(b) for b, e in row})
         self.ring = ring
-        if ring:
-            if chain[-1] == chain[0]:
-                chain.pop()
-            at = chain.index(min(chain))
-            chain = chain[at:] + chain[:at]
-            if chain[-1] < chain[1]:
-                chain[1:] = chain[:0:-1]
-            chain.append(chain[0])
-        elif chain[-1] < chain[0]:
-            chain.reverse()
-        self.chain = chain
+        if ring and chain[-1] == chain[0]:
+            chain.pop()
+        self.houses = chain
+        self.chain = self.listed(lambda fid: fid)
+
+    def listed(self, number):
+        """The houses from the end with the lower number on; those of a ring from its lowest number on, which ends it."""
+        chain = list(self.houses)
+        if not self.ring:
+            return chain if number(chain[0]) < number(chain[-1]) else chain[::-1]
+        at = chain.index(min(chain, key=number))
+        chain = chain[at:] + chain[:at]
+        if number(chain[-1]) < number(chain[1]):
+            chain[1:] = chain[:0:-1]
+        return chain + chain[:1]
 
     def kink_before(self):
         return max(abs(offset) for *_, offset in self.edges)
@@ -676,8 +680,8 @@ def compare(what, layer, expected, output, change=same, exactly=True):
     for written in output.rows:
         reasons = []
         for r in (r for r in left if min(r.chain) == written[0]):
-            # A row begins at the end that comes first in the layer.
-            chain = r.chain[::-1] if what == "order" else r.chain
+            # A row begins at the end that comes first in the layer, which is written backwards.
+            chain = r.listed(lambda fid: -fid) if what == "order" else r.chain
             reasons.append(unlike(r, chain, written, layer, output, change, exactly))
             if reasons[-1] is None:
                 left.remove(r)
