@@ -93,7 +93,7 @@ refused 2 'PROMOTE_TO_MULTI' separate mixed.geojson no.gpkg -nlt POLYGON
 ogr2ogr both.gpkg mixed.geojson -nln mixed -nlt GEOMETRY
 ogrinfo -q both.gpkg -dialect sqlite -sql "INSERT INTO mixed (geom, n) VALUES (ST_GeomFromText('POINT (1 1)', 25832), 9)" >/dev/null 2>&1
 if [ "$(count both.gpkg mixed)" = 4 ]; then
-    refused 1 'holds geometries of several kinds, and a layer of OpenFileGDB has one' separate both.gpkg no.gdb --quiet
+    refused 1 'holds geometries of several kinds, and a layer of OpenFileGDB can hold only one kind' separate both.gpkg no.gdb --quiet
     expect 0 separate both.gpkg some.gdb --where 'n < 9' --quiet
 fi
 

@@ -130,10 +130,10 @@ X
     [ -s o.gpkg-journal ] || fail "the test's own journal is missing"
 }
 interrupted
-refused 1 'o.gpkg-journal is left of a transaction that was interrupted' separate o.gpkg other.gpkg
+refused 1 'o.gpkg-journal was left by an interrupted transaction' separate o.gpkg other.gpkg
 run separate in.gpkg o.gpkg --update --output-layer apart
 [ "$status" -eq 0 ] || fail "a database with a journal is not added to"
-says err 'o.gpkg-journal is left of a transaction that was interrupted'
+says err 'o.gpkg-journal was left by an interrupted transaction'
 same "$(ask o.gpkg "SELECT count(*) FROM sqlite_master WHERE name = 'half'")" 0 'what was interrupted'
 same "$(count o.gpkg apart)" 2 'the layer added'
 interrupted
