@@ -51,7 +51,7 @@ for empty in 'MULTIPOLYGON EMPTY' 'POLYGON EMPTY'; do
     refused 2 "$empty" separate p.gpkg never.gpkg --symbol "$empty"
     refused 2 "$empty" check p.gpkg --symbol "$empty"
 done
-says err 'enclose'
+says err 'must have an area'
 layer hollow.gpkg hollow POINT <<'X'
 id,sym,WKT
 1,disc:1,POINT(0 0)
