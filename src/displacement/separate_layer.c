@@ -83,6 +83,14 @@ static sunder_status prepare_search(sunder_i_solver *s, sunder_error *err)
     return begin_as_at_start(s) ? SUNDER_OK : sunder_i_failure_cause(err);
 }
 
+/* Finds the rows of the layer as it is given, and the rule that keeps their order. */
+static sunder_status find_rows(sunder_i_solver *s, sunder_error *err)
+{
+    if (!s->model.rules.rows) return SUNDER_OK;
+    const sunder_status status = sunder_i_rows_find(&s->model, &s->rows, err);
+    return status ? status : sunder_i_rows_make_rule(&s->rows, &s->start, &s->model, err);
+}
+
 /* Does everything up to the point where the report begins. */
 static sunder_status find_moves(sunder_i_solver *s, const sunder_layer *layer, const sunder_layer_options *options,
                                 sunder_report **report, sunder_error *err)
@@ -91,6 +99,7 @@ static sunder_status find_moves(sunder_i_solver *s, const sunder_layer *layer, c
     if (!status) status = sunder_i_solver_begin_holding(s, err);
     if (!status) status = sunder_i_solver_find_infeasible(s, NULL, err);
     if (!status) status = prepare_search(s, err);
+    if (!status) status = find_rows(s, err);
     if (!status) status = sunder_i_solver_begin_holding(s, err);
     if (!status && !sunder_i_progress(&s->model.rules, SUNDER_I_PREPARED)) status = sunder_i_failure_cause(err);
     if (!status) status = sunder_i_layer_solve(s, err);
@@ -184,17 +193,6 @@ static void trace_conflicts(sunder_i_solver *s, const sunder_report *report)
     }
 }
 
-/* Finds the rows of the layer as it was given, and how the moves bend them. */
-static sunder_status report_rows(const sunder_i_solver *s, sunder_report *report, sunder_error *err)
-{
-    sunder_i_rows rows = {0};
-    sunder_status status = SUNDER_OK;
-    if (s->model.rules.rows) status = sunder_i_rows_find(&s->model, &rows, err);
-    if (!status) status = sunder_i_report_rows(report, &s->model, &rows, err);
-    sunder_i_rows_free(&rows);
-    return status;
-}
-
 /* Determines what remains and why, what would free it, and the lower bound of the cost. */
 static sunder_status explain_result(sunder_i_solver *s, const sunder_layer_options *options, sunder_report *report,
                                     sunder_error *err)
@@ -205,7 +203,7 @@ static sunder_status explain_result(sunder_i_solver *s, const sunder_layer_optio
     if (!status) status = sunder_i_report_bound(report, s, err);
     if (!status) status = sunder_i_report_optimality(report, s, err);
     if (!status) status = sunder_i_report_pushes(report, s, err);
-    if (!status) status = report_rows(s, report, err);
+    if (!status) status = sunder_i_report_rows(report, &s->model, &s->rows, err);
     status = pass_progress(s, BOUNDED, status, err);
     if (!status) status = sunder_i_report_proofs(report, s, sunder_i_decide, err);
     if (!status) status = sunder_i_report_blockers(report, s, err);

@@ -120,3 +120,14 @@ size_t sunder_i_shadow_corners(const sunder_i_obstacle_edge *edge, size_t n, dou
     }
     return corners;
 }
+
+size_t sunder_i_half_plane_corners(const sunder_i_obstacle_edge *edge, double far, double *out)
+{
+    const double d = 2 * far + hypot(edge->from[0], edge->from[1]), *n = edge->n;
+    const double along[2] = {-n[1], n[0]};
+    for (int k = 0; k < 4; k++) {
+        const double side = k == 0 || k == 3 ? -d : d, depth = k < 2 ? 0 : 2 * d;
+        for (int c = 0; c < 2; c++) out[2 * k + c] = edge->from[c] + side * along[c] - depth * n[c];
+    }
+    return 4;
+}

@@ -1,4 +1,4 @@
-/* Tests exactly which features that moved break the rule against jumps or the rule of sides.
+/* Tests exactly which features that moved break the rule against jumps, the rule of sides or the rule of rows.
  *
  * A feature's anchor a moves straight from a to a + (t - s) relative to another feature, where t and s are the moves of
  * the two. It must not meet the other feature's original outline, unless the other feature contained it at the start.
@@ -101,6 +101,34 @@ static sunder_status find_crossed(const sunder_i_jumps *jumps, const sunder_i_mo
     return status;
 }
 
+/* ---- Rows -------------------------------------------------------------------------------------------------------- */
+
+/* Returns the present member of the body with the least number; SUNDER_I_NOBODY if there is none. */
+static uint32_t first_member(const sunder_i_model *model, uint32_t body)
+{
+    const sunder_i_body *b = &model->body[body];
+    for (uint32_t m = b->member; m < b->member + b->members; m++)
+        if (model->present[model->member[m]]) return model->member[m];
+    return SUNDER_I_NOBODY;
+}
+
+/* Do the body of f and its neighbour break the rule of rows? */
+static bool leaves_row(const sunder_i_jumps *jumps, const sunder_i_model *model, uint32_t f,
+                       const sunder_i_row_side *side)
+{
+    const bool relaxed = sunder_i_relaxations_between(&model->relaxations, model->body_of[f], side->other);
+    return !sunder_i_keeps_row(side, move_of(jumps, model, f), move_of(jumps, model, first_member(model, side->other)),
+                               relaxed ? side->least_listed : side->least);
+}
+
+/* Returns the neighbours in rows of the body of f, *n of them; none unless f stands for its body. */
+static const sunder_i_row_side *row_of(const sunder_i_model *model, uint32_t f, uint32_t *n)
+{
+    const sunder_i_body *b = &model->body[model->body_of[f]];
+    *n = b->has->row_sides && first_member(model, model->body_of[f]) == f ? b->has->row_sides : 0;
+    return model->row_side + b->has->row_side;
+}
+
 /* ---- Pairs that break a rule ------------------------------------------------------------------------------------- */
 
 typedef struct pair_search {
@@ -141,6 +169,19 @@ static sunder_status find_jumped(const pair_search *s, uint32_t f, sunder_i_list
     return status || sunder_i_list_copy(list, near) ? status : sunder_i_failure_cause(err);
 }
 
+/* Appends to `found` the features that stand for neighbours in rows with which the body of f breaks the rule. */
+static bool find_rows_left(const pair_search *s, uint32_t f, sunder_i_list *found)
+{
+    uint32_t n;
+    const sunder_i_row_side *side = row_of(s->model, f, &n);
+    for (uint32_t k = 0; k < n; k++) {
+        const uint32_t g = first_member(s->model, side[k].other);
+        if ((g > f || !is_asked(s, g)) && leaves_row(s->jumps, s->model, f, &side[k]) && !sunder_i_list_push(found, g))
+            return false;
+    }
+    return true;
+}
+
 static sunder_status find_partners(void *context, size_t begin, size_t end, sunder_error *err)
 {
     const pair_search *s = context;
@@ -150,6 +191,8 @@ static sunder_status find_partners(void *context, size_t begin, size_t end, sund
         if (!s->model->rules.jumps) status = find_jumped(s, s->asked[k], &near, &s->found[k], err);
         if (!status && s->model->sides)
             status = find_crossed(s->jumps, s->model, s->asked[k], &near, &s->found[k], err);
+        if (!status && s->model->row_sides && !find_rows_left(s, s->asked[k], &s->found[k]))
+            status = sunder_i_failure_cause(err);
     }
     sunder_i_free(near.item);
     return status;
@@ -179,7 +222,7 @@ static bool collect_pairs(sunder_i_jumps *jumps, const pair_search *s, size_t as
 sunder_status sunder_i_jumps_update(sunder_i_jumps *jumps, const sunder_i_model *model, const sunder_i_changes *changes,
                                     sunder_error *err)
 {
-    if (!sunder_i_forbids_paths(model)) return SUNDER_OK;
+    if (!sunder_i_forbids_paths(model) && model->row_sides == 0) return SUNDER_OK;
     sunder_status status = sunder_i_jumps_begun(jumps) || model->rules.jumps
                                ? SUNDER_OK
                                : sunder_i_path_tree_begin(&jumps->paths, model, err);
@@ -229,6 +272,9 @@ sunder_status sunder_i_jumps_of_body(const sunder_i_jumps *jumps, const sunder_i
     for (uint32_t m = 0; m < b->members && !status && !*any; m++) {
         const uint32_t f = model->member[b->member + m];
         if (!model->present[f]) continue;
+        uint32_t neighbours;
+        const sunder_i_row_side *side = row_of(model, f, &neighbours);
+        for (uint32_t k = 0; k < neighbours && !*any; k++) *any = leaves_row(jumps, model, f, &side[k]);
         near->n = 0;
         if (sunder_i_jumps_begun(jumps) && !find_near(jumps, model, f, near)) return sunder_i_failure_cause(err);
         for (size_t k = 0; k < near->n && !status && !*any; k++)

@@ -1,4 +1,4 @@
-/* Which features jumped over others, or crossed sides of barriers, exactly; see jumps.c. */
+/* Which features jumped over others, crossed sides of barriers, or left their rows, exactly; see jumps.c. */
 #ifndef SUNDER_I_JUMPS_H
 #define SUNDER_I_JUMPS_H
 
@@ -6,8 +6,8 @@
 #include "displacement/layer/path_tree.h"
 
 /* The pairs that break a rule in the present positions; it is updated while features move. A pair is two features of
- * which one jumped over the other, or a feature and a part of a barrier whose side it crossed. Zeroed: nothing has
- * moved. */
+ * which one jumped over the other, or a feature and a part of a barrier whose side it crossed, or the features that
+ * stand for two neighbours in a row that broke its rule. Zeroed: nothing has moved. */
 typedef struct sunder_i_jumps {
     sunder_i_path_tree paths; /* each from the original position straight to the present one */
     sunder_i_id_pair *pair;   /* things, a < b, of different bodies; sorted */

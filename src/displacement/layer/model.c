@@ -23,7 +23,7 @@ void sunder_i_model_free(sunder_i_model *model)
                       model->diagonal_cover_vertices, model->diagonal_cover_corner, model->wall_cover, model->side,
                       model->side_anchor, model->side_at, model->side_anchors);
     for (size_t b = 0; model->whole && b < model->bodies; b++) sunder_shape_free(model->whole[b]);
-    sunder_i_free_all(model->whole, model->present);
+    sunder_i_free_all(model->whole, model->present, model->row_side);
     for (size_t f = 0; model->interior_cover && f < model->features; f++)
         sunder_i_interior_cover_free(&model->interior_cover[f]);
     sunder_i_free_all(model->interior_cover, model->inclusion, model->nested, model->wall, model->wall_corner);

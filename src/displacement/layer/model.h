@@ -24,6 +24,7 @@ typedef struct sunder_i_extras {
                                        * sunder_i_model */
     uint32_t side, sides;             /* if the body is a part of a barrier: the lines of it that may not be crossed, in
                              * sunder_i_model.side */
+    uint32_t row_side, row_sides;     /* its neighbours in rows, in sunder_i_model.row_side */
     double anchors[4];                /* if it has many members: the box of their anchors (sunder_i_anchors()) */
 } sunder_i_extras;
 
@@ -95,6 +96,14 @@ typedef struct sunder_i_side {
     uint32_t vertex;
 } sunder_i_side;
 
+/* The rule of rows between a body and a neighbour in a row: `along` points towards the neighbour, and the neighbour's
+ * move minus the body's is at least `least` long in that direction; only `least_listed`, if the pair remains in
+ * conflict. Neither is more than 0, except `least` if the pair is in conflict at the start. */
+typedef struct sunder_i_row_side {
+    uint32_t other; /* the neighbour */
+    double along[2], least, least_listed;
+} sunder_i_row_side;
+
 /* Returns coordinate v on axis c relative to the body's origin, clamped to the body's reach. Only the search clamps;
  * proofs use the corners as given. */
 static inline double sunder_i_from_origin(const sunder_i_body *body, double v, size_t c)
@@ -162,6 +171,8 @@ struct sunder_i_model {
     double *side_at;                  /* [2 * features] the side anchors in coordinates of the layer */
     double *side_anchors;             /* [4 * bodies] the box of each body's side anchors, relative to the body's
                                        * origin */
+    sunder_i_row_side *row_side;      /* the neighbours in rows of all bodies, those of a body one after the other */
+    size_t row_sides;                 /* 0: there is no rule of rows */
     sunder_shape **whole; /* [bodies] the union of a block's members, if it was made; NULL if not, and for single
                                   * features */
     uint32_t most_pieces; /* the largest number of pieces of one body */
@@ -409,6 +420,14 @@ sunder_status sunder_i_model_cover_diagonals_of(sunder_i_model *model, const uin
 /* Makes the covers of the walls that members of these n bodies share; `body` ascends. To be called once for a body.
  * Pointers to such covers become invalid. */
 sunder_status sunder_i_model_cover_walls(sunder_i_model *model, const uint32_t *body, size_t n, sunder_error *err);
+
+/* ---- row_sides.c ------------------------------------------------------------------------------------------------- */
+
+/* Returns the neighbour `other` of the body in a row; NULL if it is none. */
+const sunder_i_row_side *sunder_i_row_side_of(const sunder_i_model *model, const sunder_i_body *body, uint32_t other);
+/* Is (s - t) . side->along >= least, for the moves t of the body and s of the neighbour? Exact, unless a product is so
+ * small that its rounding error underflows (below 2^-960). */
+bool sunder_i_keeps_row(const sunder_i_row_side *side, const double t[2], const double s[2], double least);
 
 /* ---- within_limit.c ---------------------------------------------------------------------------------------------- */
 

@@ -3,8 +3,8 @@
  * Seen from a body there are four sides, in the directions of its walls. On each it has at most one neighbour in a row:
  * the nearest one, if it is also the nearest one of that neighbour. A row leaves a body on the side opposite to the one
  * that it arrives at, so that a body at a corner may belong to two rows. */
+#include "displacement/rows/row_limits.h"
 #include "displacement/rows/row_pairs.h"
-#include "displacement/rows/row_rule.h"
 
 #include "base/watch.h"
 

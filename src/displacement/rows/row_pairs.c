@@ -3,7 +3,7 @@
  * set, Pattern Recognition 12, 1980). */
 #include "displacement/rows/row_pairs.h"
 #include "displacement/layer/reads.h"
-#include "displacement/rows/row_rule.h"
+#include "displacement/rows/row_limits.h"
 
 #include "base/parallel.h"
 #include "base/sort.h"

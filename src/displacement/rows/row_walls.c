@@ -2,8 +2,8 @@
  *
  * Only sums, products and square roots are used, which are rounded in the same way on every machine, and a wall gives
  * the same numbers in both directions. So the direction of a shape does not depend on how its rings are written. */
+#include "displacement/rows/row_limits.h"
 #include "displacement/rows/row_pairs.h"
-#include "displacement/rows/row_rule.h"
 
 #include "shape/shape.h"
 

@@ -28,4 +28,12 @@ typedef struct sunder_i_rows {
 sunder_status sunder_i_rows_find(const sunder_i_model *model, sunder_i_rows *rows, sunder_error *err);
 void sunder_i_rows_free(sunder_i_rows *rows);
 
+/* ---- row_rule.c -------------------------------------------------------------------------------------------------- */
+
+/* Makes the rule of rows (sunder_i_row_side) for each two neighbours that stand apart along the row and of which one
+ * may move. start: the relations at the start, which tell the pairs in conflict. To be called once. Fails with
+ * SUNDER_ENOMEM. */
+sunder_status sunder_i_rows_make_rule(const sunder_i_rows *rows, const sunder_i_relations *start, sunder_i_model *model,
+                                      sunder_error *err);
+
 #endif

@@ -1,6 +1,6 @@
 /* Do two neighbours stand side by side, as neighbours in a row do? */
+#include "displacement/rows/row_limits.h"
 #include "displacement/rows/row_pairs.h"
-#include "displacement/rows/row_rule.h"
 
 #include "base/extremes.h"
 #include "shape/shape.h"

@@ -8,7 +8,7 @@
  * in one of them. Pairs in which one lies in the other, or could get there, and may overlap it are omitted, which makes
  * the set smaller and a bound at most weaker. Courtyards need no care: the pieces of a feature cover the feature and
  * nothing else. Shadows of features that anchors may not pass, and of lines that side anchors may not cross, are
- * further pieces, without exceptions.
+ * further pieces, without exceptions; so is the half-plane of the rule of rows.
  *
  * Rounding errors, with e = 2^-53: a corner less its origin has an error of e of itself (2^-52 of the coordinates if
  * the shape is rational, as its corners are rounded to doubles), and a - b - offset takes two more roundings. So 8 e S
@@ -359,8 +359,45 @@ static bool add_sides(listing *l, const sunder_i_body *p, const sunder_i_body *p
     return true;
 }
 
+/* Does the report list a pair of members of the two bodies as remaining in conflict? */
+static bool is_any_waived(const listing *l)
+{
+    const uint32_t *member = l->model->member;
+    for (uint32_t k = l->p->member; k < l->p->member + l->p->members && l->waived->n; k++)
+        for (uint32_t m = l->q->member; m < l->q->member + l->q->members; m++)
+            if (sunder_i_waiver_of(l->model, l->waived, member[k], member[m])) return true;
+    return false;
+}
+
+/* Adds the half-plane that the rule of rows forbids to neighbours in a row, as far as it is within reach. It is exact
+ * but for the rounding of its corners. Returns false if memory is out. */
+static bool add_row(listing *l)
+{
+    sunder_i_forbidden *f = l->out;
+    const sunder_i_row_side *side =
+        l->p->has->row_sides ? sunder_i_row_side_of(l->model, l->p, (uint32_t)(l->q - l->model->body)) : NULL;
+    if (!side) return true;
+    const double least = is_any_waived(l) ? side->least_listed : side->least;
+    const sunder_i_obstacle_edge edge = {
+        {least * side->along[0], least * side->along[1]}, {side->along[0], side->along[1]}, INFINITY};
+    double corner[8];
+    const size_t n = sunder_i_half_plane_corners(&edge, 2 * l->reach, corner);
+    sunder_i_forbidden_piece piece = {.edge = (uint32_t)f->edges,
+                                      .a = l->of_p->piece,
+                                      .b = l->of_q->piece,
+                                      .shadow = true,
+                                      .clearance = NAN,
+                                      .vague = 0x1p-48 * (4 * l->reach + fabs(least))};
+    if (!sunder_i_reserve(&f->piece, &f->piece_capacity, f->pieces + 1, sizeof *f->piece) ||
+        !set_edges(f, &piece, corner, n))
+        return false;
+    keep_piece(f, &piece, corner, n);
+    return true;
+}
+
 static bool add_all(listing *l)
 {
+    if (!add_row(l)) return false;
     if (l->no_paths) return add_pieces(l);
     if (!add_pieces(l) || !add_covers(l, l->p, l->q, false) || !add_covers(l, l->q, l->p, true)) return false;
     if (!add_sides(l, l->p, l->q, false) || !add_sides(l, l->q, l->p, true)) return false;

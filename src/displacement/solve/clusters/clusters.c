@@ -28,6 +28,7 @@ static void free_clusters(sunder_i_solver *s)
 void sunder_i_solver_free(sunder_i_solver *solver)
 {
     sunder_i_jumps_free(&solver->jumps);
+    sunder_i_rows_free(&solver->rows);
     sunder_i_placement_free(&solver->model, &solver->placement);
     sunder_i_model_free(&solver->model);
     sunder_i_free_all(solver->start.pair, solver->depth, solver->depth_at, solver->now.pair, solver->entry,

@@ -7,6 +7,7 @@
 #include "displacement/layer/placement.h"
 #include "displacement/layer/reads.h"
 #include "displacement/prove/optimum/optimum.h"
+#include "displacement/rows/rows.h"
 #include "displacement/solve/clusters/body_state.h"
 #include "displacement/solve/search/cluster.h"
 
@@ -51,6 +52,7 @@ typedef struct sunder_i_solver {
     sunder_i_depth *depth;         /* [depths] how deep pairs of `start` overlapped, of those for which it was needed */
     size_t depths, depth_capacity;
     uint32_t *depth_at;    /* [start.n] index into depth[], plus one; 0: not computed. NULL: no depth was computed */
+    sunder_i_rows rows;    /* the rows of the layer as given, if they are wanted */
     sunder_i_jumps jumps;  /* pairs of features of which one jumped over the other, in the present layout */
     sunder_i_entry *entry; /* [entries] */
     size_t entries, entry_capacity;

@@ -137,7 +137,8 @@ typedef struct sunder_i_piece_pair {
     uint64_t key;                       /* identifies the pair */
     sunder_i_inclusion_state inclusion; /* of a wall; SUNDER_I_LAPSED: the two are pieces, which keep their distance */
     bool relaxed;                       /* relaxations between the two bodies count */
-    bool shadow;                        /* one of the two is an anchor, which may not pass the other */
+    bool shadow;                        /* one of the two is an anchor, which may not pass the other; or: */
+    const sunder_i_row_side *row;       /* the rule of rows, a shadow that is a half-plane; a and b are NULL then */
     const sunder_i_relaxation *relaxation; /* the relaxation of the two pieces; or NULL */
 } sunder_i_piece_pair;
 
@@ -194,6 +195,10 @@ static inline void sunder_i_search_body_shadows(sunder_i_search *search, const s
     if (p->clear > far && q->clear > far && p->has->sides + q->has->sides == 0) return;
     sunder_i_search_visit_shadows(search, p, q, u, reach, visit, context);
 }
+/* Visits the half-plane that the rule of rows forbids to bodies p and q of the model, if there is one. relaxed: the pair
+ * remains in conflict. */
+void sunder_i_search_visit_row(sunder_i_search *search, const sunder_i_body *p, const sunder_i_body *q, bool relaxed,
+                               sunder_i_visit_piece_pair visit, void *context);
 /* Visits each pair of bodies, one of them movable, that is farther apart than `reach` at the moves t, but may have
  * passed each other on the way from home to t, or be within `reach` of a shadow. */
 void sunder_i_search_visit_passing(sunder_i_search *search, const double *t, double reach, sunder_i_visit_pair visit,

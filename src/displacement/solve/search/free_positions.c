@@ -42,6 +42,12 @@ static void add_walls(sunder_i_search *s, sunder_i_obstacles *o, const sunder_i_
     if (q->has->walls) sunder_i_search_walls(s, q, p, back, reach, &pair, true, add_wall, o);
 }
 
+static bool are_relaxed(const sunder_i_search *s, const sunder_i_body *p, const sunder_i_body *q)
+{
+    double reach;
+    return sunder_i_search_is_relaxed(s, (uint32_t)(p - s->model->body), (uint32_t)(q - s->model->body), &reach);
+}
+
 /* Adds shadows as obstacles, translated by `shift`, and cut off at distance `far`. */
 typedef struct shading {
     sunder_i_obstacles *obstacles;
@@ -60,7 +66,8 @@ static void add_shadow(sunder_i_search *s, const sunder_i_piece_pair *pair, void
         s->failed = true;
         return;
     }
-    n = sunder_i_shadow_corners(edge, n, shade->far, corner);
+    n = pair->row ? sunder_i_half_plane_corners(edge, shade->far, corner)
+                  : sunder_i_shadow_corners(edge, n, shade->far, corner);
     for (size_t k = 0; k < 2 * n; k++) corner[k] += shade->shift[k & 1];
     s->steps += OBSTACLE_WORK;
     sunder_i_obstacles_add(shade->obstacles, corner, n, sunder_i_max(gap, 0) + 2 * s->tolerance);
@@ -73,6 +80,7 @@ static void add_shadows(sunder_i_search *s, sunder_i_obstacles *o, const sunder_
     const double u[2] = {at[0] - t[0], at[1] - t[1]};
     shading shade = {o, {t[0], t[1]}, hypot(u[0], u[1]) + reach};
     sunder_i_search_body_shadows(s, p, q, u, reach + s->gap - s->model->rules.gap, add_shadow, &shade);
+    sunder_i_search_visit_row(s, p, q, are_relaxed(s, p, q), add_shadow, &shade);
 }
 
 typedef struct shade {
@@ -96,6 +104,7 @@ static bool is_shaded(sunder_i_search *s, const sunder_i_body *p, const double t
     const double u[2] = {at[0] - t[0], at[1] - t[1]};
     shade found = {u, false};
     sunder_i_search_body_shadows(s, p, q, u, s->gap - s->model->rules.gap, take_shade, &found);
+    sunder_i_search_visit_row(s, p, q, are_relaxed(s, p, q), take_shade, &found);
     return found.deep;
 }
 

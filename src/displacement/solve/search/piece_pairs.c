@@ -259,6 +259,7 @@ void sunder_i_search_piece_pairs(sunder_i_search *search, uint32_t i, uint32_t j
     /* Shadows are seldom in the way, so they are looked for within a shorter distance. */
     const double ahead = sunder_i_min(reach - shift - search->gap, search->gap / LEAST_REACH);
     sunder_i_search_body_shadows(search, p, q, u, search->gap - model->rules.gap + ahead, visit, context);
+    sunder_i_search_visit_row(search, p, q, pair.relaxed, visit, context);
     if (!pair.relaxed && model->inclusions == 0) return;
     if (p->has->walls) sunder_i_search_walls(search, p, q, v, reach, &pair, false, visit, context);
     if (q->has->walls) sunder_i_search_walls(search, q, p, back, reach, &pair, true, visit, context);
@@ -298,6 +299,25 @@ static const sunder_i_obstacle_edge *take_edges(sunder_i_search *s, size_t *n)
     return s->shifted;
 }
 
+/* The boundary of the half-plane that the rule of rows forbids, as two rays. It demands the margin, but never more than
+ * the start has. */
+static const sunder_i_obstacle_edge *row_edges(sunder_i_search *s, const sunder_i_piece_pair *pair, size_t *n,
+                                               double *gap)
+{
+    const sunder_i_row_side *row = pair->row;
+    const double least = pair->relaxed ? row->least_listed : row->least, margin = s->gap - s->model->rules.gap;
+    s->steps++;
+    if (!sunder_i_reserve(&s->shifted, &s->shifted_capacity, 2, sizeof *s->shifted)) {
+        s->failed = true;
+        return NULL;
+    }
+    for (*n = 0; *n < 2; ++*n)
+        s->shifted[*n] = (sunder_i_obstacle_edge){
+            {least * row->along[0], least * row->along[1]}, {row->along[0], row->along[1]}, INFINITY};
+    *gap = least > 0 ? margin : sunder_i_min(margin, -least);
+    return s->shifted;
+}
+
 /* The edges of a shadow, which no cache keeps. */
 static const sunder_i_obstacle_edge *shadow_edges(sunder_i_search *s, const sunder_i_piece_pair *pair, size_t *n,
                                                   double *gap)
@@ -318,6 +338,7 @@ static const sunder_i_obstacle_edge *shadow_edges(sunder_i_search *s, const sund
 const sunder_i_obstacle_edge *sunder_i_search_edges(sunder_i_search *search, const sunder_i_piece_pair *pair, size_t *n,
                                                     double *gap)
 {
+    if (pair->row) return row_edges(search, pair, n, gap);
     if (pair->shadow) return shadow_edges(search, pair, n, gap);
     const sunder_i_obstacle_edge *edge =
         pair->relaxation ? NULL : sunder_i_obstacle_cache_find(&search->cache, pair->key, n);

@@ -1,4 +1,4 @@
-/* The rule against jumps, and the rule of sides: shadows of bodies, which the search treats as further obstacles.
+/* The rule against jumps, the rule of sides and the rule of rows: shadows, which the search treats as further obstacles.
  *
  * With a the anchor of a member of one body and B a piece of the other, at the start, the anchor passes B exactly when
  * the relative move lies in the shadow of the obstacle K = a + (-B), or B + (-a), from the origin (shadow.c). So a
@@ -125,6 +125,23 @@ void sunder_i_search_visit_shadows(sunder_i_search *search, const sunder_i_body 
     if (from_q) visit_from(search, q, p, path, far, &pair, true, visit, context);
 }
 
+/* ---- Of two neighbours in a row ---------------------------------------------------------------------------------- */
+
+void sunder_i_search_visit_row(sunder_i_search *search, const sunder_i_body *p, const sunder_i_body *q, bool relaxed,
+                               sunder_i_visit_piece_pair visit, void *context)
+{
+    const sunder_i_model *model = search->model;
+    if (p->has->row_sides == 0 || q->has->row_sides == 0) return;
+    const sunder_i_row_side *side = sunder_i_row_side_of(model, p, (uint32_t)(q - model->body));
+    if (!side) return;
+    const sunder_i_piece_pair pair = {.key = UINT64_C(7) << 60 | (uint64_t)(side - model->row_side),
+                                      .inclusion = SUNDER_I_LAPSED,
+                                      .relaxed = relaxed,
+                                      .shadow = true,
+                                      .row = side};
+    visit(search, &pair, context);
+}
+
 /* ---- Which bodies may have passed which -------------------------------------------------------------------------- */
 
 /* Are the boxes of the two bodies at t within `reach` of each other? */
@@ -145,6 +162,7 @@ bool sunder_i_search_may_pass(const sunder_i_search *search, const double *t, ui
     const double u[2] = {t[2 * j] - t[2 * i], t[2 * j + 1] - t[2 * i + 1]};
     double path[4];
     bool swapped;
+    if (p->has->row_sides && sunder_i_row_side_of(search->model, p, search->body[j])) return true;
     if (!sunder_i_forbids_paths(search->model)) return false;
     sunder_i_shadow_path_box(u, reach - search->model->rules.gap, path);
     if (may_cross(search->model, p, q, offset, path, &swapped)) return true;
@@ -193,9 +211,24 @@ static int by_left(const void *a, const void *b)
     return p->body < q->body ? -1 : p->body > q->body;
 }
 
+/* Visits each two neighbours in a row that are farther apart than `reach`. */
+static void visit_rows(sunder_i_search *s, const double *t, double reach, sunder_i_visit_pair visit, void *context)
+{
+    const sunder_i_model *model = s->model;
+    for (uint32_t i = 0; i < s->n && !s->failed; i++) {
+        const sunder_i_extras *has = model->body[s->body[i]].has;
+        for (uint32_t k = has->row_side; k < has->row_side + has->row_sides && !s->failed; k++) {
+            const uint32_t j = sunder_i_search_place_of(s, model->row_side[k].other);
+            if (j != SUNDER_I_NOBODY && i < j && s->mass[i] + s->mass[j] > 0 && !are_near(s, t, i, j, reach))
+                visit(s, i, j, context);
+        }
+    }
+}
+
 void sunder_i_search_visit_passing(sunder_i_search *search, const double *t, double reach, sunder_i_visit_pair visit,
                                    void *context)
 {
+    if (search->model->row_sides) visit_rows(search, t, reach, visit, context);
     if (!sunder_i_forbids_paths(search->model) || search->n < 2) return;
     /* The moves of two bodies that passed each other are together longer than `least`. */
     if (!search->least_passing_known) search->least_passing = least_passing(search);
@@ -220,6 +253,7 @@ void sunder_i_search_visit_passing(sunder_i_search *search, const double *t, dou
                            j = list[x].body ^ list[y].body ^ i;
             if (list[y].box[1] > list[x].box[3] || list[x].box[1] > list[y].box[3]) continue;
             if (!(search->mass[i] + search->mass[j] > 0) || are_near(search, t, i, j, reach)) continue;
+            if (sunder_i_row_side_of(search->model, &search->model->body[search->body[i]], search->body[j])) continue;
             if (sunder_i_search_may_pass(search, t, i, j, reach)) visit(search, i, j, context);
         }
     sunder_i_free(list);

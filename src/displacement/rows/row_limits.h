@@ -1,6 +1,6 @@
 /* What counts as a row. The limits were chosen by looking at pictures of rows in Liechtenstein and Argenteuil. */
-#ifndef SUNDER_I_ROW_RULE_H
-#define SUNDER_I_ROW_RULE_H
+#ifndef SUNDER_I_ROW_LIMITS_H
+#define SUNDER_I_ROW_LIMITS_H
 
 /* Neighbours in a row are at most this many gaps apart. */
 #define ROW_REACH 4.0

@@ -1,0 +1,91 @@
+/* The rule of rows: with `apart` the separation of two neighbours along the row at the start, v their relative move and
+ * a the direction of the row, v . a is at least
+ *
+ *     gap - apart           if the pair is in conflict at the start: it is to be resolved along the row
+ *     min(0, gap - apart)   otherwise, and for a pair that remains in conflict: the two may come nearer along the row
+ *                           only as long as the gap is kept there
+ *
+ * Source: a half-plane that is convex, so that nothing branches on it. */
+#include "displacement/rows/rows.h"
+
+#include "base/extremes.h"
+
+#include <stdlib.h>
+
+/* Lists the pairs of bodies in conflict, sorted. Returns NULL if memory is out. */
+static sunder_i_id_pair *list_conflicts(const sunder_i_model *model, const sunder_i_relations *start, size_t *n)
+{
+    sunder_i_id_pair *pair = sunder_i_alloc(start->n, sizeof *pair);
+    *n = 0;
+    for (size_t k = 0; k < start->n && pair; k++) {
+        const sunder_i_relation *r = &start->pair[k];
+        const uint32_t i = model->body_of[r->a], j = model->body_of[r->b];
+        if (sunder_i_is_conflict_of_bodies(model, r)) pair[(*n)++] = (sunder_i_id_pair){i < j ? i : j, i < j ? j : i};
+    }
+    if (pair && *n) qsort(pair, *n, sizeof *pair, sunder_i_by_id_pair);
+    return pair;
+}
+
+/* The rule of a pair as seen from one of its bodies. */
+typedef struct half {
+    uint32_t body;
+    sunder_i_row_side side;
+} half;
+
+static int by_body(const void *x, const void *y)
+{
+    const half *p = x, *q = y;
+    if (p->body != q->body) return p->body < q->body ? -1 : 1;
+    return p->side.other < q->side.other ? -1 : p->side.other > q->side.other;
+}
+
+/* Appends the rule of an edge, from both of its bodies. */
+static void add_edge(const sunder_i_model *model, const sunder_i_row_edge *e, bool in_conflict, half *out, size_t *n)
+{
+    const double least = model->rules.gap - e->apart, listed = sunder_i_min(0, least);
+    const sunder_i_row_side there = {e->j, {e->along[0], e->along[1]}, in_conflict ? least : listed, listed};
+    sunder_i_row_side back = there;
+    back.other = e->i;
+    for (int c = 0; c < 2; c++) back.along[c] = -there.along[c];
+    out[(*n)++] = (half){e->i, there};
+    out[(*n)++] = (half){e->j, back};
+}
+
+/* Stores n halves, sorted by their bodies, in the model. Returns false if memory is out. */
+static bool keep_rule(sunder_i_model *model, const half *all, size_t n)
+{
+    model->row_side = sunder_i_alloc(n, sizeof *model->row_side);
+    if (!model->row_side) return false;
+    for (size_t k = 0, end; k < n; k = end) {
+        sunder_i_extras *extras = sunder_i_own_extras(model, &model->body[all[k].body]);
+        if (!extras) return false;
+        extras->row_side = (uint32_t)k;
+        for (end = k; end < n && all[end].body == all[k].body; end++) model->row_side[end] = all[end].side;
+        extras->row_sides = (uint32_t)(end - k);
+    }
+    model->row_sides = n;
+    return true;
+}
+
+sunder_status sunder_i_rows_make_rule(const sunder_i_rows *rows, const sunder_i_relations *start, sunder_i_model *model,
+                                      sunder_error *err)
+{
+    const size_t edges = rows->rows ? rows->row_end[rows->rows - 1] : 0;
+    size_t conflicts, n = 0;
+    if (edges == 0) return SUNDER_OK;
+    half *all = sunder_i_alloc(2 * edges, sizeof *all);
+    sunder_i_id_pair *conflict = list_conflicts(model, start, &conflicts);
+    bool ok = all && conflict;
+    for (size_t k = 0; k < edges && ok; k++) {
+        const sunder_i_row_edge *e = &rows->edge[k];
+        const sunder_i_id_pair pair = {e->i < e->j ? e->i : e->j, e->i < e->j ? e->j : e->i};
+        const size_t at = sunder_i_lower_bound(&pair, conflict, conflicts, sizeof pair, sunder_i_by_id_pair);
+        const bool in_conflict = at < conflicts && sunder_i_by_id_pair(&conflict[at], &pair) == 0;
+        if (e->apart > 0 && !(model->body[e->i].fixed && model->body[e->j].fixed))
+            add_edge(model, e, in_conflict, all, &n);
+    }
+    if (ok && n) qsort(all, n, sizeof *all, by_body);
+    if (ok && n) ok = keep_rule(model, all, n);
+    sunder_i_free_all(all, conflict);
+    return ok ? SUNDER_OK : sunder_i_failure_cause(err);
+}
