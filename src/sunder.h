@@ -637,15 +637,17 @@ typedef enum sunder_conflict_kind {
     SUNDER_CONFLICT_CONTAINED,
     SUNDER_CONFLICT_DUPLICATE,
     /* Only sunder_layer_check_moves() finds the following kinds. If b is SIZE_MAX, the conflict is about feature a. */
-    SUNDER_CONFLICT_WORSE,          /* the pair is in conflict, and worse than before the moves */
-    SUNDER_CONFLICT_LIMIT,          /* a moved by `distance`, and at most `required` was allowed */
-    SUNDER_CONFLICT_SIDE,           /* the side anchor of a crossed a side of barrier b on its way, `from` - `to` */
-    SUNDER_CONFLICT_JUMP,           /* a jumped over b; `from` - `to` is the way of its anchor, relative to b */
-    SUNDER_CONFLICT_NOT_A_TRANSLATE /* no move of a makes its coordinates what they are now */
+    SUNDER_CONFLICT_WORSE,           /* the pair is in conflict, and worse than before the moves */
+    SUNDER_CONFLICT_LIMIT,           /* a moved by `distance`, and at most `required` was allowed */
+    SUNDER_CONFLICT_SIDE,            /* the side anchor of a crossed a side of barrier b on its way, `from` - `to` */
+    SUNDER_CONFLICT_JUMP,            /* a jumped over b; `from` - `to` is the way of its anchor, relative to b */
+    SUNDER_CONFLICT_NOT_A_TRANSLATE, /* no move of a makes its coordinates what they are now */
+    SUNDER_CONFLICT_ROW              /* a and b do not keep their order in their row: b moved, relative to a and along
+                                      * the row, by `distance`, and at least `required` was allowed */
 } sunder_conflict_kind;
 
 /* "overlap", "too_close", "barrier", "barrier_drawn", "barrier_near", "contained", "duplicate", "worse", "limit",
- * "side", "jump", "not_a_translate". */
+ * "side", "jump", "not_a_translate", "row". */
 SUNDER_API const char *sunder_conflict_kind_string(sunder_conflict_kind kind);
 
 typedef enum sunder_reason {

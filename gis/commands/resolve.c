@@ -186,7 +186,7 @@ void gis_resolve_original(const gis_options *options, const gis_layer_input_requ
  * in a way that cannot be repeated on the original layer. */
 static bool check_before(const gis_options *options, gis_error *error)
 {
-    static const gis_option_id of_moves[] = {OPT_MAX_SHIFT, OPT_MAX_SHIFT_FIELD, OPT_FIXED_WHERE, OPT_ALLOW_JUMPS},
+    static const gis_option_id of_moves[] = {OPT_MAX_SHIFT, OPT_MAX_SHIFT_FIELD, OPT_FIXED_WHERE, OPT_ALLOW_JUMPS, OPT_ROWS},
                                of_results[] = {OPT_SQL, OPT_BBOX};
     bool before = options->given[OPT_BEFORE];
     if (options->command->bit != GIS_CHECK) return true;

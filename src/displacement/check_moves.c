@@ -2,11 +2,13 @@
  *
  * Features are matched by their indices in the two layers. Each feature has to be a translate of what it was, up to the
  * rounding of its coordinates to doubles. Its move is checked against its limit, against the rule against jumps
- * together with the moves of all others, and against the sides of barriers. No pair that is in conflict afterwards may
- * be worse than before. Blocks, limits and fixed features are those of the layer before. */
+ * together with the moves of all others, against the sides of barriers and, if rows are wanted, against the rule of
+ * rows. No pair that is in conflict afterwards may be worse than before. Blocks, limits, rows and fixed features are
+ * those of the layer before. */
 #include "displacement/layer/barrier_pairs.h"
 #include "displacement/layer/rounding.h"
 #include "displacement/report/report.h"
+#include "displacement/rows/rows.h"
 
 #include "base/clock.h"
 #include "base/sized_struct.h"
@@ -132,6 +134,55 @@ static sunder_status check_paths(comparison *c, sunder_error *err)
     return status;
 }
 
+/* Finds the rows of the layer before, and their rule. */
+static sunder_status find_rows(comparison *c, sunder_error *err)
+{
+    sunder_i_rows rows = {0};
+    if (!c->model.rules.rows) return SUNDER_OK;
+    sunder_status status = sunder_i_rows_find(&c->model, &rows, err);
+    if (!status) status = sunder_i_rows_make_rule(&rows, &c->start, &c->model, err);
+    sunder_i_rows_free(&rows);
+    return status;
+}
+
+/* Is a pair of members of the two bodies in conflict now? */
+static bool are_in_conflict(const comparison *c, uint32_t i, uint32_t j)
+{
+    for (size_t k = 0; k < c->now.n; k++) {
+        const sunder_i_relation *r = &c->now.pair[k];
+        const uint32_t p = c->model.body_of[r->a], q = c->model.body_of[r->b];
+        if (((p == i && q == j) || (p == j && q == i)) && sunder_i_is_conflict_of_bodies(&c->model, r)) return true;
+    }
+    return false;
+}
+
+/* Records that the bodies of features f and g, neighbours in a row, broke its rule. */
+static sunder_status tell_row(comparison *c, uint32_t f, uint32_t g, sunder_error *err)
+{
+    const uint32_t i = c->model.body_of[f], j = c->model.body_of[g];
+    const sunder_i_row_side *side = sunder_i_row_side_of(&c->model, &c->model.body[i], j);
+    const double *t = c->move + 2 * (size_t)f, *s = c->move + 2 * (size_t)g;
+    if (!side || !c->translated[f] || !c->translated[g]) return SUNDER_OK;
+    const double least = are_in_conflict(c, i, j) ? side->least_listed : side->least;
+    if (sunder_i_keeps_row(side, t, s, least)) return SUNDER_OK;
+    sunder_conflict *found = add_conflict(c, SUNDER_CONFLICT_ROW, f, g);
+    if (!found) return sunder_i_failure_cause(err);
+    found->distance = (s[0] - t[0]) * side->along[0] + (s[1] - t[1]) * side->along[1];
+    found->required = least;
+    draw_link(c, f, s, found);
+    return SUNDER_OK;
+}
+
+/* Checks the pairs that left the row that they would have to keep without a conflict. c->now has to be known. */
+static sunder_status check_rows(comparison *c, sunder_error *err)
+{
+    sunder_status status = SUNDER_OK;
+    for (size_t k = 0; k < c->jumps.n && c->model.row_sides && !status; k++)
+        if (!sunder_i_is_barrier(&c->model, c->jumps.pair[k].b))
+            status = tell_row(c, c->jumps.pair[k].a, c->jumps.pair[k].b, err);
+    return status;
+}
+
 /* Puts the features at their positions in `after`. */
 static sunder_status place_after(comparison *c, sunder_error *err)
 {
@@ -189,6 +240,7 @@ static sunder_status check_pairs(comparison *c, sunder_report *report, sunder_er
     sunder_status status = place_after(c, err);
     if (!status) status = sunder_i_placement_relate(&c->model, &c->placement, NULL, &c->now, err);
     if (!status) report->summary.pairs_tested = c->now.tested;
+    if (!status) status = check_rows(c, err);
     if (!status) status = find_worse(c, err);
     if (!status) status = sunder_i_report_conflicts(report, &c->model, &c->placement, &c->now, false, err);
     for (size_t k = 0; k < report->conflicts && !status; k++) {
@@ -228,6 +280,7 @@ static sunder_status begin_comparison(comparison *c, const sunder_layer_options 
     if (!status) status = sunder_i_model_join(&c->model, &c->start, err);
     if (!status) status = sunder_i_model_cut(&c->model, err);
     if (!status) status = sunder_i_model_anchor(&c->model, err);
+    if (!status) status = find_rows(c, err);
     if (status) return status;
     c->move = sunder_i_calloc(2 * c->before->n, sizeof *c->move);
     c->translated = sunder_i_calloc(c->before->n, sizeof *c->translated);

@@ -130,7 +130,8 @@ void sunder_i_count(sunder_conflict_counts *counts, const sunder_conflict *confl
     case SUNDER_CONFLICT_LIMIT:
     case SUNDER_CONFLICT_SIDE:
     case SUNDER_CONFLICT_JUMP:
-    case SUNDER_CONFLICT_NOT_A_TRANSLATE: break; /* not used for conflicts of a layer */
+    case SUNDER_CONFLICT_NOT_A_TRANSLATE:
+    case SUNDER_CONFLICT_ROW: break; /* not used for conflicts of a layer */
     }
 }
 

@@ -76,12 +76,22 @@ static unsigned side_of(const row_search *s, uint32_t body, const double directi
     return fabs(along) >= fabs(across) ? (along > 0 ? 0 : 2) : (across > 0 ? 1 : 3);
 }
 
-/* Makes edge e the one on that side of the body, if it is the shortest one there. Edges come in the order of their
- * bodies, so that of several of one length the first remains. */
+/* Does edge d come before edge e, of the same body? The shorter one does; of two of one length the one with the lower
+ * separation and offset, and then the one with the lower number. */
+static bool is_before(const row_search *s, uint32_t d, uint32_t e)
+{
+    const sunder_i_row_edge *p = &s->edge[d], *q = &s->edge[e];
+    if (s->distance[d] != s->distance[e]) return s->distance[d] < s->distance[e];
+    if (p->apart != q->apart) return p->apart < q->apart;
+    if (fabs(p->offset) != fabs(q->offset)) return fabs(p->offset) < fabs(q->offset);
+    return d < e;
+}
+
+/* Makes edge e the one on that side of the body, if it comes before the one that is there. */
 static void offer_edge(row_search *s, uint32_t body, const double direction[2], uint32_t e)
 {
     uint32_t *have = &s->side[body][side_of(s, body, direction)];
-    if (*have == NONE || s->distance[e] < s->distance[*have]) *have = e;
+    if (*have == NONE || is_before(s, e, *have)) *have = e;
 }
 
 static bool has_edge(const row_search *s, uint32_t body, uint32_t e)

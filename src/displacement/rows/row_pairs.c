@@ -68,14 +68,21 @@ static sunder_status find_near(void *context, size_t begin, size_t end, sunder_e
     return status;
 }
 
-/* Orders pairs by their bodies, those of the same bodies by distance. */
+/* Orders pairs by their bodies, those of the same bodies by distance. Pairs at one distance are ordered by the ends of
+ * their links, so that numbers of features do not matter. */
 static int by_bodies(const void *x, const void *y)
 {
     const sunder_i_row_pair *p = x, *q = y;
     const int order = sunder_i_by_id_pair(p, q);
     if (order) return order;
-    if (p->distance != q->distance) return p->distance < q->distance ? -1 : 1;
-    return p->f != q->f ? (p->f < q->f ? -1 : 1) : p->g < q->g ? -1 : p->g > q->g;
+    const double values[5][2] = {{p->distance, q->distance},
+                                 {p->from[0] + p->to[0], q->from[0] + q->to[0]},
+                                 {p->from[1] + p->to[1], q->from[1] + q->to[1]},
+                                 {fabs(p->from[0] - p->to[0]), fabs(q->from[0] - q->to[0])},
+                                 {(double)p->f, (double)q->f}};
+    for (int k = 0; k < 5; k++)
+        if (values[k][0] != values[k][1]) return values[k][0] < values[k][1] ? -1 : 1;
+    return p->g < q->g ? -1 : p->g > q->g;
 }
 
 /* Appends the nearest features of each pair of bodies to `pairs`, which is empty. */
