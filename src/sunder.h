@@ -504,7 +504,7 @@ SUNDER_API const char *sunder_containment_string(sunder_containment containment)
 /* Which features count as rows: neighbours that stand side by side along a line, such as the houses of a street. */
 typedef enum sunder_rows {
     SUNDER_ROWS_NONE, /* no rows are looked for */
-    SUNDER_ROWS_FOUND /* rows are found in the layer as it is given; src/displacement/rows/README has the rule */
+    SUNDER_ROWS_FOUND /* rows are found in the layer as it is given; src/displacement/rows/README has the rules */
 } sunder_rows;
 
 /* What one stage of sunder_layer_separate() did, for developers. Experimental: the words for passes, stages, steps and
@@ -553,7 +553,7 @@ typedef struct sunder_layer_options {
     double barrier_reach;
     sunder_trace trace; /* NULL for none */
     void *trace_user;
-    sunder_rows rows; /* rows are only reported; not with keep_worlds */
+    sunder_rows rows; /* neighbours in a row keep their order; not with keep_worlds, nor with keep_trees */
     double kink;      /* a kink greater than this counts in summary.kink_share; negative (the default): gap / 10 */
 } sunder_layer_options;
 

@@ -111,6 +111,8 @@ static bool resolve_rows(const gis_options *options, sunder_rows *out, gis_error
 {
     const bool wanted = options->text[OPT_ROWS] && strcmp(options->text[OPT_ROWS], "auto") == 0;
     *out = wanted ? SUNDER_ROWS_FOUND : SUNDER_ROWS_NONE;
+    if (wanted && options->given[OPT_PROOF])
+        return gis_fail_usage(error, "--proof: a proof cannot name rows; leave out --rows");
     if (!wanted || !(options->given[OPT_SYMBOL] || options->given[OPT_SYMBOL_FIELD])) return true;
     return gis_fail_usage(error, "--rows: rows are found among polygons, and the symbols of points have none");
 }
@@ -186,7 +188,8 @@ void gis_resolve_original(const gis_options *options, const gis_layer_input_requ
  * in a way that cannot be repeated on the original layer. */
 static bool check_before(const gis_options *options, gis_error *error)
 {
-    static const gis_option_id of_moves[] = {OPT_MAX_SHIFT, OPT_MAX_SHIFT_FIELD, OPT_FIXED_WHERE, OPT_ALLOW_JUMPS, OPT_ROWS},
+    static const gis_option_id of_moves[] = {OPT_MAX_SHIFT, OPT_MAX_SHIFT_FIELD, OPT_FIXED_WHERE, OPT_ALLOW_JUMPS,
+                                             OPT_ROWS},
                                of_results[] = {OPT_SQL, OPT_BBOX};
     bool before = options->given[OPT_BEFORE];
     if (options->command->bit != GIS_CHECK) return true;

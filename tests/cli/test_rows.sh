@@ -19,21 +19,38 @@ case $row in *'row (Integer64) = 1 '*'houses (Integer64) = 5 '*'kink_bef (Real) 
 [ "$(ogrinfo -q -sql 'SELECT count(*) AS n FROM layer_styles WHERE f_table_name = "street_rows"' o.gpkg | grep -c 'n (Integer) = 1')" = 1 ] ||
     fail "the layer of rows has no style"
 
-# Rows are only reported: all other output is the same as without them.
+# Without the option there is no layer and no figure of rows.
 expect 0 separate street.gpkg plain.gpkg --gap 3 --stats plain.json
 ogrinfo -q plain.gpkg | grep -q rows && fail "rows, unasked"
 [ "$(jq .rows plain.json)" = null ] || fail "figures of rows, unasked"
-for name in street street_displacement; do
-    diff <(ogr2ogr -f CSV /vsistdout/ o.gpkg $name -lco GEOMETRY=AS_WKT) \
-        <(ogr2ogr -f CSV /vsistdout/ plain.gpkg $name -lco GEOMETRY=AS_WKT) >/dev/null || fail "$name is another with rows"
-done
 expect 0 separate street.gpkg main.gpkg --gap 3 --rows auto --layers main
 ogrinfo -q main.gpkg | grep -q rows && fail "rows, though only the main layer was asked for"
+
+# Twelve houses 1 m apart have to be 5 m apart: without the rule they go to alternating sides, with it they stay a row.
+{
+    echo "WKT,w"
+    for k in {0..11}; do
+        x=$((11 * k))
+        echo "\"POLYGON(($x 0,$((x + 10)) 0,$((x + 10)) 10,$x 10,$x 0))\",1"
+    done
+} | layer twelve.gpkg twelve POLYGON
+expect 0 separate twelve.gpkg row.gpkg --gap 5 --rows auto --stats row.json
+expect 0 separate twelve.gpkg free.gpkg --gap 5 --stats free.json
+# 4 m are missing in each gap: e^2 n (n^2 - 1) / 12 = 2288, and the outermost go 22 m.
+jq -e '(.displacement.cost - 2288 | fabs) < 1e-6 and (.displacement.max - 22 | fabs) < 1e-6 and .rows.kink_p95 == 0 and
+    .displacement.optimality_gap < 1e-5' row.json >/dev/null || fail "twelve houses: $(jq -c '.displacement, .rows' row.json)"
+expect 0 check row.gpkg --no-blocks --block-field sunder_blk --gap 5 --rows auto --before twelve.gpkg --stats check.json
+[ "$(jq .moves.row check.json)" = 0 ] || fail "the row is broken: $(cat out)"
+expect 3 check free.gpkg --no-blocks --block-field sunder_blk --gap 5 --rows auto --before twelve.gpkg --stats check.json
+[ "$(jq .moves.row check.json)" -gt 3 ] || fail "broken rows are not found: $(cat out)"
+expect 0 check free.gpkg --no-blocks --block-field sunder_blk --gap 5 --before twelve.gpkg
+expect 2 check free.gpkg --gap 5 --rows auto
 
 # Refused: points, parts on disk, the layer without the option.
 printf 'WKT,w\n"POINT(0 0)",1\n' | layer points.gpkg points POINT
 expect 2 separate points.gpkg p.gpkg --symbol square:1 --rows auto
 expect 2 separate street.gpkg p.gpkg --gap 3 --rows auto --max-memory 1G
 expect 2 separate street.gpkg p.gpkg --gap 3 --layers rows
+expect 2 separate street.gpkg p.gpkg --gap 3 --rows auto --proof p.jsonl
 [ ! -e p.gpkg ] || fail "an output of a refused run"
 finish

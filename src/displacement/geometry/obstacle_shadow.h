@@ -15,8 +15,8 @@ sunder_i_support sunder_i_shadow_support_at(const sunder_i_obstacle_edge *edge, 
  * `out`, which has room for n + 3. Returns their number. */
 size_t sunder_i_shadow_corners(const sunder_i_obstacle_edge *edge, size_t n, double far, double *out);
 
-/* Writes the four corners of a rectangle that contains the part of a half-plane up to the distance `far` from the origin
- * to `out`. The half-plane is behind the edge, whose beginning is the point of its line nearest to the origin. */
+/* Writes to `out` the four corners of a rectangle that contains the part of a half-plane up to the distance `far` from
+ * the origin. The half-plane is behind the edge, whose beginning is the point of its line nearest to the origin. */
 size_t sunder_i_half_plane_corners(const sunder_i_obstacle_edge *edge, double far, double *out);
 
 /* Sets `path` to the box of the segment from the origin to u, grown by `reach`. A shadow within `reach` of u is cast by

@@ -1,5 +1,5 @@
-/* The rule of rows: neighbours in a row keep their order along it. It is one half-plane of their relative move, whatever
- * their shapes. */
+/* The rule of rows: neighbours in a row keep their order along it. It is one half-plane of their relative move,
+ * whatever their shapes. */
 #include "displacement/layer/model.h"
 
 #include "sunder_parts.h"

@@ -52,6 +52,8 @@ sunder_status sunder_i_rules_of(const sunder_layer_options *options, sunder_i_ru
         return sunder_i_fail(err, SUNDER_EARG, "no such choice of rows: %d", (int)options->rows);
     if (options->rows && options->keep_worlds)
         return sunder_i_fail(err, SUNDER_EARG, "rows are not found in a layer whose worlds are kept");
+    if (options->rows && options->keep_trees)
+        return sunder_i_fail(err, SUNDER_EARG, "no trees are kept for a layer with rows");
     if (isnan(options->kink)) return sunder_i_fail(err, SUNDER_EARG, "the kink that counts is not a number");
     rules->gap = options->gap;
     rules->tolerance = tolerance;

@@ -195,8 +195,8 @@ static inline void sunder_i_search_body_shadows(sunder_i_search *search, const s
     if (p->clear > far && q->clear > far && p->has->sides + q->has->sides == 0) return;
     sunder_i_search_visit_shadows(search, p, q, u, reach, visit, context);
 }
-/* Visits the half-plane that the rule of rows forbids to bodies p and q of the model, if there is one. relaxed: the pair
- * remains in conflict. */
+/* Visits the half-plane that the rule of rows forbids to bodies p and q of the model, if there is one. relaxed: the
+ * pair remains in conflict. */
 void sunder_i_search_visit_row(sunder_i_search *search, const sunder_i_body *p, const sunder_i_body *q, bool relaxed,
                                sunder_i_visit_piece_pair visit, void *context);
 /* Visits each pair of bodies, one of them movable, that is farther apart than `reach` at the moves t, but may have

@@ -1,4 +1,5 @@
-/* The rule against jumps, the rule of sides and the rule of rows: shadows, which the search treats as further obstacles.
+/* The rule against jumps, the rule of sides and the rule of rows: shadows, which the search treats as further
+ * obstacles.
  *
  * With a the anchor of a member of one body and B a piece of the other, at the start, the anchor passes B exactly when
  * the relative move lies in the shadow of the obstacle K = a + (-B), or B + (-a), from the origin (shadow.c). So a

@@ -270,6 +270,9 @@ static void check_refusals(void **state)
     s.options.keep_worlds = true;
     assert_int_equal(sunder_layer_separate(layer, &s.options, &report, NULL), SUNDER_EARG);
     s.options.keep_worlds = false;
+    s.options.keep_trees = true;
+    assert_int_equal(sunder_layer_separate(layer, &s.options, &report, NULL), SUNDER_EARG);
+    s.options.keep_trees = false;
     s.options.rows = (sunder_rows)7;
     assert_int_equal(sunder_layer_separate(layer, &s.options, &report, NULL), SUNDER_EARG);
     s.options.rows = SUNDER_ROWS_FOUND;
