@@ -555,6 +555,9 @@ typedef struct sunder_layer_options {
     void *trace_user;
     sunder_rows rows; /* neighbours in a row keep their order; not with keep_worlds, nor with keep_trees */
     double kink;      /* a kink greater than this counts in summary.kink_share; negative (the default): gap / 10 */
+    /* With rows: the stiffness of springs between neighbours in a row, across it and along it. With u the move of one
+     * relative to the other, and w the lesser of their weights, a spring costs w K (u.n)^2. The default is 3 and 0.3. */
+    double row_stiffness[2];
 } sunder_layer_options;
 
 /* Returns the distance from the box (xmin, ymin, xmax, ymax) of a feature within which barriers can decide on which
@@ -718,7 +721,7 @@ typedef struct sunder_layer_summary {
     size_t rounded;                 /* moved features with a coordinate that had to be rounded to a double */
     double total, mean, max;        /* lengths of moves; the mean is over all features that moved, blocked or not */
     size_t max_feature;             /* the first feature with the longest move; SIZE_MAX if nothing moved */
-    /* cost is the sum of weight * length^2 over the moves. lower_bound is proved: no placement costs less that solves
+    /* cost is the sum of weight * length^2 over the moves, and of the springs of rows. lower_bound is proved: no placement costs less that solves
      * every pair that is not listed, leaves no listed pair worse than at the start, and leaves no pair in overlap that
      * is listed as too close. */
     double cost, lower_bound;
@@ -738,6 +741,7 @@ typedef struct sunder_layer_summary {
      * pairs with a kink above options.kink. */
     size_t rows, row_features, row_pairs;
     double kink_mean, kink_p95, kink_share;
+    double cost_moves, cost_rows; /* the parts of cost: moves, and springs of rows */
 } sunder_layer_summary;
 
 /* Lists the conflicts of a layer as it stands, exactly. The caller frees the report with sunder_report_free().

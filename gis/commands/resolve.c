@@ -117,6 +117,19 @@ static bool resolve_rows(const gis_options *options, sunder_rows *out, gis_error
     return gis_fail_usage(error, "--rows: rows are found among polygons, and the symbols of points have none");
 }
 
+/* Reads K or K,K_ALONG; K alone keeps the default along rows. */
+static bool resolve_stiffness(const gis_options *options, double stiffness[2], gis_error *error)
+{
+    const char *text = options->text[OPT_ROW_STIFFNESS];
+    if (!text) return true;
+    const size_t n = strcspn(text, ",");
+    if (gis_length_parse_number(text, n, &stiffness[0]) && stiffness[0] > 0 &&
+        (!text[n] || (gis_length_parse_number(text + n + 1, strlen(text + n + 1), &stiffness[1]) && stiffness[1] > 0)))
+        return true;
+    return gis_fail_usage(error, "--row-stiffness %s: not one or two numbers above 0, as in --row-stiffness 3,0.3",
+                          text);
+}
+
 static bool resolve_rules(const gis_options *options, gis_layer_rules *out, gis_error *error)
 {
     unsigned weighting;
@@ -140,7 +153,9 @@ static bool resolve_rules(const gis_options *options, gis_layer_rules *out, gis_
     out->core.threads = thread_count(options);
     if (!resolve_choice(options, OPT_WEIGHT, weighting_word, &weighting, error)) return false;
     out->weighting = (gis_weighting)weighting;
-    return resolve_rows(options, &out->core.rows, error) && resolve_contained(options, &out->core.contained, error);
+    return resolve_rows(options, &out->core.rows, error) &&
+           resolve_stiffness(options, out->core.row_stiffness, error) &&
+           resolve_contained(options, &out->core.contained, error);
 }
 
 /* Refuses a file of --stats, --report, --proof or --trace that is a file of a barrier's dataset. The reading of

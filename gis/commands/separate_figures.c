@@ -38,6 +38,10 @@ static void json_displacement(gis_json *out, const gis_separate_run *run)
     else
         gis_json_null(out);
     gis_json_put_double(out, "cost", summary->cost);
+    if (run->request.rules.core.rows) {
+        gis_json_put_double(out, "cost_moves", summary->cost_moves);
+        gis_json_put_double(out, "cost_rows", summary->cost_rows);
+    }
     gis_json_put_double(out, "lower_bound", summary->lower_bound);
     gis_json_put_double(out, "optimality_gap", gis_separate_optimality_gap(summary));
     gis_json_close(out, '}');

@@ -32,6 +32,8 @@ const gis_option gis_option_table[OPT_N] = {
                          "features may pass across others and out of yards; points always may"},
     [OPT_ROWS] = {OPT_ROWS, "--rows", GIS_TYPE_CHOICE, GIS_SEPARATE | GIS_CHECK, OWN, "auto|no", "no",
                   "auto: neighbours in a row keep their order; kinks are reported"},
+    [OPT_ROW_STIFFNESS] = {OPT_ROW_STIFFNESS, "--row-stiffness", GIS_TYPE_TEXT, GIS_SEPARATE, OWN, "K[,K_ALONG]",
+                           "3,0.3", "stiffness of rows against kinks, and against uneven spacing; 10,1: stiff"},
     [OPT_SYMBOL] = {OPT_SYMBOL, "--symbol", GIS_TYPE_SHAPE, GIS_LAYERS, OWN, "SHAPE", NULL,
                     "symbol of each point: WKT, disc:R[:N], square:S ..."},
     [OPT_SYMBOL_FIELD] = {OPT_SYMBOL_FIELD, "--symbol-field", GIS_TYPE_FIELD, GIS_LAYERS, OWN, "FIELD", NULL,

@@ -36,9 +36,29 @@ ogrinfo -q main.gpkg | grep -q rows && fail "rows, though only the main layer wa
 } | layer twelve.gpkg twelve POLYGON
 expect 0 separate twelve.gpkg row.gpkg --gap 5 --rows auto --stats row.json
 expect 0 separate twelve.gpkg free.gpkg --gap 5 --stats free.json
-# 4 m are missing in each gap: e^2 n (n^2 - 1) / 12 = 2288, and the outermost go 22 m.
-jq -e '(.displacement.cost - 2288 | fabs) < 1e-6 and (.displacement.max - 22 | fabs) < 1e-6 and .rows.kink_p95 == 0 and
-    .displacement.optimality_gap < 1e-5' row.json >/dev/null || fail "twelve houses: $(jq -c '.displacement, .rows' row.json)"
+# 4 m are missing in each gap: e^2 n (n^2 - 1) / 12 = 2288, the outermost go 22 m, and eleven springs cost 0.3 e^2 each.
+jq -e '(.displacement.cost_moves - 2288 | fabs) < 1e-6 and (.displacement.cost_rows - 52.8 | fabs) < 1e-6 and
+    (.displacement.max - 22 | fabs) < 1e-6 and .rows.kink_p95 == 0 and .displacement.optimality_gap < 1e-5' row.json \
+    >/dev/null || fail "twelve houses: $(jq -c '.displacement, .rows' row.json)"
+# A house pushed out of the row by one that never moves: the stiffer the rows, the more its neighbours follow.
+{
+    echo "WKT,w"
+    for k in {0..8}; do
+        x=$((14 * k))
+        echo "\"POLYGON(($x 0,$((x + 10)) 0,$((x + 10)) 10,$x 10,$x 0))\",1"
+    done
+    echo '"POLYGON((57 11,65 11,65 40,57 40,57 11))",0'
+} | layer pushed.gpkg pushed POLYGON
+last=100
+for k in 0.01,0.01 1 3 10; do
+    expect 0 separate pushed.gpkg bent.gpkg --overwrite --gap 4 --fixed-where 'w = 0' --rows auto --row-stiffness $k --stats bent.json
+    jq -e --argjson last "$last" '.rows.kink_p95 < $last and .displacement.optimality_gap < 0.01 and .displacement.cost_rows > 0' \
+        bent.json >/dev/null || fail "stiffness $k: $(jq -c '.displacement, .rows' bent.json)"
+    last=$(jq .rows.kink_p95 bent.json)
+done
+for k in 0 -1 x 3, 3,0 3,1,1 nan; do
+    expect 2 separate street.gpkg p.gpkg --gap 3 --rows auto --row-stiffness=$k
+done
 expect 0 check row.gpkg --no-blocks --block-field sunder_blk --gap 5 --rows auto --before twelve.gpkg --stats check.json
 [ "$(jq .moves.row check.json)" = 0 ] || fail "the row is broken: $(cat out)"
 expect 3 check free.gpkg --no-blocks --block-field sunder_blk --gap 5 --rows auto --before twelve.gpkg --stats check.json

@@ -169,6 +169,7 @@ NOUNS = {
 _QGIS_CHOOSES = "which features is chosen in QGIS: by the layer's filter, its selection, or a layer made before"
 _QGIS_WRITES = "the program writes a GeoPackage of the plug-in's; QGIS writes it where the dialog says"
 _OURS = "set by the plug-in"
+_ROWS = "rows are found by the program alone, for now"
 _SHARDS = "a layer in shards is for clusters, which have no dialogs"
 # The commands that no dialog runs, with the reasons.
 LEFT_OUT_COMMANDS = {"plan": _SHARDS, "merge": _SHARDS}
@@ -176,7 +177,7 @@ LEFT_OUT = {
     "--input-layer": _OURS, "--where": _QGIS_CHOOSES, "--sql": _QGIS_CHOOSES, "--dialect": _QGIS_CHOOSES,
     "--bbox": _QGIS_CHOOSES, "--if": _QGIS_CHOOSES, "--oo": _QGIS_CHOOSES, "--config": _QGIS_CHOOSES,
     "--input-crs": "QGIS's own CRS of the layer is handed over with it",
-    "--rows": "it changes no move, and no dialog shows its figures",
+    "--rows": _ROWS, "--row-stiffness": _ROWS,
     "--output": _QGIS_WRITES, "--of": _QGIS_WRITES, "--nlt": _QGIS_WRITES, "--lco": _QGIS_WRITES, "--co": _QGIS_WRITES,
     "--overwrite": _QGIS_WRITES, "--update": _QGIS_WRITES, "--overwrite-layer": _QGIS_WRITES,
     "-overwrite": _QGIS_WRITES,

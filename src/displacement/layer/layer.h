@@ -75,7 +75,8 @@ typedef struct sunder_i_rules {
     sunder_trace trace; /* NULL: no trace */
     void *trace_user;
     sunder_rows rows;
-    double kink; /* the least kink that is counted, >= 0 */
+    double row_stiffness[2]; /* across rows and along them, >= 0; 0 without rows */
+    double kink;             /* the least kink that is counted, >= 0 */
 } sunder_i_rules;
 
 /* Checks the options and makes the rules from them. Fails if an option is out of its range. */

@@ -100,9 +100,16 @@ typedef struct sunder_i_side {
  * move minus the body's is at least `least` long in that direction; only `least_listed`, if the pair remains in
  * conflict. Neither is more than 0, except `least` if the pair is in conflict at the start. */
 typedef struct sunder_i_row_side {
-    uint32_t other; /* the neighbour */
-    double along[2], least, least_listed;
+    uint32_t other;                       /* the neighbour */
+    double along[2], least, least_listed; /* no rule: -INFINITY */
+    double weight;                        /* of the springs: the lesser weight of the two bodies */
 } sunder_i_row_side;
+
+/* The springs of a row between a body and its neighbour, with u the neighbour's move minus the body's: each costs
+ * stiff * (u.n)^2. There are up to two: across the row and along it. */
+typedef struct sunder_i_spring {
+    double n[2], stiff;
+} sunder_i_spring;
 
 /* Returns coordinate v on axis c relative to the body's origin, clamped to the body's reach. Only the search clamps;
  * proofs use the corners as given. */
@@ -425,6 +432,15 @@ sunder_status sunder_i_model_cover_walls(sunder_i_model *model, const uint32_t *
 
 /* Returns the neighbour `other` of the body in a row; NULL if it is none. */
 const sunder_i_row_side *sunder_i_row_side_of(const sunder_i_model *model, const sunder_i_body *body, uint32_t other);
+/* Sets `spring` to the springs between the two, with their weight. Returns their number. */
+size_t sunder_i_springs_of(const sunder_i_model *model, const sunder_i_row_side *side, sunder_i_spring spring[2]);
+/* Returns the cost of these springs for the moves t of the body and s of the neighbour. */
+double sunder_i_spring_cost(const sunder_i_model *model, const sunder_i_row_side *side, const double t[2],
+                            const double s[2]);
+/* Returns the cost of the springs between n bodies, which ascend, with these moves. The second function returns that of
+ * the springs between one of them and a body that is not listed, at its present move. */
+double sunder_i_springs_within(const sunder_i_model *model, const uint32_t *body, size_t n, const double *move);
+double sunder_i_springs_beyond(const sunder_i_model *model, const uint32_t *body, size_t n, const double *move);
 /* Is (s - t) . side->along >= least, for the moves t of the body and s of the neighbour? Exact, unless a product is so
  * small that its rounding error underflows (below 2^-960). */
 bool sunder_i_keeps_row(const sunder_i_row_side *side, const double t[2], const double s[2], double least);

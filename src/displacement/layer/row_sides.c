@@ -1,10 +1,11 @@
-/* The rule of rows: neighbours in a row keep their order along it. It is one half-plane of their relative move,
- * whatever their shapes. */
+/* Neighbours in rows: the rule that they keep their order along the row, which is one half-plane of their relative
+ * move, whatever their shapes; and springs, which make it dear to leave the line. */
 #include "displacement/layer/model.h"
 
 #include "sunder_parts.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 const sunder_i_row_side *sunder_i_row_side_of(const sunder_i_model *model, const sunder_i_body *body, uint32_t other)
 {
@@ -12,6 +13,55 @@ const sunder_i_row_side *sunder_i_row_side_of(const sunder_i_model *model, const
     for (uint32_t k = 0; k < body->has->row_sides; k++)
         if (side[k].other == other) return &side[k];
     return NULL;
+}
+
+size_t sunder_i_springs_of(const sunder_i_model *model, const sunder_i_row_side *side, sunder_i_spring spring[2])
+{
+    const double *stiffness = model->rules.row_stiffness, *a = side->along;
+    size_t n = 0;
+    if (stiffness[0] > 0) spring[n++] = (sunder_i_spring){{-a[1], a[0]}, side->weight * stiffness[0]};
+    if (stiffness[1] > 0) spring[n++] = (sunder_i_spring){{a[0], a[1]}, side->weight * stiffness[1]};
+    return n;
+}
+
+double sunder_i_spring_cost(const sunder_i_model *model, const sunder_i_row_side *side, const double t[2],
+                            const double s[2])
+{
+    sunder_i_spring spring[2];
+    const size_t n = sunder_i_springs_of(model, side, spring);
+    double cost = 0;
+    for (size_t k = 0; k < n; k++) {
+        const double u = (s[0] - t[0]) * spring[k].n[0] + (s[1] - t[1]) * spring[k].n[1];
+        cost += spring[k].stiff * u * u;
+    }
+    return cost;
+}
+
+/* Returns the cost of the springs of n bodies to others that are listed, each once, or (beyond) that are not. */
+static double add_springs(const sunder_i_model *model, const uint32_t *body, size_t n, const double *move, bool beyond)
+{
+    double cost = 0;
+    for (size_t k = 0; k < n && model->row_sides; k++) {
+        const sunder_i_extras *has = model->body[body[k]].has;
+        for (uint32_t e = has->row_side; e < has->row_side + has->row_sides; e++) {
+            const sunder_i_row_side *side = &model->row_side[e];
+            const uint32_t *at = bsearch(&side->other, body, n, sizeof *body, sunder_i_by_number);
+            if (beyond ? at != NULL : !at || *at < body[k]) continue;
+            const double *s = at ? move + 2 * (at - body) : model->move + 2 * (size_t)side->other;
+            cost += sunder_i_spring_cost(model, side, move + 2 * k, s);
+        }
+    }
+    return cost;
+}
+
+double sunder_i_springs_within(const sunder_i_model *model, const uint32_t *body, size_t n, const double *move)
+{
+    return add_springs(model, body, n, move, false);
+}
+
+double sunder_i_springs_beyond(const sunder_i_model *model, const uint32_t *body, size_t n, const double *move)
+{
+    return add_springs(model, body, n, move, true);
 }
 
 /* Adds a product of two doubles to the sum, without rounding. */
@@ -24,6 +74,7 @@ static void add_product(sunder_total *sum, double a, double b)
 
 bool sunder_i_keeps_row(const sunder_i_row_side *side, const double t[2], const double s[2], double least)
 {
+    if (least == -INFINITY) return true;
     /* In doubles the value has an error of a few units of its terms. */
     const double value = (s[0] - t[0]) * side->along[0] + (s[1] - t[1]) * side->along[1] - least,
                  size = fabs(s[0]) + fabs(t[0]) + fabs(s[1]) + fabs(t[1]) + fabs(least);

@@ -18,7 +18,8 @@ void sunder_layer_options_init_sized(sunder_layer_options *options, size_t size)
                                                   .threads = 1,
                                                   .effort = 1,
                                                   .barrier_reach = INFINITY,
-                                                  .kink = -1};
+                                                  .kink = -1,
+                                                  .row_stiffness = {3, 0.3}};
     sunder_i_options_write(options, size, &defaults, sizeof defaults);
 }
 
@@ -54,6 +55,10 @@ sunder_status sunder_i_rules_of(const sunder_layer_options *options, sunder_i_ru
         return sunder_i_fail(err, SUNDER_EARG, "rows are not found in a layer whose worlds are kept");
     if (options->rows && options->keep_trees)
         return sunder_i_fail(err, SUNDER_EARG, "no trees are kept for a layer with rows");
+    for (int k = 0; k < 2; k++)
+        if (!(options->row_stiffness[k] >= 0) || !isfinite(options->row_stiffness[k]))
+            return sunder_i_fail(err, SUNDER_EARG, "the stiffness of rows, %g, is negative or not finite",
+                                 options->row_stiffness[k]);
     if (isnan(options->kink)) return sunder_i_fail(err, SUNDER_EARG, "the kink that counts is not a number");
     rules->gap = options->gap;
     rules->tolerance = tolerance;
@@ -77,6 +82,7 @@ sunder_status sunder_i_rules_of(const sunder_layer_options *options, sunder_i_ru
     rules->trace = options->trace;
     rules->trace_user = options->trace_user;
     rules->rows = options->rows;
+    for (int k = 0; k < 2; k++) rules->row_stiffness[k] = options->rows ? options->row_stiffness[k] : 0;
     rules->kink = options->kink < 0 ? options->gap / 10 : options->kink;
     return SUNDER_OK;
 }

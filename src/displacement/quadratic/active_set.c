@@ -36,7 +36,7 @@ static void fill_row(const sunder_i_quadratic *p, const equations *e, size_t r, 
 {
     const sunder_i_constraint *c = &p->constraint[e->set[r]];
     for (size_t k = 0; k <= r; k++) row[k] = gram_entry(p, c, &p->constraint[e->set[k]]);
-    row[r] *= 1 + softness + RAISED;
+    row[r] = row[r] * (1 + softness + RAISED) + c->give;
 }
 
 /* Computes the Cholesky factor, a row at a time, and solves G f = d for e->force. Rows before `from` are kept from the

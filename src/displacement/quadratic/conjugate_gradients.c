@@ -30,6 +30,7 @@ typedef struct dual {
     size_t n;
     double softness;
     double *scale;             /* [n] sqrt(mass_i + mass_j); 0 if neither end can move */
+    double *give;              /* [n] what is added to the diagonal of G */
     double *f, *g, *step, *gs; /* [n] forces, gradient Gf - d, direction, G times it */
     double *t;                 /* [2 * (bodies + 1)] the moves of the bodies; the last is the ground */
     uint32_t *pushing;         /* [n] scratch: constraints with a nonzero entry */
@@ -62,7 +63,7 @@ static void push_all(dual *q, const double *v)
 /* Returns (G v)_k. push_all() must have been called for v. */
 static inline double product_of(const dual *q, const double *v, size_t k)
 {
-    return q->scale[k] > 0 ? sunder_i_link_stretch(&q->link[k], q->t) / q->scale[k] + q->softness * v[k] : 0;
+    return q->scale[k] > 0 ? sunder_i_link_stretch(&q->link[k], q->t) / q->scale[k] + q->give[k] * v[k] : 0;
 }
 
 /* Computes out = G v. */
@@ -267,7 +268,7 @@ static void iterate_steps(dual *q, double tolerance, unsigned steps)
 bool sunder_i_quadratic_gradient(sunder_i_quadratic *program, double softness, double tolerance, unsigned steps)
 {
     if (program->n == 0) return true;
-    const size_t numbers = 5 * program->n + 2 * (program->bodies + 1),
+    const size_t numbers = 6 * program->n + 2 * (program->bodies + 1),
                  need = numbers * sizeof(double) + program->n * (sizeof(sunder_i_link) + sizeof(uint32_t));
     _Alignas(double) char few[ON_THE_STACK];
     double *memory = need <= sizeof few ? (double *)(void *)few : sunder_i_alloc(need, 1);
@@ -283,12 +284,15 @@ bool sunder_i_quadratic_gradient(sunder_i_quadratic *program, double softness, d
               .g = memory + 2 * program->n,
               .step = memory + 3 * program->n,
               .gs = memory + 4 * program->n,
-              .t = memory + 5 * program->n,
+              .give = memory + 5 * program->n,
+              .t = memory + 6 * program->n,
               .link = link,
               .pushing = (uint32_t *)(void *)(link + program->n)};
     for (size_t k = 0; k < program->n; k++) {
         const sunder_i_constraint *c = &program->constraint[k];
-        q.scale[k] = sqrt(sunder_i_mass(program, c->i) + sunder_i_mass(program, c->j));
+        const double mass = sunder_i_mass(program, c->i) + sunder_i_mass(program, c->j);
+        q.scale[k] = sqrt(mass);
+        q.give[k] = mass > 0 ? softness + c->give / mass : 0;
         q.f[k] = q.scale[k] * c->force;
     }
     iterate_steps(&q, tolerance / 2, steps);

@@ -165,7 +165,8 @@ bool sunder_i_quadratic_interior(sunder_i_quadratic *program, double softness, d
             if (program->mass[b] > 0) mean += 2 / program->mass[b] / (double)q.n;
         for (size_t c = 0; c < q.m; c++)
             q.soft[c] = softness * (sunder_i_mass(program, program->constraint[c].i) +
-                                    sunder_i_mass(program, program->constraint[c].j));
+                                    sunder_i_mass(program, program->constraint[c].j)) +
+                        program->constraint[c].give;
         if (q.n <= 2 * MOST_NEAR)
             begin_near(&q, scale, mean);
         else

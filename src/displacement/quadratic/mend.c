@@ -58,7 +58,7 @@ static void mark_missed(mending *m, double tolerance)
     for (size_t b = 0; b < p->bodies; b++) m->ring[b] = OUTSIDE;
     for (size_t k = 0; k < p->n; k++) {
         const sunder_i_constraint *c = &p->constraint[k];
-        if (c->d - sunder_i_stretch(c, p->t) <= tolerance) continue;
+        if (c->d - sunder_i_stretch(c, p->t) - c->give * c->force <= tolerance) continue;
         if (may_move(m, c->i)) m->ring[c->i] = 0;
         if (may_move(m, c->j)) m->ring[c->j] = 0;
     }
@@ -117,6 +117,8 @@ static void take_constraints(mending *m)
 static double cost_of(const sunder_i_quadratic *p)
 {
     double cost = 0;
+    for (size_t k = 0; k < p->n; k++)
+        cost += p->constraint[k].give * p->constraint[k].force * p->constraint[k].force / 2;
     for (size_t b = 0; b < p->bodies; b++)
         if (p->mass[b] > 0) cost += (p->t[2 * b] * p->t[2 * b] + p->t[2 * b + 1] * p->t[2 * b + 1]) / (2 * p->mass[b]);
     return cost;

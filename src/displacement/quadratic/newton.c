@@ -9,7 +9,7 @@
  *
  * A hard program is solved as a sequence of soft ones [Roc76]: the distance of each constraint is increased by give
  * times its previous force, so that nothing is violated once the forces no longer change. A smaller give needs fewer
- * rounds, so it is reduced in each. If contradictions let the forces grow, they soon prove that every solution costs
+ * rounds, so it is reduced in each. What a constraint gives by itself is no part of that share. If contradictions let the forces grow, they soon prove that every solution costs
  * too much. */
 #include "displacement/quadratic/methods.h"
 #include "displacement/quadratic/normal_equations.h"
@@ -164,8 +164,9 @@ static void set_distances(newton *q, double softness, bool hard)
     const sunder_i_quadratic *p = q->p;
     for (size_t c = 0; c < q->normal.m; c++) {
         const sunder_i_constraint *k = &p->constraint[c];
-        q->give[c] = softness * (sunder_i_mass(p, k->i) + sunder_i_mass(p, k->j));
-        q->owed[c] = k->d + (hard ? q->give[c] * k->force : 0);
+        const double give = softness * (sunder_i_mass(p, k->i) + sunder_i_mass(p, k->j));
+        q->give[c] = give > 0 ? give + k->give : 0;
+        q->owed[c] = k->d + (hard ? give * k->force : 0);
     }
 }
 
@@ -199,7 +200,7 @@ static bool solve_soft(newton *q, double softness, double tolerance)
 
 /* Returns how far to continue along the last change of the forces: as far as the bound that they prove grows and no
  * force becomes negative. Along f + s g, where f and g cause the moves t and u, the bound grows by s (g.d - sum of t.u
- * / mass) - s^2 / 2 sum of u.u / mass [weak duality, quadratic.c]. It stops at twice the bound that is needed. rising:
+ * / mass - sum of give f g) - s^2 / 2 (sum of u.u / mass + sum of give g^2) [weak duality, forces.c]. It stops at twice the bound that is needed. rising:
  * forces that decreased are kept. */
 static double far_along(const newton *q, bool rising)
 {
@@ -213,7 +214,8 @@ static double far_along(const newton *q, bool rising)
         if (k->force > 0) sunder_i_push(p, k, k->force, t);
         if (more != 0) sunder_i_push(p, k, more, u);
         if (more < 0) far = sunder_i_min(far, k->force / -more);
-        gain += more * k->d;
+        gain += more * (k->d - k->give * k->force);
+        loss += k->give * more * more;
     }
     for (size_t b = 0; b < 2 * p->bodies; b++) {
         if (!(p->mass[b / 2] > 0)) continue;

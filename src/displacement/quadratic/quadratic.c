@@ -43,7 +43,8 @@ static inline double relax_constraint(const sweeping *s, uint32_t k)
     sunder_i_constraint *c = &s->p->constraint[k];
     const double m = link->mass[0] + link->mass[1];
     if (!(m > 0)) return 0;
-    double change = (c->d - sunder_i_link_stretch(link, s->t) - s->softness * m * c->force) / (m * (1 + s->softness));
+    double change = (c->d - sunder_i_link_stretch(link, s->t) - (s->softness * m + c->give) * c->force) /
+                    (m * (1 + s->softness) + c->give);
     if (change < -c->force) change = -c->force;
     if (change == 0) return 0;
     c->force += change;

@@ -47,6 +47,17 @@ static void void_bounds(sunder_i_solver *s, const uint32_t *owner, bool *listed)
         if (listed[groups->group[k].number]) groups->group[k].bound = 0;
 }
 
+/* Returns the cost of the springs between bodies of the group; 0 if memory is out. */
+static double cost_of_springs(const sunder_i_model *model, const sunder_i_group *g)
+{
+    double *move = sunder_i_alloc(2 * g->n, sizeof *move), cost = 0;
+    for (size_t k = 0; k < g->n && move; k++)
+        memcpy(move + 2 * k, model->move + 2 * (size_t)g->body[k], 2 * sizeof *move);
+    if (move) cost = sunder_i_springs_within(model, g->body, g->n, move);
+    sunder_i_free(move);
+    return cost;
+}
+
 /* Returns the cost of the group in the result, rounded upwards. */
 static double cost_of(const sunder_i_model *model, const sunder_i_group *g)
 {
@@ -55,6 +66,7 @@ static double cost_of(const sunder_i_model *model, const sunder_i_group *g)
         const double *t = model->move + 2 * (size_t)g->body[k];
         cost += model->body[g->body[k]].weight * (t[0] * t[0] + t[1] * t[1]);
     }
+    if (model->row_sides) cost += cost_of_springs(model, g);
     return cost * (1 + ((double)g->n + 8) * 0x1p-50);
 }
 

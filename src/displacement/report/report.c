@@ -75,6 +75,21 @@ static void count_statuses(sunder_report *report, const sunder_i_model *model)
     if (moved) s->mean = s->total / (double)moved;
 }
 
+static double cost_of_rows(const sunder_i_model *model)
+{
+    sunder_total cost = {0};
+    for (uint32_t b = 0; b < model->bodies && model->row_sides; b++) {
+        const sunder_i_extras *has = model->body[b].has;
+        for (uint32_t k = has->row_side; k < has->row_side + has->row_sides; k++) {
+            const uint32_t other = model->row_side[k].other;
+            if (other > b)
+                sunder_total_add(&cost, sunder_i_spring_cost(model, &model->row_side[k], model->move + 2 * (size_t)b,
+                                                             model->move + 2 * (size_t)other));
+        }
+    }
+    return sunder_total_nearest(&cost);
+}
+
 void sunder_i_report_moves(sunder_report *report, const sunder_i_model *model)
 {
     sunder_layer_summary *s = &report->summary;
@@ -95,7 +110,9 @@ void sunder_i_report_moves(sunder_report *report, const sunder_i_model *model)
         if (model->inexact[f]) s->rounded++;
     }
     s->total = sunder_total_nearest(&total);
-    s->cost = sunder_total_nearest(&cost);
+    s->cost_moves = sunder_total_nearest(&cost);
+    s->cost_rows = cost_of_rows(model);
+    s->cost = s->cost_moves + s->cost_rows;
     report_blocked(report, model);
     count_statuses(report, model);
 }

@@ -10,6 +10,7 @@
 
 #include "base/extremes.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 /* Lists the pairs of bodies in conflict, sorted. Returns NULL if memory is out. */
@@ -42,8 +43,14 @@ static int by_body(const void *x, const void *y)
 /* Appends the rule of an edge, from both of its bodies. */
 static void add_edge(const sunder_i_model *model, const sunder_i_row_edge *e, bool in_conflict, half *out, size_t *n)
 {
-    const double least = model->rules.gap - e->apart, listed = sunder_i_min(0, least);
-    const sunder_i_row_side there = {e->j, {e->along[0], e->along[1]}, in_conflict ? least : listed, listed};
+    const bool ruled = e->apart > 0;
+    const double least = ruled ? model->rules.gap - e->apart : -INFINITY, listed = sunder_i_min(0, least);
+    const sunder_i_row_side there = {e->j,
+                                     {e->along[0], e->along[1]},
+                                     in_conflict ? least : listed,
+                                     listed,
+                                     sunder_i_min(sunder_i_weight_below(model, &model->body[e->i]),
+                                                  sunder_i_weight_below(model, &model->body[e->j]))};
     sunder_i_row_side back = there;
     back.other = e->i;
     for (int c = 0; c < 2; c++) back.along[c] = -there.along[c];
@@ -81,8 +88,7 @@ sunder_status sunder_i_rows_make_rule(const sunder_i_rows *rows, const sunder_i_
         const sunder_i_id_pair pair = {e->i < e->j ? e->i : e->j, e->i < e->j ? e->j : e->i};
         const size_t at = sunder_i_lower_bound(&pair, conflict, conflicts, sizeof pair, sunder_i_by_id_pair);
         const bool in_conflict = at < conflicts && sunder_i_by_id_pair(&conflict[at], &pair) == 0;
-        if (e->apart > 0 && !(model->body[e->i].fixed && model->body[e->j].fixed))
-            add_edge(model, e, in_conflict, all, &n);
+        if (!(model->body[e->i].fixed && model->body[e->j].fixed)) add_edge(model, e, in_conflict, all, &n);
     }
     if (ok && n) qsort(all, n, sizeof *all, by_body);
     if (ok && n) ok = keep_rule(model, all, n);

@@ -15,7 +15,7 @@
 static bool add_contact(sunder_i_contact_forces *c, uint32_t i, uint32_t j, const double n[2], double d)
 {
     if (!sunder_i_reserve(&c->cut, &c->capacity, c->n + 1, sizeof *c->cut)) return false;
-    c->cut[c->n++] = (sunder_i_move_cut){i, j, {n[0], n[1]}, d};
+    c->cut[c->n++] = (sunder_i_move_cut){.i = i, .j = j, .n = {n[0], n[1]}, .d = d};
     return true;
 }
 

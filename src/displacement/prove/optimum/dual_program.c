@@ -102,7 +102,7 @@ double sunder_i_dual_missing(const sunder_i_dual_program *program, const sunder_
  * the row's diagonal entry. */
 static double make_row(sunder_i_dual_program *p, const sunder_i_move_cut *c, double *row, double *square)
 {
-    double left = *square = product_of_cuts(p, c, c);
+    double left = *square = product_of_cuts(p, c, c) + c->give;
     for (size_t k = 0; k < p->acting_n; k++) {
         const double *l = p->factor + k * p->capacity;
         double v = product_of_cuts(p, c, &p->cut[p->acting[k].cut]);
@@ -325,6 +325,7 @@ double sunder_i_dual_value(sunder_i_dual_program *program)
         }
         value += f * (c->d - at_anchor(program, c));
         magnitude += f * part;
+        taken += f * f * c->give / 2;
     }
     for (size_t b = 0; b < program->bodies; b++) {
         if (!(program->mass[b] > 0) || !(net[3 * b + 2] > 0)) continue;

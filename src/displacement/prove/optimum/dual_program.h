@@ -6,10 +6,11 @@
 
 #include <stdbool.h>
 
-/* The cut n.(t_j - t_i) >= d; i or j may be SUNDER_I_GROUND. The doubles are exact. */
+/* The cut n.(t_j - t_i) >= d; i or j may be SUNDER_I_GROUND. The doubles are exact. With give > 0 it may be violated by v
+ * at the cost v^2 / (2 give): two such cuts with opposite normals are a spring. */
 typedef struct sunder_i_move_cut {
     uint32_t i, j;
-    double n[2], d;
+    double n[2], d, give;
 } sunder_i_move_cut;
 
 /* An active cut, and its force. */
@@ -18,7 +19,7 @@ typedef struct sunder_i_cut_force {
     double force;
 } sunder_i_cut_force;
 
-/* Minimise sum w_i |t_i - a_i|^2 under cuts. */
+/* Minimise sum w_i |t_i - a_i|^2, plus the cost of the violations of cuts that give, under cuts. */
 typedef struct sunder_i_dual_program {
     size_t bodies;
     const double *weight; /* [bodies] */
@@ -51,7 +52,7 @@ bool sunder_i_dual_load(sunder_i_dual_program *program, const sunder_i_cut_force
 sunder_i_dual_outcome sunder_i_dual_add(sunder_i_dual_program *program, uint32_t cut, double enough, bool *failed);
 /* Sets t from the forces. */
 void sunder_i_dual_place(sunder_i_dual_program *program);
-/* Returns a lower bound of the sum of w |t - a|^2 under the active cuts, rounded downwards. */
+/* Returns a lower bound of that sum under the active cuts, rounded downwards. */
 double sunder_i_dual_value(sunder_i_dual_program *program);
 /* Returns the distance by which t violates the cut; negative if t satisfies it. */
 double sunder_i_dual_missing(const sunder_i_dual_program *program, const sunder_i_move_cut *cut);

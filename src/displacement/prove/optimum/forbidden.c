@@ -376,7 +376,7 @@ static bool add_row(listing *l)
     sunder_i_forbidden *f = l->out;
     const sunder_i_row_side *side =
         l->p->has->row_sides ? sunder_i_row_side_of(l->model, l->p, (uint32_t)(l->q - l->model->body)) : NULL;
-    if (!side) return true;
+    if (!side || side->least == -INFINITY) return true;
     const double least = is_any_waived(l) ? side->least_listed : side->least;
     const sunder_i_obstacle_edge edge = {
         {least * side->along[0], least * side->along[1]}, {side->along[0], side->along[1]}, INFINITY};

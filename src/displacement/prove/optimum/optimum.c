@@ -29,10 +29,10 @@ void sunder_i_group_free(sunder_i_group *group)
     *group = (sunder_i_group){0};
 }
 
-/* Returns the cost of n bodies with these moves, rounded upwards. */
+/* Returns the cost of n bodies with these moves, and of the springs between them, rounded upwards. */
 static double cost_of(const sunder_i_model *model, const uint32_t *body, size_t n, const double *move)
 {
-    double cost = 0;
+    double cost = sunder_i_springs_within(model, body, n, move);
     for (size_t k = 0; k < n; k++)
         cost += model->body[body[k]].weight * (move[2 * k] * move[2 * k] + move[2 * k + 1] * move[2 * k + 1]);
     return cost * (1 + ((double)n + 8) * 0x1p-50);
@@ -71,7 +71,8 @@ static sunder_status settle_layout(const sunder_i_model *model, const sunder_i_w
         if (!sunder_i_tight_place(model, waived, body, n, TIGHT_MARGIN * g->margin, move, &found))
             return sunder_i_failure_cause(err);
     } else {
-        const sunder_status status = g->search->descend(model, body, n, g->margin, g->cost, move, &found, err);
+        const double most = g->cost + sunder_i_springs_beyond(model, g->body, g->n, g->move);
+        const sunder_status status = g->search->descend(model, body, n, g->margin, most, move, &found, err);
         if (status) return status;
     }
     if (found) *cost = cost_of(model, body, n, move);
@@ -96,9 +97,11 @@ static sunder_status attempt_layout(const sunder_i_model *model, const sunder_i_
             list[k] = at[k].body;
             memcpy(move + 2 * k, at[k].t, sizeof at[k].t);
         }
+        const double beyond = sunder_i_springs_beyond(model, g->body, g->n, g->move);
         double cost;
         status = settle_layout(model, waived, g, list, n, tight, move, &cost, err);
-        if (!status && cost < g->cost * (1 - CHEAPER)) {
+        const double more = cost < INFINITY ? sunder_i_springs_beyond(model, list, n, move) - beyond : 0;
+        if (!status && cost < g->cost * (1 - CHEAPER) && cost + more < g->cost * (1 - CHEAPER)) {
             sunder_i_free_all(g->body, g->move);
             g->body = list;
             g->move = move;
@@ -352,6 +355,7 @@ static void grow_tree(void *state)
                                 .body = g->body,
                                 .n = n,
                                 .goal = goal_of(x->model, g),
+                                .springs = true,
                                 .keep = x->model->rules.keep_trees};
     sunder_i_tree tree;
     sunder_status status = sunder_i_tree_init(&tree, &task) ? SUNDER_OK : sunder_i_failure_cause(x->run.err);

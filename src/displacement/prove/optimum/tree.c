@@ -73,6 +73,7 @@ bool sunder_i_tree_init(sunder_i_tree *tree, const sunder_i_task *task)
     if (task->anchor) memcpy(tree->anchor, task->anchor, 2 * n * sizeof *tree->anchor);
     sunder_i_tree_lend_bodies(tree);
     if (!sunder_i_dual_load(&tree->program, NULL, 0)) return false;
+    sunder_i_tree_add_springs(tree);
     const uint32_t root = sunder_i_tree_add_node(tree, SUNDER_I_NO_NODE, 0);
     const sunder_i_open open = {0, root};
     if (tree->failed || !sunder_i_reserve(&tree->open, &tree->open_capacity, 1, sizeof open)) return false;

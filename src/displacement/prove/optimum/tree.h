@@ -7,8 +7,8 @@
 #include "displacement/prove/optimum/region.h"
 #include "sunder_proof.h"
 
-/* The task: minimise sum w_i |t_i - a_i|^2 over the moves of n bodies for which no pair of them is in its forbidden
- * set. */
+/* The task: minimise sum w_i |t_i - a_i|^2, and the cost of springs between the bodies, over the moves of n bodies for
+ * which no pair of them is in its forbidden set. */
 typedef struct sunder_i_task {
     const sunder_i_model *model;
     const sunder_i_waived *waived;
@@ -20,15 +20,17 @@ typedef struct sunder_i_task {
     const double *weight; /* [n] at most the bodies' own weights; NULL: exactly these */
     const double *anchor; /* [2 n] the points a; 0 for bodies that do not move; NULL: all are 0 */
     double goal;          /* the bound to be proved */
+    bool springs;         /* the springs between these bodies count */
     bool no_paths;        /* jumps and sides are ignored, so less is forbidden */
     bool keep;            /* record what a checker of the proof needs: see tree_record.c */
 } sunder_i_task;
 
 typedef enum sunder_i_cut_kind {
-    SUNDER_I_CUT_LIMIT, /* a tangent of a body's limit */
-    SUNDER_I_CUT_CONE,  /* a side of a branch's cone */
-    SUNDER_I_CUT_HULL,  /* the part that it removes is forbidden */
-    SUNDER_I_CUT_DISC   /* the part that it removes costs at least the goal, by the forces of the parent node */
+    SUNDER_I_CUT_SPRING, /* one sign of a spring between neighbours in a row; it gives, and belongs to the root */
+    SUNDER_I_CUT_LIMIT,  /* a tangent of a body's limit */
+    SUNDER_I_CUT_CONE,   /* a side of a branch's cone */
+    SUNDER_I_CUT_HULL,   /* the part that it removes is forbidden */
+    SUNDER_I_CUT_DISC    /* the part that it removes costs at least the goal, by the forces of the parent node */
 } sunder_i_cut_kind;
 
 typedef struct sunder_i_cut_note {
@@ -107,6 +109,7 @@ typedef struct sunder_i_tree {
     sunder_i_move_cut *cut;
     sunder_i_cut_note *note;
     size_t cuts, cut_capacity, note_capacity;
+    size_t springs; /* the first cuts are springs */
     sunder_i_cut_force *force;
     size_t forces, force_capacity;
     sunder_i_tree_node *node;
@@ -147,6 +150,8 @@ void sunder_i_tree_set_body(sunder_i_tree *tree, size_t k, uint32_t body, double
 void sunder_i_tree_lend_bodies(sunder_i_tree *tree);
 /* One more body takes part, with its own weight, unless there are MOST_GUESTS already. */
 void sunder_i_tree_add_guest(sunder_i_tree *tree, uint32_t body);
+/* Adds the springs between the bodies of the task. To be called before there are other cuts. */
+void sunder_i_tree_add_springs(sunder_i_tree *tree);
 
 /* ---- tree.c ------------------------------------------------------------------------------------------------------ */
 

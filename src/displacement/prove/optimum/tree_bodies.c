@@ -29,3 +29,32 @@ void sunder_i_tree_add_guest(sunder_i_tree *tree, uint32_t body)
     sunder_i_tree_lend_bodies(tree);
     sunder_i_dual_place(&tree->program);
 }
+
+/* Adds one sign of a spring as a cut. What it gives is rounded upwards, so that the bound holds. */
+static void add_spring(sunder_i_tree *t, uint32_t i, uint32_t j, const sunder_i_spring *spring, int sign)
+{
+    if (!sunder_i_reserve(&t->cut, &t->cut_capacity, t->cuts + 1, sizeof *t->cut) ||
+        !sunder_i_reserve(&t->note, &t->note_capacity, t->cuts + 1, sizeof *t->note)) {
+        t->failed = true;
+        return;
+    }
+    const double give = (1 + 0x1p-48) / (2 * spring->stiff);
+    t->cut[t->cuts] =
+        (sunder_i_move_cut){.i = i, .j = j, .n = {sign * spring->n[0], sign * spring->n[1]}, .give = give};
+    t->note[t->cuts++] = (sunder_i_cut_note){.kind = SUNDER_I_CUT_SPRING};
+}
+
+void sunder_i_tree_add_springs(sunder_i_tree *tree)
+{
+    const sunder_i_model *model = tree->task.model;
+    for (uint32_t i = 0; i < tree->task.n && tree->task.springs && model->row_sides; i++)
+        for (uint32_t j = i + 1; j < tree->task.n; j++) {
+            const sunder_i_row_side *side = sunder_i_row_side_of(model, &model->body[tree->body[i]], tree->body[j]);
+            sunder_i_spring spring[2];
+            const size_t n = side ? sunder_i_springs_of(model, side, spring) : 0;
+            for (size_t k = 0; k < n && !tree->failed; k++)
+                for (int sign = -1; sign <= 1; sign += 2) add_spring(tree, i, j, &spring[k], sign);
+        }
+    tree->springs = tree->cuts;
+    tree->program.cut = tree->cut;
+}

@@ -22,7 +22,7 @@ static void touch_pair(sunder_i_tree *t, uint32_t pair)
 static void apply_cut(sunder_i_tree *t, uint32_t cut, bool kept)
 {
     const sunder_i_cut_note *note = &t->note[cut];
-    if (note->kind == SUNDER_I_CUT_LIMIT) return;
+    if (note->kind == SUNDER_I_CUT_LIMIT || note->kind == SUNDER_I_CUT_SPRING) return;
     sunder_i_tree_pair *p = &t->pair[note->pair];
     touch_pair(t, note->pair);
     if (kept) return;
@@ -40,8 +40,10 @@ uint32_t sunder_i_tree_cut(sunder_i_tree *tree, sunder_i_cut_kind kind, uint32_t
     }
     const uint32_t cut = (uint32_t)tree->cuts++;
     const bool ball = kind == SUNDER_I_CUT_LIMIT;
-    tree->cut[cut] = (sunder_i_move_cut){
-        ball ? pair : tree->pair[pair].i, ball ? SUNDER_I_GROUND : tree->pair[pair].j, {n[0], n[1]}, d};
+    tree->cut[cut] = (sunder_i_move_cut){.i = ball ? pair : tree->pair[pair].i,
+                                         .j = ball ? SUNDER_I_GROUND : tree->pair[pair].j,
+                                         .n = {n[0], n[1]},
+                                         .d = d};
     tree->note[cut] = (sunder_i_cut_note){.kind = kind, .pair = pair};
     if (tree->nodes) tree->node[tree->nodes - 1].cuts++;
     apply_cut(tree, cut, false);
@@ -150,6 +152,28 @@ static uint32_t find_missed(sunder_i_tree *t)
     return worst;
 }
 
+/* Returns the spring that the bodies stretch or squeeze most while it has no force; UINT32_MAX if there is none beyond
+ * the share HOLDS of what they move. */
+static uint32_t find_stretched(sunder_i_tree *t)
+{
+    const sunder_i_dual_program *p = &t->program;
+    uint32_t worst = UINT32_MAX;
+    double most = 0;
+    if (t->springs == 0) return worst;
+    for (size_t b = 0; b < 2 * t->task.n; b++) most = sunder_i_max(most, HOLDS * fabs(p->t[b]));
+    for (uint32_t c = 0; c < t->springs; c++) {
+        const double missing = sunder_i_dual_missing(p, &t->cut[c]);
+        bool acts = false;
+        if (!(missing > most)) continue;
+        for (size_t k = 0; k < p->acting_n && !acts; k++) acts = p->acting[k].cut == c;
+        if (acts) continue;
+        most = missing;
+        worst = c;
+    }
+    t->steps += t->springs;
+    return worst;
+}
+
 /* Adds a tangent of the limit that a body exceeds most in proportion to the limit, and returns the cut; UINT32_MAX if
  * no limit is exceeded by more than the share OVERSTEPPED. */
 static uint32_t find_overstepped(sunder_i_tree *t)
@@ -177,6 +201,7 @@ double sunder_i_tree_solve(sunder_i_tree *tree)
     for (size_t round = 0; round < MOST_ADDED && !tree->failed && value < tree->task.goal; round++) {
         uint32_t cut = find_missed(tree);
         if (cut == UINT32_MAX) cut = find_overstepped(tree);
+        if (cut == UINT32_MAX) cut = find_stretched(tree);
         if (cut == UINT32_MAX) break;
         bool failed;
         const uint64_t before = tree->program.steps;

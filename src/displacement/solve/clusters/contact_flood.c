@@ -6,11 +6,13 @@
 #include "displacement/layer/reads.h"
 #include "displacement/layer/resolution.h"
 #include "displacement/prove/optimum/body_contact.h"
+#include "displacement/solve/clusters/tuning.h"
 
 #include "base/parallel.h"
 #include "base/union_find.h"
 #include "base/watch.h"
 
+#include <math.h>
 #include <string.h>
 
 /* Contacts are found for this many bodies at a time, on all threads, before the results are joined. */
@@ -81,10 +83,34 @@ static bool find_near_bodies(const flooding *f, uint32_t b, sunder_i_list *near)
     return ok;
 }
 
+static bool add_contact(contacts *out, uint32_t b, uint32_t other)
+{
+    if (!sunder_i_reserve(&out->pair, &out->capacity, out->n + 1, sizeof *out->pair)) return false;
+    out->pair[out->n++] = (sunder_i_id_pair){b, other};
+    return true;
+}
+
+/* Adds the neighbours in rows whose springs to b act, because the two have moved by different vectors. */
+static bool find_springs(const flooding *f, uint32_t b, contacts *out)
+{
+    const sunder_i_model *model = &f->solver->model;
+    const sunder_i_extras *has = model->body[b].has;
+    const double *t = model->move + 2 * (size_t)b, *stiffness = model->rules.row_stiffness;
+    if (!(stiffness[0] + stiffness[1] > 0)) return true;
+    for (uint32_t k = has->row_side; k < has->row_side + has->row_sides; k++) {
+        const uint32_t other = model->row_side[k].other;
+        const double *s = model->move + 2 * (size_t)other;
+        if (hypot(s[0] - t[0], s[1] - t[1]) > SLACK_SPRING * model->rules.gap && looks_for_contact(f, b, other) &&
+            !add_contact(out, b, other))
+            return false;
+    }
+    return true;
+}
+
 static bool find_contacts(const flooding *f, uint32_t b, sunder_i_list *near, contacts *out)
 {
     const sunder_i_model *model = &f->solver->model;
-    if (!find_near_bodies(f, b, near)) return false;
+    if (!find_springs(f, b, out) || !find_near_bodies(f, b, near)) return false;
     for (size_t k = 0; k < near->n; k++) {
         const uint32_t other = near->item[k];
         bool contact = false;
@@ -92,9 +118,7 @@ static bool find_contacts(const flooding *f, uint32_t b, sunder_i_list *near, co
         if (!sunder_i_are_in_contact(model, b, other, model->move + 2 * (size_t)b, model->move + 2 * (size_t)other,
                                      &contact))
             return false;
-        if (!contact) continue;
-        if (!sunder_i_reserve(&out->pair, &out->capacity, out->n + 1, sizeof *out->pair)) return false;
-        out->pair[out->n++] = (sunder_i_id_pair){b, other};
+        if (contact && !add_contact(out, b, other)) return false;
     }
     return true;
 }

@@ -96,11 +96,35 @@ double sunder_i_search_limit(const sunder_i_search *search, uint32_t i)
     return sunder_i_min(search->cap, search->model->body[search->body[i]].limit);
 }
 
+bool sunder_i_search_next_row(const sunder_i_search *search, sunder_i_row_walk *walk, sunder_i_row_link *link)
+{
+    const sunder_i_model *model = search->model;
+    for (; model->row_sides && walk->i < search->n; walk->i++, walk->k = 0) {
+        const sunder_i_extras *has = model->body[search->body[walk->i]].has;
+        while (walk->k < has->row_sides) {
+            const sunder_i_row_side *side = model->row_side + has->row_side + walk->k++;
+            const uint32_t j = sunder_i_search_place_of(search, side->other);
+            const bool is_listed = j != SUNDER_I_NOBODY;
+            if (is_listed ? j < walk->i || !(search->mass[walk->i] + search->mass[j] > 0)
+                          : !(search->mass[walk->i] > 0))
+                continue;
+            *link = (sunder_i_row_link){walk->i, is_listed ? j : SUNDER_I_GROUND, model->move + 2 * (size_t)side->other,
+                                        side};
+            return true;
+        }
+    }
+    return false;
+}
+
 double sunder_i_search_cost(const sunder_i_search *search, const double *t)
 {
     double cost = 0;
     for (size_t k = 0; k < search->n; k++)
         if (search->mass[k] > 0) cost += (t[2 * k] * t[2 * k] + t[2 * k + 1] * t[2 * k + 1]) / (2 * search->mass[k]);
+    sunder_i_row_link link;
+    for (sunder_i_row_walk walk = {0}; sunder_i_search_next_row(search, &walk, &link);)
+        cost += sunder_i_spring_cost(search->model, link.side, t + 2 * link.i,
+                                     link.j == SUNDER_I_GROUND ? link.still : t + 2 * link.j);
     return cost;
 }
 

@@ -91,8 +91,23 @@ uint32_t sunder_i_search_place_of(const sunder_i_search *search, uint32_t body);
 /* The box of body k's straight path from home to t, relative to the first body's origin, so that the layer's position
  * does not matter. */
 void sunder_i_search_path_box(const sunder_i_search *search, const double *t, uint32_t k, double box[4]);
-/* The cost of the moves t: the sum of weight times squared move. */
+/* The cost of the moves t: the sum of weight times squared move, and of the springs of rows. */
 double sunder_i_search_cost(const sunder_i_search *search, const double *t);
+
+/* A body of the search and a neighbour in a row, one of which may move. j: SUNDER_I_GROUND, if the neighbour is not in
+ * the search and keeps its present move. */
+typedef struct sunder_i_row_link {
+    uint32_t i, j;
+    const double *still;           /* that move */
+    const sunder_i_row_side *side; /* from i to j */
+} sunder_i_row_link;
+
+/* An iteration over these, each once; zeroed at first. Returns false at the end. */
+typedef struct sunder_i_row_walk {
+    uint32_t i, k;
+} sunder_i_row_walk;
+
+bool sunder_i_search_next_row(const sunder_i_search *search, sunder_i_row_walk *walk, sunder_i_row_link *link);
 
 /* ---- surroundings.c ---------------------------------------------------------------------------------------------- */
 

@@ -132,6 +132,47 @@ static void sort_constraints(sunder_i_search *s)
         sunder_i_sort_few(s->program.constraint, s->program.n, sizeof *s->program.constraint, sunder_i_by_constraint);
 }
 
+/* ---- Springs of rows --------------------------------------------------------------------------------------------- */
+
+/* The key of a constraint of a spring, which tells the neighbour in a row, which of its springs, and the sign. */
+static uint64_t spring_key(const sunder_i_model *model, const sunder_i_row_side *side, size_t spring, int sign)
+{
+    return UINT64_C(15) << 59 | (uint64_t)(side - model->row_side) << 2 | (uint64_t)spring << 1 | (uint64_t)(sign > 0);
+}
+
+/* Adds one spring as two constraints that give, one for each sign. */
+static void add_spring(sunder_i_search *s, const sunder_i_row_link *link, size_t number, const sunder_i_spring *spring)
+{
+    const uint32_t end[2] = {link->i, link->j};
+    for (int sign = -1; sign <= 1; sign += 2) {
+        sunder_i_constraint c = {.i = end[0],
+                                 .j = end[1],
+                                 .n = {sign * spring->n[0], sign * spring->n[1]},
+                                 .give = 1 / (2 * spring->stiff),
+                                 .key = spring_key(s->model, link->side, number, sign)};
+        for (int e = 0; e < 2; e++) {
+            if (end[e] != SUNDER_I_GROUND && s->mass[end[e]] > 0) continue;
+            const double *t = end[e] == SUNDER_I_GROUND ? link->still : s->t + 2 * end[e];
+            c.d += (e ? -1 : 1) * (c.n[0] * t[0] + c.n[1] * t[1]);
+            *(e ? &c.j : &c.i) = SUNDER_I_GROUND;
+        }
+        const sunder_i_constraint *before = look_up(s->old, s->old_n, c.key);
+        c.force = before ? before->force : 0;
+        sunder_i_search_add_constraint(s, s->program.n, &c);
+    }
+}
+
+/* Adds the springs of the rows that bodies of the search are in. */
+static void add_springs(sunder_i_search *s)
+{
+    sunder_i_row_link link;
+    for (sunder_i_row_walk walk = {0}; sunder_i_search_next_row(s, &walk, &link) && !s->failed;) {
+        sunder_i_spring spring[2];
+        const size_t n = sunder_i_springs_of(s->model, link.side, spring);
+        for (size_t k = 0; k < n; k++) add_spring(s, &link, k, &spring[k]);
+    }
+}
+
 bool sunder_i_search_constrain(sunder_i_search *search, double reach, bool as_it_stands)
 {
     sunder_i_quadratic *p = &search->program;
@@ -150,6 +191,7 @@ bool sunder_i_search_constrain(sunder_i_search *search, double reach, bool as_it
     for (size_t k = 0; k < search->old_n && !search->failed; k++)
         if (sunder_i_is_tangent(&search->old[k]) && search->old[k].force > 0)
             sunder_i_search_add_constraint(search, p->n, &search->old[k]);
+    add_springs(search);
     sort_constraints(search);
     memcpy(search->next, search->t,
            2 * search->n * sizeof *search->t); /* if the patience has ended, the search stays in its present place */

@@ -73,7 +73,7 @@ static double solve_program(sunder_i_search *s, double softness)
          k++) {
         const double more = CORRECTION * v;
         asked += more;
-        for (size_t c = 0; c < p->n; c++) p->constraint[c].d += more;
+        for (size_t c = 0; c < p->n; c++) p->constraint[c].d += p->constraint[c].give > 0 ? 0 : more;
         v = sunder_i_quadratic_solve(p, 0, s->tolerance / SOLVED_TO, s->extent);
         if (v < 0 || !sunder_i_look()) s->failed = true;
         keep_still(s);
@@ -157,7 +157,8 @@ static void stop_short(sunder_i_search *s)
     for (size_t k = 0; k < s->program.n; k++) {
         const sunder_i_constraint *c = &s->program.constraint[k];
         const double here = sunder_i_stretch(c, s->t) - c->d, there = sunder_i_stretch(c, s->next) - c->d;
-        if (there < 0 && there < here) share = sunder_i_min(share, sunder_i_max(0, here) / (here - there));
+        if (c->give == 0 && there < 0 && there < here)
+            share = sunder_i_min(share, sunder_i_max(0, here) / (here - there));
     }
     for (size_t k = 0; k < 2 * s->n; k++) s->next[k] = s->t[k] + JUST_BEFORE * share * (s->next[k] - s->t[k]);
     s->ended = false;
@@ -178,16 +179,30 @@ static const char *check_next(const sunder_i_search *s)
     for (size_t k = 0; k < s->program.n; k++) {
         const sunder_i_constraint *c = &s->program.constraint[k];
         const double here = sunder_i_stretch(c, s->t) - c->d, there = sunder_i_stretch(c, s->next) - c->d;
-        if (there < sunder_i_min(0, here) - s->tolerance) return "a way that was free up to there is not";
+        if (c->give == 0 && there < sunder_i_min(0, here) - s->tolerance)
+            return "a way that was free up to there is not";
     }
     return NULL;
 }
 #endif
 
-/* The cost if all bodies are at their limits; 0 if a body has none. */
+/* How far body k may go from its original place; a fixed one stays. */
+static double farthest_move(const sunder_i_search *s, uint32_t k)
+{
+    return s->mass[k] > 0 ? sunder_i_search_limit(s, k) : hypot(s->t[2 * k], s->t[2 * k + 1]);
+}
+
+/* The greatest cost with all bodies at their limits, those of springs included; 0 if a body has none. */
 static double most_cost(const sunder_i_search *s)
 {
     double cost = 0;
+    sunder_i_row_link link;
+    for (sunder_i_row_walk walk = {0}; sunder_i_search_next_row(s, &walk, &link);) {
+        const double far = farthest_move(s, link.i) +
+                           (link.j == SUNDER_I_GROUND ? hypot(link.still[0], link.still[1]) : farthest_move(s, link.j));
+        sunder_i_spring spring[2];
+        for (size_t k = sunder_i_springs_of(s->model, link.side, spring); k-- > 0;) cost += spring[k].stiff * far * far;
+    }
     for (uint32_t k = 0; k < s->n; k++) {
         const double limit = sunder_i_search_limit(s, k);
         if (s->mass[k] > 0) cost += limit * limit / (2 * s->mass[k]);
@@ -411,7 +426,7 @@ void sunder_i_search_settle_components(sunder_i_search *search)
         for (size_t k = 0; k < search->program.n; k++) {
             const sunder_i_constraint *c = &search->program.constraint[k];
             const uint32_t of = c->j == SUNDER_I_GROUND ? c->i : c->j;
-            if (!(sunder_i_stretch(c, search->next) >= c->d - search->tolerance))
+            if (c->give == 0 && !(sunder_i_stretch(c, search->next) >= c->d - search->tolerance))
                 unsolved[sunder_i_union_find(root, of)] = true;
         }
         for (uint32_t k = 0; k < search->n; k++)

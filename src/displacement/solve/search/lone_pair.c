@@ -20,11 +20,19 @@ static uint32_t only_feature(const sunder_i_model *model, uint32_t body)
     return b->members == 1 && !sunder_i_is_barrier_body(model, b) ? model->member[b->member] : SUNDER_I_NOBODY;
 }
 
+/* Is one of the bodies in a row, with springs to its neighbours? */
+static bool has_springs(const sunder_i_search *s)
+{
+    const sunder_i_body *body = s->model->body;
+    const double *stiffness = s->model->rules.row_stiffness;
+    return stiffness[0] + stiffness[1] > 0 && body[s->body[0]].has->row_sides + body[s->body[1]].has->row_sides > 0;
+}
+
 /* Is the search about two single features, with nothing to keep but the gap? */
 static bool is_lone_pair(const sunder_i_search *s, const sunder_i_cluster *cluster)
 {
     double reach;
-    return s->n == 2 && !cluster->starts_from_areas && s->mass[0] + s->mass[1] > 0 &&
+    return s->n == 2 && !cluster->starts_from_areas && !has_springs(s) && s->mass[0] + s->mass[1] > 0 &&
            !sunder_i_may_be_inside(&s->model->rules) && only_feature(s->model, s->body[0]) != SUNDER_I_NOBODY &&
            only_feature(s->model, s->body[1]) != SUNDER_I_NOBODY &&
            !sunder_i_search_is_relaxed(s, s->body[0], s->body[1], &reach);

@@ -134,7 +134,7 @@ void sunder_i_search_visit_row(sunder_i_search *search, const sunder_i_body *p, 
     const sunder_i_model *model = search->model;
     if (p->has->row_sides == 0 || q->has->row_sides == 0) return;
     const sunder_i_row_side *side = sunder_i_row_side_of(model, p, (uint32_t)(q - model->body));
-    if (!side) return;
+    if (!side || side->least == -INFINITY) return;
     const sunder_i_piece_pair pair = {.key = UINT64_C(7) << 60 | (uint64_t)(side - model->row_side),
                                       .inclusion = SUNDER_I_LAPSED,
                                       .relaxed = relaxed,
