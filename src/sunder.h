@@ -555,8 +555,8 @@ typedef struct sunder_layer_options {
     void *trace_user;
     sunder_rows rows; /* neighbours in a row keep their order; not with keep_worlds, nor with keep_trees */
     double kink;      /* a kink greater than this counts in summary.kink_share; negative (the default): gap / 10 */
-    /* With rows: the stiffness of springs between neighbours in a row, across it and along it. With u the move of one
-     * relative to the other, and w the lesser of their weights, a spring costs w K (u.n)^2. The default is 3 and 0.3. */
+    /* With rows: the stiffness K of springs between neighbours in a row, across it and along it. With u the move of one
+     * relative to the other, and w the lesser of their weights, a spring costs w K (u.n)^2. The default: 3 and 0.3. */
     double row_stiffness[2];
 } sunder_layer_options;
 
@@ -721,9 +721,9 @@ typedef struct sunder_layer_summary {
     size_t rounded;                 /* moved features with a coordinate that had to be rounded to a double */
     double total, mean, max;        /* lengths of moves; the mean is over all features that moved, blocked or not */
     size_t max_feature;             /* the first feature with the longest move; SIZE_MAX if nothing moved */
-    /* cost is the sum of weight * length^2 over the moves, and of the springs of rows. lower_bound is proved: no placement costs less that solves
-     * every pair that is not listed, leaves no listed pair worse than at the start, and leaves no pair in overlap that
-     * is listed as too close. */
+    /* cost is the sum of weight * length^2 over the moves, and of the springs of rows. lower_bound is proved: no
+     * placement costs less that solves every pair that is not listed, leaves no listed pair worse than at the start,
+     * and leaves no pair in overlap that is listed as too close. */
     double cost, lower_bound;
     /* The bound that the pairs of sunder_report_bound_pairs() prove by their least translations alone. It holds if no
      * feature of these pairs comes to lie in the other. It is not part of lower_bound, which trees prove: they prove a

@@ -9,8 +9,8 @@
  *
  * A hard program is solved as a sequence of soft ones [Roc76]: the distance of each constraint is increased by give
  * times its previous force, so that nothing is violated once the forces no longer change. A smaller give needs fewer
- * rounds, so it is reduced in each. What a constraint gives by itself is no part of that share. If contradictions let the forces grow, they soon prove that every solution costs
- * too much. */
+ * rounds, so it is reduced in each. What a constraint gives by itself is no part of that share. If contradictions let
+ * the forces grow, they soon prove that every solution costs too much. */
 #include "displacement/quadratic/methods.h"
 #include "displacement/quadratic/normal_equations.h"
 #include "displacement/quadratic/tuning.h"
@@ -200,8 +200,8 @@ static bool solve_soft(newton *q, double softness, double tolerance)
 
 /* Returns how far to continue along the last change of the forces: as far as the bound that they prove grows and no
  * force becomes negative. Along f + s g, where f and g cause the moves t and u, the bound grows by s (g.d - sum of t.u
- * / mass - sum of give f g) - s^2 / 2 (sum of u.u / mass + sum of give g^2) [weak duality, forces.c]. It stops at twice the bound that is needed. rising:
- * forces that decreased are kept. */
+ * / mass - sum of give f g) - s^2 / 2 (sum of u.u / mass + sum of give g^2) [weak duality, forces.c]. It stops at
+ * twice the bound that is needed. rising: forces that decreased are kept. */
 static double far_along(const newton *q, bool rising)
 {
     const sunder_i_quadratic *p = q->p;

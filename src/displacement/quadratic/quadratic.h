@@ -9,9 +9,9 @@
 /* The body number of the ground, which does not move. */
 #define SUNDER_I_GROUND UINT32_MAX
 
-/* The constraint n.(t_j - t_i) >= d. i or j may be SUNDER_I_GROUND, whose move is zero. With give > 0 it may be violated
- * by v at the cost v^2 / (2 give), and is then violated by give times its force: two such constraints, with opposite
- * normals and distances, are a spring. */
+/* The constraint n.(t_j - t_i) >= d. i or j may be SUNDER_I_GROUND, whose move is zero. With give > 0 it may be
+ * violated by v at the cost v^2 / (2 give), and is then violated by give times its force: two such constraints, with
+ * opposite normals and distances, are a spring. */
 typedef struct sunder_i_constraint {
     uint32_t i, j;
     double n[2], d;
@@ -43,10 +43,10 @@ static inline double sunder_i_stretch(const sunder_i_constraint *c, const double
 }
 
 /* Minimises sum w |t|^2, plus the cost of the violations of constraints that give, under the constraints, starting from
- * their forces. softness > 0 lets every constraint be
- * violated in proportion to its force (relative to what the force moves), so that contradictions end in a compromise.
- * Returns the largest violation beyond what constraints give, INFINITY if it is only known that every solution costs too much, and a negative number
- * if memory is out. scale: a typical length of moves. */
+ * their forces. softness > 0 lets every constraint be violated in proportion to its force (relative to what the force
+ * moves), so that contradictions end in a compromise. Returns the largest violation beyond what constraints give,
+ * INFINITY if it is only known that every solution costs too much, and a negative number if memory is out. scale: a
+ * typical length of moves. */
 double sunder_i_quadratic_solve(sunder_i_quadratic *program, double softness, double tolerance, double scale);
 
 /* Solves a large program again that was solved and has got a few more constraints: only bodies around the constraints

@@ -6,8 +6,8 @@
 
 #include <stdbool.h>
 
-/* The cut n.(t_j - t_i) >= d; i or j may be SUNDER_I_GROUND. The doubles are exact. With give > 0 it may be violated by v
- * at the cost v^2 / (2 give): two such cuts with opposite normals are a spring. */
+/* The cut n.(t_j - t_i) >= d; i or j may be SUNDER_I_GROUND. The doubles are exact. With give > 0 it may be violated by
+ * v at the cost v^2 / (2 give): two such cuts with opposite normals are a spring. */
 typedef struct sunder_i_move_cut {
     uint32_t i, j;
     double n[2], d, give;

@@ -304,6 +304,66 @@ static void check_dear(void **state)
     assert_true(found > 0 && dear > 0);
 }
 
+/* A row of bodies that have to be farther apart, some of which are pushed out of it, with springs across it. */
+enum { ROW = 700 };
+
+static size_t bend_row(rng *r, size_t bodies, sunder_i_constraint *c)
+{
+    size_t n = 0;
+    for (uint32_t b = 0; b < bodies; b++) {
+        if (rng_int(r, 0, 4) == 0)
+            c[n++] = (sunder_i_constraint){.i = SUNDER_I_GROUND, .j = b, .n = {0.6, 0.8}, .d = 5 * rng_unit(r)};
+        if (b + 1 == bodies) continue;
+        c[n++] = (sunder_i_constraint){.i = b, .j = b + 1, .n = {1, 0}, .d = 2 * rng_unit(r) - 1};
+        const double give = pow(10, 2 * rng_unit(r) - 1);
+        for (int sign = -1; sign <= 1; sign += 2)
+            c[n++] = (sunder_i_constraint){.i = b, .j = b + 1, .n = {0, sign}, .give = give};
+    }
+    for (size_t k = 0; k < n; k++) c[k].key = k;
+    return n;
+}
+
+/* A program with constraints that give: the forces prove that no moves cost less than those found (weak duality). Few
+ * and many bodies, with and without a limit of the cost, so that each method has some. */
+static void check_springs(void **state)
+{
+    (void)state;
+    static sunder_i_constraint constraint[4 * ROW];
+    static double mass[ROW], t[2 * ROW], net[2 * ROW];
+    for (size_t trial = 0; trial < test_count(40); trial++) {
+        static const size_t sizes[] = {2, 5, 12, 60, 200, ROW};
+        rng r = rng_start(test_seed(), trial);
+        const size_t bodies = sizes[trial % 6];
+        sunder_i_quadratic q = {.bodies = bodies, .mass = mass, .t = t, .constraint = constraint};
+        for (size_t b = 0; b < bodies; b++) mass[b] = 0.5 / (0.5 + rng_unit(&r));
+        q.n = bend_row(&r, bodies, constraint);
+        q.most_cost = trial % 2 ? 1e9 : 0;
+        assert_true(sunder_i_quadratic_solve(&q, 0, 1e-9, 10) <= 1e-6);
+        memset(net, 0, sizeof net);
+        size_t stretched = 0;
+        double cost = 0, least = 0;
+        for (size_t k = 0; k < q.n; k++) {
+            const sunder_i_constraint *c = &constraint[k];
+            const double missing = fmax(0, c->d - sunder_i_stretch(c, t));
+            if (c->give == 0 && missing > 1e-6)
+                fail_msg("trial %zu: constraint %zu is missed by %g", trial, k, missing);
+            if (c->give > 0) cost += missing * missing / (2 * c->give);
+            least += c->force * (c->d - c->give * c->force / 2);
+            stretched += c->give > 0 && c->force > 1e-5;
+            for (size_t x = 0; x < 2; x++) {
+                if (c->j != SUNDER_I_GROUND) net[2 * c->j + x] += mass[c->j] * c->force * c->n[x];
+                if (c->i != SUNDER_I_GROUND) net[2 * c->i + x] -= mass[c->i] * c->force * c->n[x];
+            }
+        }
+        for (size_t k = 0; k < 2 * bodies; k++) {
+            cost += t[k] * t[k] / (2 * mass[k / 2]);
+            least -= net[k] * net[k] / (2 * mass[k / 2]);
+        }
+        if (!(cost - least <= 1e-5 * cost)) fail_msg("trial %zu: cost %g, at least %g", trial, cost, least);
+        if (bodies > 12) assert_true(stretched > 0);
+    }
+}
+
 /* Distances up to the greatest double, and light and heavy bodies: the forces exceed all doubles, and no constraint is
  * negative. The active set is left as it is. */
 static void check_forces_beyond_doubles(void **state)
@@ -329,6 +389,7 @@ int main(void)
     printf("seed %llu\n", (unsigned long long)test_seed());
     const struct CMUnitTest tests[] = {cmocka_unit_test(check_programs), cmocka_unit_test(check_nearest),
                                        cmocka_unit_test(check_crowd),    cmocka_unit_test(check_mended),
-                                       cmocka_unit_test(check_dear),     cmocka_unit_test(check_forces_beyond_doubles)};
+                                       cmocka_unit_test(check_dear),     cmocka_unit_test(check_forces_beyond_doubles),
+                                       cmocka_unit_test(check_springs)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
