@@ -2,8 +2,6 @@
 #include "base/counts.h"
 #include "decomposition/maker.h"
 
-#include <string.h>
-
 static void make_optimal(sunder_i_maker *m, const sunder_i_member *member)
 {
     uint32_t diagonals;

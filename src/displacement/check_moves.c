@@ -16,7 +16,6 @@
 #include "separation/separation.h"
 
 #include <math.h>
-#include <string.h>
 
 typedef struct comparison {
     const sunder_layer *before, *after;

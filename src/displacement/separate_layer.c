@@ -16,7 +16,6 @@
 #include "base/sized_struct.h"
 #include "base/watch.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 /* Approximate shares of the whole work that are done when bounds and pushes are known, and when proofs are. */

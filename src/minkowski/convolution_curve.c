@@ -2,8 +2,6 @@
  * outward direction, and the arcs and chords that join them. */
 #include "minkowski/convolution_inner.h"
 
-#include <string.h>
-
 /* The state of one round. The vertices of its P are numbered from 0 on; so are the arrays. */
 typedef struct mover {
     sunder_i_convolution *curve;

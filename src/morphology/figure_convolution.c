@@ -33,7 +33,6 @@
 #include "spatial/strips.h"
 #include "sum/canonical_sum.h"
 
-#include <math.h>
 #include <string.h>
 
 /* A vertex of the result, and the link on which its ring continues along the curve. */

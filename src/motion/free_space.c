@@ -19,7 +19,6 @@
 #include "base/extremes.h"
 
 #include <float.h>
-#include <limits.h>
 #include <math.h>
 #include <string.h>
 

@@ -2,7 +2,6 @@
  * order, shifts; products and quotients are in big_product.c, roots and the gcd in big_gcd.c. */
 #include "number/big_limbs.h"
 
-#include <limits.h>
 #include <math.h>
 
 _Static_assert(GMP_LIMB_BITS == 64, "limbs of 64 bits");

@@ -6,8 +6,6 @@
  * the plane, and no edge meets another except at a common end. */
 #include "planar_map/map.h"
 
-#include <stdlib.h>
-
 #define REQUIRE(condition, sentence)                                                                                   \
     do {                                                                                                               \
         if (!(condition)) return sentence;                                                                             \

@@ -3,8 +3,6 @@
  * one level up, where the same is done. */
 #include "rectilinear/cover_tree.h"
 
-#include <string.h>
-
 #define CHILD_BITS 6
 #define CHILDREN ((uint32_t)1 << CHILD_BITS)
 #define ALL UINT64_MAX

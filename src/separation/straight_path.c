@@ -12,8 +12,6 @@
 #include "shape/rational_corners.h"
 #include "spatial/box.h"
 
-#include <limits.h>
-
 static const double *corner_of(const sunder_shape *p, uint32_t v) { return p->xy + 2 * (size_t)v; }
 
 static sunder_point point_of(const double xy[2]) { return (sunder_point){xy[0], xy[1]}; }

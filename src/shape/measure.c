@@ -7,7 +7,6 @@
 
 #include "number/accumulator.h"
 
-#include <math.h>
 #include <string.h>
 
 size_t sunder_shape_polygons(const sunder_shape *shape) { return shape->form->cleaned.polygons; }

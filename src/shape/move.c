@@ -5,7 +5,6 @@
 #include "shape/rational_corners.h"
 
 #include <math.h>
-#include <string.h>
 
 /* Returns an exact copy, without the rational numbers; NULL if out of memory. */
 static sunder_shape *copy_shape(const sunder_shape *s)

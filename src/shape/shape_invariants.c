@@ -7,9 +7,6 @@
 
 #include "base/extremes.h"
 
-#include <math.h>
-#include <string.h>
-
 typedef struct checker {
     const sunder_shape *s;
     sunder_i_lattice *l;

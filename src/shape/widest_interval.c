@@ -15,7 +15,6 @@
  * and 16 eps times the computed value is more than that. Numbers near the ends of the range of doubles are excluded. */
 #include "shape/widest_interval.h"
 
-#include "base/extremes.h"
 #include "number/accumulator.h"
 #include "predicate/predicate.h"
 #include "shape/rational_corners.h"

@@ -7,8 +7,6 @@
 
 #include "base/sort.h"
 
-#include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 /* The number of children of a node: large, so that few levels must be updated when a box moves. */

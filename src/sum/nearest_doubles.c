@@ -11,7 +11,6 @@
  *   big_double()    all others, by big integers */
 #include "sum/sum_value.h"
 
-#include <limits.h>
 #include <math.h>
 
 /* *out becomes the sum of both origins in one coordinate, in lattice units, below 2^120. Returns false if an origin is

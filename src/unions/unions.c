@@ -8,7 +8,6 @@
 #include "sum/operands_on_lattice.h"
 
 #include <inttypes.h>
-#include <string.h>
 
 static sunder_status unite_by_algorithm(sunder_i_uniting *u, sunder_algorithm algorithm, sunder_i_planar_map **map,
                                         sunder_error *err)

@@ -7,7 +7,6 @@
 #include "shape/shape.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 static void box_of_far_pieces(const sunder_shape *shape, const sunder_i_body *body, double box[4])

@@ -14,9 +14,7 @@
 #include "base/sort.h"
 #include "shape/shape.h"
 
-#include <math.h>
 #include <pthread.h>
-#include <stdlib.h>
 #include <string.h>
 
 struct sunder_i_pieces_store {

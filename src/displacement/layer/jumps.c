@@ -8,13 +8,11 @@
  * decides. */
 #include "displacement/layer/jumps.h"
 
-#include "base/invariant.h"
 #include "base/parallel.h"
 #include "displacement/layer/reads.h"
 #include "displacement/layer/sides.h"
 #include "separation/separation.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 

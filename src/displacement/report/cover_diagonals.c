@@ -16,7 +16,6 @@
 #include "spatial/box.h"
 
 #include <math.h>
-#include <string.h>
 
 /* The number of features and barrier parts found by look-ups, for each feature and barrier part of the layer, after
  * which the covers of all bodies are made instead. */

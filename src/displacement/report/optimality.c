@@ -9,9 +9,6 @@
 #include "displacement/layer/resolution.h"
 #include "displacement/report/report.h"
 
-#include <math.h>
-#include <stdlib.h>
-
 /* Makes the group the owner of its movable bodies, guests included. Returns false if another group owned one of
  * them. */
 static bool claim_bodies(const sunder_i_model *model, const sunder_i_group *g, uint32_t *owner)

@@ -5,7 +5,6 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 /* The number of pairs is divided by this, rounded up, for the rank from the top of the value that 95 % do not
  * exceed. */

@@ -9,7 +9,6 @@
 #include "base/watch.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 /* What is known while rows are being found. */
 typedef struct row_search {

@@ -6,7 +6,6 @@
 #include "base/watch.h"
 #include "separation/operands/fan.h"
 
-#include <float.h>
 #include <math.h>
 
 /* ---- Numbers ---- */

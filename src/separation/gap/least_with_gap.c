@@ -10,7 +10,6 @@
 #include "separation/squares/squares.h"
 
 #include <math.h>
-#include <string.h>
 
 /* Finds the centres of arcs: sums of two convex vertices. Other vertices never lie on the boundary of the obstacle. */
 static bool find_centers(sunder_i_gap_problem *p)

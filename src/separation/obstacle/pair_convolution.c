@@ -13,8 +13,6 @@
 #include "separation/obstacle/board.h"
 #include "separation/obstacle/cones.h"
 
-#include <math.h>
-
 /* Makes room for n more candidates. Returns false if out of memory. */
 static bool make_room(sunder_i_operands *g, sunder_i_candidates *h, uint32_t n)
 {

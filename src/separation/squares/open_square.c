@@ -2,7 +2,6 @@
 #include "separation/squares/squares_inner.h"
 
 #include "base/extremes.h"
-#include "base/watch.h"
 
 enum { UNKNOWN = 0, NO_CORNER, CORNER };
 

@@ -8,7 +8,6 @@
 #include "base/extremes.h"
 
 #include <math.h>
-#include <string.h>
 
 static bool has_area(const sunder_i_outline *outline) { return outline->rings && outline->area > 0; }
 

@@ -4,7 +4,6 @@
  * A block starts from the contact with the greatest force that is in no block yet, and grows by the body on which its
  * bodies exert the greatest force. */
 #include "displacement/prove/optimum/blocks.h"
-#include "displacement/prove/optimum/tuning.h"
 
 #include <string.h>
 

@@ -18,7 +18,6 @@
  * The products of the active cuts are stored as a Cholesky factor, which grows by a row, and loses a row by
  * rotations. */
 #include "displacement/prove/optimum/dual_program.h"
-#include "displacement/prove/optimum/tuning.h"
 
 #include "base/extremes.h"
 #include "base/memory.h"

@@ -11,7 +11,6 @@
 
 #include <math.h>
 #include <stddef.h>
-#include <string.h>
 
 /* ---- The pieces near a place ------------------------------------------------------------------------------------- */
 

@@ -5,7 +5,6 @@
 
 #include "base/extremes.h"
 #include "base/watch.h"
-#include "displacement/layer/rounding.h"
 
 #include <math.h>
 

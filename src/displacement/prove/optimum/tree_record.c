@@ -6,7 +6,6 @@
 #include "displacement/prove/optimum/optimum.h"
 #include "displacement/prove/optimum/tree.h"
 
-#include <math.h>
 #include <string.h>
 
 void sunder_i_bound_tree_free(sunder_bound_tree *tree)

@@ -16,13 +16,10 @@
 #include "displacement/prove/proofs/plane.h"
 #include "displacement/prove/proofs/tuning.h"
 
-#include "displacement/layer/barrier_parts.h"
 #include "displacement/layer/reads.h"
 #include "displacement/layer/sides.h"
 
 #include "base/extremes.h"
-
-#include <string.h>
 
 static double cross_product(const double u[2], const double v[2]) { return u[0] * v[1] - u[1] * v[0]; }
 static double dot_product(const double u[2], const double v[2]) { return u[0] * v[0] + u[1] * v[1]; }

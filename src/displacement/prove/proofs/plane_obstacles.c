@@ -7,7 +7,6 @@
 #include "displacement/prove/proofs/plane.h"
 
 #include "displacement/geometry/obstacle_shadow.h"
-#include "displacement/layer/barrier_parts.h"
 #include "displacement/layer/sides.h"
 
 #include "base/extremes.h"

@@ -15,13 +15,11 @@
  * slack (|C| + |L|). So C is at most 8 slack (1 + |C| / |L|) beside the line of L, which is less than the tilt times
  * |C| if the tilt is 2^6 slack / m, where m is the least distance of a corner. If m is below 2^16 slack, there is no
  * answer. */
-#include "displacement/geometry/obstacle_shadow.h"
 #include "displacement/prove/proofs/half_planes.h"
 
 #include "base/extremes.h"
 
 #include <math.h>
-#include <stdbool.h>
 
 #define UNIT 0x1p-50
 #define TILT 64

@@ -1,7 +1,6 @@
 /* The violations of a candidate: pairs of convex pieces that are nearer than they may be, anchors that jumped over a
  * piece or crossed a side; and the half-planes of each. */
 #include "displacement/geometry/anchor_reach.h"
-#include "displacement/layer/barrier_parts.h"
 #include "displacement/layer/reads.h"
 #include "displacement/layer/sides.h"
 #include "displacement/prove/proofs/branching.h"
@@ -9,7 +8,6 @@
 
 #include "base/extremes.h"
 #include "base/list.h"
-#include "shape/shape.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -6,7 +6,6 @@
 #include "displacement/solve/clusters/cluster_stages.h"
 #include "displacement/solve/clusters/tuning.h"
 
-#include "base/extremes.h"
 #include "base/invariant.h"
 #include "base/sort.h"
 #include "base/union_find.h"

@@ -12,11 +12,9 @@
 #include "displacement/solve/clusters/tuning.h"
 
 #include "base/extremes.h"
-#include "base/union_find.h"
 #include "separation/separation.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 /* The bodies that are aligned: movable bodies of the trial, and fixed ones near them. */

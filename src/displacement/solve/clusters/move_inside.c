@@ -5,7 +5,6 @@
 #include "displacement/solve/clusters/cluster_stages.h"
 
 #include <math.h>
-#include <string.h>
 
 /* Moves the inner body as far as its limit allows, and the holder towards it for the rest. */
 static void send_inside(sunder_i_solver *s, const sunder_i_entry *e)

@@ -19,7 +19,6 @@
 
 #include "base/extremes.h"
 #include "base/parallel.h"
-#include "base/watch.h"
 
 #include <math.h>
 #include <stdlib.h>

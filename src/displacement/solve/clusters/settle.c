@@ -11,8 +11,6 @@
 
 #include "base/union_find.h"
 
-#include <string.h>
-
 static bool is_due(const sunder_i_solver *s, const sunder_i_cluster *c)
 {
     for (size_t k = 0; k < c->n; k++)

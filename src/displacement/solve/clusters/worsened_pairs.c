@@ -1,7 +1,6 @@
 /* Which pairs stand worse than at the start: the rule for pairs that stay in conflict, exactly, for the features as
  * they will be written. */
 #include "displacement/layer/barrier_pairs.h"
-#include "displacement/layer/reads.h"
 #include "displacement/solve/clusters/cluster_stages.h"
 
 #include "separation/separation.h"

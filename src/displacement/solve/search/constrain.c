@@ -6,9 +6,7 @@
 
 #include "base/extremes.h"
 #include "base/sort.h"
-#include "base/watch.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 

@@ -5,8 +5,6 @@
 #include "base/extremes.h"
 #include "base/sort.h"
 
-#include <stdlib.h>
-
 /* Sorts boxes by their left sides. (Clusters can be large, so insertion sort from the last order would not do.) */
 static int by_left(const void *a, const void *b)
 {

@@ -14,7 +14,6 @@
 #include "displacement/solve/search/tuning.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 /* The numbers of bodies that move at each level; at level LEVELS the whole cluster moves. */
