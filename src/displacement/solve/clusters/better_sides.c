@@ -2,20 +2,18 @@
  * cluster is improved by itself. Conflicts that this causes are left to the next round of settle.c. */
 #include "displacement/solve/clusters/cluster_stages.h"
 
-#include "base/parallel.h"
-
-/* Is nothing to be done for the cluster? It is not wanted, or better sides were looked for, or its layout is known to
- * be the cheapest. If each of several clusters that merged was the cheapest, so is their union. */
-static bool is_cluster_improved(const sunder_i_solver *s, const sunder_i_cluster *c)
+/* Are better sides to be looked for in the cluster? They are not if it is not wanted, or they were looked for, or its
+ * layout is known to be the cheapest. If each of several clusters that merged was the cheapest, so is their union. */
+static bool is_to_improve(const sunder_i_solver *s, const sunder_i_cluster *c)
 {
     bool improved = true, cheapest = true;
-    if (!sunder_i_solver_any_of(s, c->body, c->n, sunder_i_is_wanted)) return true;
+    if (!sunder_i_solver_any_of(s, c->body, c->n, sunder_i_is_wanted)) return false;
     for (size_t k = 0; k < c->n; k++) {
         if (s->model.body[c->body[k]].fixed) continue;
         improved = improved && sunder_i_is_improved(s, c->body[k]);
         cheapest = cheapest && sunder_i_is_cheapest(s, c->body[k]);
     }
-    return improved || cheapest;
+    return !improved && !cheapest;
 }
 
 bool sunder_i_solver_is_to_improve(sunder_i_solver *solver)
@@ -40,47 +38,28 @@ static sunder_status note_improved(const sunder_i_solver *s, sunder_i_cluster *c
     return sunder_i_trace_note(&c->log, &step) ? SUNDER_OK : sunder_i_failure_cause(err);
 }
 
-static sunder_status improve_clusters(void *context, size_t begin, size_t end, sunder_error *err)
+static sunder_status improve_cluster(const sunder_i_solver *s, sunder_i_cluster *c, double *move, void *context,
+                                     sunder_error *err)
 {
-    const sunder_i_solver *s = context;
-    for (size_t k = begin; k < end; k++) {
-        sunder_i_cluster *c = &s->cluster[k];
-        if (is_cluster_improved(s, c)) continue;
-        c->outcome = SUNDER_I_WORKED_ON;
-        double *move = sunder_i_solver_load_moves(s, c);
-        sunder_i_reading reading;
-        sunder_i_reads_begin(&reading, &s->model, sunder_i_reader_for(s, c));
-        const double before = sunder_i_is_traced(&s->model) ? sunder_i_trace_cost(&s->model, c->body, c->n, move) : 0;
-        sunder_status status = sunder_i_cluster_improve(&s->model, c, move, err);
-        sunder_i_reads_end(&reading);
-        if (!status && sunder_i_is_traced(&s->model)) status = note_improved(s, c, before, move, err);
-        if (status) return status;
-    }
-    return SUNDER_OK;
+    const double before = sunder_i_is_traced(&s->model) ? sunder_i_trace_cost(&s->model, c->body, c->n, move) : 0;
+    (void)context;
+    c->outcome = SUNDER_I_WORKED_ON;
+    const sunder_status status = sunder_i_cluster_improve(&s->model, c, move, err);
+    return status || !sunder_i_is_traced(&s->model) ? status : note_improved(s, c, before, move, err);
 }
 
-static sunder_status find_blocking_neighbours(void *context, size_t begin, size_t end, sunder_error *err)
+static sunder_status find_blocking_neighbours(const sunder_i_solver *s, sunder_i_cluster *c, double *move,
+                                              void *context, sunder_error *err)
 {
-    const sunder_i_solver *s = context;
-    for (size_t k = begin; k < end; k++) {
-        sunder_i_cluster *c = &s->cluster[k];
-        if (is_cluster_improved(s, c)) continue;
-        double *move = sunder_i_solver_load_moves(s, c);
-        sunder_i_reading reading;
-        sunder_i_reads_begin(&reading, &s->model, sunder_i_reader_for(s, c));
-        const bool ok = sunder_i_cluster_find_blocking(&s->model, c, move);
-        sunder_i_reads_end(&reading);
-        if (!ok) return sunder_i_failure_cause(err);
-    }
-    return SUNDER_OK;
+    (void)context;
+    return sunder_i_cluster_find_blocking(&s->model, c, move) ? SUNDER_OK : sunder_i_failure_cause(err);
 }
 
 /* Joins the neighbours that block bodies of a cluster to that cluster. */
 static sunder_status join_guests(sunder_i_solver *s, sunder_error *err)
 {
     bool any = false;
-    sunder_status status =
-        sunder_i_parallel(s->model.rules.threads, s->clusters, SUNDER_I_GRAIN_WHOLE, find_blocking_neighbours, s, err);
+    sunder_status status = sunder_i_solver_for_clusters(s, is_to_improve, find_blocking_neighbours, NULL, err);
     for (size_t k = 0; k < s->clusters && !status; k++)
         for (size_t g = 0; g < s->cluster[k].guests && !status; g++) {
             const sunder_i_id_pair *pair = &s->cluster[k].guest[g];
@@ -95,7 +74,7 @@ sunder_status sunder_i_solver_improve(sunder_i_solver *solver, sunder_error *err
     sunder_status status = sunder_i_solver_gather(solver, err);
     if (!status) status = join_guests(solver, err);
     if (!status) status = sunder_i_solver_unite_blocks(solver, err);
-    if (!status) status = sunder_i_solver_for_clusters(solver, improve_clusters, solver, err);
+    if (!status) status = sunder_i_solver_for_clusters(solver, is_to_improve, improve_cluster, NULL, err);
     if (!status) status = sunder_i_solver_trace_clusters(solver, err);
     if (status) return status;
     sunder_i_pieces_forget(&solver->model, SUNDER_I_PIECES_HELD);

@@ -259,14 +259,38 @@ sunder_status sunder_i_solver_gather(sunder_i_solver *solver, sunder_error *err)
     return SUNDER_OK;
 }
 
-sunder_status sunder_i_solver_for_clusters(const sunder_i_solver *solver, sunder_i_work work, void *context,
-                                           sunder_error *err)
+typedef struct working {
+    const sunder_i_solver *solver;
+    sunder_i_cluster_test test;
+    sunder_i_cluster_work work;
+    void *context;
+} working;
+
+static sunder_status work_on_clusters(void *context, size_t begin, size_t end, sunder_error *err)
 {
+    const working *w = context;
+    sunder_status status = SUNDER_OK;
+    for (size_t k = begin; k < end && !status; k++) {
+        sunder_i_cluster *c = &w->solver->cluster[k];
+        if (w->test && !w->test(w->solver, c)) continue;
+        double *move = sunder_i_solver_load_moves(w->solver, c);
+        sunder_i_reading reading;
+        sunder_i_reads_begin(&reading, &w->solver->model, sunder_i_reader_for(w->solver, c));
+        status = w->work(w->solver, c, move, w->context, err);
+        sunder_i_reads_end(&reading);
+    }
+    return status;
+}
+
+sunder_status sunder_i_solver_for_clusters(const sunder_i_solver *solver, sunder_i_cluster_test test,
+                                           sunder_i_cluster_work work, void *context, sunder_error *err)
+{
+    working w = {solver, test, work, context};
     size_t *size = sunder_i_alloc(solver->clusters, sizeof *size);
     if (!size) return sunder_i_failure_cause(err);
     for (size_t k = 0; k < solver->clusters; k++) size[k] = solver->cluster[k].n;
     const sunder_status status =
-        sunder_i_parallel_largest_first(solver->model.rules.threads, size, solver->clusters, work, context, err);
+        sunder_i_parallel_largest_first(solver->model.rules.threads, size, solver->clusters, work_on_clusters, &w, err);
     sunder_i_free(size);
     return status;
 }

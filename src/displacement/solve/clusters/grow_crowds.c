@@ -37,25 +37,19 @@ static bool is_large_crowd(const sunder_i_solver *s, const sunder_i_cluster *c)
            sunder_i_solver_any_of(s, c->body, c->n, sunder_i_is_due);
 }
 
-/* Computes the approximate positions of the bodies of each large crowd, and their boxes there. */
-static sunder_status place_crowds(void *context, size_t begin, size_t end, sunder_error *err)
+/* Computes the approximate positions of the bodies of a large crowd, and their boxes there. */
+static sunder_status place_crowd(const sunder_i_solver *s, sunder_i_cluster *c, double *move, void *context,
+                                 sunder_error *err)
 {
     growth *g = context;
-    const sunder_i_model *model = &g->solver->model;
-    sunder_status status = SUNDER_OK;
-    for (size_t k = begin; k < end && !status; k++) {
-        const sunder_i_cluster *c = &g->solver->cluster[k];
-        if (!is_large_crowd(g->solver, c)) continue;
-        double *move = sunder_i_solver_load_moves(g->solver, c);
-        bool found = false;
-        status = sunder_i_areas_places(model, c->body, c->n, true, move, &found, err);
-        for (size_t m = 0; m < c->n && found && !status; m++) {
-            const uint32_t b = c->body[m];
-            g->placed[b] = true;
-            const sunder_i_body *body = &model->body[b];
-            const double size = sunder_i_max(body->box[2] - body->box[0], body->box[3] - body->box[1]);
-            sunder_i_body_box(body, move + 2 * m, model->rules.gap / 2 + CROWD_GROWN_BY * size, g->box + 4 * (size_t)b);
-        }
+    bool found = false;
+    const sunder_status status = sunder_i_areas_places(&s->model, c->body, c->n, true, move, &found, err);
+    for (size_t m = 0; m < c->n && found && !status; m++) {
+        const uint32_t b = c->body[m];
+        g->placed[b] = true;
+        const sunder_i_body *body = &s->model.body[b];
+        const double size = sunder_i_max(body->box[2] - body->box[0], body->box[3] - body->box[1]);
+        sunder_i_body_box(body, move + 2 * m, s->model.rules.gap / 2 + CROWD_GROWN_BY * size, g->box + 4 * (size_t)b);
     }
     return status;
 }
@@ -123,7 +117,7 @@ static sunder_status grow_once(growth *g, bool *any, sunder_error *err)
     sunder_i_solver *s = g->solver;
     const size_t edges = s->edges;
     memset(g->placed, 0, s->model.bodies * sizeof *g->placed);
-    sunder_status status = sunder_i_solver_for_clusters(s, place_crowds, g, err);
+    sunder_status status = sunder_i_solver_for_clusters(s, is_large_crowd, place_crowd, g, err);
     if (!status) status = sunder_i_rtree_build(g->box, g->placed, s->model.bodies, &g->tree, err);
     if (status) return status;
     find_unabsorbable(g);

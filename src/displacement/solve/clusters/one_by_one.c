@@ -358,21 +358,15 @@ static sunder_status resume_proposal(const resuming *g, const proposal *x, sunde
     return status;
 }
 
-static sunder_status resume_clusters(void *context, size_t begin, size_t end, sunder_error *err)
+static sunder_status resume_cluster(const sunder_i_solver *s, sunder_i_cluster *c, double *move, void *context,
+                                    sunder_error *err)
 {
     const resuming *g = context;
+    const uint32_t root = sunder_i_reader_for(s, c);
     sunder_status status = SUNDER_OK;
-    for (size_t k = begin; k < end && !status; k++) {
-        sunder_i_cluster *c = &g->solver->cluster[k];
-        double *move = sunder_i_solver_load_moves(g->solver, c);
-        c->outcome = SUNDER_I_WORKED_ON;
-        const uint32_t root = g->solver->member[c->body - g->solver->body].root;
-        sunder_i_reading reading;
-        sunder_i_reads_begin(&reading, &g->solver->model, root);
-        for (size_t p = 0; p < g->n && !status; p++)
-            if (g->proposal[p].root == root) status = resume_proposal(g, &g->proposal[p], c, move, err);
-        sunder_i_reads_end(&reading);
-    }
+    c->outcome = SUNDER_I_WORKED_ON;
+    for (size_t p = 0; p < g->n && !status; p++)
+        if (g->proposal[p].root == root) status = resume_proposal(g, &g->proposal[p], c, move, err);
     return status;
 }
 
@@ -417,9 +411,7 @@ static sunder_status resume_from_solutions(sunder_i_solver *s, const asking *ask
     if (!status && g.n) {
         status = sunder_i_solver_gather(s, err);
         if (!status) status = sunder_i_solver_unite_blocks(s, err);
-        if (!status)
-            status =
-                sunder_i_parallel(s->model.rules.threads, s->clusters, SUNDER_I_GRAIN_WHOLE, resume_clusters, &g, err);
+        if (!status) status = sunder_i_solver_for_clusters(s, NULL, resume_cluster, &g, err);
         if (!status) status = sunder_i_solver_commit(s, err);
         if (!status) status = sunder_i_solver_take_relaxations(s, err);
         if (!status) status = sunder_i_solver_relate(s, err);

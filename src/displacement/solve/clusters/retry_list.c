@@ -3,7 +3,6 @@
 #include "displacement/solve/clusters/cluster_stages.h"
 
 #include "base/extremes.h"
-#include "base/parallel.h"
 #include "base/union_find.h"
 
 #include <math.h>
@@ -110,11 +109,6 @@ static bool list_retries(const sunder_i_solver *s, retries *out)
 
 /* ---- Asking ------------------------------------------------------------------------------------------------------ */
 
-typedef struct asking {
-    const sunder_i_solver *solver;
-    const retries *retries;
-} asking;
-
 static int by_root(const void *a, const void *b)
 {
     const sunder_i_retry *p = a, *q = b;
@@ -138,26 +132,17 @@ static sunder_status note_retried(const sunder_i_solver *s, sunder_i_cluster *c,
 }
 
 /* A cluster in which nothing was given up since the last time is skipped: the result would be the same. */
-static sunder_status retry_clusters(void *context, size_t begin, size_t end, sunder_error *err)
+static sunder_status retry_cluster(const sunder_i_solver *s, sunder_i_cluster *c, double *move, void *context,
+                                   sunder_error *err)
 {
-    const asking *g = context;
-    const sunder_i_solver *s = g->solver;
-    sunder_status status = SUNDER_OK;
-    for (size_t k = begin; k < end && !status; k++) {
-        sunder_i_cluster *c = &s->cluster[k];
-        sunder_i_reading reading;
-        double *move = sunder_i_solver_load_moves(s, c);
-        c->outcome = SUNDER_I_WORKED_ON;
-        const uint32_t root = s->member[c->body - s->body].root;
-        const size_t first = first_of(g->retries, root), last = first_of(g->retries, root + 1);
-        sunder_i_reads_begin(&reading, &s->model, root);
-        const bool asked = first < last && sunder_i_solver_any_of(s, c->body, c->n, sunder_i_is_to_retry);
-        const double before = sunder_i_is_traced(&s->model) ? sunder_i_trace_cost(&s->model, c->body, c->n, move) : 0;
-        if (asked) status = sunder_i_cluster_retry(&s->model, c, g->retries->retry + first, last - first, move, err);
-        sunder_i_reads_end(&reading);
-        if (asked && !status && sunder_i_is_traced(&s->model)) status = note_retried(s, c, before, move, err);
-    }
-    return status;
+    const retries *all = context;
+    const uint32_t root = sunder_i_reader_for(s, c);
+    const size_t first = first_of(all, root), last = first_of(all, root + 1);
+    const double before = sunder_i_is_traced(&s->model) ? sunder_i_trace_cost(&s->model, c->body, c->n, move) : 0;
+    c->outcome = SUNDER_I_WORKED_ON;
+    if (first == last || !sunder_i_solver_any_of(s, c->body, c->n, sunder_i_is_to_retry)) return SUNDER_OK;
+    const sunder_status status = sunder_i_cluster_retry(&s->model, c, all->retry + first, last - first, move, err);
+    return status || !sunder_i_is_traced(&s->model) ? status : note_retried(s, c, before, move, err);
 }
 
 /* Adds edges for relaxed pairs whose overlap may be ended, though they cannot be resolved. False if memory is out. */
@@ -236,10 +221,7 @@ sunder_status sunder_i_solver_retry(sunder_i_solver *solver, sunder_error *err)
     if (!status) status = sunder_i_solver_gather(solver, err);
     if (!status) status = sunder_i_solver_unite_blocks(solver, err);
     if (!status && !list_retries(solver, &all)) status = sunder_i_failure_cause(err);
-    asking g = {solver, &all};
-    if (!status)
-        status = sunder_i_parallel(solver->model.rules.threads, solver->clusters, SUNDER_I_GRAIN_WHOLE, retry_clusters,
-                                   &g, err);
+    if (!status) status = sunder_i_solver_for_clusters(solver, NULL, retry_cluster, &all, err);
     sunder_i_free_all(all.retry, all.relaxation);
     if (!status) status = sunder_i_solver_trace_clusters(solver, err);
     if (!status) status = sunder_i_solver_commit(solver, err);

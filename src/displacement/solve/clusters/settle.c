@@ -18,20 +18,11 @@ static bool is_due(const sunder_i_solver *s, const sunder_i_cluster *c)
     return false;
 }
 
-static sunder_status solve_clusters(void *context, size_t begin, size_t end, sunder_error *err)
+static sunder_status solve_cluster(const sunder_i_solver *s, sunder_i_cluster *c, double *move, void *context,
+                                   sunder_error *err)
 {
-    const sunder_i_solver *s = context;
-    for (size_t k = begin; k < end; k++) {
-        sunder_i_cluster *c = &s->cluster[k];
-        if (!is_due(s, c)) continue;
-        double *move = sunder_i_solver_load_moves(s, c);
-        sunder_i_reading reading;
-        sunder_i_reads_begin(&reading, &s->model, sunder_i_reader_for(s, c));
-        const sunder_status status = sunder_i_cluster_solve(&s->model, c, move, err);
-        sunder_i_reads_end(&reading);
-        if (status) return status;
-    }
-    return SUNDER_OK;
+    (void)context;
+    return sunder_i_cluster_solve(&s->model, c, move, err);
 }
 
 /* Notes that the bodies of solved clusters have to be improved again, and keeps measured pairs for the report. From now
@@ -192,7 +183,7 @@ static bool is_hopeless(const sunder_i_solver *s)
 
 static sunder_status solve_all(sunder_i_solver *s, sunder_error *err)
 {
-    sunder_status status = sunder_i_solver_for_clusters(s, solve_clusters, s, err);
+    sunder_status status = sunder_i_solver_for_clusters(s, is_due, solve_cluster, NULL, err);
     if (!status) status = sunder_i_solver_trace_clusters(s, err);
     s->hopeless = !status && is_hopeless(s);
     return status;

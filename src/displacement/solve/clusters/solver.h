@@ -176,9 +176,14 @@ static inline uint32_t sunder_i_reader_for(const sunder_i_solver *solver, const 
 }
 /* Frees the clusters, except for their lists of members, until they are gathered again. */
 void sunder_i_solver_forget_clusters(sunder_i_solver *solver);
-/* Calls `work` for all clusters, on all threads, the largest first. */
-sunder_status sunder_i_solver_for_clusters(const sunder_i_solver *solver, sunder_i_work work, void *context,
-                                           sunder_error *err);
+/* A property of a cluster, and work on one: `move` has the moves that it starts from, and receives new ones. */
+typedef bool (*sunder_i_cluster_test)(const sunder_i_solver *solver, const sunder_i_cluster *cluster);
+typedef sunder_status (*sunder_i_cluster_work)(const sunder_i_solver *solver, sunder_i_cluster *cluster, double *move,
+                                               void *context, sunder_error *err);
+/* Does the work for the clusters that pass the test (NULL: for all), on all threads, the largest first. What it reads is
+ * recorded for the cluster. */
+sunder_status sunder_i_solver_for_clusters(const sunder_i_solver *solver, sunder_i_cluster_test test,
+                                           sunder_i_cluster_work work, void *context, sunder_error *err);
 /* Emits the log of each cluster, in the order of the clusters, if the layer is traced. */
 sunder_status sunder_i_solver_trace_clusters(sunder_i_solver *solver, sunder_error *err);
 /* Makes the clusters anew from the edges. */
