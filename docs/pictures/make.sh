@@ -55,6 +55,15 @@ scene town.gpkg
 } | layer buildings POLYGON
 draw yard 50 22 --gap 2 --contained separate --touch-tolerance 0
 
+# Seven houses in a row with too little room between them: to alternating sides, or as a row.
+scene town.gpkg
+for k in 0 1 2 3 4 5 6; do
+    box house $((26 + 9 * k)) 11 $((34 + 9 * k)) 19
+done | layer buildings POLYGON
+draw zigzag 118 30 --gap 4 --touch-tolerance 0
+rm out.gpkg
+draw row 118 30 --gap 4 --touch-tolerance 0 --rows auto
+
 # A piece of the town for a map at 1:25 000: roads 0.3 mm wide, 0.1 mm of paper between.
 sunder separate --quiet --allow-conflicts -l buildings --scale 25000 --gap 0.1mm --max-shift 0.4mm \
     --barrier town.gpkg,layer=roads,width=0.3mm --overwrite town.gpkg out.gpkg
