@@ -116,6 +116,20 @@ bool sunder_i_search_next_row(const sunder_i_search *search, sunder_i_row_walk *
     return false;
 }
 
+double *sunder_i_search_copy_moves(sunder_i_search *search)
+{
+    double *copy = search->failed ? NULL : sunder_i_alloc(2 * search->n, sizeof *copy);
+    search->failed = !copy;
+    if (copy) memcpy(copy, search->t, 2 * search->n * sizeof *copy);
+    return copy;
+}
+
+void sunder_i_search_end_copy(sunder_i_search *search, double *copy, bool back)
+{
+    if (copy && back) memcpy(search->t, copy, 2 * search->n * sizeof *copy);
+    sunder_i_free(copy);
+}
+
 double sunder_i_search_cost(const sunder_i_search *search, const double *t)
 {
     double cost = 0;

@@ -59,16 +59,16 @@ typedef struct sunder_i_search {
     sunder_i_measures measures;      /* violations of pairs of bodies */
     sunder_i_obstacle_edge *shifted; /* scratch: edges of an obstacle that no cache keeps */
     size_t shifted_capacity;
-    double extent;          /* the mean size of the bodies, parts of barriers left out */
-    double settled;         /* a round that gains a smaller share of the cost is the last one */
-    uint64_t steps, effort; /* constraints examined so far; the work at which the search for better sides ends */
-    int clashing;           /* a descent gives up after this many rounds that end in clashes ... */
-    uint64_t patience;      /* ... or when the work reaches this ... */
-    const double *back;     /* ... or when a program ends at these moves, [2 n]; NULL: no such test ... */
-    double hope;            /* ... or when its expected final cost exceeds this; INFINITY: no such test */
-    const double *lead;     /* [2 n] moves at which the sides of free pairs are chosen; NULL: at the present moves */
+    double extent;           /* the mean size of the bodies, parts of barriers left out */
+    double settled;          /* a round that gains a smaller share of the cost is the last one */
+    uint64_t steps, effort;  /* constraints examined so far; the work at which the search for better sides ends */
+    int clashing;            /* a descent gives up after this many rounds that end in clashes ... */
+    uint64_t patience;       /* ... or when the work reaches this ... */
+    const double *back;      /* ... or when a program ends at these moves, [2 n]; NULL: no such test ... */
+    double hope;             /* ... or when its expected final cost exceeds this; INFINITY: no such test */
+    const double *lead;      /* [2 n] moves at which the sides of free pairs are chosen; NULL: at the present moves */
     sunder_i_trace_log *log; /* what its stages did; NULL: the layer is not traced; lent */
-    bool failed;            /* memory is out */
+    bool failed;             /* memory is out */
 } sunder_i_search;
 
 /* Begins a search for n bodies at the given moves, [2 n], which are copied. On failure the caller frees it, too. */
@@ -91,6 +91,10 @@ uint32_t sunder_i_search_place_of(const sunder_i_search *search, uint32_t body);
 /* The box of body k's straight path from home to t, relative to the first body's origin, so that the layer's position
  * does not matter. */
 void sunder_i_search_path_box(const sunder_i_search *search, const double *t, uint32_t k, double box[4]);
+/* Returns a copy of the present moves; NULL if memory is out (search->failed), or was before. */
+double *sunder_i_search_copy_moves(sunder_i_search *search);
+/* Frees the copy (or NULL); back: the present moves become those of the copy again. */
+void sunder_i_search_end_copy(sunder_i_search *search, double *copy, bool back);
 /* The cost of the moves t: the sum of weight times squared move, and of the springs of rows. */
 double sunder_i_search_cost(const sunder_i_search *search, const double *t);
 

@@ -44,17 +44,15 @@ static bool push_apart(sunder_i_search *s)
 
 void sunder_i_search_equalise_moves(sunder_i_search *search)
 {
-    const size_t size = 2 * search->n * sizeof *search->t;
     uint32_t *root = sunder_i_alloc(search->n, sizeof *root);
-    double *stood = sunder_i_alloc(2 * search->n, sizeof *stood);
-    search->failed = search->failed || !root || !stood;
+    double *stood = sunder_i_search_copy_moves(search);
+    search->failed = search->failed || !root;
     if (!search->failed) {
-        memcpy(stood, search->t, size);
         sunder_i_union_init(root, search->n);
         sunder_i_search_visit_near(search, search->t, 2 * search->gap, join_alike, root);
         for (uint32_t k = 0; k < search->n; k++)
             memcpy(search->t + 2 * (size_t)k, stood + 2 * (size_t)sunder_i_union_find(root, k), 2 * sizeof *search->t);
-        if (!search->failed && !push_apart(search)) memcpy(search->t, stood, size);
     }
-    sunder_i_free_all(root, stood);
+    sunder_i_search_end_copy(search, stood, !search->failed && !push_apart(search));
+    sunder_i_free(root);
 }

@@ -438,15 +438,13 @@ void sunder_i_search_settle_components(sunder_i_search *search)
 
 void sunder_i_search_descend_or_stay(sunder_i_search *search)
 {
-    const size_t size = 2 * search->n * sizeof *search->t;
-    double *stand = sunder_i_alloc(2 * search->n, sizeof *stand);
-    search->failed = search->failed || !stand;
+    double *stand = sunder_i_search_copy_moves(search);
+    bool descended = true;
     if (!search->failed && sunder_i_search_find_clashes(search, search->t) <= search->tolerance) {
-        memcpy(stand, search->t, size);
         search->program.n = 0;
-        if (!sunder_i_search_descend(search)) memcpy(search->t, stand, size);
+        descended = sunder_i_search_descend(search);
     }
-    sunder_i_free(stand);
+    sunder_i_search_end_copy(search, stand, !descended);
 }
 
 bool sunder_i_search_attempt(sunder_i_search *search, double *best, double *cost)

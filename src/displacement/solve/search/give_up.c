@@ -111,15 +111,11 @@ static void try_from_home(sunder_i_search *s)
 {
     sunder_i_search_waive_margins(s);
     if (s->failed) return;
-    const size_t size = 2 * s->n * sizeof *s->t;
-    double *stand = sunder_i_alloc(2 * s->n, sizeof *stand);
-    if (!stand) s->failed = true;
+    double *stand = sunder_i_search_copy_moves(s);
     if (s->failed) return;
-    memcpy(stand, s->t, size);
     send_all_home(s);
-    if (!sunder_i_search_descend(s) || sunder_i_search_cost(s, stand) <= sunder_i_search_cost(s, s->t))
-        memcpy(s->t, stand, size);
-    sunder_i_free(stand);
+    const bool found = sunder_i_search_descend(s);
+    sunder_i_search_end_copy(s, stand, !found || sunder_i_search_cost(s, stand) <= sunder_i_search_cost(s, s->t));
 }
 
 /* Is it a crowd that is small enough to give up pairs gradually, and too large for take_back.c to try all of them
@@ -164,13 +160,11 @@ static void relax_gradually(void *state)
 
 sunder_i_clash *sunder_i_search_at_home(sunder_i_search *search, size_t *n)
 {
-    double *stand = sunder_i_alloc(2 * search->n, sizeof *stand);
+    double *stand = sunder_i_search_copy_moves(search);
     if (!stand) return NULL;
-    memcpy(stand, search->t, 2 * search->n * sizeof *stand);
     for (uint32_t k = 0; k < search->n; k++) sunder_i_search_send_home(search, k);
     sunder_i_search_find_clashes(search, search->t);
-    memcpy(search->t, stand, 2 * search->n * sizeof *stand);
-    sunder_i_free(stand);
+    sunder_i_search_end_copy(search, stand, true);
     *n = search->clashes;
     sunder_i_clash *at_home = sunder_i_alloc(*n, sizeof *at_home);
     if (at_home && *n) memcpy(at_home, search->clash, *n * sizeof *at_home);
@@ -199,14 +193,11 @@ bool sunder_i_search_waive_margins(sunder_i_search *search)
 static void return_home(void *state)
 {
     sunder_i_search *s = ((giving_up *)state)->s;
-    double *stand = sunder_i_alloc(2 * s->n, sizeof *stand);
-    if (!stand) s->failed = true;
+    double *stand = sunder_i_search_copy_moves(s);
     if (s->failed) return;
-    memcpy(stand, s->t, 2 * s->n * sizeof *stand);
     for (uint32_t k = 0; k < s->n; k++)
         if (hypot(s->t[2 * k], s->t[2 * k + 1]) <= NEARLY_HOME * s->extent) sunder_i_search_send_home(s, k);
-    if (sunder_i_search_find_clashes(s, s->t) > s->tolerance) memcpy(s->t, stand, 2 * s->n * sizeof *stand);
-    sunder_i_free(stand);
+    sunder_i_search_end_copy(s, stand, sunder_i_search_find_clashes(s, s->t) > s->tolerance);
 }
 
 /* The number of clashes at t, except violations as small as rounding causes. */

@@ -13,8 +13,6 @@
 #include "displacement/solve/search/search_stages.h"
 #include "displacement/solve/search/tuning.h"
 
-#include <string.h>
-
 static const size_t stage[] = MENDING_STAGES;
 
 static bool still_clash(sunder_i_search *s, const sunder_i_clash *c)
@@ -60,18 +58,14 @@ static bool has_pinned_body(const sunder_i_search *s)
  * whether one was done. */
 static bool mend_clashes(sunder_i_search *s, const sunder_i_clash *clash, size_t n)
 {
-    const size_t size = 2 * s->n * sizeof *s->t;
-    double *stood = sunder_i_alloc(2 * s->n, sizeof *stood);
-    s->failed = s->failed || !stood;
+    double *stood = sunder_i_search_copy_moves(s);
     if (s->failed) return false;
-    memcpy(stood, s->t, size);
     bool done = settle_each(s, clash, n);
     if (!done && !s->failed && sunder_i_search_movers(s) > MOST_AGAIN) {
         yield_rest(s);
         done = true;
     }
-    if (!done) memcpy(s->t, stood, size);
-    sunder_i_free(stood);
+    sunder_i_search_end_copy(s, stood, !done);
     return done;
 }
 

@@ -56,21 +56,17 @@ bool sunder_i_search_push_from_home(sunder_i_search *search, const double *start
                                     size_t n, double share)
 {
     if (search->n < CROWD || n == 0 || !begins_at_home(search, start)) return false;
-    const size_t size = 2 * search->n * sizeof *search->t;
-    double *stood = sunder_i_alloc(2 * search->n, sizeof *stood);
-    search->failed = search->failed || !stood;
+    double *stood = sunder_i_search_copy_moves(search);
     if (search->failed) return false;
-    memcpy(stood, search->t, size);
     const sunder_i_relaxations given_up = search->relaxations;
     memset(&search->relaxations, 0, sizeof search->relaxations);
     const bool done = give_up_all(search, start, at_home, n) && push_all(search, share);
     sunder_i_relaxations other = done ? given_up : search->relaxations;
     if (!done) {
         search->relaxations = given_up;
-        memcpy(search->t, stood, size);
         search->program.n = 0;
     }
     sunder_i_relaxations_free(&other);
-    sunder_i_free(stood);
+    sunder_i_search_end_copy(search, stood, !done);
     return done;
 }

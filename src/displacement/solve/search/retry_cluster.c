@@ -279,15 +279,12 @@ static void redeem_pairs(retrying *p, sunder_i_relaxations *list)
 static bool grant_from_home(retrying *p, size_t k)
 {
     sunder_i_search *s = p->search;
-    double *stood = sunder_i_alloc(2 * s->n, sizeof *stood);
-    if (!stood) s->failed = true;
+    double *stood = sunder_i_search_copy_moves(s);
     if (s->failed) return false;
-    memcpy(stood, s->t, 2 * s->n * sizeof *stood);
     for (size_t i = 0; i < s->n; i++)
         if (s->mass[i] > 0) s->t[2 * i] = s->t[2 * i + 1] = 0;
     const bool granted = grant_retry(p, k, LEVELS, false);
-    if (!granted) memcpy(s->t, stood, 2 * s->n * sizeof *stood);
-    sunder_i_free(stood);
+    sunder_i_search_end_copy(s, stood, !granted);
     return granted;
 }
 

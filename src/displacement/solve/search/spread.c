@@ -72,10 +72,8 @@ bool sunder_i_search_spread(sunder_i_search *search)
     double centre[2];
     if (search->model->rules.jumps || !find_centre(search, centre)) return false;
     const size_t size = 2 * search->n * sizeof *search->t;
-    double *best = sunder_i_alloc(2 * search->n, sizeof *best);
-    if (!best) search->failed = true;
+    double *best = sunder_i_search_copy_moves(search);
     if (search->failed) return false;
-    memcpy(best, search->t, size);
     sunder_i_search_find_clashes(search, search->t);
     size_t least = search->clashes;
     bool done = false;
@@ -85,7 +83,6 @@ bool sunder_i_search_spread(sunder_i_search *search)
         if (done || search->clashes < least) memcpy(best, search->t, size);
         if (search->clashes < least) least = search->clashes;
     }
-    memcpy(search->t, best, size);
-    sunder_i_free(best);
+    sunder_i_search_end_copy(search, best, true);
     return done;
 }
