@@ -71,7 +71,8 @@ static uint32_t turn_at_end(const sunder_i_graph *g, uint32_t edge, bool clockwi
     return edge;
 }
 
-uint32_t sunder_i_graph_next_covered(const sunder_i_graph *graph, uint32_t edge)
+/* Returns the edge that follows `edge` on its covered walk. */
+static uint32_t next_covered(const sunder_i_graph *graph, uint32_t edge)
 {
     return turn_at_end(graph, edge, true, false);
 }
@@ -91,7 +92,7 @@ static uint32_t number_walk(sunder_i_graph *g, uint32_t walk, uint32_t start)
         if (sunder_i_is_before(g, v, least)) least = v;
         plain &= g->ray_end[v] - sunder_i_first_ray(g, v) == 2;
         g->walk[e] = walk;
-        e = sunder_i_graph_next_covered(g, e);
+        e = next_covered(g, e);
     } while (e != start);
     g->walk_plain[walk] = plain;
     return least;

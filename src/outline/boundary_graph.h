@@ -62,8 +62,6 @@ bool sunder_i_graph_build(sunder_i_graph *graph, const sunder_i_coverage *covera
 bool sunder_i_graph_assign_holes(sunder_i_graph *graph);
 /* Returns the edge that follows `edge` on the ring of its component that has the same free face. */
 uint32_t sunder_i_graph_next_free(const sunder_i_graph *graph, uint32_t edge);
-/* Returns the edge that follows `edge` on its covered walk. */
-uint32_t sunder_i_graph_next_covered(const sunder_i_graph *graph, uint32_t edge);
 void sunder_i_graph_free(sunder_i_graph *graph);
 
 #endif

@@ -14,6 +14,22 @@
 #include <math.h>
 #include <stdio.h>
 
+/* Numbers from 0 on: of the polygon, of the ring in it, and of the vertex in the ring. */
+typedef struct place_name {
+    size_t polygon, ring, vertex;
+} place_name;
+
+static place_name name_vertex(const sunder_i_input *in, uint32_t vertex)
+{
+    place_name at = {0, 0, 0};
+    size_t ring = 0;
+    while (in->ring_end[ring] <= vertex) ring++;
+    while (in->poly_end[at.polygon] <= ring) at.polygon++;
+    at.ring = ring - (at.polygon ? in->poly_end[at.polygon - 1] : 0);
+    at.vertex = vertex - (ring ? in->ring_end[ring - 1] : 0);
+    return at;
+}
+
 static bool finite_all(const sunder_i_input *in, sunder_error *err)
 {
     const size_t n = in->vertices;
@@ -23,7 +39,7 @@ static bool finite_all(const sunder_i_input *in, sunder_error *err)
     if (sum == 0) return true;
     for (size_t i = 0; i < 2 * n; i++)
         if (!isfinite(in->xy[i])) {
-            const sunder_i_place_name at = sunder_i_name_vertex(in, (uint32_t)(i / 2));
+            const place_name at = name_vertex(in, (uint32_t)(i / 2));
             sunder_i_fail_at(err, SUNDER_EINVALID, at.polygon, at.ring, at.vertex,
                              "polygon %zu, ring %zu, vertex %zu (%.17g %.17g): a coordinate is not finite", at.polygon,
                              at.ring, at.vertex, in->xy[i & ~(size_t)1], in->xy[i | 1]);
@@ -32,18 +48,8 @@ static bool finite_all(const sunder_i_input *in, sunder_error *err)
     return true;
 }
 
-sunder_i_place_name sunder_i_name_vertex(const sunder_i_input *in, uint32_t vertex)
-{
-    sunder_i_place_name at = {0, 0, 0};
-    size_t ring = 0;
-    while (in->ring_end[ring] <= vertex) ring++;
-    while (in->poly_end[at.polygon] <= ring) at.polygon++;
-    at.ring = ring - (at.polygon ? in->poly_end[at.polygon - 1] : 0);
-    at.vertex = vertex - (ring ? in->ring_end[ring - 1] : 0);
-    return at;
-}
-
-sunder_status sunder_i_fail_problem(const sunder_i_input *in, const sunder_i_problem *problem, sunder_error *err)
+/* Sets *err to the message for a problem whose vertices are raw numbers; returns its status. */
+static sunder_status fail_problem(const sunder_i_input *in, const sunder_i_problem *problem, sunder_error *err)
 {
     static const char *const what[] = {[SUNDER_I_FEW] = "the ring has under three distinct vertices",
                                        [SUNDER_I_FLAT] = "the ring has no area",
@@ -60,13 +66,13 @@ sunder_status sunder_i_fail_problem(const sunder_i_input *in, const sunder_i_pro
         return sunder_i_fail_at(err, SUNDER_EINVALID, polygon, ring, SIZE_MAX,
                                 "polygon %zu, ring %zu: the ring is empty", polygon, ring);
     }
-    const sunder_i_place_name at = sunder_i_name_vertex(in, problem->vertex);
+    const place_name at = name_vertex(in, problem->vertex);
     char place[160], rest[80] = "";
     const double *xy = in->xy + 2 * (size_t)problem->vertex;
     snprintf(place, sizeof place, "polygon %zu, ring %zu, vertex %zu (%.10g %.10g)", at.polygon, at.ring, at.vertex,
              xy[0], xy[1]);
     if (problem->other != SUNDER_I_NONE) {
-        const sunder_i_place_name o = sunder_i_name_vertex(in, problem->other);
+        const place_name o = name_vertex(in, problem->other);
         const bool ring_only = problem->fault == SUNDER_I_OUTSIDE || problem->fault == SUNDER_I_NESTED;
         if (ring_only)
             snprintf(rest, sizeof rest, " ring %zu", o.ring);
@@ -198,7 +204,7 @@ static sunder_status add_polygon(builder *b, size_t p, sunder_error *err)
     if (!append_polygon(r, b->in, b->at, p, &problem, &b->arena)) return sunder_i_failure_cause(err);
     if (!problem.fault) check_polygon(r, rings, &b->arena, &problem, &touches);
     if (b->arena.failed || b->lattice.arena.failed) return sunder_i_failure_cause(err);
-    if (problem.fault && b->validity == SUNDER_VALIDITY_STRICT) return sunder_i_fail_problem(b->in, &problem, err);
+    if (problem.fault && b->validity == SUNDER_VALIDITY_STRICT) return fail_problem(b->in, &problem, err);
     b->touches |= touches || problem.fault; /* after a fault the rest was not checked */
     if (problem.fault || touches) {
         b->repaired |= problem.fault != SUNDER_I_SOUND;

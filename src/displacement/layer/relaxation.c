@@ -345,28 +345,27 @@ bool sunder_i_relaxations_spread(sunder_i_relaxations *relaxations, const sunder
     return ok;
 }
 
-sunder_status sunder_i_relaxations_make(const sunder_i_model *model, uint32_t body, uint32_t other, double reach,
-                                        sunder_i_relaxations *out, sunder_error *err)
+bool sunder_i_relaxations_make(const sunder_i_model *model, uint32_t body, uint32_t other, double reach,
+                               sunder_i_relaxations *out)
 {
     const sunder_i_body *p = &model->body[body], *q = &model->body[other];
-    sunder_status status = SUNDER_OK;
-    for (uint32_t k = 0; k < p->members && !status; k++) {
+    bool ok = true;
+    for (uint32_t k = 0; k < p->members && ok; k++) {
         const uint32_t f = model->member[p->member + k];
         double box[4];
         if (!model->present[f]) continue;
         sunder_i_box_grow(sunder_i_home_box(model, f), reach, box);
-        for (uint32_t l = 0; l < q->members && !status; l++) {
+        for (uint32_t l = 0; l < q->members && ok; l++) {
             const uint32_t g = model->member[q->member + l];
             sunder_i_relaxation relaxation;
             if (!model->present[g] || !sunder_i_box_meet(box, sunder_i_home_box(model, g))) continue;
             if (sunder_i_is_included(model, f, g)) continue;
-            status = sunder_i_relaxation_of(model, f, g, &relaxation, err);
-            if (!status && relaxation.gap < reach + (sunder_i_owed_above(model, f, g) - model->rules.gap) &&
-                !sunder_i_relaxations_spread(out, model, &relaxation, reach))
-                status = sunder_i_failure_cause(err);
+            ok = !sunder_i_relaxation_of(model, f, g, &relaxation, NULL);
+            if (ok && relaxation.gap < reach + (sunder_i_owed_above(model, f, g) - model->rules.gap))
+                ok = sunder_i_relaxations_spread(out, model, &relaxation, reach);
         }
     }
-    return status;
+    return ok;
 }
 
 double sunder_i_relaxation_shift(const sunder_i_relaxation *relaxation, uint32_t of_j, double shift[2])

@@ -88,9 +88,9 @@ sunder_status sunder_i_relaxation_turn(const sunder_i_model *model, const double
                                        sunder_i_relaxation *relaxation, bool *fits, sunder_error *err);
 /* Appends relaxations for the pairs of members of two bodies that were less than `reach` apart at the start; beside a
  * barrier `reach` is increased by what its required distance exceeds the gap by. Pairs in which one feature is kept
- * inside the other are left out. */
-sunder_status sunder_i_relaxations_make(const sunder_i_model *model, uint32_t body, uint32_t other, double reach,
-                                        sunder_i_relaxations *out, sunder_error *err);
+ * inside the other are left out. Returns false if memory is out, or the work is to stop. */
+bool sunder_i_relaxations_make(const sunder_i_model *model, uint32_t body, uint32_t other, double reach,
+                               sunder_i_relaxations *out);
 /* Sets `shift` to the translation of `of_j`, one of the relaxation's features, before its distance is measured. Returns
  * the distance that it has to keep then. */
 double sunder_i_relaxation_shift(const sunder_i_relaxation *relaxation, uint32_t of_j, double shift[2]);

@@ -159,7 +159,9 @@ static void arc_foot(const sunder_i_gap_problem *p, const sunder_i_gap_curve *cu
     finish_point(out, p, scale_surd(p, k, c.x), scale_surd(p, k, c.y), scaled_by_n(p, square));
 }
 
-void sunder_i_gap_foot(const sunder_i_gap_problem *problem, const sunder_i_gap_curve *curve, sunder_i_surd_point *out)
+/* *out becomes the point of the curve's line or circle that is nearest to the origin; of a circle about the origin the
+ * leftmost point. */
+static void find_foot(const sunder_i_gap_problem *problem, const sunder_i_gap_curve *curve, sunder_i_surd_point *out)
 {
     const sunder_i_gap_problem q = over_curve(problem, curve), *const p = &q;
     out->roots.n = 0;
@@ -213,8 +215,11 @@ static bool arc_arc(const sunder_i_gap_problem *p, const sunder_i_gap_curve *c, 
     return true;
 }
 
-bool sunder_i_gap_crossing(const sunder_i_gap_problem *problem, const sunder_i_gap_curve *c,
-                           const sunder_i_gap_curve *d, int sign, sunder_i_surd_point *out)
+/* *out becomes a common point of two curves; if exactly one is a line it is c. On a line and a circle it is the
+ * crossing farther along the line (sign 1) or the other one (-1); on two circles the one on the left (1) or right of
+ * the direction from c's centre to d's. Returns false if there is none, or if the curves coincide. */
+static bool find_crossing(const sunder_i_gap_problem *problem, const sunder_i_gap_curve *c, const sunder_i_gap_curve *d,
+                          int sign, sunder_i_surd_point *out)
 {
     sunder_i_point point[4];
     points_of(c, point);
@@ -329,8 +334,8 @@ const sunder_i_surd_point *sunder_i_gap_solve(sunder_i_gap_state *s, sunder_i_ga
         return NULL;
     }
     if (!p->crossing)
-        sunder_i_gap_foot(s->p, &p->c, exact);
-    else if (!sunder_i_gap_crossing(s->p, &p->c, &p->d, p->sign, exact))
+        find_foot(s->p, &p->c, exact);
+    else if (!find_crossing(s->p, &p->c, &p->d, p->sign, exact))
         return NULL;
     p->exact = exact;
     return exact;

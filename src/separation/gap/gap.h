@@ -82,14 +82,6 @@ sunder_status sunder_i_gap_search(const sunder_i_gap_problem *problem, sunder_i_
 
 /* ---- Exact points (boundary_points.c) ---- */
 
-/* *out becomes the point of the curve's line or circle that is nearest to the origin; of a circle about the origin the
- * leftmost point. */
-void sunder_i_gap_foot(const sunder_i_gap_problem *problem, const sunder_i_gap_curve *curve, sunder_i_surd_point *out);
-/* *out becomes a common point of two curves; if exactly one is a line it is c. On a line and a circle it is the
- * crossing farther along the line (sign 1) or the other one (-1); on two circles the one on the left (1) or right of
- * the direction from c's centre to d's. Returns false if there is none, or if the curves coincide. */
-bool sunder_i_gap_crossing(const sunder_i_gap_problem *problem, const sunder_i_gap_curve *c,
-                           const sunder_i_gap_curve *d, int sign, sunder_i_surd_point *out);
 /* *out becomes the rational point of an offset line of rational length at the distance along / 2^bits lattice units, in
  * the line's direction, from the foot of the perpendicular from the origin. Returns false if the length is
  * irrational. */

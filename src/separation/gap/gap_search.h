@@ -52,7 +52,7 @@ typedef struct sunder_i_gap_point {
     double x, y, error;
     sunder_i_gap_curve c, d; /* a foot uses c only */
     bool crossing;
-    int sign;                 /* selects one of two crossings (sunder_i_gap_crossing) */
+    int sign;                 /* selects one of two crossings (find_crossing() in boundary_points.c) */
     bool forwards, backwards; /* if the point is covered: continue along the segment in this direction */
     size_t segment;
     long cover;                       /* c is expected to leave this grown subsum here; -1: not */

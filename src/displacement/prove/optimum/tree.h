@@ -167,8 +167,6 @@ void sunder_i_tree_lower_goal(sunder_i_tree *tree, double goal);
 
 /* ---- tree_pairs.c ------------------------------------------------------------------------------------------------ */
 
-/* Returns the pair of bodies i and j, made at its first use; NULL if memory is out. */
-sunder_i_tree_pair *sunder_i_tree_pair_of(sunder_i_tree *tree, uint32_t i, uint32_t j);
 /* Sets tree->conflict to the pairs in conflict at program.t. */
 void sunder_i_tree_find_conflicts(sunder_i_tree *tree);
 /* Looks for conflicts with bodies that do not take part. A body that is in no group becomes a guest, and takes part
@@ -198,10 +196,8 @@ void sunder_i_tree_restore_program(sunder_i_tree *tree);
 
 /* Saves the present regions for a node that is opened, if there is room. */
 void sunder_i_tree_keep_regions(sunder_i_tree *tree, uint32_t node);
-/* Restores the saved regions of the pairs that the node's path touches, and frees them. The second function only frees
- * them. */
+/* Restores the saved regions of the pairs that the node's path touches, and frees them. */
 void sunder_i_tree_take_regions(sunder_i_tree *tree, uint32_t node);
-void sunder_i_tree_drop_regions(sunder_i_tree *tree, uint32_t node);
 
 /* ---- tree_cuts.c ------------------------------------------------------------------------------------------------- */
 

@@ -45,6 +45,14 @@ void sunder_i_tree_keep_regions(sunder_i_tree *tree, uint32_t node)
     }
 }
 
+static void drop_regions(sunder_i_tree *tree, uint32_t node)
+{
+    sunder_i_free(tree->node[node].regions);
+    tree->kept_bytes -= tree->node[node].regions_size;
+    tree->node[node].regions = NULL;
+    tree->node[node].regions_size = 0;
+}
+
 void sunder_i_tree_take_regions(sunder_i_tree *tree, uint32_t node)
 {
     const char *at = tree->node[node].regions, *end = at + tree->node[node].regions_size;
@@ -61,13 +69,6 @@ void sunder_i_tree_take_regions(sunder_i_tree *tree, uint32_t node)
         }
         at += size_of(head.n);
     }
-    sunder_i_tree_drop_regions(tree, node);
+    drop_regions(tree, node);
 }
 
-void sunder_i_tree_drop_regions(sunder_i_tree *tree, uint32_t node)
-{
-    sunder_i_free(tree->node[node].regions);
-    tree->kept_bytes -= tree->node[node].regions_size;
-    tree->node[node].regions = NULL;
-    tree->node[node].regions_size = 0;
-}

@@ -247,12 +247,6 @@ bool sunder_i_branching_push(sunder_i_branching *branching, uint32_t i, uint32_t
 
 /* ---- corner_chord.c ---------------------------------------------------------------------------------------------- */
 
-/* Returns the side of a barrier that has this piece. */
-const sunder_i_side *sunder_i_branching_side_of(const sunder_i_model *model, const sunder_i_body_piece *piece);
-/* Computes a chord across the corner of the sides from b to p and from b to q, seen from the anchor a. Returns false if
- * there is none. */
-bool sunder_i_branching_make_chord(const double a[2], const double b[2], const double p[2], const double q[2],
-                                   double chord[4]);
 /* Computes the half-planes past a chord whose first side belongs to body q, in branching->scratch. Returns their
  * number. */
 size_t sunder_i_branching_chord_half_planes(sunder_i_branching *branching, const sunder_i_body *p,

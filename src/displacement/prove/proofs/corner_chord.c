@@ -29,7 +29,8 @@ static int side_of(const double p[2], const double q[2], const double u[2])
     return sunder_orient(&(sunder_point){p[0], p[1]}, &(sunder_point){q[0], q[1]}, &(sunder_point){u[0], u[1]});
 }
 
-const sunder_i_side *sunder_i_branching_side_of(const sunder_i_model *model, const sunder_i_body_piece *piece)
+/* Returns the side of a barrier that has this piece. */
+static const sunder_i_side *side_of_piece(const sunder_i_model *model, const sunder_i_body_piece *piece)
 {
     const sunder_i_body *of = &model->body[model->body_of[piece->feature]];
     for (uint32_t k = of->has->side; k < of->has->side + of->has->sides; k++)
@@ -59,8 +60,10 @@ static bool is_behind(const double a[2], const double b[2], const double p[2], c
     return side_of(a, b, p) == -side_of(a, b, q) && anchor != 0 && side_of(chord, chord + 2, b) == anchor;
 }
 
-bool sunder_i_branching_make_chord(const double a[2], const double b[2], const double p[2], const double q[2],
-                                   double chord[4])
+/* Computes a chord across the corner of the sides from b to p and from b to q, seen from the anchor a. Returns false if
+ * there is none. */
+static bool make_corner_chord(const double a[2], const double b[2], const double p[2], const double q[2],
+                              double chord[4])
 {
     const double path[2] = {b[0] - a[0], b[1] - a[1]}, size = dot_product(path, path);
     double u[2], v[2];
@@ -128,7 +131,7 @@ static bool find_spoke(const sunder_i_model *model, const sunder_i_body_piece *a
     for (int k = 0; k < 2; k++) {
         const double end[2] = {c[2 * k] + origin[0], c[2 * k + 1] + origin[1]};
         if (!is_beside(a, end, u)) continue;
-        const sunder_i_side *side = sunder_i_branching_side_of(model, piece);
+        const sunder_i_side *side = side_of_piece(model, piece);
         if (!side || (side->area && side->area->rational)) return false;
         *s = (spoke){anchor, piece, q, side, k ? side->to : side->from, k ? side->from : side->to};
         return true;
@@ -144,7 +147,7 @@ static bool shuts_move(sunder_i_branching *c, uint32_t p, const spoke *s, const 
     const sunder_i_model *model = c->model;
     const double *a = model->side_at + 2 * (size_t)s->anchor->feature;
     if (s->anchor != r->anchor || s->end[0] != r->end[0] || s->end[1] != r->end[1] ||
-        !sunder_i_branching_make_chord(a, s->end, s->other, r->other, chord->at))
+        !make_corner_chord(a, s->end, s->other, r->other, chord->at))
         return false;
     chord->side[0] = s->side;
     chord->side[1] = r->side;

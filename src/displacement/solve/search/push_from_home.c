@@ -28,11 +28,7 @@ static bool give_up_all(sunder_i_search *s, const double *start, const sunder_i_
 {
     memcpy(s->t, start, 2 * s->n * sizeof *s->t);
     s->program.n = 0;
-    for (size_t k = 0; k < n && !s->failed; k++) {
-        const uint32_t p = s->body[at_home[k].i], q = s->body[at_home[k].j];
-        if (sunder_i_relaxations_make(s->model, p, q, s->gap + 2 * s->tolerance, &s->relaxations, NULL))
-            s->failed = true;
-    }
+    for (size_t k = 0; k < n && !s->failed; k++) sunder_i_search_relax(s, at_home[k].i, at_home[k].j);
     if (!s->failed && !sunder_i_relaxations_index(&s->relaxations, s->model)) s->failed = true;
     return !s->failed && sunder_i_search_find_clashes(s, s->t) <= s->tolerance;
 }

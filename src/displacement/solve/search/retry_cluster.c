@@ -237,8 +237,8 @@ static void sacrifice_pairs(sunder_i_search *s, sunder_i_relaxations *list)
     sunder_i_clash *clash = sunder_i_search_at_home(s, &n);
     if (!clash) s->failed = true;
     for (size_t k = 0; k < n && !s->failed; k++)
-        if (sunder_i_relaxations_make(s->model, s->body[clash[k].i], s->body[clash[k].j], s->gap + 2 * s->tolerance,
-                                      list, NULL))
+        if (!sunder_i_relaxations_make(s->model, s->body[clash[k].i], s->body[clash[k].j], s->gap + 2 * s->tolerance,
+                                       list))
             s->failed = true;
     sunder_i_free(clash);
     for (size_t k = 0; k < list->n && !s->failed; k++) {
@@ -356,10 +356,8 @@ static void descend(void *state) { sunder_i_search_descend_or_stay(((retrying *)
 
 /* First as few overlaps as possible, then as few pairs. The total effort is divided by the budget. */
 static const sunder_i_stage stages[] = {
-    {"resolve overlaps", NULL, resolve_overlaps, 2},
-    {"end overlaps", NULL, end_overlaps, 2},
-    {"resolve pairs", NULL, resolve_pairs, 2},
-    {"trade pairs", has_gap, trade_pairs, 2},
+    {"resolve overlaps", NULL, resolve_overlaps, 2}, {"end overlaps", NULL, end_overlaps, 2},
+    {"resolve pairs", NULL, resolve_pairs, 2},       {"trade pairs", has_gap, trade_pairs, 2},
     {"descend again", has_any_of_many, descend, 0},
 };
 

@@ -13,7 +13,7 @@ bool sunder_i_search_relax(sunder_i_search *search, uint32_t i, uint32_t j)
     if (sunder_i_relaxations_between(&search->relaxations, p, q)) return false;
     const size_t before = search->relaxations.n;
     /* All pairs of features within the distance that the search demands. */
-    if (sunder_i_relaxations_make(search->model, p, q, search->gap + 2 * search->tolerance, &search->relaxations, NULL))
+    if (!sunder_i_relaxations_make(search->model, p, q, search->gap + 2 * search->tolerance, &search->relaxations))
         search->failed = true;
     return search->relaxations.n > before;
 }
