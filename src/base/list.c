@@ -60,6 +60,20 @@ int sunder_i_by_id_pair(const void *a, const void *b)
     return p[1] < q[1] ? -1 : p[1] > q[1];
 }
 
+static int compare_numbers(const void *a, const void *b, size_t n)
+{
+    uint32_t p[4], q[4];
+    size_t k = 0;
+    memcpy(p, a, n * sizeof *p);
+    memcpy(q, b, n * sizeof *q);
+    while (k < n && p[k] == q[k]) k++;
+    return k == n ? 0 : p[k] < q[k] ? -1 : 1;
+}
+
+int sunder_i_by_id_triple(const void *a, const void *b) { return compare_numbers(a, b, 3); }
+
+int sunder_i_by_id_quadruple(const void *a, const void *b) { return compare_numbers(a, b, 4); }
+
 size_t sunder_i_lower_bound(const void *key, const void *item, size_t n, size_t size,
                             int (*order)(const void *, const void *))
 {

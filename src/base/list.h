@@ -33,8 +33,10 @@ typedef struct sunder_i_id_pair {
     uint32_t a, b;
 } sunder_i_id_pair;
 
-/* Compares items that begin with two uint32_t numbers by these, for qsort() and bsearch(). */
+/* Compares items that begin with two uint32_t numbers by these, or with three, or four; for qsort() and bsearch(). */
 int sunder_i_by_id_pair(const void *a, const void *b);
+int sunder_i_by_id_triple(const void *a, const void *b);
+int sunder_i_by_id_quadruple(const void *a, const void *b);
 /* Returns the index of the first of n items, sorted by `order`, that does not come before the key; n if all come before
  * it. */
 size_t sunder_i_lower_bound(const void *key, const void *item, size_t n, size_t size,

@@ -29,6 +29,7 @@
  * vertices that it sees: at most O(r n n), usually far less; memory O(r n). */
 #include "decomposition/maker.h"
 
+#include "base/list.h"
 #include "base/watch.h"
 
 #include <math.h>
@@ -76,13 +77,6 @@ typedef struct both_ways {
     uint32_t u, v;
 } both_ways;
 
-static int compare_links(const void *a, const void *b)
-{
-    const both_ways *p = a, *q = b;
-    if (p->u != q->u) return p->u < q->u ? -1 : 1;
-    return (p->v > q->v) - (p->v < q->v);
-}
-
 /* Returns all pairs u < v that are edges, or that see each other and are not both convex, *count of them; the caller
  * frees the array. NULL if out of memory. */
 static both_ways *find_links(sunder_i_program *p, const sunder_i_member *member, uint32_t *count)
@@ -108,7 +102,7 @@ static both_ways *find_links(sunder_i_program *p, const sunder_i_member *member,
     }
     sunder_i_ray_shooting_free(&rays);
     if (ok && n <= UINT32_MAX) {
-        qsort(link, n, sizeof *link, compare_links);
+        qsort(link, n, sizeof *link, sunder_i_by_id_pair);
         *count = (uint32_t)n;
         return link;
     }

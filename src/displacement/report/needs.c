@@ -161,13 +161,6 @@ static sunder_status ask_clusters(void *context, size_t begin, size_t end, sunde
     return status;
 }
 
-static int by_matter(const void *a, const void *b)
-{
-    const matter *p = a, *q = b;
-    if (p->root != q->root) return p->root < q->root ? -1 : 1;
-    return (p->conflict > q->conflict) - (p->conflict < q->conflict);
-}
-
 /* Lists the conflicts to examine in list[], grouped by cluster, and sets first[] to the index of the first conflict of
  * each cluster, followed by the end. Returns the number of clusters. */
 static size_t group_by_cluster(const sunder_i_solver *s, const sunder_report *report, matter *list, size_t *first)
@@ -180,7 +173,7 @@ static size_t group_by_cluster(const sunder_i_solver *s, const sunder_report *re
         const uint32_t i = model->body_of[c->a], j = model->body_of[c->b];
         list[n++] = (matter){sunder_i_union_find(s->parent, model->body[i].fixed ? j : i), (uint32_t)k};
     }
-    if (n) qsort(list, n, sizeof *list, by_matter);
+    if (n) qsort(list, n, sizeof *list, sunder_i_by_id_pair);
     for (size_t k = 0; k < n; k++)
         if (k == 0 || list[k].root != list[k - 1].root) first[groups++] = k;
     first[groups] = n;

@@ -154,13 +154,6 @@ typedef struct asking {
     const size_t *first; /* [pairs of bodies + 1] the index of the first matter of each pair, and the end */
 } asking;
 
-static int by_bodies(const void *a, const void *b)
-{
-    const matter *p = a, *q = b;
-    const int order = sunder_i_by_id_pair(&p->bodies, &q->bodies);
-    return order ? order : (p->conflict > q->conflict) - (p->conflict < q->conflict);
-}
-
 /* Finds the reasons of all conflicts. Conflicts of the same two bodies follow one another and share `both`. */
 static sunder_status find_reasons(void *context, size_t begin, size_t end, sunder_error *err)
 {
@@ -191,7 +184,7 @@ static size_t list_matters(const sunder_report *report, const sunder_i_model *mo
         const uint32_t i = model->body_of[c->a], j = c->b < model->features ? model->body_of[c->b] : SUNDER_I_NOBODY;
         list[n++] = (matter){i < j ? (sunder_i_id_pair){i, j} : (sunder_i_id_pair){j, i}, (uint32_t)k};
     }
-    if (n) qsort(list, n, sizeof *list, by_bodies);
+    if (n) qsort(list, n, sizeof *list, sunder_i_by_id_triple);
     for (size_t k = 0; k < n; k++)
         if (k == 0 || sunder_i_by_id_pair(&list[k - 1].bodies, &list[k].bodies)) first[pairs++] = k;
     first[pairs] = n;

@@ -36,13 +36,6 @@ typedef struct rooted {
     sunder_i_id_pair pair;
 } rooted;
 
-static int by_root(const void *a, const void *b)
-{
-    const rooted *p = a, *q = b;
-    if (p->root != q->root) return p->root < q->root ? -1 : 1;
-    return sunder_i_by_id_pair(&p->pair, &q->pair);
-}
-
 static size_t list_pairs(const sunder_i_solver *s, const uint32_t *root_of, rooted *list)
 {
     const sunder_i_model *model = &s->model;
@@ -55,10 +48,10 @@ static size_t list_pairs(const sunder_i_solver *s, const uint32_t *root_of, root
         list[n++] = (rooted){root_of[model->body[i].fixed ? j : i],
                              i < j ? (sunder_i_id_pair){i, j} : (sunder_i_id_pair){j, i}};
     }
-    if (n) qsort(list, n, sizeof *list, by_root);
+    if (n) qsort(list, n, sizeof *list, sunder_i_by_id_triple);
     size_t out = 0;
     for (size_t k = 0; k < n; k++)
-        if (k == 0 || by_root(&list[out - 1], &list[k])) list[out++] = list[k];
+        if (k == 0 || sunder_i_by_id_triple(&list[out - 1], &list[k])) list[out++] = list[k];
     return out;
 }
 

@@ -21,14 +21,6 @@ typedef struct retries {
     uint32_t *relaxation; /* indices into the model's relaxations, to which the requests refer */
 } retries;
 
-static int by_claim(const void *a, const void *b)
-{
-    const claim *p = a, *q = b;
-    if (p->root != q->root) return p->root < q->root ? -1 : 1;
-    const int order = sunder_i_by_id_pair(&p->body, &q->body);
-    return order ? order : (p->relaxation > q->relaxation) - (p->relaxation < q->relaxation);
-}
-
 /* Orders requests of a cluster: overlaps first, then by the move that is needed. */
 static int by_ease(const void *a, const void *b)
 {
@@ -52,7 +44,7 @@ static size_t list_claims(const sunder_i_solver *s, claim *list)
         if (!sunder_i_solver_has_member(s, root, i) || !sunder_i_solver_has_member(s, root, j)) continue;
         list[n++] = (claim){root, i < j ? (sunder_i_id_pair){i, j} : (sunder_i_id_pair){j, i}, (uint32_t)k};
     }
-    if (n) qsort(list, n, sizeof *list, by_claim);
+    if (n) qsort(list, n, sizeof *list, sunder_i_by_id_quadruple);
     return n;
 }
 
@@ -109,17 +101,11 @@ static bool list_retries(const sunder_i_solver *s, retries *out)
 
 /* ---- Asking ------------------------------------------------------------------------------------------------------ */
 
-static int by_root(const void *a, const void *b)
-{
-    const sunder_i_retry *p = a, *q = b;
-    return (p->root > q->root) - (p->root < q->root);
-}
-
 /* The index of the first request of the cluster with this root, or of the next cluster. */
 static size_t first_of(const retries *all, uint32_t root)
 {
     const sunder_i_retry key = {.root = root};
-    return sunder_i_lower_bound(&key, all->retry, all->n, sizeof key, by_root);
+    return sunder_i_lower_bound(&key, all->retry, all->n, sizeof key, sunder_i_by_number);
 }
 
 static sunder_status note_retried(const sunder_i_solver *s, sunder_i_cluster *c, double before, const double *move,

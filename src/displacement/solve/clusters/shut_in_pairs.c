@@ -71,13 +71,6 @@ typedef struct shut_in_conflict {
     sunder_i_relaxation relaxation;
 } shut_in_conflict;
 
-static int by_bodies(const void *a, const void *b)
-{
-    const shut_in_conflict *p = a, *q = b;
-    const int order = sunder_i_by_id_pair(&p->bodies, &q->bodies);
-    return order ? order : sunder_i_by_id_pair(&p->pair, &q->pair);
-}
-
 static int by_pair(const void *a, const void *b)
 {
     return sunder_i_by_id_pair(&((const shut_in_conflict *)a)->pair, &((const shut_in_conflict *)b)->pair);
@@ -140,7 +133,7 @@ static void list_conflicts(const sunder_i_solver *s, const sunder_i_id_pair *lis
                            size_t *first, size_t *pairs)
 {
     const size_t found = find_conflicts(s, list, n, out);
-    if (found) qsort(out, found, sizeof *out, by_bodies);
+    if (found) qsort(out, found, sizeof *out, sunder_i_by_id_quadruple);
     *pairs = 0;
     for (size_t k = 0; k < found; k++)
         if (k == 0 || sunder_i_by_id_pair(&out[k - 1].bodies, &out[k].bodies)) first[(*pairs)++] = k;

@@ -180,8 +180,8 @@ void sunder_i_solver_forget_clusters(sunder_i_solver *solver);
 typedef bool (*sunder_i_cluster_test)(const sunder_i_solver *solver, const sunder_i_cluster *cluster);
 typedef sunder_status (*sunder_i_cluster_work)(const sunder_i_solver *solver, sunder_i_cluster *cluster, double *move,
                                                void *context, sunder_error *err);
-/* Does the work for the clusters that pass the test (NULL: for all), on all threads, the largest first. What it reads is
- * recorded for the cluster. */
+/* Does the work for the clusters that pass the test (NULL: for all), on all threads, the largest first. What is read
+ * meanwhile is recorded for the cluster. */
 sunder_status sunder_i_solver_for_clusters(const sunder_i_solver *solver, sunder_i_cluster_test test,
                                            sunder_i_cluster_work work, void *context, sunder_error *err);
 /* Emits the log of each cluster, in the order of the clusters, if the layer is traced. */
