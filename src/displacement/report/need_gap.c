@@ -224,28 +224,31 @@ static sunder_status try_foreseen(gap_search *g, double seen, bool *yes, sunder_
 }
 
 /* Asks the proofs about this gap. If they find a solution in real numbers, tests whether it holds in doubles (*yes); if
- * it does not, asks once more, for a solution with room for rounding (g->tight), and tests that. */
+ * it does not, asks for one with room for rounding, and tests that. */
 static sunder_status confirm(gap_search *g, double gap, sunder_i_verdict *verdict, bool *yes, sunder_error *err)
 {
-    *yes = false;
-    for (;;) {
-        sunder_status status = foresee(g, gap, false, verdict, err);
-        if (!status && *verdict == SUNDER_I_FEASIBLE) status = try_foreseen(g, gap, yes, err);
-        if (status || *yes || *verdict != SUNDER_I_FEASIBLE || g->tight) return status;
-        g->tight = true;
-    }
+    const sunder_i_supposition what = suppose(g, gap);
+    double refuted;
+    *yes = g->tight = false;
+    sunder_status status = foresee(g, gap, false, verdict, err);
+    if (!status && *verdict == SUNDER_I_FEASIBLE) status = try_foreseen(g, gap, yes, err);
+    if (status || *yes || *verdict != SUNDER_I_FEASIBLE) return status;
+    g->tight = true;
+    status = sunder_i_foresee(g->inquiry->foresight, &what, SUNDER_I_FORESEE_WITH_ROOM, verdict, &refuted, err);
+    if (!status && *verdict == SUNDER_I_FEASIBLE) status = try_foreseen(g, gap, yes, err);
+    return status;
 }
 
 /* Sets *yes to whether a solution is found with this gap, or with one that is smaller by the share NEED_LESS: by proofs
- * or, unless these find one or refute the gap, by a search. If no solution with any gap is known yet, a search for one
- * without a gap comes first, and *yes is false if it fails. */
-static sunder_status settle_gap(gap_search *g, double gap, bool *yes, sunder_error *err)
+ * or, unless these find one or refute the gap, by a search. With `careful`, if no solution with any gap is known yet, a
+ * search for one without a gap comes first, and *yes is false if it fails. */
+static sunder_status settle_gap(gap_search *g, double gap, bool careful, bool *yes, sunder_error *err)
 {
     sunder_i_verdict verdict = SUNDER_I_UNKNOWN;
     *yes = false;
     sunder_status status = g->inquiry->foresight ? confirm(g, gap, &verdict, yes, err) : SUNDER_OK;
     if (status || *yes || verdict == SUNDER_I_INFEASIBLE) return status;
-    if (isnan(g->conflict->need_gap) && gap > 0) {
+    if (careful && isnan(g->conflict->need_gap) && gap > 0) {
         bool any;
         status = try_gap(g, 0, &any, err);
         if (status || !any) return status;
@@ -299,12 +302,12 @@ static sunder_status enclose(gap_search *g, sunder_error *err)
     if (!sunder_i_patience_asks(proof)) return SUNDER_OK;
     sunder_status status = sunder_i_inquiry_look_ahead(g->inquiry, 0, err);
     if (!status) status = narrow_gap(g, true, &low, g->high, err);
-    if (!status && low > first) status = settle_gap(g, low, &yes, err);
+    if (!status && low > first) status = settle_gap(g, low, true, &yes, err);
     if (!status && low > first && !yes && g->high > 0) {
         low = sunder_i_max(first, g->conflict->need_gap);
         const double known = low;
         status = narrow_gap(g, false, &low, g->high, err);
-        if (!status && low > known) status = settle_gap(g, low, &yes, err);
+        if (!status && low > known) status = settle_gap(g, low, true, &yes, err);
     }
     sunder_i_patience_note(proof, yes || g->proved < proved);
     return status;
@@ -318,7 +321,36 @@ static sunder_status halve(gap_search *g, sunder_error *err)
     for (int k = 0; !status && k < NEED_GAP_HALVINGS * g->inquiry->questions->halvings && !is_narrow(g); k++) {
         const double gap = g->conflict->need_gap + (g->high - g->conflict->need_gap) / 2;
         bool yes;
-        status = settle_gap(g, gap, &yes, err);
+        status = settle_gap(g, gap, true, &yes, err);
+    }
+    return status;
+}
+
+/* Returns number k, from 1 on, of the shares 1/2, 3/4, 1/4, 7/8, 3/8, 5/8, 1/8, 15/16, ... */
+static double share_of(unsigned k)
+{
+    double share = 1, half = 0.5;
+    for (; k; k >>= 1, half /= 2) share -= (k & 1) * half;
+    return share;
+}
+
+/* Tries gaps between need_gap (0 if no solution is known) and the least gap that is refuted, until the interval is
+ * narrow, or NEED_GAP_IN_VAIN tries for each unit of effort gave no answer. A try that gives an answer raises one end
+ * of the interval or lowers the other. A search that fails at one gap often succeeds at a larger one, so after a try
+ * without an answer gaps above and below it follow. */
+static sunder_status try_gaps_between(gap_search *g, sunder_error *err)
+{
+    const sunder_i_questions *q = g->inquiry->questions;
+    sunder_status status = SUNDER_OK;
+    for (unsigned share = 1, vain = 0; !status && vain < NEED_GAP_IN_VAIN * (unsigned)q->halvings;) {
+        const double low = sunder_i_max(0, g->conflict->need_gap), proved = g->proved,
+                     high = sunder_i_min(proved, q->options->gap), gap = low + share_of(share) * (high - low);
+        bool yes;
+        if (high - low <= g->step) break;
+        status = settle_gap(g, gap, false, &yes, err);
+        const bool answered = yes || g->proved < proved;
+        share = answered ? 1 : share + 1;
+        vain += !answered;
     }
     return status;
 }
@@ -339,9 +371,14 @@ sunder_status sunder_i_find_need_gap(sunder_i_inquiry *inquiry, sunder_error *er
     if (!status) status = enclose(&g, err);
     if (!status && isnan(c->need_gap) && g.high > 0) status = try_gap(&g, 0, &yes, err);
     if (!status && isnan(c->need_gap)) sunder_i_inquiry_note_in_vain(inquiry);
-    if (status || isnan(c->need_gap)) return status;
-    status = halve(&g, err);
+    if (!status && !isnan(c->need_gap)) status = halve(&g, err);
+    const bool asks = inquiry->foresight && (known || sunder_i_patience_asks(&inquiry->left->gap));
+    if (!status && asks) status = try_gaps_between(&g, err);
+    if (status || isnan(c->need_gap)) {
+        if (asks) sunder_i_patience_note(&inquiry->left->gap, false);
+        return status;
+    }
     c->need_gap_most = sunder_i_max(c->need_gap, sunder_i_min(g.proved, q->options->gap));
-    if (known) sunder_i_patience_note(&inquiry->left->gap, c->need_gap > before);
+    if (known || asks) sunder_i_patience_note(&inquiry->left->gap, !known || c->need_gap > before);
     return status;
 }
