@@ -370,8 +370,9 @@ KINDS = ("line", "area", "boundary")
 # Worlds, as (seed, place among its worlds), which once ended with a conflict unresolved that has a solution, or farther
 # away than the nearest free place.
 AGAIN = {"square": [(8, 23), (18, 12), (24, 23), (35, 2), (41, 10), (59, 3)],
-         "flat": [(3, 23), (22, 0), (30, 15), (42, 8), (106, 5)],
+         "flat": [(3, 23), (22, 0), (30, 15), (42, 8), (90, 19), (106, 5)],
          "triangle": [(21, 12), (96, 23)],
+         "diamond": [(10, 7), (17, 19), (30, 7), (69, 24)],
          "triangle_gap": [(2, 6)]}
 
 

@@ -219,6 +219,16 @@ def chord(name, refusal, corners, at, moves):
 chord("chord-before-the-corner", "before the corner", [(6, 66), (40, 5), (6, -56)], 8, {2: (8, 0)})
 chord("chord-beyond-the-sides", "no side shadows", [(10, 5.125), (10, 5), (10, 4.875)], 11, {2: (8, 1)})
 
+# Two sides with ends on one ray from the anchor, one above the ray and one below it, far out. The chord meets the ray
+# between the two ends: just below the ray the house passes the end of the first side, and no side is behind it.
+LAYER = {1: box(-20, -50, 12, 60, m=0), 2: box(4, 4, 6, 6, m=9)}
+case("chord-between-two-ends", "before the corner", LAYER, [conflict(1, 2, "no_room", blocked_by=["bow:1", "bow:2"], proof=chain(
+    [asked(1, 2, part(LAYER[1]), part(LAYER[2]), ways_out(-26, -50, 8, 50), clearance=0),
+     asked(2, "bow:1", [[5, 5]], [[8, 64], [42, -1995]],
+           [((2059, 34), -8183), ((59, -3), 0, leaf((0, 0, 59), (1, 1))), ((2000, 37), 0, leaf((0, 0, 2000), (1, 2)))],
+           shadow=True, c="bow:2", side_b=[[6, 5], [6, 66]], side_c=[[40, 5], [40, -2500]])], leaf((0, 0, 2059), (1, 0))))],
+     {2: (8, -0.5)}, barriers={"bow": ({1: line((6, 5), (6, 66)), 2: line((40, 5), (40, -2500))}, "")})
+
 
 # ---- A file whose second reading differs from the first: first the content of limits-that-suffice, then less
 

@@ -288,7 +288,9 @@ def halve_chord(told):
 def part_sides(told):
     """A side that ends elsewhere."""
     for node in chords(told):
-        shared = next(p for p in node["side_b"] if p in node["side_c"])
+        shared = next((p for p in node["side_b"] if p in node["side_c"]), None)
+        if not shared:
+            continue
         other = next(p for p in node["side_c"] if p != shared)
         node["side_c"][node["side_c"].index(shared)] = [(x + y) / 2 for x, y in zip(shared, other)]
         return ("share no corner", "faces away")
@@ -298,7 +300,7 @@ def part_sides(told):
 def same_side_twice(told):
     for node in chords(told):
         node["side_c"], node["c"] = node["side_b"], node["b"]
-        return ("share no corner",)
+        return ("no side shadows",)
     return False
 
 

@@ -383,25 +383,33 @@ class Problem:
         return p, q
 
     def demand_chord(self, node):
-        """A chord of two sides (of two barriers, or one) that share a corner: a segment from the shadow of one to that of
-        the other. The anchor's path through the corner, or the rest of that ray, meets the chord's line no nearer than the
-        corner."""
+        """A chord of two sides (of two barriers, or one) with ends on one ray from the anchor: a segment from the shadow of
+        one to that of the other. The ray meets the chord's line no nearer than the two ends."""
         a, b, c, anchor = node["a"], node["b"], node["c"], node["A"]
         self.demand_owed(a, c)
         sides = self.demand_side(b, node["side_b"], a, anchor), self.demand_side(c, node["side_c"], a, anchor)
         place, = self.demand_side_anchor(a, anchor)
-        shared = set(sides[0]) & set(sides[1])
-        demand(len(shared) == 1 and len(node["B"]) == 2, "sides that share no corner")
-        corner, = shared
+        along = [(p, q) for p in sides[0] for q in sides[1]
+                 if turn(place, p, q) == 0 and sum((x - o) * (y - o) for x, y, o in zip(p, q, place)) > 0]
+        demand(along and len(node["B"]) == 2, "sides that share no corner, nor a ray from the anchor")
         chord = tuple(tuple(Fraction(x) * self.lattice.unit for x in p) for p in node["B"])
-        for side, end in zip(sides, chord):
-            p = next(p for p in side if p != corner)
-            t, far = turn(place, corner, p), turn(corner, p, place)
-            demand(t * turn(place, corner, end) > 0 and t * turn(place, p, end) <= 0 and
-                   far != 0 and far * turn(corner, p, end) <= 0, "an end of a chord that no side shadows")
-        of_anchor, of_corner = turn(*chord, place), turn(*chord, corner)
-        demand(of_anchor != 0 and 0 <= Fraction(of_corner) / of_anchor < 1, "a chord before the corner")
+        wrong = [self.chord_fault(place, sides, corners, chord) for corners in along]
+        demand(None in wrong, wrong[0])
         return (place,), chord
+
+    @staticmethod
+    def chord_fault(place, sides, corners, chord):
+        """What is wrong with a chord past these two ends of its sides, which lie on one ray; None: nothing."""
+        for side, corner, end in zip(sides, corners, chord):
+            p = side[1] if side[0] == corner else side[0]
+            t, far = turn(place, corner, p), turn(corner, p, place)
+            if not (t * turn(place, corner, end) > 0 and t * turn(place, p, end) <= 0 and
+                    far != 0 and far * turn(corner, p, end) <= 0):
+                return "an end of a chord that no side shadows"
+        of_anchor = turn(*chord, place)
+        if of_anchor == 0 or not all(0 <= Fraction(turn(*chord, corner)) / of_anchor < 1 for corner in corners):
+            return "a chord before the corner"
+        return None
 
     def demand_feature(self, told):
         """A member of a body: what the file says about it equals what the layer and the options give."""

@@ -206,36 +206,57 @@ static bool is_passed_beyond(const vec chord[2], const vec *anchor, const vec *c
     return beyond;
 }
 
-/* A side of each barrier, with one end in common, and a chord from the shadow of the one to that of the other. */
+/* Are the two ends on one ray from the anchor? */
+static bool are_on_one_ray(const vec *anchor, const vec *p, const vec *q)
+{
+    mpq_t along;
+    vec to_p, to_q;
+    mpq_init(along);
+    vec_init(&to_p), vec_init(&to_q);
+    vec_sub(&to_p, p, anchor);
+    vec_sub(&to_q, q, anchor);
+    vec_dot(along, &to_p, &to_q);
+    const bool so = mpq_sgn(along) > 0 && vec_side(anchor, p, q) == 0;
+    vec_clear(&to_p), vec_clear(&to_q);
+    mpq_clear(along);
+    return so;
+}
+
+/* What is wrong with a chord past the ends end[k][0] of two sides, which are on one ray from the anchor? Their other
+ * ends are end[k][1]. */
+static const char *find_chord_fault(const vec *anchor, const vec *const end[2][2], const vec chord[2])
+{
+    if (vec_side(anchor, end[0][0], end[0][1]) != -vec_side(anchor, end[1][0], end[1][1]))
+        return "two sides on one side of the way through their corner";
+    for (size_t k = 0; k < 2; k++)
+        if (!is_shaded_end(anchor, end[k][0], end[k][1], &chord[k])) return "an end of a chord that no side shadows";
+    for (size_t k = 0; k < 2; k++)
+        if (!is_passed_beyond(chord, anchor, end[k][0])) return "a chord before the corner";
+    return NULL;
+}
+
+/* A side of each barrier, each with an end on one ray from the anchor, and a chord from the shadow of the one to that
+ * of the other. */
 static const char *check_chord(const checking *c, const sunder_proof_node *node)
 {
     const double *side = c->proof->corner + 2 * node->sides;
     const char *wrong = check_side_of(c, node, node->b, side);
     if (!wrong) wrong = check_side_of(c, node, node->c, side + 4);
     if (wrong) return wrong;
-    size_t i = 0, j = 0; /* the ends in common */
-    for (size_t k = 0; k < 4; k++)
-        if (side[2 * (k / 2)] == side[4 + 2 * (k % 2)] && side[2 * (k / 2) + 1] == side[5 + 2 * (k % 2)]) {
-            i = k / 2;
-            j = k % 2;
-        }
-    vec anchor, corner, other[2], chord[2];
-    vec_init(&anchor), vec_init(&corner);
-    vec_set_d(&anchor, c->proof->corner + 2 * node->part_a), vec_set_d(&corner, side + 2 * i);
-    for (size_t k = 0; k < 2; k++) {
-        vec_init(&other[k]), vec_init(&chord[k]);
-        vec_set_d(&other[k], side + 4 * k + 2 * (1 - (k ? j : i)));
-        vec_set_d(&chord[k], c->proof->corner + 2 * (node->part_b + k));
+    vec anchor, at[4], chord[2];
+    vec_init(&anchor);
+    vec_set_d(&anchor, c->proof->corner + 2 * node->part_a);
+    for (size_t k = 0; k < 4; k++) vec_init(&at[k]), vec_set_d(&at[k], side + 2 * k);
+    for (size_t k = 0; k < 2; k++) vec_init(&chord[k]), vec_set_d(&chord[k], c->proof->corner + 2 * (node->part_b + k));
+    wrong = "sides that share no corner, nor a ray from the anchor";
+    for (size_t k = 0; k < 4 && wrong; k++) {
+        const size_t i = k / 2, j = k % 2;
+        const vec *const end[2][2] = {{&at[i], &at[1 - i]}, {&at[2 + j], &at[3 - j]}};
+        if (are_on_one_ray(&anchor, end[0][0], end[1][0])) wrong = find_chord_fault(&anchor, end, chord);
     }
-    if (side[2 * i] != side[4 + 2 * j] || side[2 * i + 1] != side[5 + 2 * j])
-        wrong = "sides that share no corner";
-    else if (vec_side(&anchor, &corner, &other[0]) != -vec_side(&anchor, &corner, &other[1]))
-        wrong = "two sides on one side of the way through their corner";
-    for (size_t k = 0; k < 2 && !wrong; k++)
-        if (!is_shaded_end(&anchor, &corner, &other[k], &chord[k])) wrong = "an end of a chord that no side shadows";
-    if (!wrong && !is_passed_beyond(chord, &anchor, &corner)) wrong = "a chord before the corner";
-    vec_clear(&anchor), vec_clear(&corner);
-    for (size_t k = 0; k < 2; k++) vec_clear(&other[k]), vec_clear(&chord[k]);
+    vec_clear(&anchor);
+    for (size_t k = 0; k < 4; k++) vec_clear(&at[k]);
+    for (size_t k = 0; k < 2; k++) vec_clear(&chord[k]);
     return wrong;
 }
 

@@ -1,4 +1,4 @@
-/* Chords across corners that two sides of barriers share.
+/* Chords across corners that two sides of barriers share, and across ends of two sides on one ray from the anchor.
  *
  * Each side casts its shadow from the anchor a (geometry/obstacle_shadow.h). If sides pb and bq meet in b, on opposite
  * sides of the ray from a through b, the two shadows share the ray beyond b as their boundary. All of it is forbidden,
@@ -12,7 +12,10 @@
  *
  * The chord cuts off a little of the corner (CHORD of the sides), and is moved away from the anchor until it passes
  * beyond b, and a little more (BEYOND), so that rounding to doubles does no harm. Predicates test the required
- * properties on the doubles. The sliver between b and the chord is not covered. */
+ * properties on the doubles. The sliver between b and the chord is not covered.
+ *
+ * Two sides pb and b'q, whose ends b and b' lie on one ray from the anchor, do the same beyond the farther of the two
+ * ends: both shadows have the rest of the ray as a boundary. So the chord passes beyond both. */
 #include "displacement/prove/proofs/plane.h"
 #include "displacement/prove/proofs/tuning.h"
 
@@ -46,43 +49,59 @@ static bool is_shaded(const double a[2], const double b[2], const double p[2], c
            side_of(b, p, place) == -side_of(b, p, a);
 }
 
-/* Does the shadow of the chord lie in the shadows of the two sides? The chord is in front of the anchor everywhere, so
- * it crosses the ray beyond b if b is on the anchor's side of it. */
-static bool is_behind(const double a[2], const double b[2], const double p[2], const double q[2], const double chord[4])
+/* Do the ends of the two sides lie on one ray from a? The sign of a difference of doubles is exact. */
+static bool are_on_one_ray(const double a[2], const double *const end[2])
 {
-    if (!is_shaded(a, b, p, chord) || !is_shaded(a, b, q, chord + 2)) return false;
-    const double path[2] = {b[0] - a[0], b[1] - a[1]};
-    for (int k = 0; k < 4; k += 2) {
-        const double at[2] = {chord[k] - a[0], chord[k + 1] - a[1]};
-        if (!(dot_product(at, path) > 0.5 * dot_product(path, path))) return false;
+    for (int c = 0; c < 2; c++) {
+        const double to[2] = {end[0][c] - a[c], end[1][c] - a[c]};
+        if ((to[0] > 0) != (to[1] > 0) || (to[0] < 0) != (to[1] < 0)) return false;
     }
-    const int anchor = side_of(chord, chord + 2, a);
-    return side_of(a, b, p) == -side_of(a, b, q) && anchor != 0 && side_of(chord, chord + 2, b) == anchor;
+    return side_of(a, end[0], end[1]) == 0;
 }
 
-/* Computes a chord across the corner of the sides from b to p and from b to q, seen from the anchor a. Returns false if
- * there is none. */
-static bool make_corner_chord(const double a[2], const double b[2], const double p[2], const double q[2],
-                              double chord[4])
+/* Does the shadow of the chord lie in the shadows of the two sides? The chord is in front of the anchor everywhere, so
+ * it crosses the ray beyond an end if that end is on the anchor's side of it. far: the farther end, from a. */
+static bool is_behind(const double a[2], const double *const end[2], const double *const other[2], const double far[2],
+                      const double chord[4])
 {
-    const double path[2] = {b[0] - a[0], b[1] - a[1]}, size = dot_product(path, path);
-    double u[2], v[2];
-    for (int c = 0; c < 2; c++) {
-        u[c] = path[c] + CHORD * (p[c] - b[c]);
-        v[c] = path[c] + CHORD * (q[c] - b[c]);
+    if (!is_shaded(a, end[0], other[0], chord) || !is_shaded(a, end[1], other[1], chord + 2)) return false;
+    for (int k = 0; k < 4; k += 2) {
+        const double at[2] = {chord[k] - a[0], chord[k + 1] - a[1]};
+        if (!(dot_product(at, far) > 0.5 * dot_product(far, far))) return false;
     }
-    /* Where the segment uv crosses the ray, as a multiple of the distance of b. */
-    const double left = cross_product(path, u), right = cross_product(path, v);
-    if (!(size > 0) || !(left * right < 0)) return false;
+    const int anchor = side_of(chord, chord + 2, a);
+    return side_of(a, end[0], other[0]) == -side_of(a, end[1], other[1]) && anchor != 0 &&
+           side_of(chord, chord + 2, end[0]) == anchor && side_of(chord, chord + 2, end[1]) == anchor;
+}
+
+/* Computes a chord from behind the side between end[0] and other[0] to behind that between end[1] and other[1], seen
+ * from the anchor a. The two ends have to lie on one ray from a. Returns false if there is no chord. */
+static bool make_side_chord(const double a[2], const double *const end[2], const double *const other[2],
+                            double chord[4])
+{
+    if (!are_on_one_ray(a, end)) return false;
+    const double to[2][2] = {{end[0][0] - a[0], end[0][1] - a[1]}, {end[1][0] - a[0], end[1][1] - a[1]}};
+    const double *path = dot_product(to[1], to[1]) > dot_product(to[0], to[0]) ? to[1] : to[0];
+    const double size = dot_product(path, path);
+    double at[2][2];
+    if (!(size > 0)) return false;
+    /* A point of each side near its end, moved outwards as far as the end would have to be moved to the farther one. */
+    for (int k = 0; k < 2; k++) {
+        const double outwards = size / dot_product(to[k], path);
+        for (int c = 0; c < 2; c++) at[k][c] = outwards * (to[k][c] + CHORD * (other[k][c] - end[k][c]));
+    }
+    /* Where the segment between these points crosses the ray, as a multiple of the distance of the farther end. */
+    const double left = cross_product(path, at[0]), right = cross_product(path, at[1]);
+    if (!(left * right < 0)) return false;
     const double share = left / (left - right),
-                 passes = ((1 - share) * dot_product(u, path) + share * dot_product(v, path)) / size;
+                 passes = ((1 - share) * dot_product(at[0], path) + share * dot_product(at[1], path)) / size;
     if (!(passes > 0.5)) return false;
     const double times = (1 + BEYOND) * sunder_i_max(1, 1 / passes);
     for (int c = 0; c < 2; c++) {
-        chord[c] = a[c] + times * u[c];
-        chord[2 + c] = a[c] + times * v[c];
+        chord[c] = a[c] + times * at[0][c];
+        chord[2 + c] = a[c] + times * at[1][c];
     }
-    return is_behind(a, b, p, q, chord);
+    return is_behind(a, end, other, path, chord);
 }
 
 size_t sunder_i_branching_chord_half_planes(sunder_i_branching *branching, const sunder_i_body *p,
@@ -139,16 +158,15 @@ static bool find_spoke(const sunder_i_model *model, const sunder_i_body_piece *a
     return false;
 }
 
-/* Does the chord across the corner that two spokes share exclude the move u of body p? Sets *chord, and the number
+/* Does the chord across the ends of two spokes exclude the move u of body p? Sets *chord, and the number
  * *half_planes of its half-planes, which are in scratch. */
 static bool shuts_move(sunder_i_branching *c, uint32_t p, const spoke *s, const spoke *r, const double u[2],
                        sunder_i_chord *chord, size_t *half_planes)
 {
     const sunder_i_model *model = c->model;
     const double *a = model->side_at + 2 * (size_t)s->anchor->feature;
-    if (s->anchor != r->anchor || s->end[0] != r->end[0] || s->end[1] != r->end[1] ||
-        !make_corner_chord(a, s->end, s->other, r->other, chord->at))
-        return false;
+    const double *const end[2] = {s->end, r->end}, *const other[2] = {s->other, r->other};
+    if (s->anchor != r->anchor || !make_side_chord(a, end, other, chord->at)) return false;
     chord->side[0] = s->side;
     chord->side[1] = r->side;
     *half_planes = sunder_i_branching_chord_half_planes(c, &model->body[p], s->anchor, &model->body[s->q], chord->at);
