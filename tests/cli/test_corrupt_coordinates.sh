@@ -1,5 +1,5 @@
 # shellcheck shell=bash disable=SC1091
-# One corrupt vertex, from 1e16 to the greatest double: a feature that can only be moved by multiples of its last place is
+# One corrupt vertex, from 1e10 to the greatest double: a feature that can only be moved by multiples of its last place is
 # tried as fixed first, and its sound neighbours go no farther than beside a fixed one. What is thrown far is warned of.
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 command -v python3 >/dev/null || { echo "skipped: python3 is not installed"; exit 77; }
