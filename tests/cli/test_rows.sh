@@ -66,6 +66,16 @@ expect 3 check free.gpkg --no-blocks --block-field sunder_blk --gap 5 --rows aut
 expect 0 check free.gpkg --no-blocks --block-field sunder_blk --gap 5 --before twelve.gpkg
 expect 2 check free.gpkg --gap 5 --rows auto
 
+# A row that cannot become longer, between a house that never moves and one that may go 1 m: the run ends.
+{
+    echo "WKT,most"
+    echo '"POLYGON((0 0,10 0,10 8,0 8,0 0))",0'
+    echo '"POLYGON((11 0,21 0,21 8,11 8,11 0))",100'
+    echo '"POLYGON((22 0,32 0,32 8,22 8,22 0))",1'
+} | layer tight.gpkg tight POLYGON
+expect 3 separate tight.gpkg t.gpkg --gap 5 --max-shift-field most --rows auto --stats tight.json
+[ "$(jq .conflicts.after.too_close tight.json)" -ge 1 ] || fail "a tight row: $(cat out)"
+
 # Refused: points, parts on disk, the layer without the option.
 printf 'WKT,w\n"POINT(0 0)",1\n' | layer points.gpkg points POINT
 expect 2 separate points.gpkg p.gpkg --symbol square:1 --rows auto

@@ -110,13 +110,16 @@ static uint32_t first_member(const sunder_i_model *model, uint32_t body)
     return SUNDER_I_NOBODY;
 }
 
-/* Do the body of f and its neighbour break the rule of rows? */
+/* Do the body of f and its neighbour break the rule of rows? Not if they have the same move: then they stand as at the
+ * start, and if they are in conflict there, that is dealt with as a conflict. So bodies in their original places break
+ * no rule. */
 static bool leaves_row(const sunder_i_jumps *jumps, const sunder_i_model *model, uint32_t f,
                        const sunder_i_row_side *side)
 {
     const bool relaxed = sunder_i_relaxations_between(&model->relaxations, model->body_of[f], side->other);
-    return !sunder_i_keeps_row(side, move_of(jumps, model, f), move_of(jumps, model, first_member(model, side->other)),
-                               relaxed ? side->least_listed : side->least);
+    const double *t = move_of(jumps, model, f), *s = move_of(jumps, model, first_member(model, side->other));
+    if (t[0] == s[0] && t[1] == s[1]) return false;
+    return !sunder_i_keeps_row(side, t, s, relaxed ? side->least_listed : side->least);
 }
 
 /* Returns the neighbours in rows of the body of f, *n of them; none unless f stands for its body. */
