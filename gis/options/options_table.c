@@ -75,7 +75,7 @@ const gis_option gis_option_table[OPT_N] = {
                         "also write the obstacles and the free space as layers"},
     [OPT_SHARDS] = {OPT_SHARDS, "--shards", GIS_TYPE_COUNT, GIS_PLAN, OWN, "N", NULL,
                     "required: number of shards, 1 to 100000"},
-    [OPT_SHARD] = {OPT_SHARD, "--shard", GIS_TYPE_COUNT, GIS_SEPARATE, OWN, "K", NULL,
+    [OPT_SHARD] = {OPT_SHARD, "--shard", GIS_TYPE_COUNT, GIS_SEPARATE, GIS_GROUP_RUNNING, "K", NULL,
                    "separate shard K of a plan: --shard K PLAN; see sunder plan"},
     [OPT_ALLOW_CONFLICTS] = {OPT_ALLOW_CONFLICTS, "--allow-conflicts", GIS_TYPE_FLAG, GIS_LAYERS | GIS_ROUTE, OWN, NULL,
                              NULL, "exit status 0, not 3, if conflicts remain or there is no route"},

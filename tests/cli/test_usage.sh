@@ -49,7 +49,7 @@ X
 words_tried=0
 for command in separate check sum pair buffer route plan merge; do
     case $command in
-    check) operands=(in.gpkg) ;;
+    check) operands=(in.gpkg --before in.gpkg) ;;
     sum | pair) operands=(square:1 square:1) ;;
     buffer) operands=(in.gpkg o.gpkg --shape square:1) ;;
     route) operands=(square:1 --robot square:1 --from '5,5' --to '6,6') ;;
