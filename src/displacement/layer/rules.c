@@ -29,6 +29,22 @@ static unsigned count_processors(void)
     return n < 1 ? 1 : n > MOST_THREADS ? MOST_THREADS : (unsigned)n;
 }
 
+static sunder_status check_rows(const sunder_layer_options *options, sunder_error *err)
+{
+    if ((int)options->rows < SUNDER_ROWS_NONE || (int)options->rows > SUNDER_ROWS_FOUND)
+        return sunder_i_fail(err, SUNDER_EARG, "no such choice of rows: %d", (int)options->rows);
+    if (options->rows && options->keep_worlds)
+        return sunder_i_fail(err, SUNDER_EARG, "rows are not found in a layer whose worlds are kept");
+    if (options->rows && options->keep_trees)
+        return sunder_i_fail(err, SUNDER_EARG, "no trees are kept for a layer with rows");
+    for (int k = 0; k < 2; k++)
+        if (!(options->row_stiffness[k] >= 0) || !isfinite(options->row_stiffness[k]))
+            return sunder_i_fail(err, SUNDER_EARG, "the stiffness of rows, %g, is negative or not finite",
+                                 options->row_stiffness[k]);
+    if (isnan(options->kink)) return sunder_i_fail(err, SUNDER_EARG, "the kink that counts is not a number");
+    return SUNDER_OK;
+}
+
 sunder_status sunder_i_rules_of(const sunder_layer_options *options, sunder_i_rules *rules, sunder_error *err)
 {
     if (!(options->gap >= 0) || !isfinite(options->gap))
@@ -49,17 +65,8 @@ sunder_status sunder_i_rules_of(const sunder_layer_options *options, sunder_i_ru
     if (!(options->barrier_reach >= 0))
         return sunder_i_fail(err, SUNDER_EARG, "the reach of barriers, %g, is negative or not a number",
                              options->barrier_reach);
-    if ((int)options->rows < SUNDER_ROWS_NONE || (int)options->rows > SUNDER_ROWS_FOUND)
-        return sunder_i_fail(err, SUNDER_EARG, "no such choice of rows: %d", (int)options->rows);
-    if (options->rows && options->keep_worlds)
-        return sunder_i_fail(err, SUNDER_EARG, "rows are not found in a layer whose worlds are kept");
-    if (options->rows && options->keep_trees)
-        return sunder_i_fail(err, SUNDER_EARG, "no trees are kept for a layer with rows");
-    for (int k = 0; k < 2; k++)
-        if (!(options->row_stiffness[k] >= 0) || !isfinite(options->row_stiffness[k]))
-            return sunder_i_fail(err, SUNDER_EARG, "the stiffness of rows, %g, is negative or not finite",
-                                 options->row_stiffness[k]);
-    if (isnan(options->kink)) return sunder_i_fail(err, SUNDER_EARG, "the kink that counts is not a number");
+    const sunder_status status = check_rows(options, err);
+    if (status) return status;
     rules->gap = options->gap;
     rules->tolerance = tolerance;
     rules->disc = NULL; /* set when the model is made */
