@@ -127,7 +127,7 @@ static const sunder_i_row_side *row_of(const sunder_i_model *model, uint32_t f, 
 {
     const sunder_i_body *b = &model->body[model->body_of[f]];
     *n = b->has->row_sides && first_member(model, model->body_of[f]) == f ? b->has->row_sides : 0;
-    return model->row_side + b->has->row_side;
+    return *n ? model->row_side + b->has->row_side : NULL;
 }
 
 /* ---- Pairs that break a rule ------------------------------------------------------------------------------------- */

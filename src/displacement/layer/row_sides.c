@@ -9,9 +9,8 @@
 
 const sunder_i_row_side *sunder_i_row_side_of(const sunder_i_model *model, const sunder_i_body *body, uint32_t other)
 {
-    const sunder_i_row_side *side = model->row_side + body->has->row_side;
-    for (uint32_t k = 0; k < body->has->row_sides; k++)
-        if (side[k].other == other) return &side[k];
+    for (uint32_t k = body->has->row_side; k < body->has->row_side + body->has->row_sides; k++)
+        if (model->row_side[k].other == other) return &model->row_side[k];
     return NULL;
 }
 
