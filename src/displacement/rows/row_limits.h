@@ -1,4 +1,5 @@
-/* What counts as a row. The limits were chosen by looking at pictures of rows in Liechtenstein and Argenteuil. */
+/* What counts as a row. The limits are those of a prototype, whose rows were looked at in pictures; no trial of other
+ * values is recorded. */
 #ifndef SUNDER_I_ROW_LIMITS_H
 #define SUNDER_I_ROW_LIMITS_H
 

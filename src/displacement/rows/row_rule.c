@@ -5,7 +5,7 @@
  *     min(0, gap - apart)   otherwise, and for a pair that remains in conflict: the two may come nearer along the row
  *                           only as long as the gap is kept there
  *
- * Source: a half-plane that is convex, so that nothing branches on it. */
+ * For a given pair this is one half-plane, which is convex: no search has to choose a side of it. */
 #include "displacement/rows/rows.h"
 
 #include "base/extremes.h"
