@@ -144,7 +144,7 @@ static sunder_status find_rows(comparison *c, sunder_error *err)
     return status;
 }
 
-/* Is a pair of members of the two bodies in conflict now? It looks at all pairs, since only suspected breaches are asked
+/* Is a pair of members of the two bodies in conflict now? It looks at all pairs: only suspected breaches are asked
  * about. */
 static bool are_in_conflict(const comparison *c, uint32_t i, uint32_t j)
 {
