@@ -37,6 +37,8 @@ typedef struct gis_result_view {
     bool (*fill_barriers)(void *of, gis_view_barrier *barrier, gis_error *error);
     /* Gets the remaining conflicts, in any order; they are valid until close(). */
     bool (*conflicts)(void *of, const sunder_conflict **conflict, size_t *n, gis_error *error);
+    /* Gets the rows of neighbours; they are valid until close(). */
+    bool (*rows)(void *of, const sunder_row **row, size_t *n, gis_error *error);
     /* Fetch a shape or geometry, only for an item that has something to draw. What is lent is valid until the next one
      * is fetched. */
     bool (*shape)(void *of, size_t feature, uint64_t place, const sunder_shape **shape, gis_error *error);

@@ -62,6 +62,13 @@ static bool list_conflicts(void *of, const sunder_conflict **conflict, size_t *n
     return true;
 }
 
+static bool list_rows(void *of, const sunder_row **row, size_t *n, gis_error *error)
+{
+    (void)error;
+    *row = sunder_report_rows(((const gis_result *)of)->of, n);
+    return true;
+}
+
 static bool feature_shape(void *of, size_t feature, uint64_t place, const sunder_shape **out, gis_error *error)
 {
     (void)place, (void)error;
@@ -102,8 +109,17 @@ static void close_nothing(void *of) { (void)of; }
 bool gis_result_held_view(const gis_result *result, gis_result_view *out, gis_error *error)
 {
     (void)error;
-    *out = (gis_result_view){(void *)result, result->input->n, result->input->barriers.n, fill_features, fill_barriers,
-                             list_conflicts, feature_shape,    barrier_geometry,          feature_name,  barrier_name,
+    *out = (gis_result_view){(void *)result,
+                             result->input->n,
+                             result->input->barriers.n,
+                             fill_features,
+                             fill_barriers,
+                             list_conflicts,
+                             list_rows,
+                             feature_shape,
+                             barrier_geometry,
+                             feature_name,
+                             barrier_name,
                              close_nothing};
     return true;
 }

@@ -40,6 +40,7 @@ static const struct {
     {"map-data", NULL, gis_map_data_write},
     {"places", NULL, gis_page_places},
     {"moves", NULL, gis_page_moves},
+    {"rows", NULL, gis_page_rows},
     {"blocked", NULL, gis_page_blocked},
     {"certificate", NULL, gis_page_certificate},
     {"colophon", NULL, gis_page_colophon},

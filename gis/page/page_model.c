@@ -162,7 +162,7 @@ static bool take_moves(gis_page_model *model, gis_error *error)
 static const double aspect = 4.0 / 3.0, margin = 0.45;
 enum { CONFLICT_PLACES = 8 };
 
-static void frame_box(const double box[4], double window[4])
+void gis_page_frame(const double box[4], double window[4])
 {
     double width = box[2] - box[0], height = box[3] - box[1], x = box[0] / 2 + box[2] / 2, y = box[1] / 2 + box[3] / 2;
     double half = fmax(width, height * aspect) / 2 * (1 + 2 * margin);
@@ -202,7 +202,7 @@ static void conflict_window(const gis_page_model *model, const sunder_conflict *
     double reach = fmax(fmin(size_of(a->box), size_of(b->box)), 2 * fmax(conflict->required, conflict->depth));
     add_near(box, a, about, reach);
     add_near(box, b, about, reach);
-    frame_box(box, window);
+    gis_page_frame(box, window);
 }
 
 static void move_window(const gis_view_feature *feature, double window[4])
@@ -210,7 +210,7 @@ static void move_window(const gis_view_feature *feature, double window[4])
     double box[4];
     gis_page_box(feature, 1, box);
     gis_box_join(box, feature->box);
-    frame_box(box, window);
+    gis_page_frame(box, window);
 }
 
 /* Returns the place in [first, end) whose window contains the centre of `window`; NULL if none does. */

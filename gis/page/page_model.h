@@ -10,8 +10,9 @@
 /* A part of the map that is shown as a close-up. */
 typedef struct gis_page_place {
     double window[4];                /* all windows have the same aspect */
-    const sunder_conflict *conflict; /* the worst conflict in the window; NULL: the place shows a move */
-    size_t feature;                  /* the feature that moved, or the first one of the conflict */
+    const sunder_conflict *conflict; /* the worst conflict in the window; NULL: the place shows a move or a row */
+    const sunder_row *row;           /* the row that it shows; NULL: none */
+    size_t feature;                  /* the feature that moved, or the first one of the conflict or row */
     size_t others; /* the number of further conflicts, or moves, in this window that have no place of their own */
 } gis_page_place;
 
@@ -54,5 +55,7 @@ bool gis_page_name(const gis_page_model *model, size_t thing, gis_text *to, gis_
 void gis_page_box(const gis_view_feature *feature, double part, double box[4]);
 /* Returns the length of the feature's move. */
 double gis_page_length(const gis_view_feature *feature);
+/* Sets `window` to a close-up of `box` with a margin. */
+void gis_page_frame(const double box[4], double window[4]);
 
 #endif

@@ -186,6 +186,25 @@ static bool add_moves(picture_writer *writer, gis_error *error)
     return true;
 }
 
+/* Draws a line along a row, through the anchors of its features after the fraction `part` of their moves. */
+static bool add_row(picture_writer *writer, const sunder_row *row, double part, gis_error *error)
+{
+    const size_t n = row->features + row->ring;
+    gis_text_add(writer->to, "<path class=\"row\" d=\"");
+    for (size_t k = 0; k < n; k++) {
+        const size_t i = row->feature[k % row->features];
+        const double *move = writer->model->feature[i].move;
+        const sunder_shape *shape;
+        double anchor[2], at[2];
+        if (!gis_page_shape(writer->model, i, &shape, error)) return false;
+        sunder_shape_anchor(shape, anchor);
+        gis_picture_place(&writer->picture, anchor[0] + part * move[0], anchor[1] + part * move[1], at);
+        gis_text_print(writer->to, "%c%.0f %.0f", k ? 'L' : 'M', at[0], at[1]);
+    }
+    gis_text_add(writer->to, "\"/>\n");
+    return true;
+}
+
 /* Draws the link of a conflict, and a disc if the link is too short to be visible; the disc is open if the conflict is
  * not proved. */
 static void add_link(picture_writer *writer, const sunder_conflict *conflict)
@@ -224,6 +243,7 @@ bool gis_page_add_close_up(const gis_page_model *model, const gis_page_place *pl
     ok = ok && add_underpasses(&writer, error);
     ok = ok && (!after || add_moves(&writer, error));
     if (ok && after) add_links(&writer);
+    if (ok && place->row) ok = add_row(&writer, place->row, after, error);
     gis_text_add(to, "</svg>\n");
     gis_corners_clear(&writer.scratch);
     return ok;

@@ -162,7 +162,7 @@ bool gis_page_add_name(const gis_page_model *model, size_t thing, gis_text *to, 
     return ok;
 }
 
-static bool add_caption(const gis_page_model *model, const gis_page_place *place, gis_text *to, gis_error *error)
+static bool add_place_caption(const gis_page_model *model, const gis_page_place *place, gis_text *to, gis_error *error)
 {
     const sunder_conflict *conflict = place->conflict;
     gis_page_open_link(place->window, to);
@@ -191,13 +191,14 @@ static bool add_caption(const gis_page_model *model, const gis_page_place *place
     return ok;
 }
 
-static bool add_place(const gis_page_model *model, const gis_page_place *place, gis_text *to, gis_error *error)
+bool gis_page_add_place(const gis_page_model *model, const gis_page_place *place, gis_page_caption *caption,
+                        gis_text *to, gis_error *error)
 {
     gis_text_add(to, "<li><figure><div class=\"pair\">\n");
     if (!gis_page_add_close_up(model, place, false, to, error) || !gis_page_add_close_up(model, place, true, to, error))
         return false;
     gis_text_add(to, "</div><figcaption>");
-    if (!add_caption(model, place, to, error)) return false;
+    if (!caption(model, place, to, error)) return false;
     gis_text_add(to, "<span class=\"wide\">");
     gis_print_length(to, place->window[2] - place->window[0], &model->unit);
     gis_text_add(to, " wide</span></figcaption></figure></li>\n");
@@ -213,7 +214,7 @@ bool gis_page_places(const gis_page_model *model, const gis_thinning *thinning, 
                  "<p class=\"note\">Before on the left, after on the right. A name leads to its place on the map.</p>\n"
                  "<ol class=\"places\">\n");
     for (size_t k = 0; k < model->n_places; k++)
-        if (!add_place(model, &model->place[k], to, error)) return false;
+        if (!gis_page_add_place(model, &model->place[k], add_place_caption, to, error)) return false;
     gis_text_add(to, "</ol></section>\n");
     return true;
 }

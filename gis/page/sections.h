@@ -14,6 +14,7 @@ gis_page_section gis_page_legend;      /* the part of the legend that only some 
 gis_page_section gis_page_map_note;    /* how much of the layer the map shows */
 gis_page_section gis_page_places;      /* close-ups, the worst conflicts first */
 gis_page_section gis_page_moves;       /* the histogram */
+gis_page_section gis_page_rows;        /* the rows of neighbours, with close-ups of those that are bent most */
 gis_page_section gis_page_blocked;     /* the table of remaining conflicts */
 gis_page_section gis_page_certificate; /* what is proved, and the options of the run */
 gis_page_section gis_page_colophon;    /* version and date */
@@ -26,5 +27,9 @@ void gis_page_add_number_of(gis_text *to, size_t n, const char *one, const char 
 void gis_page_open_link(const double window[4], gis_text *to);
 /* Writes the name of a feature or barrier, escaped, in a bdi element. */
 bool gis_page_add_name(const gis_page_model *model, size_t thing, gis_text *to, gis_error *error);
+/* Writes a place of the list of close-ups: its two pictures and its caption, which `caption` writes. */
+typedef bool gis_page_caption(const gis_page_model *model, const gis_page_place *place, gis_text *to, gis_error *error);
+bool gis_page_add_place(const gis_page_model *model, const gis_page_place *place, gis_page_caption *caption,
+                        gis_text *to, gis_error *error);
 
 #endif

@@ -218,8 +218,16 @@ static void add_proof(const gis_page_model *model, gis_text *to)
     gis_text_add(to, "<dl class=\"terms\">\n");
     open_term(to, "cost");
     gis_print_area(to, summary->cost, &model->unit);
-    gis_text_print(to, " <span class=\"aside\">the sum of squared moves%s</span>",
+    gis_text_print(to, " <span class=\"aside\">the sum of squared moves%s",
                    rules->weighting != GIS_WEIGHTING_EVEN || rules->weight_field ? ", each by its weight" : "");
+    if (summary->rows) {
+        gis_text_add(to, " (");
+        gis_print_area(to, summary->cost_moves, &model->unit);
+        gis_text_add(to, "), and of the springs of rows (");
+        gis_print_area(to, summary->cost_rows, &model->unit);
+        gis_text_add(to, ")");
+    }
+    gis_text_add(to, "</span>");
     close_term(to);
     open_term(to, "proved lower bound");
     gis_print_area_or_less(to, summary->lower_bound, &model->unit);

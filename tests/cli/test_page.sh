@@ -75,6 +75,14 @@ done
 grep -q -- '--threads\|--report</code>\|peak_rss' town.html && fail "the page tells what has no part in the result"
 [ "$(wc -c <town.html)" -lt 300000 ] || fail "the page of 280 houses has $(wc -c <town.html) bytes"
 
+# With rows: a section of them, the most bent in close-up, and the two parts of the cost.
+grep -q 'id="rows"' town.html && fail "rows, unasked"
+expect 3 separate "$town" rows.gpkg -l buildings --gap 3 --max-shift 5 --rows auto --report rows.html --stats rows.json
+page rows.html
+says rows.html "$(jq '.rows.rows' rows.json) rows of neighbours with $(jq '.rows.features' rows.json) houses"
+for words in 'Rows of houses' '<path class="row" d="M' 'and of the springs of rows ('; do says rows.html "$words"; done
+[ "$(grep -o '<path class="row"' rows.html | wc -l)" -le 8 ] || fail "more than four rows in close-up"
+
 # The same bytes, for any number of threads.
 mkdir again
 (cd again && expect 3 separate "$town" town.gpkg -l buildings --gap 3 --max-shift 5 --fixed-where "kind = 'monument'" \

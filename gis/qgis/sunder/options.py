@@ -100,6 +100,12 @@ OPTIONS = (
            False),
     Option("--list-inside", FLAG, LAYERS, "List conflicts inside blocks, too",
            "Members of one block need no gap; with this option their conflicts are listed nevertheless.", False),
+    # ---- Rows ----
+    Option("--rows", CHOICE, LAYERS, "Rows of houses keep their line",
+           "Neighbours in a row keep their order, and stay in line as far as the stiffness outweighs the moves.",
+           1, ("auto", "no"), ("Yes: rows are found in the layer", "No")),
+    Option("--row-stiffness", TEXT, ("separate",), "Stiffness of rows against kinks, and against uneven spacing",
+           "Two factors of the cost of a move. 3,0.3: as usual; 10,1: stiff.", ""),
     # ---- Symbols ----
     Option("--symbol", TEXT, LAYERS, "Points: the symbol at each point",
            "disc:4m, square:5m, rectangle:8x3, or WKT of a polygon relative to the point."),
@@ -156,6 +162,7 @@ NOUNS = {
     "--touch-tolerance": "distance up to which features are one block", "--block-field": "field of the blocks",
     "--no-blocks": "checkbox to form no blocks", "--contained": "treatment of contained features",
     "--allow-jumps": "checkbox to allow jumps", "--list-inside": "checkbox to list conflicts inside blocks",
+    "--rows": "choice whether rows keep their line", "--row-stiffness": "stiffness of rows",
     "--symbol": "symbol", "--symbol-field": "field of the symbols",
     "--symbol-size-field": "field of the symbols' sizes",
     "--dissolve-field": "field to dissolve by", "--explode": "checkbox for single polygons", "--align": "checkbox to turn the shape",
@@ -169,7 +176,6 @@ NOUNS = {
 _QGIS_CHOOSES = "which features is chosen in QGIS: by the layer's filter, its selection, or a layer made before"
 _QGIS_WRITES = "the program writes a GeoPackage of the plug-in's; QGIS writes it where the dialog says"
 _OURS = "set by the plug-in"
-_ROWS = "rows are found by the program alone, for now"
 _SHARDS = "a layer in shards is for clusters, which have no dialogs"
 # The commands that no dialog runs, with the reasons.
 LEFT_OUT_COMMANDS = {"plan": _SHARDS, "merge": _SHARDS}
@@ -177,7 +183,6 @@ LEFT_OUT = {
     "--input-layer": _OURS, "--where": _QGIS_CHOOSES, "--sql": _QGIS_CHOOSES, "--dialect": _QGIS_CHOOSES,
     "--bbox": _QGIS_CHOOSES, "--if": _QGIS_CHOOSES, "--oo": _QGIS_CHOOSES, "--config": _QGIS_CHOOSES,
     "--input-crs": "QGIS's own CRS of the layer is handed over with it",
-    "--rows": _ROWS, "--row-stiffness": _ROWS,
     "--output": _QGIS_WRITES, "--of": _QGIS_WRITES, "--nlt": _QGIS_WRITES, "--lco": _QGIS_WRITES, "--co": _QGIS_WRITES,
     "--overwrite": _QGIS_WRITES, "--update": _QGIS_WRITES, "--overwrite-layer": _QGIS_WRITES,
     "-overwrite": _QGIS_WRITES,

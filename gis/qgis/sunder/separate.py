@@ -12,7 +12,7 @@ Buildings, or symbols of points, keep their shape and are only moved. Roads and 
 result is checked exactly on the coordinates as written, and comes with a proved lower bound of the cost.
 
 Layers: the features, moved, with their attributes; the moves as lines; the conflicts that remain, each with its
-reason; the contact forces; for points their symbols. The report is a page for the browser: the map before and
+reason; the contact forces; rows of houses that were found; for points their symbols. The report is a page for the browser: the map before and
 after."""
     main = "separated"
     movable = True
@@ -22,6 +22,7 @@ after."""
         Output("DISPLACEMENT", "_displacement", "Moves", LINES, True, None),
         Output("CONFLICTS", "_conflicts", "Conflicts that remain", LINES, True, None),
         Output("PUSHES", "_pushes", "Pushes", LINES, False, None),
+        Output("ROWS", "_rows", "Rows of houses", LINES, False, None),
         Output("SYMBOLS", "_symbols", "Symbols (of points)", POLYGONS, False, None),
     )
     files = (
@@ -38,7 +39,7 @@ after."""
     def _words_of_outputs(self, wanted):
         # The main layer is always written, since the program checks its result as written there.
         layers = [each.suffix[1:] for each in self.outputs if each.suffix and (each in wanted or self._counts(each))]
-        if layers == ["displacement", "conflicts", "pushes", "symbols"]:
+        if layers == [each.suffix[1:] for each in self.outputs if each.suffix]:
             return []
         return ["--layers=" + ",".join(["main"] + layers)]
 

@@ -177,6 +177,15 @@ static bool list_conflicts(void *of, const sunder_conflict **conflict, size_t *n
     return !any;
 }
 
+/* A layer in parts has no rows. */
+static bool list_rows(void *of, const sunder_row **row, size_t *n, gis_error *error)
+{
+    (void)of, (void)error;
+    *row = NULL;
+    *n = 0;
+    return true;
+}
+
 /* ---- One by one -------------------------------------------------------------------------------------------------- */
 
 static bool lend_shape(void *user, const gis_spool_feature *feature, gis_error *error)
@@ -284,6 +293,7 @@ bool gis_shard_run_view(const gis_result *result, gis_result_view *out, gis_erro
                              fill_features,
                              fill_barriers,
                              list_conflicts,
+                             list_rows,
                              lend_feature_shape,
                              lend_barrier_geometry,
                              feature_name,
