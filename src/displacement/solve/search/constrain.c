@@ -49,9 +49,11 @@ static void constrain_pieces(sunder_i_search *s, const sunder_i_piece_pair *pair
     double d = h.support + gap;
     /* If the position violates d by at most the tolerance, d is lowered to the present value. Otherwise an exact fit
      * that is missed by a little on two sides would be a contradiction. While `roughly` is set d is not lowered, since
-     * the violations of all rounds would add up. */
+     * the violations of all rounds would add up; nor for neighbours in a row once they have moved by different
+     * vectors, since their rule is one half-plane, which contradicts nothing. */
     const double now = h.n[0] * at->u[0] + h.n[1] * at->u[1];
-    if (!s->roughly && now < d && now >= d - s->tolerance) d = now;
+    const bool keeps_d = s->roughly || (pair->row && (at->u[0] != 0 || at->u[1] != 0));
+    if (!keeps_d && now < d && now >= d - s->tolerance) d = now;
     /* The move of a fixed body is a constant, which is added to d. */
     uint32_t ends[2] = {bodies->i, bodies->j};
     for (int e = 0; e < 2; e++) {

@@ -299,8 +299,9 @@ static const sunder_i_obstacle_edge *take_edges(sunder_i_search *s, size_t *n)
     return s->shifted;
 }
 
-/* The boundary of the half-plane that the rule of rows forbids, as two rays. It demands the margin, but never more than
- * the start has. */
+/* The boundary of the half-plane that the rule of rows forbids, as two rays. It demands the margin, but no more than
+ * the start has. Where that is less than half the tolerance it demands half the tolerance: the start still counts as
+ * free, and a wider margin gives more room for rounding. */
 static const sunder_i_obstacle_edge *row_edges(sunder_i_search *s, const sunder_i_piece_pair *pair, size_t *n,
                                                double *gap)
 {
@@ -314,7 +315,7 @@ static const sunder_i_obstacle_edge *row_edges(sunder_i_search *s, const sunder_
     for (*n = 0; *n < 2; ++*n)
         s->shifted[*n] = (sunder_i_obstacle_edge){
             {least * row->along[0], least * row->along[1]}, {row->along[0], row->along[1]}, INFINITY};
-    *gap = least > 0 ? margin : sunder_i_min(margin, -least);
+    *gap = least > 0 ? margin : sunder_i_max(sunder_i_min(margin, -least), s->tolerance / 2);
     return s->shifted;
 }
 
