@@ -1,30 +1,33 @@
-"""Symbols without a limit, each alone among barriers that SUNDER_SEED draws: lines and areas, convex and concave, with
-sides and without, as=boundary; arms, gates and closed rooms; with a gap and without. And the nearest free place of each
-by brute force, which shares nothing with the program: in rationals, or with a gap as alone_with_gap.py says.
+"""Symbols without a limit on moves, each alone among random barriers (SUNDER_SEED): lines and areas, convex and
+concave, with sides and without, and with as=boundary; corridors, rooms with a door and closed rooms; with a gap and
+without. The script computes the nearest free place of each symbol by brute force, which shares no code with the
+program: in rationals without a gap, as described in alone_with_gap.py with one.
 
     alone_in_rooms.py make       writes NAME.gpkg and NAME_KIND_SIDE.gpkg for each group NAME, as copies of
                                  empty_symbols.gpkg and empty_KIND_SIDE.gpkg, and NAME.symbol and NAME.gap
-    alone_in_rooms.py check      compares NAME.out.gpkg with what is right
+    alone_in_rooms.py check      compares NAME.out.gpkg with the computed places
 
-A move t of the symbol S, a convex polygon about the point a, is free if no barrier meets the interior of S + t, and the
-segment from a to a + t meets no line with sides, and no edge of an area with sides that has the area behind it as seen
-from a (a feature inside may leave, once). What is forbidden is bounded by parts of few lines:
+A move t of the symbol S, a convex polygon about the point a, is free if no barrier meets the interior of S + t, and
+the segment from a to a + t meets no line with sides and no edge of an area with sides, except edges by which the
+anchor leaves the area (a feature that starts inside may leave, once). The forbidden set is bounded by parts of these
+lines:
 
     the sides of E + (-S), for each edge E of a barrier
-    the lines, and the rays beyond their ends, away from a
+    the lines with sides, and the rays from their ends, away from a
 
-So the free place nearest to a is a itself, a foot of the perpendicular on one of these, an end of one, or where two
-cross. They are tested by distance. Lines are closed: where all free places are beside such a point, its distance is not
-attained, and the program may come as near to it as it likes.
+So the free place nearest to a is a itself, the foot of a perpendicular on one of these, an end of one, or a crossing
+of two. These candidates are tested in order of distance. Lines with sides are closed sets: if the free places near
+such a candidate do not include it, the minimum is not attained, and the program may come arbitrarily near to it.
 
-A symbol without a free place is left in conflict with some barriers, and it has to be proved of each that it cannot be
-left while the symbol stands no worse to the others. Few may stay unresolved (LEFT of all worlds). The only solution may
-be on the border of a shadow, which is closed: in small whole numbers these lines meet all the time. Or the symbol lay in
-an area at the start, and may go deeper, of which proofs know nothing. With a gap a conflict may also stay unresolved if
-the symbol has left a barrier that it overlapped, and would overlap it again: fewer overlaps go before fewer conflicts.
+If a symbol has no free place, some of its conflicts remain. For each of them there has to be a proof that no place
+resolves it without making another conflict of the symbol worse. The share of worlds with an unproved conflict may be
+at most LEFT, for these causes. The only solution may lie on the border of a shadow, which is closed; with coordinates
+that are small integers such lines often meet. Or the symbol was in an area at the start and may go deeper into it,
+which proofs do not model. With a gap, a conflict may also remain if the symbol has left a barrier that it overlapped
+and would overlap it again, since fewer overlaps have priority over fewer conflicts.
 
-In small whole numbers free places are single points, too, which doubles may not hold, or lines, whose ends are
-forbidden; so there a symbol may be left."""
+With small integers a free place may also be a single point, which doubles may not represent, or an open segment; so
+in these worlds a symbol may stay in conflict."""
 import itertools
 import os
 import random
@@ -37,9 +40,10 @@ from fractions import Fraction as F
 import alone_with_gap
 
 INFINITE = float("inf")
-LEFT = 2 / 150  # the share of worlds that may be unresolved
-ROUND = 1 / 16  # of the gap, by which a place may be farther than the nearest: round corners are polygons in the search
-SURELY = 1e-6  # of products of coordinates of at most some hundred, which doubles give to 1e-10
+LEFT = 2 / 150  # the largest share of worlds that may be left unresolved
+# largest excess over the nearest distance, as a part of the gap: the search uses polygons for round corners
+ROUND = 1 / 16
+SURELY = 1e-6  # for products of coordinates of at most some hundred, which doubles compute to within 1e-10
 
 
 def cross(o, p, q):
@@ -91,7 +95,7 @@ def is_inside(ring, p):
 
 
 def segment_meets_open(convex, p, q):
-    """Does the closed segment meet the interior of a convex polygon, counter-clockwise?"""
+    """Does the closed segment meet the interior of a convex, counter-clockwise polygon?"""
     low, high = F(0), F(1)
     strict_low, strict_high = False, False
     for a, b in edges(convex):
@@ -126,7 +130,7 @@ class World:
         self.anchor, self.barriers, self.gap = anchor, barriers, gap
         self.body = [add(anchor, p) for p in symbol]
         self.pieces = []  # segments whose neighbourhood is forbidden
-        self.walls = []   # segments that the anchor may not meet
+        self.walls = []   # segments that the path of the anchor may not meet
         self.areas = []
         for kind, points, sides in barriers:
             own = edges(points) if kind != "line" else list(zip(points, points[1:]))
@@ -142,7 +146,7 @@ class World:
                 if kind == "area" and side >= 0:
                     continue
                 if cross(p, q, anchor) == 0 and dot(sub(p, anchor), sub(q, anchor)) <= 0:
-                    continue  # it begins on this line
+                    continue  # the path begins on this line
                 self.walls.append((p, q))
 
     def is_free(self, t):
@@ -171,7 +175,7 @@ class World:
         return list(dict.fromkeys(out))
 
     def is_near_free(self, t, lines):
-        """Is there a free place as near to t as one likes?"""
+        """Is t free, or a limit of free places?"""
         if self.is_free(t):
             return True
         through, others = set(), []
@@ -184,7 +188,7 @@ class World:
         for d, e in zip(order, order[1:] + order[:1]):
             turn = d[0] * e[1] - d[1] * e[0]
             middle = add(scaled(d), scaled(e)) if turn > 0 else None
-            if middle is None:  # half a plane, or more
+            if middle is None:  # an angle of 180 degrees or more
                 middle = (-d[1], d[0])
             directions.append(middle)
         return any(self.is_free_beside(t, d, lines) for d in directions)
@@ -194,7 +198,7 @@ class World:
         for p, e, _ in lines:
             turn = d[0] * e[1] - d[1] * e[0]
             if turn == 0:
-                if cross(t, add(t, d), p) == 0:  # ends of parts of the same line
+                if cross(t, add(t, d), p) == 0:  # ends of other segments on the same line
                     for x in (p, add(p, e)):
                         at = F(dot(sub(x, t), d)) / dot(d, d)
                         if at > 0 and (near is None or at < near):
@@ -207,8 +211,8 @@ class World:
         return self.is_free((t[0] + step * d[0], t[1] + step * d[1]))
 
     def is_surely_taken(self, x, y, rings, walls):
-        """In doubles: is the place so deep in the forbidden set of one obstacle that all places around it are
-        forbidden, too?"""
+        """Computed in doubles: does the place lie so deep in the forbidden set of one obstacle that its neighbourhood
+        is forbidden, too?"""
         for ring in rings:
             if all((bx - ax) * (y - ay) - (by - ay) * (x - ax) > SURELY for (ax, ay), (bx, by) in ring):
                 return True
@@ -216,7 +220,8 @@ class World:
                    side((0, 0), q, (x, y)) * turn < -SURELY for p, q, turn in walls)
 
     def candidates(self, lines):
-        """Feet, ends and crossings, as pairs of functions' arguments: the place in doubles, and how to make it exactly."""
+        """Feet of perpendiculars, ends and crossings, as pairs: the place in doubles, and the function and arguments
+        that compute it exactly."""
         yield 0.0, 0.0, lambda: (F(0), F(0))
         for k, (p, d, bounded) in enumerate(lines):
             at = F(-dot(p, d), dot(d, d))
@@ -250,7 +255,7 @@ class World:
         last = (INFINITE, 0)
         for off, x, y, exactly in sorted(((x * x + y * y, x, y, exactly) for x, y, exactly in self.candidates(lines)), key=lambda c: c[:3]):
             if found is not None and off > float(found[0]) * (1 + SURELY) + SURELY:
-                break  # doubles are right to far less
+                break  # much more than the error of doubles here
             if (x, y) == last or self.is_surely_taken(x, y, rings, walls):
                 continue
             last, t = (x, y), exactly()
@@ -299,10 +304,10 @@ def simple_ring(r, span):
 
 
 def room(r, span):
-    """Walls about the anchor, with an arm or a gate, or closed."""
+    """Walls around the anchor: a room with a corridor, a room with a door, or a closed one."""
     w, h = r.randint(1, 6), r.randint(1, 6)
     arm = r.randint(3, 30)
-    if r.random() < 0.5:  # an arm from a room: the anchor stands in the arm
+    if r.random() < 0.5:  # a corridor that leads to a room: the anchor is in the corridor
         big = r.randint(3, 14)
         ring = [(-w, arm), (-w, -arm), (-big - w, -arm), (-big - w, -arm - big), (big + w, -arm - big), (big + w, -arm), (w, -arm), (w, arm)]
     else:
@@ -335,7 +340,8 @@ def is_simple(ring):
 
 
 def draw(r, shape, spread, gap):
-    """A world, its coordinates `spread` times as large and no longer round unless that is 1; None: it is not fair."""
+    """A world with its coordinates multiplied by `spread` and, unless that is 1, perturbed; None if it is degenerate
+    (the anchor on a line, a ring that crosses itself) or if the symbol is free at its start."""
     def place(p):
         return tuple(spread * x + (r.randint(-spread // 3, spread // 3) if spread > 1 else 0) for x in p)
     barriers = []
@@ -360,15 +366,15 @@ def draw(r, shape, spread, gap):
 
 # ---- Files -----------------------------------------------------------------------------------------------------------
 
-APART = 1 << 16  # of worlds, which stand in rows of ROW
+APART = 1 << 16  # distance between worlds, which are laid out in rows of ROW
 ROW = 16
 GROUPS = {"square": (1, 16, 0), "flat": (2, 16, 0), "triangle": (3, 16, 0), "diamond": (4, 1, 0),
-          "square_gap": (0, 16, 11), "triangle_gap": (3, 16, 5)}  # which shape, the spread, and the gap
+          "square_gap": (0, 16, 11), "triangle_gap": (3, 16, 5)}  # the number of the shape, the spread, and the gap
 KINDS = ("line", "area", "boundary")
 
 
-# Worlds, as (seed, place among its worlds), which once ended with a conflict unresolved that has a solution, or farther
-# away than the nearest free place.
+# Worlds, as (seed, index of the world), in which an earlier version left a conflict that has a solution, or moved the
+# symbol farther than to the nearest free place.
 AGAIN = {"square": [(8, 23), (18, 12), (24, 23), (35, 2), (41, 10), (59, 3)],
          "flat": [(3, 23), (22, 0), (30, 15), (42, 8), (90, 19), (106, 5)],
          "triangle": [(21, 12), (96, 23)],
@@ -386,7 +392,7 @@ def drawn(name, seed):
 
 
 def worlds(name):
-    """The worlds of a group: those of the seed, and then those of AGAIN."""
+    """The worlds of a group: those of the seed, then those listed in AGAIN."""
     count = 25 * int(os.environ.get("SUNDER_TEST_SCALE", "1"))
     out = list(itertools.islice(drawn(name, os.environ.get("SUNDER_SEED", "1")), count))
     return out + [next(itertools.islice(drawn(name, seed), k, None)) for seed, k in AGAIN.get(name, [])]

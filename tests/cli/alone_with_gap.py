@@ -1,20 +1,21 @@
 """The nearest free place of a symbol that keeps a gap, for alone_in_rooms.py.
 
-What is too near is bounded, for each edge E of a barrier, by the sides of E + (-S), moved outwards by the gap, and by
-circles about its corners with the gap as radius. So the candidates are the feet of the perpendiculars from the start on
-these and on what bounds the shadows of lines, and all their crossings. Candidates are computed in doubles, and a place
-beside one is accepted after an exact test in rationals: its squared distances from all edges of barriers. So a place that
-is found is free. One may be overlooked between two curves that meet at a very small angle."""
+For each edge E of a barrier, the places that are too near are bounded by the sides of E + (-S), moved outwards by the
+gap, and by circles about its corners whose radius is the gap. So the candidates are the feet of the perpendiculars
+from the start on these curves and on the boundaries of the shadows of lines, and all crossings of these curves.
+Candidates are computed in doubles. A place next to a candidate is accepted after an exact test in rationals (squared
+distances to all edges of barriers), so every place that is found is free. A free place can be missed between two
+curves that cross at a very small angle."""
 import math
 from fractions import Fraction as F
 
-BESIDE = 1e-7     # how far from a candidate a place is looked for
-DIRECTIONS = 32   # and in how many directions
-DEEP = 1e-6       # nearer than the gap by this: so is everything beside it
+BESIDE = 1e-7     # distance of the places tried from a candidate
+DIRECTIONS = 32   # the number of these places
+DEEP = 1e-6       # a place nearer than the gap by at least this much has only forbidden places around it
 
 
 def point_to_segment(p, a, b):
-    """The squared distance, in the numbers that are given."""
+    """The squared distance, computed in the number type of the arguments."""
     d = (b[0] - a[0], b[1] - a[1])
     s = (p[0] - a[0]) * d[0] + (p[1] - a[1]) * d[1]
     size = d[0] * d[0] + d[1] * d[1]
@@ -29,14 +30,15 @@ def point_to_segment(p, a, b):
 
 
 def is_too_near(ring, p, q, gap):
-    """Is an edge of the ring nearer to the segment pq than the gap? The two do not cross, so corners tell. In rationals."""
+    """Is an edge of the ring nearer to the segment pq than the gap? Exact, in rationals. The two do not cross, so the
+    distances of corners decide."""
     sides = list(zip(ring, ring[1:] + ring[:1]))
     return any(point_to_segment(c, a, b) < gap * gap for a, b in sides for c in (p, q)) or \
         any(point_to_segment(c, p, q) < gap * gap for c in ring)
 
 
 def depth(t, ring):
-    """How deep t is in a convex ring, counter-clockwise; negative: its distance. In doubles."""
+    """The depth of t in a convex, counter-clockwise ring; outside minus its distance. In doubles."""
     deepest = -math.inf
     for (ax, ay), (bx, by) in ring:
         across = ((bx - ax) * (t[1] - ay) - (by - ay) * (t[0] - ax)) / math.hypot(bx - ax, by - ay)
@@ -119,8 +121,9 @@ def is_behind(t, p, q):
 
 
 def nearest(rings, walls, gap, is_free):
-    """The distance of a free place that is the nearest to within BESIDE; None: none was found. rings: E + (-S) of each edge
-    E, as sides; walls: the lines with sides, about the anchor; is_free: the exact test."""
+    """The distance of a free place that is at most BESIDE farther than the nearest one; None: none was found. rings:
+    the sides of E + (-S) for each edge E; walls: the lines with sides, relative to the anchor; is_free: the exact
+    test."""
     rings = [[((float(a[0]), float(a[1])), (float(b[0]), float(b[1]))) for a, b in ring] for ring in rings]
     walls = [((float(p[0]), float(p[1])), (float(q[0]), float(q[1]))) for p, q in walls]
     far = 4 * (gap + sum(max(abs(x) for side in ring for p in side for x in p) for ring in rings))

@@ -1,4 +1,4 @@
-/* A library to be preloaded. It changes one value that is bound to a statement of SQLite. ALTER=real or ALTER=geometry
+/* A library to be preloaded. It changes one value that is bound to an SQLite statement. ALTER=real or ALTER=geometry
  * selects the kind of value, ALTER_AT its number, from 1 on. ALTER=extent: the trigger that maintains a layer's extent
  * is not created. */
 #define _GNU_SOURCE
@@ -11,7 +11,7 @@ int sqlite3_bind_blob(void *statement, int at, const void *bytes, int size, void
 int sqlite3_exec(void *database, const char *sql, int (*row)(void *, int, char **, char **), void *user,
                  char **message);
 
-/* Is it this one's turn? */
+/* Is this call the selected one? */
 static int its_turn(const char *what)
 {
     static long seen;
@@ -19,7 +19,7 @@ static int its_turn(const char *what)
     return asked && when && strcmp(asked, what) == 0 && ++seen == atol(when);
 }
 
-/* The function of that name in the library itself, into the pointer to a function that `function` points to. */
+/* Sets the function pointer at `function` to the SQLite function of that name that this library replaces. */
 static void find(const char *name, void *function)
 {
     void *found = dlsym(RTLD_NEXT, name);
@@ -33,7 +33,8 @@ int sqlite3_bind_double(void *statement, int at, double value)
     return bind(statement, at, its_turn("real") ? value + 1 : value);
 }
 
-/* The ninth byte from the end of a geometry is the highest one of the last X, or of the last Y where there is Z. */
+/* The ninth byte from the end of a geometry is the most significant byte of the last X, or of the last Y if there is
+ * Z. */
 int sqlite3_bind_blob(void *statement, int at, const void *bytes, int size, void (*destroy)(void *))
 {
     int (*bind)(void *, int, const void *, int, void (*)(void *));
@@ -44,7 +45,7 @@ int sqlite3_bind_blob(void *statement, int at, const void *bytes, int size, void
     if (!other) abort();
     memcpy(other, bytes, (size_t)size);
     other[size - 9] ^= 1;
-    /* neither static nor to be copied by SQLite */
+    /* not SQLITE_STATIC and not SQLITE_TRANSIENT */
     if (destroy && destroy != (void (*)(void *)) - 1) destroy((void *)bytes);
     return bind(statement, at, other, size, free);
 }

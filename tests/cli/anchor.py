@@ -1,12 +1,13 @@
-"""The anchor of a feature by the documented rule (src/shape/anchor.c), in fractions and by another algorithm: the
-crossings of each member with the line are sorted, and the intervals of all members are joined."""
+"""The anchor of a feature by the documented rule (src/shape/anchor.c), in fractions and by another algorithm: it
+sorts the crossings of each member with the horizontal line, and takes the union of the intervals of all members."""
 from fractions import Fraction
 
 from side_anchor import at_height, levels_of
 
 
 def covered(members, y, up):
-    """Just above the height (up = 1) or just below (-1): intervals of pairs (x, x per height away from it), joined."""
+    """The intervals covered just above the height (up = 1) or just below it (-1), joined. An end is a pair: x, and
+    the change of x per unit of height away from y."""
     found = []
     for edges in members:
         ends = []
@@ -32,8 +33,8 @@ def intervals(members, y):
 
 
 def anchor(members, unit):
-    """members: the edges of each member, as integers, `unit` of them to one; a member is the set that its edges enclose
-    by the even-odd rule."""
+    """members: the edges of each member, in integers; one unit of the layer is `unit` integers. A member is the set
+    that its edges enclose by the even-odd rule."""
     levels = levels_of([e for edges in members for e in edges])
     low = min(y for y in levels if covered(members, y, 1))
     high = max(y for y in levels if covered(members, y, -1))

@@ -1,8 +1,8 @@
-/* Reads lines "NAME SET" and prints "NAME x y", the anchor of each set. Lines "NAME SET LINES { CORNERS { x y } } AREAS
- * { SET }" and prints "NAME x y x y", its anchor and its side anchor, where these lines and areas are barriers. A SET
- * is "POLYGONS { RINGS { CORNERS { x y } } }". The rule for anchors says "an interior point", and the library chooses:
- * rules.py asks for its choice here, and sees for itself that it is one. The side anchor is asked for by
- * side_anchor_cases.py, which knows its rule. */
+/* Prints anchors for rules.py and side_anchor_cases.py. For each input line "NAME SET" it prints "NAME x y", the anchor
+ * of the set. For each line "NAME SET LINES { CORNERS { x y } } AREAS { SET }" it prints "NAME x y x y", the anchor and
+ * the side anchor, with these lines and areas as barriers. A SET is "POLYGONS { RINGS { CORNERS { x y } } }", with
+ * numbers in place of the words in capitals. rules.py tests only that an anchor is an interior point;
+ * side_anchor_cases.py compares anchors with their exact rule. */
 #include "displacement/layer/sides.h"
 
 #include <stdio.h>

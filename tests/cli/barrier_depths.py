@@ -1,10 +1,10 @@
 """Features beside lines, points and areas, each pair far from the next: python3 barrier_depths.py SUNDER CASES SEED
 
-The report of `check` on each pair is computed again by brute force in fractions (exact_plane.py): do they meet, are
-they nearer than half the width plus the gap, the distance, and the length of the least translation that separates them.
-Then features are shifted, and what
-`check --before` calls worse is asked likewise: between stored geometries, without width and gap; disjoint is better than met;
-a feature inside an area before and after is no worse."""
+The report of `check` on each pair is computed again by brute force in fractions (exact_plane.py): whether the two
+meet, whether they are nearer than half the width plus the gap, their distance, and the length of the least
+translation that separates them. Then features are shifted, and the pairs that `check --before` reports as worse are
+computed again by its rule: it compares stored geometries, without width and gap; disjoint is better than meeting; a
+feature that is inside an area before and after is not worse."""
 import math
 import os
 import random
@@ -19,11 +19,11 @@ from exact_plane import Outline, distance_square, interiors_meet, least_square, 
 gdal.UseExceptions()
 ogr.UseExceptions()
 gdal.SetConfigOption("OGR_SQLITE_SYNCHRONOUS", "OFF")
-APART = 1000  # from case to case
+APART = 1000  # distance between cases
 GAP = Fraction(1, 2)
 WIDTHS = (0, 1, 2, 3.5)
-CLOSE = 1e-12  # a length, rounded several times on its way to a text
-FIGURES = [  # outer ring, yard
+CLOSE = 1e-12  # relative tolerance of a length, which is rounded several times before it is printed
+FIGURES = [  # outer ring, courtyard
     ([(0, 0), (8, 0), (8, 4), (0, 4)], []),
     ([(0, 0), (8, 0), (8, 4), (4, 4), (4, 8), (0, 8)], []),
     ([(0, 0), (12, 0), (12, 8), (8, 8), (8, 4), (4, 4), (4, 8), (0, 8)], []),
@@ -33,7 +33,8 @@ FIGURES = [  # outer ring, yard
 
 
 def draw_barrier(rng):
-    """Rings and lines; on the features' own coordinates, so that it runs along walls, through corners and yards."""
+    """Rings and lines on coordinates of the features, so that they run along walls, through corners and
+    courtyards."""
     step = rng.choice((1, 4))
 
     def point():
@@ -80,7 +81,8 @@ def write(path, name, texts, widths=None):
 
 
 def listed(words):
-    """Lines of `check` about barriers: FID -> fields; every pair is of one number."""
+    """The lines of `check` about barriers: FID -> fields; the feature and the barrier of a pair have the same
+    number."""
     done = subprocess.run(words, capture_output=True, text=True)
     if done.returncode not in (0, 3):
         raise SystemExit(f"{' '.join(words)}: {done.stderr}")
@@ -108,7 +110,7 @@ class Judge:
             self.trouble.append(f"case {k}: {said}")
 
     def stands(self, k, a, b, width, fields):
-        """The pair as check has it."""
+        """The pair as `check` should report it."""
         required = Fraction(width) / 2 + GAP
         kinds = [f[6] for f in fields]
         if interiors_meet(a, b):

@@ -1,11 +1,12 @@
-"""How the answers to related questions about a layer beside barriers are related: python3 barrier_laws.py
-SUNDER NAME|SOURCE|LAYER|ROADS_SOURCE|ROADS ...
+"""How the results for related inputs with barriers are related: python3 barrier_laws.py SUNDER
+NAME|SOURCE|LAYER|ROADS_SOURCE|ROADS ...
 
-  more      where neither run leaves a conflict, a barrier more, that crosses no feature, costs no less
-  narrower  where neither run leaves a conflict, a narrower barrier costs no more
+  more      with an additional barrier that crosses no feature the cost is no less, if neither run leaves a conflict
+  narrower  with a narrower barrier the cost is no more, if neither run leaves a conflict
 
-are counted by groups of features that could meet in either run, as in layer_laws.py: fewer than one in a hundred may break
-them (of few groups two). Where every group of both runs is proved to be at its optimum, none may."""
+Violations are counted by groups of features that could meet in either run, as in layer_laws.py: fewer than one group
+in a hundred may violate a law (at most two if there are few groups). If every group of both runs is proved optimal,
+none may."""
 import os
 import sys
 
@@ -18,7 +19,7 @@ from rules_layers import Grid, Lattice, chains
 CELL = 32.0
 WIDTHS = (0, 2, 5)
 GAP = 3.0
-LIMIT = 10.0  # the same in all runs, so that none takes long over what has no room
+LIMIT = 10.0  # the same in all runs; it bounds the time spent on conflicts that have no solution
 asked = {}
 
 
@@ -48,7 +49,8 @@ def that_cross_nothing(shapes, lines):
 
 
 def compare(name, law, boxes, easy, hard):
-    """Where all is proved a breach is one; the optimum is known to a millionth."""
+    """Counts violations. If both runs are proved optimal, a violation is an error; proved costs are within a
+    millionth of the optimum."""
     proved = easy.proved and hard.proved
     before = laws.tally.get(law, [0, 0, 0])[2]
     laws.compare(law, boxes, GAP + max(WIDTHS), easy, hard)
@@ -86,7 +88,7 @@ def main():
         examine(sys.argv[1], name, read(path, layer), read(roads, roads_layer))
     for law, (all_, more, dearer) in laws.tally.items():
         if not asked.get(law):
-            laws.trouble.append(f"{law}: never asked where all is proved")
+            laws.trouble.append(f"{law}: no pair of runs is proved optimal, so the law was not tested exactly")
         print(f"{law}: {all_} groups, {more} with more conflicts, {dearer} dearer; {asked.get(law, 0)} pairs of runs "
               "all proved")
         # A larger number of conflicts is no violation: the law does not cover remaining conflicts.

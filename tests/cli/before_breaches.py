@@ -1,10 +1,10 @@
-"""Breaks each rule of a separated layer ten times, by one unit in the last place where the rule is about a length, and asks
-whether `sunder check --before` names every breach:
+"""Violates each rule of a separated layer ten times (by one unit in the last place if the rule is about a length),
+and checks that `sunder check --before` reports every violation:
 
     python3 before_breaches.py SUNDER SOURCE LAYER ROADS GAP LIMIT
 
-ROADS is the argument of --barrier. The layer as `separate` wrote it must have no breach at all. Breaches are planted with
-fractions and exact_plane.py, which share nothing with the program."""
+ROADS is the argument of --barrier. For the layer as `separate` wrote it no violation may be reported. Violations are
+constructed with fractions and exact_plane.py, which share no code with the program."""
 import json
 import math
 import os
@@ -23,7 +23,7 @@ ogr.UseExceptions()
 gdal.SetConfigOption("OGR_SQLITE_SYNCHRONOUS", "OFF")
 MOVES = ("worse", "limit", "side", "jump", "not_a_translate", "lost")
 WANTED = 10
-NEAR = 30.0  # how far from a feature its neighbours and roads are looked for, in units of the layer
+NEAR = 30.0  # neighbours and roads up to this distance from a feature are considered, in units of the layer
 
 
 def exact(chain):
@@ -36,7 +36,7 @@ def outline(geometry):
 
 
 def walk(geometry, change):
-    """Calls change(x, y) for each vertex; False where it answers None."""
+    """Calls change(x, y) for each vertex; returns False if change() returns None."""
     if geometry.GetGeometryCount():
         return all(walk(geometry.GetGeometryRef(i), change) for i in range(geometry.GetGeometryCount()))
     for i in range(geometry.GetPointCount()):
@@ -48,7 +48,7 @@ def walk(geometry, change):
 
 
 def moved(geometry, t):
-    """The exact translate, or None where doubles cannot hold it."""
+    """The exact translate, or None if its coordinates are not doubles."""
     def add(x, y):
         at = x + float(t[0]), y + float(t[1])
         return at if (Fraction(at[0]), Fraction(at[1])) == (x + t[0], y + t[1]) else None
@@ -57,7 +57,8 @@ def moved(geometry, t):
 
 
 def unit_of(geometry):
-    """Multiples of this keep the vertices doubles nearly everywhere: the last place of the largest coordinate."""
+    """A step: for nearly all vertices, multiples of it can be added without rounding. It is one unit in the last
+    place of the largest coordinate."""
     x0, x1, y0, y1 = geometry.GetEnvelope()
     return Fraction(math.ulp(max(map(abs, (x0, x1, y0, y1))) + NEAR))
 
@@ -83,11 +84,11 @@ class Town:
             self.move[f.GetFID()] = Fraction(f.GetField("sunder_dx") or 0.0), Fraction(f.GetField("sunder_dy") or 0.0)
 
     def geometry(self, fid):
-        feature = self.layer.GetFeature(fid)  # owns what GetGeometryRef() lends
+        feature = self.layer.GetFeature(fid)  # keep it alive while the result of GetGeometryRef() is in use
         return feature.GetGeometryRef().Clone()
 
     def valid(self, fid):
-        """Features that are repaired or skipped obey the same rules, but not as plainly as the planting here."""
+        """Is the feature valid? Repaired and skipped features obey the same rules, but are harder to use here."""
         geometry = self.geometry(fid)
         return geometry.GetArea() > 0 and geometry.IsValid()
 
@@ -105,14 +106,14 @@ class Town:
         return [e for g in self.near(self.roads, fid).values() for e in outline(g).edges if e[0] != e[1]]
 
 
-# ---- Breaches: each yields the FIDs that must be named, and the new geometries by FID (None: the feature goes)
+# ---- Violations: each gives the FIDs that must be reported, and the new geometries by FID (None: removed)
 
 def lost(town, fid):
     yield (fid,), {fid: None}
 
 
 def not_a_translate(town, fid):
-    """One vertex, which is not where a ring begins and ends, moves by one unit in the last place."""
+    """Moves one vertex, not the first one of its ring, by one unit in the last place."""
     geometry, seen = town.geometry(fid), [0]
 
     def nudge(x, y):
@@ -130,11 +131,12 @@ def limit(town, fid):
 
 
 def crossing_move(unit, anchor, edges, aim):
-    """A move from the anchor to just beyond `aim`, whose way meets one of the edges; one unit less does not."""
+    """A move that takes the anchor just beyond `aim`: its path meets one of the edges, and a path one unit shorter
+    does not."""
     way = aim[0] - anchor[0], aim[1] - anchor[1]
     axis = 0 if abs(way[0]) >= abs(way[1]) else 1
 
-    def at(steps):  # along the longer axis in units, the other coordinate rounded
+    def at(steps):  # whole units along the longer axis, the other coordinate rounded
         t = [Fraction(0), Fraction(0)]
         t[axis] = steps * unit
         t[1 - axis] = to_unit(way[1 - axis] * t[axis] / way[axis], unit)
@@ -154,7 +156,7 @@ def crossing_move(unit, anchor, edges, aim):
 
 
 def side(town, fid):
-    """Moves the anchor onto the nearest road, or just beyond it. No road met the feature at its start."""
+    """Moves the anchor onto the nearest road, or just beyond it. The feature met no road at the start."""
     if fid not in town.anchor:
         return
     edges, shape = town.road_edges(fid), outline(town.geometry(fid))
@@ -181,7 +183,7 @@ def nearest_place(p, edges):
 
 
 def jump(town, fid):
-    """The anchor comes, relative to a neighbour, onto the neighbour's old outline."""
+    """Moves the anchor, relative to a neighbour, onto the neighbour's old outline."""
     if fid not in town.anchor or not town.alone(fid):
         return
     anchor = exact([town.anchor[fid]])[0]
@@ -197,7 +199,7 @@ def jump(town, fid):
 
 
 def worse(town, fid):
-    """Two that are too near, back at their places, one of them a unit nearer to the other."""
+    """Puts two features that are too near back at their original places, one of them one unit nearer to the other."""
     geometry = town.geometry(fid)
     unit, shape = unit_of(geometry), outline(geometry)
     for other, neighbour in town.near(town.layer, fid).items():
@@ -215,7 +217,7 @@ def worse(town, fid):
 
 
 def plant(town, rule, draw):
-    """Up to WANTED breaches that do not share a feature: what must be named, and all new geometries."""
+    """Up to WANTED violations, with different features: the FIDs that must be reported, and all new geometries."""
     named, changed = [], {}
     fids = sorted(f for f in town.block if town.valid(f))
     draw.shuffle(fids)
@@ -249,7 +251,7 @@ def write(town, changed, path):
 
 
 def breaches(words):
-    """(kind, FIDs) of all that `check --before` finds of MOVES; and its counts."""
+    """(kind, FIDs) of all violations by moves that `check --before` finds; and its counts."""
     done = subprocess.run([*words, "--stats", "b.json"], capture_output=True, text=True, check=False)
     if done.returncode not in (0, 3):
         raise SystemExit(f"check: status {done.returncode}: {done.stderr.strip()}")

@@ -1,12 +1,12 @@
 """Barriers with broken geometry, as other programs write it: rings that are not closed, rings and lines of one to
-three vertices, empty members, coordinates that are no numbers. Each stands near two houses, or around them, where no
-vertex is within reach, as a polygon, a member, a hole, or within a collection; the cases stand 10 km apart.
+three vertices, empty members, coordinates that are not numbers. Each stands near two houses, or around them with no
+vertex within reach, as a polygon, as a member, as a hole, or within a collection. Cases are 10 km apart.
 
     broken_barriers.py       writes houses.csv, and as copies of empty.gpkg
-        open.gpkg            what counts as the sound barriers in closed.gpkg
+        open.gpkg            barriers with open rings, equivalent to the valid ones in closed.gpkg
         one_K.gpkg           single ones of these, drawn by SUNDER_SEED, and closed_K.gpkg
         short.gpkg           rings that enclose nothing, at most ten
-        nan_K.gpkg           single ones with a coordinate that is no number, drawn by SUNDER_SEED
+        nan_K.gpkg           single ones with a coordinate that is not a number, drawn by SUNDER_SEED
 """
 import os
 import random
@@ -43,7 +43,7 @@ def square(r, x, half):
 
 
 def forms(r, x, half):
-    """A function that makes a geometry of a ring, for each form; and the ring, open."""
+    """For each form a function that makes a geometry of an open ring; and that ring."""
     far = [(x + 5000, 5000), (x + 5010, 5000), (x + 5000, 5010), (x + 5000, 5000)]
     outer = square(r, x, 4 * half)
     return [polygon,
@@ -60,7 +60,8 @@ def broken_rings(ring):
 
 
 def cases(r):
-    """Lists of broken rings and sound ones, of short ones, and of those that are not finite, each by x."""
+    """Lists of barriers: broken rings and the valid equivalents, short rings, and rings with coordinates that are not
+    finite; each entry with its x."""
     broken, sound, short, nans, x = [], [], [], [], 0
     for half in (6, 900):
         for form in range(4):

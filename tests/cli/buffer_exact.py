@@ -1,13 +1,14 @@
-"""sunder buffer against brute force in exact arithmetic (plane_sets.py), which shares nothing with the library.
+"""Compares sunder buffer with brute force in exact arithmetic (plane_sets.py), which shares no code with the library.
 
     buffer_exact.py PROGRAM SCENES SEED
 
-Membership. Polygons and shapes with small even corners and sides in eight directions, so that every corner of a result is a
-double: in many parts that overlap and share walls, with holes as large as the shape, rooms as wide as it. Whether a place
-belongs to the result, its parts without area included, is asked at corners, middles, differences of corners, and others.
+Membership. Polygons and shapes have small even coordinates and sides in eight directions, so that every corner of a
+result is a double. Polygons have many parts that overlap and share walls, holes as large as the shape, and rooms
+exactly as wide as it. The test asks at corners, midpoints, differences of corners, and other places whether they
+belong to the result, including its parts without area.
 
-Rounding. Triangles at awkward places and scales. What is written is valid, and no corner nor middle of a side is farther
-from the boundary of the exact sum, as `sunder sum --exact` gives it, than max_deviation says.
+Rounding. Triangles at unfavourable places and scales. The written geometry has to be valid, and no corner or midpoint
+of a side may be farther from the boundary of the exact sum (`sunder sum --exact`) than max_deviation says.
 """
 import json
 import os
@@ -20,7 +21,7 @@ from plane_sets import (edges, fault, in_closed, moved, on_segment, overlap, squ
 
 PROGRAM, SCENES, SEED = sys.argv[1], int(sys.argv[2]), int(sys.argv[3])
 EIGHT = [(1, 0), (1, 1), (0, 1), (-1, 1), (-1, 0), (-1, -1), (0, -1), (1, -1)]
-DIGITS = ("--lco", "SIGNIFICANT_FIGURES=25")  # with 17 GDAL writes 0.30000000000000004 as 0.3
+DIGITS = ("--lco", "SIGNIFICANT_FIGURES=25")  # with 17, GDAL writes 0.30000000000000004 for 0.3
 wrong = 0
 
 
@@ -53,7 +54,7 @@ def write(path, features):
 
 
 def read(path, key):
-    """Reads geometries by FID, with numbers as they are written, which is exact."""
+    """Reads geometries by FID. The decimals in the file are read exactly."""
     if not os.path.exists(path):
         sys.exit(f"{path} is missing")
     with open(path, encoding="utf-8") as file:
@@ -65,7 +66,7 @@ def read(path, key):
 
 
 def exact(point):
-    """Integers if possible, since they are fast."""
+    """Integers where possible, for speed."""
     return tuple(int(v) if v == int(v) else F(v) for v in point)
 
 
@@ -112,12 +113,12 @@ def figure(draw, b):
             parts.append([rectangle(x, y, draw.randrange(1, 8) * 2, draw.randrange(1, 8) * 2)])
         elif k == 1:
             parts.append([outline(draw, x, y)])
-        elif k == 2:  # the shape itself: it fits in one place
+        elif k == 2:  # the shape itself, as a hole: it fits in at exactly one place
             parts += moved(b, (x, y))
-        elif k == 3:  # a plate with a hole of its form
+        elif k == 3:  # a plate with a hole of the same form
             ring = moved([[b[0][0]]], (x, y), draw.choice((1, -1)))[0][0]
             parts.append([rectangle(x - 16, y - 16, 40, 40), ring])
-        else:  # rooms, and a corridor as wide as one of its parts
+        else:  # rooms, and a corridor exactly as wide as one of the shape's parts
             xs = [v[0] for v in b[0][0]]
             w = max(xs) - min(xs)
             parts.append([[(x, y), (x + w, y), (x + w, y + 8), (x + w + 6, y + 8), (x + w + 6, y + 20), (x - 6, y + 20),
@@ -182,7 +183,7 @@ def ask(draw, p, b, made, what):
 
 def membership(draw):
     asked = slim = 0
-    each = 8  # figures a shape
+    each = 8  # figures per shape
     for _ in range(max(1, SCENES // each)):
         b = shape(draw)
         figures = [f for f in (figure(draw, b) for _ in range(each)) if not any(fault([part]) for part in f)]
@@ -227,7 +228,7 @@ def ask_rounded(draw, p, b, geometry, allowed):
 
 def rounding(draw, scenes):
     repaired = rounded = 0
-    each = 5  # figures a run
+    each = 5  # figures per run
     for _ in range(scenes // each):
         unit = draw.choice((0.1, 1e-8, 1e-9))
         x, y = draw.choice((0.1, 1e7)), draw.choice((0, 1 / 7, 3e6))
@@ -249,7 +250,7 @@ def main():
     draw = random.Random(SEED)
     asked = membership(draw)
     repaired = rounding(draw, max(60, SCENES))
-    print(f"{asked} places asked, {repaired} polygons repaired in rounding, {wrong} wrong")
+    print(f"{asked} places tested, {repaired} polygons repaired in rounding, {wrong} wrong")
     sys.exit(1 if wrong else 0)
 
 

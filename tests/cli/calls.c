@@ -1,9 +1,9 @@
 /* calls.c: calls the program many times in one process. Loading GDAL takes longer than most tests of arguments; here it
  * is loaded once, and each call runs in a fork.
  *
- * Calls are lines on stdin, arguments separated by blanks, without the program's name. Each is answered by a line on
- * stdout: the exit status, a tab, and the output on stderr with blanks for its line ends. The call's output on stdout
- * is dropped. */
+ * Calls are lines on stdin, arguments separated by blanks, without the program's name. For each call a line is printed
+ * on stdout: the exit status, a tab, and the output on stderr with blanks for its line ends. The call's output on
+ * stdout is dropped. */
 #include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -42,7 +42,7 @@ static void call(char *line, int errors)
     exit(sunder_main(n, words));
 }
 
-/* Until all that hold the other end have closed it. */
+/* Reads until all processes have closed the other end. */
 static void pass_on(int from)
 {
     char said[4096];
@@ -61,12 +61,12 @@ int main(void)
         if (child < 0) fail("fork");
         if (child == 0) close(ends[0]), call(line, ends[1]);
         close(ends[1]);
-        /* The status is printed first. The output waits in the pipe, which none of these calls fills. */
+        /* The status is printed first. The child's messages wait in the pipe, which none of these calls fills. */
         if (waitpid(child, &status, 0) != child) fail("waitpid");
         printf("%d\t", WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status));
         pass_on(ends[0]);
         close(ends[0]);
-        putchar('\n'), fflush(stdout); /* or a child would have it, too */
+        putchar('\n'), fflush(stdout); /* otherwise a child would inherit the buffered line and print it again */
     }
     free(line);
     return 0;

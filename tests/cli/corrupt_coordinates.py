@@ -1,9 +1,9 @@
-"""Houses beside features with one corrupt vertex, drawn by SUNDER_SEED: one by one, in chains of two to five, in rows, on
-all sides of the corrupt feature, beside several such features. With the vertex at 1e10 and beyond, the layer has no more
-conflicts left than with the corrupt features declared fixed; with the same number its cost is not greater. If the houses
-stand on one straight side, far from the corrupt vertex, the cost is no greater than beside a fixed feature with the vertex
-at 1e7 or 1e8. With the vertex at 1e16 and beyond, where a move could only be a multiple of its last place, that feature
-does not move."""
+"""Houses next to features with one corrupt vertex, drawn by SUNDER_SEED: single houses, chains of two to five, rows,
+on all sides of the corrupt feature, next to several corrupt features. With the vertex at 1e10 and beyond, no more
+conflicts remain than with the corrupt features declared fixed; if the numbers are equal, the cost is no greater. If
+the houses stand along one straight side, far from the corrupt vertex, the cost is no greater than beside a fixed
+feature with the vertex at 1e7 or 1e8. With the vertex at 1e16 and beyond, where the feature could only move by
+multiples of the vertex's last place, it does not move."""
 import csv
 import json
 import os
@@ -28,7 +28,7 @@ def house(x, y, wide, high):
 
 
 def wild(r, x, y):
-    """A rectangle with one corner that is corrupt, in x or in y, to either side; and its size."""
+    """A rectangle with one corrupt corner, in x or in y, in the positive or negative direction; and its size."""
     wide, high, corner = r.randint(40, 400) / 8, r.randint(160, 1200) / 8, r.randint(0, 3)
 
     def drawn(value):
@@ -41,8 +41,8 @@ def wild(r, x, y):
 
 
 def chain(r, x, y, wide, high, houses):
-    """From an edge of a rectangle outwards: the first house overlaps it, each other one overlaps or nearly touches the one
-    before."""
+    """A chain of houses outwards from an edge of a rectangle: the first overlaps the rectangle, each other one
+    overlaps the one before, or is nearly touching it."""
     dx, dy = r.choice([(0, -1), (1, 0), (0, 1), (-1, 0)])
     at_x = x + wide * {0: r.random(), 1: 1, -1: 0}[dx]
     at_y = y + high * {0: r.random(), 1: 1, -1: 0}[dy]
@@ -56,7 +56,7 @@ def chain(r, x, y, wide, high, houses):
 
 
 def all_about(r, features):
-    """Chains about each of some corrupt features, which stand one above the other; at the ends there are houses alone."""
+    """Chains around several corrupt features, which are stacked vertically; single houses stand at the ends."""
     x, y, rows = 500000 + r.randint(0, 64) / 8, 5300000 + r.randint(0, 64) / 8, []
     for k in range(features):
         feature, wide, high = wild(r, x, y + 500 * k)
@@ -68,7 +68,7 @@ def all_about(r, features):
 
 
 def on_one_side(r, houses):
-    """Left of a corrupt feature with a straight side: houses one by one, or rows that run away from it."""
+    """Left of a corrupt feature with a straight side: single houses, or rows that lead away from it."""
     x, y, high = 500000 + r.randint(0, 64) / 8, 5300000 + r.randint(0, 64) / 8, 400
     rows = [("wild", lambda v: polygon([(x, y), (v, y), (x + 20, y + high), (x, y + high)]))]
     for k in range(r.randint(1, 4)):

@@ -1,15 +1,16 @@
-"""Pairs of polygonal sets and lines in integers: do interiors meet, how near are they, what is the least translation that
-parts them. Brute force over edges, nothing rounded; doubles only order candidates.
+"""Pairs of polygonal sets and lines in integers: whether their interiors meet, their distance, and the least
+translation that separates them. Brute force over edges; nothing is rounded; doubles only order candidates.
 
-A set is an Outline: closed rings or open lines, each a list of integer points. The inside of rings is by the even-odd rule;
-lines and points have none. Callers bring all numbers to one lattice, so that every coordinate is an integer.
+A set is an Outline: closed rings or open lines, each a list of integer points. The inside of rings is by the even-odd
+rule; lines and points have none. The caller scales all numbers to one lattice, so that every coordinate is an
+integer.
 """
 import math
 from fractions import Fraction
 
 
 class Outline:
-    """Edges, and their box; for lines also single points, as edges of no length."""
+    """The edges, and their bounding box; in lines a single point is an edge of length zero."""
 
     def __init__(self, rings=(), lines=()):
         self.rings, self.lines = rings, lines
@@ -86,7 +87,7 @@ def locate(outline, p):
 
 
 def on_its_left(outline, p, u):
-    """Is the inside on the left of direction u, next to p? p lies on an edge along u and is no end of one."""
+    """Is the inside on the left of direction u at p, which lies on an edge along u and is not an end of one?"""
     w = (-u[1], u[0])
     inside = False
     for a, b in outline.edges:
@@ -94,7 +95,7 @@ def on_its_left(outline, p, u):
         sb = w[0] * (b[1] - p[1]) - w[1] * (b[0] - p[0])
         if (sa > 0) == (sb > 0):
             continue
-        # Where the edge crosses the line p + s w: is s > 0?
+        # if the edge crosses the line p + s w: is s > 0 there?
         d = (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0])
         if d != 0 and (d > 0) == (sb > sa):
             inside = not inside
@@ -102,7 +103,8 @@ def on_its_left(outline, p, u):
 
 
 def pieces(e, other):
-    """The edge, cut where corners of the other lie on it: midpoints, doubled. No edges cross properly."""
+    """Splits the edge at the corners of the other edges that lie on it, and yields the midpoints of the parts,
+    doubled. No edges cross properly."""
     a, b = e
     cuts = {a, b}
     box = edge_box(e)
@@ -119,7 +121,7 @@ def near_edges(outline, box, d=0):
 
 
 def interiors_meet(a, b):
-    """The interior of a, which has area, and that of b; or b's lines and points, if it has no area."""
+    """Do the interior of a, which has area, and that of b meet? If b has no area: b's lines and points."""
     if not boxes_near(a.box, b.box):
         return False
     ea, eb = near_edges(a, b.box), near_edges(b, a.box)
@@ -153,7 +155,7 @@ def interiors_meet(a, b):
 
 
 def lies_in(a, b):
-    """The closed set a (or line) within the closed set b, exactly."""
+    """Is the closed set (or line) a within the closed set b? Exact."""
     if not b.area or not boxes_near(a.box, b.box):
         return False
     if any(cross_properly(e, f) for e in a.edges for f in near_edges(b, edge_box(e))):
@@ -175,7 +177,7 @@ def lies_in(a, b):
 
 
 def corners_lie_in(a, b, d):
-    """Every corner of a in b, or no farther from it than d: what "a lies in b up to d" demands at least."""
+    """Is every corner of a in b, or at most d from it? A necessary condition for "a lies in b up to d"."""
     if not b.area or not boxes_near(a.box, b.box, d):
         return False
     for p in {p for e in a.edges for p in e}:
@@ -199,7 +201,7 @@ def square_to_edge(p, e):
 
 
 def edges_nearer(e, f, d):
-    """Closed segments at a distance less than d, an integer."""
+    """Are the closed segments nearer than d, an integer?"""
     d2 = d * d
     for p, g in ((e[0], f), (e[1], f), (f[0], e), (f[1], e)):
         n, m = square_to_edge(p, g)
@@ -209,7 +211,7 @@ def edges_nearer(e, f, d):
 
 
 def nearer(a, b, d):
-    """Closed sets nearer than d > 0, an integer."""
+    """Are the closed sets nearer than d > 0, an integer?"""
     if not boxes_near(a.box, b.box, d):
         return False
     eb = [(f, edge_box(f)) for f in near_edges(b, a.box, d)]
@@ -227,8 +229,8 @@ def edges_square(e, f):
 
 
 def distance_square(a, b):
-    """Square of the distance of the closed sets, as a fraction. Pairs of edges whose boxes are farther apart than the
-    result so far are skipped."""
+    """Squared distance of the closed sets, as a fraction. Pairs of edges whose boxes are farther apart than the least
+    distance found are skipped."""
     if interiors_meet(a, b) if a.area else b.area and interiors_meet(b, a):
         return Fraction(0)
     best = None
@@ -250,7 +252,7 @@ def box_square(a, b):
 # ---- The least translation ----
 
 def contact_segments(a, b):
-    """Moves u of b at which a corner of one is on an edge of the other: what bounds the moves that part them."""
+    """Moves u of b for which a corner of one lies on an edge of the other. They bound the set of separating moves."""
     corners_a = {p for e in a.edges for p in e}
     corners_b = {p for e in b.edges for p in e}
     found = [((p[0] - v[0], p[1] - v[1]), (q[0] - v[0], q[1] - v[1])) for p, q in a.edges for v in corners_b]
@@ -287,10 +289,11 @@ TOO_MANY = 400_000
 
 
 def least_square(a, b):
-    """The squared length of the least move of b that parts the interiors; None where there is too much to look at.
+    """The squared length of the least move of b that separates the interiors; None if there are too many candidates.
 
-    The nearest place of the closed set of free moves is a foot of the origin on a contact segment, or a crossing of two.
-    First the nearest free foot or end; then the crossings within that distance, nearest first, each asked exactly.
+    The nearest point of the closed set of free moves is the foot of the perpendicular from the origin on a contact
+    segment, or a crossing of two. First the nearest free foot or end is found, then crossings within that distance
+    are tested exactly, nearest first.
     """
     segments = contact_segments(a, b)
     if len(segments) > 20_000:

@@ -1,6 +1,7 @@
-"""Barriers whose corners are all far away, in areas drawn by SUNDER_SEED: half planes, strips, areas with a notch or a hole,
-along an axis or slanted through (0, 0). Their edges pass among houses. With the corners at 1e10 to the greatest double the
-layer has no more conflicts left than with the corners at 1.7e7; where it has as many, it costs no more."""
+"""Barrier areas all of whose corners are far away, drawn by SUNDER_SEED: half planes, strips, areas with a notch or a
+hole, along an axis or slanted through (0, 0). Their edges pass among houses. With the corners at 1e10 up to the
+greatest double no more conflicts remain than with the corners at 1.7e7; if the numbers are equal, the cost is no
+greater."""
 import csv
 import json
 import os
@@ -18,7 +19,7 @@ def ring(points):
 
 
 def slanted(r):
-    """A half plane beside a line through (0, 0), on which all corners are eighths of the far value times an integer."""
+    """A half plane beside a line through (0, 0), with all corners at multiples of an eighth of the far value."""
     dx, dy = r.choice([(1, 1), (1, 2), (3, 1), (2, -1), (-1, 1), (4, -3)])
     side = r.choice([-1, 1])
 

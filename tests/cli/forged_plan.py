@@ -1,10 +1,11 @@
-"""Plans in which one number is another, and all checksums hold: what whoever may write a plan can do.
+"""Plans with one number changed and valid checksums, as anyone with write access to a plan can make them.
 
     forged_plan.py CALLS PLAN SCRATCH [COUNT SEED]
 
-CALLS: tests/calls. PLAN: a plan all of whose shards are done. Each aligned number of 8 and of 4 bytes in each of its files
-becomes 0, all ones (-1, NAN), and huge; COUNT of these, drawn by SEED, or all. Each is given to merge and to a shard. None
-may end by a signal, ask for memory that its files do not account for, or go on without end: what is wrong is printed."""
+CALLS: tests/calls. PLAN: a plan all of whose shards are done. Each aligned number of 8 and of 4 bytes in each of its
+files is replaced by 0, by all ones (-1, NAN), and by a huge number; COUNT of these changes, drawn by SEED, or all.
+Each plan is given to merge and to a shard. No run may end by a signal, allocate memory that its files do not account
+for, or run without end. Failures are printed."""
 
 import os
 import random
@@ -19,7 +20,7 @@ MARK, CELLS_HEAD, ENTRY, PLAN_HEAD, PLAN_NUMBERS, STAMP, CHUNK, END = 16, 16, 80
 
 
 def checksum_of(checksum, data):
-    """gis_checksum_of()."""
+    """The checksum of gis_checksum_of()."""
     for at in range(0, len(data), 8):
         word = int.from_bytes(data[at:at + 8], "little")
         checksum = (checksum ^ word) * 0x9E3779B97F4A7C15 & MASK
@@ -37,7 +38,7 @@ def get(data, at):
 
 
 def seal_spool(cells, features):
-    """Corrects the checksums of cells, and of the list of cells; returns the latter."""
+    """Corrects the checksums of the cells, and of the list of cells; returns the latter."""
     for at in range(MARK + CELLS_HEAD, len(cells) - 8 - ENTRY + 1, ENTRY):
         start, size = get(cells, at + 56), get(cells, at + 64)
         if start + size <= len(features):
@@ -66,7 +67,7 @@ def seal_shard(data, stamp, spool):
 
 
 def seal(files):
-    """Everything as if it had been written so."""
+    """Corrects all checksums, as if the forged number had been written by the program."""
     spool = seal_spool(files["cells"], files["features"])
     of_shards = spool
     if "barriers/cells" in files:

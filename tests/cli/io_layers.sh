@@ -1,6 +1,6 @@
 # shellcheck shell=bash
-# What the tests of reading and writing share: a scratch directory, a few words, and the making of awkward layers.
-# To be sourced. Everything is made with GDAL's own programs.
+# Common parts of the tests of reading and writing, to be sourced: a scratch directory, functions, and layers that are
+# hard to copy. All of it is made with GDAL's own programs.
 
 for tool in ogr2ogr ogrinfo; do
     command -v "$tool" >/dev/null || { echo "skipped: $tool is not installed"; exit 77; }
@@ -11,13 +11,14 @@ cd "$work"
 
 fail() { echo "FAILED: $*"; exit 1; }
 
-# refused STATUS WORDS COMMAND...: it must end with this status and one line on stderr that holds the words.
+# refused STATUS WORDS COMMAND...: the command has to end with this status and one line on stderr that contains the
+# words.
 refused() {
     local status=0 wanted=$1 words=$2
     shift 2
     "$@" >refused.out 2>refused.err || status=$?
     [ "$status" -eq "$wanted" ] || { cat refused.err; fail "exit status $status instead of $wanted: $*"; }
-    [ "$(grep -c '^sunder: error: ' refused.err)" -eq 1 ] || { cat refused.err; fail "no single error line: $*"; }
+    [ "$(grep -c '^sunder: error: ' refused.err)" -eq 1 ] || { cat refused.err; fail "not exactly one error line: $*"; }
     grep -q -e "$words" refused.err || { cat refused.err; fail "\"$words\" is not in the message: $*"; }
     [ -z "$(ls -d .sunder-* 2>/dev/null)" ] || fail "a staging directory is left: $*"
 }
@@ -25,8 +26,8 @@ refused() {
 # Prints features. 15 digits do not distinguish neighbouring doubles; tests that need this compare the stored bytes.
 dump() { ogrinfo -q -ro "$1" "${@:2}"; }
 
-# Layer "Häuser 1" of rich.gpkg: names of its own for everything, constraints, subtypes, Z and M, a null and an empty
-# geometry, FIDs with holes; two houses 1 m apart, so that a gap moves them.
+# Layer "Häuser 1" of rich.gpkg: non-default names for everything, constraints, subtypes, Z and M, a null and an empty
+# geometry, gaps in the FIDs; two houses 1 m apart, so that a gap moves them.
 make_rich() {
     cat >rich.csv <<'CSV'
 nr,wkt,name_of_the_building,kind,height,key,small,yes,f32,json,day,time
@@ -54,7 +55,7 @@ VRT
     GDAL_XML_VALIDATION=NO ogr2ogr -f GPKG rich.gpkg rich.vrt -nln 'Häuser 1' -preserve_fid \
         -lco FID=nr -lco GEOMETRY_NAME=outline -lco IDENTIFIER='The houses' -lco DESCRIPTION='Words; with "signs"' \
         -mo source='Office & Co'
-    # A coded and a range domain, as the GeoPackage schema extension lays them down.
+    # A coded and a range domain, as in the schema extension of GeoPackage.
     ogrinfo -q rich.gpkg -sql "CREATE TABLE IF NOT EXISTS gpkg_data_columns (table_name TEXT NOT NULL, column_name TEXT NOT NULL, name TEXT, title TEXT, description TEXT, mime_type TEXT, constraint_name TEXT, CONSTRAINT pk_gdc PRIMARY KEY (table_name, column_name))" >/dev/null
     ogrinfo -q rich.gpkg -sql "CREATE TABLE IF NOT EXISTS gpkg_data_column_constraints (constraint_name TEXT NOT NULL, constraint_type TEXT NOT NULL, value TEXT, min NUMERIC, min_is_inclusive BOOLEAN, max NUMERIC, max_is_inclusive BOOLEAN, description TEXT, CONSTRAINT gdcc_ntv UNIQUE (constraint_name, constraint_type, value))" >/dev/null
     ogrinfo -q rich.gpkg -sql "INSERT INTO gpkg_extensions SELECT * FROM (VALUES ('gpkg_data_columns', NULL, 'gpkg_schema', 'http://www.geopackage.org/spec121/#extension_schema', 'read-write'), ('gpkg_data_column_constraints', NULL, 'gpkg_schema', 'http://www.geopackage.org/spec121/#extension_schema', 'read-write')) WHERE column1 NOT IN (SELECT table_name FROM gpkg_extensions WHERE table_name IS NOT NULL)" >/dev/null

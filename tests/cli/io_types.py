@@ -1,4 +1,4 @@
-"""Layers of every declared type, with awkward names, FIDs, values and CRSs, and a look at what became of them.
+"""Layers of every declared type, with unusual names, FIDs, values and CRSs; and a comparison of their copies.
 
     python3 io_types.py make FILE.gpkg                     prints the names of the layers
     python3 io_types.py compare IN LAYER OUT [LAYER]       everything that has to survive a separation"""
@@ -8,14 +8,14 @@ from osgeo import gdal, ogr, osr
 
 gdal.UseExceptions()
 ogr.UseExceptions()
-gdal.PushErrorHandler("CPLQuietErrorHandler")  # types beyond the standard of GeoPackage are warned of
+gdal.PushErrorHandler("CPLQuietErrorHandler")  # GDAL warns about types that are not in the GeoPackage standard
 
-LAYERS = {  # declared type, CRS, geometries: the first two with an area overlap
+LAYERS = {  # declared type, CRS, geometries; the first two overlap if they have area
     "polygon z": (ogr.wkbPolygon25D, "EPSG:25832",
                   ["POLYGON Z ((0 0 1,4 0 2,4 4 3,0 0 1))", "POLYGON Z ((3 0 4,7 0 5,7 4 6,3 0 4))"]),
     "Polygon.M": (ogr.wkbPolygonM, "EPSG:31468",  # axes: northing, easting
                   ["POLYGON M ((0 0 1,4 0 2,4 4 3,0 0 1))", "POLYGON M ((3 0 4,7 0 5,7 4 6,3 0 4))"]),
-    "select": (ogr.wkbMultiPolygonZM, "EPSG:2263",  # feet
+    "select": (ogr.wkbMultiPolygonZM, "EPSG:2263",  # US survey feet
                ["MULTIPOLYGON ZM (((0 0 1 5,4 0 2 6,4 4 3 7,0 0 1 5)))", "MULTIPOLYGON ZM (((3 0 1 9,7 0 2 8,7 4 3 7,3 0 1 9)))"]),
     "Häuser": (ogr.wkbUnknown, "EPSG:25832",
                ["POLYGON ((0 0,4 0,4 4,0 0))", "MULTIPOLYGON (((3 0,7 0,7 4,3 0)))", "POINT Z (1 1 5)",
@@ -33,7 +33,7 @@ LAYERS = {  # declared type, CRS, geometries: the first two with an area overlap
     "tin": (ogr.wkbTINZ, "EPSG:25832", ["TIN Z (((0 0 1,4 0 2,4 4 3,0 0 1)))", "TIN Z (((3 0 1,7 0 2,7 4 3,3 0 1)))"]),
 }
 FIDS = [0, -5, 2**62, 17, 18, 19, 20]
-FIELDS = [  # name, type, subtype, width, and what else
+FIELDS = [  # name, type, subtype, width, and other properties
     ("txt", ogr.OFTString, 0, 0, {}), ("t10", ogr.OFTString, 0, 10, {"default": "'it''s'"}),
     ("i", ogr.OFTInteger, 0, 0, {"nullable": False, "default": "7"}), ("i16", ogr.OFTInteger, ogr.OFSTInt16, 0, {}),
     ("b", ogr.OFTInteger, ogr.OFSTBoolean, 0, {}), ("i64", ogr.OFTInteger64, 0, 0, {"unique": True}),
@@ -93,7 +93,7 @@ def compare_layers(a, b, moved_in_place):
     same("FID column", a.GetFIDColumn(), b.GetFIDColumn())
     metadata = a.GetMetadata()
     if moved_in_place:
-        metadata.pop("IDENTIFIER")  # two layers of one file cannot have the same
+        metadata.pop("IDENTIFIER")  # two layers of one file cannot have the same identifier
     same("metadata", metadata, b.GetMetadata())
     same("geometry may be null", a.GetLayerDefn().GetGeomFieldDefn(0).IsNullable(),
          b.GetLayerDefn().GetGeomFieldDefn(0).IsNullable())

@@ -1,4 +1,4 @@
-"""Points and houses in parcels, and whether each is still in its own.
+"""Points and houses in parcels: each has to stay in its own parcel.
 
     python3 kept_sides.py write SEED              writes points.geojson, houses.geojson and parcels.geojson
     python3 kept_sides.py look IN.geojson OUT.gpkg LAYER   prints how many moved, and how many left their parcels

@@ -1,19 +1,18 @@
-"""How the answers to related questions about one layer are related: python3 layer_laws.py
-SUNDER NAME|SOURCE|LAYER[|OPTION] ...
+"""How the results for related inputs are related: python3 layer_laws.py SUNDER NAME|SOURCE|LAYER[|OPTION] ...
 
-  limits  a looser limit leaves no more conflicts (overlaps first, then pairs: one less may cost two that are too near)
-          and, where neither run leaves any, costs no more
-  gaps    a smaller gap costs no more where neither run leaves any
-  place   shifted by what all coordinates hold exactly: the same conflicts, and costs within 1 %
+  limits  with a looser limit no more conflicts remain (overlaps are compared first, then all pairs: one overlap less
+          may leave two more pairs that are too near); if neither run leaves any, the cost is no greater
+  gaps    with a smaller gap the cost is no greater, if neither run leaves a conflict
+  place   shifted by a vector that all coordinates represent exactly: the same conflicts, and costs within 1 %
 
-are counted by groups of features that could meet in either run, over all layers together: fewer than one in a hundred may
-break them (of few groups two). To the byte:
+Violations are counted by groups of features that could meet in either run, over all layers together: fewer than one
+group in a hundred may violate a law (at most two if there are few groups). These hold to the byte:
 
-  a limit longer than the longest move without one changes nothing
-  features in another order have the same moves (twins, which are alike, may change roles)
-  a layer scaled by a power of two, lengths too, has its moves scaled
+  a limit longer than the longest move of the run without a limit changes nothing
+  features in another order have the same moves (identical features may exchange theirs)
+  a layer scaled by a power of two, with all lengths, has its moves scaled
 
-With the option GAP=N a layer is asked about that gap alone."""
+With the option GAP=N a layer is tested with that gap alone."""
 import json
 import math
 import os
@@ -44,7 +43,7 @@ def walk(geometry, change):
 
 
 def write(path, shapes, order, change=lambda x, y: (x, y)):
-    """The shapes in that order; field n says which each is."""
+    """The shapes in that order; field n is the number of the shape."""
     if os.path.exists(path):
         os.remove(path)
     source = ogr.GetDriverByName("GPKG").CreateDataSource(path)
@@ -74,7 +73,7 @@ class Run:
         with open("s.json", encoding="utf-8") as f:
             stats = json.load(f)
         self.longest = stats["displacement"]["max"]
-        self.proved = stats["clusters_optimal"] == stats["clusters"]  # of every group
+        self.proved = stats["clusters_optimal"] == stats["clusters"]  # each group is proved optimal
         result = gdal.OpenEx("o.gpkg", gdal.OF_VECTOR)
         self.move, number = {}, {}
         for f in result.GetLayerByName("l"):
@@ -98,7 +97,8 @@ def find(root, k):
 
 
 def groups(boxes, gap, p, q):
-    """Features whose boxes, swept in either run, come within the gap of each other belong together."""
+    """Groups of features: two are in one group if their boxes, swept along the moves of either run, are within the
+    gap."""
     swept = []
     for k, (x0, x1, y0, y1) in enumerate(boxes):
         dx = (0, p.move[k][0], q.move[k][0])
@@ -128,10 +128,12 @@ def accounts(root, run):
 
 
 def compare(law, boxes, gap, easy, hard, same=False):
-    """easy was asked for less than hard; same: for the same, elsewhere."""
+    """Compares the runs `easy` and `hard`, whose demands are greater; same: demands are equal, the layer is
+    shifted."""
     root = groups(boxes, gap, easy, hard)
     (p, pc, po, length), (q, qc, qo, _) = accounts(root, easy), accounts(root, hard)
-    unit = 2.0**-46 * max(abs(c) for box in boxes for c in box)  # what rounding, and the margin for it, may add to a move
+    # the largest change of a move by rounding and by the margin for it
+    unit = 2.0**-46 * max(abs(c) for box in boxes for c in box)
     count = tally.setdefault(law, [0, 0, 0])
     unlike = {root[a] for a, _ in easy.conflicts ^ hard.conflicts} if same else set()
     for g in set(root):
@@ -149,7 +151,7 @@ def compare(law, boxes, gap, easy, hard, same=False):
 
 
 def exact_shift(boxes, corners):
-    """A vector that every coordinate holds exactly, and comes back from."""
+    """A vector that can be added to and subtracted from every coordinate without rounding."""
     def holds(values, s):
         return all((v + s) - s == v and (v + s) - v == s for v in values)
     found = []
@@ -187,19 +189,19 @@ def examine(sunder, name, shapes, gap):
             other = Run(sunder, "b.gpkg", gap, limit)
             apart = [k for k in range(n) if other.move[k] != runs[limit].move[k] and shapes[k] not in twins]
             if apart or (not twins and other.conflicts != runs[limit].conflicts):
-                trouble.append(f"{name}, gap {gap}, limit {limit}: another order moves {len(apart)} features elsewhere")
+                trouble.append(f"{name}, gap {gap}, limit {limit}: with another order {len(apart)} features have other moves")
     shift = exact_shift(boxes, corners)
     if shift:
         write("b.gpkg", shapes, range(n), lambda x, y: (x + shift[0], y + shift[1]))
         for limit in (None, 5):
             compare("place", boxes, gap, Run(sunder, "b.gpkg", gap, limit), runs[limit], True)
     else:
-        print(f"{name}: no shift is held exactly by all coordinates; not asked")
+        print(f"{name}: no shift is exact for all coordinates; not tested")
     write("b.gpkg", shapes, range(n), lambda x, y: (SCALE * x, SCALE * y))
     for limit in (None, 5):
         large = Run(sunder, "b.gpkg", SCALE * gap, limit and SCALE * limit, SCALE * TOLERANCE)
         if any(large.move[k] != (SCALE * x, SCALE * y) for k, (x, y) in runs[limit].move.items()):
-            trouble.append(f"{name}, gap {gap}, limit {limit}: scaled by {SCALE} it is another layer")
+            trouble.append(f"{name}, gap {gap}, limit {limit}: scaled by {SCALE}, the result is not the scaled one")
 
 
 def main():

@@ -1,10 +1,10 @@
 # shellcheck shell=bash
-# What the tests of the command share. A test sources this first; $work is a scratch directory that goes with the test,
-# and the test stands in it.
+# Common parts of the tests of the command, sourced by each test. $work is a scratch directory, removed at the end, and
+# the current directory of the test.
 #
-#   run ARGS           runs the program; its exit status is $status, what it says in `out` and `err`
+#   run ARGS           runs the program; its exit status is in $status, its stdout and stderr are in `out` and `err`
 #   expect N ARGS      the same, and fails the test unless the status is N
-#   refused N WORDS ARGS  status N, one line on stderr that is an error and holds WORDS, nothing on stdout, no new file
+#   refused N WORDS ARGS  status N, one line on stderr that is an error and contains WORDS, nothing on stdout, no new file
 #   layer FILE NAME TYPE [CRS]  makes a layer from CSV on stdin whose column WKT is the geometry (CRS EPSG:25832; "none")
 set -u
 command -v ogr2ogr >/dev/null && command -v ogrinfo >/dev/null || { echo "skipped: gdal-bin is not installed"; exit 77; }
@@ -27,9 +27,9 @@ run() {
     [ "${1:-},$status" != separate,3 ] || demand_upheld "$@"
 }
 
-# After separate IN.gpkg OUT.gpkg ...: no remaining conflict is worse than before, exactly, by code that reads the two
-# layers. The check is skipped for calls that upheld.py does not know: other formats, units, symbols, barriers,
-# selections of features or of layers.
+# After separate IN.gpkg OUT.gpkg ...: no remaining conflict may be worse than before. An independent script compares
+# the two layers exactly. The check is skipped for calls that upheld.py does not support: other formats, units, symbols,
+# barriers, selections of features or of layers.
 moved_pairs=0
 demand_upheld() {
     local rule=$SUNDER_BUILD/tests/standing_rule input=${2:-} output=${3:-} name= written= gap=0 word
@@ -86,13 +86,13 @@ refused() {
     in_file err
     local lines=${content//[!$'\n']/}
     [ "${#lines}" -eq 1 ] || fail "${#lines} lines on stderr: sunder $*"
-    [[ $content == 'sunder: error: '??* ]] || fail "no error: sunder $*"
+    [[ $content == 'sunder: error: '??* ]] || fail "no error message: sunder $*"
     [[ ${content,,} == *"${words,,}"* ]] || fail "the message does not say '$words': sunder $*"
     [ ! -s out ] || fail "something on stdout: sunder $*"
     cmp -s before after || fail "files changed: sunder $*"
 }
 
-# The words are in the file.
+# Does the file contain the words?
 says() {
     in_file "$1"
     [[ $content == *"$2"* ]] || fail "$1 does not say '$2'"
@@ -110,7 +110,8 @@ layer() {
     rm layer.csv
 }
 
-# A layer made of a text that says nan may hold none: GDAL 3.10 keeps null for it. Is that so? is_null FILE LAYER FID FIELD
+# A layer made from a text with nan may not contain one: GDAL 3.10 writes null instead. Is the value null? is_null FILE
+# LAYER FID FIELD
 is_null() { [ "$(value "$@")" = '(null)' ]; }
 
 # Prints the value of one field of one feature: value FILE LAYER FID FIELD

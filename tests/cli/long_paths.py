@@ -1,10 +1,10 @@
-"""Every kind of path that an option or operand takes, at lengths on both sides of what buffers hold.
+"""Every kind of path that an option or operand takes, at lengths on both sides of the sizes of buffers.
 
-    long_paths.py CALLS DIR     CALLS: tests/calls, which calls the program. DIR holds in.gpkg and wkt; what is wrong is
-                                printed, a line each, then how many calls were made and how many came to their file
+    long_paths.py CALLS DIR     CALLS: tests/calls, which calls the program. DIR holds in.gpkg and wkt. Failures are
+                                printed, a line each, then the number of calls and the number of those that succeeded
 
-A call either does what it does by way of a short path, or ends with 1 or 2 and one sentence. It never makes, changes or
-takes another file: files of the same names stand in the current directory, where a path that became empty would end."""
+A call does the same as with a short path, or it ends with 1 or 2 and one sentence. It never makes, changes or opens
+another file: files of the same names are in the current directory, which a path that became empty would refer to."""
 
 import os
 import subprocess
@@ -12,8 +12,8 @@ import sys
 
 LENGTHS = (255, 256, 511, 512, 1023, 1024, 1900, 1901, 2047, 2048, 4000, 4095, 4096, 5000)
 GDAL_TAKES = 1900 # base/path.h
-SQLITE_TAKES = 400 # a database has a path of at most 512 bytes, with all that is put behind it
-# A kind: the file's name, the call ({} is the path), and the longest path with which it has to succeed.
+SQLITE_TAKES = 400 # SQLite's paths have at most 512 bytes, including the suffixes that it appends
+# A kind of path: the file's name, the call ({} is the path), and the longest path with which the call has to succeed.
 WRITTEN = {
     "gpkg": ("o.gpkg", "separate in.gpkg {}", SQLITE_TAKES),
     "fgb": ("o.fgb", "separate in.gpkg {} --layers main", GDAL_TAKES),
@@ -38,7 +38,7 @@ READ = {
 
 
 def parts_of(length, name, tag):
-    """Nested directories that, with the name, form a path of the wanted number of bytes."""
+    """Nested directories that form, together with the name, a path of the given number of bytes."""
     parts, left = [tag], length - len(tag) - 1 - len(name)
     while left > 0:
         n = left if left <= 101 else min(100, left - 2)
@@ -53,7 +53,7 @@ def parts_of(length, name, tag):
 
 
 def descend(parts):
-    """The last directory, open; made."""
+    """Makes the directories, and returns the innermost one, opened."""
     at = os.open(".", os.O_RDONLY)
     for part in parts:
         try:

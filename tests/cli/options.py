@@ -1,6 +1,6 @@
 """Reads the output of --options-json on stdin. Compares it with --help (`help`: files help.COMMAND), or prints calls
-that the parser has to refuse for a reason that shows how it knows the option (`calls`: a pattern of the message, the
-command, the option)."""
+that the parser has to refuse with a message that shows that it knows the option (`calls`: a pattern of the message,
+the command, the option)."""
 import json
 import re
 import sys
@@ -14,7 +14,7 @@ trouble = []
 
 
 def as_in_help(option):
-    """--gap LENGTH (other spellings) [default]; options with words of their own show no other spellings."""
+    """--gap LENGTH (other spellings) [default]; options with a fixed set of values show no other spellings."""
     text = option["name"]
     if option["metavar"]:
         text += "[=%s]" % option["metavar"] if option["kind"] == "flag_or_enum" else " " + option["metavar"]
@@ -71,7 +71,7 @@ def calls(command):
             yield "needs a value", name
             value = option["values"][0] if option["values"] else A_VALUE.get(kind, "a")
             twice = "%s %s %s %s" % (name, value, name, value)
-            # If the option may be repeated, the missing operand is reported.
+            # If an option may be repeated, the message is about the missing operand.
             yield ("sunder %s needs" % command["name"] if option["repeatable"] else "is given twice"), twice
             if kind == "enum":
                 yield "must be one of", name + "=nonsense"

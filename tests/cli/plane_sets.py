@@ -1,7 +1,8 @@
 """Polygonal sets in exact arithmetic, by brute force: lists of polygons, each a list of rings, each a list of (x, y).
 
-Members may overlap; their union is meant. Numbers are integers or fractions. Every question about areas is put to a sample
-point of each trapezoid between neighbouring vertical lines through all corners and crossings.
+Members may overlap; a list stands for their union. Numbers are integers or fractions. Questions about areas are
+answered by sample points, one in each trapezoid between neighbouring vertical lines through all corners and
+crossings.
 """
 from fractions import Fraction as F
 
@@ -25,7 +26,7 @@ def boxes_apart(a, b, c, d):
 
 
 def cross(a, b, c, d):
-    """In a point inside both."""
+    """Do the segments cross in a point that is inside both?"""
     return side(a, b, c) * side(a, b, d) < 0 and side(c, d, a) * side(c, d, b) < 0
 
 
@@ -35,7 +36,7 @@ def meet(a, b, c, d):
 
 
 def enclosed(polygon, at):
-    """By the even-odd rule; not asked on the boundary."""
+    """Is the point inside, by the even-odd rule? It may not be on the boundary."""
     inside = False
     for ring in polygon:
         for i in range(len(ring)):
@@ -58,7 +59,7 @@ def moved(polygons, by, sign=1):
 
 
 def samples(*sets):
-    """A point inside each cell of the sides of all sets."""
+    """A point inside each cell of the arrangement of the sides of all sets."""
     sides = [s for polygons in sets for s in edges(polygons)]
     xs = {p[0] for s in sides for p in s}
     for i, (a, b) in enumerate(sides):
@@ -77,7 +78,7 @@ def samples(*sets):
 
 
 def within(inner, outer):
-    """Is closed inner part of closed outer?"""
+    """Is the closed set `inner` a subset of the closed set `outer`?"""
     return all(in_open(outer, at) for at in samples(inner, outer) if in_open(inner, at))
 
 
@@ -87,7 +88,7 @@ def overlap(p, q):
 
 
 def touch(p, q, segments=(), points=()):
-    """Does closed p meet closed q, or one of the segments or points?"""
+    """Does the closed set p meet the closed set q, or one of the segments or points?"""
     others = edges(q) + list(segments)
     return (any(meet(a, b, c, d) for a, b in edges(p) for c, d in others)
             or any(in_closed(p, at) for at in points) or any(in_closed(p, s[0]) for s in segments)
@@ -103,7 +104,7 @@ def square_of_distance(at, a, b):
 
 
 def fault(polygons):
-    """Returns why this is not a valid multipolygon of simple features, or None."""
+    """Returns why this is not a valid multipolygon of Simple Features, or None."""
     rings = [ring for polygon in polygons for ring in polygon]
     sides = [(r, i, ring[i], ring[(i + 1) % len(ring)]) for r, ring in enumerate(rings) for i in range(len(ring))]
     for k, (r, i, a, b) in enumerate(sides):

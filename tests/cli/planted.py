@@ -1,10 +1,11 @@
-"""Directories that look like what a killed run left beside its output, of every owner, mode, kind and choice of names.
+"""Directories that look like the remains of a killed run beside its output, of every owner, mode, kind and choice of
+names.
 
-    planted.py make DIR      plants them into DIR, and a file that must not change beside DIR; a list of them in JSON
-    planted.py judge DIR     says what of it is not as it must be, a line each, after a run that wrote DIR/out.gpkg
+    planted.py make DIR      makes them in DIR, and a file beside DIR that must not change; prints a list of them in JSON
+    planted.py judge DIR     after a run that wrote DIR/out.gpkg: prints what is not as it should be, a line each
 
-A stage counts only if it belongs to the effective user, has the mode 0700 and names entries of DIR alone. As another user
-than root nothing can be given away: then only what belongs to the user is planted."""
+A stage is accepted only if it belongs to the effective user, has the mode 0700 and names only entries of DIR. A user
+other than root cannot give files away; then only stages of that user are made."""
 
 import json
 import os
@@ -28,7 +29,7 @@ KINDS = ("directory", "link", "record is a link", "superseded is a link", "recor
 
 
 def variants():
-    """Every mode, every name and every kind, each with all owners and with the sound choice of the others."""
+    """Every mode, every name and every kind, each with all owners and with valid values of the other two."""
     owners = ("own", "nobody") if os.geteuid() == 0 else ("own",)
     for owner in owners:
         for mode in MODES:
@@ -81,7 +82,7 @@ def fill(inside, k, old, kind):
             file.write("planted\n")
     with open(f"{inside}/fresh{k}", "w") as file:
         file.write("planted\n")
-    with open(f"{inside}/victim", "w") as file: # what "../victim" names from superseded~
+    with open(f"{inside}/victim", "w") as file: # the file that "../victim" in superseded~ names
         file.write("planted\n")
     if kind == "record is a directory":
         os.mkdir(f"{inside}/record~")
@@ -96,7 +97,7 @@ def fill(inside, k, old, kind):
 
 
 def listing(path):
-    """All that is below, with owner, mode and content."""
+    """Everything below the path, with owner, mode and content."""
     found = []
     for root, directories, files in os.walk(path):
         for entry in sorted(directories + files):
@@ -138,7 +139,7 @@ def judge(place):
             if there:
                 print(f"{what}: it was not swept")
         elif what == "own, 0700, plain, superseded is a link":
-            continue # the stage counts, and goes; the link in it leads nowhere
+            continue # this stage is accepted and removed; the link in it leads nowhere
         elif not there or listing(stage["inside"]) != stage["before"]:
             print(f"{what}: it was touched")
 

@@ -1,9 +1,9 @@
-"""Are the forces of LAYER_pushes those that hold the result where it is? python3 pushes.py RESULT.gpkg LAYER SHARE
+"""Are the forces in LAYER_pushes in equilibrium? python3 pushes.py RESULT.gpkg LAYER SHARE
 
-Of each block, or feature by itself, that no limit and no conflict holds the forces add up to twice its weight (one a
-member) times its move. SHARE: at least this share of the moved blocks must satisfy it, up to a ten-thousandth of the
-greatest force, since a result is optimal up to a millionth of its cost. Directions have the length 1, and forces are
-greater than 0."""
+For each block (or single feature) that no limit and no conflict restrains, the forces add up to twice its weight (one
+per member) times its move. This has to hold for at least SHARE of the moved blocks, up to a ten-thousandth of the
+greatest force, since a result is optimal up to a millionth of its cost. Directions have length 1, and forces are
+positive."""
 import collections
 import math
 import sqlite3

@@ -2,10 +2,11 @@
 
     rewritten_operands.py PROGRAM SCENES SEED
 
-A scene has polygonal sets (courts with several holes, members that overlap, touch or lie in each other's holes, rings that
-cross or touch themselves, spurs), lines and points. `sum`, `pair`, `route` and `buffer` are asked with the set as it is
-drawn, and as rewritten_rings.py writes it anew. What is printed is compared without seconds and memory, layers byte by byte;
-of the warnings only their number, as they name a vertex by its place in the ring.
+A scene has polygonal sets (courts with several holes, members that overlap, touch or lie in each other's holes, rings
+that cross or touch themselves, spurs), lines and points. `sum`, `pair`, `route` and `buffer` are run with the
+original set, and with the set as rewritten_rings.py rewrites it. The printed results are compared without times and
+memory, layers byte by byte. Only the number of warnings is compared, since they name a vertex by its index in the
+ring.
 """
 import json
 import random
@@ -61,7 +62,7 @@ KINDS = [lambda r, *at: [box(*at)], court, crossed, pinched, two_arms, hole_over
 
 
 def polygon(r, reach=80):
-    """Rings that are closed once, the outer one first."""
+    """Rings, each with one closing vertex, the outer one first."""
     return r.choice(KINDS)(r, quarter(r, reach), quarter(r, reach), 2 + quarter(r, 24), 2 + quarter(r, 24))
 
 
@@ -82,7 +83,8 @@ def anew(way, polygons, seed):
 
 
 def obstacles_anew(way, polygons, lines, points, seed):
-    """A collection; lines are turned with the rings, lines and points shuffled with the members."""
+    """A collection; with rewritten rings its lines are reversed, and lines and points are shuffled with the
+    members."""
     if way in ("reversed", "all"):
         lines = [line[::-1] for line in lines]
     if way in ("shuffled", "all"):
@@ -110,7 +112,7 @@ def compare(what, of_way):
             continue
         asked += 1
         other = of_way(way)
-        # Vertices in the middle of edges make the lattice of a repaired set finer: operations may be others.
+        # Vertices in the middle of edges make the lattice of a repaired set finer: operation counts may differ.
         differ = [key for key in given if given[key] != other.get(key)
                   and not (key == "operations" and way in ("with_middles", "all"))]
         if differ:

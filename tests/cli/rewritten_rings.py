@@ -1,4 +1,4 @@
-"""Layers whose rings are written in other ways, and results without what a way of writing may change.
+"""Layers whose rings are written in other ways, and results without what may depend on the way of writing.
 
     python3 rewritten_rings.py write TOWN.geojson SEED    writes given.geojson, reversed.geojson, ...
     python3 rewritten_rings.py show RESULT.gpkg           prints all rows but the geometries of the features
@@ -23,7 +23,8 @@ def box(x, y, w, h):
 
 
 def extra_features(r, at):
-    """Courts with several holes, members that stand apart, rings that touch themselves, notches, equal arms."""
+    """Houses with several courtyards, separate members, rings that touch themselves, notches, arms of equal
+    length."""
     found = []
     for k in range(24):
         x, y = at[0] + 26 * (k % 6) + r.randrange(8) / 4, at[1] + 26 * (k // 6) + r.randrange(8) / 4

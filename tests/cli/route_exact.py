@@ -1,4 +1,4 @@
-"""Exact geometry that the tests of routes share, in rationals."""
+"""Exact geometry for the tests of routes, in rationals."""
 from fractions import Fraction as F
 from functools import lru_cache
 
@@ -41,7 +41,7 @@ def meets(part, p, q):
 
 
 def rings_of(wkt):
-    """The only polygon's rings, without closing vertices."""
+    """The rings of the only polygon, without closing vertices."""
     rings = []
     for ring in wkt[wkt.index("("):].replace("), (", "),(").split("),("):
         ring = ring.strip("() \n")
@@ -55,7 +55,7 @@ def exact(points):
 
 
 def inside(rings, p):
-    """Is a point that is on no edge inside, by the even-odd rule?"""
+    """Is a point that is not on an edge inside, by the even-odd rule?"""
     odd = False
     for ring in rings:
         for a, b in zip(ring, ring[1:] + ring[:1]):
@@ -76,11 +76,11 @@ def collides(obstacle, robot, p, q):
     for ring in obstacle:
         for a, b in zip(ring, ring[1:] + ring[:1]):
             if any(max(a[k], b[k]) <= low[k] or min(a[k], b[k]) >= high[k] for k in (0, 1)):
-                continue  # beside the open swept set
+                continue  # outside the box of the open swept set
             if meets(swept, a, b):
                 return True
     for k in (0, 1):
         if max(v[k] for v in obstacle[0]) <= low[k] or min(v[k] for v in obstacle[0]) >= high[k]:
-            return False  # the outer ring is beside it
+            return False  # the outer ring is outside the box
     n = len(swept)
     return inside(obstacle, (sum(x for x, _ in swept) / n, sum(y for _, y in swept) / n))

@@ -1,9 +1,9 @@
-"""Shortest routes by brute force in rationals, to compare `sunder route` with. Shares nothing with the library.
+"""Shortest routes by brute force in rationals, compared with `sunder route`. Shares no code with the library.
 
-Obstacles and robots are unions of convex pieces with small whole coordinates, so that they touch, fit and tie all the
-time. The open configuration-space obstacle of two pieces is the interior of the hull of all differences of corners. Every
-corner of these hulls and every crossing of their sides that lies in none of them is a node; every pair of nodes is tried
-against every hull; Dijkstra does the rest with 60 digits.
+Obstacles and robots are unions of convex pieces with small integer coordinates, so that touching, exact fits and ties
+are frequent. The open configuration-space obstacle of two pieces is the interior of the hull of all differences of
+corners. Nodes are the corners of these hulls and the crossings of their sides, unless they lie inside a hull; every
+pair of nodes is tested against every hull; Dijkstra's algorithm runs with 60 digits.
 
     route_oracle.py PROGRAM SCENES SEED
 """
@@ -26,7 +26,7 @@ def free(parts, p, q):
     for part in parts:
         (x0, y0), (x1, y1) = reach(part)
         if high[0] <= x0 or low[0] >= x1 or high[1] <= y0 or low[1] >= y1:
-            continue  # beside the open part
+            continue  # outside the open part
         if meets(part, p, q):
             return False
     return True
@@ -39,7 +39,8 @@ def reach(part):
     box = REACH.get(id(part))
     if box is None:
         xs, ys = [x for x, _ in part], [y for _, y in part]
-        box = REACH[id(part)] = ((min(xs), min(ys)), (max(xs), max(ys)), part)  # the part stays, and its id with it
+        # keeps the part alive, so that its id stays unique
+        box = REACH[id(part)] = ((min(xs), min(ys)), (max(xs), max(ys)), part)
     return box[:2]
 
 
@@ -83,7 +84,7 @@ def merged(path):
 
 
 def shortest(parts, start, goal):
-    """(length, the lexicographically smallest path), or None; the path is None where there are too many of one length."""
+    """(length, the lexicographically smallest path), or None; the path is None if too many have the same length."""
     if start == goal:
         return Decimal(0), [start]
     nodes = nodes_of(parts, start, goal)
@@ -145,7 +146,7 @@ def members(bodies):
 
 
 def random_robot(rng):
-    """Open convex pieces that cover the robot's interior, overlapping, and the robot as it is given to the program."""
+    """Open convex pieces that cover the robot's interior and may overlap, and the robot as WKT for the program."""
     kind = rng.randrange(9)
     ell, frame = [box(0, 0, 3, 1), box(0, 0, 1, 3)], [box(0, 0, 3, 1), box(0, 2, 3, 1), box(0, 0, 1, 3), box(2, 0, 1, 3)]
     if kind == 0:
@@ -162,14 +163,14 @@ def random_robot(rng):
         return ell, "POLYGON ((0 0, 3 0, 3 1, 1 1, 1 3, 0 3, 0 0))"
     if kind == 6:
         return frame, "POLYGON ((0 0, 3 0, 3 3, 0 3, 0 0), (1 1, 1 2, 2 2, 2 1, 1 1))"
-    if kind == 7:  # members that share a wall
+    if kind == 7:  # members that share an edge
         return [box(-1, 0, 3, 1)], members([box(-1, 0, 1, 1), box(0, 0, 2, 1)])
     dart = [[(0, 0), (4, 1), (F(8, 5), F(8, 5))], [(F(8, 5), F(2, 5)), (4, 1), (0, 2)]]
     return dart, "POLYGON ((0 0, 4 1, 0 2, 1 1, 0 0))"
 
 
 def corridor(rng):
-    """Two rooms and a corridor between them that a box of this width exactly fits."""
+    """Two rooms and a corridor between them, exactly as wide as a robot that is a box of this width."""
     w, h = rng.randrange(1, 4), rng.randrange(1, 4)
     pieces = [box(0, h, 6, 5), box(0, -5, 6, 5)]
     if rng.randrange(2):
@@ -178,7 +179,8 @@ def corridor(rng):
 
 
 def cage(rng):
-    """A room around the origin; its door is as wide as the robot, or narrower, or wider, and may lead into a second room."""
+    """A room around the origin; its door is as wide as the robot, narrower, or wider, and may lead into a second
+    room."""
     w = rng.randrange(1, 4)
     door = w + rng.choice([-1, 0, 0, 1])
     pieces = [box(-5, -5, 1, 10), box(-5, -5, 10, 1), box(-5, 4, 10, 1), box(4, -5, 1, 4), box(4, door - 1, 1, 6 - door)]
@@ -190,7 +192,7 @@ def cage(rng):
 
 
 def town(rng):
-    """Many pieces, far enough from each other that most ways are hidden by others."""
+    """Many pieces, far enough from each other that most pairs of nodes do not see each other."""
     pieces = []
     for x in range(-30, 31, 12):
         for y in range(-30, 31, 12):
@@ -242,12 +244,13 @@ def one_scene(program, rng, number):
         start, goal = (F(-38), F(rng.randrange(-30, 31))), (F(44), F(rng.randrange(-30, 31)))
     elif number % 4 == 1:
         start = (F(rng.randrange(-3, 2)), F(rng.randrange(-3, 2)))
-    elif rng.randrange(3) == 0:  # somewhere on the outline
+    elif rng.randrange(3) == 0:  # on a corner of an obstacle
         corners = [c for part in parts for c in part]
         if corners:
             start = tuple(map(F, rng.choice(corners)))
             goal = tuple(map(F, rng.choice(corners)))
-    elif obstacles and rng.randrange(3) == 0:  # where a point of the robot, a corner or between two, is on an obstacle
+    # a point of the robot (a corner, or the midpoint of two) coincides with a corner of an obstacle
+    elif obstacles and rng.randrange(3) == 0:
         body, piece = rng.choice(robot), rng.choice(obstacles)
         r, s, o = rng.choice(body), rng.choice(rng.choice(robot)), rng.choice(piece)
         start = (o[0] - F(r[0] + s[0]) / 2, o[1] - F(r[1] + s[1]) / 2)
@@ -260,7 +263,7 @@ def one_scene(program, rng, number):
     if not free(parts, start, start) or not free(parts, goal, goal):
         where = "start" if not free(parts, start, start) else "goal"
         if done.returncode != 3 or said.get("found") is not False or ("at the " + where) not in (said.get("reason") or ""):
-            trouble.append("collision at the %s was not told" % where)
+            trouble.append("a collision at the %s was not reported" % where)
         kind = "collision"
     else:
         answer = shortest(parts, start, goal)

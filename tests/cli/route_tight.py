@@ -1,6 +1,7 @@
-"""Routes through passages that the robot exactly fits; one unit in the last place less, and there is none; one more, and
-there is one again. Paths are replayed here, in rationals and with no decomposition: the interior of the hull of the
-robot (convex) at both ends of a leg meets an obstacle exactly when an edge of it passes through, or it lies inside.
+"""Routes through passages that the robot fits exactly. If the robot is one unit in the last place wider, there is no
+route; if it is narrower by that, there is one. Paths are verified here in rationals and without a decomposition: the
+interior of the hull of the (convex) robot at both ends of a leg meets an obstacle exactly if an edge of the obstacle
+passes through the hull, or the hull lies inside the obstacle.
 
     route_tight.py PROGRAM FAMILIES
 """
@@ -57,7 +58,7 @@ def route(obstacles, robot, start, goal, name):
 
 
 def three_widths(obstacles, robot, start, goal, name):
-    """The robot as it is, and with its highest corners raised and lowered by one unit in the last place."""
+    """Tests the robot as it is, and with its highest corners raised and lowered by one unit in the last place."""
     top = max(y for _, y in robot)
     for towards, wanted in ((None, True), (math.inf, False), (-math.inf, True)):
         changed = [(x, y if towards is None or y != top else math.nextafter(y, towards)) for x, y in robot]
@@ -84,7 +85,7 @@ def family(size, seed, coordinates):
     goal = (right - max(x for x, _ in robot), floor - min(y for _, y in robot))
     start = (xs[0] - 4 * (max(x for x, _ in robot) - min(x for x, _ in robot)), goal[1])
     if F(goal[0]) + F(max(x for x, _ in robot)) != F(right) or F(goal[1]) + F(min(y for _, y in robot)) != F(floor):
-        return False  # the corner is no double: no question to ask
+        return False  # the exact corner is not a double, so this case is left out
     path = three_widths([p], robot, start, goal, name)
     return len(path) > 2
 
@@ -94,8 +95,8 @@ def box(x0, y0, x1, y1):
 
 
 def maze(teeth):
-    """A comb maze: corridors of width 1 up and down between walls of width 2, as wide as the robot: all of the way is one
-    chain of degenerate segments."""
+    """A maze like a comb: corridors up and down between walls of width 2. Corridors and robot have width 1, so the
+    whole route is one chain of degenerate segments."""
     height = 10.0
     walls = [box(-5.0, -5.0, 0.0, height + 5), box(3.0 * teeth - 2, -5.0, 3.0 * teeth + 5, height + 5),
              box(-1.0, -5.0, 3.0 * teeth, 0.0), box(-1.0, height, 3.0 * teeth, height + 5)]
@@ -111,8 +112,8 @@ def maze(teeth):
 
 
 def keyhole():
-    """A key with a bit is pushed along a slot that it exactly fits, to its only place at the end; and a hole without an
-    entrance, in which the key's place is an isolated free point."""
+    """A key with a bit is pushed along a slot that it fits exactly, to its only possible place at the end; and a hole
+    without an entrance, in which the key's place is an isolated free point."""
     key = [(0.0, 0.0), (6.0, 0.0), (6.0, 1.0), (0.0, 2.0)]
     lock = [[(0.0, -3.0), (20.0, -3.0), (20.0, 5.0), (0.0, 5.0), (0.0, 2.0), (8.0, 2.0), (14.0, 1.0), (14.0, 0.0), (0.0, 0.0)]]
     path = three_widths([lock], key, (-9.0, 0.0), (8.0, 0.0), "key in a keyhole")
@@ -120,20 +121,20 @@ def keyhole():
         fail("key in a keyhole: %s" % path)
     lock = [[(-9.0, -9.0), (20.0, -9.0), (20.0, 9.0), (-9.0, 9.0)], key[::-1]]
     if route([lock], key, (-30.0, 0.0), (0.0, 0.0), "key in a hole")[0]:
-        fail("key in a hole: there is no way in")
+        fail("key in a hole: there is no route into it")
     found, path = route([lock], key, (0.0, 0.0), (0.0, 0.0), "key at rest")
     if not found or path != [(0, 0)]:
         fail("key at rest: %s" % path)
 
 
 def touching_holes():
-    """Two rooms of free space that meet in a vertex only: the way goes through it."""
+    """Two free regions that meet in a single vertex: the route leads through it."""
     lock = [[(-9.0, -9.0), (9.0, -9.0), (9.0, 9.0), (-9.0, 9.0)], [(-6.0, -1.0), (-6.0, 1.0), (1.0, 1.0), (1.0, -1.0)],
             [(1.0, 1.0), (1.0, 6.0), (6.0, 6.0), (6.0, 1.0)]]
     robot = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)]
     if route([lock], robot, (-5.0, -1.0), (5.0, 5.0), "rooms that touch in a corner")[0]:
         fail("rooms that touch in a corner: the robot does not fit through it")
-    # The room (-6, 1) x (-1, 1) and the room (0, 6) x (0, 6) share a square of side 1, the robot's: one free vertex.
+    # The rooms (-6, 1) x (-1, 1) and (0, 6) x (0, 6) share a unit square, the size of the robot: a single free vertex.
     rooms = [[(-9.0, -9.0), (9.0, -9.0), (9.0, 9.0), (-9.0, 9.0)],
              [(-6.0, -1.0), (-6.0, 1.0), (0.0, 1.0), (0.0, 6.0), (6.0, 6.0), (6.0, 0.0), (1.0, 0.0), (1.0, -1.0)]]
     path = three_widths([rooms], robot, (-5.0, -1.0), (5.0, 5.0), "rooms that overlap in a robot")
@@ -142,8 +143,8 @@ def touching_holes():
 
 
 def slanted(rng, far):
-    """Two rooms and a slanted corridor, as wide as a parallelogram, whose corners are doubles with all of their bits in use;
-    then one wall moved by one unit in the last place, either way."""
+    """Two rooms and a slanted corridor exactly as wide as a parallelogram whose corners are doubles that use all
+    their bits; then one wall is moved by one unit in the last place, in either direction."""
     unit = 2.0 ** -28 if far else 2.0 ** -40
     at = [rng.randrange(2 ** 23, 2 ** 24) + rng.randrange(2 ** 28) * 2.0 ** -28 if far else rng.random() for _ in "xy"]
     px, py = (round(c / unit) * unit for c in at)
@@ -165,12 +166,12 @@ def slanted(rng, far):
     name = "slanted corridor at %r %r" % (px, py)
     sums = ((px, vx), (py, vy), (qx, vx), (qy, vy), (px, 8 * ux), (py, 8 * uy), (ux, vx), (uy, vy))
     if any(F(a + b) != F(a) + F(b) for a, b in sums):
-        fail("%s: its corners are no doubles" % name)
+        fail("%s: its corners are not doubles" % name)
     found, path = route([rooms(0)], robot, start, goal, name)
     if not found or path != [tuple(map(F, start)), tuple(map(F, goal))]:
         fail("%s: found %s, path %s" % (name, found, path))
     if route([rooms(1)], robot, start, goal, name + ", narrower")[0]:
-        fail("%s, narrower: there is no way" % name)
+        fail("%s, narrower: there is no route" % name)
     if not route([rooms(-1)], robot, start, goal, name + ", wider")[0]:
         fail("%s, wider: there is a way" % name)
 
@@ -180,7 +181,7 @@ for seed in range(6):
 asked = sum(family(size, seed, coordinates) for size in (12, 30) for seed in (1, 2, 3)
             for coordinates in ("integer", "map"))
 if asked < 6:
-    fail("only %d mazes of the family were asked" % asked)
+    fail("only %d mazes of the family were tested" % asked)
 for teeth in (2, 3, 8, 20):
     maze(teeth)
 keyhole()

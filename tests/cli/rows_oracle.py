@@ -1,11 +1,11 @@
-"""Rows found by another program: python3 rows_oracle.py SUNDER SEED LAYERS.
+"""Rows found by an independent program: python3 rows_oracle.py SUNDER SEED LAYERS.
 
-Makes layers of small towns that stand far from each other, finds their rows by the rule of src/displacement/rows/README.md
-in the plainest way, and compares them with LAYER_rows and with the figures of --stats. Blocks are taken from the output.
-A town in which a decision is within MARGIN of its limit is left out, and counted. The same layer is then written in other
-ways (rings, order, place, mirrored, turned), and must have the same rows.
+Makes layers of small towns that are far from each other, finds their rows by a direct implementation of the rule in
+src/displacement/rows/README.md, and compares them with LAYER_rows and with the numbers of --stats. Blocks are taken
+from the output. A town in which a quantity is within MARGIN of its threshold is left out, and counted. The same layer
+is then written in other ways (rings, order, place, mirrored, turned), and must have the same rows.
 
-Only Python's standard library is used, and no code of the program."""
+Uses only Python's standard library, and no code of the program."""
 import cmath
 import json
 import math
@@ -17,9 +17,9 @@ import sys
 from fractions import Fraction
 
 MARGIN = 1e-9
-GRID = 2.0**20  # coordinates are multiples of its inverse: towns are shifted without rounding
-APART = 4096.0  # between the origins of two towns
-TOWNS = 12  # in a layer
+GRID = 2.0**20  # coordinates are multiples of 1 / GRID, so that towns are shifted without rounding
+APART = 4096.0  # distance between the origins of two towns
+TOWNS = 12  # towns in a layer
 FAR = 10 * TOWNS * APART
 
 # ---- The rule ------------------------------------------------------------------------------------------------------------
@@ -28,7 +28,7 @@ REACH, ANGLE, STRAIGHT, SHARED, DEPTHS, LEAST = 4, 15, 0.1, 0.5, 2.5, 3
 
 
 class Undecided(Exception):
-    """A decision is within the margin of its limit."""
+    """A quantity is within the margin of its threshold."""
 
 
 def at_most(a, b):
@@ -37,15 +37,15 @@ def at_most(a, b):
 
 
 def all_of(*answers):
-    """False if one answer is; None if one is open."""
+    """False if one of the answers is; otherwise None if one is undecided."""
     return False if any(a is False for a in answers) else None if None in answers else True
 
 
 class House:
-    """A feature: rings of points without closing ones, in coordinates of its town."""
+    """A feature: rings of points without closing ones, relative to the origin of its town."""
 
     def __init__(self, parts, fixed=0, ignored=0, block=None):
-        self.parts = parts  # of rings
+        self.parts = parts  # of its rings
         self.fixed, self.ignored, self.block = fixed, ignored, block
         self.corners = [p for rings in parts for ring in rings for p in ring]
         self.edges = [(r[k - 1], r[k]) for rings in parts for r in rings for k in range(len(r))]
@@ -55,7 +55,7 @@ class House:
 
 
 def walls_of(edges):
-    """The sum of walls as vectors at four times their angle, and their length."""
+    """The sum of the walls as vectors with their angle times four, and their total length."""
     total, length = 0, 0
     for (ax, ay), (bx, by) in edges:
         d = abs(complex(bx - ax, by - ay))
@@ -76,7 +76,7 @@ def holds(house, p):
 
 
 def turn(a, b, c):
-    """Which side of ab is c on? 0: undecided."""
+    """On which side of ab is c? 0: undecided."""
     area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
     return 0 if abs(area) <= MARGIN * (1 + math.dist(a, b)) else 1 if area > 0 else -1
 
@@ -90,7 +90,7 @@ def foot(p, a, b):
 
 
 def links_of_edges(e, f):
-    """The links from the ends of two segments to the other one."""
+    """The links from the ends of each of two segments to the nearest point of the other one."""
     return [(p, foot(p, *f)) for p in e] + [(foot(p, *e), p) for p in f]
 
 
@@ -111,12 +111,12 @@ def exact_foot_square(p, a, b):
 
 
 def off_box(segment, box):
-    """A lower bound of the distance of a segment from a box; of two corners: the distance of their box."""
+    """A lower bound of the distance of a segment from a box; for a segment given by two corners: of its box."""
     return math.hypot(*(max(0, min(p[c] for p in segment) - box[c + 2], box[c] - max(p[c] for p in segment)) for c in (0, 1)))
 
 
 class Near:
-    """Two houses: their distance and their shortest links (the outermost ones, if there are many)."""
+    """Two houses: their distance and their shortest links (the two outermost ones if there are many)."""
 
     def __init__(self, f, g, p, q, reach):
         self.f, self.g, self.p, self.q = f, g, p, q
@@ -168,7 +168,7 @@ def apart(e, f):
 
 
 def stand_side_by_side(p, q, gap):
-    """None: no; else the direction towards q, as a unit vector, and the offset."""
+    """None: not neighbours; else the direction towards q, as a unit vector, and the offset."""
     share = [at_most(h.length * STRAIGHT, abs(h.walls)) for h in (p, q)]
     if False in share:
         return None
@@ -196,7 +196,7 @@ def stand_side_by_side(p, q, gap):
 
 
 def judge(axis, along, across, left, gap):
-    """left: -1 if `across` was measured to the right of the axis."""
+    """left: -1 if `across` was measured to the right of the axis, else 1."""
     shorter = [min(b - a for a, b in extents) for extents in (along, across)]
     depths = sorted(b - a for a, b in across)
     if sum(along[0]) > sum(along[1]):
@@ -213,7 +213,7 @@ def judge(axis, along, across, left, gap):
 
 
 class Edge:
-    """Two bodies side by side: i, j; the houses f, g of theirs that are nearest each other; direction; offset."""
+    """Two bodies side by side: i, j; their houses f, g that are nearest to each other; the direction; the offset."""
 
     def __init__(self, i, j, near, axis, offset):
         self.i, self.j, self.f, self.g, self.near, self.axis, self.offset = i, j, near.f, near.g, near, axis, offset
@@ -248,7 +248,7 @@ def any_of(answers):
 
 
 def tried(question, *arguments):
-    """The answer; None: undecided."""
+    """The judgement of two houses; None: undecided."""
     try:
         return question(*arguments)
     except Undecided:
@@ -263,7 +263,7 @@ def stand_alone(pair, near, distance, bodies):
 
 
 def made_edge(i, j, near, houses, lines, gap):
-    """The edge; False: the two do not stand side by side; None: undecided."""
+    """The edge; False: the two are not side by side; None: undecided."""
     try:
         found = stand_side_by_side(houses[near.f], houses[near.g], gap)
     except Undecided:
@@ -275,7 +275,7 @@ def made_edge(i, j, near, houses, lines, gap):
 
 
 def edges_of(bodies, houses, lines, gap):
-    """bodies: lists of houses' numbers."""
+    """The edges of all bodies, which are lists of numbers of houses."""
     reach = REACH * gap
     nearest = {}
     for j in range(len(bodies)):
@@ -290,7 +290,7 @@ def edges_of(bodies, houses, lines, gap):
         alone = i < j and at_most(nears[0].distance, reach) and stand_alone((i, j), nears[0], distance, len(bodies))
         if alone is False:
             continue
-        # Which of several members of a block is nearest makes no difference if none makes an edge.
+        # If several members of a block are equally near, the choice makes no difference as long as none makes an edge.
         made = [made_edge(i, j, n, houses, lines, gap) for n in nears]
         if set(made) == {False}:
             continue
@@ -312,7 +312,7 @@ def side_of(body, houses, direction):
 
 
 def rows_of(bodies, houses, lines, gap):
-    """The rows: lists of edges, each followed from its first body; and whether it is a ring."""
+    """The rows: for each the list of its edges, in order from its first body, and whether it is a ring."""
     side = [{} for _ in bodies]
     for edge in edges_of(bodies, houses, lines, gap):
         for body in (edge.i, edge.j):
@@ -339,7 +339,7 @@ def rows_of(bodies, houses, lines, gap):
 
 
 class Row:
-    """A row as it is to be written: the houses by FID, kinks before, and what the moves add to them."""
+    """A row as it should be written: its houses by FID, its kinks before the moves, and the changes by the moves."""
 
     def __init__(self, row, ring, fids):
         chain = []
@@ -356,7 +356,7 @@ class Row:
         self.chain = self.listed(lambda fid: fid)
 
     def listed(self, number):
-        """The houses from the end with the lower number on; those of a ring from its lowest number on, which ends it."""
+        """The houses from the end with the lower number; those of a ring start and end with its lowest number."""
         chain = list(self.houses)
         if not self.ring:
             return chain if number(chain[0]) < number(chain[-1]) else chain[::-1]
@@ -393,7 +393,7 @@ def box(w, d):
 
 
 def outline(rng, w, d):
-    """A house of about that size: a box, or more than that."""
+    """A house of about that size: a box, or a more complicated form."""
     kind = rng.randrange(12)
     if kind == 0:  # an L
         return [(0, 0), (w, 0), (w, d / 2), (w / 2, d / 2), (w / 2, d), (0, d)]
@@ -402,16 +402,16 @@ def outline(rng, w, d):
     if kind == 2:  # round: it has no direction
         n = rng.choice((6, 8, 12))
         return [(w / 2 * (1 + math.cos(2 * math.pi * k / n)), w / 2 * (1 + math.sin(2 * math.pi * k / n))) for k in range(n)]
-    if kind == 3:  # walls that are nearly collinear
+    if kind == 3:  # with walls that are nearly collinear
         return [(0, 0), (w / 2, rng.choice((0, 2.0**-20))), (w, 0), (w, d), (0, d)]
     return box(w, d)
 
 
 def house(rng, w, d, angle, at):
     parts = [[turned(outline(rng, w, d), angle, at)]]
-    if rng.random() < 0.06:  # a second part
+    if rng.random() < 0.06:  # with a second part
         parts.append([turned([(x, y + d + 1.5) for x, y in box(w / 2, 2)], angle, at)])
-    elif rng.random() < 0.04:  # a yard
+    elif rng.random() < 0.04:  # with a courtyard
         parts = [[turned(box(w, d), angle, at), turned([(2, 2), (2, d - 2), (w - 2, d - 2), (w - 2, 2)], angle, at)]]
     return House(parts, fixed=int(rng.random() < 0.1), ignored=int(rng.random() < 0.04))
 
@@ -441,7 +441,7 @@ def street(rng, gap, n, lines):
 
 
 def terrace(rng, gap, n):
-    """Houses that touch, in blocks; their coordinates are short, so that many distances and offsets are equal."""
+    """Houses that touch, in blocks; coordinates have few digits, so that many distances and offsets are equal."""
     houses, x = [], 0.0
     for _ in range(n):
         w, d = rng.choice((6, 7.5, 8)), rng.choice((8, 8, 9.25))
@@ -467,7 +467,7 @@ def grid(rng, gap, m, n):
 
 
 def heap(rng, n):
-    """Houses anywhere: they overlap, lie in each other, and are huge beside tiny."""
+    """Houses at random places: overlapping, nested, and huge ones next to tiny ones."""
     return [house(rng, rng.choice((0.5, 5, 9, 30)), rng.choice((5, 9)), rng.choice((0, rng.uniform(-3, 3))),
                   (rng.uniform(0, 60), rng.uniform(0, 60))) for _ in range(n)]
 
@@ -499,7 +499,7 @@ def town(rng, gap, number, blocks):
 
 
 class Layer:
-    """Towns, the program's words, and how it is written."""
+    """Random towns, the options of the program, and the way in which the layer is written."""
 
     def __init__(self, rng):
         self.gap = rng.choice((1.0, 3.0, 3.0, 5.0, 12.0, 0.0))
@@ -517,7 +517,7 @@ class Layer:
         return APART * t, APART * (t % 3)
 
     def houses(self):
-        """Each with its FID and town."""
+        """All houses with their FIDs and towns."""
         fid = 0
         for t, (houses, _) in enumerate(self.town):
             for h in houses:
@@ -550,7 +550,7 @@ def AS_IS(points):
 def rewritten(points):
     points = points[::-1]
     k = len(points) // 2
-    return points[k:] + points[:k] + points[k:k + 1]  # the last one doubled
+    return points[k:] + points[:k] + points[k:k + 1]  # the closing point repeated
 
 
 def lines_as_written(layer, towns, change):
@@ -649,12 +649,12 @@ def expected_rows(layer, t, output):
 
 
 def differ(a, b):
-    """Kinks are sums of some numbers of the size of a town."""
+    """Kinks are sums of a few numbers of the size of a town, hence the tolerance."""
     return abs(a - b) > 1e-6
 
 
 def unlike(row, chain, written, layer, output, change, exactly):
-    """Why the written row is not the expected one; None: it is."""
+    """How the written row differs from the expected one; None: it does not."""
     least, bodies, before, after, blob = written
     if least != min(chain) or bodies != row.bodies:
         return f"row {least} of {bodies}"
@@ -680,7 +680,7 @@ def compare(what, layer, expected, output, change=same, exactly=True):
     for written in output.rows:
         reasons = []
         for r in (r for r in left if min(r.chain) == written[0]):
-            # A row begins at the end that comes first in the layer, which is written backwards.
+            # A row begins at its end that comes first in the layer; here the layer is written backwards.
             chain = r.listed(lambda fid: -fid) if what == "order" else r.chain
             reasons.append(unlike(r, chain, written, layer, output, change, exactly))
             if reasons[-1] is None:
@@ -739,7 +739,7 @@ def ask(sunder, seed, tally):
             tally[what] = tally.get(what, 0) + 1
     again, _ = run(sunder, layer, towns, True, threads=4)
     if again.rows != output.rows:
-        trouble.append("threads: other rows")
+        trouble.append("the rows depend on the number of threads")
     return trouble
 
 

@@ -1,26 +1,25 @@
-"""Every rule of a separated layer, asked again by code that shares nothing with the program:
+"""Checks every rule of a separated layer, by code that shares nothing with the program:
 
     python3 rules.py ORIGINAL|LAYER RESULT|LAYER GAP [barrier=SPEC ...] [max-shift=L] [max-shift-field=F] [tolerance=T]
                      [allow-jumps] [fixed-where=SQL] [no-blocks] [contained=MODE] [anchors=PROGRAM] [pairs-only]
 
-SPEC is as of --barrier. Coordinates are brought to one lattice of integers, so nothing is rounded and every answer is
-exact (exact_plane.py). RESULT holds the result's layers. Prints a line for each breach, then counts; status 1 if there is
-a breach.
+SPEC is the argument of --barrier. Coordinates are scaled to one lattice of integers, so nothing is rounded and every
+answer is exact (exact_plane.py). RESULT holds the result's layers. Prints a line for each breach, then counts; status
+1 if there is a breach.
 
-  unlisted          a pair nearer than required, or whose interiors meet, that neither a block nor the conflicts excuse
-  phantom           a listed pair that keeps all that it owes
-  worse             a listed pair stands worse than it stood: by squared distance, or the squared least translation
+  unlisted          a pair that is too near or overlaps, and is neither within a block nor among the conflicts
+  phantom           a listed pair that is not in conflict
+  worse             a listed pair is worse than at the start: by squared distance, or by the squared least translation
   not_a_translate   coordinates that are not x + dx, rounded to the nearest double
-  lost, unknown     features of one layer alone
-  limit             a move longer than allowed; also of what may not move at all
-  side              the way of a side anchor meets a barrier line
-  jump              the way of an anchor, relative to another feature, meets it where it stood
+  lost, unknown     a feature that is in only one of the two layers
+  limit             a move longer than allowed, or any move of a fixed feature
+  side              the path of a side anchor meets a barrier line
+  jump              the path of an anchor, relative to another feature, meets the old outline of that feature
   anchor            an anchor that is not inside its feature
   torn, unjoined    a block whose members move differently; a pair within the tolerance in different blocks
 
-An invalid ring is read by the even-odd rule; a feature that was repaired on the way is counted, and compared as it is
-written.
-"""
+An invalid ring is read by the even-odd rule; a feature that the program repaired is counted, and compared as it is
+written."""
 import math
 import subprocess
 import sys
@@ -49,7 +48,7 @@ class Checker:
     # ---- Pairs
 
     def in_conflict(self, a, b, owed):
-        """Nearer than owed, or interiors that meet."""
+        """Are the two nearer than required, or do their interiors meet?"""
         if owed > 0:
             return plane.nearer(a, b, owed)
         return plane.interiors_meet(a, b) if a.area else plane.interiors_meet(b, a)
@@ -59,7 +58,7 @@ class Checker:
         return block is not None and block == self.layers.now[b].block
 
     def within(self, a, b):
-        """One in the other, up to the tolerance: by its corners, which is less than that demands."""
+        """Is one in the other, up to the tolerance? Tests only the corners, a weaker condition than the program's."""
         tolerance = self.lat(self.layers.options.tolerance)
         return plane.corners_lie_in(a, b, tolerance) or plane.corners_lie_in(b, a, tolerance)
 
@@ -95,7 +94,7 @@ class Checker:
                 part.edges, part.area, part.box = edges, False, edges and plane.box_of([p for e in edges for p in e])
                 self.count["barrier pairs"] += 1
                 broken = edges and self.in_conflict(thing.shape, part, barrier.owed)
-                # Inside, or round the barrier: no edge is near, or their interiors meet.
+                # A feature inside an area, or around it, may be far from all its edges: their interiors meet.
                 if not broken and barrier.shape.area:
                     broken = plane.interiors_meet(thing.shape, barrier.shape)
                 if broken and (a, *barrier.key) not in lay.listed_barriers:
@@ -120,8 +119,8 @@ class Checker:
 
     @staticmethod
     def part_in_reach(barrier, was, now):
-        """For lines: only the edges that can decide the state before or after. These are the edges near either
-        position, up to the greater of the two distances."""
+        """Of a line only the edges that can decide the state before or after: those near either position, up to the
+        greater of the two distances."""
         if barrier.area:
             return barrier
         nearest = [min(plane.box_square(plane.edge_box(e), s.box) for e in barrier.edges) for s in (was, now)]
@@ -131,7 +130,8 @@ class Checker:
                                     if any(plane.boxes_near(plane.edge_box(e), s.box, d) for s in (was, now))])
 
     def check_standing(self, names, kind, a_was, b_was, a, b):
-        """The pair no worse than it stood. One vector for both changes nothing."""
+        """Checks that the pair is no worse than at the start, unless both moved by the same vector, which changes
+        nothing."""
         u = [tuple(q[i] - p[i] for i in (0, 1)) for p, q in zip(self.corners(a_was), self.corners(a))]
         v = [tuple(q[i] - p[i] for i in (0, 1)) for p, q in zip(self.corners(b_was), self.corners(b))]
         if set(u) == set(v) and len(set(u)) == 1:
@@ -209,7 +209,8 @@ class Checker:
                     self.check_joined(a, b, shape, lay.was[b], tolerance)
 
     def check_joined(self, a, b, p, q, tolerance):
-        """A pair in different blocks: not within the tolerance, and neither in the other where that joins."""
+        """Checks a pair in different blocks: it may not be within the tolerance, and where containment joins blocks
+        neither may be in the other."""
         self.count["pairs of blocks"] += 1
         if plane.interiors_meet(p, q):
             within = plane.lies_in(p, q) or plane.lies_in(q, p)
@@ -224,11 +225,11 @@ class Checker:
         elif plane.nearer(p, q, 2 * tolerance + 1) and plane.distance_square(p, q) <= tolerance * tolerance:
             self.breach("unjoined", a, b, "touch")
 
-    # ---- Ways
+    # ---- Paths
 
     def anchors(self):
         """Anchors before the moves: the start of the line in the displacement layer; the centroid of a convex ring;
-        otherwise from the library."""
+        otherwise asks the library."""
         lay = self.layers
         given = lay.displacement_anchors()
         found, open_ones = {}, []
@@ -250,7 +251,7 @@ class Checker:
         source, layer = open_layer(path, name)
         text = []
         for fid in fids:
-            feature = layer.GetFeature(fid)  # its geometry lives as long as it
+            feature = layer.GetFeature(fid)  # keep it alive while its geometry is in use
             polygons, _ = polygons_and_lines(feature.GetGeometryRef())
             words = [fid, len(polygons)]
             for rings in polygons:
@@ -265,7 +266,7 @@ class Checker:
         return {int(w[0]): (float.fromhex(w[1]), float.fromhex(w[2])) for w in map(str.split, done.stdout.splitlines())}
 
     def side_lines(self, box):
-        """The lines of barriers that have sides, about a box."""
+        """The lines of barriers with sides that come near a box."""
         near = self.layers.near_barriers(box, 0)
         return [e for k, edges in near.items() if self.layers.barriers[k].side for e in edges]
 
@@ -280,7 +281,7 @@ class Checker:
         return found
 
     def place_anchors(self):
-        """Anchors and moves on the lattice; a finer one, should they need it."""
+        """Puts anchors and moves on the lattice, which is refined if they need it."""
         lay = self.layers
         known = self.anchors()
         self.moved = {f for f, t in lay.now.items() if t.dx or t.dy}
@@ -296,7 +297,7 @@ class Checker:
         self.factor, self.cell = factor, int(CELL * 2 ** lat.k)
         for a in self.moved & self.at.keys():
             if plane.locate(self.shape_was[a], self.at[a]) < 0:
-                # The nearest doubles to a point inside may lie beside a sliver, but not outside its box.
+                # Next to a sliver, the anchor rounded to doubles may lie outside the feature, but not outside its box.
                 self.count["anchors beside a sliver"] += 1
                 if not plane.boxes_near(self.at[a] * 2, self.shape_was[a].box):
                     self.breach("anchor", a, "outside")
@@ -328,7 +329,7 @@ class Checker:
                     self.check_side(a, barrier, edges, way)
 
     def check_side(self, a, barrier, edges, way):
-        """Points, and lines on which the path begins, cannot be crossed."""
+        """Checks the path of an anchor. Points, and lines on which the path begins, cannot be crossed."""
         edges = [tuple((self.factor * x, self.factor * y) for x, y in e) for e in edges if e[0] != e[1]]
         self.count["ways (side)"] += 1
         if not any(plane.edges_meet(way, e) and not plane.on_edge(e, way[0]) for e in edges):
@@ -362,7 +363,7 @@ class Checker:
 
 
 def leaves_once(shape, way):
-    """Is the part of the path within the closed set one piece that contains the start?"""
+    """Is the part of the path within the closed set connected, including the start?"""
     (x, y), (x1, y1) = way
     u = (x1 - x, y1 - y)
     whole = u[0] * u[0] + u[1] * u[1]
@@ -383,7 +384,7 @@ def is_convex(ring):
     n = len(ring)
     turns = {plane.side(ring[i - 2], ring[i - 1], ring[i]) for i in range(n)}
     steps = [(ring[i][0] - ring[i - 1][0], ring[i][1] - ring[i - 1][1]) for i in range(n)]
-    # One turn of direction all the way round: exactly two changes between up and down.
+    # A convex ring turns in one direction: it changes exactly twice between up and down.
     ups = [y > 0 or (y == 0 and x > 0) for x, y in steps if x or y]
     return not {1, -1} <= turns and sum(ups[i] != ups[i - 1] for i in range(len(ups))) == 2
 

@@ -1,5 +1,5 @@
-"""Can rules.py fail? Small layers with results made by hand, each with the breaches that must be reported:
-python3 rules_cases.py"""
+"""Does rules.py report breaches? Small layers with results made by hand, each with the expected breaches: python3
+rules_cases.py"""
 import os
 import sys
 
@@ -54,7 +54,7 @@ failed = 0
 
 
 def case(name, wanted, houses, gap=1, listed=(), roads=(), words=(), bent=None, left_out=()):
-    """houses: (wkt, dx, dy[, block]); bent: FID -> geometry as written."""
+    """houses: (wkt, dx, dy[, block]); bent: FID -> the geometry to write instead of the translate."""
     write("was.gpkg", {"h": ([], [(h[0], ()) for h in houses]), "roads": ([], [(r, ()) for r in roads])})
     rows = []
     for k, (wkt, dx, dy, *block) in enumerate(houses, 1):

@@ -8,7 +8,7 @@ import exact_plane as plane
 
 gdal.UseExceptions()
 ogr.UseExceptions()
-CELL = 32.0  # of the grid, in units of the layer: of the order of a house
+CELL = 32.0  # cell size of the grid, in units of the layer: about the size of a house
 
 
 class Options:
@@ -32,7 +32,7 @@ class Options:
 
 
 def split_spec(spec):
-    """The argument of --barrier; `where=` takes the rest, and a comma within a name is written \\, ."""
+    """Parses the argument of --barrier: `where=` takes the rest, and a comma within a name is written \\, ."""
     spec, _, where = spec.partition(",where=")
     words = [w.replace("\0", ",") for w in spec.replace("\\,", "\0").split(",")]
     found = dict(w.split("=", 1) for w in words[1:])
@@ -134,7 +134,7 @@ class Thing:
 
 
 class Layers:
-    """All that is asked about."""
+    """All data of a run."""
 
     def __init__(self, original, result, gap, options):
         self.options, self.original = options, original

@@ -1,7 +1,7 @@
-"""Looks at a separated layer with nothing of ours: python3 separated.py INPUT LAYER OUTPUT GAP
+"""Checks a separated layer without any code of ours: python3 separated.py INPUT LAYER OUTPUT GAP
 
-Every feature is there with its attributes; every vertex is the input's plus one vector for the feature, exactly; and by GEOS's
-arithmetic no two features of different blocks overlap or are nearer than the gap, up to GEOS's own rounding."""
+Every feature is there with its attributes; every vertex is the input's plus one vector per feature, exactly; and by
+GEOS no two features of different blocks overlap or are nearer than the gap, up to the rounding of GEOS."""
 import sys
 from collections import defaultdict
 from fractions import Fraction
@@ -10,7 +10,7 @@ from osgeo import gdal, ogr
 
 gdal.UseExceptions()
 ogr.UseExceptions()
-GEOS_SLACK = 1e-6  # metres; GEOS computes distances and overlaps in doubles, at coordinates of millions
+GEOS_SLACK = 1e-6  # metres; GEOS computes distances and overlaps in doubles, for coordinates of millions
 trouble = []
 
 
@@ -59,7 +59,7 @@ def near_pairs(boxes, gap):
 def check_pairs(features, gap):
     shapes = {fid: f.GetGeometryRef() for fid, f in features.items() if f.GetField("sunder_st") != "skipped"}
     for fid in [fid for fid, g in shapes.items() if not g.IsValid()]:
-        del shapes[fid]  # GEOS has no answer for these
+        del shapes[fid]  # GEOS gives no result for these
     for a, b in near_pairs({fid: g.GetEnvelope() for fid, g in shapes.items()}, gap):
         block = features[a].GetField("sunder_blk")
         if block is not None and block == features[b].GetField("sunder_blk"):

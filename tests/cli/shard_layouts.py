@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Layers that are hard on whoever cuts them: shard_layouts.py FOLDER writes NAME.geojson for each of the names below.
+"""Layers that are hard to cut into shards: shard_layouts.py FOLDER writes NAME.geojson for each of the names below.
 
-Coordinates are multiples of an eighth, so that walls and overlaps are what they look like.
+Coordinates are multiples of an eighth, so walls and overlaps are exact.
 """
 import json
 import random
@@ -13,7 +13,7 @@ def box(x, y, width, height):
 
 
 def scattered(count, seed, size):
-    """Pairs of houses that overlap by a metre or two, all over a square of that size."""
+    """Pairs of houses that overlap by a metre or two, spread over a square of that size."""
     dice = random.Random(seed)
     rings = []
     for _ in range(count):
@@ -23,14 +23,15 @@ def scattered(count, seed, size):
 
 
 def chain():
-    """Each overlaps the next: from one end of the layer to the other, there and back, with a bend at each end."""
+    """A chain in which each house overlaps the next, from one end of the layer to the other and back, bent at each
+    end."""
     east = [box(100 + 9 * i, 100 + i / 8, 10, 10) for i in range(90)]
     north = [box(901 + i / 8, 121 + 9 * i, 10, 10) for i in range(90)]
     return east + north
 
 
 def block():
-    """A wall of houses that touch, around everything and across it, and pairs within that it is in the way of."""
+    """A wall of touching houses around and across everything, and pairs in it that the wall obstructs."""
     wall = [box(20 * i, 0, 20, 10) for i in range(50)] + [box(20 * i, 990, 20, 10) for i in range(50)]
     wall += [box(0, 10 + 20 * i, 10, 20) for i in range(49)] + [box(990, 10 + 20 * i, 10, 20) for i in range(49)]
     wall += [box(10 + 20 * i, 500, 20, 10) for i in range(49)]
@@ -38,7 +39,7 @@ def block():
 
 
 def one_place():
-    """All features at one place of the curve, except one far away."""
+    """All features at the same position of the space-filling curve, except one far away."""
     return [box(i % 5, i % 7, 10, 10) for i in range(24)] + [box(100000, 100000, 10, 10)]
 
 
@@ -48,7 +49,8 @@ def few():
 
 
 def duplicates():
-    """Twins and triplets on a grid whose step is a power of two: as a curve's borders are."""
+    """Identical features in twos and threes on a grid whose step is a power of two, like the borders of the curve's
+    cells."""
     rings = []
     for i in range(8):
         for j in range(8):
@@ -57,12 +59,12 @@ def duplicates():
 
 
 def great():
-    """Pairs all over, and a feature that holds them all, one that crosses them all."""
+    """Pairs everywhere, one feature that contains them all, and one that crosses them all."""
     return [box(-100, -100, 1300, 1300)] + scattered(80, 5, 1000) + [box(-500, 512, 2000, 1)]
 
 
 def clusters():
-    """Crowds of seven to nine, which ask for rounds, wherever a border may be."""
+    """Groups of seven to nine, which take several rounds, at all places where a border may be."""
     dice = random.Random(11)
     rings = []
     for i in range(6):
@@ -76,7 +78,7 @@ def main():
     for make in (chain, block, one_place, few, duplicates, great, clusters):
         features = []
         for number, ring in enumerate(make()):
-            # Block 1: its members stand far from each other.
+            # Block 1: its members are far from each other.
             properties = {"id": f"f{number}", "blk": 1 if number % 29 == 0 else None, "height": 3 + number % 5}
             features.append({"type": "Feature", "properties": properties,
                              "geometry": {"type": "Polygon", "coordinates": [ring]}})
@@ -84,7 +86,7 @@ def main():
             json.dump({"type": "FeatureCollection", "features": features,
                        "crs": {"type": "name", "properties": {"name": "urn:ogc:def:crs:EPSG::25832"}}}, file)
     with open(f"{sys.argv[1]}/line.geojson", "w", encoding="utf-8") as file:
-        # Adds a road and a river through all layouts.
+        # Writes a road and a river through all layouts.
         json.dump({"type": "FeatureCollection", "crs": {"type": "name", "properties": {"name": "urn:ogc:def:crs:EPSG::25832"}},
                    "features": [{"type": "Feature", "properties": {"width": width},
                                  "geometry": {"type": "LineString", "coordinates": points}}

@@ -1,6 +1,7 @@
 """The side anchor of a feature cut by lines, by the documented rule (src/displacement/layer/side_anchor.c), in
-fractions and by another algorithm. The plane is cut into horizontal slabs between all corners, ends and crossings, and
-the slabs into cells between edges. Cells that share an uncovered piece of a slab's border are one part.
+fractions and by another algorithm. The plane is cut into horizontal slabs between all corners, ends and crossings,
+and each slab into cells between neighbouring edges. Cells that share an uncovered piece of a slab's border belong to
+one part.
 """
 import math
 from fractions import Fraction
@@ -9,7 +10,7 @@ import exact_plane as plane
 
 
 class Cell:
-    """A cell of one slab, between two edges that are neighbours there."""
+    """A cell of one slab, between two edges that are neighbours in it."""
 
     def __init__(self, low, high, left, right):
         self.low, self.high, self.left, self.right, self.part = low, high, left, right, None
@@ -39,7 +40,7 @@ def levels_of(edges):
 
 
 class Parts:
-    """outline: a member of the feature; lines: segments, of integers as it."""
+    """outline: a member of the feature; lines: segments; both in integers."""
 
     def __init__(self, outline, lines):
         self.edges = [(e, True) for e in outline.edges] + [(e, False) for e in lines]
@@ -60,7 +61,7 @@ class Parts:
         return found
 
     def border(self, k):
-        """What slabs k - 1 and k have in common and no edge covers: intervals, with the two cells."""
+        """The uncovered border between slabs k - 1 and k: intervals, each with the cells below and above."""
         y = self.levels[k]
         flat = [sorted((e[0][0], e[1][0])) for e, _ in self.edges if e[0][1] == e[1][1] == y]
         found = []
@@ -119,8 +120,8 @@ class Parts:
 
 
 def room(point, box, lines, reach):
-    """The room beyond the point, in the direction away from the middle of the box: the square of the distance to the
-    first line, if it is within the reach."""
+    """The free distance beyond the point, in the direction away from the centre of the box: the square of the
+    distance to the first line, if it is within the reach."""
     px, py = point
     dx, dy = px - Fraction(box[0] + box[2], 2), py - Fraction(box[1] + box[3], 2)
     best = reach * reach
@@ -136,15 +137,15 @@ def room(point, box, lines, reach):
 
 
 def size_of(box, unit):
-    """Width and height together, as doubles add them up."""
+    """Width plus height, added in doubles as the library does."""
     low_x, low_y, high_x, high_y = (float(Fraction(v) / unit) for v in box)
     return (high_x - low_x) + (high_y - low_y)
 
 
 def side_anchor(members, lines, plain, unit, tolerance=0.0, known=math.inf):
-    """members: outlines of the feature's polygons; lines: all that may cut it or be visible from it; plain: the anchor,
-    as doubles; unit: the number of integer units in one unit of the layer; tolerance, and known (the distance up to
-    which lines are known), are doubles. Returns None if no line cuts the feature."""
+    """members: outlines of the feature's polygons; lines: all that may cut it or be visible from it; plain: the plain
+    anchor, in doubles; unit: the number of integer units in one unit of the layer; tolerance and known (the distance
+    up to which lines are known) are doubles. Returns None if no line cuts the feature."""
     lines = [e for e in lines if e[0] != e[1]]
     box = plane.box_of([p for o in members for e in o.edges for p in e])
     about = [e for e in lines if plane.boxes_near(plane.edge_box(e), box)]
@@ -165,6 +166,6 @@ def side_anchor(members, lines, plain, unit, tolerance=0.0, known=math.inf):
 
 
 def largest(parts, slack):
-    """Those that no other exceeds by more than the slack."""
+    """The candidates that no other exceeds by more than the slack."""
     areas = [cut.area(k) for cut, k in parts]
     return [part for part, area in zip(parts, areas) if area + slack >= max(areas)]

@@ -1,5 +1,6 @@
-"""Anchors and side anchors of the library beside those of anchor.py and side_anchor.py: cases made by hand, and random ones on coarse grids, where
-lines run along edges and through corners, and meet each other anywhere: python3 side_anchor_cases.py ANCHORS [COUNT [SEED]]
+"""Compares anchors and side anchors of the library with those of anchor.py and side_anchor.py: cases made by hand,
+and random ones on coarse grids, where lines run along edges, through corners and cross each other: python3
+side_anchor_cases.py ANCHORS [COUNT [SEED]]
 """
 import random
 import subprocess
@@ -10,7 +11,7 @@ import exact_plane as plane
 from anchor import anchor
 from side_anchor import side_anchor
 
-UNIT = 1 << 40  # of the lattice: coordinates are multiples of 2^-40
+UNIT = 1 << 40  # coordinates are multiples of 2^-40
 
 
 def words_of_set(polygons):

@@ -1,11 +1,11 @@
 """Houses that a road cuts in half, each with another road on one side of it, near or far.
 
     sides_and_limits.py write SEED                 writes houses.geojson, roads.geojson
-    sides_and_limits.py mirror RESULT OUT          the houses of RESULT, each moved the other way
-    sides_and_limits.py sides RESULT               prints FID and side (-1, 0, 1) of each house whose move is not zero
+    sides_and_limits.py mirror RESULT OUT          the houses of RESULT, each moved in the opposite direction
+    sides_and_limits.py sides RESULT               prints FID and side (-1, 0, 1) of each house that moves
 
-The other road is 0.1 to 2.2 times the width and the height of the house together away from it, so it decides on the side
-for most houses. Every other house is so narrow that a move of 1 takes it off the road.
+The distance of the other road is 0.1 to 2.2 times the width plus height of the house, so for most houses that road
+decides the side. Every other house is so narrow that a move of 1 takes it off the road.
 """
 import json
 import random

@@ -1,5 +1,6 @@
-/* Reads lines "NAME<tab>GAP<tab>WKT<tab>WKT<tab>WKT<tab>WKT": a pair before and after. Prints those that break the rule
- * that no conflict gets worse, in rationals by brute force; exits with 1 if there is any. */
+/* Reads lines "NAME<tab>GAP<tab>WKT<tab>WKT<tab>WKT<tab>WKT": the two features before, then after. Prints the pairs
+ * that violate the rule that no conflict gets worse, computed in rationals by brute force; exits with 1 if there is
+ * any. */
 #include "standing.h"
 
 #include <stdlib.h>

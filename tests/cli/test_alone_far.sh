@@ -1,8 +1,8 @@
 # shellcheck shell=bash disable=SC1091
-# One symbol without a limit in a long arm of an area whose outline it may not cross. Its nearest free place is at the
-# end of the arm, at any distance. Arms have many lengths and widths, and four directions; the expected place is
-# computed from the end of the arm. If the room is too narrow as well, there is no place: the symbol does not move, and
-# the reason is `side`, with a proof that an independent checker verifies.
+# One symbol without a limit on its move, in a long arm of an area whose outline it may not cross. Its nearest free
+# place is at the end of the arm, at any distance. Arms have many lengths and widths, and four directions; the expected
+# place is computed from the end of the arm. If even the room at the end is too narrow, there is no free place: the
+# symbol does not move, and the reason is `side`, with a proof that an independent checker verifies.
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 command -v python3 >/dev/null || { echo "skipped: no python3"; exit 77; }
 

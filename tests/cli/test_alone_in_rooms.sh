@@ -1,6 +1,6 @@
 # shellcheck shell=bash disable=SC1091
-# Symbols without a limit, each alone among barriers with and without sides (alone_in_rooms.py). Each moves to the
-# nearest free place, or stays with a proof that there is none, which a checker verifies.
+# Symbols without a limit on moves, each alone among barriers with and without sides (alone_in_rooms.py). Each moves to
+# the nearest free place, or stays with a proof, verified by a checker, that there is none.
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 command -v python3 >/dev/null || { echo "skipped: no python3"; exit 77; }
 

@@ -1,5 +1,5 @@
 # shellcheck shell=bash disable=SC1091
-# Input that is wrong, odd or empty: the result, or one clear line, and nothing written.
+# Input that is wrong, unusual or empty: the run gives the right result, or one clear line of message and no output.
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 
 layer in.gpkg houses POLYGON <<'X'
@@ -7,7 +7,7 @@ id,WKT
 1,"POLYGON((0 0,4 0,4 4,0 4,0 0))"
 2,"POLYGON((3 0,7 0,7 4,3 4,3 0))"
 X
-# refused by separate and by check alike, before anything is written
+# Both separate and check refuse the input before anything is written.
 both() { either_way 1 "$@"; }
 either_way() {
     local wanted=$1 words=$2 input=$3
@@ -34,7 +34,7 @@ both 'such.gpkg' "$escape"
 if LC_ALL=C grep -q '[[:cntrl:]]' err; then fail "control characters in a message"; fi
 : >nothing.geojson
 both 'nothing.geojson' nothing.geojson
-for part in shx shp dbf; do # a Shapefile in part
+for part in shx shp dbf; do # an incomplete Shapefile
     ogr2ogr whole.shp in.gpkg -lco ENCODING=UTF-8
     for each in whole.*; do cp "$each" "cut.${each#*.}"; done
     case $part in
@@ -51,7 +51,7 @@ mkdir empty.dir
 both 'empty.dir' empty.dir
 cp in.gpkg secret.gpkg
 chmod 000 secret.gpkg
-[ -r secret.gpkg ] || both 'secret.gpkg' secret.gpkg # (root reads everything)
+[ -r secret.gpkg ] || both 'secret.gpkg' secret.gpkg # (root can read every file)
 rm -f secret.gpkg
 cp in.gpkg two.gpkg
 ogr2ogr -update two.gpkg in.gpkg houses -nln sheds
@@ -69,7 +69,7 @@ either_way 2 'where' in.gpkg --where 'nothing = 1'
 both 'sql' in.gpkg --sql 'SELEKT 1'
 either_way 2 'EPSG:99999999' in.gpkg --input-crs EPSG:99999999
 
-# Where nothing can be written.
+# Destinations that cannot be written.
 refused 1 'in.gpkg' separate in.gpkg in.gpkg
 refused 1 'in.gpkg' separate in.gpkg ./in.gpkg --overwrite
 refused 1 'in.gpkg' separate in.gpkg in.gpkg --update
@@ -109,7 +109,7 @@ else
     echo "not tried: a full disk (no right to mount one)"
 fi
 
-# Beyond the range of doubles.
+# Results beyond the range of doubles.
 huge='POLYGON ((0 0, 1e308 0, 1e308 1e308, 0 1e308))'
 refused 1 'leaves the range of doubles' sum "$huge" "$huge"
 refused 1 'leaves the range of doubles' sum "$huge" "$huge" o.gpkg
@@ -117,7 +117,7 @@ expect 0 sum "$huge" "$huge" --exact
 expect 0 pair "$huge" "$huge"
 refused 2 'a double can hold' sum 'POLYGON ((0 0, 1e309 0, 0 1e309))' square:1
 refused 2 'not a finite number' pair "$huge" "$huge" --gap 1e309
-# sums and pairs of layers are refused for the same reasons
+# sum and pair refuse layers for the same reasons
 for command in sum pair; do
     refused 1 'no such file' $command nothing.gpkg square:1
     refused 1 'huts' $command in.gpkg square:1 -l huts
@@ -131,9 +131,9 @@ for command in sum pair; do
     refused 2 'wrong' $command square:1 square:1 --invalid wrong
 done
 
-# Odd geometries.
+# Unusual geometries.
 ogr2ogr coordinates.shp in.gpkg houses
-# The first x of the first ring stands at byte 156 of the file.
+# The first x of the first ring is at byte 156 of the file.
 patch() { printf '%b' "$1" | dd of=coordinates.shp bs=1 seek=156 conv=notrunc 2>/dev/null; }
 patch '\0\0\0\0\0\0\0370\0177'
 both 'FID 0' coordinates.shp
@@ -162,7 +162,7 @@ same "$(value odd-skip.gpkg odd 3 sunder_st) $(count odd-skip.gpkg odd)" 'skippe
 both 'FID 2' odd.gpkg --invalid fail
 same "$(geometry odd-out.gpkg odd 3)" "$(geometry odd.gpkg odd 3)" "an invalid feature is written as it was"
 
-# Nothing at all.
+# Empty input.
 layer empty.gpkg empty POLYGON <<'X'
 id,WKT
 X

@@ -1,5 +1,6 @@
 # shellcheck shell=bash disable=SC1091
-# How deep features lie in barriers, how far they are, and which stand worse (barrier_depths.py), against fractions.
+# Compares with fractions (barrier_depths.py): how deep features lie in barriers, their distances, and which pairs are
+# worse than before.
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 /usr/bin/python3 -c 'import osgeo.ogr' 2>/dev/null || { echo "skipped: GDAL's Python module is not installed"; exit 77; }
 

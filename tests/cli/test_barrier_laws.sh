@@ -1,6 +1,6 @@
 # shellcheck shell=bash disable=SC1091
-# A barrier more costs no less, a narrower one no more (barrier_laws.py): towns of the generator beside their roads.
-# SUNDER_LAWS=all asks about maps too.
+# An additional barrier does not lower the cost, a narrower barrier does not raise it (barrier_laws.py), for generated
+# towns with their roads. SUNDER_LAWS=all tests maps, too.
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 /usr/bin/python3 -c 'import osgeo.ogr' 2>/dev/null || { echo "skipped: GDAL's Python module is not installed"; exit 77; }
 

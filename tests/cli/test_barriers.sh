@@ -1,6 +1,6 @@
 # shellcheck shell=bash disable=SC1091
-# Tests --barrier: the syntax of its argument, which features are read, and which distances are kept. Distances differ,
-# so that the conflicts show which one was applied.
+# Tests --barrier: the syntax of its argument, which features are read, and which distances are kept. Each case has a
+# distance of its own, so that the conflicts show which one was applied.
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 
 # Two houses, 3 and 20 above a road along the x axis.
@@ -39,7 +39,7 @@ found '1 roads:1 barrier_drawn 3.25;' --barrier roads.gpkg,width=6.5,side=no
 found '1 roads:1 barrier_drawn 3.25;1 roads:1 barrier_near 3.5;' --barrier roads.gpkg,width=6.5 --barrier roads.gpkg,gap=3.5
 says out 'barrier drawn 1, barrier near 1'
 
-# ---- What is selected ----
+# ---- Selection ----
 found '' --barrier "roads.gpkg,width=9,where=kind = 'c'"
 found '1 roads:1 barrier_drawn 4.5;' --barrier "roads.gpkg,width=9,where=kind in ('a,b', 'width=3')"
 cp roads.gpkg 'r,1.gpkg'
@@ -47,7 +47,7 @@ found '1 roads:1 barrier_drawn 4.5;' --barrier 'r\,1.gpkg,layer=roads,width=9'
 ogr2ogr -update roads.gpkg roads.gpkg roads -nln 'main, old' 2>/dev/null
 found '1 main, old:1 barrier_drawn 4.5;' --barrier 'roads.gpkg,layer=main\, old,width=9'
 refused 1 'choose one with layer=: roads' check in.gpkg --barrier roads.gpkg
-ogr2ogr -update in.gpkg roads.gpkg roads 2>/dev/null # the input's own dataset
+ogr2ogr -update in.gpkg roads.gpkg roads 2>/dev/null # a dataset that is also the input
 found '1 roads:1 barrier_drawn 4.5;' --barrier 'in.gpkg,layer=roads,width=9'
 
 # ---- Kinds of geometry ----
@@ -57,7 +57,7 @@ kinds() { # WKT OPTIONS WANTED
     found "$3" --barrier "k.gpkg$2"
 }
 kinds 'POINT(5 0)' ,width=7 '1 k:1 barrier_drawn 3.5;'
-kinds 'POINT(12 0)' ,width=7 ''                         # the corner is farther than 3.5
+kinds 'POINT(12 0)' ,width=7 ''                         # the corner of the square is farther away than 3.5
 kinds 'MULTIPOINT Z((5 0 1),(45 19 2))' ,width=7 '1 k:1 barrier_drawn 3.5;2 k:1 barrier_drawn 3.5;'
 kinds 'MULTILINESTRING M((0 0 1,9 0 1),(40 18 1,45 18 1))' ,gap=3.5 '1 k:1 barrier_near 3.5;2 k:1 barrier_near 3.5;'
 kinds 'POLYGON((0 -9,9 -9,9 0,0 0,0 -9))' ,width=7 '1 k:1 barrier_drawn 3.5;'
@@ -67,14 +67,14 @@ kinds 'POLYGON((-9 -9,99 -9,99 99,-9 99,-9 -9))' ,as=boundary ''
 kinds 'POLYGON((-9 -9,99 -9,99 99,-9 99,-9 -9))' ,as=area '1 k:1 barrier 0;2 k:1 barrier 0;'
 kinds 'POLYGON((-9 -9,99 -9,99 99,-9 99,-9 -9),(-1 2,11 2,11 14,-1 14,-1 2))' ,as=boundary,gap=1.5 '1 k:1 barrier_near 1.5;'
 kinds 'LINESTRING(5 0,5 5)' '' '1 k:1 barrier 0;'
-kinds 'LINESTRING(-5 3,15 3)' '' '' # along the wall
+kinds 'LINESTRING(-5 3,15 3)' '' '' # the line runs along the wall
 kinds 'GEOMETRYCOLLECTION(POINT(45 19),LINESTRING(0 1,9 1),POLYGON((60 60,61 60,61 61,60 60)))' ,gap=2.5 \
     '1 k:1 barrier_near 2.5;2 k:1 barrier_near 2.5;'
 kinds 'CIRCULARSTRING(0 0,5 2,10 0)' ,gap=2 '1 k:1 barrier_near 2;'
 says err 'arcs'
 kinds 'CURVEPOLYGON(CIRCULARSTRING(0 0,5 2,10 0,5 -9,0 0))' ,gap=2 '1 k:1 barrier_near 2;'
 kinds 'POINT EMPTY' ,width=99 ''
-kinds 'POLYGON((0 -9,9 4,9 -9,0 4,0 -9))' ,gap=0 '1 k:1 barrier 0;' # a bow tie
+kinds 'POLYGON((0 -9,9 4,9 -9,0 4,0 -9))' ,gap=0 '1 k:1 barrier 0;' # a ring that crosses itself
 says err 'barrier k.gpkg, layer k, FID 1: invalid'
 run check in.gpkg -l houses --barrier k.gpkg --invalid skip
 same "$status" 0 "skipped:"
@@ -85,7 +85,7 @@ ogr2ogr -t_srs EPSG:4326 -f GeoJSON far.geojson roads.gpkg roads
 ogr2ogr -a_srs EPSG:25832 here.gpkg roads.gpkg roads
 ogr2ogr -t_srs EPSG:3035 laea.gpkg here.gpkg
 found '1 roads:1 barrier_drawn 4.5;' --barrier laea.gpkg,width=9
-found '1 roads:7 barrier_drawn 4.5;' --barrier far.geojson,width=9 # whose FIDs are its ids
+found '1 roads:7 barrier_drawn 4.5;' --barrier far.geojson,width=9 # its FIDs are the values of id
 run check in.gpkg -l houses --barrier laea.gpkg,width=9
 awk -F'\t' 'NF > 5 && ($9 - 3 > 1e-3 || 3 - $9 > 1e-3) { exit 1 }' out || fail "transformed by more than a millimetre"
 layer none.gpkg none LINESTRING none <<'X'
@@ -95,16 +95,17 @@ X
 found '1 none:1 barrier_drawn 4.5;' --barrier none.gpkg,width=9
 says err 'it has no CRS'
 
-# ---- Reach: barriers out of reach are not read. A bow tie, which --invalid fail refuses, shows it ----
+# ---- Reach: barriers out of reach are not read, which an invalid one with --invalid fail shows ----
 rm -f tie.gpkg
 printf 'id,WKT\n1,"POLYGON((0 100,9 113,9 100,0 113,0 100))"\n' | layer tie.gpkg tie POLYGON
 expect 0 check in.gpkg -l houses --barrier tie.gpkg,width=8,gap=1 --invalid fail
 refused 1 'layer tie, FID 1' check in.gpkg -l houses --barrier tie.gpkg,gap=71 --invalid fail
-# The reach is four limits, since the program also computes which longer limit would free a conflict.
+# Barriers are read up to four limits away, since the program also computes which longer limit would resolve a conflict.
 expect 0 separate in.gpkg o.gpkg -l houses -q --barrier tie.gpkg,gap=1 --max-shift 15 --invalid fail
 refused 1 'layer tie, FID 1' separate in.gpkg never.gpkg -l houses --barrier tie.gpkg,gap=1 --max-shift 17.5 --invalid fail
 refused 1 'layer tie, FID 1' separate in.gpkg never.gpkg -l houses --barrier tie.gpkg --invalid fail
-# In the box around all features, but near none of them. The reach of the query is that of the widest barrier.
+# The barriers are in the bounding box of all features, but not near any of them. The search radius is that of the
+# widest barrier.
 layer apart.gpkg a POLYGON <<'X'
 id,WKT
 1,"POLYGON((-200 0,-190 0,-190 10,-200 10,-200 0))"
@@ -135,7 +136,7 @@ for barrier in '' '--barrier wall.gpkg'; do
     same "$(value o.gpkg s_conflicts 1 reason)" max_shift
     value o.gpkg s_conflicts 1 need_shift >"need$((${#barrier} > 0))"
 done
-awk '{ exit !($1 >= 5 && $1 < 5.1) }' need0 || fail "need_shift is $(cat need0) where nothing else stands"
+awk '{ exit !($1 >= 5 && $1 < 5.1) }' need0 || fail "need_shift is $(cat need0) without the other barrier"
 same "$(cat need1)" '(null)' "need_shift, with a wall in the way"
 
 # ---- Separate ----
@@ -166,7 +167,7 @@ id,WKT
 2,"POLYGON((12 0,22 0,22 10,12 10,12 0))"
 3,"POLYGON((0 14,10 14,10 24,0 24,0 14))"
 X
-beside() { # WKT KEYS STATUS WITH LIMIT [STATUS WITHOUT]: solved without a limit, unless there is nothing to do
+beside() { # WKT KEYS STATUS WITH LIMIT [STATUS WITHOUT]: without a limit there is a solution unless a status is given
     local limit status=${4:-0}
     rm -f k.gpkg
     printf 'id,WKT\n1,"%s"\n' "$1" | layer k.gpkg k GEOMETRY
@@ -179,25 +180,26 @@ beside() { # WKT KEYS STATUS WITH LIMIT [STATUS WITHOUT]: solved without a limit
 }
 beside 'LINESTRING EMPTY' ,width=9 0
 beside 'GEOMETRYCOLLECTION EMPTY' ,width=9 0
-beside 'MULTILINESTRING((5 5,5 5),(11 5,11 5,11 5))' ,width=3 0          # of no length
-beside 'LINESTRING(-1e300 0,1e300 1)' ,width=3 0                         # far on both sides, yet a line like others
+beside 'MULTILINESTRING((5 5,5 5),(11 5,11 5,11 5))' ,width=3 0          # segments of length zero
+# far in both directions, but treated like any line
+beside 'LINESTRING(-1e300 0,1e300 1)' ,width=3 0
 beside 'POLYGON((-1e15 -1e15,1e15 -1e15,1e15 1e15,-1e15 1e15,-1e15 -1e15))' '' 3
-beside 'POLYGON((0 0,10 0,10 10,0 10,0 0))' '' 3                         # a feature itself
-beside 'LINESTRING(-5 12,50 12)' ,width=0,gap=0 0                        # in nobody's way
+beside 'POLYGON((0 0,10 0,10 10,0 10,0 0))' '' 3                         # the same geometry as a feature
+beside 'LINESTRING(-5 12,50 12)' ,width=0,gap=0 0                        # near no feature
 beside 'LINESTRING(11 -20,11 40)' ,width=1e9 3
-beside 'MULTIPOINT((5 5),(5 5.0000000001),(5 5.000000000000001))' '' 0   # hardly different
+beside 'MULTIPOINT((5 5),(5 5.0000000001),(5 5.000000000000001))' '' 0   # nearly identical points
 for ((k = 0; k < 60; k++)); do printf '%s5 %s,15 5.%03d' "$([ $k = 0 ] || echo '),(')" 5 $k; done >fan
-beside "MULTILINESTRING(($(cat fan)))" ,width=1 0                        # many at one place
+beside "MULTILINESTRING(($(cat fan)))" ,width=1 0                        # many lines that start at one point
 # A line across the layer costs the same if one or both of its ends are far away, near the origin and in UTM
-# coordinates, and the lower bound is at least half as large. A road with one corrupt vertex is a line that goes there
-# and comes back.
+# coordinates, and the lower bound is at least half of that cost. A road with one corrupt vertex is a line that goes
+# there and comes back.
 layer utm.gpkg t POLYGON <<'X'
 id,WKT
 1,"POLYGON((500000 5300000,500010 5300000,500010 5300010,500000 5300010,500000 5300000))"
 2,"POLYGON((500030 5300000,500040 5300000,500040 5300010,500030 5300010,500030 5300000))"
 3,"POLYGON((500036 5300002,500046 5300002,500046 5300012,500036 5300012,500036 5300002))"
 X
-across() { # WKT: the result's cost, rounded, and whether the bound is more than half of it
+across() { # WKT: the cost of the result, rounded, and whether the bound is more than half of it
     rm -f k.gpkg
     printf 'id,WKT\n1,"%s"\n' "$1" | layer k.gpkg k GEOMETRY
     expect 0 separate utm.gpkg o.gpkg -q --overwrite --gap 1 --max-shift 20 --barrier k.gpkg --stats s.json
@@ -215,7 +217,7 @@ same "$(across 'LINESTRING(400000 5300003.5,490000 5300003.5,1e20 5300003.5,4900
 
 refused 2 'too much for a double' separate three.gpkg never.gpkg --barrier k.gpkg,width=1e308,gap=1.7e308
 
-# ---- What is wrong ----
+# ---- Wrong arguments ----
 wrong() { refused 2 "$1" check in.gpkg -l houses --barrier "$2"; }
 wrong 'roads is none of layer=' roads.gpkg,roads
 wrong 'did you mean width=?' roads.gpkg,wdth=3
@@ -240,5 +242,5 @@ refused 2 'roads.gpkg: that is an input' check in.gpkg -l houses --barrier roads
 refused 1 'roads.gpkg is an input' separate in.gpkg roads.gpkg -l houses --overwrite --barrier roads.gpkg,layer=roads
 expect 1 check in.gpkg -l houses --input-crs EPSG:4326 --barrier roads.gpkg,layer=roads,width=3
 says err 'reproject'
-expect 0 check in.gpkg -l houses --barrier roads.gpkg,layer=roads -q # and with none of all that
+expect 0 check in.gpkg -l houses --barrier roads.gpkg,layer=roads -q # with all of these options together
 finish

@@ -1,5 +1,5 @@
 # shellcheck shell=bash disable=SC1091
-# check --before: finds each rule that was broken since an original, by any program.
+# check --before: finds each violation of a rule since the original, whichever program made the changes.
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 
 layer in.gpkg houses POLYGON <<'X'
@@ -10,7 +10,7 @@ id,far,WKT
 40,,"POLYGON((60 0,70 0,70 10,60 10,60 0))"
 50,0,"POLYGON((90 0,100 0,100 10,90 10,90 0))"
 X
-found() { # WANTED FILE ARGS: kinds and FIDs of what --before lists, besides conflicts
+found() { # WANTED FILE ARGS: kinds and FIDs of the violations that --before lists, besides conflicts
     local wanted=$1 file=$2
     shift 2
     run check "$file" --before in.gpkg "$@"
@@ -18,7 +18,7 @@ found() { # WANTED FILE ARGS: kinds and FIDs of what --before lists, besides con
     same "$(awk -F'\t' 'NF > 5 && $7 ~ /^(worse|limit|side|jump|not_a_translate|lost)$/ { print $7, $1, $3 }' out |
         sed 's/ $//' | LC_ALL=C sort | tr '\n' ';')" "$wanted" "$file $*:"
 }
-# What separate wrote breaks none.
+# The output of separate violates none.
 for options in '--gap 1' '--gap 1 --max-shift 0.2' '--gap 3 --max-shift-field far'; do
     # shellcheck disable=SC2086
     run separate in.gpkg o.gpkg -q --overwrite $options
@@ -28,7 +28,7 @@ for options in '--gap 1' '--gap 1 --max-shift 0.2' '--gap 3 --max-shift-field fa
     expect 0 check in.gpkg --before in.gpkg $options --allow-conflicts
 done
 
-# Each rule broken once.
+# Each rule, violated once.
 layer moved.gpkg houses POLYGON <<'X'
 id,far,WKT
 10,,"POLYGON((1 0,11 0,11 10,1 10,1 0))"
@@ -54,7 +54,7 @@ says out 'since in.gpkg: 5 matched, worse 1'
 expect 3 check moved.gpkg --stats s.json
 same "$(jq -c 'has("moves")' s.json)" false
 
-# A jump: the last house goes over its neighbour.
+# A jump: the last house moves across its neighbour.
 layer over.gpkg houses POLYGON <<'X'
 id,far,WKT
 10,,"POLYGON((0 0,10 0,10 10,0 10,0 0))"
@@ -74,7 +74,7 @@ ogr2ogr twice.gpkg in.gpkg -nln houses && ogr2ogr -append twice.gpkg in.gpkg -nl
 refused 1 'the key 10 too' check twice.gpkg --before in.gpkg --id-field id
 run check in.gpkg --before fewer.gpkg --id-field id
 says err '1 features of houses are not in fewer.gpkg'
-# A Shapefile starts at 0, and carries the FIDs that it cannot keep in a field.
+# FIDs of a Shapefile start at 0, and separate writes those that it cannot keep to a field.
 expect 3 separate in.gpkg o.shp -q --gap 1 --max-shift 0.2 --layers main
 found '' o.shp --gap 1 --max-shift 0.2
 # If ORIGINAL has several layers, the one of the same name is used.

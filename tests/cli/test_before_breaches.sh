@@ -1,5 +1,5 @@
 # shellcheck shell=bash disable=SC1091
-# check --before finds no breach in the output of separate, and finds each of ten planted breaches of each rule
+# check --before finds no violation in the output of separate, and finds each of ten constructed violations of each rule
 # (before_breaches.py): for a town, and for maps if they are beside the repository. SUNDER_LAWS=all tests all maps.
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 /usr/bin/python3 -c 'import osgeo.ogr' 2>/dev/null || { echo "skipped: GDAL's Python module is not installed"; exit 77; }

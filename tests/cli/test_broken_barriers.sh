@@ -1,8 +1,8 @@
 # shellcheck shell=bash disable=SC1091
-# Barriers with broken geometry (broken_barriers.py). An open ring is closed, as in polygons of a layer. A ring of fewer
-# than three vertices gets a message that names it. A coordinate that is not finite ends the run with a message that
-# names it. Every command that reads barriers is tested, with and without a limit on moves: with a limit GDAL compares
-# geometries with a box, which works only for valid ones.
+# Barriers with broken geometry (broken_barriers.py). An open ring is closed, as it is in polygons of a layer. A message
+# names rings of fewer than three vertices. A coordinate that is not finite ends the run with a message that names it.
+# Every command that reads barriers is tested, with and without a limit on moves: with a limit GDAL compares geometries
+# with a box, which works only for valid ones.
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 command -v python3 >/dev/null || { echo "skipped: python3 is not installed"; exit 77; }
 
@@ -12,8 +12,8 @@ python3 "$SUNDER_SOURCE/tests/cli/broken_barriers.py" || fail "broken_barriers.p
 layer in.gpkg houses POLYGON <houses.csv
 
 written() { ogrinfo -q -al "$1" houses | grep -v Layer; }
-# The status and the result of each command must be those of another barrier.
-alike() { # BROKEN SOUND OPTIONS: of --barrier
+# The status and the result of each command have to be the same with both barriers.
+alike() { # BROKEN SOUND OPTIONS: options of --barrier
     local -a status_of=() result=()
     local barrier
     for barrier in "$1" "$2"; do
@@ -36,7 +36,7 @@ for name in one_0 one_1 open; do ogr2ogr -q indexed_$name.gpkg $name.gpkg 2>/dev
 alike indexed_one_0 closed_0 ''
 alike indexed_one_1 closed_1 ''
 
-# In parts and in shards, too.
+# The same in parts and in shards.
 run separate in.gpkg whole.gpkg --quiet --barrier closed.gpkg --max-shift 10
 whole=$status
 run separate in.gpkg parts.gpkg --quiet --barrier indexed_open.gpkg --max-shift 10 --max-memory 300M
@@ -54,7 +54,7 @@ run separate in.gpkg o.gpkg --overwrite --barrier short.gpkg --max-shift 10
 [ "$status" = 0 ] || [ "$status" = 3 ] || fail "short rings: status $status"
 refused 1 'barrier short.gpkg, layer b, FID 1: polygon' separate in.gpkg n.gpkg --barrier short.gpkg --invalid fail
 
-# Coordinates that are no numbers are named.
+# A message names coordinates that are not numbers.
 for k in 0 1; do
     refused 1 "nan_$k.gpkg: layer b, FID 1: a coordinate is not a finite number" check in.gpkg --barrier nan_$k.gpkg
     refused 1 "nan_$k.gpkg: layer b, FID 1: a coordinate is not a finite number" separate in.gpkg n.gpkg --barrier nan_$k.gpkg --max-shift 10

@@ -40,7 +40,8 @@ ogrinfo -ro -q open.gpkg halls -fid 2 | grep -q '^  POLYGON EMPTY' || fail "open
 same "$(geometry dilate.gpkg halls 2)" '  POLYGON ((18 -2,24 -2,24 4,18 4,18 -2))'
 same "$(geometry close.gpkg halls 3)" "$(geometry halls.gpkg halls 3)" "nothing to close"
 
-# A slot as wide as the shape is filled, and is the degenerate hole of the dilation; one that is wider is not.
+# A slot exactly as wide as the shape becomes a degenerate hole of the dilation and is filled by closing; a wider slot
+# remains.
 layer slots.gpkg slots POLYGON <<'CSV'
 WKT,a
 "POLYGON ((0 0, 10 0, 10 4, 2 4, 2 6, 10 6, 10 10, 0 10, 0 0))",1
@@ -53,7 +54,8 @@ expect 0 buffer slots.gpkg d.gpkg --shape square:2 --degenerate
 ogrinfo -ro -q d.gpkg slots_degenerate_segments | grep -q 'LINESTRING (3 5,11 5)' || fail "the slide is missing"
 same "$(count d.gpkg slots_degenerate_segments)" 1
 
-# One set of all; or by a field, in the order in which values come, a null by itself.
+# --dissolve: one set of all features; with a field one set for each value, in order of their first occurrence, null is
+# a value of its own.
 layer rows.gpkg rows POLYGON <<'CSV'
 WKT,street,number
 "POLYGON ((0 0, 4 0, 4 4, 0 4, 0 0))",b,1
@@ -72,13 +74,13 @@ same "$(cat sets)" '2 b 1 a 1 (null) 1 (null) '
 expect 0 buffer rows.gpkg by.shp --operation open --shape square:3 --dissolve-field number
 same "$(count by.shp by)" 5
 
-# --explode: each polygon of the result by itself, the same ones that stand together otherwise.
+# --explode: each polygon of the result is a feature; together they are the result without --explode.
 polygons() { ogrinfo -ro -q "$1" rows -dialect SQLite -sql "SELECT ST_AsText(geom) AS t FROM rows" | grep -oE '\(\([-0-9][^()]*(\),\([^()]*)*\)\)' | tr -d ' ' | sort; }
 expect 0 buffer rows.gpkg blocks.gpkg --operation close --shape square:2 --dissolve --explode --stats -
 [ "$(count blocks.gpkg rows)" -ge 2 ] || fail "$(count blocks.gpkg rows) blocks"
 polygons all.gpkg >whole
 polygons blocks.gpkg >pieces
-[ -s whole ] && cmp -s whole pieces || fail "--explode: other polygons"
+[ -s whole ] && cmp -s whole pieces || fail "--explode: the polygons differ"
 same "$(count blocks.gpkg rows)" "$(wc -l <whole)" 'features for polygons:'
 ogrinfo -ro -so blocks.gpkg rows | grep -q '^Geometry: Polygon$' || fail '--explode: not a layer of polygons'
 if ogrinfo -ro -so blocks.gpkg rows | grep -q '^features: '; then fail '--explode: the number of features of all blocks'; fi
@@ -100,8 +102,8 @@ X
 expect 0 buffer unique.gpkg halves.gpkg --operation erode --shape 'POLYGON ((0 0, 0.5 0, 0.5 2, 0 2, 0 0))' --explode
 same "$(ogrinfo -ro -q -geom=NO halves.gpkg rows | sed -n 's/^  \(key\|sunder_fid\) .*= //p' | tr '\n' ' ')" '7 1 7 1 9 3 ' 'attributes of pieces:'
 
-# The field keeps its type. Values that print alike but differ are different sets, equal values are one. The name of the
-# field may be that of a column.
+# The field keeps its type. Values that print alike but differ are different sets, equal values are one. The field may
+# have the name of a result column.
 cat >kinds.json <<'JSON'
 {"type": "FeatureCollection", "features": [
 {"type": "Feature", "properties": {"features": 0.3, "day": "2020-01-02", "yes": true, "geom": "a", "l": [1]}, "geometry": {"type": "Polygon", "coordinates": [[[0, 0], [1, 0], [1, 1], [0, 0]]]}},
@@ -133,7 +135,7 @@ expect 0 buffer odd.gpkg odd.shp --shape square:2 --stats -
 says err '1 features are not polygons'
 ogr2ogr -lco GEOMETRY_NULLABLE=NO full.gpkg odd.gpkg
 expect 0 buffer full.gpkg null.gpkg -l odd --shape square:2 --stats -
-jq -e '.max_deviation == 0' out >/dev/null || fail "what has no geometry reads back as another: $(cat out)"
+jq -e '.max_deviation == 0' out >/dev/null || fail "a feature without geometry reads back differently: $(cat out)"
 expect 0 buffer eroded.gpkg still.gpkg -l halls --shape square:4 --stats -
 same "$(jq -c '[.features,.empty]' out)" '[4,2]'
 same "$(ogrinfo -ro -q still.gpkg halls | grep -c EMPTY)" 2 "what was empty"
@@ -149,12 +151,12 @@ for operation in dilate erode open close; do
     [ "$(wc -l <one.csv)" -gt 100 ] && cmp -s one.csv many.csv || fail "$operation differs between threads"
     expect 0 buffer "$town" set.gpkg --overwrite -l buildings --operation $operation --shape 'POLYGON ((0 0, 5 1, 1 2, 0 6))' --dissolve
     for file in one set; do
-        case $(valid $file.gpkg buildings) in 0) fail "$operation: GEOS finds $file invalid" ;; 1) ;; *) echo "not asked: GEOS" ;; esac
+        case $(valid $file.gpkg buildings) in 0) fail "$operation: GEOS finds $file invalid" ;; 1) ;; *) echo "not tested with GEOS" ;; esac
     done
 done
 
-# --align: each feature by a shape turned to its walls, so that a rectangle stays one. Dissolved, block by block: parts
-# that are not connected have directions of their own.
+# --align: the shape is turned to the walls of each feature, so that a rectangle stays one. With --dissolve it is turned
+# for each block: parts that are not connected have different directions.
 layer turned.gpkg turned POLYGON <<'CSV'
 WKT,a
 "POLYGON ((0 0, 10 0, 10 10, 0 10, 0 0))",1
@@ -166,7 +168,7 @@ CSV
 for operation in dilate erode open close; do
     expect 0 buffer turned.gpkg $operation.json --lco COORDINATE_PRECISION=9 --operation $operation --shape square:2 --align -q
 done
-# Newer jq keeps the spelling of a number, 1.0, until it is reckoned with.
+# Newer versions of jq print 1.0 as it was written, unless it is used in an arithmetic expression.
 ring() { jq -c ".features[$2].geometry.coordinates[0] | map(map(. + 0))" "$1"; }
 same "$(ring dilate.json 0)" '[[-1,-1],[11,-1],[11,11],[-1,11],[-1,-1]]'
 same "$(ring dilate.json 1)" '[[92.6,8.2],[99.8,-1.4],[109.4,5.8],[102.2,15.4],[92.6,8.2]]'
@@ -176,13 +178,13 @@ same "$(ring open.json 3)" '[[191,12],[200,0],[216,12],[213,16],[201,7],[195,15]
 for feature in 0 1 2 3 4; do
     same "$(ring close.json $feature)" "$(ogr2ogr -f GeoJSON /vsistdout/ turned.gpkg -lco COORDINATE_PRECISION=9 | jq -c "[.features[$feature].geometry.coordinates[0] | map(map(. + 0)) | (min as \$m | index([\$m])) as \$i | (.[\$i:-1] + .[:\$i])[] ] | . + [.[0]]")"
 done
-# Two houses of one direction, 5 apart, are merged by a square of 5.1 turned to it, and not by one of 4.9.
+# Two parallel houses, 5 apart, are merged by a square of 5.1 that is turned to them, and not by one of 4.9.
 expect 0 buffer turned.gpkg merged.json --lco COORDINATE_PRECISION=9 --operation close --shape square:5.1 --align --dissolve -q
 same "$(jq -c '.features[0].geometry.coordinates | map(.[0] | length - 1)' merged.json)" '[4,4,6,3]'
 expect 0 buffer turned.gpkg apart.json --lco COORDINATE_PRECISION=9 --operation close --shape square:4.9 --align --dissolve -q
 same "$(jq -c '.features[0].geometry.coordinates | map(.[0] | length - 1)' apart.json)" '[4,4,4,6,3]'
 
-# Rounding brings polygons of one feature into each other that met in a corner, or were nearer than a unit in the last place.
+# Rounding makes polygons of one feature overlap if they shared a corner, or were nearer than a unit in the last place.
 layer near.gpkg near MULTIPOLYGON <<'CSV'
 WKT,a
 "MULTIPOLYGON (((0.2 0.5, 0.4 0.5, 0.4 1, 0.2 1, 0.2 0.5)), ((0 0, 0.2 0, 0.2 0.1, 0.1 0.1, 0.1 0.30000000000000004, 0 0.30000000000000004, 0 0)), ((0.7000000000000001 0, 0.9 0, 0.7000000000000001 0.2, 0.7000000000000001 0)), ((0.4 0, 0.6000000000000001 0, 0.6000000000000001 0.4, 0.4 0.4, 0.4 0)))",1
@@ -196,10 +198,11 @@ expect 0 buffer near.gpkg near_out.gpkg --stats near.json \
 expect 0 buffer far.gpkg far_out.gpkg --shape square:0.30000000000000004 --stats far.json
 for each in near far; do
     jq -e '.rounded_again > 0 and .max_deviation > 0' $each.json >/dev/null || fail "$each: nothing is rounded again: $(cat $each.json)"
-    case $(valid ${each}_out.gpkg $each) in 0) fail "GEOS finds $each invalid" ;; 1) ;; *) echo "not asked: GEOS" ;; esac
+    case $(valid ${each}_out.gpkg $each) in 0) fail "GEOS finds $each invalid" ;; 1) ;; *) echo "not tested with GEOS" ;; esac
 done
 
-# Round buffers lie between those by a polygon inside the disc and by one around it; squares united by GEOS have our area.
+# Areas of round buffers lie between those for a polygon inside the disc and for one around it; the union of squares
+# computed by GEOS has the same area as ours.
 # shellcheck disable=SC2016
 area() { ogrinfo -ro -q -dialect sqlite -sql "$2" "$1" 2>/dev/null | sed -n 's/.*a (Real) = //p'; }
 expect 0 buffer "$town" in.gpkg -l buildings --shape inside-disc:3 --stats in.json
@@ -215,11 +218,11 @@ if [ -n "$round" ]; then
     awk -v a="$theirs" -v b="$(jq .area united.json)" 'BEGIN { d = a - b; exit !(d * d < 1e-18 * a * a) }' ||
         fail "dissolved: GEOS has $theirs, not $(jq .area united.json)"
 else
-    echo "not asked: GEOS areas, since this GDAL is without SpatiaLite"
+    echo "not tested: GEOS areas, since this GDAL is without SpatiaLite"
 fi
 
-# A shape from a data source: all polygons of its layer, independently of --where and --bbox, which select from the
-# input.
+# A shape from a data source: the union of all polygons of its layer. --where and --bbox select features of the input,
+# not of the shape.
 layer stamp.gpkg stamp POLYGON <<'CSV'
 WKT,part
 "POLYGON ((-2 -2, 2 -2, 2 0, -2 0, -2 -2))",1
@@ -249,7 +252,7 @@ refused 2 'give one of them' buffer halls.gpkg n.gpkg --shape square:1 --dissolv
 refused 1 'no field nam' buffer halls.gpkg n.gpkg --shape square:1 --dissolve-field nam
 refused 1 'exists' buffer halls.gpkg open.gpkg --shape square:1
 refused 1 'input' buffer halls.gpkg halls.gpkg --shape square:1 --overwrite
-# A set that cannot be computed ends the run, also if others can; the message names the feature.
+# A set that cannot be computed ends the run, even if others can be; the message names the feature.
 cat >far.csv <<'CSV'
 WKT,name
 "POLYGON((0 0,2 0,2 2,0 0))",near

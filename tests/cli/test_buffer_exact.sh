@@ -1,5 +1,5 @@
 # shellcheck shell=bash disable=SC1091
-# sunder buffer against brute force in exact arithmetic; SUNDER_SEED and SUNDER_TEST_SCALE as elsewhere.
+# Compares sunder buffer with brute force in exact arithmetic (buffer_exact.py).
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 command -v python3 >/dev/null || { echo "skipped: python3 is not installed"; exit 77; }
 PYTHONDONTWRITEBYTECODE=1 python3 "$SUNDER_SOURCE/tests/cli/buffer_exact.py" "$SUNDER" $((24 * ${SUNDER_TEST_SCALE:-1})) \

@@ -1,5 +1,6 @@
 # shellcheck shell=bash disable=SC1091
-# sunder check: a line a conflict, kinds, blocks, the layer of conflicts, JSON, agreement with separate.
+# sunder check: one line per conflict, kinds, blocks, the layer of conflicts, JSON; its counts agree with those of
+# separate.
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 
 layer in.gpkg houses POLYGON <<'X'
@@ -40,7 +41,7 @@ refused 1 'in.gpkg' check in.gpkg in.gpkg
 expect 3 check in.gpkg in.gpkg --update
 same "$(count in.gpkg houses_conflicts) $(count in.gpkg houses)" "$(count c.gpkg houses_conflicts) 8"
 
-# On a written result, the counts of `after`.
+# For a written result the counts are those that separate gave as `after`.
 town=$SUNDER_SOURCE/datasets-synthetic/town.gpkg
 for options in '--gap 3' '--gap 3 --max-shift 2' '--gap 2 --contained separate'; do
     # shellcheck disable=SC2086 # words

@@ -1,10 +1,11 @@
 # shellcheck shell=bash disable=SC1090,SC1091
-# Tests the installed completion for bash: it offers what the parser accepts, and names from the data.
+# Tests the installed completion for bash: it offers what the parser accepts, and names of layers and fields from the
+# data.
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 script=$SUNDER_BUILD/gis/sunder.bash
 [ -f "$script" ] || { echo "skipped: nothing was made from the table of options (cross-compiled)"; exit 77; }
 
-# What is offered for the last of the words, sorted; words are parted as by readline, at = and : too.
+# Prints the sorted completions of the last word. The line is split as readline does it, also at = and : .
 cat >ask.sh <<'X'
 . "$0" && complete -p sunder | grep -q '_sunder sunder$' || exit 1
 COMP_WORDBREAKS=$' \t\n"\'><=;|&(:'

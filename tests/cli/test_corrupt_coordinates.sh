@@ -1,12 +1,13 @@
 # shellcheck shell=bash disable=SC1091
-# One corrupt vertex, from 1e10 to the greatest double: a feature that can only be moved by multiples of its last place is
-# tried as fixed first, and its sound neighbours go no farther than beside a fixed one. What is thrown far is warned of.
+# One corrupt vertex, from 1e10 to the greatest double. A feature that can only be moved by multiples of its last place
+# is first tried as fixed, so that its valid neighbours move no farther than beside a fixed one. A warning names
+# features that move very far.
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 command -v python3 >/dev/null || { echo "skipped: python3 is not installed"; exit 77; }
 export SUNDER
 python3 "$SUNDER_SOURCE/tests/cli/corrupt_coordinates.py" || fail "see above"
 
-# If the neighbour may not move, the corrupt feature is not held: it moves, and a warning is printed.
+# If the neighbour may not move, the corrupt feature is not fixed: it moves, and a warning is printed.
 cat >wild.csv <<'X'
 id,WKT
 1,"POLYGON ((500000 5300000,500010 5300000,500010 5300100,500000 5300100,500000 5300000))"
@@ -14,11 +15,11 @@ id,WKT
 3,"POLYGON ((500000 5300500,500010 5300500,500010 5300600,500000 5300500))"
 X
 expect 0 separate wild.csv wild.gpkg --fixed-where "id = '1'" --oo GEOM_POSSIBLE_NAMES=WKT
-grep -q 'FID 2: it moves by .*are its own coordinates corrupt' err || fail "no warning"
+grep -q 'FID 2: it moves by .*are its own coordinates corrupt' err || fail "the warning is missing"
 
-# The same warning is printed for two features alone, for a layer in parts, and for one that is merged from shards; it
-# is never printed for a layer without corrupt coordinates.
-told() { # WORDS: what separate says of the layer, in words and as JSON, whole and in parts
+# The same warning is printed for a layer of two features, for a layer in parts, and for one merged from shards; it is
+# never printed for a layer without corrupt coordinates.
+told() { # WORDS: expected in the message of separate, as text and as JSON, for the layer as a whole and in parts
     local messages
     for messages in text json; do
         rm -rf plan

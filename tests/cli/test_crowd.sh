@@ -1,7 +1,8 @@
 # shellcheck shell=bash disable=SC1091
 # Houses in a dense crowd between roads, some of which have to stay in conflict. If rounding makes one of these
-# conflicts slightly worse than at the start, no other pair loses its solution. (When one of the two was sent home, and
-# then each house that stood there, 18 pairs of this town remained in conflict; now 11 remain.)
+# conflicts slightly worse than at the start, no other pair loses its solution. (11 pairs remain in conflict. In an
+# earlier version, which moved one of the two houses back to its original place, and then every house that overlapped it
+# there, 18 remained.)
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 command -v python3 >/dev/null || { echo "skipped: no python3"; exit 77; }
 

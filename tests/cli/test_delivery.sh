@@ -1,6 +1,6 @@
 # shellcheck shell=bash disable=SC1091
 # The end of a run: either the output, the file of --stats and standard output are all complete, or no file has changed.
-# The failures here happen after all the work is done.
+# Failures occur here after all computation is done.
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 
 layer in.gpkg houses POLYGON <<'X'
@@ -11,7 +11,7 @@ X
 echo 'of an earlier run' >s.json
 echo precious >taken.dbf
 
-# failed WORDS STDOUT ARGS: demands status 1, one line on stderr, and unchanged files.
+# failed WORDS STDOUT ARGS: requires status 1, one line on stderr, and unchanged files.
 failed() {
     local words=$1 to=$2 status=0
     shift 2
@@ -52,7 +52,8 @@ else
     echo "not tried: there is no /dev/full"
 fi
 
-# A file of the output that is in the way shows at the last step: the statistics, which are in place by then, go again.
+# A file that the output would replace is found only in the last step, when the statistics are already in place: they
+# are removed again.
 failed 'taken.dbf' out separate in.gpkg taken.shp --stats s.json --quiet
 failed 'taken.dbf' out separate in.gpkg taken.shp --stats new.json --quiet --report new.html --proof new.jsonl
 
@@ -70,15 +71,16 @@ refused 2 'that is a part of the input' separate parts.shp o.gpkg --proof parts.
 echo 'POLYGON((0 0,1 0,0 1))' >p.wkt
 refused 2 'that is an input' sum @p.wkt square:1 --stats p.wkt
 chmod 444 s.json
-[ -w s.json ] || refused 1 's.json' separate in.gpkg o.gpkg --stats s.json # (root writes everything)
+[ -w s.json ] || refused 1 's.json' separate in.gpkg o.gpkg --stats s.json # (root can write every file)
 chmod 644 s.json
 
-# A successful run replaces the statistics, also through a link, which stays a link, and leaves no other file.
+# A successful run replaces the statistics. If the path is a symbolic link, its target is replaced and the link stays.
+# No other file remains.
 ln -s s.json link.json
 listing | awk '{ print $NF }' | sort >before
 expect 0 sum @p.wkt square:1 --stats link.json
 listing | awk '{ print $NF }' | sort >after
-cmp -s before after || fail "other files than before: $(diff before after)"
+cmp -s before after || fail "files differ from those before: $(diff before after)"
 [ -L link.json ] || fail "the link was replaced"
 same "$(json .command s.json)" sum "the statistics"
 finish

@@ -1,7 +1,7 @@
 # shellcheck shell=bash
-# Every driver of GDAL that can create vector data writes the layers of separate, check and buffer of a small layer with
-# awkward fields. The run succeeds, reads back and reports all losses, or it is refused before the work with a message
-# that names the cause.
+# Every vector driver of GDAL that can create data writes the output of separate, check and buffer for a small layer
+# with unusual fields. Either the run succeeds, and its output can be read and all losses were reported, or it is
+# refused before the computation with a message that names the cause.
 . "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
 command -v jq >/dev/null || { echo "skipped: jq is not installed"; exit 77; }
 
@@ -23,7 +23,7 @@ ending() {
     esac
 }
 
-# The output reads back, and everything that is missing was reported.
+# The output can be read, and all losses were reported.
 written() {
     local driver=$1 command=$2 out=$3 main=$4 names losses wanted=3
     jq -r '.losses[]?' stats.json >losses
@@ -36,10 +36,10 @@ written() {
     [ "$command" != check ] || return
     names=$(sed -n 's/^\([^ ].*\): [A-Z][A-Za-z0-9]*\(([^)]*)\)* ([0-9.]*).*/\1/p' info)
     for name in $fields; do
-        grep -qx "$name" <<<"$names" || grep -q "^field $name: " <<<"$losses" || fail "$driver, $command: field $name is lost, and nobody is told"
+        grep -qx "$name" <<<"$names" || grep -q "^field $name: " <<<"$losses" || fail "$driver, $command: field $name is lost without a message"
     done
     [ "$command" = separate ] || return
-    grep -qx sunder_blk <<<"$names" || { grep -q 'sunder_blk' <<<"$losses" || fail "$driver: sunder_blk is lost, and nobody is told"; return; }
+    grep -qx sunder_blk <<<"$names" || { grep -q 'sunder_blk' <<<"$losses" || fail "$driver: sunder_blk is lost without a message"; return; }
     grep -q 'has no geometry\|geometries are not written\|changes geometries' losses && return
     # With the blocks that separate wrote, check finds the conflicts that separate reported.
     run check "$out" --input-layer "$main" --no-blocks --gap 1 --block-field sunder_blk --quiet --stats after.json
@@ -69,13 +69,13 @@ while read -r driver; do
                 written "$driver" "$command" "$out" "$main"
                 ;;
             1 | 2)
-                [ "$(grep -c '^sunder: error: ' err)" -eq 1 ] || fail "$driver, $command: no single error"
+                [ "$(grep -c '^sunder: error: ' err)" -eq 1 ] || fail "$driver, $command: not exactly one error"
                 [ -z "$(ls -A o)" ] || fail "$driver, $command: something is left in spite of the refusal"
                 last=$(grep -E '^[0-9]+$' err | tail -1)
                 [ "${last:-0}" -le $reached ] || fail "$driver, $command: refused after the work had begun, at $last percent"
-                grep -q "$driver" err || fail "$driver, $command: the message names no format"
+                grep -q "$driver" err || fail "$driver, $command: the message does not name the format"
                 asked+=",$driver"
-                [ "$status" -ne 2 ] || break # whatever the layer
+                [ "$status" -ne 2 ] || break # formats that are refused for every layer
                 ;;
             *) fail "$driver, $command: exit status $status" ;;
         esac

@@ -46,7 +46,8 @@ same "$(jq -c '[.skipped, .invalid, .null]' check.json)" '[25,24,1]'
 expect 0 buffer nothing.gpkg grown.gpkg --shape square:1 --stats buffer.json
 same "$(jq -c '[.features, .empty, .invalid, .rounded_again, has("repaired")]' buffer.json)" '[27,25,24,0,false]'
 says out '27 features (invalid 24, null 1)'
-# An area that the even-odd rule gives is used, and there is no message that the rings enclose none.
+# A ring that crosses itself is used if it encloses an area by the even-odd rule, and then there is no message that it
+# encloses none.
 layer bow.gpkg h POLYGON <<'CSV'
 WKT,name
 "POLYGON ((0 0,10 10,10 0,0 10,0 0))",bow
@@ -55,7 +56,7 @@ expect 0 check bow.gpkg
 says err 'read as the region that its rings enclose by the even-odd rule'
 says out '(skipped 0, invalid 1, null 0)'
 
-# ---- Coordinates that are no finite numbers, at any vertex, as any kind: --invalid skip lets the features through. Drivers do
+# ---- Coordinates that are not finite, at any vertex, of any kind: --invalid skip leaves the features out. Drivers do
 # not write them: the bytes are put into a GeoPackage.
 python3 - >sound.csv <<'PY'
 print("WKT,name")
@@ -99,16 +100,16 @@ expect 3 check broken.gpkg --invalid skip --stats check.json
 same "$(jq -c '[.features, .skipped, .invalid, .null, .conflicts.overlap]' check.json)" '[12,6,6,0,2]'
 expect 0 buffer broken.gpkg grown.gpkg --overwrite --shape square:1 --invalid skip --stats buffer.json
 same "$(jq -c '[.features, .empty, .invalid]' buffer.json)" '[12,0,6]'
-# The same by way of the disk, in shards, in other formats, and as barrier, operand and obstacle.
+# The same with --max-memory, in shards, in other formats, and as barrier, operand and obstacle.
 rows() { ogrinfo -q -ro "$1" h | grep -v '^Layer\|^$'; }
 rows whole.gpkg >whole.rows
 expect 0 separate broken.gpkg memory.gpkg --invalid skip --max-memory 200M
-rows memory.gpkg | cmp - whole.rows || fail "--max-memory gives another layer"
+rows memory.gpkg | cmp - whole.rows || fail "with --max-memory the layer differs"
 expect 0 plan broken.gpkg cut --shards 2 --invalid skip
 expect 0 separate --shard 1 cut
 expect 0 separate --shard 2 cut
 expect 0 merge cut merged.gpkg
-rows merged.gpkg | cmp - whole.rows || fail "the shards give another layer"
+rows merged.gpkg | cmp - whole.rows || fail "with shards the layer differs"
 for each in shp geojson sqlite csv gml; do
     mkdir "$each"
     expect 0 separate broken.gpkg "$each/o.$each" --invalid skip --quiet --stats each.json

@@ -1,7 +1,6 @@
 # shellcheck shell=bash disable=SC1091
-# Plans with one number changed and all checksums computed again (forged_plan.py): merge and shards end with a
-# result or a sentence. None crashes, asks for memory that the files of the plan do not account for, or goes on without
-# end.
+# Plans with one number changed and all checksums computed again (forged_plan.py): merge and shards end with a result or
+# an error message. None crashes, allocates memory that the files of the plan do not account for, or runs without end.
 #
 #   SUNDER_SEED=N          replays a draw
 #   SUNDER_TEST_SCALE=N    N times 60 forgeries; all: each of them (some 10,000)
@@ -16,7 +15,7 @@ seed=${SUNDER_SEED:-$((RANDOM))}
 scale=${SUNDER_TEST_SCALE:-1}
 echo "SUNDER_SEED=$seed SUNDER_TEST_SCALE=$scale"
 
-# Three shards' worth of boxes that overlap, two that cannot be parted, a block, a road.
+# Overlapping boxes for three shards, two that cannot be separated, a block, a road.
 {
     echo 'id,block,WKT'
     for i in 0 1 2 3 4 5; do

@@ -1,11 +1,12 @@
 # shellcheck shell=bash
 # Limits of formats: names that differ in case only, 64-bit integers, lists, null, layers of unknown type, negative
-# FIDs, features without geometry. Such data are written in another way with a message, or refused before the work.
+# FIDs, features without geometry. Such data are written in another form with a message, or the run is refused before
+# the computation.
 . "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
 command -v jq >/dev/null && command -v python3 >/dev/null || { echo "skipped: jq or python3 is not installed"; exit 77; }
 losses() { jq -r '.losses[]' "$1"; }
 names() { ogrinfo -ro -so "$1" "$2" | sed -n 's/^\([A-Za-z0-9_]*\): [A-Z][A-Za-z0-9]*\(([A-Za-z0-9]*)\)* ([0-9.]*).*/\1/p'; }
-# A layer of squares in GeoJSON; two of them overlap: properties are written by the Python expression in $1, of i.
+# A layer of squares in GeoJSON; two of them overlap. $1 is a Python expression in i that gives the properties.
 squares() {
     python3 -c "
 import json, sys
@@ -39,12 +40,12 @@ PY
         expect 0 separate case.geojson o/case.$end --layers main --quiet --stats s.json
         names o/case.$end case | grep -v '^sunder_' >got
         same "$(wc -l <got)" 9 "$end, seed $seed: fields"
-        if [ $end = geojson ]; then same "$(cat got)" "$(cat case.names)" 'GeoJSON tells them apart:'; continue; fi
+        if [ $end = geojson ]; then same "$(cat got)" "$(cat case.names)" 'GeoJSON distinguishes them:'; continue; fi
         same "$(tr '[:upper:]' '[:lower:]' <got | sort | uniq -d)" '' "$end, seed $seed: the same twice:"
         paste case.names got >pairs
         ogrinfo -q -ro o/case.$end case >rows
         while read -r name as; do
-            [ "$name" = "$as" ] || losses s.json | grep -q "^field $name: called $as" || fail "$end: $name is called $as, which is not told"
+            [ "$name" = "$as" ] || losses s.json | grep -q "^field $name: called $as" || fail "$end: $name is renamed to $as without a message"
             grep -q "^  $as (String) = ${name}1$" rows || fail "$end: the value of $name is not in $as"
         done <pairs
     done
@@ -58,11 +59,12 @@ for end in tab gdb; do
     rows=$(ogrinfo -q -ro wide.$end wide)
     grep -q 'bid (Real) = 12345678901$' <<<"$rows" || fail "$end: the key is lost"
     wanted='field bid: Real instead of Integer64, 1 value cannot be held as it is (first: FID 2)'
-    [ $end = gdb ] || wanted='field bid: Real instead of Integer64, 2 values cannot be held as they are (first: FID 2)' # and the null
+    # the null value, too
+    [ $end = gdb ] || wanted='field bid: Real instead of Integer64, 2 values cannot be held as they are (first: FID 2)'
     same "$(losses s.json | grep '^field bid')" "$wanted" "$end:"
 done
 
-# ---- lists: JSON text, told
+# ---- lists: written as JSON text, with a message
 squares 2 "{'tags': [['a', 'b\"c'], []][i], 'nums': [[1, 2], [3]][i], 'parts': [[0.5], [1.5, 2.5]][i]}" >list.geojson
 for end in fgb shp tab gpkg gdb; do
     expect 0 separate list.geojson list.$end --layers main --quiet --stats s.json
@@ -76,7 +78,7 @@ done
 # for any format
 squares 3 "{'n': i}" 'i == 1' >mixed.geojson
 expect 0 separate mixed.geojson mixed.gdb --quiet
-ogrinfo -ro -so mixed.gdb mixed | grep -q '^Geometry: Multi Polygon' || fail "the geodatabase's layer is no Multi Polygon"
+ogrinfo -ro -so mixed.gdb mixed | grep -q '^Geometry: Multi Polygon' || fail "the type of the geodatabase's layer is not Multi Polygon"
 expect 0 separate mixed.geojson plain.gpkg --quiet
 same "$(ogrinfo -ro -so plain.gpkg mixed | sed -n 's/^Geometry: //p')" 'Unknown (any)'
 for nlt in '-nlt PROMOTE_TO_MULTI' '--nlt=PROMOTE_TO_MULTI'; do
@@ -97,7 +99,7 @@ if [ "$(count both.gpkg mixed)" = 4 ]; then
     expect 0 separate both.gpkg some.gdb --where 'n < 9' --quiet
 fi
 
-# ---- negative FIDs, which GeoJSON does not read as such, stand in a field
+# ---- negative FIDs, which GeoJSON does not read as FIDs, are written to a field
 ogr2ogr fids.gpkg mixed.geojson -nln fids -nlt MULTIPOLYGON
 ogrinfo -q fids.gpkg -sql 'UPDATE fids SET fid = -5 WHERE n = 1' >/dev/null
 expect 0 separate fids.gpkg fids.geojson --layers main
@@ -120,7 +122,8 @@ refused 1 'FlatGeobuf drops features without geometry' buffer bare.gpkg no.fgb -
 # shards
 python3 - >row.csv <<'PY'
 print("WKT,id")
-for i in range(12):  # pairs that overlap; of every third the two touch another, and are a block of three
+# pairs that overlap; in every third pair the second also touches a third square, so that these are a block of three
+for i in range(12):
     for k in range(2):
         x, y = 100 * i + 8 * k, 0
         print(f'"POLYGON (({x} {y},{x+10} {y},{x+10} {y+10},{x} {y+10},{x} {y}))",{10*i+k}')
@@ -135,14 +138,14 @@ for end in tab mif csv shp geojson nc gmt jml; do
     ogrinfo --format "${of[1]:-GeoJSON}" >/dev/null 2>&1 || continue
     run separate row.gpkg o/row.$end "${of[@]}" --gap 1 --max-shift 0.1 --touch-tolerance 0.2 --quiet --stats s.json
     same $status 3 "$end:"
-    [ $end != csv ] || rm o/row.csvt # all is text then
+    [ $end != csv ] || rm o/row.csvt # without it all fields are text
     main=$(ogrinfo -ro -so -al o/row.$end 2>/dev/null | sed -n 's/^Layer name: //p' | head -1)
     run check o/row.$end --input-layer "$main" --gap 1 --no-blocks --block-field sunder_blk --quiet --stats c.json
     same "$(counts .conflicts c.json)" "$(counts .conflicts.after s.json)" "$end: conflicts"
     case $end in
         tab | mif | nc)
-            losses s.json | grep -q 'no null: a feature in no block has its own FID in sunder_blk' || fail "$end: not told"
-            losses s.json | grep -q '_conflicts: null reads back as a value in .*barr_fid' || fail "$end: of barr_fid nobody is told"
+            losses s.json | grep -q 'no null: a feature in no block has its own FID in sunder_blk' || fail "$end: no message about sunder_blk"
+            losses s.json | grep -q '_conflicts: null reads back as a value in .*barr_fid' || fail "$end: no message about barr_fid"
             ;;
     esac
 done
@@ -151,9 +154,9 @@ rows() { ogrinfo -q -ro "$1" row | grep -v '^Layer'; }
 mkdir whole memory shards
 run separate row.gpkg whole/row.tab --gap 1 --max-shift 0.1 --touch-tolerance 0.2 --quiet
 run separate row.gpkg memory/row.tab --gap 1 --max-shift 0.1 --touch-tolerance 0.2 --quiet --max-memory 200M
-rows whole/row.tab | cmp - <(rows memory/row.tab) || fail "by way of the disk blocks are called otherwise"
+rows whole/row.tab | cmp - <(rows memory/row.tab) || fail "in parts the blocks have other numbers"
 run plan row.gpkg cut --shards 2 --gap 1 --max-shift 0.1 --touch-tolerance 0.2 --quiet
 for k in 1 2; do run separate --shard $k cut --quiet; done
 run merge cut shards/row.tab --quiet
-rows whole/row.tab | cmp - <(rows shards/row.tab) || fail "merged, blocks are called otherwise"
+rows whole/row.tab | cmp - <(rows shards/row.tab) || fail "after merge the blocks have other numbers"
 finish

@@ -1,7 +1,7 @@
 # shellcheck shell=bash disable=SC1091
-# What gap would free a building among roads: the town has 97 conflicts for which a gap is found. A search fails at many gaps below
-# the largest one; it is asked about other gaps then, so that at most 15 of the values are not proved to be the largest to a
-# hundredth.
+# The largest gap that resolves a conflict of a building among roads: the program finds such a gap for at least 97
+# conflicts of the town. The search for a solution may fail at a gap below the largest one; other gaps are tried then,
+# so that at most 15 of the values are not proved to be the largest to within a hundredth.
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 
 town=$SUNDER_SOURCE/datasets-synthetic/town.gpkg

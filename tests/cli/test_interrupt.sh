@@ -1,8 +1,8 @@
 # shellcheck shell=bash disable=SC1091
 # SIGINT and SIGTERM while a run waits or works without end: for a pipe, in a statement of a database that it reads or
-# writes, in a statement that cannot be interrupted. Each run is kept there until the signal arrives, so the test does
-# not depend on time. (tests/faults/test_signals.sh sends signals at every system call of ordinary runs, tests/watch
-# tests the library.)
+# writes, in a statement that cannot be interrupted. Each run stays in that state until the signal arrives, so the test
+# does not depend on time. (tests/faults/test_signals.sh sends signals at every system call of ordinary runs;
+# tests/watch tests the library.)
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 strike=$SUNDER_BUILD/tests/strike
 [ -x "$strike" ] && "$strike" list 0 true 3>report 2>/dev/null || { echo "skipped: no process can be traced here"; exit 77; }
@@ -18,7 +18,8 @@ mkfifo pipe
 count='(WITH RECURSIVE c(x) AS (SELECT 1 UNION ALL SELECT x + 1 FROM c LIMIT 1000000000000) SELECT count(*) FROM c)'
 deaf="instr(zeroblob(50000000), CAST(zeroblob(1000000) || x'01' AS BLOB))"
 
-# caught PID: waits until it catches signals, and a little longer, so that it has reached the place where it stays.
+# caught PID: waits until the process has installed its signal handlers, and a little longer, so that it reaches the
+# state in which it stays.
 caught() {
     local mask
     until mask=$(sed -n 's/^SigCgt:\s*//p' "/proc/$1/status" 2>/dev/null) && [ $((0x${mask:-0} >> 14 & 1)) -eq 1 ]; do
@@ -28,9 +29,9 @@ caught() {
     sleep 0.3
 }
 
-# held SIGNALS ARGS: runs the program and sends the signals; sets $status. strike withholds SIGALRM, by which the
-# program would end a call that does not poll for signals. So a signal ends only code that polls. (The subshell does not
-# ignore SIGINT.)
+# held SIGNALS ARGS: runs the program and sends the signals; sets $status. `strike` withholds SIGALRM, by which the
+# program would end a call that does not poll for signals, so that a signal ends only code that polls. (The subshell
+# does not ignore SIGINT.)
 held() {
     local signals=$1 pid child
     shift
@@ -43,7 +44,7 @@ held() {
     read -r _ _ status _ <report
 }
 
-# interrupted ARGS: either signal ends the run with status 1, one line, and unchanged files.
+# interrupted ARGS: with either signal the run ends with status 1, one line of message, and unchanged files.
 turn=0
 interrupted() {
     local signals=(INT TERM) signal
@@ -87,8 +88,8 @@ interrupted_writing "CREATE TRIGGER slow AFTER DELETE ON gpkg_contents BEGIN SEL
 interrupted_writing "CREATE TRIGGER slow AFTER UPDATE ON gpkg_contents BEGIN SELECT $count; END; PRAGMA journal_mode = WAL" \
     check in.gpkg o.gpkg --update --output-layer more
 
-# ---- a statement that nothing can cut short: a second signal ends the run as signals do ...
-twice() { # (which of the two comes first is the system's choice)
+# ---- a statement that cannot be interrupted: a second signal ends the run as by default ...
+twice() { # (the system decides which of the two signals arrives first)
     listing >before
     held "TERM INT" "$@"
     listing >after
@@ -100,7 +101,7 @@ twice separate in.gpkg o.gpkg --where "$deaf = 0"
 sqlite3 o.gpkg "CREATE TRIGGER slow AFTER INSERT ON gpkg_contents BEGIN SELECT $deaf; END"
 twice separate in.gpkg o.gpkg --update --output-layer more
 
-# ---- ... and one does, after a second, with the run's own exit status; so it does where GDAL waits and waits again
+# ---- ... and one signal ends it after a second, with exit status 1; the same where GDAL waits in a loop
 ended() {
     listing >before
     "$SUNDER" "$@" >out 2>err 7<>pipe </dev/fd/7 &

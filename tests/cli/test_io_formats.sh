@@ -1,5 +1,5 @@
 # shellcheck shell=bash
-# Formats: which properties are verified for each, standard output, formats that change coordinates, dates fixed by
+# Formats: which properties are verified for each; standard output; formats that change coordinates; dates set by
 # SOURCE_DATE_EPOCH.
 set -eu
 . "$(dirname "${BASH_SOURCE[0]}")/io_layers.sh"
@@ -7,7 +7,7 @@ make_squares
 separate() { "$SUNDER" separate --quiet --input-layer squares "$@"; }
 verified() { sed -n 's/.*"verified": *\([a-z]*\).*/\1/p' "$1"; }
 
-# Thirds have no short decimals: a format that rounds shows itself.
+# Thirds have no short decimal representation, so they reveal a format that rounds.
 cat >thirds.csv <<'CSV'
 wkt,name
 "POLYGON ((451234.33333333331 5411234.666666667,451244.1 5411234.666666667,451244.1 5411244.1,451234.33333333331 5411234.666666667))",one
@@ -20,10 +20,10 @@ separate --stats gpkg.json thirds.gpkg first.gpkg
 for each in shp geojson fgb sqlite; do
     separate --stats "$each.json" thirds.gpkg "exact.$each"
     [ "$(verified "$each.json")" = true ] || { cat "$each.json"; fail "$each is not verified"; }
-    # Back to a GeoPackage: the stored bytes of the geometries show whether every double was kept. Rings may start at
-    # another vertex, so vertices are compared one by one.
+    # Converted back to a GeoPackage: the stored bytes of the geometries show whether every double was kept. Rings may
+    # start at another vertex, so vertices are compared one by one.
     layer=squares
-    if [ "$each" = shp ]; then layer=exact; fi # a Shapefile's layer is called after its file
+    if [ "$each" = shp ]; then layer=exact; fi # the layer of a Shapefile has the name of its file
     ogr2ogr -f GPKG "back_$each.gpkg" "exact.$each" "$layer" -nln squares -lco GEOMETRY_NAME=geom
 done
 vertices() {
@@ -33,14 +33,14 @@ vertices() {
 }
 if vertices first.gpkg geom >first.vertices 2>/dev/null && [ "$(wc -l <first.vertices)" = 6 ]; then
     for each in shp geojson fgb sqlite; do
-        # All four vertices of a ring, the closing one included, hold its three corners wherever it starts.
+        # The first three vertices of a closed triangle are its corners, wherever the ring starts.
         vertices "back_$each.gpkg" geom | sort -u | diff <(sort -u first.vertices) - || fail "$each changed a coordinate"
     done
 else
     echo "note: GDAL has no SpatiaLite here; the stored bytes are not compared"
 fi
 
-# ---- inexact formats say so
+# ---- inexact formats are reported
 separate --stats csv.json thirds.gpkg rounded.csv 2>/dev/null
 [ "$(verified csv.json)" = false ] || fail "CSV rounds, and is called verified"
 separate --lco COORDINATE_PRECISION=3 --stats rounded.json thirds.gpkg rounded.geojson 2>/dev/null
@@ -57,7 +57,7 @@ separate --allow-inexact-output --layers main --where "name = 'one'" thirds.gpkg
 
 # ---- standard output: the complete main layer, and nothing else
 "$SUNDER" separate --input-layer squares --of GeoJSON squares.gpkg /vsistdout/ >stdout.geojson 2>message
-[ "$(ogrinfo -ro -al -so stdout.geojson | sed -n 's/^Feature Count: //p')" = 3 ] || fail "standard output is no whole layer"
+[ "$(ogrinfo -ro -al -so stdout.geojson | sed -n 's/^Feature Count: //p')" = 3 ] || fail "standard output is not a complete layer"
 refused 1 'several files' separate --of 'ESRI Shapefile' squares.gpkg /vsistdout/
 [ ! -s refused.out ] || fail "something was written before the refusal"
 refused 2 'the format is not known from the name' separate squares.gpkg /vsistdout/

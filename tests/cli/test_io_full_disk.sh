@@ -1,6 +1,6 @@
 # shellcheck shell=bash disable=SC1091
-# Everything that is reported as written is there, feature by feature: on a disk that becomes full at any byte, and in
-# streams and formats that cannot be read back.
+# Every feature that is reported as written is in the file: on a disk that becomes full at any byte, and with streams
+# and formats that cannot be read back.
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 town=$SUNDER_SOURCE/datasets-synthetic/town.gpkg
 strike=$SUNDER_BUILD/tests/strike
@@ -26,17 +26,17 @@ else
     echo "not tried: no file system can be mounted here"
 fi
 
-# ---- the same by a write that fails, at places all over the file and at its end
+# ---- the same by a write that fails, at places throughout the file and at its end
 if [ -x "$strike" ] && "$strike" list 0 true 3>report 2>/dev/null; then
     export ASAN_OPTIONS="${ASAN_OPTIONS:+$ASAN_OPTIONS:}detect_leaks=0"
     for each in fgb shp geojson; do
         mkdir -p at && rm -rf at/*
         STRIKE_UNDER=at "$strike" list 0 "$SUNDER" separate --layers main -q "$town" "at/o.$each" 3>report 2>err
         read -r _ bytes status _ <report
-        [ "$status" -eq 0 ] || fail "$each is not written at all"
-        # The record of the files to be put in place contains their inode numbers and times, whose length varies between
-        # runs. A run that writes a byte less may end before the last bytes are reached; this cannot happen at earlier
-        # places.
+        [ "$status" -eq 0 ] || fail "$each is not written, even without a limit"
+        # The list of the files to be put in place contains their inode numbers and times, whose length varies between
+        # runs. A run that writes a byte less than the measured one may end before the last bytes are reached; this
+        # cannot happen at earlier places.
         for place in $((bytes / 3)) $((bytes - 64)) $((bytes - 8)) $((bytes - 1)); do
             rm -rf at/*
             STRIKE_UNDER=at "$strike" full "$place" "$SUNDER" separate --layers main -q "$town" "at/o.$each" 3>report 2>err
@@ -55,11 +55,11 @@ id,WKT
 2,"POLYGON((3 0,7 0,7 4,3 4,3 0))"
 X
 
-# ---- a stream is judged by its writes, and says that it was not read back
+# ---- a stream: success depends on its writes, and a message says that it was not read back
 expect 0 separate in.gpkg /vsistdout/ --of GeoJSON --stats s.json
 says s.json 'standard output is read back in memory, not from there'
 expect 0 separate in.gpkg /vsistdout/ --of GeoJSON --strict --stats s.json --layers main
-# ---- and so is a format that is only written
+# ---- the same for a format that GDAL can only write
 if ogrinfo --formats | grep -q PGDUMP; then
     refused 1 'GDAL cannot read PGDUMP' separate in.gpkg o.sql --of PGDUMP
     expect 0 separate in.gpkg o.sql --of PGDUMP --allow-inexact-output --stats s.json --layers main

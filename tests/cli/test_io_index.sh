@@ -1,6 +1,7 @@
 # shellcheck shell=bash
-# The packed spatial index of a GeoPackage: SQLite finds it sound, searches find the same features as a full scan, and
-# it goes on living when GDAL inserts and deletes. The numbers of features are those at which nodes fill up (51 cells).
+# The packed spatial index of a GeoPackage: SQLite finds no fault in it, searches find the same features as a full scan,
+# and it stays valid when GDAL inserts and deletes. The numbers of features are those at which nodes become full (51
+# cells).
 set -eu
 . "$(dirname "${BASH_SOURCE[0]}")/io_layers.sh"
 "$SUNDER_BUILD/sunder-town" --buildings 3000 --seed 1 town.gpkg >/dev/null
@@ -11,12 +12,12 @@ sound() { ask "$1" "SELECT rtreecheck('rtree_$2_geom') AS a"; }
 for n in 0 1 50 51 52 2601 2602 3000; do
     "$SUNDER" separate --quiet --input-layer buildings --where "fid <= $n" --overwrite --allow-conflicts town.gpkg out.gpkg
     [ "$(sound out.gpkg buildings)" = ok ] || fail "$n features: $(sound out.gpkg buildings)"
-    [ "$(ask out.gpkg 'SELECT count(*) AS n FROM rtree_buildings_geom')" = "$n" ] || fail "$n features: others in the index"
+    [ "$(ask out.gpkg 'SELECT count(*) AS n FROM rtree_buildings_geom')" = "$n" ] || fail "$n features: the index does not contain all of them"
     [ "$(ask out.gpkg "SELECT HasSpatialIndex('buildings', 'geom') AS n")" = 1 ] || fail "GDAL does not see the index"
 done
 [ "$(sound out.gpkg buildings_displacement)" = ok ] || fail "the index of the moves is not sound"
 
-# A window that cuts the town: by the index, and by GDAL's own comparison without one.
+# Windows that cover parts of the town, searched with the index, and by GDAL's own comparison without one.
 ogr2ogr -f GPKG plain.gpkg out.gpkg buildings -lco SPATIAL_INDEX=NO
 read -r x0 y0 x1 y1 <<<"$(ogrinfo -ro -so out.gpkg buildings | sed -n 's/^Extent: (\(.*\), \(.*\)) - (\(.*\), \(.*\))/\1 \2 \3 \4/p')"
 for part in '0 0 .5 .5' '.3 .3 .4 .4' '.9 .1 1 .2' '0 0 1 1' '.5 .5 .5 .5'; do
@@ -37,10 +38,11 @@ ogrinfo -q out.gpkg -sql 'INSERT INTO buildings (id, kind, geom) SELECT id, kind
     fail "the index did not follow insertions and deletions"
 
 "$SUNDER" separate --quiet --input-layer buildings --lco SPATIAL_INDEX=NO town.gpkg without.gpkg --allow-conflicts
-[ "$(ask without.gpkg "SELECT HasSpatialIndex('buildings', 'geom') AS n")" = 0 ] || fail "--lco SPATIAL_INDEX=NO was not heeded"
+[ "$(ask without.gpkg "SELECT HasSpatialIndex('buildings', 'geom') AS n")" = 0 ] || fail "--lco SPATIAL_INDEX=NO was ignored"
 
-# Rows of plain features go past GDAL, unless an option is given: by both ways it is the same file. Moved ones, null and
-# empty values, texts that a width could cut, integers and reals, members and holes, corners at zero.
+# Plain features are written by SQLite directly, without GDAL, unless an option is given: both ways give the same file.
+# The layers have moved features, null and empty values, texts that a width could cut, integers and reals, members and
+# holes, corners at zero.
 export SOURCE_DATE_EPOCH=1700000000
 cat >odd.json <<'E2'
 {"type": "FeatureCollection", "features": [
@@ -59,12 +61,12 @@ done
 for each in town odd_GEOMETRY odd_POLYGON odd_MULTIPOLYGON; do
     "$SUNDER" separate -q --input-layer buildings --overwrite --gap 1 "$each.gpkg" one.gpkg 2>one.said || [ $? = 3 ]
     "$SUNDER" separate -q --input-layer buildings --overwrite --gap 1 --lco SPATIAL_INDEX=YES "$each.gpkg" two.gpkg 2>two.said || [ $? = 3 ]
-    cmp one.gpkg two.gpkg || fail "$each: rows past GDAL are others"
-    cmp one.said two.said || fail "$each: rows past GDAL are told otherwise"
+    cmp one.gpkg two.gpkg || fail "$each: rows written without GDAL differ"
+    cmp one.said two.said || fail "$each: messages differ if rows are written without GDAL"
 done
 
-# Whether rows go in on another thread than they are put together on does not show.
+# With two threads, rows are encoded on one thread and inserted on another; the file is the same.
 for threads in 1 2; do
     "$SUNDER" separate -q --input-layer buildings --gap 1 --threads $threads town.gpkg threads_$threads.gpkg || [ $? = 3 ]
 done
-cmp threads_1.gpkg threads_2.gpkg || fail "a file written on two threads is another one"
+cmp threads_1.gpkg threads_2.gpkg || fail "a file written with two threads differs"

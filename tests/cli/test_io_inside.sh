@@ -1,6 +1,6 @@
 # shellcheck shell=bash disable=SC1091
-# The input is a part of the output, under any name; outputs that are impossible; messages about points and about
-# memory.
+# The output goes into the dataset of the input, under any name; impossible outputs; messages about points and about
+# lack of memory.
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 layer in.gpkg houses POLYGON <<'X'
 id,WKT
@@ -8,7 +8,7 @@ id,WKT
 2,"POLYGON((3 0,7 0,7 4,3 4,3 0))"
 X
 
-# ---- an archive is the datasets in it
+# ---- the output is in the archive that is the input
 if command -v python3 >/dev/null; then
     python3 -c 'import zipfile; z = zipfile.ZipFile("z.zip", "w"); z.write("in.gpkg")'
     gzip -k in.gpkg
@@ -33,7 +33,7 @@ refused 1 'is an input' sum @p.wkt square:1 p.wkt --of GeoJSON --overwrite
 refused 1 'is an input' pair square:1 @./p.wkt p.wkt --of GeoJSON --overwrite
 refused 1 'is an input' buffer in.gpkg p.wkt --shape @p.wkt --of GeoJSON --overwrite
 
-# ---- a link that leads nowhere is named before the work
+# ---- a dangling link is reported before the computation
 ln -s nowhere.gpkg link.gpkg
 for how in '' --overwrite --update; do
     # shellcheck disable=SC2086 # none is no argument
@@ -72,7 +72,7 @@ for digits in COORDINATE_PRECISION=17 SIGNIFICANT_FIGURES=17; do
     says lossy.json 'the format rounds coordinates: they are off by up to'
 done
 
-# ---- for points the message names --symbol
+# ---- for points the message mentions --symbol
 layer points.gpkg trees POINT <<'X'
 id,WKT
 1,"POINT(1 1)"
@@ -85,8 +85,8 @@ id,WKT
 1,"LINESTRING(1 1,2 2)"
 X
 run separate lines.gpkg o.gpkg
-if grep -q symbol err; then fail "lines are told of --symbol"; fi
-# ... also in a layer of any type, where that is not an error
+if grep -q symbol err; then fail "the message about lines mentions --symbol"; fi
+# points without a symbol are not an error in a layer of any type
 layer any.gpkg things GEOMETRY <<'X'
 id,WKT
 1,"POINT(1 1)"
@@ -95,17 +95,19 @@ X
 expect 0 check any.gpkg
 grep -q '1 features are not polygons.*for points give their --symbol' err || fail "a point passed by without a word: $(cat err)"
 
-# ---- out of memory is no wrong usage: a literal that needs some, with less and less
+# ---- lack of memory is not reported as wrong usage: a large literal, with less and less memory
 # (a sanitizer wants more addresses than there is memory)
 if (ulimit -v 4000000) 2>/dev/null && ! grep -q '^SUNDER_SANITIZE:STRING=.' "$SUNDER_BUILD/CMakeCache.txt"; then
     literal=$(awk 'BEGIN { printf "POLYGON((0 0"; for (i = 1; i < 3000; i++) printf ",%d %d", i, i % 2 ? i * 7 % 100 : 200 + i % 50;
         print ",3000 -1000))" }')
     starved=0
-    starve() { # limit: the status with so many KB of addresses
+    starve() { # limit: sets the status of a run with that many KB of address space
         status=0
         (ulimit -c 0; ulimit -v "$1"; exec "$SUNDER" pair "$literal" "$literal" >/dev/null 2>err) || status=$?
     }
-    few=60000 enough=4000000 # libraries alone take some of it: what is enough is sought, and less by a little looked at
+    # The libraries alone take part of it: the least limit that is enough is found by bisection, then limits slightly
+    # below it are tested.
+    few=60000 enough=4000000
     while [ $((enough - few)) -gt 500 ]; do
         starve $(((few + enough) / 2))
         if [ "$status" -eq 0 ]; then enough=$(((few + enough) / 2)); else few=$(((few + enough) / 2)); fi

@@ -1,7 +1,7 @@
 # shellcheck shell=bash disable=SC1091
 # A GeoPackage that other processes have open. --update and --overwrite write into the database itself, in one
-# transaction under its lock. A run that cannot get the lock says so. No other process loses work, and the mode of the
-# journal stays.
+# transaction under its lock. A run that cannot get the lock reports that. No other process loses its changes, and the
+# journal mode of the database stays.
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 command -v python3 >/dev/null && python3 -c 'import sqlite3' 2>/dev/null || { echo "skipped: no Python with SQLite"; exit 77; }
 
@@ -20,7 +20,8 @@ if how == "write":
     held.execute("BEGIN IMMEDIATE")
     held.execute("CREATE TABLE held (x)")
 if how == "open" and held.execute("PRAGMA journal_mode").fetchone() == ("delete",):
-    held.execute("PRAGMA journal_mode = MEMORY") # then SQLite does not look whether the file still has its name
+    # in this mode SQLite does not check whether the file still has its name
+    held.execute("PRAGMA journal_mode = MEMORY")
 held.execute("SELECT count(*) FROM houses").fetchall()
 print("held", flush=True)
 sys.stdin.readline()
@@ -39,7 +40,7 @@ held() {
     python3 hold.py "$1" "$2" <to >from &
     holder=$!
     exec 8>to 9<from
-    read -r -u 9 _ || fail "nobody holds $1"
+    read -r -u 9 _ || fail "the process that should hold $1 did not start"
 }
 let_go() {
     echo >&8
@@ -63,9 +64,10 @@ for mode in delete wal; do
         same "$(ask o.gpkg 'PRAGMA integrity_check')" ok "$mode, $how"
         [ "$status" -eq 0 ] && same "$(count o.gpkg apart)" 2 "$mode, $how: the layer"
         [ "$status" -eq 0 ] || same "$(ask o.gpkg "SELECT count(*) FROM sqlite_master WHERE name LIKE '%apart%'")" 0 "$mode, $how"
-        [ "$how" != write ] || same "$(ask o.gpkg "SELECT count(*) FROM sqlite_master WHERE name = 'held'")" 1 "$mode: what another wrote"
+        [ "$how" != write ] || same "$(ask o.gpkg "SELECT count(*) FROM sqlite_master WHERE name = 'held'")" 1 "$mode: the other program's changes"
 
-        # Replacement is no exception: later writes of the other program are kept, with any files that it has open.
+        # The same holds for replacing: later writes of the other program are kept, together with the journal files that
+        # it has open.
         rm -f o.gpkg* && cp "$mode.gpkg" o.gpkg
         held o.gpkg "$how"
         run separate in.gpkg o.gpkg --gap 1 --overwrite --config SQLITE_BUSY_TIMEOUT 200 -q
@@ -88,7 +90,7 @@ head -c 5000 delete.gpkg >o.gpkg && dd if=/dev/zero of=o.gpkg bs=1 seek=16 count
 expect 0 separate in.gpkg o.gpkg --overwrite -q
 same "$(ask o.gpkg 'PRAGMA integrity_check')" ok 'over a damaged file'
 
-# ---- runs at once: every layer of a run that says 0 is there
+# ---- runs at the same time: the layer of each run with status 0 is complete
 for mode in delete wal; do
     rm -f o.gpkg* && cp "$mode.gpkg" o.gpkg
     for i in 1 2 3 4; do
@@ -104,7 +106,7 @@ for mode in delete wal; do
     done
     same "$(ask o.gpkg 'PRAGMA integrity_check')" ok "$mode, four runs at once"
 done
-# Into a file that does not exist yet one comes first; the others must not take its place.
+# Several runs write to the same new path at once: one succeeds, the others must not replace its file.
 rm -f o.gpkg*
 for i in 1 2 3 4; do
     (status=0; "$SUNDER" separate in.gpkg o.gpkg --update --output-layer "apart$i" -q 2>"err$i" || status=$?; echo $status >"status$i") &
@@ -114,8 +116,8 @@ for i in 1 2 3 4; do
     [ "$(cat "status$i")" -ne 0 ] || same "$(count o.gpkg "apart$i")" 2 "layer $i of four runs at once into a new file"
 done
 
-# ---- a journal that another program left is named, and rolled back; of another database it is refused
-interrupted() { # an update of o.gpkg that is killed with its journal synced
+# ---- a journal that another program left is reported and rolled back; one of another database is refused
+interrupted() { # an update of o.gpkg that is killed after its journal is synced
     rm -f o.gpkg* && cp delete.gpkg o.gpkg
     python3 - <<'X'
 import os, sqlite3
@@ -138,7 +140,7 @@ same "$(ask o.gpkg "SELECT count(*) FROM sqlite_master WHERE name = 'half'")" 0 
 same "$(count o.gpkg apart)" 2 'the layer added'
 interrupted
 run separate in.gpkg o.gpkg --overwrite -q
-[ "$status" -eq 0 ] && [ ! -e o.gpkg-journal ] || fail "a journal stays beside a new file"
+[ "$status" -eq 0 ] && [ ! -e o.gpkg-journal ] || fail "the old journal was left beside the new file"
 interrupted
 rm o.gpkg
 refused 1 'o.gpkg-journal belongs to a former database' separate in.gpkg o.gpkg

@@ -1,6 +1,6 @@
 # shellcheck shell=bash disable=SC1091
-# A GeoPackage is read back without GDAL if its rows are plain, and by GDAL otherwise. In both cases one changed number
-# is detected, and no output appears.
+# The written GeoPackage is read back and compared without GDAL if its rows are plain, and by GDAL otherwise. In both
+# cases one changed number is detected, and no output appears.
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 alter=$SUNDER_BUILD/tests/libalter.so
 [ -e "$alter" ] || { echo "skipped: tests/libalter.so is not built"; exit 77; }
@@ -15,7 +15,8 @@ X
 expect 0 separate in.gpkg plain.gpkg --gap 1 --allow-jumps
 LD_PRELOAD=$alter "$SUNDER" --version >/dev/null 2>err && [ ! -s err ] || { echo "skipped: $(head -1 err)"; exit 77; }
 
-# struck WHAT "WHICH..." INPUT LAYERS [OPTION...]: each of these numbers or geometries that are bound is altered in turn.
+# struck WHAT "WHICH..." INPUT LAYERS [OPTION...]: changes each of these values (numbers or geometries, counted as they
+# are bound to statements) in a run of its own.
 struck() {
     local what=$1 in=$3 at status
     for at in $2; do
@@ -34,8 +35,8 @@ for in in in.gpkg high.gpkg; do
     struck real "1 2 3 4" "$in" main
 done
 
-# Four pairs; the last two lie within the extent of the first two. Their lines bypass GDAL, too. There are eight
-# features with three numbers each, then eight lines with as many.
+# Four pairs; the last two lie within the extent of the first two. The lines of the displacement layer bypass GDAL, too.
+# There are eight features with three numbers each, then eight lines with as many.
 layer pairs.gpkg houses POLYGON <<'X'
 id,WKT
 1,"POLYGON((0 0,4 0,4 4,0 4,0 0))"
@@ -54,7 +55,7 @@ done
 struck geometry "8 9 13 16" pairs.gpkg main,displacement
 struck real "24 25 37 48" pairs.gpkg main,displacement
 
-# Each half of many rows is read by a thread of its own, and one by one on one thread.
+# With two threads each half of the rows is read back by a thread of its own, with one thread they are read in order.
 "$SUNDER_BUILD/sunder-town" --buildings 6000 --seed 1 town.gpkg >/dev/null
 for threads in 1 2; do
     expect 0 separate town.gpkg plain.gpkg --overwrite --gap 1 --layers main --input-layer buildings --allow-conflicts --threads $threads

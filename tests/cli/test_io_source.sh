@@ -1,5 +1,5 @@
 # shellcheck shell=bash
-# Reading: which layer, which features, which geometries.
+# Reading: the choice of the layer, of features, and of geometries.
 set -eu
 . "$(dirname "${BASH_SOURCE[0]}")/io_layers.sh"
 make_squares
@@ -25,7 +25,7 @@ refused 1 'has no geometry' separate plain.csv out.gpkg
 separate --input-layer squares --where "name = 'two'" squares.gpkg where.gpkg
 [ "$(count where.gpkg squares)" = 1 ] || fail "--where"
 separate --input-layer squares --where "name = 'none'" squares.gpkg none.gpkg
-[ "$(count none.gpkg squares)" = 0 ] || fail "a --where that selects nothing is no empty layer"
+[ "$(count none.gpkg squares)" = 0 ] || fail "a --where that selects nothing does not give an empty layer"
 refused 2 'no_such' separate --input-layer squares --where 'no_such = 1' squares.gpkg out.gpkg
 refused 2 'WHERE name =' separate --input-layer squares --where 'name =' squares.gpkg out.gpkg
 separate --input-layer squares --bbox 95,0,120,20 squares.gpkg bbox.gpkg
@@ -40,7 +40,7 @@ separate --sql 'SELECT fid, name, geom FROM squares UNION ALL SELECT fid, name, 
     --contained separate squares.gpkg twice.gpkg
 [ "$(count twice.gpkg squares)" = 5 ] || fail "features with repeated FIDs were lost"
 [ "$(dump twice.gpkg squares | grep -c 'sunder_fid (Integer64) = 1$')" = 2 ] || fail "repeated FIDs are not in sunder_fid"
-! dump one.gpkg squares | grep -q sunder_fid || fail "sunder_fid where FIDs are kept"
+! dump one.gpkg squares | grep -q sunder_fid || fail "a field sunder_fid although FIDs are kept"
 
 # ---- other geometries, collections, arcs: passed through and counted
 cat >mixed.csv <<'CSV'
@@ -66,7 +66,7 @@ deep() { "$SUNDER" check --quiet --no-blocks --allow-conflicts "$1" | awk -F '\t
 deep mixed.gpkg || fail "the test's own layer has no overlaps"
 ! deep mixed_out.gpkg || fail "overlaps remain"
 
-# ---- coordinates that are no numbers, told with layer and FID
+# ---- coordinates that are not numbers: reported with layer and FID
 ogr2ogr -f GPKG bad.gpkg squares.gpkg squares
 nan=$(printf '47500001%s%s' E9640000 0103000000010000000400000000000000000000000000000000000000000000000000F03F0000000000000000000000000000F03F000000000000F87F00000000000000000000000000000000)
 ogrinfo -q bad.gpkg -sql 'DROP TRIGGER IF EXISTS rtree_squares_geom_update1' >/dev/null

@@ -1,6 +1,6 @@
 # shellcheck shell=bash
-# The output keeps everything of the input: fields with all their properties, FIDs, names, metadata, CRS, Z and M. What
-# a format cannot hold is reported, once for each field.
+# The output keeps everything of the input: fields with all their properties, FIDs, names, metadata, CRS, Z and M. A
+# message reports what a format cannot store, once for each field.
 set -eu
 . "$(dirname "${BASH_SOURCE[0]}")/io_layers.sh"
 make_rich
@@ -19,7 +19,7 @@ for each in 'IDENTIFIER=The houses' 'DESCRIPTION=Words; with "signs"' 'FID Colum
 done
 dump rich.gpkg 'Häuser 1' >rich.features
 dump out.gpkg 'Häuser 1' | grep -v '^  sunder_' >out.features
-diff rich.features out.features || fail "features changed that had no conflict"
+diff rich.features out.features || fail "features without a conflict changed"
 dump out.gpkg 'Häuser 1' | grep 'sunder_st' >states
 [ "$(grep -c skipped states)" = 2 ] && [ "$(grep -c unmoved states)" = 2 ] || fail "null and empty geometries are not skipped"
 
@@ -43,7 +43,7 @@ done
 [ "$(cat out.cpg)" = UTF-8 ] || fail "the Shapefile is not UTF-8"
 dump out.shp out >shape.features
 grep -q 'Bäckerei' shape.features && grep -q 'sunder_fid.* = 1000000007' shape.features || fail "text or FID lost"
-grep -q 'POLYGON ZM .*),(500002' shape.features || { cat shape.features; fail "the hole is no hole any more"; }
+grep -q 'POLYGON ZM .*),(500002' shape.features || { cat shape.features; fail "the hole is not a hole any more"; }
 [ "$(ogrinfo -ro -so out.shp out | sed -n 's/^Feature Count: //p')" = 4 ] || fail "features are missing"
 refused 1 --strict "$SUNDER" separate --strict rich.gpkg strict.shp
 [ -z "$(ls strict* 2>/dev/null)" ] || fail "--strict left files"
@@ -55,7 +55,7 @@ ogr2ogr -f 'ESRI Shapefile' latin.shp rich.gpkg -sql "SELECT name_of_the_buildin
 [ "$(cat latin_out.cpg)" = "$(cat latin.cpg)" ] || fail "the code page changed"
 dump latin_out.shp latin_out | grep -q 'Bäckerei' || fail "text changed with the code page"
 "$SUNDER" separate --quiet --lco ENCODING=UTF-8 latin.shp latin_utf8.shp
-[ "$(cat latin_utf8.cpg)" = UTF-8 ] || fail "--lco ENCODING was not heeded"
+[ "$(cat latin_utf8.cpg)" = UTF-8 ] || fail "--lco ENCODING was ignored"
 
 # ---- a field that has the name of the FID or geometry column
 printf 'wkt,fid,geom\n"POLYGON ((0 0,1 0,1 1,0 0))",3000000017,g\n' >named.csv

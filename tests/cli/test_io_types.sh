@@ -1,6 +1,6 @@
 # shellcheck shell=bash
-# Layers of every declared type: curves, surfaces, collections, unknown; names with quotes; FIDs 0, negative and huge;
-# CRSs with other axes and units, compound, without authority, none. All of it is kept, and features that are not
+# Layers of every declared type: curves, surfaces, collections, unknown; names with quotes; FIDs that are 0, negative or
+# huge; CRSs with other axes and units, compound, without authority, none. All of it is kept, and features that are not
 # polygons are copied unchanged.
 set -eu
 . "$(dirname "${BASH_SOURCE[0]}")/io_layers.sh"

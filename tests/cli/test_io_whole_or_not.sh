@@ -1,6 +1,6 @@
 # shellcheck shell=bash
-# Output appears completely or not at all: existing data are replaced only on request, and a run that fails leaves the
-# directory unchanged.
+# The output appears completely or not at all: existing data are replaced only on request, and a run that fails leaves
+# the directory unchanged.
 set -eu
 . "$(dirname "${BASH_SOURCE[0]}")/io_layers.sh"
 make_squares
@@ -49,7 +49,7 @@ separate squares.gpkg out.shp
 [ -e out.dbf ] && [ -e out_displacement.shp ] && [ -e out_conflicts.dbf ] || fail "files of the Shapefile are missing"
 before=$(sum out*.shp out*.dbf)
 refused_squares 1 'exists already' squares.gpkg out.shp
-rm out.shp # another file of the set is in the way
+rm out.shp # only one file of the set exists already
 refused_squares 1 'exists already' squares.gpkg out.shp
 separate --overwrite squares.gpkg out.shp
 [ "$(sum out*.shp out*.dbf)" = "$before" ] || fail "--overwrite did not make the same files again"
@@ -72,10 +72,10 @@ separate --of 'ESRI Shapefile' squares.gpkg shapes
 separate --of 'ESRI Shapefile' --update --output-layer more squares.gpkg shapes
 [ -e shapes/squares.shp ] && [ -e shapes/more.shp ] || fail "a directory of Shapefiles was not added to"
 
-# ---- nowhere to write
+# ---- directories that cannot be written
 refused_squares 1 'cannot write in' squares.gpkg missing/out.gpkg
 mkdir closed && chmod 555 closed
-if [ ! -w closed ]; then # root may write everywhere
+if [ ! -w closed ]; then # root may write to every directory
     refused_squares 1 'cannot write in' squares.gpkg closed/out.gpkg
 fi
 refused_squares 1 'cannot write in' squares.gpkg /proc/out.gpkg

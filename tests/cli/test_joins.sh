@@ -1,9 +1,9 @@
 # shellcheck shell=bash disable=SC1091
-# Which features join a block: those that touch, also interlocking ones; symbols only with a tolerance; and what the
-# summary says about overlaps that a small tolerance would join. The number of a block is a FID.
+# Which features form a block: those that touch, also interlocking ones; symbols only if a tolerance is given. The
+# summary reports overlaps that a small tolerance would join. The number of a block is the FID of a member.
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 
-# A house in the notch of another, drawn 1 mm too wide on all sides: no move parts them before the notch ends.
+# A house in the notch of another, drawn 1 mm too wide on all sides: they separate only when it has left the notch.
 layer notch.gpkg houses POLYGON <<'X'
 id,WKT
 1,"POLYGON((0 0,30 0,30 40,20 40,20 10,10 10,10 40,0 40,0 0))"
@@ -15,11 +15,12 @@ same "$(jq -c '[.blocks,.moved,.conflicts.before.overlap,.conflicts.before.insid
 same "$(value o.gpkg houses 1 sunder_blk) $(value o.gpkg houses 2 sunder_blk) $(value o.gpkg houses 3 sunder_blk)" '1 1 (null)'
 expect 0 check notch.gpkg --touch-tolerance 0.002
 expect 0 check o.gpkg -l houses --no-blocks --block-field sunder_blk --touch-tolerance 0.002 --gap 1
-expect 3 check notch.gpkg --touch-tolerance 0.001 # the strips are wider than its disc in their corners
-expect 0 separate notch.gpkg o.gpkg --overwrite --gap 0.02 -q # a tenth of the gap
-same "$(value o.gpkg houses_displacement 1 fid)" '' "nobody moves:"
+# in their corners the overlapping strips are wider than a disc of the tolerance
+expect 3 check notch.gpkg --touch-tolerance 0.001
+expect 0 separate notch.gpkg o.gpkg --overwrite --gap 0.02 -q # the default tolerance is a tenth of the gap
+same "$(value o.gpkg houses_displacement 1 fid)" '' "no feature moves:"
 
-# Members that overlap by more than the tolerance are listed, those that do not only on request.
+# Members that overlap by more than the tolerance are listed, others only on request.
 expect 0 check notch.gpkg --block-field id --touch-tolerance 0.002
 layer both.gpkg houses POLYGON <<'X'
 id,grp,WKT
@@ -55,9 +56,9 @@ X
 expect 0 separate bare.gpkg o.gpkg --overwrite
 says out '1 pair overlaps by no more than 0.01 units; --touch-tolerance 0.01 would'
 expect 0 separate bare.gpkg o.gpkg --overwrite --input-crs EPSG:4326
-same "$(grep -c 'touch-tolerance' out)" 0 "degrees are no lengths:"
+same "$(grep -c 'touch-tolerance' out)" 0 "a tolerance is not proposed in degrees:"
 expect 0 separate bare.gpkg o.gpkg --overwrite --gap 0.005 --touch-tolerance 0
-same "$(grep -c 'touch-tolerance' out)" 0 "the gap is less than what would be told:"
+same "$(grep -c 'touch-tolerance' out)" 0 "the gap is less than the tolerance that would be proposed:"
 
 # Symbols: fifty that overlap are fifty bodies, unless a tolerance is given.
 {

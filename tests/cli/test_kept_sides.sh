@@ -5,7 +5,8 @@
 export PYTHONDONTWRITEBYTECODE=1 SOURCE_DATE_EPOCH=1700000000
 kept() { /usr/bin/python3 "$SUNDER_SOURCE/tests/cli/kept_sides.py" "$@" || fail "kept_sides.py $*"; }
 
-# Beside the junction of a bar and a stem the larger part of the symbol is below the bar; the town is above it.
+# A point near the junction of a horizontal line and a vertical one that starts at it: the larger part of the symbol is
+# below the horizontal line, the point is above it.
 layer lines.gpkg lines LINESTRING <<'X'
 id,WKT
 1,"LINESTRING(-100 0,100 0)"
@@ -16,11 +17,12 @@ id,WKT
 1,POINT(1 1)
 X
 expect 0 separate town.gpkg out.gpkg --symbol disc:10 --barrier lines.gpkg
-ogrinfo -q -al -geom=NO out.gpkg town | awk '/sunder_d[xy]/ && $NF < 9 { exit 1 }' || fail "the town went elsewhere"
-# A symbol beside its point: the side is still that of the point, and barriers are known about both.
+ogrinfo -q -al -geom=NO out.gpkg town | awk '/sunder_d[xy]/ && $NF < 9 { exit 1 }' || fail "the town is not above the bar"
+# A symbol that does not contain its point: the side is still that of the point, and barriers near the point and near
+# the symbol are both read.
 expect 0 separate town.gpkg out.gpkg --symbol 'POLYGON((30 -6,40 -6,40 6,30 6,30 -6))' --barrier lines.gpkg \
     --max-shift 9 --overwrite
-ogrinfo -q -al -geom=NO out.gpkg town | awk '/sunder_dy/ && $NF < 5 { exit 1 }' || fail "the symbol went below the bar"
+ogrinfo -q -al -geom=NO out.gpkg town | awk '/sunder_dy/ && $NF < 5 { exit 1 }' || fail "the symbol moved below the bar"
 
 kept write "${SUNDER_SEED:-1}"
 for kind in points houses; do
@@ -37,18 +39,18 @@ for kind in points houses; do
     esac
     run check $kind.gpkg -l $kind --before $kind.geojson "${options[@]}"
     says out 'side 0'
-    # In parts the same.
+    # The same in parts.
     expect 0 plan $kind.geojson $kind.plan --shards 3 --effort 0 --output-layer $kind "${options[@]}"
     for shard in 1 2 3; do expect 0 separate --shard $shard $kind.plan -q; done
     run merge $kind.plan $kind-parts.gpkg -q
     [ "$status" -eq 0 ] || [ "$status" -eq 3 ] || fail "$kind: merge: status $status"
     ogrinfo -q -al -ro $kind.gpkg $kind >whole.txt
     ogrinfo -q -al -ro $kind-parts.gpkg $kind >parts.txt
-    cmp -s whole.txt parts.txt || fail "$kind: other moves in parts"
+    cmp -s whole.txt parts.txt || fail "$kind: moves differ in parts"
 done
-# Houses that the middle line of a road cuts in half, or nearly so, with another road on one side. They move away from
-# the other road, although the part there is a little larger. Vertical and horizontal roads, with the other road on
-# either side.
+# Houses that the centre line of a road cuts in half, or nearly so, with another road on one side. They move away from
+# the other road, although the part on that side is a little larger. Vertical and horizontal roads, with the other road
+# on either side.
 layer roads.gpkg roads LINESTRING <<'X'
 id,WKT
 1,"LINESTRING(0 0,300 0)"

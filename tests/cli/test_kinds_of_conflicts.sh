@@ -1,6 +1,6 @@
 # shellcheck shell=bash disable=SC1091
-# Kinds of conflicts with barriers: on the stored line, within the drawn width, near it; the column `missing`; and the
-# counts of the summary, which equal those of the layers.
+# Kinds of conflicts with barriers: on the stored line, within the drawn width, near it; the column `missing`; the
+# counts of the summary are those of the layers.
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 
 # A road along the x axis, drawn 10 wide, and a gap of 2: the required distance is 7. House 4 is nearer to the line than
@@ -26,14 +26,14 @@ says out 'barrier 1, barrier drawn 3, barrier near 1,'
 counts='{"overlap":0,"too_close":0,"barrier":1,"barrier_drawn":3,"barrier_near":1,"contained":0,"duplicate":0,"inside_blocks":0}'
 same "$(jq -c .conflicts s.json)" "$counts"
 
-# A width without a gap: near features are within the drawn width.
+# With a width and no gap, features that are too near are within the drawn width.
 expect 3 check in.gpkg --barrier roads.gpkg,width=14
 says out 'barrier 1, barrier drawn 4, barrier near 0,'
-# A gap without a width: there is no drawn width.
+# With a gap and no width, there is no drawn width.
 expect 3 check in.gpkg --barrier roads.gpkg,gap=7
 says out 'barrier 1, barrier drawn 0, barrier near 4,'
 
-# The layer, the summary and the style of a separation that can do nothing.
+# The layer, the summary and the style of a separation that can resolve nothing.
 expect 3 separate in.gpkg o.gpkg "${road[@]}" --fixed-where 'fid > 0' --stats s.json
 same "$(jq -c '[.conflicts.before,.conflicts.after]' s.json)" "[$counts,$counts]"
 for k in 1 2 3 4 5; do
@@ -45,7 +45,7 @@ says out 'barrier drawn          3          3  meets its drawn width only'
 same "$(ogrinfo -q o.gpkg -sql "SELECT COUNT(*) AS n FROM layer_styles WHERE f_table_name = 'houses_conflicts' AND
     styleQML LIKE '%barrier_drawn%' AND styleQML LIKE '%missing%'" | sed -n 's/.*= //p')" 1 "styles that know the kind:"
 
-# In parts, too.
+# The same in parts.
 expect 0 plan in.gpkg plan "${road[@]}" --fixed-where 'fid > 0' --shards 2 -q
 for k in 1 2; do expect 0 separate --shard $k plan -q; done
 expect 3 merge plan parts.gpkg --stats p.json -q
@@ -69,7 +69,7 @@ expect 0 separate pairs.gpkg p.gpkg --gap 3 --block-field grp
 says out 'overlap                1          0'
 says out 'inside blocks          1          1  1 listed: it overlaps, reason same_block'
 
-# House b gives way to the fixed house a, and keeps its conflict with the fixed house c above, so it is blocked: the
+# House b moves away from the fixed house a, and keeps its conflict with the fixed house c above, so it is blocked: the
 # summary counts it as sunder_st does.
 layer jam.gpkg houses POLYGON <<'X'
 id,WKT
@@ -84,7 +84,7 @@ states() { ogrinfo -q j.gpkg -sql "SELECT COUNT(*) AS n FROM houses WHERE sunder
 same "$(value j.gpkg houses 2 sunder_st) $(printf %.6g "$(value j.gpkg houses 2 sunder_dx)")" 'blocked 1'
 same "$(jq -c '[.moved,.blocked]' s.json)" "[$(states moved),$(states blocked)]"
 says out 'moved 2, blocked 1 (1 of them moved, too), skipped 0'
-# ogrinfo prints 15 digits.
+# ogrinfo prints 15 digits, so 14 are compared.
 mean=$(ogrinfo -q j.gpkg -sql 'SELECT AVG(sunder_len) AS m FROM houses WHERE sunder_len > 0' | sed -n 's/.*= //p')
 same "$(printf %.14g "$(jq .displacement.mean s.json)")" "$(printf %.14g "$mean")" 'the mean of all that moved:'
 finish

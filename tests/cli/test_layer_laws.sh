@@ -1,6 +1,6 @@
 # shellcheck shell=bash disable=SC1091
-# How the answers to related questions about one layer are related (layer_laws.py): towns of the generator, and maps.
-# SUNDER_LAWS=all asks about all maps, and two gaps of each.
+# How the results for related inputs are related (layer_laws.py): for generated towns, and for maps. SUNDER_LAWS=all
+# tests all maps, each with two gaps.
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 /usr/bin/python3 -c 'import osgeo.ogr' 2>/dev/null || { echo "skipped: GDAL's Python module is not installed"; exit 77; }
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Real layers, if they are beside the repository: no conflict remains, an independent test confirms the promises for the
-# written file, and check gives the counts of separate.
+# Real layers, if they are beside the repository: no conflict remains, an independent script confirms the guarantees for
+# the written file, and check gives the counts of separate.
 . "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
 data=$SUNDER_SOURCE/../shared/data
 look=$SUNDER_SOURCE/tests/cli/separated.py

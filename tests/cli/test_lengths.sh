@@ -1,5 +1,5 @@
 # shellcheck shell=bash disable=SC1091
-# Lengths with units, on the sheet, in shapes; layers without CRS, in feet, in degrees, in Mercator.
+# Lengths with units, on paper (with a map scale), in shapes; layers without CRS, in feet, in degrees, in Mercator.
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 
 houses() { cat <<'X'
@@ -33,7 +33,7 @@ same "$(required ift.gpkg 10ft)" 10
 same "$(required ift.gpkg 3.048m)" 10
 same "$(required ft.gpkg 1200m)" 3937
 same "$(required none.gpkg 1.5)" 1.5
-expect 0 check m.gpkg --gap 1 # exactly the gap apart is apart
+expect 0 check m.gpkg --gap 1 # features exactly the gap apart are not in conflict
 [ ! -s err ] || fail "warnings without need"
 expect 3 check m.gpkg --gap 1.0000000000000002 --touch-tolerance 0
 

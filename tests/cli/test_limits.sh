@@ -3,7 +3,7 @@
 # With GeoPackage and Shapefile, numbers and texts.
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 
-# Two squares that overlap by 2 along x, the second with a neighbour that is far away.
+# Two squares that overlap by 2 along x, and a third one far away.
 two() { # FILE TYPE LIMIT1 LIMIT2
     cat >two.csv <<X
 far,WKT
@@ -17,7 +17,7 @@ X
         -oo EMPTY_STRING_AS_NULL=YES 2>/dev/null || fail "cannot make $1"
     rm two.csv two.csvt
 }
-lengths() { # of the moves, and how they stand
+lengths() { # the lengths of the moves, and the states of the features
     for fid in "$n" $((n + 1)) $((n + 2)); do
         printf '%.4g %s ' "$(value o.gpkg two $fid sunder_len)" "$(value o.gpkg two $fid sunder_st)"
     done
@@ -32,7 +32,7 @@ for file in two.gpkg two.shp; do
         expect 0 separate $file o.gpkg -q --overwrite --max-shift-field FAR --max-shift 2.5
         expect 3 separate $file o.gpkg -q --overwrite --max-shift-field far --max-shift 1
         same "$(value o.gpkg two_conflicts 1 reason)" max_shift
-        two $file $type 1 7 # each its own, whatever --max-shift is
+        two $file $type 1 7 # each has its own limit, whatever --max-shift is
         expect 0 separate $file o.gpkg -q --overwrite --max-shift-field far --max-shift 1.5 --weight-field far
         same "$(value o.gpkg two "$n" sunder_len | awk '{ print ($1 <= 1) }')" 1 "$file, $type:"
         two $file $type -1 1
@@ -46,10 +46,11 @@ for text in wide inf nan 3m 1e999; do
 done
 two two.gpkg Date 2020/01/01 ""
 refused 1 'numbers are needed' separate two.gpkg never.gpkg --max-shift-field far
-two two.gpkg Real 1 -1 # whom nothing is asked of may have any
+two two.gpkg Real 1 -1 # features that are ignored may have any limit
 expect 0 separate two.gpkg o.gpkg -q --overwrite --max-shift-field far --ignore-where 'far = -1'
 two two.gpkg Real 1 1
-expect 1 separate two.gpkg o.gpkg --overwrite --max-shift-field far --input-crs EPSG:4326 # no lengths in degrees
+# there are no lengths in degrees
+expect 1 separate two.gpkg o.gpkg --overwrite --max-shift-field far --input-crs EPSG:4326
 says err "FID 1: the layer's coordinates are degrees"
 two two.gpkg Real 0 ""
 expect 0 separate two.gpkg o.gpkg -q --overwrite --max-shift-field far --input-crs EPSG:4326

@@ -1,7 +1,7 @@
 # shellcheck shell=bash disable=SC1091
-# Paths of 200 to 5,000 bytes for every option and operand that takes one (long_paths.py): each call comes to that very
-# file, or is refused with a sentence. GDAL's functions for paths answer "" beyond 2,047 bytes, and a file in the current
-# directory would be read or replaced. And texts beyond the 8,000 bytes at which CPLSPrintf() cuts them.
+# Paths of 200 to 5,000 bytes for every option and operand that takes one (long_paths.py): each call uses exactly that
+# file, or is refused with an error message. GDAL's functions for paths return "" beyond 2,047 bytes; then a file in the
+# current directory would be read or replaced. Also texts beyond the 8,000 bytes at which CPLSPrintf() cuts them.
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 command -v python3 >/dev/null || { echo "skipped: python3 is not installed"; exit 77; }
 [ -x "$SUNDER_BUILD/tests/calls" ] || { echo "skipped: tests/calls is not built"; exit 77; }
@@ -17,7 +17,7 @@ echo 'POLYGON ((0 0, 1 0, 0 1, 0 0))' >paths/wkt
 python3 "$SUNDER_SOURCE/tests/cli/long_paths.py" "$SUNDER_BUILD/tests/calls" "$PWD/paths" >wrong 2>figures || fail "$(cat figures)"
 cat figures
 [ ! -s wrong ] || fail "$(head -20 wrong)"
-grep -q '^238 calls' figures || fail "238 calls were meant: $(cat figures)"
+grep -q '^238 calls' figures || fail "not 238 calls: $(cat figures)"
 
 # A condition of 12,000 bytes, by itself, together with --where, and in a plan.
 condition="id = 1 OR id IN ($(seq -s, 1000000 1001500))"

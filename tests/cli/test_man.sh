@@ -1,22 +1,22 @@
 # shellcheck shell=bash disable=SC1091
-# The manual page, --help and the parser know the same options, with the same values, spellings and defaults, and so do
-# the pages of the commands, which are made from it; the examples of the manual page run.
+# The manual page, --help and the parser have the same options, with the same values, spellings and defaults, and so
+# have the pages of the commands, which are made from it. The examples of the manual page run.
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 page=$SUNDER_SOURCE/gis/sunder.1
 
-# Prints "--gap LENGTH [0]", "--of FORMAT (-f, -of, --format) [by name]", one per line, as in a page.
+# Prints "--gap LENGTH [0]", "--of FORMAT (-f, -of, --format) [by name]", one per line, in the form of a page.
 headings() { sed -n '/^\.SH OPTIONS/,/^\.SH [A-Z]/ s/^\.B \(\\-.*\)/\1/p' "$1" | sed 's/\\//g' | sort; }
 sed -n '/^\.SH OPTIONS/,$ p' "$page" | sed '1! { /^\.SH/,$ d }' >options
 headings options >page.txt
 for command in separate check sum pair buffer route plan merge; do
     "$SUNDER" $command --help >help
-    # A line each, two blanks or more before the words; or several a line, with commas.
+    # Either one option per line, with its explanation after two blanks or more, or several per line, with commas.
     sed -n '/^Options/,/^Which/ p' help | sed -n 's/^  \(--[a-z-]*\( [^ ]*\)\{0,1\}\)  *.*$/\1/p' | sed 's/ *$//' >own
     while read -r option; do
         fallback=$(grep -F -- "  $option " help | sed -n 's/.*\( \[[^]]*\]\)$/\1/p')
         echo "$option$fallback"
     done <own
-    # Commas part options, but not within the brackets that hold other spellings.
+    # Commas separate options, but not within the brackets that contain other spellings.
     sed -n '/^Which\|^Running/,/^P, Q\|^OBSTACLES\|^SHAPE\|^Lengths\|^Exit/ p' help | grep '^  ' | sed 's/^ *//; s/,$//' | awk '{
         depth = 0; entry = ""
         for (i = 1; i <= length($0); i++) {
@@ -30,22 +30,22 @@ sort -u all >help.txt
 cmp -s page.txt help.txt || fail "manual page and --help differ: $(diff page.txt help.txt | head -8)"
 [ "$(wc -l <page.txt)" -gt 40 ] || fail "only $(wc -l <page.txt) options were compared"
 
-# Every spelling is known to the parser of every command that lists it.
+# Every spelling that a command lists is accepted by its parser.
 for command in separate check sum pair buffer route plan merge; do
     "$SUNDER" $command --help | tr ' ,()' '\n\n\n\n' | sed -n 's/^\(-[a-z_][a-z_-]*\|--[a-z-]*\)\(\[=plain\]\)\{0,1\}$/\1/p' |
         grep -vxE -- '--help|-h' | sort -u | sed "s/^/$command /"
 done >spellings
-[ "$(wc -l <spellings)" -gt 300 ] || fail "only $(wc -l <spellings) spellings were asked for"
+[ "$(wc -l <spellings)" -gt 300 ] || fail "only $(wc -l <spellings) spellings were tested"
 "$SUNDER_BUILD/tests/calls" <spellings | paste - spellings >asked
 while IFS=$'\t' read -r status said spelling; do
     [ "$status" -eq 2 ] && [[ $said != *'unknown option'* ]] || fail "$spelling is not known: status $status, $said"
 done <asked
 same "$(wc -l <asked)" "$(wc -l <spellings)" 'answers to all spellings:'
 
-# The page of each command has the options that its --help has.
+# The page of each command has the options of its --help.
 pages=$SUNDER_BUILD/gis/manual
 for command in separate check sum pair buffer route plan merge; do
-    [ -d "$pages" ] || continue # cross-compiled
+    [ -d "$pages" ] || continue # in a cross-compiled build there are no pages
     "$SUNDER" --options-json | json ".commands[] | select(.name == \"$command\") | .options[] | select(.group != \"hidden\") |
         .name + (if .metavar == null then \"\" elif .kind == \"flag_or_enum\" then \"[=\" + .metavar + \"]\" else \" \" + .metavar end) +
         (if .aliases == [] then \"\" else \" (\" + (.aliases | join(\", \")) + \")\" end) +

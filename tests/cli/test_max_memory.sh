@@ -7,7 +7,7 @@ mkdir scratch
 export TMPDIR=$work/scratch
 
 "$SUNDER_BUILD/sunder-town" --buildings 6000 --seed 5 town.gpkg >/dev/null || fail "no town is made"
-# Blocks of two whose houses are streets apart, too.
+# Adds blocks of two, some of which have houses streets apart.
 ogr2ogr -q numbered.gpkg town.gpkg -nln buildings -dialect SQLite \
     -sql "select *, case when fid % 60 < 2 then fid / 60 when fid % 97 = 1 then 1000 + fid / 970 end as blk from buildings" &&
     mv numbered.gpkg town.gpkg || fail "blocks are not numbered"
@@ -28,13 +28,13 @@ alike() {
     second=$status
     mv at parts
     same "$second" "$first" "$output in parts: status"
-    diff -rq whole parts || fail "$output of $* in parts is another"
+    diff -rq whole parts || fail "$output of $* differs in parts"
     same "$(jq -c 'del(.seconds, .peak_rss_bytes)' parts.json)" "$(jq -c 'del(.seconds, .peak_rss_bytes)' whole.json)" \
         "figures of $output in parts"
     same "$(ls -A scratch)" '' "left in the scratch directory:"
 }
 
-# The same with a page, which takes some memory.
+# The same with --report, which takes some memory.
 drawn() {
     page=(--report at/page.html)
     alike "$@"
@@ -51,8 +51,8 @@ alike o.gpkg 98.5M --gap 3 --effort 0 --block-field blk
 alike o.geojson 99M --gap 3 --effort 0 --layers main,conflicts
 drawn o.fgb 2G --gap 3 --effort 0
 
-# Barriers: roads through the whole layer with different widths, meadows, one that comes near a feature with one end
-# only, and one that is near none.
+# Barriers: roads through the whole layer with different widths, meadows, one that is near a feature only at one end,
+# and one that is near none.
 python3 - <<'PYTHON' || fail "no barriers are made"
 import json, random, re, subprocess
 random.seed(3)
@@ -85,7 +85,8 @@ drawn o.gpkg 103M --gap 3 --effort 0 --max-shift 4 --barrier roads.gpkg,width=5,
 alike o.gpkg 99M --gap 1 --effort 0 --max-shift 2 --barrier meadows.gpkg,as=boundary,gap=0 --touch-tolerance 0.01
 alike o.gpkg 99M --gap 1 --effort 0 --max-shift 2 --barrier "roads.gpkg,where=w > 60"
 
-# Points, whose symbols have a layer of their own: squares; of each its own kind and size; discs.
+# Points, whose symbols are written to a layer of their own: squares; symbols with a kind and a size of their own;
+# discs.
 ogr2ogr -q points.gpkg town.gpkg -nln buildings -nlt POINT -dialect SQLite -sql "select st_centroid(geom) as geom,
         case when fid % 3 then 'square:6' else 'disc:4' end as drawn, 1 + (fid % 4) / 4.0 as larger, fid % 17 as kind
         from buildings" && mv points.gpkg town.gpkg || fail "no points are made"
@@ -95,35 +96,35 @@ drawn o.gpkg 103M --symbol-field drawn --symbol-size-field larger --effort 0 --m
 alike o.geojson 99M --symbol disc:4 --effort 0 --layers symbols
 alike o.shp 99M --symbol disc:4 --effort 0 --layers main,symbols
 
-# A connected group is one part, and a warning is printed if it is too large.
+# A connected group is processed as one part, and a warning is printed if it is too large.
 "$SUNDER_BUILD/sunder-town" --buildings 30000 --seed 6 large.gpkg >/dev/null || fail "no town is made"
 run separate large.gpkg o.gpkg -l buildings --effort 0 --max-memory 99M --overwrite
-grep -q 'as one piece' err && fail "a town is told to be one piece"
+grep -q 'as one piece' err && fail "a town is reported as one piece"
 ogrinfo -q large.gpkg -sql 'alter table buildings add column one integer default 1' >/dev/null || fail "no block is made"
 run separate large.gpkg o.gpkg -l buildings --effort 0 --max-memory 99M --overwrite --block-field one
 grep -q '30000 features may depend on each other and are separated as one piece: it takes about' err ||
-    fail "nothing is said of a block of 30000 features"
-# ... and that before anything is separated, by a plan, too.
+    fail "no message about a block of 30000 features"
+# The warning comes before the separation, and `plan` prints it, too.
 grep -q '30000 features form one connected group, from (.*) to (.*), which is separated as one piece' err ||
-    fail "a block of 30000 features is not told of beforehand"
+    fail "no warning about a block of 30000 features before the separation"
 expect 0 plan large.gpkg one.plan -l buildings --shards 3 --max-memory 99M --block-field one
-grep -q '30000 features form one connected group' err || fail "plan does not tell of a block of 30000 features"
+grep -q '30000 features form one connected group' err || fail "plan does not warn about a block of 30000 features"
 same "$(jq '.largest_group.features' one.plan/plan.json)" 30000 'largest_group of plan.json'
 jq -e '.largest_group.memory_bytes > 1.5 * .max_memory_bytes and .merge.memory_bytes >= .largest_group.memory_bytes' one.plan/plan.json >/dev/null ||
     fail "the merge is not estimated by what it has to hold"
 for k in 1 2 3; do run separate --shard $k one.plan -q; done
 rm -f o.gpkg
 run merge one.plan o.gpkg
-same "$(grep -c 'form one connected group' err)" 1 'times that merge tells of a block of 30000 features'
+same "$(grep -c 'form one connected group' err)" 1 'number of warnings of merge about a block of 30000 features'
 expect 0 plan large.gpkg none.plan -l buildings --shards 3 --max-memory 99M
-grep -q "one connected group" err && fail "plan tells that a town hangs together"
-# Long houses aslant in rows: nearly all boxes meet, but no two houses do, so that shapes decide.
+grep -q "one connected group" err && fail "plan reports a town as one connected group"
+# Long diagonal houses in rows: nearly all bounding boxes overlap, but no two houses do, so that shapes decide.
 ogr2ogr -q aslant.gpkg large.gpkg -nln buildings -dialect SQLite -sql "select st_translate(st_geomfromtext(
         'POLYGON((0 0,30 30,28 32,-2 2,0 0))', 25832), 400000 + 9 * (fid % 200) + 31 * (fid / 200), 5500000 + 31 * (fid / 200), 0) as geom from buildings" ||
-    fail "no houses aslant are made"
+    fail "the diagonal houses cannot be made"
 expect 0 plan aslant.gpkg aslant.plan -l buildings --shards 3 --max-memory 99M --gap 1
-grep -q "one connected group" err && fail "houses whose boxes meet are told to hang together"
-same "$(jq '.largest_group.features' aslant.plan/plan.json)" 1 'largest_group of houses that stand aslant'
+grep -q "one connected group" err && fail "houses of which only the boxes overlap are reported as one group"
+same "$(jq '.largest_group.features' aslant.plan/plan.json)" 1 'largest_group of diagonal houses'
 rm -rf o.gpkg ./*.plan aslant.gpkg
 
 # Too little memory.

@@ -1,10 +1,10 @@
 # shellcheck shell=bash disable=SC1091,SC2016
-# A batch's manners: messages name layer and FID, many of one kind are summed up, a log holds all of them, JSON has their
-# parts apart; progress is for terminals, and quiet is silent.
+# Messages of long runs: they name layer and FID, many of one kind are summed up, a log contains all of them, JSON has
+# their parts as separate keys; progress is shown on terminals only, and --quiet prints nothing.
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 command -v python3 >/dev/null || { echo "skipped: python3 is not installed"; exit 77; }
 
-# 25 bow ties, far apart, and one without fault.
+# 25 invalid rings, far apart, and one valid one.
 {
     echo id,WKT
     for i in $(seq 1 25); do echo "k$i,\"POLYGON(($((10 * i)) 0,$((10 * i + 4)) 4,$((10 * i + 4)) 0,$((10 * i)) 4,$((10 * i)) 0))\""; done
@@ -20,7 +20,7 @@ same "$(wc -l <err)" 11 'ten warnings and their sum:'
 same "$(grep -c '^sunder: warning: layer houses, FID [0-9]*: ' err)" 10 'warnings that name layer and FID:'
 says err 'sunder: warning: 15 more like these, the first of them: layer houses, FID 11: '
 says err '--log FILE keeps all'
-expect 0 check --where "id <> 'k1'" in.gpkg --bbox 0,0,104,99 # ten, less one
+expect 0 check --where "id <> 'k1'" in.gpkg --bbox 0,0,104,99 # the ten invalid ones in the box, without the first
 same "$(wc -l <err)" 9 'few warnings:'
 expect 0 buffer in.gpkg out.gpkg --shape square:1
 same "$(wc -l <err)" 11 'of buffer:'
@@ -29,7 +29,7 @@ same "$(wc -l <err)" 11 'of route:'
 expect 0 check --barrier in.gpkg,gap=20 --where "id = 'k26'" in.gpkg --ignore-where "id = 'k26'"
 expect 3 separate --barrier in.gpkg --gap 300 --max-shift 0 sound.gpkg out.gpkg --overwrite
 same "$(grep -c 'barrier in.gpkg, layer houses, FID' err)" 11 'of a barrier:'
-# Those of one layer do not hide those of another.
+# Messages about one layer do not suppress those about another.
 expect 0 separate --barrier in.gpkg,width=1 --where "id = 'k1'" in.gpkg out.gpkg --overwrite
 same "$(grep -c 'warning: layer houses' err) $(grep -c 'barrier in.gpkg, layer houses, FID' err)" '1 11' 'of a layer and a barrier:'
 expect 0 separate --barrier in.gpkg,width=1,gap=1 in.gpkg out.gpkg --overwrite --contained ignore --max-shift 0 --allow-conflicts
@@ -47,7 +47,7 @@ for option in --id-field --block-field --max-shift-field --weight-field; do
     says err "sunder: error: $option: layer houses has no field nowhere"
 done
 
-# Quiet.
+# --quiet.
 expect 0 separate in.gpkg quiet.gpkg --quiet
 [ ! -s out ] && [ ! -s err ] || fail "--quiet says: $(cat out err | head -3)"
 expect 0 separate in.gpkg quiet.gpkg --quiet --progress --overwrite --log all.log
@@ -81,14 +81,14 @@ fi
 # A message to a closed stream is dropped; it is not written into a file that got the stream's number.
 status=0
 "$SUNDER" check in.gpkg --log closed.log >&- 2>&- || status=$?
-same "$status $(grep -c '^sunder: ' closed.log) $(wc -l <closed.log)" '1 26 26' 'a log beside closed streams:'
+same "$status $(grep -c '^sunder: ' closed.log) $(wc -l <closed.log)" '1 26 26' 'a log when streams are closed:'
 status=0
 "$SUNDER" separate in.gpkg closed.geojson --of GeoJSON --log closed.log -q <&- >&- 2>&- || status=$?
-[ $status -eq 0 ] && ogrinfo -q -al -so closed.geojson >said 2>&1 || fail "an output beside closed streams: $status"
+[ $status -eq 0 ] && ogrinfo -q -al -so closed.geojson >said 2>&1 || fail "an output when streams are closed: $status"
 expect 0 check in.gpkg --log /dev/stdout -q
 same "$(wc -l <out)" 25 'a log on standard output:'
 
-# JSON: each line an object of the same keys, features by layer and FID.
+# JSON: each line is an object with the same keys, features are given by layer and FID.
 expect 0 check in.gpkg --messages json --id-field id
 python3 - <<'X' || fail 'JSON of warnings'
 import json
@@ -100,7 +100,7 @@ for i, line in enumerate(lines[:10]):
         ("warning", "invalid", "houses", i + 1, "k%d" % (i + 1), 1), line
 assert lines[10]["count"] == 15 and lines[10]["kind"] == "invalid" and lines[10]["fid"] is None, lines[10]
 X
-json_error() { # KIND STATUS WORDS ARGS: one line, an error
+json_error() { # KIND STATUS WORDS ARGS: the run prints one line, an error
     local kind=$1 wanted=$2 words=$3
     shift 3
     expect "$wanted" "$@"
@@ -115,14 +115,14 @@ json_error failed 1 'FID 1' check in.gpkg --invalid fail --messages json
 same "$(json '[.layer, .fid] | join(" ")' err)" 'houses 1' 'the feature of an error:'
 expect 0 check in.gpkg --messages json --log all.log -q
 [ "$(json .message all.log | wc -l)" -eq 25 ] || fail 'the log is not JSON'
-expect 0 check in.gpkg --log all.log -q # in the place of a log of the other form
+expect 0 check in.gpkg --log all.log -q # replaces a log in the other form
 printf 'id,WKT\n1,"POLYGON((0 0,4 4,4 0,0 4,0 0))"\n' >$'a\xffb.csv'
 ogr2ogr broken.gpkg $'a\xffb.csv' -nln x -oo GEOM_POSSIBLE_NAMES=WKT -nlt POLYGON 2>/dev/null
 expect 1 check $'none\xff.gpkg' --messages json
 json .message err >said || fail 'no JSON where a name is not UTF-8'
 
-# Names of all kinds: with line breaks, cut in the middle of a character, in no encoding.
-odd_name() { # PYTHON: the layer and the key
+# Unusual names: with line breaks, cut in the middle of a character, invalid in UTF-8.
+odd_name() { # PYTHON: an expression for the name of the layer and the key
     python3 - "$1" <<'X' || fail "JSON with $1"
 import json, os, subprocess, sys
 name = eval(sys.argv[1])
@@ -165,7 +165,7 @@ if ogrinfo -ro -al -q wide.csv -oo GEOM_POSSIBLE_NAMES=WKT 2>&1 | grep -q overfl
     same "$(tail -n 1 err | cut -d' ' -f3-8)" '15 more like these, the first' "the sum of GDAL's own:"
 fi
 
-# On a terminal: a progress bar if stderr is one, and no other difference.
+# A progress bar is printed if stderr is a terminal; there is no other difference.
 on_terminal() {
     python3 - "$SUNDER" "$@" <<'X'
 import os, pty, subprocess, sys
@@ -185,7 +185,7 @@ open("err", "wb").write(said.replace(b"\r\n", b"\n"))
 sys.exit(run.wait())
 X
 }
-# A root without devices has no terminal to give.
+# A root directory without devices has no pseudo-terminals.
 if python3 -c 'import pty; pty.openpty()' 2>/dev/null; then
     on_terminal check sound.gpkg || fail 'on a terminal'
     same "$(cat err)" '0...10...20...30...40...50...60...70...80...90...100 - done.' 'a bar on a terminal:'
@@ -201,7 +201,7 @@ if python3 -c 'import pty; pty.openpty()' 2>/dev/null; then
     same "$(grep -c '^sunder: warning: ' err)" 11 'warnings begin lines on a terminal:'
 fi
 expect 0 check sound.gpkg
-[ ! -s err ] || fail 'progress where there is no terminal'
+[ ! -s err ] || fail 'a progress bar without a terminal'
 expect 0 check sound.gpkg --progress
-same "$(cat err)" '0...10...20...30...40...50...60...70...80...90...100 - done.' 'a bar where it is asked for:'
+same "$(cat err)" '0...10...20...30...40...50...60...70...80...90...100 - done.' '--progress without a terminal:'
 finish

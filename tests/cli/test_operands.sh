@@ -7,7 +7,7 @@ square='POLYGON ((0 0, 4 0, 4 4, 0 4, 0 0))'
 
 expect 0 sum "$square" square:1
 same "$(area)" 25
-expect 0 sum 'polygon((0 0,4 0,4 4,0 4))' square:1 # small letters, no closing vertex
+expect 0 sum 'polygon((0 0,4 0,4 4,0 4))' square:1 # lower case, no closing vertex
 same "$(area)" 25
 expect 0 sum 'MULTIPOLYGON (((0 0, 1 0, 1 1, 0 1, 0 0)), EMPTY, ((9 0, 10 0, 10 1, 9 1, 9 0)))' square:1
 same "$(area)" 8
@@ -36,7 +36,7 @@ expect 0 sum srid.gpkg "SRID=25832;$square"
 refused 1 'P has the SRID 25832 and Q the SRID 4326' sum srid.gpkg "SRID=4326;$square"
 refused 1 'P has the SRID 1 and Q the SRID 2; transform one of them first' pair "SRID=1;$square" "SRID=2;$square"
 refused 1 'no such file' sum "SRID=x;$square" square:1
-# A decimal is the double nearest to it, of however many digits.
+# A decimal of any length is read as the nearest double.
 expect 0 sum --exact 'POLYGON ((0 0, 0.1 0, 0.1 0.1000000000000000055511151231257827021181583404541015625, 0 0.1))' square:1
 same "$(json '.result.area' out)" "$("$SUNDER" sum --exact square:1 'POLYGON((0 0,0.1 0,0.1 0.1,0 0.1))' | json .result.area -)"
 echo "$square" >p.wkt
@@ -73,19 +73,19 @@ refused 2 'expected a number' sum 'POLYGON ((0 0, nan 0, 1 1))' square:1
 refused 2 'a double can hold' sum 'POLYGON ((0 0, 1e999 0, 1 1))' square:1
 refused 2 'expected a number' sum 'POLYGON ((0 0, 0x1 0, 1 1))' square:1
 
-# Rings that cross are repaired, with a warning, unless that is not wanted.
+# Rings that cross themselves are repaired, with a warning, unless the user forbids it.
 bow='POLYGON ((0 0, 2 2, 2 0, 0 2, 0 0))'
 expect 0 sum "$bow" square:1
 same "$(grep -c '^sunder: warning: P (POLYGON ((0 0, 2 2, 2 0, 0 2, 0 0))): ' err)" 1 "warnings about a bow"
 refused 2 'crosses' sum "$bow" square:1 --invalid fail
 
-# Discs contain, or lie in, the true disc: pi r^2 is between their areas.
+# Standard discs contain, or lie in, the true disc: pi r^2 is between their areas.
 for radius in 1 3.7 1000; do
     expect 0 sum "disc:$radius" 'POLYGON ((0 0, 1e-9 0, 1e-9 1e-9))' --exact
     same "$(json .p.vertices out)" 32 "disc's vertices"
     for shape in disc inside-disc; do
         for n in 3 7 32 500; do
-            # 16 times the area of S is that of S + S + S + S; of S + S it is 4 times.
+            # S + S + S + S has 16 times the area of S, S + S has 4 times.
             expect 0 sum "$shape:$radius:$n" "$shape:$radius:$n"
             json .result.area out | tr / ' ' | awk -v r="$radius" -v s=$shape -v n=$n 'function big(t) { return t + 0 }
                 { a = big($1) / (NF > 1 ? big($2) : 1) / 4; d = a - atan2(0, -1) * r * r
@@ -100,7 +100,7 @@ for shape in disc:0 disc:-1 disc:1:2 disc:1:0 disc:1:x disc:nan disc:inf disc: i
              rectangle:2 rectangle:2x0 rectangle:2x rectangle:x2 disc:1:99999999999; do
     refused 2 "P ($shape): " sum "$shape" square:1
 done
-# A message names both the operand and its fault.
+# A message names the operand and its fault.
 refused 2 'P (disc:): the radius is missing' sum disc: square:1
 refused 2 'P (square:): the side is missing' sum square: square:1
 refused 2 'Q (rectangle:2x): the height is missing' pair square:1 rectangle:2x
@@ -153,13 +153,13 @@ cp metres.gpkg m2.gpkg
 refused 1 'm2.gpkg' sum metres.gpkg m2.gpkg m2.gpkg --overwrite
 expect 0 sum metres.gpkg m2.gpkg m2.gpkg --update
 same "$(count m2.gpkg sum) $(count m2.gpkg c)" '1 1'
-# What the driver warns of while it reads is passed on, and a script still gets its JSON.
+# Warnings of the driver while it reads are passed on to stderr; stdout still has only JSON.
 printf 'WKT,n\n"POLYGON ((0 0,1 0,1 1,0 0))",1\n"POLYGON ((5 0,6 0,6 1,5 0))",abc\n' >odd.csv
 printf 'WKT,Integer\n' >odd.csvt
 for call in 'sum odd.csv square:1' 'pair odd.csv square:1' 'check odd.csv' 'separate odd.csv odd.gpkg --overwrite'; do
     # shellcheck disable=SC2086 # words
     expect 0 $call
-    same "$(grep -c '^sunder: warning: .*record 2' err)" 1 "warnings about a number that is none, $call:"
+    same "$(grep -c '^sunder: warning: .*record 2' err)" 1 "warnings about an invalid number, $call:"
 done
 
 finish

@@ -11,8 +11,9 @@ refused 2 'unknown option' separate --options-json a b
 for command in separate check sum pair buffer route plan merge; do "$SUNDER" $command --help >help.$command; done
 python3 "$SUNDER_SOURCE/tests/cli/options.py" help <options.json >said || fail "$(cat said)"
 
-# Each option is given to the parser by itself, in all of its spellings: does it take a value, may it be repeated?
-python3 "$SUNDER_SOURCE/tests/cli/options.py" calls <options.json >calls || fail "no list of calls"
+# Each option is passed to the parser alone, in all of its spellings, to find out whether it takes a value and whether
+# it may be repeated.
+python3 "$SUNDER_SOURCE/tests/cli/options.py" calls <options.json >calls || fail "cannot make the list of calls"
 [ "$(wc -l <calls)" -ge 300 ] || fail "only $(wc -l <calls) calls"
 cut -f 2- calls | tr '\t' ' ' | "$SUNDER_BUILD/tests/calls" >answers || fail "calls ends with $?"
 same "$(wc -l <answers)" "$(wc -l <calls)" 'answers to all calls:'
@@ -22,7 +23,7 @@ while IFS=$'\t' read -r words command option status said; do
     [[ $said =~ $words ]] || fail "$command $option: not '$words', but '$said'"
 done <asked
 
-# A missing required option is reported, and no other.
+# If a required option is missing, the message names it and no other.
 layer in.gpkg houses POLYGON <<'X'
 id,WKT
 1,"POLYGON((0 0,4 0,4 4,0 4,0 0))"

@@ -1,6 +1,6 @@
 # shellcheck shell=bash disable=SC1091
-# Tests --report: one page that loads no other file, for any content and any names; put in place with the output or not
-# at all; the same bytes each time. tests/browser tests how it looks.
+# Tests --report: one page that loads no other file, whatever its content and names; it appears together with the output
+# or not at all, and is the same in each run. tests/browser tests how it looks.
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 export SOURCE_DATE_EPOCH=1700000000
 town=$SUNDER_SOURCE/datasets-synthetic/town.gpkg
@@ -11,10 +11,10 @@ id,WKT
 2,"POLYGON((3 0,7 0,7 4,3 4,3 0))"
 X
 
-# page FILE: the page is complete, has no links to elsewhere, its data are JSON, and the hashes of the policy match its
-# script and style.
+# page FILE: the page is complete, has no links to other files, its data are JSON, and the hashes of its content
+# security policy match its script and style.
 page() {
-    python3 - "$1" <<'P' || fail "$1 is no such page"
+    python3 - "$1" <<'P' || fail "$1 is not a complete page"
 import base64, hashlib, html.parser, json, re, sys
 text = open(sys.argv[1], encoding="utf-8", newline="").read()
 wrong = []
@@ -72,10 +72,10 @@ for words in '45 <span class="to">' 'id="blocked"' 'no room' 'moves too short' '
     '<code>--max-shift</code>' "kind = &#39;monument&#39;" 'with every corner' '2023-11-14'; do
     says town.html "$words"
 done
-grep -q -- '--threads\|--report</code>\|peak_rss' town.html && fail "the page tells what has no part in the result"
+grep -q -- '--threads\|--report</code>\|peak_rss' town.html && fail "the page contains options or figures that do not affect the result"
 [ "$(wc -c <town.html)" -lt 300000 ] || fail "the page of 280 houses has $(wc -c <town.html) bytes"
 
-# With rows: a section of them, the most bent in close-up, and the two parts of the cost.
+# With --rows: a section about rows, the most bent rows in detail, and the two parts of the cost.
 grep -q 'id="rows"' town.html && fail "rows, unasked"
 expect 3 separate "$town" rows.gpkg -l buildings --gap 3 --max-shift 5 --rows auto --report rows.html --stats rows.json
 page rows.html
@@ -83,7 +83,7 @@ says rows.html "$(jq '.rows.rows' rows.json) rows of neighbours with $(jq '.rows
 for words in 'Rows of houses' '<path class="row" d="M' 'and of the springs of rows ('; do says rows.html "$words"; done
 [ "$(grep -o '<path class="row"' rows.html | wc -l)" -le 8 ] || fail "more than four rows in close-up"
 
-# The same bytes, for any number of threads.
+# The page is the same for any number of threads.
 mkdir again
 (cd again && expect 3 separate "$town" town.gpkg -l buildings --gap 3 --max-shift 5 --fixed-where "kind = 'monument'" \
     --id-field id --report town.html --threads 2 -q)
@@ -126,7 +126,7 @@ page roads.html
 for words in '<i class="barrier"></i>' '<bdi>roads:' 'on a barrier' '"barrier": "' 'class="road line" stroke-width="'; do
     says roads.html "$words"
 done
-grep -q 'class="road' town.html && fail "there are roads where no barriers are"
+grep -q 'class="road' town.html && fail "the page has roads although there are no barriers"
 
 # A large layer is thinned, and the page says so.
 "$SUNDER_BUILD/sunder-town" --buildings 140000 --seed 3 large.gpkg >town_said || fail "no large town"
@@ -138,7 +138,7 @@ says large.html 'the map is thinned'
 bytes=$(wc -c <large.html)
 [ "$bytes" -lt 10000000 ] && [ "$bytes" -gt 3000000 ] || fail "the page of 140,000 features has $bytes bytes"
 
-# Names that are markup, program, or no text at all; and where they show.
+# Names that contain markup, a script, or bytes that are not text, and how the page shows them.
 python3 - <<'P' || fail "cannot make the names"
 import json, sqlite3
 square = lambda x: {"type": "Polygon", "coordinates": [[[x, 0], [x + 4, 0], [x + 4, 4], [x, 4], [x, 0]]]}
@@ -159,7 +159,8 @@ python3 - <<'P' || fail "cannot spoil a name"
 import sqlite3
 d = sqlite3.connect("evil.gpkg")
 for name, in d.execute("SELECT name FROM sqlite_master WHERE type = 'trigger'").fetchall(): d.execute(f'DROP TRIGGER "{name}"')
-# Overlong, a surrogate, past the end, cut off, stray; a control character and a noncharacter.
+# Invalid UTF-8: overlong, a surrogate, beyond the last code point, cut off, a stray byte; then a control character and
+# a noncharacter.
 d.execute("UPDATE fine SET id = CAST(x'C0AF3CEDA080F4908080E28041FF80016FEFBFBF' AS TEXT) WHERE id = 'x'")
 d.commit()
 P

@@ -1,6 +1,6 @@
 # shellcheck shell=bash disable=SC1091
 # A layer that is cut into shards and merged gives the same bytes and statistics as one process. This holds for every
-# number of shards, in any order, if shards are repeated, and if steps are killed on the way.
+# number of shards, in any order, if shards are repeated, and if steps are killed before they end.
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 export SOURCE_DATE_EPOCH=1700000000
 
@@ -10,15 +10,15 @@ run separate town.gpkg whole.gpkg "${call[@]}" --stats whole.json -q
 whole=$status
 figures() { jq -c 'del(.seconds, .peak_rss_bytes)' "$1"; }
 
-# merged PLAN: it is merged, and is what it should be.
+# merged PLAN: merges it and compares the result with that of one process.
 merged() {
     rm -f merged.*
     run merge "$1" merged.gpkg --stats merged.json -q
     same "$status" "$whole" "$1: status of merge"
-    cmp -s whole.gpkg merged.gpkg || fail "$1: merged is another"
+    cmp -s whole.gpkg merged.gpkg || fail "$1: the merged output differs"
     same "$(figures merged.json)" "$(figures whole.json)" "$1: figures"
 }
-shards() { # PLAN K...: these are done
+shards() { # PLAN K...: runs these shards
     local plan=$1 k
     shift
     for k in "$@"; do expect 0 separate --shard "$k" "$plan" -q; done
@@ -36,7 +36,7 @@ for n in 1 2 7 64; do
 done
 cp -r plan7 done7
 
-# A shard that runs twice, by two processes at the same time, or by a temporary path, does not change.
+# A shard has the same bytes if it is run twice, by two processes at the same time, or by a temporary path.
 cksum plan7/shard-3 >before3
 expect 0 separate --shard 3 plan7
 says out 'was done already'
@@ -52,7 +52,7 @@ expect 0 plan town.gpkg plan7 "${call[@]}" --shards 7
 says out 'done already'
 merged plan7
 
-# ---- Killed ----
+# ---- Killed processes ----
 for delay in 0.03 0.1; do
     rm -rf killed
     "$SUNDER" plan town.gpkg killed "${call[@]}" --shards 3 -q 2>err &
@@ -79,8 +79,8 @@ for delay in 0.03 0.1; do
     merged killed
     same "$(find killed -name '*.sunder-*')" '' "left in a plan whose steps were killed after $delay s, when all was done:"
 done
-# Temporary files of a killed process are removed. Those that a process still locks are kept, and so are other users'
-# files there.
+# Temporary files of a killed process are removed. Those that a process still locks are kept, and so are files of other
+# users.
 mkdir -m 700 killed/parts.sunder-abcdef .held.sunder-abcdef
 touch {killed/parts,.held}.sunder-abcdef/being-made~ killed/parts.sunder-abcdef/rows killed/shard-2.sunder-abcdef killed/shard-3.sunder-held12 killed/shard-3.backup .held.config
 (flock -x 9 && exec sleep 60) 9<killed/shard-3.sunder-held12 &
@@ -92,12 +92,12 @@ merged killed
 expect 0 plan town.gpkg held "${call[@]}" --shards 3 -q
 same "$(find killed -name '*.*' ! -name plan.json | sort | tr '\n' ' ')" 'killed/shard-3.backup killed/shard-3.sunder-held12 ' \
     "who holds and who does not:"
-[ -d .held.sunder-abcdef ] || fail "a plan that is being made by another was removed"
-[ -e .held.config ] || fail "a file of somebody else's was removed"
+[ -d .held.sunder-abcdef ] || fail "a plan that another process is making was removed"
+[ -e .held.config ] || fail "a file of another user was removed"
 kill $holder $other
 wait $holder $other 2>/dev/null
 rm -rf killed held .held.*
-# A run that a signal ends leaves no files.
+# A run that is ended by a signal leaves no files.
 for delay in 0.02 0.06; do
     rm -rf asked
     "$SUNDER" plan town.gpkg asked "${call[@]}" --shards 3 -q 2>err &
@@ -108,13 +108,13 @@ for delay in 0.02 0.06; do
     same "$(find . -maxdepth 1 -name '.asked*')" '' "left by a plan that was ended after $delay s:"
 done
 
-# ---- What is missing, altered, or of something else ----
+# ---- Shards that are missing, changed, or of another plan ----
 rm plan7/shard-2 plan7/shard-4 plan7/shard-5
 refused 1 'it has 7 shards, and these are missing: 2, 4-5' merge plan7 none.gpkg
 shards plan7 2 4 5
 merged plan7
 
-# wrong N WORDS: shard N was spoiled; merge says so, and the shard is made again.
+# wrong N WORDS: shard N was damaged; merge reports it, and the shard can be made again.
 wrong() {
     run merge plan7 none.gpkg
     same "$status" 1 "merge with $2"
@@ -181,7 +181,7 @@ refused 2 '1 to' plan town.gpkg none "${call[@]}" --shards 0
 refused 2 'unknown option --report' merge plan7 none.gpkg --report r.html
 refused 2 'is none of main' plan town.gpkg none "${call[@]}" --shards 2 --layers mein
 
-# ---- The input, changed ----
+# ---- A changed input ----
 cp town.gpkg changed.gpkg
 expect 0 plan changed.gpkg changed "${call[@]}" --shards 2 -q
 shards changed 1 2
@@ -194,14 +194,14 @@ refused 1 'has changed since it was made' plan changed.gpkg changed "${call[@]}"
 refused 1 'no such file' plan nothing.gpkg none "${call[@]}" --shards 2
 rm -rf changed changed.gpkg
 
-# ---- From elsewhere; few features; none ----
+# ---- From another directory; few features; none ----
 mkdir elsewhere
 expect 0 plan town.gpkg here "${call[@]}" --shards 2 -q
 (cd elsewhere && for k in 2 1; do "$SUNDER" separate --shard $k ../here -q || exit; done) || fail "shards from elsewhere"
 mv here elsewhere/there
 (cd elsewhere && "$SUNDER" merge there merged.gpkg -q)
 same $? "$whole" 'merge from elsewhere'
-cmp -s whole.gpkg elsewhere/merged.gpkg || fail 'merged elsewhere is another'
+cmp -s whole.gpkg elsewhere/merged.gpkg || fail 'the output merged in another directory differs'
 
 # ---- Barriers, which are read by the plan alone, from wherever it was called ----
 cp town.gpkg roads.gpkg

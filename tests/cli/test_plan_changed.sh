@@ -1,7 +1,7 @@
 # shellcheck shell=bash disable=SC1091
-# Data that decide the moves change between a plan and its merge: each field that an option reads, each result of a
-# condition (also through another table), geometries, the set of features. The merge refuses, and so does the same call
-# of plan. Other data may change. A warning is printed about barriers that changed or are missing.
+# Data that determine the moves change between a plan and its merge: each field that an option reads, each result of a
+# condition (also through another table), geometries, the set of features. Then merge refuses, and so does a repeated
+# call of plan. Changes of other data are allowed. A warning is printed about barriers that changed or are missing.
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 command -v sqlite3 >/dev/null || { echo "skipped: no shell of SQLite"; exit 77; }
 export SOURCE_DATE_EPOCH=1700000000
@@ -27,7 +27,8 @@ for k in 1 2; do expect 0 separate --shard $k the.plan -q; done
 expect 0 merge the.plan whole.gpkg -q
 [ ! -s err ] || fail "warned though nothing changed"
 
-# changed SQL: of a copy of the input; the triggers of a GeoPackage, which want functions of its own, are left out.
+# changed SQL: applies it to a copy of the input; removes the triggers of the GeoPackage first, which need functions
+# that sqlite3 does not have.
 changed() {
     cp pristine.gpkg in.gpkg
     sqlite3 in.gpkg "SELECT 'DROP TRIGGER \"' || name || '\";' FROM sqlite_master WHERE type = 'trigger'" |
@@ -52,7 +53,7 @@ for change in "UPDATE houses SET stays = 0 WHERE id = 1" "UPDATE houses SET stay
 done
 [ "$refusals" -eq 12 ] || fail "$refusals changes were tried"
 
-# A name, and an answer that stays the same.
+# Allowed changes: a name, and a value for which the condition gives the same result.
 changed "UPDATE houses SET name = 'other' WHERE id = 1; UPDATE houses SET stays = 5 WHERE id = 3; INSERT INTO listed VALUES (8)"
 expect 0 merge the.plan o.gpkg -q
 same "$(geometry o.gpkg houses 2)" "$(geometry whole.gpkg houses 2)" "moves after a name changed:"

@@ -1,5 +1,5 @@
 # shellcheck shell=bash disable=SC1091
-# Points with symbols: one for all, each its own, coincident ones, several points in one feature; curves.
+# Points with symbols: one symbol for all, a symbol for each, coincident points, several points in one feature; curves.
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 
 layer p.gpkg trees POINT <<'X'
@@ -15,7 +15,7 @@ same "$(jq -c '[.conflicts.before.overlap + .conflicts.before.contained, .confli
     '[3,{"overlap":0,"too_close":0,"barrier":0,"barrier_drawn":0,"barrier_near":0,"contained":0,"duplicate":0,"inside_blocks":0},3,1,1,true]'
 same "$(count o.gpkg trees) $(count o.gpkg trees_symbols) $(count o.gpkg trees_displacement)" '5 5 3'
 same "$(value o.gpkg trees_symbols 2 sym)" 'disc:3:12' "attributes of the symbols"
-# The symbols as drawn are apart, whoever looks at them; and moved as far as their points.
+# The symbols in the written layer are separate when checked as polygons, and have the same moves as their points.
 expect 0 check o.gpkg -l trees_symbols --gap 1 --no-blocks
 expect 0 check o.gpkg -l trees --symbol disc:2:8 --symbol-field sym --gap 1 --no-blocks
 expect 3 check p.gpkg --symbol disc:2:8 --symbol-field sym --gap 1
@@ -27,7 +27,7 @@ id,WKT
 2,POINT(451005.3 5411005.7)
 3,POINT(451005.3 5411005.7)
 X
-expect 0 separate same.gpkg s.gpkg --symbol square:4 --stats s.json # of coincident symbols none is left on another
+expect 0 separate same.gpkg s.gpkg --symbol square:4 --stats s.json # coincident symbols become separate, too
 same "$(jq -c '[.conflicts.before.duplicate,.conflicts.after.duplicate,.conflicts.after.overlap]' s.json)" '[3,0,0]'
 expect 0 separate same.gpkg b.gpkg --symbol square:4 --contained block --stats s.json
 same "$(jq -c '[.blocks,.moved]' s.json)" '[1,0]'
@@ -41,8 +41,8 @@ expect 0 separate multi.gpkg mo.gpkg --symbol inside-disc:2 -q
 same "$(geometry mo.gpkg m_symbols 1 | cut -c1-16)" '  MULTIPOLYGON ('
 expect 0 check mo.gpkg -l m_symbols --no-blocks
 
-refused 1 'polygon' separate p.gpkg never.gpkg # points, and no symbol
-refused 1 'FID 1' separate p.gpkg never.gpkg --symbol-field sym # its symbol is null, and there is no other
+refused 1 'polygon' separate p.gpkg never.gpkg # points need a symbol
+refused 1 'FID 1' separate p.gpkg never.gpkg --symbol-field sym # its symbol is null, and there is no default
 refused 1 'no field nothing' separate p.gpkg never.gpkg --symbol-field nothing
 refused 2 '--symbol' separate p.gpkg never.gpkg --symbol disc:0
 refused 2 '--symbol' separate p.gpkg never.gpkg --symbol circle
@@ -65,7 +65,7 @@ id,sym,WKT
 X
 refused 1 'FID 2' separate wrong.gpkg never.gpkg --symbol-field sym
 
-# Arcs: computed on polylines grown by what they are off, and the control points are moved.
+# Arcs: the computation uses polylines that are dilated by their distance from the arcs; the control points are moved.
 layer arcs.gpkg arcs CURVEPOLYGON <<'X'
 id,WKT
 1,"CURVEPOLYGON(CIRCULARSTRING(0 0,5 5,10 0,5 -5,0 0))"

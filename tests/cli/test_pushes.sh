@@ -1,10 +1,10 @@
 # shellcheck shell=bash disable=SC1091
-# LAYER_pushes: the forces hold the features where they are (pushes.py, from the written layers alone).
+# LAYER_pushes: the forces are in equilibrium (pushes.py, which reads only the written layers).
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 command -v python3 >/dev/null || { echo "skipped: no python3"; exit 77; }
 town=$SUNDER_SOURCE/datasets-synthetic/town.gpkg
 
-# held OPTIONS...: of all that moved nine tenths at least are at an optimum
+# held OPTIONS...: at least nine tenths of all blocks that moved are in equilibrium
 held() {
     run separate "$town" o.gpkg --overwrite -q -l buildings "$@"
     case $status in 0 | 3) ;; *) fail "$*: status $status" ;; esac
@@ -17,23 +17,24 @@ held --gap 0 --no-blocks
 [ "$(ogrinfo -so -al o.gpkg buildings_pushes | grep -c '^\(fid_a\|fid_b\|barr_fid\|barrier\|force\|nx\|ny\): ')" = 7 ] ||
     fail "columns of buildings_pushes"
 
-# Two squares of side 1 that overlap by half: each goes a quarter; what presses is as much, of the gradient.
+# Two unit squares that overlap by half: each moves a quarter, and the force is twice the move, the gradient of the
+# cost.
 printf 'WKT,w\n"POLYGON((0 0,1 0,1 1,0 1))",1\n"POLYGON((0.5 0,1.5 0,1.5 1,0.5 1))",3\n' | layer two.gpkg two POLYGON
 expect 0 separate two.gpkg two_out.gpkg --no-blocks -q
 row=$(ogrinfo -q -al two_out.gpkg two_pushes | tr -d '\n')
 case $row in *'fid_a (Integer64) = 1'*'fid_b (Integer64) = 2'*'force (Real) = 0.5'*'nx (Real) = 1 '*'ny (Real) = 0 '*) ;; *) fail "two squares: $row" ;; esac
 case $row in *'barrier (String) = (null)'*'LINESTRING (0.25 0.5,1.25 0.5)'*) ;; *) fail "two squares: $row" ;; esac
 
-# Against a wall: fid_b is null, and the wall has its name.
+# Against a wall: fid_b is null, and `barrier` has the name of the wall.
 printf 'WKT,w\n"LINESTRING(0 -5,0 5)",1\n' | layer wall.gpkg wall LINESTRING
 printf 'WKT,w\n"POLYGON((0.5 0,1.5 0,1.5 1,0.5 1))",1\n' | layer one.gpkg one POLYGON
 expect 0 separate one.gpkg one_out.gpkg --barrier wall.gpkg,width=2 -q
 row=$(ogrinfo -q -al one_out.gpkg one_pushes | tr -d '\n')
 case $row in *'fid_b (Integer64) = (null)'*'barrier (String) = wall'*'barr_fid (Integer64) = 1'*'force (Real) = 1'*'nx (Real) = -1 '*) ;; *) fail "wall: $row" ;; esac
 
-# Not asked for, not written.
+# Without the option the layer is not written.
 expect 0 separate two.gpkg main.gpkg --no-blocks -q --layers main,conflicts
 ogrinfo -q main.gpkg | grep -q pushes && fail "pushes, unasked"
 expect 0 separate two.gpkg alone.gpkg --no-blocks -q --layers pushes
-ogrinfo -q alone.gpkg | grep -q pushes || fail "no pushes"
+ogrinfo -q alone.gpkg | grep -q pushes || fail "the layer has no pushes"
 finish

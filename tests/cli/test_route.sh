@@ -10,9 +10,9 @@ mv out plain
 expect 0 route "$wall" --robot square:2 --from 0,0 --to 6,0 --stats s.json
 cmp -s out plain && cmp -s s.json plain || fail "--stats changes something, or differs"
 rm s.json
-expect 0 route "$wall" --robot square:2 --from 0/7,0 --to 12/2,-0 --exact # fractions, in any terms
+expect 0 route "$wall" --robot square:2 --from 0/7,0 --to 12/2,-0 --exact # fractions need not be in lowest terms
 same "$(jq -c '[.length,.path]' out)" '[12.246211251235321,[["0","0"],["1","4"],["5","4"],["6","0"]]]'
-# The boundary alone, as a line, is as much in the way as the polygon; inside it the robot has room, and no way out.
+# The boundary alone, as a line, is an obstacle like the polygon; but inside it the robot has room, and no way out.
 fence='LINESTRING (2 -9, 4 -9, 4 3, 2 3, 2 -9)'
 expect 0 route "$fence" --robot square:2 --from 0,0 --to 6,0
 cmp -s out plain || fail "a line: $(cat out)"
@@ -20,25 +20,28 @@ expect 3 route "$fence" --robot square:2 --from 3,0 --to 6,0
 same "$(json .reason out)" 'start and goal lie in different components of free space'
 same "$(jq -c '[.found,.length,.path,.rounded_is_free]' out)" '[false,null,[],null]'
 expect 0 route "$fence" --robot square:2 --from 3,0 --to 6,0 --allow-conflicts
-expect 0 route "$fence" --robot square:2 --from 3,2 --to 3,-8 # it fits exactly: the way is a degenerate segment
+expect 0 route "$fence" --robot square:2 --from 3,2 --to 3,-8 # an exact fit: the route is a degenerate segment
 same "$(jq -c '[.length,.path]' out)" '[10,[[3,2],[3,-8]]]'
 expect 3 route "$fence" --robot square:2.0000000000000004 --from 3,0 --to 3,-5
 same "$(json .reason out)" "at the start the robot's interior meets OBSTACLES"
-# A point in the way of the robot's interior: round it; of two ways as long the lexicographically smaller.
+# A point that the robot's interior may not meet: the route goes around it; of two routes of equal length the
+# lexicographically smaller is given.
 expect 0 route 'POINT (0 0)' --robot square:2 --from=-5,0 --to=5,0
 same "$(jq -c .path out)" '[[-5,0],[-1,-1],[1,-1],[5,0]]'
-expect 0 route 'MULTIPOINT ((0 0), (0 2), (0 -2))' --robot square:2 --from=-5,1 --to=5,1 # between two points, exactly
+# an exact fit between two points
+expect 0 route 'MULTIPOINT ((0 0), (0 2), (0 -2))' --robot square:2 --from=-5,1 --to=5,1
 same "$(jq -c .path out)" '[[-5,1],[5,1]]'
 expect 0 route 'GEOMETRYCOLLECTION (POINT (0 0), LINESTRING (0 2, 0 9), POLYGON ((-1 -9, 1 -9, 1 -2, -1 -2)))' --robot square:2 --from=-5,0 --to=5,0 --exact
-same "$(jq -c .path out)" '[["-5","0"],["-1","-1"],["1","-1"],["5","0"]]' # between the point and the polygon, exactly
-# A town of squares that the robot fits between exactly, everywhere: all ways are equally long, and there are thousands.
+# an exact fit between the point and the polygon
+same "$(jq -c .path out)" '[["-5","0"],["-1","-1"],["1","-1"],["5","0"]]'
+# A town of squares with streets exactly as wide as the robot: thousands of routes have the same length.
 squares=''
 for x in 0 20 40 60 80 100; do for y in 0 20 40 60 80 100; do squares="$squares, (($x $y, $((x + 10)) $y, $((x + 10)) $((y + 10)), $x $((y + 10))))"; done; done
 expect 0 route "MULTIPOLYGON (${squares#, })" --robot square:10 --from=15,15 --to=95,95
 same "$(jq -c '[.length,.path]' out)" '[160,[[15,15],[15,35],[35,35],[35,55],[55,55],[55,75],[75,75],[75,95],[95,95]]]'
 expect 0 route "MULTIPOLYGON (${squares#, })" --robot square:10 --from=95,15 --to=15,95
 same "$(jq -c '[.length,.path]' out)" '[160,[[95,15],[15,15],[15,95]]]'
-# Distant obstacles do not reduce the precision near the origin, neither of the answer nor of the search.
+# Distant obstacles do not reduce the precision near the origin, neither of the result nor of the search.
 far=''
 for x in 0 12 24 36; do
     for y in 1 10 25 35; do far="$far, POLYGON (($x $y, $((x + 7)) $y, $((x + 7)) $((y + 4)), $x $((y + 6))))"; done
@@ -49,7 +52,7 @@ for at in '1e16 -3e17' '1e300 5e-324'; do
     expect 0 route "GEOMETRYCOLLECTION (POINT ($at)$far)" --robot square:2 --from=-5,-5 --to 50,49 --exact
     cmp -s out near || fail "with a point at $at: $(cat out)"
 done
-# A file or standard input holds any kind that a literal may be.
+# A file or standard input may contain any kind of geometry that a literal may be.
 echo "GEOMETRYCOLLECTION (${far#, })" >far.wkt
 expect 0 route @far.wkt --robot square:2 --from=-5,-5 --to 50,49 --exact
 cmp -s out near || fail "from a file: $(cat out)"
@@ -57,16 +60,16 @@ run route @- --robot square:2 --from=-5,-5 --to 50,49 --exact <far.wkt
 cmp -s out near || fail "from standard input: $(cat out)"
 echo 'LINESTRING (0 0, 1' >bad.wkt
 refused 1 'cannot be read' route @bad.wkt --robot square:2 --from 0,0 --to 1,1
-# Through a hole in the robot: the pole stays inside the ring.
+# A robot with a hole: the pole stays inside the ring.
 expect 0 route 'POINT (0 0)' --robot 'POLYGON ((-2 -2, 2 -2, 2 2, -2 2), (-1 -1, 1 -1, 1 1, -1 1))' --from=-1,0 --to=1,1
 same "$(jq -c .path out)" '[[-1,0],[1,1]]'
 expect 3 route 'POINT (0 0)' --robot 'POLYGON ((-2 -2, 2 -2, 2 2, -2 2), (-1 -1, 1 -1, 1 1, -1 1))' --from=0,0 --to=9,9
 same "$(json .reason out)" 'start and goal lie in different components of free space'
-# A gap: round a disc it would be 13.6328, and the polygon contains the disc.
+# A gap: the length around a disc would be 13.6328; the polygon used for the gap contains the disc.
 expect 0 route "$wall" --robot square:2 --from 0,0 --to 6,0 --gap 0.5
 jq -e '.found and .length > 13.6327 and .length < 13.64 and ([.path[][1]] | max >= 4.5)' out >/dev/null || fail "gap: $(cat out)"
 expect 3 route 'MULTIPOINT ((0 0), (0 2), (0 -2))' --robot square:1 --from=0,1 --to=5,1 --gap 0.5000001
-expect 0 route "$wall" --robot square:2 --from 0,0 --to 0,0 # nowhere to go
+expect 0 route "$wall" --robot square:2 --from 0,0 --to 0,0 # there is no free path
 same "$(jq -c '[.found,.length,.path]' out)" '[true,0,[[0,0]]]'
 expect 0 route 'POLYGON EMPTY' --robot square:2 --from 0,0 --to 3,4
 same "$(jq -c '[.length,.path]' out)" '[5,[[0,0],[3,4]]]'
@@ -91,7 +94,7 @@ same "$(ogrinfo -q -ro o.gpkg -dialect sqlite -sql 'SELECT count(*) AS n FROM ro
 expect 0 route in.gpkg o2.gpkg --robot square:2 --from 0,0 --to 6,0 --where 'id <> 8' --quiet
 same "$(ogrinfo -q -ro o2.gpkg | wc -l)" 2
 expect 0 route 'POLYGON ((0 0, 1e308 0, 1e308 1e308, 0 1e308))' huge.gpkg --robot square:1e307 --from=-1e308,5e307 --to=1.7e308,5e307 --free-space
-same "$(count huge.gpkg route) $(count huge.gpkg route_free_space)" '3 1' # the frame ends where doubles do
+same "$(count huge.gpkg route) $(count huge.gpkg route_free_space)" '3 1' # the frame ends at the limit of doubles
 expect 3 route in.gpkg o3.gpkg --robot square:2 --from 0,0 --to 3,0
 same "$(count o3.gpkg route)" 0
 expect 0 route in.gpkg --robot square:1m --from 0,0 --to 6,0 --gap 1ft
@@ -99,7 +102,7 @@ expect 0 route in.gpkg /vsistdout/ --of GeoJSON --robot square:2 --from 0,0 --to
 same "$(jq -c '.features | length' out)" 3
 ogr2ogr -f GPKG -a_srs EPSG:3857 mercator.gpkg in.gpkg walls || fail "ogr2ogr"
 expect 0 route mercator.gpkg --robot square:1 --from 0,0 --to 6,0
-grep -q 'about 1 times those on the ground (at latitude 0.00)' err || fail "no scale: $(cat err)"
+grep -q 'about 1 times those on the ground (at latitude 0.00)' err || fail "the message does not mention the scale: $(cat err)"
 refused 1 'is an input' route in.gpkg in.gpkg --robot square:2 --from 0,0 --to 6,0 --overwrite
 
 refused 2 '--from X,Y is missing' route "$wall" --robot square:2 --to 1,1

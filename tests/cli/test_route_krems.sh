@@ -1,6 +1,6 @@
 # shellcheck shell=bash disable=SC1091
-# A robot of 4 x 10 m through the old town of Krems: a route where the straight line crosses 27 buildings, replayed here in
-# rationals against every building; and the same layers every time.
+# A robot of 4 x 10 m through the old town of Krems: there is a route although the straight line crosses 27 buildings.
+# The path is verified in rationals against every building, and repeated runs give the same layers.
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 data=$SUNDER_SOURCE/../shared/data/krems_2013.gpkg
 [ -f "$data" ] || { echo "skipped: no krems_2013.gpkg in ../shared/data"; exit 77; }
@@ -10,7 +10,7 @@ expect 0 route "$data" -l buildings --robot rectangle:4x10 --from 544300,5362200
 cp out path.json
 ogr2ogr -f CSV -lco GEOMETRY=AS_WKT -lco SEPARATOR=SEMICOLON buildings.csv "$data" buildings -select building \
     --config OGR_WKT_PRECISION 17 || fail "no WKT of the buildings"
-PYTHONDONTWRITEBYTECODE=1 PYTHONPATH="$SUNDER_SOURCE/tests/cli" python3 - <<'X' || fail "the path does not stand"
+PYTHONDONTWRITEBYTECODE=1 PYTHONPATH="$SUNDER_SOURCE/tests/cli" python3 - <<'X' || fail "the path is not free"
 import json
 import sys
 from fractions import Fraction as F

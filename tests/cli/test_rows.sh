@@ -1,5 +1,5 @@
 # shellcheck shell=bash disable=SC1091
-# --rows: the layer of rows, the figures, and what is refused.
+# --rows: the layer of rows, the statistics, and which calls are refused.
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 command -v jq >/dev/null || { echo "skipped: no jq"; exit 77; }
 
@@ -19,14 +19,14 @@ case $row in *'row (Integer64) = 1 '*'houses (Integer64) = 5 '*'kink_bef (Real) 
 [ "$(ogrinfo -q -sql 'SELECT count(*) AS n FROM layer_styles WHERE f_table_name = "street_rows"' o.gpkg | grep -c 'n (Integer) = 1')" = 1 ] ||
     fail "the layer of rows has no style"
 
-# Without the option there is no layer and no figure of rows.
+# Without the option there is no layer of rows, and no statistics about them.
 expect 0 separate street.gpkg plain.gpkg --gap 3 --stats plain.json
 ogrinfo -q plain.gpkg | grep -q rows && fail "rows, unasked"
 [ "$(jq .rows plain.json)" = null ] || fail "figures of rows, unasked"
 expect 0 separate street.gpkg main.gpkg --gap 3 --rows auto --layers main
-ogrinfo -q main.gpkg | grep -q rows && fail "rows, though only the main layer was asked for"
+ogrinfo -q main.gpkg | grep -q rows && fail "a layer of rows, though only the main layer was requested"
 
-# Twelve houses 1 m apart have to be 5 m apart: without the rule they go to alternating sides, with it they stay a row.
+# Twelve houses 1 m apart have to be 5 m apart. Without --rows they move to alternating sides; with it they stay a row.
 {
     echo "WKT,w"
     for k in {0..11}; do
@@ -36,13 +36,14 @@ ogrinfo -q main.gpkg | grep -q rows && fail "rows, though only the main layer wa
 } | layer twelve.gpkg twelve POLYGON
 expect 0 separate twelve.gpkg row.gpkg --gap 5 --rows auto --stats row.json
 expect 0 separate twelve.gpkg free.gpkg --gap 5 --stats free.json
-# 4 m are missing in each gap: e^2 n (n^2 - 1) / 12 = 2288, the outermost go 22 m, and eleven springs cost 0.3 e^2 each.
+# Each gap has to grow by e = 4 m: the cost is e^2 n (n^2 - 1) / 12 = 2288, the outermost houses move 22 m, and each of
+# eleven springs costs 0.3 e^2.
 jq -e '(.displacement.cost_moves - 2288 | fabs) < 1e-6 and (.displacement.cost_rows - 52.8 | fabs) < 1e-6 and
     (.displacement.max - 22 | fabs) < 1e-6 and .rows.kink_p95 == 0 and .displacement.optimality_gap < 1e-5' row.json \
     >/dev/null || fail "twelve houses: $(jq -c '.displacement, .rows' row.json)"
 # Houses with wings, in a row that is turned by 22.6 degrees. Along the row they are less than the gap apart, though
-# nowhere nearer than the gap, so their rule allows them to come no nearer along it by anything, not even by rounding.
-# The first is too near to a house that never moves, and has to push the others ahead of it.
+# nowhere nearer than the gap, so the rule of rows forbids that they come nearer to each other along it, even by rounding.
+# The first is too near to a fixed house, and has to push the others ahead of it.
 awk 'function add(x, y) { p = p sprintf("%s%.3f %.3f", p ? "," : "", 3000 + (12 * x - 5 * y) / 13, 5000 + (5 * x + 12 * y) / 13) }
     function put(w) { printf "\"POLYGON((%s))\",%d\n", p, w; p = "" }
     BEGIN {
@@ -60,7 +61,7 @@ expect 0 separate wings.gpkg w.gpkg --gap 3 --fixed-where 'w = 0' --rows auto --
 jq -e '.displacement.cost > 4 and .displacement.cost < 6 and .displacement.optimality_gap < 1e-5' wings.json >/dev/null ||
     fail "houses with wings: $(jq -c .displacement wings.json)"
 
-# A house pushed out of the row by one that never moves: the stiffer the rows, the more its neighbours follow.
+# A house is pushed out of its row by a fixed one: with stiffer rows its neighbours follow farther.
 {
     echo "WKT,w"
     for k in {0..8}; do
@@ -86,7 +87,7 @@ expect 3 check free.gpkg --no-blocks --block-field sunder_blk --gap 5 --rows aut
 expect 0 check free.gpkg --no-blocks --block-field sunder_blk --gap 5 --before twelve.gpkg
 expect 2 check free.gpkg --gap 5 --rows auto
 
-# A row that cannot become longer, between a house that never moves and one that may go 1 m: the run ends.
+# A row that cannot become longer, between a fixed house and one that may move 1 m: the run ends.
 {
     echo "WKT,most"
     echo '"POLYGON((0 0,10 0,10 8,0 8,0 0))",0'

@@ -1,5 +1,5 @@
 # shellcheck shell=bash disable=SC1091
-# --rows beside another program that finds rows by the same rule (rows_oracle.py), on random towns.
+# Compares --rows with an independent program that finds rows by the same rule (rows_oracle.py), on random towns.
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 command -v python3 >/dev/null || { echo "skipped: no python3"; exit 77; }
 

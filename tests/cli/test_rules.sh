@@ -1,6 +1,6 @@
 # shellcheck shell=bash disable=SC1091
-# Every rule of a separated layer, by code that shares nothing with the program (rules.py): first that it can fail, then
-# a town, and maps where they are beside the repository. SUNDER_LAWS=all asks about all maps.
+# Checks every rule of a separated layer by code that shares nothing with the program (rules.py): first that this code
+# finds violations, then for a town, and for maps if they are beside the repository. SUNDER_LAWS=all tests all maps.
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 /usr/bin/python3 -c 'import osgeo.ogr' 2>/dev/null || { echo "skipped: GDAL's Python module is not installed"; exit 77; }
 anchors=$SUNDER_BUILD/tests/anchors

@@ -1,5 +1,5 @@
 # shellcheck shell=bash disable=SC1091
-# The same bytes for every number of threads; and a run that is stopped leaves its output whole or not at all.
+# The output has the same bytes for every number of threads, and a run that is stopped leaves a complete output or none.
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 
 town=$SUNDER_SOURCE/datasets-synthetic/town.gpkg
@@ -18,8 +18,8 @@ for threads in 2 5; do
 done
 [ "$(wc -l <1.txt)" -gt 10 ] || fail "check printed nothing to compare"
 
-# A layer that is large enough to be read by two threads, most of it valid: the same warnings in the same order,
-# and the same first feature that fails.
+# A layer that is large enough to be read by two threads, with a few invalid features: the warnings are the same, in the
+# same order, and so is the first feature that fails.
 awk 'BEGIN {
     print "id,WKT"
     for (i = 1; i <= 12000; i++) {
@@ -42,7 +42,7 @@ for input in large null; do
         cmp -s 1.out 2.out || fail "$input, --invalid $invalid: two threads sum up something else"
         cmp -s 1.gpkg 2.gpkg || fail "$input, --invalid $invalid: the output differs"
     done
-    grep -q 'FID 1000' 1.err || fail "$input: the first feature that fails is not told of"
+    grep -q 'FID 1000' 1.err || fail "$input: the first feature that fails is not named"
 done
 
 mkdir stopped

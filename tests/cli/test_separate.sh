@@ -34,16 +34,16 @@ same "$(jq -c '.displacement|keys_unsorted' s.json)" '["total","mean","max","max
 same "$(jq -c '.seconds|keys_unsorted' s.json)" '["read","solve","explain","verify","write","total"]'
 same "$(jq -c '[.command,.layer,.unit,.features,.vertices,.clusters_optimal,.moved,.null,.verified,.losses]' s.json)" '["separate","houses","metre",6,24,2,4,0,true,[]]'
 same "$(jq -c '[.conflicts.before.overlap,.conflicts.after.overlap]' s.json)" '[2,0]'
-# The bound is no more than the cost, and here it is as good as the cost.
+# The bound is at most the cost; here they are equal up to rounding.
 jq -e '.displacement | .cost >= .lower_bound and .lower_bound > 3.999999 and .cost < 4.000001 and .optimality_gap < 1e-6' s.json >/dev/null ||
     fail "cost and bound: $(jq -c .displacement s.json)"
 expect 0 separate in.gpkg o2.gpkg --stats -
 same "$(json .command out)" separate "--stats - alone on stdout:"
 
-# Weights: b is three times as hard to move. A gap, with its unit.
+# Weights: b has three times the weight of a. A gap with its unit.
 expect 0 separate in.gpkg w.gpkg --weight-field w --gap 2m -q
 same "$(moves w.gpkg houses | cut -d' ' -f1,3)" '-3 1'
-expect 0 separate in.gpkg w2.gpkg --weight area -q # all are as large
+expect 0 separate in.gpkg w2.gpkg --weight area -q # all have the same area
 same "$(moves w2.gpkg houses | cut -d' ' -f1,3)" '-1 1'
 expect 0 separate in.gpkg w3.gpkg --weight sqrt-area --weight-field w -q
 same "$(moves w3.gpkg houses | cut -d' ' -f1,3)" '-1.5 0.5'
@@ -56,16 +56,16 @@ b,$bad,"POLYGON((8 0,18 0,18 10,8 10,8 0))"
 X
     [ "$bad" = nan ] && is_null weights.gpkg houses 2 w && continue
     refused 1 'FID 2' separate weights.gpkg never.gpkg --weight-field w
-    expect 0 separate weights.gpkg n.gpkg --weight-field w --ignore-where "id = 'b'" -q --overwrite # null is 1
+    expect 0 separate weights.gpkg n.gpkg --weight-field w --ignore-where "id = 'b'" -q --overwrite # a null weight is 1
 done
 refused 1 'no field nothing' separate in.gpkg never.gpkg --weight-field nothing
 for effort in x -1 inf nan ''; do refused 2 'not a number of 0 or more' separate in.gpkg never.gpkg --effort "$effort"; done
 expect 0 separate in.gpkg e0.gpkg -q --effort 0 --seed 7 --stats 0.json
-expect 0 separate in.gpkg e1.gpkg -q --effort 2.5 --stats 1.json # trying harder costs no more
+expect 0 separate in.gpkg e1.gpkg -q --effort 2.5 --stats 1.json # a greater effort does not raise the cost
 
-# Blocks by a field move as one; features that touch do, too, unless --no-blocks.
+# Features with the same value of the block field move together; so do features that touch, unless --no-blocks is given.
 expect 0 separate in.gpkg b.gpkg --block-field grp -q
-same "$(moves b.gpkg houses | cut -d' ' -f5,7)" "$(moves b.gpkg houses | cut -d' ' -f7,5)" "c and d move alike"
+same "$(moves b.gpkg houses | cut -d' ' -f5,7)" "$(moves b.gpkg houses | cut -d' ' -f7,5)" "c and d have the same move"
 same "$(value b.gpkg houses 3 sunder_blk) $(value b.gpkg houses 4 sunder_blk) $(value b.gpkg houses 1 sunder_blk)" '3 3 (null)'
 refused 1 'no field nothing' separate in.gpkg never.gpkg --block-field nothing
 layer row.gpkg row POLYGON <<'X'
@@ -84,7 +84,8 @@ same "$(jq -c '[.blocks,.moved]' s.json)" '[1,0]'
 expect 0 separate row.gpkg r4.gpkg --gap 2 --list-inside -q
 same "$(value r4.gpkg row_conflicts 1 kind) $(value r4.gpkg row_conflicts 1 reason)" 'too_close same_block'
 
-# Fixed and ignored; what cannot be solved is listed, and the exit status says so.
+# Fixed and ignored features; conflicts that cannot be resolved are listed, and the exit status shows that there are
+# some.
 expect 0 separate in.gpkg f.gpkg --fixed-where "id = 'a'" -q
 same "$(value f.gpkg houses 1 sunder_st) $(moves f.gpkg houses | cut -d' ' -f3)" 'fixed 2'
 expect 0 separate in.gpkg g.gpkg --ignore-where "id IN ('a', 'd')" --stats s.json
@@ -130,7 +131,8 @@ same "$(jq -c .moved s.json)" 0
 says err 'sunder_dx'
 same "$(fields again.gpkg houses)" "$(fields o.gpkg houses)" "fields after a second run"
 
-# What has a stray vertex can only move by multiples of its last place: it stays, and the others make room.
+# A feature with a stray vertex can only move by multiples of the vertex's last place: it stays, and the others give
+# way.
 layer stray.gpkg houses POLYGON <<'X'
 id,WKT
 a,"POLYGON((0 0,4 0,4 4,0 4,0 0))"

@@ -1,15 +1,15 @@
 # shellcheck shell=bash disable=SC1091
-# Layers that are hard to cut (shard_layouts.py), in 1, 2, 7 and 64 shards, worked on in no order and some twice: the bytes and
-# figures, proof and page of one process.
+# Layers that are hard to cut into shards (shard_layouts.py), in 1, 2, 7 and 64 shards, processed in another order and
+# some of them twice: the output, statistics, proof and page are those of one process.
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 for tool in python3 jq; do command -v $tool >/dev/null || { echo "skipped: $tool is not installed"; exit 77; }; done
 export SOURCE_DATE_EPOCH=1700000000
 python3 "$SUNDER_SOURCE/tests/cli/shard_layouts.py" . || fail "no layouts"
 figures() { jq -c 'del(.seconds, .peak_rss_bytes)' "$1"; }
-# Removes paths that differ: a page names the output, and a plan has absolute paths.
+# Replaces paths, which differ: a page contains the name of the output, and a plan has absolute paths.
 page() { sed "s#$PWD/##g; s#parts/o#whole/o#g" "$1"; }
 
-# All of 1 .. n, the odd ones backwards first.
+# Prints 1 .. n, first the odd numbers in descending order.
 order() { seq 1 2 "$1" | tac; seq 2 2 "$1"; }
 
 # alike LAYOUT "SHARDS..." OPTIONS
@@ -27,9 +27,9 @@ alike() {
         expect 0 separate --shard 1 "plan-$n"
         rm -f parts/o.gpkg parts.json parts.jsonl parts.html
         expect "$wanted" merge "plan-$n" parts/o.gpkg
-        cmp whole/o.gpkg parts/o.gpkg || fail "$name in $n shards, $*: another output"
-        cmp <(page whole.html) <(page parts.html) || fail "$name in $n shards, $*: another page"
-        cmp whole.jsonl parts.jsonl || fail "$name in $n shards, $*: another proof"
+        cmp whole/o.gpkg parts/o.gpkg || fail "$name in $n shards, $*: the output differs"
+        cmp <(page whole.html) <(page parts.html) || fail "$name in $n shards, $*: the page differs"
+        cmp whole.jsonl parts.jsonl || fail "$name in $n shards, $*: the proof differs"
         same "$(figures parts.json)" "$(figures whole.json)" "$name in $n shards, $*: figures"
     done
 }
@@ -39,11 +39,11 @@ for layout in chain block one_place few duplicates great clusters; do
     alike $layout '3' --gap 1 --effort 0 --block-field blk --contained separate --max-shift 20
 done
 alike block '1 64' --gap 2 --effort 0.05
-# Fixed features may stay in conflict, and in the way of features that move.
+# Fixed features may stay in conflict, and obstruct features that move.
 for layout in chain duplicates great clusters; do
     alike $layout '6' --gap 4 --effort 0 --max-shift 1 --fixed-where 'fid % 3 > 0'
 done
-# With roads and a river through all layouts.
+# With a road and a river through all layouts.
 for layout in chain block great; do
     alike $layout '5' --gap 1 --effort 0 --max-shift 15 --barrier line.geojson,width-field=width,gap=0.5
 done

@@ -1,6 +1,6 @@
 # shellcheck shell=bash disable=SC1091
-# The side anchors of features that lines and areas cut, beside their rule in fractions (side_anchor.py). SUNDER_SEED says
-# which random ones; SUNDER_LAWS=all asks about 10,000.
+# Compares the side anchors of features that lines and areas cut with their rule, computed in fractions
+# (side_anchor.py). SUNDER_SEED selects the random ones; SUNDER_LAWS=all tests 10,000.
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 anchors=$SUNDER_BUILD/tests/anchors
 [ -x "$anchors" ] || { echo "skipped: no anchors"; exit 77; }

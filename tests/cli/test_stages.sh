@@ -1,11 +1,12 @@
 # shellcheck shell=bash disable=SC1091
-# The stages of a separation are called what they are: reasons, needs and bounds are `explain`, exact checks `verify`; in
-# the seconds of --stats, in the bar of --progress and in the report, for a layer that is held and for one in parts.
+# The names of the stages of a separation: computing reasons, requirements and bounds is `explain`, exact checks are
+# `verify`. They appear in the seconds of --stats, in the bar of --progress and in the report, for a layer in memory and
+# for one in parts.
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 town=$SUNDER_SOURCE/datasets-synthetic/town.gpkg
 names='read solve explain verify write'
 
-# Many conflicts remain, and for each the program computes what would free it.
+# Many conflicts remain, and for each the program computes what would resolve it.
 # (tests/unit/displacement/test_separate_layer_stages.c tests by counting steps that this happens in the stage
 # `explain`; no verdict may depend on time.)
 expect 3 separate "$town" o.gpkg -l buildings --gap 3 --max-shift 1 --effort 3 --stats s.json --progress --report r.html
@@ -19,7 +20,7 @@ same "$(grep -o '<dt>seconds</dt><dd>.*</dd>' r.html | sed 's/<[^>]*>//g' | tr -
 SOURCE_DATE_EPOCH=1 "$SUNDER" separate "$town" same.gpkg -l buildings --gap 3 --max-shift 1 --report same.html -q --allow-conflicts
 grep -q '<dt>seconds</dt>' same.html && fail 'seconds on a page that has to be the same for each run'
 
-# Percentages for programs have not changed.
+# The format of percentages for programs has not changed.
 expect 3 separate "$town" plain.gpkg -l buildings --gap 3 --max-shift 1 --effort 0 --progress=plain
 cmp -s err <(seq 0 100) || fail 'percents, a line each'
 

@@ -15,7 +15,8 @@ same "$(jq -c '.seconds|keys_unsorted' out)" '["read","decompose","subsums","uni
 same "$(jq -c '[.command,.algorithm,.decomposition,.order]' out)" '["sum","convolution",null,null]'
 same "$(jq -c '.polygons' out)" '[{"outer":[[-1,-1],[4,-1],[4,2],[2,2],[2,4],[-1,4]],"holes":[]}]'
 
-# From doubles in memory to the finished sum: building the shapes is part of it, also for a layer and for -Q.
+# The time from doubles in memory to the finished sum: it includes the construction of the shapes, also for a layer and
+# for -Q.
 printf 'WKT,n\n"%s",1\n' "$ell" | layer ell.gpkg ell POLYGON
 for call in "sum @ell.wkt square:2" "sum @ell.wkt @ell.wkt --reflect" "sum ell.gpkg disc:2"; do
     echo "$ell" >ell.wkt
@@ -31,7 +32,7 @@ expect 0 sum "$ell" square:2 --stats s.json --algorithm auto --seed 7
 same "$(json 'keys_unsorted' s.json | tr -d ' \n')" "$keys]" "--stats FILE"
 same "$(jq -c '.polygons|length' out)" 1
 
-# The peg that exactly fits, and the passage exactly as wide as the robot.
+# A peg that fits its hole exactly, and a passage exactly as wide as the robot.
 expect 0 sum "$frame" square:4
 same "$(jq -c '.degenerate_points' out)" '[[5,5]]'
 expect 0 sum --reflect --exact 'POLYGON ((0 0, 9 0, 9 9, 5 9, 5 3, 4 3, 4 9, 0 9, 0 0))' 'POLYGON ((0 0, 1 0, 1 1, 0 1))'
@@ -39,7 +40,7 @@ same "$(jq -c '.degenerate_segments' out)" '[[["4","3"],["4","9"]]]' "the slide"
 expect 0 sum 'POLYGON ((0 0, 2 0, 0 1))' 'POLYGON ((0 0, 2 0, 0 1))' --reflect
 same "$(jq -c '.result.area' out)" '"6"'
 
-# Rationals in lowest terms, as strings; decimals that read back.
+# Rationals in lowest terms, as strings; decimals that read back exactly.
 expect 0 sum --exact 'POLYGON ((0 0, 0.1 0, 0 0.5))' 'POLYGON ((0 0, 1 0, 0 1))'
 same "$(jq -c '.polygons[0].outer[1]' out)" '["39631676720860365/36028797018963968","0"]'
 expect 0 sum 'POLYGON ((0 0, 0.1 0, 0 0.5))' 'POLYGON ((0 0, 1 0, 0 1))'
@@ -55,7 +56,7 @@ expect 0 sum "$huge" "$huge" --stats -
 
 # Output as layers, with their deviation: all layers are written, empty ones too.
 expect 0 sum "$frame" square:4 o.gpkg --stats o.json
-[ ! -s out ] || fail "something on stdout beside the layers"
+[ ! -s out ] || fail "something on stdout besides the layers"
 same "$(count o.gpkg sum) $(count o.gpkg sum_degenerate_segments) $(count o.gpkg sum_degenerate_points)" '1 0 1'
 same "$(geometry o.gpkg sum_degenerate_points 1)" '  POINT (5 5)'
 same "$(jq -c '.result.max_deviation' o.json)" 0
@@ -68,8 +69,8 @@ same "$(jq -r '.features[0].geometry.type' out)" Polygon
 expect 0 sum "$frame" square:4 o.shp
 for f in o.shp o_degenerate_segments.shp o_degenerate_points.shp; do [ -s $f ] || fail "no $f"; done
 
-# Sums that rounding breaks (vertices on the middle of an edge, needles thinner than an ulp): the layer is valid all the
-# same. GEOS judges, through the SQL of GDAL, where that is there; where it is not, the program's own check does.
+# Sums that rounding would make invalid (vertices in the middle of an edge, slivers thinner than an ulp): the written
+# layer is valid. GEOS checks this, through the SQL of GDAL; without GEOS only the program's own check is used.
 p1='MULTIPOLYGON (((0.9 0.9,2.9 1.4,1.1 0.7)),((2.7 2.6,1.8 2.9,1.2 1.7)),((0.5 2.6,2.7 3,0.8 1.8)),((2.9 2.2,0.4 1.1,2.2 1.8)),'
 p1+='((0.8 0.6,1.3 1.9,0.6 1.2)),((0.2 2.1,2.4 0.6,0.2 0.1)),((2.6 2.7,0.4 3,1.8 1.6)),((1 2.7,2 2.4,2.4 2.7)))'
 q1='MULTIPOLYGON (((0.6 0.4,0 0.3,0.3 0.3)),((0.3 0.7,0.5 0,0.1 0.7)),((0.3 0.7,0.4 0.1,0.7 0.2)),((0.3 0.4,0.7 0.3,0.7 0.1)))'
@@ -82,11 +83,12 @@ near() { awk -v a="$1" -v b="$2" 'BEGIN { d = a - b; exit !(d * d < 1e-20 * b * 
 for case in "$p1|$q1" "$p2|$q2"; do
     expect 0 sum "${case%|*}" "${case#*|}" v.gpkg --overwrite --stats v.json
     jq -e '.result.max_deviation < 1e-14' v.json >/dev/null || fail "max_deviation $(jq .result.max_deviation v.json)"
-    case $(valid) in 0) fail "GEOS finds the layer invalid" ;; 1) ;; *) echo "not asked: GEOS, since this GDAL is without it" ;; esac
-    # As a source it is valid too, and has the area of the exact sum.
+    case $(valid) in 0) fail "GEOS finds the layer invalid" ;; 1) ;; *) echo "not tested with GEOS, since this GDAL is without it" ;; esac
+    # The layer is also accepted as a source without repair, and has the area of the exact sum.
     expect 0 sum v.gpkg 'POLYGON EMPTY' --invalid fail
     area=$(ogrinfo -q v.gpkg -dialect sqlite -sql 'SELECT sum(ST_Area(geom)) AS area FROM sum' 2>/dev/null | sed -n 's/.*area.* = //p')
-    # Hundreds of digits: as many are cut from the end of both numbers as leave thirty of the smaller.
+    # The exact area has hundreds of digits: both numbers lose as many digits at the end as leave thirty digits of the
+    # denominator.
     exact=$(jq -r .result.area v.json | tr / ' ' | awk '{ k = length($2) - 30; if (k < 0) k = 0
         printf "%.17g", substr($1, 1, length($1) - k) / substr($2, 1, length($2) - k) }')
     [ -z "$area" ] || near "$area" "$exact" || fail "the layer has the area $area, the sum $exact"

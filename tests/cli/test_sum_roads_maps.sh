@@ -1,7 +1,7 @@
 # shellcheck shell=bash disable=SC1091
-# All algorithms for sums, on polygons of maps: buildings of the committed town, and buildings and countries kept beside
-# the repository in ../shared, if they are there. P is a feature and Q another one near it in the layer's order,
-# reflected, so that coordinates of the sum are like those of maps.
+# All algorithms for sums, on polygons of maps: buildings of the town in the repository, and buildings and countries in
+# ../shared, if they are there. P is a feature and Q is another one near it in the layer's order, reflected, so that
+# coordinates of the sum are like those of maps.
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 command -v jq >/dev/null || { echo "skipped: jq is not installed"; exit 77; }
 
@@ -11,7 +11,7 @@ orders=(random fat given)
 exact() { jq -c '[.result, .polygons, .degenerate_segments, .degenerate_points]' out; }
 compared=0
 
-# pairs DATASET SQL: the SQL gives polygons; each with its successor.
+# pairs DATASET SQL: prints each polygon of the SQL's result together with the next one.
 pairs() {
     local before='' wkt want i
     ogr2ogr -f CSV polygons.csv "$1" -dialect sqlite -sql "$2" -lco GEOMETRY=AS_WKT 2>err || { fail "cannot read $1"; return; }

@@ -1,13 +1,13 @@
 # shellcheck shell=bash
-# The generator of towns: the committed layer comes out again, larger towns begin with smaller ones, seeds differ,
-# houses of a terrace share walls, and nothing is overwritten unasked.
+# The generator of towns: it reproduces the layer in the repository, larger towns begin with smaller ones, seeds differ,
+# houses of a terrace share walls, and nothing is overwritten without the option for that.
 set -eu
 town=$SUNDER_BUILD/sunder-town
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 command -v ogrinfo >/dev/null || { echo "skipped: ogrinfo is not installed"; exit 77; }
 
-# Millimetres have 10 digits here, and ogrinfo writes 15: equal text is equal coordinates.
+# Millimetres have 10 digits here, and ogrinfo prints 15: equal text means equal coordinates.
 dump() { ogrinfo -q -ro "$1" buildings; ogrinfo -q -ro "$1" roads; }
 features() { ogrinfo -q -ro "$1" buildings -where "fid <= $2"; }
 fail() { echo "$1"; exit 1; }
@@ -27,11 +27,11 @@ cmp "$work/small.txt" "$work/large.txt" || fail "a larger town does not begin wi
 features "$work/other.gpkg" 280 >"$work/other.txt"
 ! cmp -s "$work/small.txt" "$work/other.txt" || fail "two seeds give one town"
 
-# Another format, in a folder of files.
+# Another format, which writes a folder of files.
 "$town" --buildings 50 --of "ESRI Shapefile" "$work/shapes"
 [ "$(ogrinfo -ro -so "$work/shapes/buildings.shp" buildings | sed -n 's/^Feature Count: //p')" = 50 ]
 
-# Corners that several houses share: at least one for each two houses, in a town with terraces.
+# Corners that several houses share: in a town with terraces there is at least one for each two houses.
 shared=$(grep -o '[0-9.]* [0-9.]*[,)]' "$work/small.txt" | tr -d ',)' | sort | uniq -c | awk '$1 > 2' | wc -l)
 [ "$shared" -gt 100 ] || fail "only $shared corners are shared"
 

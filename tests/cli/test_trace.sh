@@ -1,6 +1,7 @@
 # shellcheck shell=bash disable=SC1091
-# --trace: what each stage did, a JSON object a line, the same for every number of threads; a result is the same with it; each
-# pair that remains has a line with its reason, and each pair that the search gave up one that says so.
+# --trace: what each stage did, one JSON object per line, the same for every number of threads; it does not change the
+# result. Each pair that remains has a line with its reason, and each pair that the search gave up has a line that says
+# so.
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 town=$SUNDER_SOURCE/datasets-synthetic/town.gpkg
 rules=(--input-layer buildings --gap 2.5 --max-shift 5 --barrier "$town,layer=roads,width=7.5" --allow-conflicts --quiet)
@@ -22,7 +23,8 @@ assert all({"scope", "outcome"} <= set(e) for e in events), "a line without scop
 assert {e["scope"] for e in events} == {"layer", "cluster", "group", "pair"}, "a scope is missing"
 stages = {e.get("stage") for e in events}
 assert {"settle", "reconsider", "improve"} <= stages, stages
-# What the search does within a stage is in tables, too, and a step that is part of another has its line before that one's.
+# The steps of the search within a stage appear with their tables, too. The line of a step that is part of another one
+# comes before that one's line.
 tables = {(e.get("table"), e.get("step")) for e in events}
 for row in (("layer", None), ("search", None), ("settle", "commit"), ("optimise", "take over"), ("cluster", "descend"),
             ("give up", "relax gradually"), ("retry", "resolve overlaps"), ("improve", "try places and sides"), ("group", "grow tree")):
@@ -43,7 +45,7 @@ given_up = {tuple(e["features"]) for e in events if e.get("step") == "give up" a
 searched = [r for r in rows if r[2] in ("no_room", "unresolved") and len(r[0]) == 2]
 assert searched, "no pair was searched in vain"
 for pair, _, reason in searched: assert pair in given_up, (pair, reason)
-# What is proved of a group is worth a number.
+# A bound proved for a group is given as a number.
 assert all("cost_before" in e and "cost_after" in e for e in events if e["scope"] == "group"), "a group without costs"
 P
 

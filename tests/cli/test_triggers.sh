@@ -1,6 +1,6 @@
 # shellcheck shell=bash disable=SC1091
-# --update into a database whose triggers drop or change the rows that register the new layer. Either the run fails and
-# the file is the old one, byte by byte, or a reader finds the layer with all its features, its type and its CRS.
+# --update into a database whose triggers remove or change the rows that register the new layer. Either the run fails
+# and the file is unchanged, byte by byte, or a reader finds the layer with all its features, its type and its CRS.
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 command -v sqlite3 >/dev/null || { echo "skipped: no shell of SQLite"; exit 77; }
 export SOURCE_DATE_EPOCH=1700000000
@@ -17,7 +17,7 @@ expect 0 separate in.gpkg plain.gpkg --layers main --output-layer new --gap 1
 wanted=$(described plain.gpkg)
 [ "$(wc -l <<<"$wanted")" -eq 3 ] || fail "described: $wanted"
 
-# trigger TABLE COLUMN ACTION, as SQL; COLUMN names the layer there.
+# trigger TABLE COLUMN ACTION: prints SQL; COLUMN is the one with the name of the layer.
 trigger() {
     local when=${3%%:*} what=${3#*:}
     echo "CREATE TRIGGER hostile $when ON $1 BEGIN $what; END"
@@ -39,7 +39,7 @@ update() { # update PRISTINE TABLE COLUMN ACTION
     1)
         refusals=$((refusals + 1))
         same "$(cksum "$file")" "$before" "$2, $4: refused, and the file"
-        [ "$(grep -c '^sunder: error: ' err)" -eq 1 ] || fail "$2, $4: no sentence"
+        [ "$(grep -c '^sunder: error: ' err)" -eq 1 ] || fail "$2, $4: not exactly one error message"
         ;;
     *) fail "$2, $4: status $status" ;;
     esac

@@ -1,10 +1,11 @@
 # shellcheck shell=bash disable=SC1091
-# sunder separate with limits: no remaining conflict is worse than before, exactly, by code that reads the two layers.
+# sunder separate with limits: no remaining conflict is worse than before; an independent script compares the two layers
+# exactly.
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 [ -x "$SUNDER_BUILD/tests/standing_rule" ] || { echo "skipped: no standing_rule"; exit 77; }
 command -v python3 >/dev/null || { echo "skipped: no python3"; exit 77; }
 
-# upheld STATUS INPUT LAYER GAP OPTIONS: separates; where conflicts stay, lib.sh looks at the result.
+# upheld STATUS INPUT LAYER GAP OPTIONS: separates; if conflicts remain, lib.sh checks the result.
 upheld() {
     local wanted=$1 input=$2 name=$3 gap=$4
     shift 4
@@ -12,7 +13,7 @@ upheld() {
     same "$(json .verified s.json)" true "verified:"
 }
 
-# A house that sticks out of its outline beside a block: it can be moved inside. If the block is nearer there is no
+# A house that projects from its outline beside a block: it can be moved inside. If the block is nearer there is no
 # solution, and the house does not move.
 layer corner.gpkg corner POLYGON <<'X'
 k,WKT
@@ -38,6 +39,6 @@ if [ -d "$data" ]; then
 else
     echo "without $data: the town alone"
 fi
-[ "$moved_pairs" -gt 0 ] || fail "no pair that stayed in conflict had moved: nothing was asked"
+[ "$moved_pairs" -gt 0 ] || fail "no pair that stayed in conflict had moved: nothing was tested"
 echo "$moved_pairs pairs compared"
 finish

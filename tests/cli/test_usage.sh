@@ -30,7 +30,7 @@ refused 2 'unknown command' dissolve a b
 refused 2 'a command is missing'
 refused 2 'unknown option' --nonsense
 
-# A typing error gets a suggestion, an unknown word does not.
+# A misspelt option gets a suggestion, an unrelated word does not.
 refused 2 'did you mean separate?' seperate a b
 refused 2 'did you mean --overwrite?' separate a b --overwite
 refused 2 'did you mean --gap?' separate a b -gap 3
@@ -45,7 +45,7 @@ id,WKT
 1,"POLYGON((0 0,4 0,4 4,0 4,0 0))"
 2,"POLYGON((3 0,7 0,7 4,3 4,3 0))"
 X
-# Every word of every choice that --help lists is known to the enumeration that it is of.
+# Every value that --help lists for an option is accepted by its parser.
 words_tried=0
 for command in separate check sum pair buffer route plan merge; do
     case $command in
@@ -54,7 +54,7 @@ for command in separate check sum pair buffer route plan merge; do
     buffer) operands=(in.gpkg o.gpkg --shape square:1) ;;
     route) operands=(square:1 --robot square:1 --from '5,5' --to '6,6') ;;
     plan) operands=(in.gpkg in.plan --shards 2) ;;
-    merge) continue ;; # it has no choices of its own
+    merge) continue ;; # its options have no lists of values
     *) operands=(in.gpkg o.gpkg) ;;
     esac
     "$SUNDER" $command --help | grep -oE -- '--[a-z-]+ [a-z0-9-]+(\|[a-z0-9-]+)+' >choices
@@ -111,7 +111,7 @@ refused 1 'no field wait; its fields are id' check in.gpkg --block-field wait
 refused 1 'is a directory' separate in.gpkg o.gpkg --stats .
 refused 1 '--stats' separate in.gpkg o.gpkg --stats no/such/dir.json
 
-# Spellings of ogr2ogr, values joined by '=', options after operands, and -- before operands that look like options.
+# Spellings of ogr2ogr, values after '=', options after operands, and -- before operands that look like options.
 expect 3 check -l houses -where 'id < 3' -spat 0 0 9 9 --config CPL_DEBUG OFF --config=GDAL_CACHEMAX=64 in.gpkg
 expect 0 check in.gpkg --where="id = 1"
 expect 0 separate -f GPKG -nln moved -lco SPATIAL_INDEX=NO -dsco VERSION=1.2 -q in.gpkg o.gpkg

@@ -1,9 +1,9 @@
 # shellcheck shell=bash disable=SC1091
-# --weight and --weight-field: a weight that is none is an error that names the feature; null is 1. Through GeoPackage,
+# --weight and --weight-field: an invalid weight is an error that names the feature; null is 1. With GeoPackage,
 # Shapefile and texts.
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 
-# Two squares that overlap by 1 along x. How the move of 1 is shared out tells the weights: the first takes w2 / (w1 + w2).
+# Two squares that overlap by 1 along x. The lengths of their moves show the weights: the first moves w2 / (w1 + w2).
 two() { # FILE TYPE WEIGHT1 WEIGHT2
     cat >two.csv <<X
 w,WKT
@@ -33,10 +33,10 @@ for file in two.gpkg two.shp; do
     for type in Real Integer String; do
         two $file $type 1 3
         taken $file 0.75 --weight-field w
-        taken $file 0.75 --weight-field W # names of fields know no capitals
+        taken $file 0.75 --weight-field W # names of fields are not case-sensitive
         taken $file 0.75 --weight-field w --weight area
         taken $file 0.5
-        two $file $type 3 "" # null is 1
+        two $file $type 3 "" # a null weight is 1
         taken $file 0.25 --weight-field w
         two $file $type "" ""
         taken $file 0.5 --weight-field w
@@ -53,7 +53,7 @@ for file in two.gpkg two.shp; do
     done
     two $file String 1 '" 3 "'
     taken $file 0.75 --weight-field w
-    two $file String 1 '"  "' # a format without nulls has blanks for them
+    two $file String 1 '"  "' # a format without nulls writes blanks
     taken $file 0.5 --weight-field w
     two $file Date 2020-01-01 2020-01-02
     refused 1 'is of type Date; numbers are needed' separate $file never.gpkg --weight-field w
@@ -76,7 +76,7 @@ cat >two.geojson <<'X'
 {"type": "Feature", "properties": {"w": NaN}, "geometry": {"type": "Polygon", "coordinates": [[[9, 0], [13, 0], [13, 4], [9, 0]]]}}]}
 X
 refused 1 'FID 1: the weight in w is nan' separate two.geojson never.gpkg --weight-field w --input-crs EPSG:25832
-# A GeoPackage has no NaN: SQLite makes it null, which is 1.
+# A GeoPackage has no NaN: SQLite stores null, which means 1.
 ogrinfo -q two.gpkg -sql "UPDATE two SET w = 9e999 - 9e999 WHERE fid = 2" >/dev/null
 taken two.gpkg 0.5 --weight-field w
 finish

@@ -1,12 +1,12 @@
 # shellcheck shell=bash disable=SC1091
-# Weights of any size give a result whose cost is a number, or an error that names the feature and its weight: from the
-# least double to the greatest, as a field, as areas, as both, of blocks.
+# Weights of any size, from the least double to the greatest, as a field, as areas, as both, of blocks: the result has a
+# cost that is a finite number, or an error names the feature and its weight.
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 command -v python3 >/dev/null || { echo "skipped: python3 is not installed"; exit 77; }
 export SUNDER
 python3 "$SUNDER_SOURCE/tests/cli/weights.py" || fail "see above"
 
-# The smallest that ended with "out of memory".
+# The smallest weight for which an earlier version reported "out of memory".
 cat >four.csv <<'X'
 w,WKT
 1e-300,"POLYGON ((0 0,4 0,4 4,0 4,0 0))"

@@ -1,11 +1,11 @@
-"""What stays in conflict stands no worse:
+"""Prints the pairs that remain in conflict, as they were and as they are, to compare them by standing_rule:
 
     python3 upheld.py INPUT.gpkg LAYER OUTPUT.gpkg WRITTEN GAP CHECKED | standing_rule
 
-Reads both GeoPackages as the SQLite files that they are, and prints every pair of the output's conflicts that is not
-inside a block, as it stood and as it stands. LAYER may be empty: the only one; WRITTEN too: called as LAYER. CHECKED holds
-the lines of `sunder check` on the input: a pair that was contained or a duplicate, and still is, is no worse and left out.
-Each feature is one translate of what it was, exactly."""
+Reads both GeoPackages as SQLite files, and prints the geometries before and after of every pair in the output's
+conflicts that is not inside a block. LAYER may be empty if there is only one; WRITTEN may be empty if it is the same
+name. CHECKED holds the lines of `sunder check` on the input: a pair that was contained or a duplicate, and still is,
+is no worse and is left out. Each feature has to be an exact translate of its original."""
 import sqlite3
 import struct
 import sys
@@ -49,7 +49,7 @@ def shift(fid):
     pairs = [(p, q) for a, b in zip(was[fid], now[fid]) for r, s in zip(a, b) for p, q in zip(r, s)]
     found = {tuple(Fraction(q[c]) - Fraction(p[c]) for c in (0, 1)) for p, q in pairs}
     if len(found) != 1:
-        sys.exit(f"upheld.py: FID {fid} is no translate of what it was")
+        sys.exit(f"upheld.py: FID {fid} is not a translate of its original")
     return found.pop()
 
 

@@ -1,6 +1,6 @@
-"""Layers of boxes with weights of any size, drawn by SUNDER_SEED: half of them in the range that is taken, half out of all
-doubles. Each gives a result, whose cost is a number and no less than its bound, or an error that names a feature and
-its weight; where all weights are in the range, a result."""
+"""Layers of boxes with weights of any size, drawn by SUNDER_SEED: half of the layers use accepted weights, the others
+all doubles. Each run gives a result whose cost is a finite number and no less than its bound, or an error that names
+a feature and its weight; if all weights are accepted, a result."""
 import json
 import os
 import random
@@ -14,7 +14,7 @@ LEAST, GREATEST = 1e-100, 1e100
 
 
 def any_double(r):
-    """Positive and finite: its bits are drawn, so each exponent comes as often as any other, and subnormals come."""
+    """Positive and finite: its bits are drawn, so that all exponents are equally frequent and subnormals occur."""
     edge = [5e-324, 2.2250738585072014e-308, 1.7976931348623157e308, LEAST, GREATEST]
     return r.choice(edge) if r.random() < 0.2 else struct.unpack("<d", struct.pack("<Q", r.randrange(1, 0x7FF << 52)))[0]
 
@@ -24,7 +24,7 @@ def in_range(r):
 
 
 def draw(r, weight, areas):
-    """Boxes that overlap; where areas are weights they are of very different sizes, each pair on ground of its own."""
+    """Overlapping boxes. If areas are weights, boxes have very different sizes, and positions scale with the size."""
     rows = ["w,b,WKT"]
     for k in range(r.randint(2, 12)):
         x, y = r.uniform(0, 20), r.uniform(0, 8)
