@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds, and runs the tests.
 #
-#   bash tests/run.sh               those that need no server, no scheduler, no browser, no second build, and no half minute
+#   bash tests/run.sh               those that need no server, no scheduler, no browser, no second build, and less than half a minute
 #   bash tests/run.sh --all         these, too: the labels browser, cluster, fuzz, invariants, package, qgis, server and thorough
-#   bash tests/run.sh -L unit       further words go to ctest: -L LABEL, -R NAME, --output-on-failure is there already
+#   bash tests/run.sh -L unit       further arguments go to ctest: -L LABEL, -R NAME; --output-on-failure is already given
 #   bash tests/run.sh --all -L qgis one of those labels, with what it needs installed
 #
 # SUNDER_SEED replays the random tests, SUNDER_TEST_SCALE=N makes N times as many; see tests/README.md.
@@ -15,9 +15,9 @@ if [ "${1:-}" = --all ]; then
     all=yes
     shift
 fi
-# Asked for by a label or a name of its own, a test runs.
+# A test that is selected by a label or by its name runs, whatever its labels.
 [ "$all" ] || [ $# -gt 0 ] || set -- -LE '^(browser|cluster|fuzz|invariants|package|qgis|server|thorough)$'
-# The system's own tools before those of version managers, whose python3 takes a third of a second to start.
+# The system's own tools come before those of version managers, whose python3 takes a third of a second to start.
 export PATH=/usr/bin:$PATH
 # shellcheck source=../gis/setup.sh
 . "$source/gis/setup.sh"

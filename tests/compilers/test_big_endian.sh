@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# Do the unit tests of the library pass on a machine that stores the highest byte of a number first? The library and its unit
-# tests are compiled for s390x by Debian's cross compiler, with Debian's GMP and cmocka for s390x, and run by qemu-user, which
-# takes some 15 times as long as the machine itself. So random tests make a quarter of their cases, and the five longest are
-# left to `ctest -C long -L long` (SUNDER_LAWS=all).
+# Do the unit tests of the library pass on a big-endian machine? The library and its unit tests are compiled for s390x
+# by Debian's cross compiler, with Debian's GMP and cmocka for s390x, and run by qemu-user, which is some 15 times
+# slower than a real machine. So random tests make a quarter of their cases, and the five longest tests are left to
+# `ctest -C long -L long` (SUNDER_LAWS=all).
 set -euo pipefail
 source=${SUNDER_SOURCE:?}
 work=${SUNDER_BUILD:?}/s390x
@@ -12,7 +12,8 @@ command -v qemu-s390x >/dev/null || skip "qemu-user is not installed"
 [[ -d /usr/s390x-linux-gnu/lib ]] || skip "libc6-dev-s390x-cross is not installed"
 mkdir -p "$work"
 
-# GMP and cmocka are downloaded and unpacked inside the build; apt gets lists of its own, so the system does not change.
+# GMP and cmocka are downloaded and unpacked inside the build; apt uses lists of its own there, so the system does not
+# change.
 if [[ ! -f $work/root/complete ]]; then
     for tool in apt-get dpkg-deb; do
         command -v $tool >/dev/null || skip "there is no $tool to fetch GMP for s390x"

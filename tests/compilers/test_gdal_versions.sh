@@ -1,9 +1,8 @@
 #!/usr/bin/env bash
-# Does the program compile with the headers of GDAL 3.13? The headers that are installed are given what changed there
-# (GDAL's migration guide): GDALGetMetadata() returns a list of constants, OGR_G_SetPoint() and its like an error, and
-# the macros MIN, MAX, ABS and M_PI are gone. In C the type of a list of constants has been char ** up to now; here it
-# is the type of C++. So the compiler warns if a list that GDAL lends is stored in, or passed to, something that may
-# change it.
+# Does the program compile with the headers of GDAL 3.13? The installed headers are changed as in its migration guide:
+# GDALGetMetadata() returns a list of constants, OGR_G_SetPoint() and similar functions return an error, and the macros
+# MIN, MAX, ABS and M_PI are gone. In C a list of constants is still of type char **; here it gets the type that it has
+# in C++, so that the compiler warns if a list that GDAL owns is stored in, or passed to, something that may change it.
 set -euo pipefail
 build=${SUNDER_BUILD:?}
 source=${SUNDER_SOURCE:?}
@@ -33,7 +32,7 @@ status=0
 LC_ALL=C xargs -P "$(nproc 2>/dev/null || echo 2)" -n 20 gcc -fsyntax-only -std=c17 -D_XOPEN_SOURCE=700 -Wall -Wextra \
     -Wpedantic -Werror -Wno-error=incompatible-pointer-types -I. -I"$source/src" -isystem "$work/include" \
     <"$work/files" >"$work/said" 2>&1 || status=1
-# That a list of one's own is given to what asks for constants is meant.
+# Passing a list of the program's own to a function that takes a list of constants is right.
 if grep -E "'char \*\*' from incompatible pointer type 'CSLConstList'|expected 'char \*\*' but argument is of type 'CSLConstList'" \
     "$work/said"; then
     status=1

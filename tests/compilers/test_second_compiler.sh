@@ -22,7 +22,7 @@ failed() {
 generator=$(sed -n 's/^CMAKE_GENERATOR:INTERNAL=//p' "$build/CMakeCache.txt")
 cmake -S "$source" -B "$second_build" -G "$generator" -D CMAKE_C_COMPILER=$second -D CMAKE_BUILD_TYPE=Release \
     -D SUNDER_WERROR=ON >"$second_build/log" 2>&1 || failed
-# The C programs of the benchmarks are no part of `all`. Every file is compiled, even if others have warnings.
+# The C programs of the benchmarks are not part of `all`. Every file is compiled, even if others have warnings.
 mapfile -t benches < <(sed -n 's|.*CMakeFiles/\([a-z_]*\)[.]dir/bench/[a-z_]*[.]c[.]o .*|\1|p' "$second_build/compile_commands.json" |
     grep -v '^naive_' | LC_ALL=C sort -u)
 ((${#benches[@]} > 3)) || { echo "FAILED: the programs of the benchmarks were not found"; exit 1; }
@@ -32,7 +32,7 @@ cmake --build "$second_build" -j "$(nproc 2>/dev/null || echo 2)" --target all "
     >"$second_build/log" 2>&1 || failed
 files=$(grep -c '"file": .*\.c"' "$second_build/compile_commands.json")
 ((files > 500)) || { echo "FAILED: only $files files"; exit 1; }
-grep -q -- '-Wpedantic .*-Werror' "$second_build/compile_commands.json" || { echo "FAILED: warnings are no errors"; exit 1; }
+grep -q -- '-Wpedantic .*-Werror' "$second_build/compile_commands.json" || { echo "FAILED: warnings are not errors"; exit 1; }
 echo "$second: no warning"
 cd "$second_build"
 ctest --output-on-failure -j "$(nproc 2>/dev/null || echo 2)" -L '^unit$'

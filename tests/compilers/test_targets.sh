@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# A target that the sources are not made for is refused by CMake with a sentence that names what it lacks.
+# CMake refuses a target for which the sources are not made, with a sentence that names the missing property.
 set -euo pipefail
 source=${SUNDER_SOURCE:?}
 cc=$(sed -n 's/^CMAKE_C_COMPILER:[A-Z]*=//p' "${SUNDER_BUILD:?}/CMakeCache.txt" | head -n 1)
@@ -7,10 +7,10 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 failures=0
 
-configure() { # OPTIONS...: the status; what was said is in $work/said, on one line
+configure() { # OPTIONS...: returns the status; the messages are in $work/said, on one line
     local status=0
     rm -rf "$work/build"
-    # Without a C library for the target no program can be linked: for CMake a library does.
+    # Without a C library for the target no program can be linked, so CMake tries the compiler with a static library.
     cmake -S "$source" -B "$work/build" -D CMAKE_C_COMPILER="$cc" -D SUNDER_PROGRAM=OFF -D SUNDER_TESTS=OFF "$@" \
         >"$work/log" 2>&1 || status=$?
     tr -s ' \n' ' ' <"$work/log" >"$work/said"
@@ -31,7 +31,7 @@ refused() { # SENTENCE OPTIONS...
     fi
 }
 takes() { echo 'int unused;' | "$cc" "$@" -x c -c - -o "$work/probe.o" 2>/dev/null; }
-gmp() { # LINES: a header of GMP with another limb
+gmp() { # LINES: makes a header of GMP with another limb
     mkdir -p "$work/gmp"
     printf '%s\n' "$@" >"$work/gmp/gmp.h"
 }

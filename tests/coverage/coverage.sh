@@ -1,15 +1,15 @@
 #!/usr/bin/env bash
-# How many of the statements of src/ and gis/ do the ordinary tests run? Counted by gcov in a build of its own
-# (build/coverage), put together by gcovr.
+# How many statements of src/ and gis/ do the ordinary tests run? Counted by gcov in a build of its own
+# (build/coverage), summed up by gcovr.
 #
 #   coverage.sh                  all ordinary tests; then the figures, and the ten files with the least
-#   coverage.sh -L unit          a piece of them: further words go to ctest, and counts add up
-#   coverage.sh --figures        no test is run; the figures of what was
-#   coverage.sh --lines FILE     the lines of a file that no test has come to
+#   coverage.sh -L unit          some of them: further arguments are passed to ctest, and counts add up
+#   coverage.sh --figures        runs no test; the figures of earlier runs
+#   coverage.sh --lines FILE     the lines of a file that no test has run
 #   coverage.sh --record         the figures, and RECORD.md is written
 #
-# Statements are lines that code was made for. A source that was changed since is counted anew, by gcov itself.
-# Assertions and their checkers are off, as in what is installed; fuzz targets are not ordinary tests.
+# Statements are lines for which the compiler made code. The counts of a source that was changed since are reset by
+# gcov. Assertions and checkers are off, as in the installed library; fuzz targets are not ordinary tests.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd -P)
 build=$root/build/coverage
@@ -21,18 +21,18 @@ build() {
     cmake --build "$build" -j "$(nproc)" >"$build/build.log" 2>&1 || { tail -n 30 "$build/build.log"; exit 1; }
 }
 
-# gcovr, asked for a kind of report. A run that a signal ended has counted into a branch and not out of it: gcov finds negative
-# counts of branches there, which say nothing of lines, and are passed over.
+# Calls gcovr for a kind of report. After a run that was ended by a signal, a branch may have been entered more often
+# than left: gcov then finds negative counts of branches, which do not affect lines and are ignored.
 report() { # OPTIONS: which files, what kind of report, where to
     gcovr -r "$root" --object-directory "$build" --gcov-ignore-parse-errors -j "$(nproc)" "$@" "$build" 2>"$build/gcovr.log"
 }
-# A line for each file: its name, its statements, those that were run.
+# Prints for each file its name, its statements, and those that were run.
 counts() {
     [ -n "$(find "$build" -name '*.gcda' -print -quit)" ] || { echo "nothing was run yet" >&2; exit 1; }
     report -f "$root/src/" -f "$root/gis/" --csv -o "$build/counts.csv"
     awk -F, 'NR > 1 { print $1, $2, $3 }' "$build/counts.csv"
 }
-share() { # of a tree, in percent
+share() { # share of a tree, in percent
     awk -v tree="^$1/" '$1 ~ tree { all += $2; run += $3 } END { printf "%.2f %% of %d", 100 * run / all, all }' "$2"
 }
 least() { awk '$2 > 0 { printf "%5.1f %4d %s\n", 100 * $3 / $2, $2 - $3, $1 }' "$1" | LC_ALL=C sort -n | head -n 10; }

@@ -1,4 +1,5 @@
-# Run in a clean root by test_first_user.sh, with bash -eu: each step as the README and the plug-in's page have it.
+# Run in a clean root directory by test_first_user.sh, with bash -eu: each step as in the README and on the plug-in's
+# page.
 cd /root
 echo "step: git clone, gis/demo.sh, the rest, install, the plug-in's zip (README, Install)"
 . /root/install.sh

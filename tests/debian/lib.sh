@@ -1,5 +1,6 @@
 # shellcheck shell=bash
-# Roots of Debian releases, made by debootstrap, for tests of packages. Needs root and a mirror; skips (77) without.
+# Root directories of Debian releases, made by debootstrap, for tests of packages. Needs root and a mirror; otherwise
+# the test is skipped (77).
 #
 #   SUNDER_DEBIAN_MIRROR     (http://deb.debian.org/debian)
 #   SUNDER_DEBIAN_ROOTS      folder that keeps a plain root of each release from run to run (none)
@@ -31,7 +32,7 @@ leave() {
 }
 trap leave EXIT
 
-# A plain root of a release: from the kept one, or made anew. Nothing in it starts a service.
+# A plain root of a release: a copy of the kept one, or a new one. No service is started in it.
 make_root() { # RELEASE ROOT
     local kept=${SUNDER_DEBIAN_ROOTS:+$SUNDER_DEBIAN_ROOTS/$1}
     if [[ $kept && -e $kept/etc/debian_version ]]; then
@@ -58,9 +59,8 @@ within() { # ROOT COMMAND...
         QT_QPA_PLATFORM=offscreen "$@"
 }
 
-# Makes packages of the present sources, for the release of that root, in a folder. No files of the build are left in
-# the root.
-build_packages() { # ROOT FOLDER; ROOT / is this machine
+# Makes packages of the present sources, for the release of that root, in a folder. No build files are left in the root.
+build_packages() { # ROOT FOLDER; the ROOT / is this machine
     local tree=$1/var/tmp/sunder-source
     [[ $1 != / ]] || tree=$scratch/source
     mkdir -p "$tree" "$2"

@@ -1,5 +1,6 @@
 # shellcheck shell=bash
-# The packages made here, on Debian 12, installed, run and removed in a root of Debian 12 without this source tree.
+# Packages made on this machine, Debian 12, are installed, run and removed in a root of Debian 12 without this source
+# tree.
 . "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
 grep -q '^VERSION_CODENAME=bookworm$' /etc/os-release || skip "this is not Debian 12"
 build_packages / "$scratch/packages"

@@ -30,7 +30,7 @@ bash -n /usr/share/bash-completion/completions/sunder
 # shellcheck disable=SC2046 # words
 gcc -std=c17 -Wall -Werror /tmp/sum.c -o sum $(pkg-config --cflags --libs sunder)
 expect "library: area" "$(./sum)" 30
-# The script of Debian 12 gives QGIS an option that it does not know; the program itself stands beside it.
+# Debian 12's script qgis_process passes an option that QGIS does not know; the binary is installed next to it.
 qgis_process=$(command -v qgis_process.bin || command -v qgis_process)
 export XDG_RUNTIME_DIR="$work"
 $qgis_process plugins enable sunder >plugins.txt 2>&1 || { cat plugins.txt; exit 1; }

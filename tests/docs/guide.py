@@ -1,21 +1,20 @@
 #!/usr/bin/env python3
-"""Runs a page of the documentation as it is written, as its reader would: in one shell, from one folder.
+"""Runs a page of the documentation as it is written, as a reader would: in one shell, from one folder.
 
-    guide.py PAGE.md FOLDER              runs it in FOLDER, which is empty; status 1, and what differs, if it is not as it says
-    guide.py PAGE.md FOLDER --record     the same, and puts into the page what was printed
+    guide.py PAGE.md FOLDER              runs it in FOLDER, which is empty; status 1 and the differences if the output differs
+    guide.py PAGE.md FOLDER --record     the same, and writes the output into the page
 
 Fenced blocks of `sh` are run, one after another, by one bash -eu (with pipefail), so that a `cd` or an `export` holds
-for later blocks. A block of `text` that follows has the printed output, of standard output and standard error. A block
-of
-another language is a file: the last word in backticks before it is its name. Seconds are no result: of "1.29 s" at the end
-of a line only the words before it are compared. <address of the repository> is SUNDER_SOURCE.
+for later blocks. A block of `text` that follows has the expected output, of standard output and standard error. A
+block of another language is a file: the last word in backticks before it is its name. Times are not compared: if a
+line ends with "1.29 s", only the text before that is compared. <address of the repository> stands for SUNDER_SOURCE.
 
-A comment of HTML before a block, which no reader sees, says what is not as the reader has it:
+An HTML comment before a block, invisible to the reader, says how the test differs from what the reader does:
 
-    <!-- first: COMMANDS -->       run before the block, in the same shell: what stands for the reader's own data
-    <!-- status 3 -->              commands of the block may end with 3: conflicts are what it shows
-    <!-- needs: COMMAND -->        the block is left out where the command fails, and that is said
-    <!-- not run: REASON -->       the block is left out, and said
+    <!-- first: COMMANDS -->       run before the block, in the same shell: prepares data in place of the reader's own
+    <!-- status 3 -->              commands of the block may end with status 3, since the block shows conflicts
+    <!-- needs: COMMAND -->        the block is left out, with a message, if the command fails
+    <!-- not run: REASON -->       the block is left out, with a message
 """
 import difflib
 import functools
@@ -88,7 +87,7 @@ def script_of(blocks, folder):
 
 
 def said_in(folder, number):
-    """The output of a block; None if it did not run."""
+    """The output of a block; None if it was not run."""
     file = os.path.join(folder, ".blocks", f"{number}.said")
     if not os.path.exists(file):
         return None
@@ -130,7 +129,7 @@ def main():
         if language != "text":
             continue
         if number == 0 or parts[number - 1][0] != "sh":
-            print(f"{page}:{start}: no command comes before what is printed")
+            print(f"{page}:{start}: an output without a command before it")
             trouble = 1
             continue
         if said[number - 1] is None:

@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
-"""Links that lead nowhere among the pages of a folder: links.py FOLDER prints "PAGE: TARGET" for each; status 1 if there are any.
+"""Broken links among the pages of a folder: links.py FOLDER prints "PAGE: TARGET" for each; status 1 if there are
+any.
 
-Looks at href and src of all .html files: the file has to be there, and in it, where a #part is named, an element of that id
-or name. What leads out of the folder to the network is not asked.
+Checks href and src in all .html files: the file has to exist and, if a #part is named, contain an element with that
+id or name. Links to the network are not checked.
 """
 import os
 import sys

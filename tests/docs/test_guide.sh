@@ -22,12 +22,12 @@ stop() { :; }
 trap 'stop; rm -rf "$work"' EXIT
 export LC_ALL=C.UTF-8 SUNDER_SOURCE=$source
 unset PKG_CONFIG_PATH LD_LIBRARY_PATH SUNDER
-# The programs are on the PATH of the pages of the guide, as their README says; the README and the tutorial set the PATH
-# themselves.
+# For pages of the guide the programs are on the PATH, as the guide's README says; the README and the tutorial set the
+# PATH themselves.
 found=$build:$source/gis/cluster:$PATH bare=$work/bin:$PATH
 
-# Requirements of a page besides the programs: the installed library, a database server, a clone. Returns 1 and prints
-# the reason if it is missing. Argument of library: the page's home.
+# What a page needs besides the programs: the installed library, a database server, a clone. Returns 1 and prints the
+# reason if it is missing. `library` takes the page's home directory.
 installable() {
     command -v pkg-config >/dev/null || { echo "pkg-config is not installed"; return 1; }
     ! grep -q '^SUNDER_SANITIZE:STRING=.' "$build/CMakeCache.txt" || { echo "the build carries a sanitizer"; return 1; }
@@ -41,7 +41,7 @@ library() {
 # A page that needs a clone builds it itself. Since compiling takes minutes, CMake copies this build instead.
 clone() {
     installable || return 1
-    git -C "$source" rev-parse --git-dir >/dev/null 2>&1 || { echo "the sources are no clone of a repository"; return 1; }
+    git -C "$source" rev-parse --git-dir >/dev/null 2>&1 || { echo "the sources are not a clone of a repository"; return 1; }
     mkdir -p "$work/bin"
     cat >"$work/bin/cmake" <<END
 #!/usr/bin/env bash
@@ -66,8 +66,8 @@ server() {
     [ -n "$bin" ] && [ -x "$bin/initdb" ] || { echo "PostgreSQL's server is not installed"; return 1; }
     [ -n "$(find /usr/share/postgresql -name postgis.control 2>/dev/null)" ] || { echo "PostGIS is not installed"; return 1; }
     ogrinfo --formats | grep -q PostgreSQL || { echo "GDAL has no PostgreSQL driver"; return 1; }
-    if [ "$(id -u)" = 0 ]; then # as which the server does not run
-        id postgres >/dev/null 2>&1 && command -v runuser >/dev/null || { echo "no user that may run a server"; return 1; }
+    if [ "$(id -u)" = 0 ]; then # the server refuses to run as root
+        id postgres >/dev/null 2>&1 && command -v runuser >/dev/null || { echo "there is no user that may run a server"; return 1; }
         as=(runuser -u postgres --)
         chmod 755 "$work"
     fi
@@ -100,12 +100,12 @@ for page in "${pages[@]}"; do
 done
 [ "$ran" -gt 0 ] || trouble=1
 
-# A page with a wrong output fails, and so does one whose command fails, and one whose output is longer.
+# A page fails if an output is wrong, if a command fails, and if an output is longer than expected.
 if [ -z "$record" ] && [ $# -eq 0 ]; then
-    refused() { # what
+    refused() { # description of the fault
         mkdir "$work/wrong-$1"
         if run_page "$work/$1.md" "$work/wrong-$1" "$found" >"$work/said" 2>&1; then
-            echo "FAILED: a page with another $1 passes"
+            echo "FAILED: a page with a wrong $1 passes"
             trouble=1
         fi
     }

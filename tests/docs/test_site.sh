@@ -1,6 +1,6 @@
 # shellcheck shell=bash
-# The documentation can be made (docs/site.sh), no link in it leads nowhere, and what it is to have is there: the guide, the
-# manual, every function of the headers with its description.
+# The documentation can be built (docs/site.sh), its links are not broken, and it contains the guide, the manual, and
+# every function of the headers with its description.
 set -eu
 for tool in pandoc doxygen python3; do
     command -v "$tool" >/dev/null || { echo "skipped: $tool is not installed"; exit 77; }
@@ -19,7 +19,7 @@ python3 "$here/links.py" "$site" || fail "links that lead nowhere"
 
 for page in "$SUNDER_SOURCE"/docs/*.md "$SUNDER_SOURCE"/docs/guide/*.md; do
     made=${page#"$SUNDER_SOURCE"/} made=${made%.md}.html
-    [ -s "$site/${made/README.html/index.html}" ] || fail "no page of $made"
+    [ -s "$site/${made/README.html/index.html}" ] || fail "the page $made is missing"
 done
 grep -q -- '--max-shift-field' "$site/gis/sunder.1.html" || fail "the manual lacks an option"
 for page in ${manual:+"$manual"/sunder-*.1}; do
@@ -30,16 +30,16 @@ for header in sunder sunder_proof sunder_parts; do
     python3 "$here/described.py" "$SUNDER_SOURCE/src/$header.h" "$page" || fail "the reference of $header.h lacks these"
 done
 
-# A function that the page lacks is found, and one whose description it lacks.
+# described.py finds a function that the page lacks, and one whose description it lacks.
 printf '/* Words of none. */\nSUNDER_API int sunder_version(void);\nSUNDER_API int sunder_nowhere(void);\n' >"$work/wrong.h"
 if python3 "$here/described.py" "$work/wrong.h" "$site/reference/sunder_8h.html" >"$work/said"; then
-    fail "functions that the reference lacks pass"
+    fail "described.py accepts functions that the reference lacks"
 fi
-[ "$(grep -c . "$work/said")" -eq 2 ] || fail "functions that the reference lacks are not named"
+[ "$(grep -c . "$work/said")" -eq 2 ] || fail "described.py does not name the functions that the reference lacks"
 
-# A page that leads nowhere is found out, by its file and by its part.
+# links.py finds a broken link to a file, and one to a part of a page.
 cp -r "$site" "$work/wrong"
 printf '<a href="nowhere.html">x</a><a href="index.html#nowhere">y</a>' >>"$work/wrong/index.html"
-if python3 "$here/links.py" "$work/wrong" >"$work/said"; then fail "links that lead nowhere pass"; fi
-[ "$(grep -c 'nowhere' "$work/said")" -eq 2 ] || fail "links that lead nowhere are not named"
+if python3 "$here/links.py" "$work/wrong" >"$work/said"; then fail "links.py accepts broken links"; fi
+[ "$(grep -c 'nowhere' "$work/said")" -eq 2 ] || fail "links.py does not name the broken links"
 exit $trouble

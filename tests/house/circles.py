@@ -1,10 +1,11 @@
-"""Circles of files: which files of src/ and gis/ cannot be read, or tested, one after the other.
+"""Circular dependencies between files: which files of src/ and gis/ cannot be read, or tested, one after the other.
 
     circles.py SOURCE BUILD
 
-A file depends on another if it uses a function or a variable that the other defines: read from the symbols of the objects of the build
-(nm), so that a header with several implementing files counts for what is used of it. A circle is a strongly connected component of
-more than one file. There must be none. Nor may a file use what is defined on a higher floor of its tree, whoever declares it.
+A file depends on another if it uses a function or a variable that the other defines. This is read from the symbols of
+the build's objects (nm), so that of a header with several implementing files only those count whose symbols are used.
+A circle is a strongly connected component of more than one file. There must be none. Also, a file may not use a
+symbol that is defined on a higher floor of its tree, whichever header declares it.
 """
 import os
 import subprocess
@@ -15,7 +16,7 @@ SKIPPED = 77
 
 
 def objects(source, build, tree):
-    """Object files by the path of their source below the tree; those of files that are gone are left out."""
+    """Object files by the path of their source below the tree; objects of deleted sources are left out."""
     top = os.path.join(build, OBJECTS[tree])
     found = {}
     for folder, _, names in os.walk(top):
@@ -42,7 +43,7 @@ def symbols(paths):
 
 
 def dependences(paths):
-    """For each file the others that it uses, and by which symbols."""
+    """For each file the files that it uses, and by which symbols."""
     defined, wanted = symbols(paths)
     uses = {file: {} for file in paths}
     for file, names in wanted.items():
@@ -106,7 +107,7 @@ def count_upward(source, tree, uses):
         for other in sorted(uses[file]):
             here, there = os.path.dirname(file), os.path.dirname(other)
             if here in rank and there in rank and rank[there] > rank[here]:
-                print(f"{tree}: {file} uses {', '.join(uses[file][other])} of {other}, which stands on a higher floor")
+                print(f"{tree}: {file} uses {', '.join(uses[file][other])} of {other}, which is on a higher floor")
                 wrong += 1
     return wrong
 

@@ -9,7 +9,7 @@ import os
 import re
 import sys
 
-# What the standard headers declare, as far as src/ uses it; other headers of the system are not looked at.
+# What the standard headers declare, as far as src/ uses it; other system headers are not checked.
 STANDARD = {
     "float.h": r"(DBL|FLT)_\w+",
     "limits.h": r"(CHAR|S?CHAR|SHRT|INT|UINT|LONG|ULONG|LLONG|ULLONG)_(MAX|MIN|BIT)",

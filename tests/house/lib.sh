@@ -1,5 +1,5 @@
 # shellcheck shell=bash
-# Functions shared by the tests of the house: the root of the sources, the list of floors, and a count of faults.
+# Functions shared by the tests of the house: the root of the sources, the list of floors, and a count of failures.
 root=$SUNDER_SOURCE
 wrong=0
 
@@ -27,6 +27,6 @@ includes() {
 }
 
 finish() {
-    [ "$wrong" -eq 0 ] || { echo "$wrong wrong"; exit 1; }
+    [ "$wrong" -eq 0 ] || { echo "$wrong failures"; exit 1; }
     exit 0
 }

@@ -1,8 +1,8 @@
 """Compares the names of parameters in the prototypes of headers with those in the definitions.
 
-parameters.py ROOT TREE...: one line for each function that differs, or whose prototype leaves a parameter without a
-name, and the number of prototypes that were compared. The sources are read as text: what stands between braces is left
-out, and of the rest each declarator with a list of parameters is a function.
+parameters.py ROOT TREE...: prints one line for each function whose names differ, or whose prototype has a parameter
+without a name, and the number of prototypes that were compared. The sources are read as text: everything between
+braces is removed, and in the rest each declarator with a list of parameters is a function.
 """
 import os
 import re
@@ -34,7 +34,7 @@ def outside_braces(text):
 
 
 def split_list(text):
-    """The parameters between commas that stand in no parentheses or brackets."""
+    """The parameters: split at commas that are not inside parentheses or brackets."""
     part, depth, begin = [], 0, 0
     for at, c in enumerate(text):
         depth += (c in '([') - (c in ')]')
@@ -45,7 +45,7 @@ def split_list(text):
 
 
 def parameter_name(text):
-    """The name that a parameter has, or '' for none."""
+    """The name of a parameter, or '' if it has none."""
     pointer = re.search(r'\(\s*\*\s*(?:const\s+)?(\w*)\s*(?:\[[^]]*\]\s*)?\)\s*\(', text)
     if pointer:
         return pointer.group(1)
@@ -55,10 +55,10 @@ def parameter_name(text):
 
 
 def parameters(text):
-    """(name of the function, names of its parameters), or None where the text declares no function."""
+    """(name of the function, names of its parameters), or None if the text does not declare a function."""
     if re.match(r'\s*(typedef|return)\b', text) or '=' in text:
         return None
-    # The list is the last pair of parentheses that closes at the end of the text.
+    # The list is the last pair of parentheses, which closes at the end of the text.
     text = text.rstrip()
     if not text.endswith(')'):
         return None
@@ -109,7 +109,7 @@ def main(root, trees):
                         print(f'{os.path.relpath(path, root)}: {name}({", ".join(names)}), '
                               f'but in {file} {name}({", ".join(own)})')
                         wrong += 1
-    print(f'{compared} prototypes compared, {wrong} wrong')
+    print(f'{compared} prototypes compared, {wrong} differ')
     return 1 if wrong else 0
 
 

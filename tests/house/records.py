@@ -1,6 +1,7 @@
-"""Is each figure of the summaries of the benchmarks in the record? A section of a page in tests/bench whose heading links
-CSV files has tables of figures from them: each number in the body of such a table is, at the digits that the page prints,
-a number of these files. Prints those that are not, pages of 150 lines and more, and records that no page names."""
+"""Is each figure in the summaries of the benchmarks in their records? If the heading of a section in a page of
+tests/bench links CSV files, the tables of that section have figures from them: each number in the body of such a
+table has to be, rounded to the printed digits, a number of these files. Prints those that are not, pages of 150 lines
+and more, and records that no page names."""
 import csv
 import os
 import re
@@ -15,7 +16,7 @@ def numbers(text):
 
 
 def is_one_of(shown, recorded):
-    """Whether a recorded number, rounded to the decimals that are shown, is the one that is shown."""
+    """Is the recorded number, rounded to the decimals that are shown, the one that is shown?"""
     if "e" in shown:
         return any(float(shown) == float(each) for each in recorded)
     decimals = len(shown.partition(".")[2])
@@ -23,7 +24,7 @@ def is_one_of(shown, recorded):
 
 
 def sections(text):
-    """(heading, body) of each part of a page that begins with a line of two or three #."""
+    """(heading, body) of each section, which begins with a line of two or three #."""
     parts = re.split(r"^(##+ .*)$", text, flags=re.M)
     return list(zip(parts[1::2], parts[2::2]))
 

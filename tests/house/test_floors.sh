@@ -1,5 +1,6 @@
 # shellcheck shell=bash disable=SC1091
-# Includes between folders go down the floors that src/README.md and gis/README.md state, and every folder stands on one.
+# Includes between folders follow the floors in src/README.md and gis/README.md downwards, and every folder is on a
+# floor.
 . "$SUNDER_SOURCE/tests/house/lib.sh" || exit 1
 
 for tree in src gis; do
@@ -10,7 +11,7 @@ for tree in src gis; do
         grep -qx "$folder" <<<"$held" || say "$tree/README.md: there is nothing in $folder"
     done
     for folder in $held; do
-        grep -qx "$folder" <<<"$plan" || say "$tree/$folder stands on no floor"
+        grep -qx "$folder" <<<"$plan" || say "$tree/$folder is on no floor"
     done
     pairs=$(includes $tree)
     [ "$(wc -l <<<"$pairs")" -gt 20 ] || say "$tree: hardly any include was found"
@@ -23,7 +24,7 @@ for tree in src gis; do
         rank[$2] >= rank[$1] { print $3 " includes a header of " $2 ", which is no lower than " $1 }
     ' <(echo "$plan") <(echo "$pairs"))
 done
-# The library knows nothing of the program, of GDAL or of GEOS; the program knows the public headers alone.
+# The library does not use the program, GDAL or GEOS; the program uses the public headers only.
 grep -rnE '# *include *[<"](gdal|ogr|cpl|geos)' "$root/src" && say "src/ includes a header of GDAL or GEOS"
 for header in $(cd "$root/gis" && sources gis | xargs sed -n 's/^ *# *include "\([^"]*\)".*/\1/p' | sort -u); do
     [ -f "$root/src/$header" ] && [ "$header" = "${header##*/}" ] || [ -f "$root/gis/$header" ] || say "gis/ includes $header, which is not its own"

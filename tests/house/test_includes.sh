@@ -5,7 +5,7 @@ command -v python3 >/dev/null || { echo "skipped: there is no python3"; exit 77;
 unneeded() { python3 "$root/tests/house/includes.py" "$1"; }
 unneeded "$root/src" || say "no source needs the includes above"
 
-# What is unneeded is found, and nothing else.
+# The script finds an include that is not needed, and no other.
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 mkdir "$scratch/base"

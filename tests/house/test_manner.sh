@@ -1,6 +1,6 @@
 # shellcheck shell=bash disable=SC1091
-# The manner of the sources, as far as it can be asked by machine: names that mean one thing, a comment that opens each
-# file, lines of 120 columns.
+# The conventions of the sources, as far as a script can check them: names that mean one thing, a comment at the top of
+# each file, lines of at most 120 columns.
 . "$SUNDER_SOURCE/tests/house/lib.sh" || exit 1
 
 # ---- No two types share a name across headers, and none of a source file has the name of a header's ----
@@ -21,7 +21,7 @@ while read -r file; do
     say "$file does not open with a comment"
 done < <(cd "$root" && find src gis -name '*.[ch]' | sort | xargs awk 'FNR == 1 && !/^\/\*/ { print FILENAME }'
     cd "$root" && find src gis -name '*.[ch]' -empty)
-# Columns, not bytes: comments and strings hold characters of several.
+# Columns, not bytes: comments and strings contain characters of several bytes.
 while read -r line; do
     say "$line is longer than 120 columns"
 done < <(cd "$root" && find src gis tests datasets-synthetic -name '*.[ch]' | sort |
@@ -36,7 +36,7 @@ done < <({ sources src; sources gis; } | grep '\.c$' | grep -v '^commands/' | se
 while read -r line; do
     say "src/$line"
 done < <(cd "$root/src" && awk '
-    /^typedef enum sunder_[a-z_]* \{.*\}/ { next } # of one line: three phases, which do
+    /^typedef enum sunder_[a-z_]* \{.*\}/ { next } # a definition on one line, of three phases
     /^typedef enum sunder_/ { type = $3; open = 1; next }
     /^} sunder_/ { open = 0 }
     open && match($0, /^ *SUNDER_[A-Z_0-9]+/) {
@@ -44,7 +44,7 @@ done < <(cd "$root/src" && awk '
         sub(/^ */, "", name)
         word = toupper(type)
         sub(/_(STATUS|KIND)$/, "", word)
-        if (word == "SUNDER" || index(name, word "_") == 1) next # the codes of sunder_status have none
+        if (word == "SUNDER" || index(name, word "_") == 1) next # the values of sunder_status do not have the prefix
         print FILENAME ": " name " does not carry the name of " type
     }' sunder.h sunder_proof.h sunder_parts.h)
 finish

@@ -7,7 +7,7 @@ compare() { python3 "$SUNDER_SOURCE/tests/house/parameters.py" "$@"; }
 said=$(compare "$root" src gis) || say "$said"
 [ "$(tail -n 1 <<<"$said" | awk '{print $1}')" -gt 2000 ] || say "hardly any prototype was compared: $said"
 
-# What it is to find is found: a name that differs, and one that is missing, beside shapes of parameters that are right.
+# The script finds a name that differs and one that is missing, among valid declarations of several forms.
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 mkdir "$work/src"

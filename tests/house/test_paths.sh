@@ -6,7 +6,7 @@
 functions='CPLSPrintf|CPLFormFilename|CPLFormCIFilename|CPLGetPath|CPLGetDirname|CPLGetFilename|CPLGetBasename|CPLGetExtension'
 functions+='|CPLResetExtension|CPLGetCurrentDir|CPLProjectRelativeFilename|CPLExtractRelativePath|CPLCleanTrailingSlash'
 functions+='|CPLCorrespondingPaths|CPLGenerateTempFilename|CPLExpandTilde|CPLGetHomeDir|CPLLaunderForFilename'
-# without_comments FILE: its code.
+# without_comments FILE: prints its code.
 without_comments() { sed 's#/\*.*\*/##; /\/\*/,/\*\//d' "$1"; }
 looked=0
 while read -r file; do

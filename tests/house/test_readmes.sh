@@ -1,6 +1,6 @@
 # shellcheck shell=bash disable=SC1091
-# What the READMEs name is there: each function of the table of questions in src/README.md is defined in a file of its row,
-# and the files and functions that a README names exist.
+# The READMEs name only things that exist: each function in the table of questions in src/README.md is defined in a file
+# of its row, and the files and functions that a README names exist.
 . "$SUNDER_SOURCE/tests/house/lib.sh" || exit 1
 
 # defines FUNCTION FILE...: is the function defined in one of the files?
@@ -8,7 +8,7 @@ defines() {
     local function=$1
     shift
     awk -v name="$function" '
-        # A definition: the name at the start of a line of no indent, and no semicolon before the body opens.
+        # A definition: the name in a line without indent, and no semicolon before the body opens.
         /^[A-Za-z#}]/ { open = 0 }
         $0 ~ "^[A-Za-z].*[ *]" name "\\(" { open = 1 }
         open && /;[ \t]*$/ && !/\{/ { open = 0 }
@@ -35,9 +35,10 @@ while IFS='|' read -r _ question column functions _; do
         defines "$name" "${files[@]}" || say "src/README.md: $name() is not defined in $column"
     done
 done < <(sed -n '/^| question | file | function |/,/^$/p' "$root/src/README.md" | sed 1,2d | grep '^|')
-[ "$asked" -ge 60 ] || say "src/README.md: $asked questions are answered; sixty should be"
+[ "$asked" -ge 60 ] || say "src/README.md: $asked questions are answered, not sixty"
 
-# Files in the first column of a README's tables, or in `...`, that look like sources: somewhere below that folder's tree.
+# Files in the first column of a README's tables, or in `...`, that look like sources: they exist somewhere below that
+# folder's tree.
 for readme in "$root"/src/*/README.md "$root"/src/*/*/README.md "$root"/src/*/*/*/README.md "$root"/gis/README.md \
     "$root"/gis/*/README.md "$root"/gis/*/*/README.md; do
     [ -f "$readme" ] || continue
@@ -49,7 +50,7 @@ for readme in "$root"/src/*/README.md "$root"/src/*/*/README.md "$root"/src/*/*/
             say "${readme#"$root"/}: there is no $file"
     done
 done
-# Functions and types that a README names are in the sources; `name_*` stands for several.
+# Functions and types that a README names exist in the sources; `name_*` stands for several.
 known=$(grep -rhoE '\b(sunder|gis)_[a-z_0-9]+' --include='*.[ch]' "$root/src" "$root/gis" | sort -u)
 for readme in "$root/README.md" "$root"/src/README.md "$root"/src/*/README.md "$root"/src/*/*/README.md \
     "$root"/src/*/*/*/README.md "$root"/gis/README.md "$root"/gis/*/README.md "$root"/gis/*/*/README.md; do

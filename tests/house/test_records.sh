@@ -5,7 +5,7 @@ command -v python3 >/dev/null || { echo "skipped: no python3"; exit 77; }
 export PYTHONDONTWRITEBYTECODE=1
 told=$(python3 "$root/tests/house/records.py" "$root/tests/bench") || say "$told"
 [[ $told =~ ^([0-9]+)\ figures && ${BASH_REMATCH[1]} -ge 300 ]] || say "$told"
-# What it asks for, it misses: one figure that is in no record, a page that is too long, a record without a page.
+# The script finds a figure that is in no record, a page that is too long, and a record without a page.
 scratch=$(mktemp -d) || exit 1
 trap 'rm -rf "$scratch"' EXIT
 mkdir "$scratch/sums"

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Unit tests lie in folders named like the rooms of src/, and each is named for the file that it asks about: number/test_big.c
-# for number/big.c. What follows the name, as in displacement/test_separate_layer_memory.c, says which question it asks. Files
-# at the top ask the whole library. A list of tests by name names unit tests that are there.
+# Unit tests are in folders named like the folders of src/, and each has the name of the file that it tests:
+# number/test_big.c for number/big.c. A suffix, as in displacement/test_separate_layer_memory.c, names the question.
+# Files at the top test the library as a whole. Lists of tests by name, as in CMakeLists.txt, name existing unit tests.
 set -euo pipefail
 cd "${SUNDER_SOURCE:?}/tests/unit"
 tests=0 wrong=0
@@ -11,7 +11,7 @@ while read -r file; do
     tests=$((tests + 1))
     while [[ ! -f ../../src/$room/$name.c && ! -f ../../src/$room/$name.h && $name == *_* ]]; do name=${name%_*}; done
     if [[ ! -f ../../src/$room/$name.c && ! -f ../../src/$room/$name.h ]]; then
-        echo "tests/unit/$file is named for no file of src/$room"
+        echo "tests/unit/$file does not have the name of a file of src/$room"
         wrong=$((wrong + 1))
     fi
 done < <(find . -mindepth 2 -name '*.c' | sed 's|^\./||' | sort)

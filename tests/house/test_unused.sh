@@ -8,14 +8,14 @@ unused() {
     (cd "$1" && find src tests -name '*.[ch]' -print0 | xargs -0 awk '
         {
             line = $0
-            sub(/^ *(\/\*|\*( |$)).*/, "", line) # comments
+            sub(/^ *(\/\*|\*( |$)).*/, "", line) # removes comments
             first = 1
             while (match(line, /sunder_i_[a-z0-9_]+/)) {
                 name = substr(line, RSTART, RLENGTH)
                 before = substr(line, 1, RSTART - 1)
                 line = substr(line, RSTART + RLENGTH)
                 n[name]++
-                # Declared or defined here: the first name of the line after a type.
+                # A name declared or defined here: the first name of the line after a type.
                 if (first && line ~ /^\(/ && before ~ /^[a-z][a-z0-9_ *]*[ *]$/ && FILENAME ~ /^src\//) {
                     declared[name]++
                     at[name] = FILENAME
@@ -29,7 +29,7 @@ while read -r name file; do
     say "nothing uses $name() of $file"
 done < <(unused "$root" | sort)
 
-# It finds one that is declared and defined, and one that is inline; not one that is used.
+# It finds a function that is declared and defined but unused, also an inline one; it does not list one that is used.
 scratch=$(mktemp -d) || exit 1
 trap 'rm -rf "$scratch"' EXIT
 mkdir "$scratch/src" "$scratch/tests"

@@ -5,7 +5,7 @@
 command -v python3 >/dev/null || { echo "skipped: no python3"; exit 77; }
 export PYTHONDONTWRITEBYTECODE=1
 told=$(python3 "$root/tests/house/words.py" "$root") || say "$told"
-# What it counts, it finds: a page and a comment that break each rule.
+# A page and a comment that break each rule: the script counts all of them.
 scratch=$(mktemp -d) || exit 1
 trap 'rm -rf "$scratch"' EXIT
 python3 - "$scratch" <<'PY'

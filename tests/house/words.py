@@ -2,11 +2,12 @@
 
     python3 words.py ROOT [--rooms] [--show KIND]
 
-There are four counts, each with its limit (LIMITS). `person`: who, whom, nobody, he and him, which are for people and not for bodies,
-pairs and files. `so many`: so many, so much and so often, which should be the name of a variable. `of which`: of which and of whom.
-`long`: sentences of more than 40 words. Comments are those of C, Python (docstrings too), shell and CMake. Pages are Markdown, without
-their code, and the man page; there people may be `who`, and the limit for long sentences is higher. --rooms prints the counts of each
-folder; --show prints the places of one kind.
+There are four counts, each with its limit (LIMITS). `person`: who, whom, nobody, he and him, which are for people and
+not for bodies, pairs and files. `so many`: so many, so much and so often, in place of which the name of a variable is
+clearer. `of which`: of which and of whom. `long`: sentences of more than 40 words. Comments are those of C, Python
+(docstrings too), shell and CMake. Pages are Markdown, without their code, and the man page; in pages people may be
+`who`, and the limit for long sentences is higher. --rooms prints the counts of each folder; --show prints the places
+of one kind.
 """
 import argparse
 import io
@@ -30,12 +31,12 @@ LIMITS = {
 WORD = re.compile(r"[A-Za-z][A-Za-z'’-]*")
 C_TOKEN = re.compile(r"""//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"|'(?:\\.|[^'\\\n])*'""", re.S)
 SENTENCE_END = re.compile(r"(?<=[.!?])[)\"'*_`]*\s+(?=[A-Z`(\"*_\d])")
-ROW = re.compile(r"\S {2,}\S")  # of a table or a drawing in a comment: blanks within the line
+ROW = re.compile(r"\S {2,}\S")  # a row of a table or a drawing in a comment: it has several blanks within the line
 ITEM = re.compile(r"\s*(?:[-*+]|\d+\.)\s|\s*#+ |\s*\|")
 
 
 def c_comments(text):
-    """(line, text) of each comment; // lines that follow each other are one."""
+    """(line, text) of each comment; consecutive // lines are one comment."""
     last = None
     for match in C_TOKEN.finditer(text):
         token = match.group()
@@ -59,7 +60,7 @@ def c_comments(text):
 
 
 def hash_comments(text):
-    """(line, text) of the comments of shell and CMake, each run of whole lines as one."""
+    """(line, text) of the comments of shell and CMake; consecutive comment lines are one comment."""
     run, first = [], 0
     for number, line in enumerate(text.split("\n"), 1):
         stripped = line.strip()

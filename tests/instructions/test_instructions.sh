@@ -1,13 +1,14 @@
 #!/usr/bin/env bash
-# Does any part of the program need more instructions than on record? Counted by callgrind on inputs that are made here: sums of
-# the families, a file of pairs, a route, buffers and separated towns. Seconds shake with the machine; instructions do not.
+# Does any part of the program need more instructions than recorded? callgrind counts them on inputs that are made here:
+# sums of the families, a file of pairs, a route, buffers and separated towns. Unlike times, these counts do not vary
+# from run to run.
 #
-#   test_instructions.sh             fails where a count is more than 5 % above RECORD
-#   test_instructions.sh --record    counts and writes its part of RECORD anew: with a commit that says why
+#   test_instructions.sh             fails if a count is more than 5 % above RECORD
+#   test_instructions.sh --record    counts, and replaces the part of RECORD for this machine; the commit gives the reason
 #
-# Counts depend on the compiler, on flags, on libraries and, as libraries choose their loops by what the processor can do, on that.
-# So RECORD has a part for each kind of machine, of two paragraphs: what counts depend on, and counts. They are compared on a machine
-# like one of these alone, else the test is skipped.
+# Counts depend on the compiler, on flags, on libraries and, since libraries choose code by the features of the
+# processor, on the processor. So RECORD has a part for each kind of machine, of two paragraphs: the properties that
+# counts depend on, and counts. On a machine that is not one of these the test is skipped.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd -P)
 build=${SUNDER_BUILD:-$root/build/release}
@@ -28,13 +29,14 @@ cd "$work"
 # ---- Conditions on which counts depend ----
 cached() { sed -n "s/^$1:[A-Z]*=//p" "$build/CMakeCache.txt" | head -n 1; }
 processor() { sed -n "s/^$1[[:space:]]*: //p" /proc/cpuinfo | head -n 1; }
-libraries() { # the files that are loaded: their names hold versions
+libraries() { # the libraries that are loaded: their file names contain versions
     ldd "$build/sunder" | sed -n 's/.* => \([^ ]*\) .*/\1/p' | xargs -n 1 readlink -f | sed 's#.*/##' |
         grep -E '^lib(gmp|gdal|sqlite3|proj|geos|geos_c)[.-]' | LC_ALL=C sort | paste -sd' '
 }
 conditions() {
     echo "processor: $(processor 'model name'), family $(processor 'cpu family'), model $(processor model)"
-    echo "compiler: $("$(cached CMAKE_C_COMPILER)" --version | sed '1s/^[a-z0-9_-]*cc[-0-9]* (/gcc (/;q')" # cc, gcc-12 ...: one program
+    # the compiler's name may be cc, gcc-12 and so on for the same program
+    echo "compiler: $("$(cached CMAKE_C_COMPILER)" --version | sed '1s/^[a-z0-9_-]*cc[-0-9]* (/gcc (/;q')"
     echo "build: $(for name in CMAKE_BUILD_TYPE CMAKE_C_FLAGS_RELEASE CMAKE_C_FLAGS SUNDER_SANITIZE; do cached $name; done | paste -sd' ' | sed 's/ *$//')"
     echo "libraries: $(getconf GNU_LIBC_VERSION) $(libraries)"
     echo "valgrind: $(valgrind --version)"
@@ -86,7 +88,7 @@ above() { # COUNTS RECORD: a line for each count that is above, or is missing in
         END { for (name in old) print name ": on record, not counted" }' "$2" "$1"
 }
 
-# Paragraphs of RECORD: the counts for machines like this one, and the paragraphs for all others.
+# Prints paragraphs of RECORD: the counts for machines like this one, or the paragraphs for all others.
 like_this() { awk -v RS= 'NR == FNR { here = $0; next } FNR % 2 { mine = $0 == here; next } mine' here "$record"; }
 others() { awk -v RS= 'NR == FNR { here = $0; next } FNR % 2 { there = $0; next } there != here { print there "\n\n" $0 "\n" }' here "$record"; }
 
@@ -107,11 +109,11 @@ if [[ ! -s recorded ]]; then
 fi
 counts >counted
 join <(LC_ALL=C sort recorded) <(LC_ALL=C sort counted) | awk '{ printf "%-14s %12d on record %12d now %+6.1f %%\n", $1, $2, $3, 100 * ($3 / $2 - 1) }'
-# A check that cannot fail is none: a record lowered by a tenth must be found exceeded, in every line.
+# Can the check fail? If the recorded counts are lowered by a tenth, every line must be reported.
 awk '{ print $1, int(0.9 * $2) }' counted >lowered
 [[ $(above counted lowered | wc -l) -eq $(wc -l <counted) ]] || { echo "FAILED: counts a tenth above are not found"; exit 1; }
 above counted recorded >found
 [[ -s found ]] || exit 0
 sed 's/^/FAILED: /' found
-echo "Where more work is meant, renew the record and say why in the commit: $renew"
+echo "If the additional instructions are intended, record the counts again and give the reason in the commit: $renew"
 exit 1

@@ -1,5 +1,6 @@
 # shellcheck shell=bash
-# The library built without NDEBUG, so that its assertions and checkers run (src/base/invariant.h): its tests once more.
+# Runs the tests of the library in a build without NDEBUG, so that its assertions and checkers run
+# (src/base/invariant.h).
 set -eu
 build=$SUNDER_BUILD/invariants
 cmake -S "$SUNDER_SOURCE" -B "$build" -DCMAKE_BUILD_TYPE=Debug -DCMAKE_C_FLAGS=-O2 -DCMAKE_C_FLAGS_DEBUG= \
@@ -9,7 +10,7 @@ programs=$(cd "$SUNDER_SOURCE/tests" && find unit property golden -name 'test_*.
     sed 's|^[a-z]*/||; s|^\(.*/\)test_|test_\1|; s|/|_|g; s|\.c$||')
 # shellcheck disable=SC2086 # words
 cmake --build "$build" -j "$(nproc)" --target $programs sunder-families >"$build.log" 2>&1 || { tail -50 "$build.log"; exit 1; }
-# A check that cannot fail is none: a broken invariant ends the program.
+# Can the check fail? A broken invariant has to end the program.
 cat >"$build/broken.c" <<'X'
 #include "base/invariant.h"
 int main(int argc, char **argv)

@@ -1,5 +1,6 @@
-/* A user of all three headers, in the language that C and C++ share: options with their sizes, the summary, a proof, a
- * world. Built as C and as C++ by test_package.sh. Prints what the test expects, or a sentence and status 1. */
+/* A user of all three headers, in the common subset of C and C++: options with their sizes, the summary, a proof,
+ * cutting a layer into parts. Built as C and as C++ by test_package.sh. Prints what the test expects, or a sentence and
+ * status 1. */
 #include <sunder.h>
 #include <sunder_parts.h>
 #include <sunder_proof.h>
@@ -7,7 +8,7 @@
 #include <math.h>
 #include <stdio.h>
 
-/* Two squares of side 2 whose centres are 1 apart; they end 1 + the gap apart. */
+/* Two squares of side 2 whose centres are 1 apart; they are moved until the centres are 2 + gap apart. */
 static int separate(double gap)
 {
     sunder_layer_options options;
@@ -46,7 +47,7 @@ static int separate(double gap)
     return 0;
 }
 
-/* A caller that was compiled with a header of fewer members. */
+/* A caller that was compiled with a header whose structures have fewer members. */
 typedef struct old_sum_options {
     size_t size;
     sunder_progress progress;

@@ -1,4 +1,4 @@
-/* The smallest user of the library: the area of the sum of two squares that the caller knows. */
+/* The smallest user of the library: the area of the sum of two squares, whose value is known. */
 #include <stdio.h>
 #include <sunder.h>
 

@@ -1,6 +1,6 @@
 # shellcheck shell=bash
 # Addresses come from one file, gis/package/addresses.cmake. fill_addresses.cmake writes them into README.md and
-# SECURITY.md: a given address is in both files, and one that is emptied again leaves no trace.
+# SECURITY.md: a given address is in both files, and an address that is set to empty again leaves no trace.
 set -eu
 work=$SUNDER_BUILD/addresses-test
 rm -rf "$work"
@@ -8,7 +8,7 @@ mkdir -p "$work/pages"
 cp "$SUNDER_SOURCE/README.md" "$SUNDER_SOURCE/SECURITY.md" "$work/pages"
 fill() { cmake "$@" -DROOT="$work/pages" -P "$SUNDER_SOURCE/gis/package/fill_addresses.cmake"; }
 fail() { echo "FAILED: $*"; exit 1; }
-same() { # what: the pages are as in the sources
+same() { # description of the step
     for page in README.md SECURITY.md; do
         diff "$SUNDER_SOURCE/$page" "$work/pages/$page" || fail "$1: $page differs from what is made of addresses.cmake"
     done
@@ -28,7 +28,7 @@ fill -DSUNDER_TRACKER=https://example.net/issues
 fill
 same "emptied again"
 
-# No source contains an address of its own.
+# No other source contains an address.
 for page in README.md SECURITY.md CONTRIBUTING.md .github gis/qgis/sunder/metadata.txt; do
     if grep -rnE 'https?://(www\.)?(github|gitlab|codeberg)\.' "$SUNDER_SOURCE/$page"; then fail "$page names an address"; fi
 done

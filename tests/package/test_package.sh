@@ -1,13 +1,13 @@
 # shellcheck shell=bash
-# Installs to a scratch prefix and builds a small program against what lies there: by pkg-config and by find_package,
-# with the shared and with the static library. The prefix is moved after installing, as packagers do. A second program uses
-# all headers, in C and in C++, and is an older caller, too.
+# Installs to a scratch prefix and builds a small program against the installed files: by pkg-config and by
+# find_package, with the shared and with the static library. The prefix is moved after installing, as packagers do. A
+# second program uses all headers, in C and in C++, also as a caller that was compiled with older headers.
 set -eu
 work=$SUNDER_BUILD/package-test
 rm -rf "$work"
 mkdir -p "$work"
 
-# The libraries of a sanitized build ask their users for the sanitizer's runtime; that is not what is installed.
+# The libraries of a sanitized build require their users to link the sanitizer's runtime; installed libraries do not.
 if grep -q '^SUNDER_SANITIZE:STRING=.' "$SUNDER_BUILD/CMakeCache.txt"; then
     echo "skipped: the build carries a sanitizer"
     exit 77
@@ -28,7 +28,7 @@ expect() { # what, command...: the sum of a 4 x 4 and a 1 x 2 rectangle has the 
     echo "$what: ok"
 }
 
-# The program's completion for bash comes with it.
+# The completion for bash is installed with the program.
 if [ -x "$prefix/bin/sunder" ]; then
     bash -n "$prefix/share/bash-completion/completions/sunder"
     for page in sunder sunder-separate sunder-check sunder-sum sunder-pair sunder-buffer sunder-route; do
@@ -57,8 +57,8 @@ cmake --build "$work/build" >"$work/build.log"
 expect "find_package, shared" "$work/build/shared"
 expect "find_package, static" "$work/build/static"
 
-# All headers in C and in C++, each of them first, and a program that uses all of them and was compiled as an older
-# caller.
+# All headers in C and in C++, each of them included first, and a program that uses all of them and was compiled as an
+# older caller.
 libdir=$(dirname "$(find "$prefix" -name 'libsunder.so' | head -n 1)")
 flags=(-Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror "-I$prefix/include")
 link=("-L$libdir" -lsunder -lm)
@@ -66,7 +66,7 @@ said='sizes: 1 1, total 0.25
 moved 1 by 2.000, verified: 1, worlds: 1, trees: 1
 area 16
 refused: the options begin with the size 12345, which no struct of options has: call its _init function, or set `size` to sizeof of the struct'
-interface() { # name of the language, compiler, option of the language, standards...
+interface() { # name of the language, compiler, the compiler's option for the language, standards...
     local name=$1 compiler=$2 language=$3 standard header got
     shift 3
     for standard in "$@"; do
@@ -89,10 +89,10 @@ cxx=$(command -v c++ || command -v g++ || command -v clang++ || true)
 if [ -n "$cxx" ]; then
     interface C++ "$cxx" c++ c++11 c++17
 else
-    echo "there is no compiler of C++: left out"
+    echo "there is no C++ compiler: left out"
 fi
 
-# The files to which the headers refer are installed.
+# The files that the headers mention are installed.
 for page in REFERENCES.md api.md; do
     if ! [ -s "$prefix/share/doc/sunder/$page" ]; then
         echo "$page is named in the headers, and not installed"
@@ -103,7 +103,7 @@ done
 # The shared library exports only the functions that the headers declare.
 if command -v nm >/dev/null; then
     nm -D --defined-only "$libdir/libsunder.so" | awk '$2 ~ /[TDBR]/ {print $3}' | sort >"$work/exported"
-    # A declaration says which it is, and each of a header that is experimental as a whole says so.
+    # Each declaration is marked stable or experimental; in a header that is experimental as a whole all are marked so.
     cat "$prefix"/include/sunder*.h >"$work/headers"
     grep -E '^(SUNDER_API|SUNDER_EXPERIMENTAL) ' "$work/headers" | grep -o 'sunder_[a-z_]*(' | tr -d '(' | sort >"$work/declared"
     if grep -n '^SUNDER_API' "$prefix/include/sunder_proof.h" "$prefix/include/sunder_parts.h"; then

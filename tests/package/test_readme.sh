@@ -1,6 +1,5 @@
 # shellcheck shell=bash
-# What the README shows is true: its example in C compiles and prints the least move, and its commands on the bundled
-# town work.
+# The README's example in C compiles and prints the least move, and its commands on the bundled town work.
 set -eu
 work=$SUNDER_BUILD/readme-test
 rm -rf "$work"
@@ -18,10 +17,10 @@ cc=$(sed -n 's/^CMAKE_C_COMPILER:[A-Z]*=//p' "$SUNDER_BUILD/CMakeCache.txt")
 library=$(find "$SUNDER_BUILD" -maxdepth 2 -name libsunder.a | head -n 1)
 "$cc" -std=c17 -Wall -Wextra -Werror -I"$SUNDER_SOURCE/src" "$work/example.c" "$library" -lgmp -lm -pthread -o "$work/example"
 "$work/example" | tee "$work/example.out"
-grep -qx 'move the shed by (1, 1)' "$work/example.out" # into the corner of the L
+grep -qx 'move the shed by (1, 1)' "$work/example.out" # the expected move goes into the corner of the L
 
 [ -x "$SUNDER" ] || exit 0
-# Every line of "One command" that runs the built program; what a line finds wrong with the town is status 3.
+# Every line of "One command" that runs the built program; status 3 means that it found conflicts in the town.
 sed -n '/^## One command/,/^## The report/p' "$readme" | grep '^build/release/sunder' | sed 's/  *#.*//' >"$work/commands"
 [ "$(wc -l <"$work/commands")" -ge 3 ]
 cd "$work"
