@@ -1,12 +1,12 @@
-"""A headless Chromium driven by the DevTools protocol over two pipes, with nothing but Python's own library.
+"""A headless Chromium driven by the DevTools protocol over two pipes, with Python's standard library only.
 
     with Browser(program, profile) as browser:
         page = browser.open("file:///...", width, height)
         page.evaluate("1 + 1")
-        page.picture()          # what is seen, as a Picture
+        page.picture()          # the visible part of the page, as a Picture
 
-What the page complains of (exceptions, errors on the console, violated policies, dialogs) and what it asks the network
-for gathers in page.complaints and page.requests.
+Complaints of the page (exceptions, errors on the console, violated policies, dialogs) are collected in
+page.complaints, and its network requests in page.requests.
 """
 import base64
 import json
@@ -63,13 +63,14 @@ class Picture:
         return tuple(self.rows[int(y)][i:i + 3])
 
     def farthest(self, other, left, right):
-        """The largest difference of any channel in the columns from left on, up to right."""
+        """The largest difference of any channel in the columns from `left` up to `right`."""
         n = self.channels
         return max(abs(a - b) for mine, his in zip(self.rows, other.rows)
                    for a, b in zip(mine[left * n:right * n], his[left * n:right * n]))
 
     def difference(self, other):
-        """The mean difference of channels, of 255; and the share of pixels in which any differs by more than 64."""
+        """The mean difference of channels, out of 255; and the share of pixels in which a channel differs by more
+        than 64."""
         assert (self.width, self.height) == (other.width, other.height), "pictures of two sizes"
         total, far = 0, 0
         for y in range(self.height):
@@ -109,7 +110,7 @@ class Page:
         self.rest()
 
     def rest(self):
-        """Until two frames have been drawn."""
+        """Waits until two frames have been drawn."""
         self.evaluate("new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")
 
     def evaluate(self, expression):
@@ -152,7 +153,7 @@ class Browser:
         from_us, to_browser = os.pipe()
         from_browser, to_us = os.pipe()
 
-        def place():  # the protocol's places: 3 to read from, 4 to write to
+        def place():  # the descriptors that the protocol requires: 3 to read from, 4 to write to
             first, second = os.dup(from_us), os.dup(to_us)
             os.dup2(first, 3)
             os.dup2(second, 4)
@@ -187,7 +188,7 @@ class Browser:
         elif message.get("sessionId") in self.pages:
             page = self.pages[message["sessionId"]]
             page.heard(message["method"], message["params"])
-            if message["method"] == "Page.javascriptDialogOpening":  # it holds up the page
+            if message["method"] == "Page.javascriptDialogOpening":  # an open dialog blocks the page
                 self._send("Page.handleJavaScriptDialog", {"accept": True}, page.session)
 
     def _send(self, method, parameters, session):

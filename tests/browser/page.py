@@ -1,10 +1,10 @@
-"""Asks a browser about pages of --report; see test_page.sh.
+"""Tests pages of --report in a browser; see test_page.sh.
 
     page.py CHROMIUM PROFILE FOLDER
 
-FOLDER holds two.html (two squares that overlap, moved one unit each), town.html, town.json (its --stats), town.geojson
-(its output), evil.html (a hostile layer, whose name is in evil.txt), quarter.html, quarter.json (much of it blocked, beside
-roads), many.html, roads.html, and pages of layers with next to nothing.
+FOLDER holds two.html (two squares that overlap, moved one unit each), town.html, town.json (its --stats),
+town.geojson (its output), evil.html (a hostile layer, whose name is in evil.txt), quarter.html, quarter.json (many
+blocked features beside roads), many.html, roads.html, and pages of nearly empty layers.
 """
 import base64
 import json
@@ -31,7 +31,7 @@ def address(name):
 
 
 def near(colour, wanted, tolerance=32):
-    """Fills are drawn at 86 %, and a little of what lies beneath shows."""
+    """Fills are drawn with 86 % opacity, so that a little of what lies beneath shows."""
     return all(abs(a - b) <= tolerance for a, b in zip(colour, wanted))
 
 
@@ -41,7 +41,7 @@ BLOCKED, FIXED = (0xE0, 0x70, 0x2E), (0x56, 0x5B, 0x62)
 
 
 def quiet(page, name):
-    """The page logs no errors, and requests no other resource."""
+    """The page logs no errors, and makes no other request."""
     demand(not page.complaints, "%s: %s" % (name, page.complaints))
     elsewhere = [url for url in page.requests if not url.startswith(address(name))]
     demand(not elsewhere, "%s asks for %s" % (name, elsewhere))
@@ -61,7 +61,7 @@ def place(page):
 
 
 def pixel(box, at, x, y):
-    """Where a place of the map is seen, in a picture of the map alone."""
+    """The pixel of a point of the map, in a picture of the map alone."""
     scale = box[2] / at[2]
     return box[2] / 2 + (x - at[0]) * scale, box[3] / 2 - (y - at[1]) * scale
 
@@ -111,7 +111,7 @@ def town_features():
 
 
 def ask_colours(page):
-    """Every building, where the output has it, in the colour of its status."""
+    """Every building is drawn where the output has it, in the colour of its status."""
     features = town_features()
     box, at, picture = map_box(page), place(page), page.picture(".map canvas")
     colours = {"moved": MOVED, "unmoved": UNMOVED, "blocked": BLOCKED, "fixed": FIXED}
@@ -119,23 +119,23 @@ def ask_colours(page):
     for feature in features:
         corners = feature["geometry"]["coordinates"][0][:-1]
         if feature["geometry"]["type"] != "Polygon" or len(corners) != 4 or len(feature["geometry"]["coordinates"]) > 1:
-            continue  # of a rectangle the middle is inside, but an arrow may lie there: a little off
+            continue  # points a little off the centre of a rectangle, since an arrow may cover the centre
         (x0, y0), (x1, y1), (x2, y2), _ = corners
         x, y = (3 * x0 + 2 * x1 + 3 * x2) / 8, (3 * y0 + 2 * y1 + 3 * y2) / 8
         status = feature["properties"]["sunder_st"]
         if min(abs(x2 - x0), abs(y2 - y0)) * box[2] / at[2] < 8 or near(colours[status], picture.at(*pixel(box, at, x, y)), 40):
             asked[status] += 1
         else:
-            # Where it stood is outlined, and its arrow drawn: one of four places must do.
+            # The old outline and the arrow are drawn, too: one of these further points has to show the colour.
             others = [((3 * x0 + 3 * x2 + 2 * x) / 8, (3 * y0 + 3 * y2 + 2 * y) / 8), ((x0 + x1 + x2 + x0) / 4, (y0 + y1 + y2 + y0) / 4)]
             demand(any(near(colours[status], picture.at(*pixel(box, at, *o)), 40) for o in others),
                    "building %s is not drawn as %s: %s" % (feature["properties"]["id"], status, picture.at(*pixel(box, at, x, y))))
     print("buildings found where the output has them:", asked)
-    demand(asked["moved"] >= 20 and asked["unmoved"] >= 20, "hardly any building was asked about")
+    demand(asked["moved"] >= 20 and asked["unmoved"] >= 20, "too few buildings were tested")
 
 
 def ask_kept(browser):
-    """The town before, the map alone, without its words."""
+    """The town before the separation: the map alone, without buttons and scale."""
     page = browser.open(address("town.html") + "#t=0", 640, 480)
     page.evaluate("for (const each of document.querySelectorAll('.map .buttons, .map .scale')) each.hidden = true")
     page.rest()
@@ -144,9 +144,9 @@ def ask_kept(browser):
         file.write(page.png)
     with open(os.path.join(here, "town_before.png"), "rb") as file:
         mean, far = picture.difference(Picture(file.read()))
-    print("town before, beside the picture kept: mean difference %.2f, %.2f %% of pixels far off" % (mean, 100 * far))
-    # Edges are smoothed differently by different builds of the browser: they are under a tenth of the pixels.
-    demand(mean < 3 and far < 0.02, "the town before is drawn differently from the picture that is kept")
+    print("town before, compared with the recorded picture: mean difference %.2f, %.2f %% of pixels far off" % (mean, 100 * far))
+    # Builds of the browser smooth edges differently: less than a tenth of the pixels.
+    demand(mean < 3 and far < 0.02, "the town before is drawn differently from the recorded picture")
 
 
 def ask_slider(page):
@@ -158,10 +158,10 @@ def ask_slider(page):
     page.evaluate("document.querySelector('input[value=sweep]').click()")
     set_slider(page, 0.5)
     swept, middle = page.picture(".map canvas"), before.width // 2
-    # What is cut by the line has its edges smoothed a little differently.
+    # Shapes that the line cuts have slightly different antialiasing.
     left, right = swept.farthest(before, 0, middle - 2), swept.farthest(after, middle + 2, swept.width)
-    demand(left < 32 and right < 32, "the line does not part before and after: %d, %d" % (left, right))
-    demand(swept.farthest(after, 0, middle - 2) > 64, "left of the line is after")
+    demand(left < 32 and right < 32, "the line does not separate before and after: %d, %d" % (left, right))
+    demand(swept.farthest(after, 0, middle - 2) > 64, "the state after is shown left of the line")
     page.evaluate("document.querySelector('input[value=move]').click()")
     set_slider(page, 1)
 
@@ -178,7 +178,7 @@ def ask_hands(page):
     unit = start[2] / width
     demand(abs(dragged[0] - start[0] + 100 * unit) < 0.01 and abs(dragged[1] - start[1] - 60 * unit) < 0.01,
            "dragging: %s, then %s" % (start, dragged))
-    # Zooming by the wheel keeps the place under the pointer fixed.
+    # Zooming by the wheel keeps the point under the pointer in place.
     px, py = x + width / 4, y + height / 4
     under = lambda at: (at[0] - width / 4 * at[2] / width, at[1] + height / 4 * at[2] / width)
     page.mouse("mouseWheel", px, py, deltaX=0, deltaY=-240)
@@ -198,7 +198,7 @@ def ask_hands(page):
     page.press("b")
     demand(page.evaluate("document.getElementById('when').value") == "0", "B does not go to before")
     page.press("b")
-    # Two fingers, twice as far apart.
+    # Two fingers move to twice their distance.
     at = place(page)
     touch = lambda kind, gap: page.call("Input.dispatchTouchEvent", type=kind, touchPoints=[] if gap is None else [
         {"x": middle[0] - gap, "y": middle[1], "id": 1}, {"x": middle[0] + gap, "y": middle[1], "id": 2}])
@@ -223,7 +223,8 @@ def ask_page(page):
     demand(rows == sum(after[k] for k in after if k != "inside_blocks") > 0, "%s rows of conflicts" % rows)
     demand("%d" % stats["moved"] in text and "verified" in text, "the figures are not there")
     demand(page.evaluate("document.querySelectorAll('.places li').length") >= rows, "closer looks are missing")
-    # A head sorts, up and down; a name leads to the map.
+    # A click on a column's head sorts by it, ascending, then descending; a click on a name shows the feature on the
+    # map.
     column = "Array.from(document.querySelectorAll('#blocked tbody tr'), (r) => Number(r.cells[4].dataset.value))"
     page.evaluate("document.querySelectorAll('#blocked th button')[4].click()")
     up = page.evaluate(column)
@@ -246,7 +247,7 @@ def ask_page(page):
     demand("FID 42" in page.evaluate("document.querySelector('.about').textContent"), "FID 42 is not found")
     page.evaluate("document.getElementById('find').value = 'nobody'; document.querySelector('.find button').click()")
     demand("no feature nobody" in page.evaluate("document.querySelector('.about').textContent"), "nobody is found")
-    # Whoever uses no mouse: everything that can be used has a name, and can be reached.
+    # Use without a mouse: every control has a name, and can be reached by keyboard.
     nameless = page.evaluate("Array.from(document.querySelectorAll('button, input, canvas, svg[role]'), (e) => e)"
                              ".filter((e) => !(e.ariaLabel || e.textContent.trim() || e.closest('label'))).map((e) => e.outerHTML.slice(0, 80))")
     demand(not nameless, "without names: %s" % nameless)
@@ -312,9 +313,9 @@ def ask_print(browser):
     left, rows = sum(after[k] for k in after if k != "inside_blocks"), sum(is_shown(page, "#blocked tbody tr"))
     demand(left > 100 and 20 <= rows < left, "%d of %d rows are printed" % (rows, left))
     rest = page.evaluate("document.querySelector('#blocked .note.on-paper').textContent")
-    demand(is_shown(page, "#blocked .note.on-paper") == [True] and str(rows) in rest and str(left) in rest, "the rest is not told: " + rest)
+    demand(is_shown(page, "#blocked .note.on-paper") == [True] and str(rows) in rest and str(left) in rest, "the number of omitted rows is not printed: " + rest)
     ask_free_with(page, "on paper")
-    # A sheet more for a second page of the table is all that it may take.
+    # The table may need one more sheet for its second page, and no more than that.
     sheets = lambda: pages_of(base64.b64decode(page.call("Page.printToPDF", printBackground=True, preferCSSPageSize=True)["data"]))
     all_sheets = sheets()
     page.evaluate("document.getElementById('blocked').remove()")
@@ -330,7 +331,7 @@ def ask_free_with(page, where):
                         "const r = td.getBoundingClientRect(), s = td.closest('.scroll').getBoundingClientRect();"
                         "return r.width > 0 && (r.right > s.right + 1 || td.scrollWidth > td.clientWidth + 1 ||"
                         "Array.from(td.querySelectorAll('bdi')).some((b) => b.scrollWidth > b.clientWidth + 1 && b.clientWidth > 0)) }).length")
-    demand(cut == 0, "%s, what would free a pair is cut off in %d rows" % (where, cut))
+    demand(cut == 0, "%s, the text about what would resolve a pair is cut off in %d rows" % (where, cut))
 
 
 def ask_keys(browser):
@@ -396,14 +397,15 @@ def ask_hostile(browser):
     box = map_box(page)
     page.mouse("mouseMoved", box[0] + box[2] / 2, box[1] + box[3] / 2)
     page.evaluate("document.getElementById('find').value = '1'; document.querySelector('.find button').click()")
-    demand("<img" in page.evaluate("document.querySelector('.about').textContent"), "the id is not told as it is")
-    # The canary sings where it should: this very name, as markup, would have been heard.
+    demand("<img" in page.evaluate("document.querySelector('.about').textContent"), "the id is not shown unchanged")
+    # Does the test detect a script? A handler inserted here on purpose is reported by the policy, so one from a name
+    # would be.
     page.evaluate("document.body.insertAdjacentHTML('beforeend', '<img src=x onerror=\"window.hit = 1\">')")
     page.until("performance.getEntriesByType('resource').length > 0 || true")
     page.rest()
     demand(page.evaluate("typeof window.hit") == "undefined", "the policy lets a handler run")
     demand(any("Content Security Policy" in each or "Content-Security-Policy" in each for each in page.complaints),
-           "the policy was not heard: %s" % page.complaints)
+           "no complaint about a violated policy: %s" % page.complaints)
 
 
 def ask_many(browser):

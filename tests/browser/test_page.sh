@@ -19,8 +19,8 @@ X
 expect 0 separate two.gpkg two_out.gpkg --report two.html -q
 expect 3 separate "$town" town_out.gpkg -l buildings --gap 3 --max-shift 5 --fixed-where "kind = 'monument'" --id-field id \
     --report town.html --stats town.json -q
-# A town with many blocked features, beside its roads, with lengths on the sheet.
-"$SUNDER_BUILD/sunder-town" --buildings 1500 --seed 5 quarter_in.gpkg >/dev/null || fail "no quarter"
+# A town with many blocked features beside its roads, with lengths on paper.
+"$SUNDER_BUILD/sunder-town" --buildings 1500 --seed 5 quarter_in.gpkg >/dev/null || fail "the layer quarter cannot be made"
 expect 3 separate quarter_in.gpkg quarter.gpkg -l buildings --scale 25000 --gap 0.2mm --max-shift 1 --effort 0 \
     --barrier quarter_in.gpkg,layer=roads,width=0.3mm,gap=0.1mm --report quarter.html --stats quarter.json -q
 ogr2ogr -f GeoJSON -lco COORDINATE_PRECISION=6 -lco RFC7946=NO town.geojson town_out.gpkg buildings || fail "no GeoJSON"
@@ -69,6 +69,6 @@ expect 0 separate points.gpkg shifted.gpkg --symbol disc:2 --gap 1 --no-blocks -
 run separate many.gpkg many_out.gpkg -l buildings --gap 2 --max-shift 4 --report many.html -q --layers main
 [ "$(wc -c <many.html)" -lt 4000000 ] || fail "the page of 20,000 buildings has $(wc -c <many.html) bytes"
 
-timeout 240 python3 "$here/page.py" "$chromium" "$work/profile" "$work" || fail "the browser says otherwise"
+timeout 240 python3 "$here/page.py" "$chromium" "$work/profile" "$work" || fail "a test in the browser failed"
 [ -z "${SUNDER_BUILD:-}" ] || cp town_before.png "$SUNDER_BUILD/browser_town_before.png" 2>/dev/null
 finish

@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
-# What shards cost beside one process: the tables of RECORD.md.
+# The cost of shards compared with one process: the tables of RECORD.md.
 #
-#   cost.sh [BUILDINGS [SHARDS]]     a town of a million in 16 shards, unless said
+#   cost.sh [BUILDINGS [SHARDS]]     by default a town of a million in 16 shards
 #
-# One step after the other, a thread each, gap 3 m, effort 0: CPU seconds of the user and the system, and peak memory. The output of
-# shards is compared with that of one process byte by byte; with WHOLE=no there is none (ten million take 17 GB).
-# SUNDER_BUILD is the build directory (build/release), TMPDIR where all of it lies: 1.3 kB a building.
+# The steps run one after the other, with one thread each, a gap of 3 m and effort 0: CPU seconds of the user and the
+# system, and peak memory. The output of shards is compared with that of one process byte by byte; with WHOLE=no the run
+# of one process is left out (for ten million buildings it takes 17 GB). SUNDER_BUILD is the build directory
+# (build/release); all files are in TMPDIR, 1.3 kB per building.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd -P)
 build=${SUNDER_BUILD:-$root/build/release}
@@ -17,7 +18,7 @@ export SOURCE_DATE_EPOCH=1700000000
 options=(--gap 3 --effort 0 --input-layer buildings)
 "$build/sunder-town" --buildings "$buildings" --seed 7 town.gpkg >/dev/null
 
-# step NAME COMMAND...: remaining conflicts are no failure.
+# step NAME COMMAND...: the status for remaining conflicts is not a failure.
 step() {
     local status=0 name=$1
     shift

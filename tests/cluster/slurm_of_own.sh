@@ -1,9 +1,10 @@
 # shellcheck shell=bash
-# Sourced by the tests of this folder: a Slurm of the test's own, two nodes on this machine's loopback, in a directory.
+# Sourced by the tests of this folder: a private Slurm with two nodes on this machine's loopback interface, in a
+# directory.
 #
-#   slurm_wants              says what is missing, status 1
+#   slurm_wants              prints what is missing, status 1
 #   slurm_begin DIRECTORY    munge, the controller and the nodes n1 and n2; no other Slurm is touched
-#   slurm_kill_node n2       as if its power were cut: the daemon, its steps, their processes
+#   slurm_kill_node n2       as in a power failure: kills the daemon, its steps, their processes
 #   slurm_node n2            starts a node (again)
 #   slurm_end                stops all of it
 slurm_wants() {
@@ -12,7 +13,7 @@ slurm_wants() {
     for tool in sbatch squeue slurmctld slurmd munged; do
         command -v "$tool" >/dev/null || { echo "$tool is not installed (slurm-wlm, munge)"; return 1; }
     done
-    [ "$(id -u)" = 0 ] || { echo "a Slurm of one's own wants root"; return 1; }
+    [ "$(id -u)" = 0 ] || { echo "starting a Slurm needs root"; return 1; }
     [ -r /proc/self/stat ] || { echo "there is no /proc"; return 1; }
 }
 
@@ -79,7 +80,7 @@ EOF
 
 slurm_node() { slurmd -N "$1"; }
 
-# The processes of a node's jobs, by the environment that they were given, and the daemons of their steps, whose children they are.
+# The processes of a node's jobs, found by their environment, and their parents, the daemons of the steps.
 slurm_of_node() {
     local process words parent
     for process in /proc/[0-9]*; do
@@ -108,7 +109,7 @@ slurm_end() {
     for file in "$slurm"/slurmctld.pid "$slurm"/slurmd-n*.pid "$slurm"/munge/pid; do
         [ ! -f "$file" ] || kill "$(cat "$file")" 2>/dev/null
     done
-    for _ in $(seq 40); do # the controller writes its state; what it writes is about to be deleted
+    for _ in $(seq 40); do # The controller would write its state into a directory that is about to be deleted.
         [ -n "$(compgen -G "$slurm/*.pid")" ] || break
         sleep 0.25
     done

@@ -12,18 +12,18 @@ words=(--input-layer buildings --gap 2m --max-shift 10m --where "height > 1 or n
 wanted=0
 "$SUNDER" separate "${words[@]}" "$town" whole/o.gpkg 2>err || wanted=$?
 
-with() { # script, its words -- N
+with() { # script, its arguments before --
     local script=$1 status=0
     shift
     rm -f "a room/o.gpkg"
     SUNDER=$program bash "$scripts/$script" "$@" "$town" "a room/o.gpkg" 5 -- "${words[@]}" >said 2>&1 || status=$?
     same "$status" "$wanted" "$script $*: status"
     [ "$trouble" = 0 ] || tail -n 5 said
-    cmp whole/o.gpkg "a room/o.gpkg" || fail "$script $*: another output"
+    cmp whole/o.gpkg "a room/o.gpkg" || fail "$script $*: the output differs"
 }
 anew() { rm -rf "a room/o.gpkg.plan" "a room/o.gpkg.plan.log" killed; }
 
-# Kills shard 2 once, when it has begun.
+# Kills shard 2 once, at its start.
 cat >"a room/killer" <<EOF
 #!/usr/bin/env bash
 if [ "\$1 \$3" = "separate 2" ] && mkdir '$work/killed' 2>/dev/null; then kill -KILL \$\$; fi
@@ -45,7 +45,7 @@ for way in "${ways[@]}"; do
     : >asked
     with "$way" --jobs 2
     same "$(wc -l <asked)" 1 "$way, shards worked on the second time:"
-    # A killed shard: parallel.sh and slurm.sh try again by themselves; make.sh prints the command to be given again,
+    # A killed shard: parallel.sh and slurm.sh run it again by themselves; make.sh prints the command to be given again,
     # which is the same.
     anew
     status=0
@@ -61,9 +61,8 @@ for way in "${ways[@]}"; do
     rm -rf "a room"/other*
 done
 
-# Two names of this host, by an ssh that notes the name that it was called with. As sshd does it says what the shell is:
-# parallel's
-# worker starts what it was sent by $SHELL, and a service that runs tests need not have one.
+# Two names of this host, through an ssh that records the name that it was called with. Like sshd it sets SHELL:
+# parallel's worker starts its command by $SHELL, and a service that runs tests may not have one.
 if command -v parallel >/dev/null; then
     cat >ssh <<EOF
 #!/usr/bin/env bash
@@ -77,7 +76,7 @@ EOF
     anew
     program=$SUNDER
     PARALLEL_SSH=$work/ssh with parallel.sh --host 1/one --host 1/two
-    same "$(sort -u hosts | tr '\n' ' ')" "one two " "hosts that were asked"
+    same "$(sort -u hosts | tr '\n' ' ')" "one two " "hosts that were called"
 fi
 
 status=0

@@ -1,7 +1,7 @@
 # shellcheck shell=bash disable=SC1091
-# A layer over a cluster: gis/cluster/slurm.sh on a Slurm of the test's own, with two nodes. While the shards are worked on
-# one node's power is cut, and one shard is killed: what is written in the end is what one process writes, byte by byte,
-# and so are its figures. A second start does what is missing and nothing else.
+# A layer on a cluster: gis/cluster/slurm.sh on a private Slurm with two nodes. While shards are processed, one node is
+# lost as in a power failure, and one shard is killed: the final output is that of one process, byte by byte, and so are
+# its statistics. A second start runs the missing steps and no others.
 #
 # SUNDER_CLUSTER_BUILDINGS and _SHARDS make it larger (RECORD.md); SUNDER_SEED draws when the shard is killed.
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
@@ -24,8 +24,8 @@ wanted=0
     "$SUNDER" separate "${words[@]}" --stats "a room/whole.json" "$town" "a room/whole/o.gpkg" || wanted=$?
 cat whole.time 2>/dev/null
 
-# The program as the nodes run it: the third shard is killed the first time, at a random moment of its work. When a
-# quarter of the shards are there, shards that n2 has begun do not end before n2 is lost.
+# The program as the nodes run it: the third shard is killed in its first run, at a random moment. When a quarter of the
+# shards are done, shards that n2 has begun do not end before n2 is lost.
 cat >"a room/slow sunder" <<EOF
 #!/usr/bin/env bash
 if [ "\$1" = separate ]; then
@@ -68,13 +68,13 @@ status=0
 wait $waits || status=$?
 same "$status" "$wanted" "status of the merge"
 [ "$trouble" = 0 ] || { cat said; tail -n 3 "$plan.log"/*.out; }
-echo "of $shards shards $before were there when n2 died; again: $(grep -lE ', again \(' "$plan.log"/shard-*.out | wc -l);" \
+echo "of $shards shards $before were done when n2 was lost; again: $(grep -lE ', again \(' "$plan.log"/shard-*.out | wc -l);" \
     "killed and done once more: $(grep -l 'once more' "$plan.log"/shard-*.out | wc -l)"
-grep -qE ', again \(' "$plan.log"/shard-*.out || fail "no shard of the dead node was done again"
+grep -qE ', again \(' "$plan.log"/shard-*.out || fail "no shard of the lost node was run again"
 [ -d "$work/killed" ] || fail "no shard was killed"
 
-as_one_process() { # what
-    cmp "a room/whole/o.gpkg" "a room/nodes/o.gpkg" || fail "$1: another output"
+as_one_process() { # description of the case
+    cmp "a room/whole/o.gpkg" "a room/nodes/o.gpkg" || fail "$1: the output differs"
     same "$(jq -c 'del(.seconds, .peak_rss_bytes)' "a room/nodes.json")" \
         "$(jq -c 'del(.seconds, .peak_rss_bytes)' "a room/whole.json")" "$1: figures"
 }

@@ -1,5 +1,5 @@
-/* Real layers for the tests with GEOS: polygons that ogr2ogr reads and hands over as WKB in hexadecimal, so that no
- * digit is lost, and the program sunder run on them. Static functions, for one program each. */
+/* Real layers for the tests with GEOS: polygons that ogr2ogr reads and prints as hexadecimal WKB, so that no digit is
+ * lost; and the program sunder, run on these layers. Static functions, for one program each. */
 #ifndef SUNDER_TESTS_CROSS_LAYERS_H
 #define SUNDER_TESTS_CROSS_LAYERS_H
 
@@ -18,7 +18,7 @@
 #include <geos_c.h>
 
 static GEOSContextHandle_t geos;
-static char layers_scratch[] = "cross-XXXXXX"; /* where the test runs: in the build directory */
+static char layers_scratch[] = "cross-XXXXXX"; /* below the current directory of the test, the build directory */
 
 static inline void layers_complain(const char *message, void *user)
 {
@@ -44,7 +44,7 @@ static inline int layers_close(void **state)
     return failed;
 }
 
-/* "../shared/data/NAME" beside the repository as GDAL opens it; NULL where it is not there. */
+/* "../shared/data/NAME" beside the repository, as GDAL opens it; NULL if it does not exist. */
 static inline char *layers_path(const char *name)
 {
     const char *source = getenv("SUNDER_SOURCE");
@@ -60,7 +60,7 @@ static inline char *layers_path(const char *name)
     return NULL;
 }
 
-/* Could the question be asked? Existing files have to be readable. */
+/* The result of a comparison. Files that exist have to be readable. */
 typedef enum layers_answer {
     LAYERS_MISSING = -2,
     LAYERS_UNREADABLE = -1,
@@ -110,10 +110,10 @@ static inline bool geometries_add(geometries *g, const char *hex, size_t n)
     return true;
 }
 
-/* All geometries of a layer that meet the condition; false where GDAL cannot hand them over. */
+/* All geometries of a layer that satisfy the condition; false if GDAL cannot read them. */
 static inline bool layers_read(const char *path, const char *layer, const char *condition, geometries *out)
 {
-    /* Shapefiles name the geometry's column otherwise than GeoPackages: the condition and the query do not. */
+    /* Shapefiles and GeoPackages have different names for the geometry column; the condition does not use it. */
     char *command =
         test_format("ogr2ogr -f CSV /vsistdout/ '%s' -dialect SQLite -sql \"SELECT hex(ST_AsBinary(%s)) AS w FROM "
                     "\\\"%s\\\" WHERE %s\" 2>/dev/null",
@@ -126,7 +126,7 @@ static inline bool layers_read(const char *path, const char *layer, const char *
     *out = (geometries){0};
     for (long n; ok && (n = getline(&line, &room, f)) > 0;) {
         const size_t hex = strspn(line, "\"") ? strspn(line + 1, "0123456789ABCDEF") : strspn(line, "0123456789ABCDEF");
-        if (hex > 2) ok = geometries_add(out, line + strspn(line, "\""), hex); /* not the heading */
+        if (hex > 2) ok = geometries_add(out, line + strspn(line, "\""), hex); /* skips the heading */
     }
     free(line);
     ok = f && pclose(f) == 0 && ok && out->n > 0;
@@ -134,8 +134,8 @@ static inline bool layers_read(const char *path, const char *layer, const char *
     return ok;
 }
 
-/* Runs `sunder buffer` on the valid features of a layer; the output is in the scratch directory. NULL, with the message
- * on stdout, where it fails; else the summary. */
+/* Runs `sunder buffer` on the valid features of a layer; the output is in the scratch directory. Returns the summary;
+ * or NULL, with the message on stdout, if it fails. */
 static inline json *layers_buffer(const char *path, const char *layer, const char *options, const char *output)
 {
     const char *sunder = getenv("SUNDER");

@@ -1,5 +1,5 @@
-/* Exact hard cases kept beside the repository in ../shared/cases (its README describes them and their origin): sums of
- * the library and of the oracle, and the least translation, compared with the known answers. */
+/* Exact hard cases in ../shared/cases, beside the repository (its README describes them and their origin): sums by the
+ * library and by the oracle, and the least translation, compared with the known results. */
 #include "expect.h"
 #include "oracle.h"
 #include "sum_text.h"
@@ -125,7 +125,7 @@ static bool same_rational(const char *a, const char *b)
     return same;
 }
 
-/* pair P, B with B = -Q: the least translation of B off P is the least vector out of P + Q. */
+/* pair P, B with B = -Q: the least translation of B off P is the shortest vector that is not inside P + Q. */
 static char *compare_pair(const known *k)
 {
     polyset b;
@@ -175,5 +175,5 @@ int main(void)
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_oracle), cmocka_unit_test(test_library),
                                        cmocka_unit_test(test_pairs)};
     const int failed = cmocka_run_group_tests_name("exact cases", tests, read_cases, free_cases);
-    return failed || cases.n ? failed : 77; /* ctest calls that skipped */
+    return failed || cases.n ? failed : 77; /* the status of a test that was skipped */
 }

@@ -1,7 +1,7 @@
-/* Areas of larger sums against GEOS: the union, by OverlayNG in doubles, of the sums of all pairs of triangles, the
- * triangles by the oracle (GEOS's own triangulation fails on rings that touch). Relative difference at most 1e-9: GEOS
- * rounds its crossings, of relative size 1e-16 each, and the areas add up over some thousand edges; a face lost or
- * found too much is far larger. */
+/* Compares areas of larger sums with GEOS: the union, by OverlayNG in doubles, of the sums of all pairs of triangles.
+ * The oracle triangulates, since GEOS's own triangulation fails on rings that touch. The relative difference may be
+ * 1e-9: GEOS rounds its crossings by 1e-16 of their size, and the errors add up over some thousand edges; a missing or
+ * additional face makes a far larger difference. */
 #include "generate.h"
 #include "oracle.h"
 #include "sum_text.h"
@@ -48,7 +48,7 @@ static GEOSGeometry *polygon(const double *xy, size_t n)
 
 static double cross(const double *u, const double *v) { return u[0] * v[1] - u[1] * v[0]; }
 
-/* The sum of two triangles: their sides in the order of their angles, from the lowest corners on. */
+/* The sum of two triangles: their sides in order of angle, from the lowest corners on. */
 static GEOSGeometry *triangle_sum(const double *a, const double *b)
 {
     double out[14];
@@ -103,7 +103,7 @@ static double our_area(const polyset *p, const polyset *q)
     char *text = NULL;
     if (a && b && sunder_minkowski_sum(a, b, NULL, &sum, NULL) == SUNDER_OK &&
         sunder_sum_area_text(sum, &text, NULL) == SUNDER_OK) {
-        /* num/den to a double: strtod would overflow on the parts of a long fraction. */
+        /* num/den as a double; strtod would overflow on the parts of a long fraction. */
         mpq_t r;
         mpq_init(r);
         if (mpq_set_str(r, text, 10) == 0) area = mpq_get_d(r);
@@ -148,7 +148,7 @@ static void test_families(void **state)
     assert_int_equal(bad, 0);
 }
 
-/* The benchmark inputs beside the repository, where present. */
+/* The benchmark inputs beside the repository, if they exist. */
 static void test_shared_families(void **state)
 {
     (void)state;

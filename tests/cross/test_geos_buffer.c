@@ -1,20 +1,21 @@
-/* Real layers grown by sunder buffer, beside GEOS. It has no Minkowski sums, but of convex B and a polygon P
+/* Real layers dilated by sunder buffer, compared with GEOS. GEOS has no Minkowski sums, but for a convex B with the
+ * origin inside, and a polygon P,
  *
- *     P + B  =  P  u  the convex hull of s + B, for every side s of the boundary of P      where 0 is in B
+ *     P + B  =  P  u  the convex hull of s + B, for every side s of the boundary of P
  *
- * (on the way from p to p + b, which is not in P, the boundary is passed), and hulls and unions it has. Areas of
- * dissolved layers agree to 1e-9: GEOS rounds every crossing by 1e-16 of its coordinates, some thousand times them, and
- * a side or corner lost or made up would show a hundred times over. Everything written, by all operations, is valid for
- * GEOS. */
+ * (if p + b is not in P, the segment from p to p + b crosses the boundary), and GEOS has hulls and unions. Areas of
+ * dissolved layers agree to 1e-9: GEOS rounds each of some thousand crossings by 1e-16 of its coordinates, and one
+ * missing or additional side or corner would make a difference a hundred times larger than the tolerance. Everything
+ * written, by all operations, is valid for GEOS. */
 #include "layers.h"
 
 typedef struct brush {
-    const char *text; /* as the program takes it */
+    const char *text; /* the argument of the program */
     double xy[32];
     size_t n;
 } brush;
 
-/* With the origin inside. */
+/* Shapes with the origin inside. */
 static const brush square = {"square:6", {-3, -3, 3, -3, 3, 3, -3, 3}, 4};
 static const brush octagon = {"'POLYGON ((-1.5 -2, 1 -2.5, 3 -1, 3.5 1, 2 3, -0.5 3.5, -2 2, -2.5 -0.5))'",
                               {-1.5, -2, 1, -2.5, 3, -1, 3.5, 1, 2, 3, -0.5, 3.5, -2, 2, -2.5, -0.5},
@@ -49,7 +50,7 @@ static void put_ring(geometries *out, const GEOSGeometry *ring, const brush *by)
     }
 }
 
-/* P and its hulls. */
+/* Adds the members of P and the hulls of their sides. */
 static void put_feature(geometries *out, const GEOSGeometry *feature, const brush *by)
 {
     for (int i = 0; i < GEOSGetNumGeometries_r(geos, feature); i++) {
@@ -62,7 +63,7 @@ static void put_feature(geometries *out, const GEOSGeometry *feature, const brus
     }
 }
 
-/* Frees what it unites. */
+/* Returns the union, and frees the parts. */
 static GEOSGeometry *unite(geometries *parts)
 {
     GEOSGeometry *many = GEOSGeom_createCollection_r(geos, GEOS_GEOMETRYCOLLECTION, parts->at, (unsigned)parts->n);
@@ -73,7 +74,7 @@ static GEOSGeometry *unite(geometries *parts)
     return one;
 }
 
-/* Feature by feature first, which is faster than all hulls at once. */
+/* Unites each feature first, which is faster than all hulls at once. */
 static double geos_area(const geometries *features, const brush *by)
 {
     double area = NAN;
@@ -131,7 +132,7 @@ static void test_areas(void **state)
 
 /* ---- What is written is valid ---- */
 
-/* How many of the written geometries GEOS finds invalid; -1 where they cannot be read. */
+/* The number of written geometries that GEOS finds invalid; -1 if they cannot be read. */
 static long count_invalid(const char *output, size_t *polygons)
 {
     char *path = test_format("%s/%s", layers_scratch, output);

@@ -1,18 +1,21 @@
-/* disc:R:N and inside-disc:R:N against the true round buffer, feature by feature, by areas and without a tolerance.
+/* Compares disc:R:N and inside-disc:R:N with the true round buffer, feature by feature, by areas and without a
+ * tolerance.
  *
  * Let A(r) be the area of the true buffer of a polygon by r, D and I ours by the N-gon around and inside the disc, and
  * G(r) that of GEOS's buffer with q segments a quadrant. GEOS replaces each arc by chords of 90/q degrees: its polygon
- * is inside the true buffer, and the middle of a chord is off the centre by r cos(45/q): so
+ * is inside the true buffer, and the middle of a chord has the distance r cos(45/q) from the centre: so
  *
  *     G(r)  <=  A(r)  <=  G(r / c),  c = cos(45 degrees / q).
  *
- * The N-gon around the disc lies in the disc of R / cos(180 degrees / N), but for the unit that its corners are rounded
- * to, below a millionth of R. The one inside holds the disc of R cos(180 degrees / N), but for that. So
+ * The N-gon around the disc is within the disc of radius R / cos(180 degrees / N), up to the rounding of its corners,
+ * below a millionth of R. The one inside contains the disc of radius R cos(180 degrees / N), up to the same rounding.
+ * So
  *
  *     G(R (1 - m) k)  <=  A(R (1 - m) k)  <=  I  <=  A(R)  <=  G(R / c)           k = cos(180 degrees / N), m = 1e-6
  *     G(R)  <=  A(R)  <=  D  <=  A(R (1 + m) / k)  <=  G(R (1 + m) / (k c)),
  *
- * and the outer ones of each line are compared with ours. With growing N they close in on A(R) from both sides. */
+ * and the test compares the two outer terms of each line with I or D. For growing N they converge to A(R) from both
+ * sides. */
 #include "layers.h"
 
 static const int quadrant = 64;
@@ -46,7 +49,8 @@ static sunder_shape *shape_of(const GEOSGeometry *feature)
     return shape;
 }
 
-/* From the exact vertices as doubles, from the first vertex on: off by some 1e-15 of itself and of the rounding. */
+/* Computed from the exact vertices, rounded to doubles, relative to the first vertex: the error is about 1e-15 of the
+ * area, plus that of rounding the vertices. */
 static double our_area(const sunder_shape *feature, double radius, unsigned segments, bool inside)
 {
     sunder_shape *disc = NULL;
@@ -83,7 +87,7 @@ static double geos_area(const GEOSGeometry *feature, double radius)
 
 typedef struct tally {
     size_t features, bad;
-    double inside, around, below, above; /* sums, for the record */
+    double inside, around, below, above; /* sums, to be printed */
 } tally;
 
 static void bracket(const GEOSGeometry *feature, double radius, unsigned segments, tally *t)

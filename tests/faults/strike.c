@@ -112,7 +112,7 @@ static char under[PATH_MAX], struck[64] = "-";
 typedef struct thread {
     pid_t pid;
     bool inside;   /* between the start of a call and its end */
-    bool replaced; /* strike provides its result */
+    bool replaced; /* strike sets the result of the call */
     long result;
 } thread;
 
@@ -182,7 +182,7 @@ static bool file_is_written(pid_t pid, uint64_t file)
     return file_is_under(pid, file) && lstat(link, &status) == 0 && (status.st_mode & S_IWUSR);
 }
 
-/* Can other programs see what the call changes? That is so for every rename, and for writes into certain files. */
+/* Can other programs see what the call changes? True for every rename, and for writes into certain files. */
 static bool shows(pid_t pid, const registers *r, const char *name)
 {
     char link[64], path[PATH_MAX];
@@ -195,7 +195,7 @@ static bool shows(pid_t pid, const registers *r, const char *name)
 }
 
 typedef struct call {
-    const char *name; /* NULL: not one of ours */
+    const char *name; /* NULL: not a counted call */
     bool writes;      /* the third argument counts bytes */
 } call;
 

@@ -1,16 +1,16 @@
 # shellcheck shell=bash disable=SC1091
-# The delivery of an output struck at its system calls: killed there, or the call fails, or writes half of what it was
-# to write, or the disk is full from some byte on. What is there afterwards is the old output or the new one, byte by
-# byte; or the next run that writes there finds what is left, says so and brings the old one back. Status 0 means the
-# new one.
+# The delivery of an output, interrupted at its system calls: the run is killed there, or the call fails, or it writes
+# only half of its bytes, or the disk is full from some byte on. Afterwards the old output or the new one is there, byte
+# by byte; or the next run that writes there finds the remains, reports them and restores the old output. After status 0
+# it is the new one.
 #
-#   SUNDER_FAULTS=N     places for each way of striking, spread over the run from SUNDER_SEED on (default 1)
+#   SUNDER_FAULTS=N     places for each kind of fault, spread over the run from SUNDER_SEED on (default 1)
 #   SUNDER_FAULTS=all   every call, and a disk that is full at every 4096th byte, at 64 places of a small output
-#   SUNDER_FAULTS_SCENARIOS=WORDS, SUNDER_FAULTS_WAYS=WORDS   some of the scenarios, of the ways to strike only
+#   SUNDER_FAULTS_SCENARIOS=WORDS, SUNDER_FAULTS_WAYS=WORDS   only these scenarios, only these kinds of faults
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 strike=$SUNDER_BUILD/tests/strike
 [ -x "$strike" ] || { echo "skipped: tests/strike is not built"; exit 77; }
-export ASAN_OPTIONS="${ASAN_OPTIONS:+$ASAN_OPTIONS:}detect_leaks=0" # it cannot work while it is traced
+export ASAN_OPTIONS="${ASAN_OPTIONS:+$ASAN_OPTIONS:}detect_leaks=0" # the leak detector does not work under ptrace
 export SOURCE_DATE_EPOCH=1700000000
 budget=${SUNDER_FAULTS:-1}
 seed=${SUNDER_SEED:-$((RANDOM))}
@@ -25,9 +25,10 @@ X
 "$strike" list 0 true 3>probe 2>message || { echo "skipped: $(cat message)"; exit 77; }
 rm -f probe message
 
-# scenario NAME: sets the files that exist before (`old`), and the run that is struck (`args`).
+# scenario NAME: sets the files that exist before (`old`), and the run with faults (`args`).
 scenarios="gpkg-overwrite shp-overwrite fgb-overwrite geojson-overwrite gpkg-update wal-update gpkg-replace-layer shp-new"
-[ "$budget" = all ] && scenarios="$scenarios shp-update fgb-update geojson-update" # replaced much as with --overwrite
+# replaced in nearly the same way as with --overwrite
+[ "$budget" = all ] && scenarios="$scenarios shp-update fgb-update geojson-update"
 scenario() {
     local format=${1%%-*} kind=${1#*-}
     [ "$format" = wal ] && format=gpkg
@@ -56,9 +57,10 @@ scenario() {
 # transaction.
 state() {
     if [ -e "dir/$output-journal" ] || [ -e "dir/$output-wal" ]; then
-        ogrinfo -q "dir/$output" >/dev/null 2>&1 # opens for writing
+        ogrinfo -q "dir/$output" >/dev/null 2>&1 # opens the database for writing, which rolls back
     fi
-    # A journal that is empty, or begins with zeros, was never synced: nothing had been changed, and SQLite ignores it.
+    # A journal that is empty, or begins with zeros, was never synced: the database has not been changed, and SQLite
+    # ignores the journal.
     case $(head -qc 1 "dir/$output-journal" 2>/dev/null | od -An -tu1 | tr -d ' ') in
     '' | 0) rm -f "dir/$output-journal" ;;
     esac
@@ -71,7 +73,7 @@ start() {
     rm -rf dir && cp -a pristine dir
 }
 
-# struck WAY PLACE: runs; sets $calls, $bytes, $status, $call, $writes.
+# struck WAY PLACE: runs with one fault; sets $calls, $bytes, $status, $call, $writes.
 struck() {
     start
     (cd dir && STRIKE_UNDER=. "$strike" "$1" "$2" "$SUNDER" "${args[@]}") 3>report >out 2>err
@@ -99,12 +101,12 @@ judge() {
     if grep -q 'former files have been restored' next && [ "$after" = "$cleared" ] && [ -z "$(ls -d dir/.sunder-* 2>/dev/null)" ]; then
         brought_back=$((brought_back + 1))
     else
-        fail "$name $way $place ($call): neither old nor new, and not brought back"
+        fail "$name $way $place ($call): neither the old nor the new output, and the next run did not restore it"
         { cat next; diff <(echo "$old") <(echo "$now"); } | sed 's/^/  /' | head -20
     fi
 }
 
-# The calls to strike for one way: all of 1..N in steps, or $budget of them.
+# The numbers of the calls for one kind of fault: all of 1..N in steps, or $budget of them.
 places() {
     local n=$1 step=$2 i
     if [ "$budget" = all ]; then

@@ -1,8 +1,8 @@
 # shellcheck shell=bash disable=SC1091
 # A limit on the size of files (ulimit -f, SIGXFSZ) that is reached anywhere in a run: the run ends with 1 and a
-# message, and only the old output is left. With a limit above its largest file the run succeeds. And SIGHUP: nothing is
-# left
-# behind, unless it is ignored, as under nohup: then the run goes on. (At system calls all over: test_signals.sh.)
+# message, and only the old output is there. With a limit above its largest file the run succeeds. And SIGHUP: no files
+# are left, unless it is ignored, as under nohup; then the run continues. (test_signals.sh sends signals at all system
+# calls.)
 #
 #   SUNDER_FAULTS=N   limits for each way of writing, spread from SUNDER_SEED on (default 1; all: 60)
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
@@ -55,7 +55,7 @@ while read -r name former words; do
         1)
             limited=$((limited + 1))
             [ "$now" = "$old" ] || fail "$name, $limit of $size bytes: left: $(diff <(echo "$old") <(echo "$now"))"
-            [ "$(grep -c '^sunder: error: ' err)" -eq 1 ] || fail "$name, $limit of $size bytes: no sentence"
+            [ "$(grep -c '^sunder: error: ' err)" -eq 1 ] || fail "$name, $limit of $size bytes: not exactly one error message"
             says err 'ulimit -f'
             ;;
         0 | 3) fail "$name: done with $limit of $size bytes" ;;
@@ -64,14 +64,15 @@ while read -r name former words; do
     done
     with_limit $((4 * size + 1000000))
     [ "$status" -eq 0 ] || [ "$status" -eq 3 ] || fail "$name: the run fails with a limit that it does not meet"
-    case $name in plan) ;; *) [ "$(state)" = "$new" ] || fail "$name: another result under a limit that is not met" ;; esac
+    case $name in plan) ;; *) [ "$(state)" = "$new" ] || fail "$name: the result differs under a limit that is not reached" ;; esac
     [ "$limited" -eq "$budget" ] || fail "$name: $limited of $budget runs met the limit"
 done <<<"$scenarios"
 
 # ---- SIGHUP ends the run, unless it is ignored when the run begins
 cp pristine/in.gpkg .
 mkfifo pipe
-hung_up() { # hung_up COMMAND...: waits until the signal is known, sends it; sets $status
+# hung_up COMMAND...: waits until the process has its signal handlers or ignores SIGHUP, sends it; sets $status
+hung_up() {
     local pid
     "$@" >out 2>err 7<>pipe </dev/fd/7 &
     pid=$!

@@ -1,9 +1,9 @@
 # shellcheck shell=bash disable=SC1091
-# SIGTERM, SIGHUP, SIGXFSZ and SIGXCPU in turn at system calls all over a run, of every command: reading, work, writing,
-# reading back, putting in place. Before the output is decided the run ends with 1 and says that it was interrupted;
-# later it is done. A second signal, at once or some calls later, ends it as signals do. In no case is anything left but
-# the old output or the new one, whole. The alarm by which a run that does not look is ended never comes here (strike
-# keeps it back): all of this is heard.
+# SIGTERM, SIGHUP, SIGXFSZ and SIGXCPU in turn at system calls throughout a run, for every command: reading, computing,
+# writing, reading back, putting in place. Before the output is decided the run ends with status 1 and a message about
+# the signal; later it completes. A second signal, at once or some calls later, ends it as by default. In every case
+# only the old output or the new one is left, complete. strike withholds the alarm that would end a run that does not
+# poll for signals: so the test shows that all these places poll.
 #
 #   SUNDER_FAULTS=N     places for each way and command, spread over the run from SUNDER_SEED on (default 2)
 #   SUNDER_FAULTS=all   200 of them
@@ -12,7 +12,7 @@
 strike=$SUNDER_BUILD/tests/strike
 [ -x "$strike" ] || { echo "skipped: tests/strike is not built"; exit 77; }
 command -v python3 >/dev/null || { echo "skipped: python3 is not installed"; exit 77; }
-export ASAN_OPTIONS="${ASAN_OPTIONS:+$ASAN_OPTIONS:}detect_leaks=0" # it cannot work while it is traced
+export ASAN_OPTIONS="${ASAN_OPTIONS:+$ASAN_OPTIONS:}detect_leaks=0" # the leak detector does not work under ptrace
 export SOURCE_DATE_EPOCH=1700000000
 budget=${SUNDER_FAULTS:-2}
 [ "$budget" = all ] && budget=200
@@ -88,7 +88,7 @@ judge() {
     signal-[03])
         [ "$now" = "$new" ] || fail "$name $way $place ($call): done, and the output is not the new one: $now"
         # There are some calls between the decision and the first visible change.
-        [ "$place" -gt $((first - 40)) ] || fail "$name $way $place of $first ($call): the signal was not heard"
+        [ "$place" -gt $((first - 40)) ] || fail "$name $way $place of $first ($call): the signal was ignored"
         completed=$((completed + 1))
         ;;
     signals*-130 | signals*-143 | signals*-[013])
@@ -102,7 +102,7 @@ judge() {
     esac
 }
 
-# places FROM TO: $budget places between the two.
+# places FROM TO: $budget numbers between the two.
 places() { for ((i = 0; i < budget; i++)); do echo $(($1 + (seed + i * ($2 - $1) / budget) % ($2 - $1))); done; }
 
 while read -r name former words; do
@@ -134,8 +134,8 @@ while read -r name former words; do
         struck signals:0 "$place"
         judge signals:0 "$place"
     done
-    [ $((interrupted * ended)) -gt 0 ] || fail "$name: interrupted $interrupted, ended $ended times: the test proves nothing"
-    echo "$name: $all calls, the output shows from call $first on; interrupted $interrupted, done all the same" \
+    [ $((interrupted * ended)) -gt 0 ] || fail "$name: interrupted $interrupted, ended $ended times: too few for the test"
+    echo "$name: $all calls, the output shows from call $first on; interrupted $interrupted, completed after the signal" \
         "$completed, ended by the second signal $ended"
 done <<<"$scenarios"
 finish

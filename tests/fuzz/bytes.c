@@ -103,8 +103,8 @@ sunder_shape *fuzz_shape(fuzz_bytes *bytes, fuzz_scale scale, size_t max_vertice
     size_t wanted = 1 + choices % 3;
     sunder_validity validity = choices & 8 ? SUNDER_VALIDITY_STRICT : SUNDER_VALIDITY_EVEN_ODD;
     for (size_t r = 0; r < wanted; ++r) {
-        size_t count = fuzz_byte(bytes) % 11; /* rings of none, one and two vertices too */
-        if (choices & 16) {                   /* a rectangle: random vertices seldom make another ring that is valid */
+        size_t count = fuzz_byte(bytes) % 11; /* also rings of zero, one and two vertices */
+        if (choices & 16) {                   /* a rectangle, since random vertices seldom form a valid ring */
             double x0 = fuzz_coordinate(bytes, scale), y0 = fuzz_coordinate(bytes, scale);
             double x1 = fuzz_coordinate(bytes, scale), y1 = fuzz_coordinate(bytes, scale);
             const double corners[8] = {x0, y0, x1, y0, x1, y1, x0, y1};

@@ -22,11 +22,11 @@ unsigned fuzz_byte(fuzz_bytes *bytes);
 fuzz_scale fuzz_choose_scale(fuzz_bytes *bytes);
 double fuzz_coordinate(fuzz_bytes *bytes, fuzz_scale scale);
 
-/* From here on allocation number `after` fails, and every one after it; 0: none does. Installs the hooks once. */
+/* From here on allocation number `after` and all later ones fail; 0: none fails. Installs the hooks once. */
 void fuzz_fail_allocations(unsigned after);
 
-/* From here on the library may poll this many times, which it does every millisecond or so, and is then told to stop:
- * the call ends with SUNDER_ECANCEL, and so do later calls. So one input does not take hours. 0: no limit. */
+/* From here on the library may poll this many times, which it does every millisecond or so; then it is told to stop:
+ * the call ends with SUNDER_ECANCEL, and so do later calls. This keeps one input from taking hours. 0: no limit. */
 enum { FUZZ_LOOKS = 400 };
 void fuzz_patience(unsigned looks);
 bool fuzz_is_out_of_patience(void);

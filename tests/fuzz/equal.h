@@ -1,4 +1,4 @@
-/* Canonical forms of equal sets are equal. */
+/* Equal sets have equal canonical forms. */
 #ifndef SUNDER_TEST_FUZZ_EQUAL_H
 #define SUNDER_TEST_FUZZ_EQUAL_H
 

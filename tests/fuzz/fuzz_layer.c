@@ -43,7 +43,7 @@ static size_t count_between_blocks(const sunder_report *report)
            after->contained + after->duplicate;
 }
 
-/* The features moved by their moves, in the blocks that the report gives them, and no others. */
+/* The features after their moves, in the blocks that the report gives them, and no others. */
 static void demand_agreement(const sunder_feature *features, size_t n, const fuzz_barriers *barriers,
                              const sunder_layer_options *options, const sunder_report *report)
 {
@@ -131,7 +131,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         sunder_status status = sunder_layer_separate(layer, &options, &report, NULL);
         fuzz_fail_allocations(0);
         FUZZ_DEMAND((report != NULL) == (status == SUNDER_OK));
-        fuzz_patience(0); /* the checks of a result run to their end */
+        fuzz_patience(0); /* a result is checked without a limit on polls */
         if (report) {
             demand_bounds(report);
             demand_agreement(features, n, &barriers, &options, report);

@@ -1,5 +1,5 @@
-/* Growing and shrinking hostile shapes: an opening has no more area than the set, a closing no less; the random order
- * of work and threads change nothing. */
+/* The four operations on hostile shapes: an opening has no more area than the set, a closing no less; the random order
+ * of computation and the number of threads change nothing. */
 #include <stdlib.h>
 
 #include "bytes.h"
@@ -32,7 +32,7 @@ static bool is_done(sunder_status status)
     return status == SUNDER_OK || (status == SUNDER_ECANCEL && fuzz_is_out_of_patience());
 }
 
-/* The set itself is between its opening and its closing. */
+/* The set contains its opening, and its closing contains the set. */
 static void demand_between(const sunder_shape *p, const sunder_sum *result, sunder_operation op)
 {
     const sunder_sum_options options = {.size = sizeof options};
@@ -43,7 +43,7 @@ static void demand_between(const sunder_shape *p, const sunder_sum *result, sund
     sunder_sum_free(whole);
 }
 
-/* One operation, for opening and closing dilate and erode too; every fourth is done again by two threads. */
+/* One operation; for opening and closing also dilate and erode. Every fourth is repeated with two threads. */
 static void ask(const sunder_shape *p, const sunder_shape *b, unsigned fail, unsigned seed)
 {
     const sunder_operation op = (sunder_operation)(seed % 4);

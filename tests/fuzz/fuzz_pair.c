@@ -1,4 +1,4 @@
-/* The least separation of two hostile shapes does separate them, and is zero exactly when they are apart. */
+/* The least separation of two hostile shapes does separate them, and is zero exactly if they are separate already. */
 #include <math.h>
 #include <string.h>
 

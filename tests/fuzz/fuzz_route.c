@@ -1,5 +1,5 @@
 /* Routes among hostile obstacles: the routes there and back have equal length, and the same obstacles are in the way.
- * The library itself proves that no leg collides; a path that fails this proof is an error that is not allowed here. */
+ * The library itself proves that no leg collides; a path that fails this proof is an error that may not occur here. */
 #include <stdlib.h>
 
 #include "bytes.h"

@@ -6,14 +6,14 @@
 static void demand_shape(const sunder_shape *shape)
 {
     double box[4], anchor[2];
-    fuzz_fail_allocations(0); /* getters cannot say that memory ran out */
+    fuzz_fail_allocations(0); /* getters do not report lack of memory */
     sunder_shape_box(shape, box);
     FUZZ_DEMAND(box[0] <= box[2] && box[1] <= box[3]);
     FUZZ_DEMAND(sunder_shape_is_empty(shape) == (sunder_shape_vertices(shape) == 0));
     FUZZ_DEMAND(sunder_shape_is_empty(shape) || sunder_shape_vertices(shape) >= 3 * sunder_shape_polygons(shape));
     FUZZ_DEMAND(sunder_shape_area(shape) >= 0);
     sunder_shape_anchor(shape, anchor);
-    /* The anchor is inside; as nearest doubles it cannot leave the box. */
+    /* The anchor is inside the shape; rounded to doubles it still cannot leave the box. */
     FUZZ_DEMAND(anchor[0] >= box[0] && anchor[0] <= box[2] && anchor[1] >= box[1] && anchor[1] <= box[3]);
 }
 

@@ -34,7 +34,7 @@ int LLVMFuzzerInitialize(int *argc, char ***argv)
     (void)argc, (void)argv;
     GDALAllRegister();
     CPLSetErrorHandler(CPLQuietErrorHandler);
-    CPLSetConfigOption("GDAL_HTTP_PROXY", "127.0.0.1:1"); /* a CRS may be a link: it must not be fetched */
+    CPLSetConfigOption("GDAL_HTTP_PROXY", "127.0.0.1:1"); /* a CRS may be a URL, which must not be fetched */
     CPLSetConfigOption("PROJ_NETWORK", "OFF");
     return 0;
 }

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Long fuzzing in pieces. Each piece continues with the inputs that earlier pieces found to reach new code, and adds its executions
-# and seconds to a tally. So hours of fuzzing can be composed of minutes, on a machine that has other work.
+# Long fuzzing in pieces. Each piece continues with the inputs that earlier pieces found to reach new code, and adds its
+# executions and seconds to a tally. So hours of fuzzing can be composed of minutes, on a machine that has other work.
 #
 #   pieces.sh SECONDS [NAME ...]   runs a piece of this length for each of the targets (by default all), one process at a time, and
 #                                  builds them first if needed. A piece begins with all known inputs, so it should be several times
@@ -9,12 +9,13 @@
 #                                  with these only, since each piece runs all of its inputs before anything new
 #   pieces.sh --record             writes RECORD.md from the tallies
 #
-# Several processes may run at the same time, also for one target: each has a log of its own, and new inputs go to a common folder.
-# SUNDER_FUZZ_AS_BUILT=yes uses the targets as they were built last; SUNDER_FUZZ_NICE is their nice value (19).
-# State is in SUNDER_FUZZ_STATE (<build>/fuzz/pieces): inputs, tallies, and failing inputs in found/. If there is none, it starts from
-# RECORD.md and corpus/. A target that makes more than 2000 executions in a second is done at ten million executions, any other target
-# after eight hours of one core. The speed is that of the last quarter of an hour of pieces, since a cause of slowness may have been
-# corrected since. Other work on the machine slows the pieces; measure a target near 2000 on a quiet machine.
+# Several processes may run at the same time, also for one target: each has a log of its own, and new inputs go to a
+# common folder. SUNDER_FUZZ_AS_BUILT=yes uses the targets as they were built last; SUNDER_FUZZ_NICE is their nice value
+# (19). State is in SUNDER_FUZZ_STATE (<build>/fuzz/pieces): inputs, tallies, and failing inputs in found/. Without
+# earlier state it starts from RECORD.md and corpus/. A target that makes more than 2000 executions in a second is done
+# at ten million executions, any other target after eight hours of one core. The speed is that of the last quarter of an
+# hour of pieces, since causes of slowness get corrected. Other work on the machine slows the pieces; measure a target
+# near 2000 on a quiet machine.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd -P)
 here=$root/tests/fuzz
@@ -29,21 +30,22 @@ mkdir -p "$state/found"
 
 targets() { for file in "$here"/fuzz_*.c; do basename "$file" .c; done; }
 final() { sed -n "s/^stat::$1: *//p" "$2" | tail -n 1; }
-covered() { # of a log: the edges that were covered, and all there are
+covered() { # LOG: prints the number of covered edges and of all edges
     local all run
     all=$(sed -n 's/^INFO: Loaded .* modules *(\([0-9]*\) inline 8-bit counters).*/\1/p' "$1" | head -n 1)
     run=$(sed -n 's/.* cov: \([0-9]*\) .*/\1/p' "$1" | tail -n 1)
     echo "${run:-0} ${all:-0}"
 }
 
-build() { # and says of what: the commit, "-dirty" where the sources differ from it
+build() { # builds, and records of which commit, with "-dirty" if the sources differ from it
     local dirty=
     bash "$here/build.sh" >"$state/build.log" 2>&1 || { tail -n 30 "$state/build.log"; exit 1; }
     git -C "$root" diff --quiet HEAD -- src gis tests/fuzz || dirty=-dirty
     echo "$(git -C "$root" rev-parse --short=7 HEAD)$dirty" >"$SUNDER_BUILD/fuzz/built_of"
 }
 
-begin_tally() { # a machine without any goes on from what is on record: all of it, its last quarter of an hour at the pace that stands there
+# without a tally it starts from RECORD.md: the recorded total, with its last quarter of an hour at the recorded speed
+begin_tally() {
     [ -f "$state/tally" ] || [ ! -f "$here/RECORD.md" ] || awk -F ' *[|] *' '
         $2 ~ /^`fuzz_/ {
             gsub(/`/, "", $2); gsub(/ of /, " ", $6); gsub(/, /, ",", $8)
@@ -55,7 +57,7 @@ begin_tally() { # a machine without any goes on from what is on record: all of i
         }' "$here/RECORD.md" >"$state/tally"
 }
 
-begin() { # a target's inputs: those on record, and the seeds
+begin() { # TARGET: its first inputs, from the recorded corpus and the seeds
     local corpus=$state/$1
     [ -d "$corpus" ] && return
     mkdir -p "$corpus"
@@ -88,7 +90,7 @@ piece() { # NAME SECONDS
     status=$(cat "$log.status")
     rm "$log.status"
     if [ "$status" -eq 0 ] && [ "${executions:-0}" -le $((inputs + 1)) ]; then
-        echo "$name: $2 s went into the $inputs inputs that are there, and nothing new was tried; such a piece does not count, give it longer ones"
+        echo "$name: the $inputs known inputs took all of the $2 s, and no new one was tried; such a piece does not count, use longer pieces"
         return 0
     fi
     spent=$(awk '{ print $1 + $2 }' <<<"$spent")
@@ -125,7 +127,7 @@ record() {
         echo "# Fuzzing on record"
         echo
         echo "Written by \`bash tests/fuzz/pieces.sh --record\` on $(date +%F): all pieces of this state, on $(sed -n 's/^model name.*: //p' /proc/cpuinfo | head -n 1), with $(clang --version | head -n 1)."
-        echo "Wanted: ten million executions of a target that makes more than $quick of them in a second of a core, eight hours of a core for the others; the pace is that of the latest quarter of an hour of pieces, or little more."
+        echo "Wanted: ten million executions of a target that makes more than $quick of them in a second of a core, eight hours of a core for the others; the speed is that of the latest quarter of an hour of pieces, or a little more."
         echo "Edges are of the code that is built with the sanitizers, which is more than a target can come to: the whole library, of the program the folders of the readers."
         echo
         echo "| target | executions | hours of a core | in a second | edges covered, of | inputs kept | commits | wanted |"

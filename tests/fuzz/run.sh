@@ -1,7 +1,7 @@
 # shellcheck shell=bash
 # Runs one fuzz target: inputs that once failed, recorded inputs (corpus/, by pieces.sh), then a fixed number of new
-# ones. The number is fixed, and not the time, so a seed replays a run; an input that takes minutes is a failure of its
-# own (a hang). Targets that read texts begin with some in seeds/, since random bytes would hardly ever form one.
+# ones. The number is fixed, and not the time, so that a seed replays a run; an input that takes minutes counts as a
+# failure (a hang). Targets that read texts start from seeds/, since random bytes would hardly ever form a valid text.
 set -eu
 name=$1
 program=$SUNDER_BUILD/fuzz/$name

@@ -1,5 +1,5 @@
-/* The cases of this folder: the library's sum, forced onto each rung of numbers, and the oracle's, byte for byte.
- * With file names as arguments it prints what the oracle says of them instead. */
+/* The cases of this folder: the library's sum, computed with each kind of numbers in turn, and the oracle's, compared
+ * byte for byte. With file names as arguments it prints the oracle's results instead. */
 #include "minkowski/minkowski.h"
 #include "oracle.h"
 #include "sum_text.h"

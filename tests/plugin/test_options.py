@@ -1,4 +1,4 @@
-"""The table of the dialogs beside the program's own, as `sunder --options-json` prints it."""
+"""Compares the dialogs' table of options with the program's, which `sunder --options-json` prints."""
 import json
 import os
 import subprocess

@@ -1,3 +1,3 @@
 # shellcheck shell=bash disable=SC1091
-# The dialogs ask what the program has: its options, their choices, their defaults.
+# The dialogs have the options of the program, with their choices and defaults.
 . "$SUNDER_SOURCE/tests/plugin/lib.sh"

@@ -1,5 +1,5 @@
-"""Finding, running and ending the program; its messages in plain words. A stand-in replaces it in cases in which it has
-to hang."""
+"""Finding, running and ending the program; its messages in plain words. A script takes its place where the program
+would have to hang."""
 import os
 import re
 import stat
@@ -105,7 +105,8 @@ class Plain(unittest.TestCase):
             self.assertEqual(program.plain("sunder: error: " + line, {}), plain)
 
     def test_messages_of_the_sources(self):
-        """All texts of the program's sources that name an option: no asked one is left, no word is doubled."""
+        """All messages in the program's sources that name an option: after the translation none names an option of a
+        dialog, and no word is doubled."""
         texts = []
         for folder, _, files in os.walk(os.path.join(os.environ["SUNDER_SOURCE"], "gis")):
             for file in (each for each in files if each.endswith(".c") and os.path.basename(folder) not in ("options", "page")):

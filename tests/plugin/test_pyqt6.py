@@ -1,5 +1,6 @@
-"""Does the plug-in run on PyQt6? Its modules are imported with `qgis.PyQt` as PyQt6 itself, and what it takes from there,
-enumerators included, is looked up in PyQt6. The other packages of QGIS are stand-ins that have every name."""
+"""Does the plug-in run on PyQt6? Its modules are imported with PyQt6 as `qgis.PyQt`, and all names that they use from
+it, including enumerators, are looked up in PyQt6. The other packages of QGIS are replaced by stand-ins that have
+every name."""
 import ast
 import glob
 import importlib
@@ -21,7 +22,7 @@ FILES = sorted(glob.glob(os.path.join(PARENT, "sunder", "*.py")))
 
 
 class AnyName(type):
-    """A class that has every member; each is a class like it, so that it can be derived from and called."""
+    """A class that has every member. Each member is again such a class, so that it can be subclassed and called."""
 
     def __getattr__(cls, name):
         if name.startswith("__"):
@@ -44,7 +45,7 @@ def parsed(file):
 
 
 def stand_in_for_qgis():
-    """For each module of QGIS that is imported, and for the packages that it is in."""
+    """Finds each imported module of QGIS, and its parent packages."""
     for file in FILES:
         for node in ast.walk(parsed(file)):
             modules = ([node.module or ""] if isinstance(node, ast.ImportFrom) and not node.level else
@@ -61,7 +62,7 @@ def stand_in_for_qgis():
 
 
 def taken_from_qt(tree):
-    """Name: module of PyQt6, of what is imported from qgis.PyQt."""
+    """For each name that is imported from qgis.PyQt: its module in PyQt6."""
     return {each.asname or each.name: node.module.rpartition(".")[2] for node in ast.walk(tree)
             if isinstance(node, ast.ImportFrom) and (node.module or "").startswith("qgis.PyQt.") for each in node.names}
 

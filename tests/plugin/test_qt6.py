@@ -1,5 +1,5 @@
 """Is the plug-in written so that it runs with Qt 5 and with Qt 6, in QGIS 3 and 4? Searches, without QGIS, for what
-QGIS's own script for the move from PyQt5 to PyQt6 reports: enumerators without the name of their enumeration, removed
+QGIS's migration script from PyQt5 to PyQt6 reports: enumerators without the name of their enumeration, removed
 modules and names. tests/qgis/plugin.py asks QGIS itself which names are enumerators."""
 import ast
 import configparser
@@ -9,7 +9,7 @@ import unittest
 
 FOLDER = os.path.join(os.environ["SUNDER_SOURCE"], "gis", "qgis", "sunder")
 FILES = sorted(glob.glob(os.path.join(FOLDER, "*.py")))
-# Members of classes of Qt and QGIS that are no enumerators, or that are spelt so in both.
+# Members of classes of Qt and QGIS that are not enumerators, or that have the same spelling in both.
 PLAIN = {"QgsProcessing.TEMPORARY_OUTPUT"}
 GONE = {"QRegExp", "QDesktopWidget", "qApp", "exec_", "desktop", "MidButton", "TextColorRole", "BackgroundColorRole",
         "HighQualityAntialiasing", "resources_rc"}
@@ -25,7 +25,7 @@ def parsed(file):
 
 
 def is_short_enumerator(node):
-    """Q...Class.Name, with nothing after it: a method would be called, an enumeration have a name of its own behind."""
+    """Q...Class.Name with nothing after it: a method would be followed by a call, an enumeration by a name."""
     if not (isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name) and node.value.id.startswith("Q")):
         return False
     name = "%s.%s" % (node.value.id, node.attr)
@@ -74,7 +74,7 @@ class Metadata(unittest.TestCase):
         self.assertEqual(self.general["qgisMaximumVersion"], "4.99")
 
     def test_no_address_is_invented(self):
-        """The build fills them in (gis/package/addresses.cmake)."""
+        """The build inserts them (gis/package/addresses.cmake)."""
         for name in ("email", "homepage", "tracker", "repository"):
             self.assertNotIn(name, self.general)
 

@@ -1,4 +1,4 @@
-"""The builder of command lines, without QGIS."""
+"""The functions that build command lines, without QGIS."""
 import unittest
 
 from sunder.command_line import BARRIER_COLUMNS, BadValue, barrier, number, row_of_layer, rows_of, words
@@ -70,7 +70,7 @@ class Barriers(unittest.TestCase):
         self.assertEqual(self.text("roads", "5", unit="m"), "/a/roads.gpkg,layer=roads,width=5m")
         self.assertEqual(self.text("roads", "0.6mm", unit="m"), "/a/roads.gpkg,layer=roads,width=0.6mm")
         self.assertEqual(self.text("roads", "width"), "/a/roads.gpkg,layer=roads,width-field=width")
-        # A field that looks like a length is the field: it is named as a whole.
+        # If a field has a name that looks like a length, the name means the field.
         self.assertEqual(self.text("roads", "5", fields=("5",)), "/a/roads.gpkg,layer=roads,width-field=5")
 
     def test_all_of_it(self):

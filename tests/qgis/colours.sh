@@ -1,19 +1,20 @@
 # shellcheck shell=bash
-# A separated layer opens in QGIS with the looks that its GeoPackage carries: every status has its colour, arrows and
+# A separated layer opens in QGIS with the styles stored in its GeoPackage: every status has its colour, arrows and
 # conflicts are drawn over the buildings. Colours are those of gis/gpkg/style_qml.c.
 set -eu
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
-python=/usr/bin/python3 # QGIS's modules belong to the system's Python, whatever python3 is first on the path
+# The modules of QGIS are installed for the system's Python, which may not be the first python3 on the path.
+python=/usr/bin/python3
 "$python" -c 'import qgis.core' 2>/dev/null || { echo "skipped: QGIS's Python modules (python3-qgis) are not installed"; exit 77; }
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 fail() { echo "$1"; exit 1; }
 
-# A throw-away profile, no screen.
+# A temporary profile, no screen.
 mkdir -m 700 "$work/home" "$work/run"
 export QT_QPA_PLATFORM=offscreen HOME=$work/home XDG_RUNTIME_DIR=$work/run QGIS_CUSTOM_CONFIG_PATH=$work/profile
 
-# A cap so short that some stay blocked, some houses that stand fast, some that are left aside.
+# Options with which some features stay blocked, some are fixed, and some are ignored.
 town=$SUNDER_SOURCE/datasets-synthetic/town.gpkg
 "$SUNDER" separate --input-layer buildings --gap 3 --max-shift 1 --fixed-where 'fid % 7 = 0' --ignore-where 'fid % 11 = 0' \
     --allow-conflicts --quiet "$town" "$work/out.gpkg"
@@ -25,8 +26,9 @@ town=$SUNDER_SOURCE/datasets-synthetic/town.gpkg
 cp "$work/picture.png" "${SUNDER_BUILD:-$work}/qgis_colours.png" 2>/dev/null || true
 
 # Conflicts have different symbols for different partners, and for proved and unresolved ones: an unresolved one is a
-# thin line with a ring. The rows are overwritten, so that all kinds occur independently of the town.
-rows() { # value of kind, value of reason
+# thin line with a ring. Kind and reason are set in the table of conflicts, so that all combinations occur independently
+# of the town.
+rows() { # value of kind, value of reason as SQL
     cp "$work/out.gpkg" "$work/rows.gpkg"
     sqlite3 "$work/rows.gpkg" "DELETE FROM layer_styles WHERE f_table_name = 'buildings';
         UPDATE buildings_conflicts SET kind = '$1', reason = $2;" 2>/dev/null ||
@@ -45,10 +47,10 @@ rows contained "'kept'" kept=150,150,150=600 || fail "an allowed conflict is not
 rows too_close NULL found=231,0,138=600 || fail "a conflict without a reason is not magenta"
 
 # Pushes are not drawn until their box in the legend is ticked. The greater the force, the wider the line. If all forces
-# are equal, all lines have the greatest width; beside one great force the lines of small ones are thin.
+# are equal, all lines have the greatest width; if one force is much greater, the lines of the others are thin.
 cp "$work/out.gpkg" "$work/pushes.gpkg"
 ogrinfo -q -dialect sqlite -sql "UPDATE buildings_pushes SET force = 1" "$work/pushes.gpkg"
-drawn() { # layer, least number of pixels: how many
+drawn() { # layer, least number of pixels: prints the number of pixels
     "$python" "$here/render_colours.py" "$work/pushes.gpkg" "$work/pushes.png" "$1" -- pushes=106,61,154="$2" |
         sed -n 's/^pushes.*: \([0-9]*\) pixels.*/\1/p'
 }
@@ -58,7 +60,8 @@ ogrinfo -q -dialect sqlite -sql "UPDATE buildings_pushes SET force = 0.0001 WHER
 thin=$(drawn buildings_pushes! 50)
 [ "$wide" -gt 50 ] && [ "$thin" -lt $((wide * 7 / 10)) ] || fail "pushes are not drawn by their force: $wide and $thin pixels"
 
-# Without styles QGIS draws one colour of its own choice: then none of ours may be there, or the test proves nothing.
+# Without stored styles QGIS draws in a random colour of its own: then none of ours may be found, otherwise this test
+# could not fail.
 "$SUNDER" separate --input-layer buildings --gap 3 --max-shift 1 --allow-conflicts --no-styles --quiet \
     "$town" "$work/plain.gpkg"
 if "$python" "$here/render_colours.py" "$work/plain.gpkg" "$work/plain.png" buildings -- \

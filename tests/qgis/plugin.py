@@ -1,4 +1,5 @@
-"""The plug-in's algorithms in a headless QGIS, beside the program itself. Each test names what it holds of.
+"""The plug-in's algorithms in a headless QGIS, compared with the program itself. The name of each test states what
+has to hold.
 
     SUNDER=program SUNDER_SOURCE=sources python3 plugin.py     (plugin.sh sets up the profile)
 
@@ -85,7 +86,8 @@ class Case(unittest.TestCase):
         return layer.source() if isinstance(layer, QgsVectorLayer) else layer
 
     def refused(self, words, name, parameters):
-        """The run is an error with these words: raised, or told before Processing raises one of its own."""
+        """The run fails with these words in the exception, or in a message before Processing raises its own
+        exception."""
         with self.assertRaises(QgsProcessingException) as error:
             self.run_algorithm(name, parameters)
         said = "\n".join([str(error.exception)] + self.feedback.told)
@@ -117,7 +119,7 @@ class Case(unittest.TestCase):
         return copied
 
     def by_program(self, *words):
-        """The program's own result for the town."""
+        """The result of the program for the town."""
         written = self.file("program.gpkg")
         self.sunder("separate", "--input-layer=buildings", TOWN, written, "--quiet", "--overwrite", "--allow-conflicts",
                     *words)
@@ -129,7 +131,7 @@ class SeparateTest(Case):
         done = self.run_algorithm("separate", {"INPUT": self.town(), "GAP": 3, "MAX_SHIFT": 1, "OUTPUT": TEMPORARY,
                                                "DISPLACEMENT": TEMPORARY, "CONFLICTS": TEMPORARY, "PUSHES": TEMPORARY})
         theirs = self.by_program("--gap=3", "--max-shift=1")
-        # Processing hands back layers; their sources are the files.
+        # Processing returns layers; their sources are the files.
         for name, layer in (("OUTPUT", "buildings"), ("DISPLACEMENT", "buildings_displacement"),
                             ("CONFLICTS", "buildings_conflicts"), ("PUSHES", "buildings_pushes")):
             self.assertEqual(rows(self.source(done[name])), rows(theirs, layer), name)
@@ -195,7 +197,7 @@ class SeparateTest(Case):
     def test_conflicts_between_features_that_stay_are_counted(self):
         layer = self.town()
         layer.selectByExpression('"fid" % 10 = 0')
-        # Without the layer of conflicts among the outputs, too.
+        # Also if the layer of conflicts is not among the outputs.
         done = self.run_algorithm("separate", {"INPUT": layer, "MOVE_SELECTED": True, "GAP": 3, "OUTPUT": TEMPORARY})
         theirs = self.by_program("--gap=3", "--fixed-where=fid % 10 <> 0")
         staying = [row for _, row in rows(theirs, "buildings_conflicts").values() if row["reason"] == "fixed"]
@@ -236,7 +238,7 @@ class SeparateTest(Case):
             done = self.run_algorithm("separate", {"INPUT": self.town(), "GAP": 1, "MAX_SHIFT": 8, "UNIT": 1, "BARRIER": row,
                                                    "OUTPUT": TEMPORARY})
             self.assertEqual(geometries(self.source(done["OUTPUT"])), theirs)
-        # A filter of the matrix is an expression, of layers in memory, too.
+        # A filter in the table of barriers is an expression of QGIS, also for layers in memory.
         copied = roads.materialize(QgsFeatureRequest())
         copied.setName("Copied roads")
         QgsProject.instance().addMapLayer(copied, False)
@@ -258,7 +260,7 @@ class SeparateTest(Case):
         values = {"INPUT": self.town(), "GAP": 1, "MAX_SHIFT": 8, "BARRIER_WIDTH": 5, "BARRIER_GAP": 0.5, "OUTPUT": TEMPORARY}
         done = self.run_algorithm("separate", dict(values, BARRIER_LAYERS=[roads, copied]))
         self.assertEqual(geometries(self.source(done["OUTPUT"])), theirs)
-        # By names, and beside the table.
+        # Barriers given by id, together with the table.
         table = [copied.name(), "5", "0.5", "", "", ""]
         done = self.run_algorithm("separate", dict(values, BARRIER_LAYERS=[roads.id()], BARRIER=table))
         self.assertEqual(geometries(self.source(done["OUTPUT"])), theirs)
@@ -332,7 +334,7 @@ class SeparateTest(Case):
         found = [row for _, row in rows(self.source(done["OUTPUT"])).values()]
         self.assertEqual([found[0][name] for name in ("fid", "n", "x", "t")], values[:4])
         self.assertEqual((found[0]["d"], found[0]["m"][:19], found[0]["b"]), ("2020/02/29", "2020/02/29 01:02:03", True))
-        self.assertEqual(found[0]["y"], "00FF")  # as OGR says bytes
+        self.assertEqual(found[0]["y"], "00FF")  # binary values as OGR prints them
         self.assertEqual({found[1][name] for name in ("fid", "n", "x", "t", "d", "m", "b", "y")}, {None})
 
     def test_the_key_that_qgis_shows_may_be_chosen(self):
@@ -373,7 +375,7 @@ class SeparateTest(Case):
             self.sunder("separate", copied, self.file("theirs.gpkg"), "--gap=1", "--quiet", "--overwrite")
             theirs = geometries(self.file("theirs.gpkg"), "copied")
             if given is layer:
-                theirs[3] = None  # QGIS wrote it into the copy as an empty one
+                theirs[3] = None  # QGIS wrote the null geometry into the copy as an empty one
             self.assertEqual(found, theirs)
             self.assertEqual(QgsVectorLayer(self.source(done["OUTPUT"]), "x", "ogr").wkbType(), layer.wkbType())
         empty = QgsVectorLayer("Polygon?crs=EPSG:25832", "Empty", "memory")
@@ -426,7 +428,7 @@ class SeparateTest(Case):
 
 @unittest.skipUnless(os.path.isdir(DATA), "there is no ../shared/data beside the sources")
 class RealLayers(Case):
-    """Layers of OpenStreetMap, read where they lie, zipped, filtered and from memory."""
+    """Layers of OpenStreetMap, read from their folder: zipped, filtered and from memory."""
 
     def compare(self, layer, words, values, name="buildings"):
         done = self.run_algorithm("separate", dict(values, INPUT=layer, EFFORT=0, OUTPUT=TEMPORARY, CONFLICTS=TEMPORARY))
@@ -462,7 +464,7 @@ class RealLayers(Case):
         path = "/vsizip/" + os.path.join(DATA, "baltimore_2015_shp.zip")
         layer = QgsVectorLayer(path + "/buildings.shp", "Baltimore", "ogr")
         self.assertTrue(layer.isValid())
-        # QGIS takes all polygons of a Shapefile for multipolygons: so must the program.
+        # QGIS reads all polygons of a Shapefile as multipolygons, and so does the program here.
         copied = self.file("copied.gpkg")
         subprocess.run(["ogr2ogr", copied, path, "buildings", "-nlt", "PROMOTE_TO_MULTI", "-lco", "FID=ogr_fid",
                         "-preserve_fid"], check=True)
@@ -500,7 +502,7 @@ class DestinationTest(Case):
     def test_tables_of_one_geopackage(self):
         target = self.file("all.gpkg")
         named = {"OUTPUT": "houses", "CONFLICTS": "left", "DISPLACEMENT": "moves"}
-        for _ in range(2):  # the second time what is there is replaced
+        for _ in range(2):  # the second run replaces the tables
             self.separated(**{name: "ogr:dbname='%s' table=\"%s\" (geom)" % (target, table) for name, table in named.items()})
         for table, theirs in (("houses", "buildings"), ("left", "buildings_conflicts"), ("moves", "buildings_displacement")):
             self.assertEqual(geometries(target, table), geometries(self.theirs, theirs), table)
@@ -517,7 +519,7 @@ class DestinationTest(Case):
         for path in (done["OUTPUT"], done["CONFLICTS"]):
             layer = QgsVectorLayer(path, "x", "ogr")
             self.assertEqual(layer.renderer().type(), "categorizedSymbol" if path.endswith("gpkg") else "RuleRenderer", path)
-        # As QGIS loads them: the post-processor gives them their looks.
+        # As QGIS loads them: the post-processor sets their styles.
         context = QgsProcessingContext()
         project = QgsProject()
         context.setProject(project)
@@ -562,7 +564,7 @@ class PostGIS(Case):
                         "-preserve_fid", "-lco", "FID=fid", "-lco", "GEOMETRY_NAME=geom"], check=True)
         target = "postgres:%s table=\"public\".\"%%s\" (geom)" % os.environ["SUNDER_POSTGIS"]
         theirs = self.by_program("--gap=3", "--max-shift=1")
-        for _ in range(2):  # the second time what is there is replaced
+        for _ in range(2):  # the second run replaces the files
             self.run_algorithm("separate", {"INPUT": self.table("houses"), "GAP": 3, "MAX_SHIFT": 1,
                                             "OUTPUT": target % "moved", "CONFLICTS": target % "left"})
         for name, layer in (("moved", "buildings"), ("left", "buildings_conflicts")):
@@ -620,7 +622,7 @@ class OtherCommands(Case):
         self.sunder("route", block, self.file("r.gpkg"), "--robot=square:2", "--from=0,0", "--to=6,0", "--free-space")
         self.assertEqual(geometries(self.source(done["OUTPUT"])), geometries(self.file("r.gpkg"), "route"))
         self.assertEqual(geometries(self.source(done["FREE_SPACE"])), geometries(self.file("r.gpkg"), "route_free_space"))
-        # No way is no failure.
+        # If there is no route, the run succeeds with a warning.
         done = self.run_algorithm("route", {"OBSTACLES_SHAPE": block, "ROBOT": "square:2", "FROM": "0,0", "TO": "3,0",
                                             "OUTPUT": TEMPORARY})
         self.assertIn("There is no route", self.feedback.warnings()[0])
@@ -688,7 +690,8 @@ def main():
     QgsProject.instance().clear()
     sys.stdout.flush()
     sys.stderr.flush()
-    os._exit(0 if done.wasSuccessful() else 1)  # QGIS's own end crashes now and then where Python holds its objects
+    # QGIS's own shutdown sometimes crashes while Python still holds its objects
+    os._exit(0 if done.wasSuccessful() else 1)
 
 
 if __name__ == "__main__":

@@ -1,17 +1,19 @@
 # shellcheck shell=bash
-# The plug-in in a headless QGIS: by qgis_process, as a script would call it, and from QGIS's Python, where layers can be in
-# memory, edited, selected and filtered (plugin.py). Its results are the program's, to the last bit of each coordinate.
+# The plug-in in a headless QGIS: by qgis_process, as a script would call it, and from QGIS's Python, where layers can
+# be in memory, edited, selected and filtered (plugin.py). Its results are those of the program, to the last bit of each
+# coordinate.
 set -eu
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
-python=/usr/bin/python3 # QGIS's modules belong to the system's Python, whatever python3 is first on the path
+# The modules of QGIS are installed for the system's Python, which may not be the first python3 on the path.
+python=/usr/bin/python3
 "$python" -c 'import qgis.core' 2>/dev/null || { echo "skipped: QGIS's Python modules (python3-qgis) are not installed"; exit 77; }
-# Debian's qgis_process is a wrapper that hands over an option which the program does not know.
+# Debian's qgis_process is a wrapper that passes an option which the binary does not know.
 process=$(command -v qgis_process.bin || command -v qgis_process) || { echo "skipped: qgis_process is not installed"; exit 77; }
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 fail() { echo "$1"; exit 1; }
 
-# A throw-away profile, no screen; the plug-in as it is in the sources, the program of this build.
+# A temporary profile, no screen; the plug-in from the sources, the program from this build.
 mkdir -m 700 "$work/home" "$work/run" "$work/tmp"
 export QT_QPA_PLATFORM=offscreen HOME=$work/home XDG_RUNTIME_DIR=$work/run QGIS_CUSTOM_CONFIG_PATH=$work/profile TMPDIR=$work/tmp
 export QGIS_PLUGINPATH=$SUNDER_SOURCE/gis/qgis PYTHONDONTWRITEBYTECODE=1
@@ -26,17 +28,17 @@ for command in separate check buffer sum pair route; do
     grep -q "sunder:$command" log || fail "sunder:$command is not in the list"
 done
 
-# A call by a script: status 3 is no failure, and remaining conflicts are a warning.
+# A call from a script: status 3 of the program is not a failure, and remaining conflicts are a warning.
 "$process" run sunder:separate --INPUT="$town|layername=buildings" --GAP=3 --MAX_SHIFT=1 --OUTPUT="$work/moved.gpkg" \
     --CONFLICTS="$work/conflicts.gpkg" --REPORT="$work/moves.html" >log 2>&1 || { cat log; fail "separate failed"; }
-grep -q 'WARNING:.* conflicts could not be solved' log || { cat log; fail "conflicts that remain are not told"; }
-[ -s moves.html ] && [ -s conflicts.gpkg ] || fail "no report, or no conflicts"
+grep -q 'WARNING:.* conflicts could not be solved' log || { cat log; fail "remaining conflicts are not reported"; }
+[ -s moves.html ] && [ -s conflicts.gpkg ] || fail "the report or the layer of conflicts is missing"
 
-# A mistake is a failure with the program's reason.
+# A wrong argument is a failure, with the program's message.
 if "$process" run sunder:buffer --INPUT="$town|layername=buildings" --SHAPE=round:3 --OUTPUT="$work/x.gpkg" >log 2>&1; then
-    fail "a shape that is none was taken"
+    fail "an invalid shape was accepted"
 fi
-grep -q 'round:3' log || { cat log; fail "the reason is not told"; }
+grep -q 'round:3' log || { cat log; fail "the reason is not reported"; }
 
 # Without the program the plug-in loads, and says what is missing.
 without=$(mktemp -d -p "$work")
@@ -45,8 +47,8 @@ if PATH=$without:/usr/bin:/bin "$process" run sunder:pair --P_SHAPE=square:2 --Q
     [ ! -x /usr/bin/sunder ]; then
     fail "it ran without the program"
 fi
-[ -x /usr/bin/sunder ] || grep -q 'sunder was not found' log || { cat log; fail "a missing program is not told"; }
+[ -x /usr/bin/sunder ] || grep -q 'sunder was not found' log || { cat log; fail "a missing program is not reported"; }
 
-# All the rest in one QGIS, since each takes a second to start.
+# All other tests in one QGIS, since each start takes a second.
 timeout 250 "$python" "$here/plugin.py" "$@" >log 2>&1 || { cat log; fail "plugin.py failed"; }
 grep -E '^(Ran|OK|skipped|SKIP)' log || cat log

@@ -1,6 +1,6 @@
 # shellcheck shell=bash
-# The plug-in and PostGIS: a table is separated, results become tables. A server of its own, on a socket in the scratch
-# directory, so that no other is met; skipped where PostgreSQL with PostGIS is not installed.
+# The plug-in and PostGIS: a table is separated, results become tables. The test starts a server of its own, on a socket
+# in the scratch directory, so that it meets no other server; skipped if PostgreSQL with PostGIS is not installed.
 set -eu
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 python=/usr/bin/python3
@@ -12,7 +12,7 @@ ls "$("$bin/pg_config" --sharedir 2>/dev/null || echo "/usr/share/postgresql/$(b
 
 work=$(mktemp -d)
 chmod 755 "$work"
-as_server() { "$@"; } # the server does not run as root
+as_server() { "$@"; } # the server refuses to run as root
 if [ "$(id -u)" -eq 0 ]; then
     id postgres >/dev/null 2>&1 || { echo "skipped: there is no user postgres for the server"; exit 77; }
     as_server() { setpriv --reuid=postgres --regid=postgres --clear-groups "$@"; }

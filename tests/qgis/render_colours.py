@@ -1,10 +1,11 @@
-"""Opens layers of a GeoPackage in QGIS as a user would (their stored default styles apply), draws them and counts pixels.
+"""Opens layers of a GeoPackage in QGIS as a user would (their stored default styles apply), draws them and counts
+pixels.
 
     render_colours.py FILE PICTURE LAYER... -- NAME=R,G,B=PIXELS...
 
-Layers are drawn in the order given, the first lowest. With ! after a name all boxes of its legend are marked first. Of each colour at least PIXELS pixels must be there; without
-antialiasing a symbol's colour comes out exactly. Exit status 1 if a layer does not open, has no style of its own from the
-file, or a colour is missing.
+Layers are drawn in the order given, the first at the bottom. After a name, ! ticks all boxes of its legend first.
+Each colour has to have at least PIXELS pixels; without antialiasing a symbol's colour is drawn exactly. Exit status 1
+if a layer does not open, if the file has no style for it, or if a colour is missing.
 """
 import sys
 
@@ -38,7 +39,7 @@ def open_layers(path, names):
 
 def draw(layers, picture):
     settings = QgsMapSettings()
-    settings.setLayers(list(reversed(layers)))  # QGIS wants the topmost first
+    settings.setLayers(list(reversed(layers)))  # QGIS wants the topmost layer first
     extent = layers[0].extent()
     extent.scale(1.05)
     settings.setExtent(extent)
@@ -75,7 +76,7 @@ def main(arguments):
 
 
 def run():
-    # All objects of QGIS live and die within main(), before exitQgis(): else the interpreter crashes at its end.
+    # All objects of QGIS are destroyed within main(), before exitQgis(): otherwise the interpreter crashes at its end.
     QgsApplication.setPrefixPath("/usr", True)
     application = QgsApplication([], False)
     application.initQgis()

@@ -1,7 +1,7 @@
-"""Runs within the window of QGIS (qgis --code): the dialog of sunder:separate is filled and run as by a user, and pictures are
-taken. window.sh sets the scene and looks at what is written here: a line "done" after all that was to be seen was seen.
+"""Runs within the window of QGIS (qgis --code): fills and runs the dialog of sunder:separate as a user would, and
+takes pictures. window.sh prepares the scene and checks the report: its last line is "done" if all steps succeeded.
 
-    WINDOW_FOLDER: where town.gpkg lies, pictures and report.txt go
+    WINDOW_FOLDER: the folder of town.gpkg, of the pictures and of report.txt
 """
 import os
 import traceback
@@ -21,11 +21,11 @@ def tell(line):
 
 
 def end():
-    os._exit(0)  # QGIS would ask about the project that is not saved
+    os._exit(0)  # otherwise QGIS asks whether to save the project
 
 
 def guarded(step):
-    """A step whose error ends the whole run, since it would not be seen otherwise."""
+    """A step whose error ends the whole run, since it would go unnoticed otherwise."""
 
     def run(*arguments):
         try:

@@ -1,6 +1,7 @@
 # shellcheck shell=bash
-# The plug-in in the real window of QGIS, on a screen of its own (Xvfb): its dialog is filled and run, results appear with
-# their looks, the report is written. The pictures stay in the build folder; gis/pictures/qgis_*.png are of this run.
+# The plug-in in the real window of QGIS, on a virtual screen (Xvfb): its dialog is filled and run, results appear with
+# their styles, the report is written. The pictures stay in the build folder; gis/pictures/qgis_*.png were taken by this
+# test.
 set -eu
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 qgis=$(command -v qgis.bin || command -v qgis) || { echo "skipped: QGIS is not installed"; exit 77; }
@@ -23,8 +24,8 @@ timeout 240 xvfb-run -a -s "-screen 0 1280x860x24 -nolisten tcp" "$qgis" --nover
     --code "$here/window.py" >"$work/log" 2>&1 || fail "QGIS ended with status $?"
 for wanted in '^done$' '^Houses: Separated: 280 features, categorizedSymbol' '^Houses: Moves: [0-9]* features, singleSymbol' \
     '^Houses: Conflicts that remain: [0-9]* features, RuleRenderer' \
-    '^log:   inside blocks  *[0-9]\{1,\}   *[0-9]\{1,\}'; do # columns of the log stay columns
-    grep -q "$wanted" "$work/report.txt" || fail "not seen: $wanted"
+    '^log:   inside blocks  *[0-9]\{1,\}   *[0-9]\{1,\}'; do # columns of the log keep their alignment
+    grep -q "$wanted" "$work/report.txt" || fail "missing in the report: $wanted"
 done
 [ -s "$work/moves.html" ] || fail "there is no report"
 cp "$work"/dialog.png "$work"/window.png "$work"/log.png "${SUNDER_BUILD:-/tmp}/" 2>/dev/null || true

@@ -25,7 +25,7 @@ for file in "$SUNDER_SOURCE"/gis/qgis/sunder/*.py "$SUNDER_SOURCE"/gis/qgis/sund
 done
 [ -z "$(find "$plugins" -name '__pycache__' -o -name '*.pyc')" ] || fail "compiled files are in the zip"
 
-# The zip has the addresses that the build was given, and none if none were given.
+# The zip contains the addresses that the build was given, or none if none were given.
 addresses=$work/addresses
 cmake -S "$SUNDER_SOURCE" -B "$addresses" -D SUNDER_TESTS=OFF -D SUNDER_EMAIL=who@example.net -D SUNDER_HOMEPAGE=https://example.net/ \
     -D SUNDER_TRACKER=https://example.net/issues >"$work/log" 2>&1 || fail "no configuration with addresses"
@@ -35,7 +35,7 @@ done
 if grep -q '^repository=' "$addresses/gis/qgis/metadata.txt"; then fail "an address that was not given"; fi
 
 "$process" plugins enable sunder >"$work/log" 2>&1 || fail "the plug-in cannot be enabled"
-# The setting of Processing names the program; it is not on the PATH.
+# The path of the program is in the settings of Processing; it is not on the PATH.
 ini=$work/profile/profiles/default/QGIS/QGIS3.ini
 printf '\n[Processing]\nConfiguration\\SUNDER_PROGRAM=%s\n' "$SUNDER" >>"$ini"
 PATH=/usr/bin:/bin "$process" run sunder:pair --P_SHAPE=square:4 --Q_SHAPE=square:2 --OUTPUT="$work/pair.gpkg" >"$work/log" 2>&1 ||

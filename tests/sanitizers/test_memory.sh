@@ -1,19 +1,20 @@
 #!/usr/bin/env bash
 # Is uninitialised or freed memory read, or does memory leak? valgrind's memcheck runs on the golden cases, on every
 # tenth program of the unit tests, and on the first call of the program and every tenth after it in each test of the
-# command. It sees
-# what the address sanitizer does not: memory that GDAL, GMP and SQLite hand over, and what was never written.
+# command. It detects what the address sanitizer cannot: faults in memory of GDAL, GMP and SQLite, and reads of memory
+# that was never written.
 #
-# SUNDER_MEMORY_PART=N takes every Nth in place of every tenth, SUNDER_MEMORY_ONLY=REGEX only tests of these names; then a
-# run can be made in parts, which together ask the same.
+# SUNDER_MEMORY_PART=N takes every Nth in place of every tenth. SUNDER_MEMORY_ONLY=REGEX selects tests by name, so that
+# a run can be made in parts that together test the same.
 #
-# The verdict is valgrind's alone. A test under it may come to another end than by itself: valgrind's long doubles are doubles,
-# and limits of memory and signals meet valgrind, too.
+# The verdict is valgrind's alone. A test under it may fail for other reasons: valgrind computes long doubles as
+# doubles, and limits of memory and signals affect valgrind itself.
 set -eu
 skip() { echo "skipped: $1"; exit 77; }
 command -v valgrind >/dev/null || skip "valgrind is not installed"
 command -v flock >/dev/null || skip "flock is not installed"
-part=${SUNDER_MEMORY_PART:-10} only=${SUNDER_MEMORY_ONLY:-.} # every so manyth; of tests whose names match
+# every Nth call and program; a pattern of the names of tests
+part=${SUNDER_MEMORY_PART:-10} only=${SUNDER_MEMORY_ONLY:-.}
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 logs=$work/logs
@@ -21,7 +22,7 @@ mkdir "$logs" "$work/bin"
 options="-q --error-exitcode=0 --leak-check=full --show-leak-kinds=definite --errors-for-leak-kinds=definite
     --suppressions=$SUNDER_SOURCE/tests/sanitizers/memory.supp --gen-suppressions=no --log-file=$logs/%p"
 
-# In the program's place: calls are counted, by test, and every tenth goes through valgrind.
+# A script in place of the program: it counts calls, and runs every tenth under valgrind.
 cat >"$work/bin/sunder" <<SH
 #!/usr/bin/env bash
 exec 9>>"$work/lock"
@@ -52,7 +53,8 @@ for name in test_golden $units; do
     told "$name"
 done
 
-# Left to themselves: they end the program by signals, or by limits of memory, size and time that valgrind would meet first.
+# Left out: they end the program by signals, or by limits of memory, size and time that valgrind itself would exceed
+# first.
 left_out='test_interrupt|test_io_killed|test_same_everywhere|test_io_full_disk'
 calls=0
 for test in "$SUNDER_SOURCE"/tests/cli/test_*.sh; do

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Are there data races? All multi-threaded work runs in a build with gcc's thread sanitizer (build/thread): the commands
-# with 2 and 4 threads on a synthetic town. GDAL, SQLite and GMP are the installed ones: races between them are not
-# seen, and reports about their insides alone are suppressed in threads.supp, with reasons.
+# with 2 and 4 threads on a synthetic town. GDAL, SQLite and GMP are the installed ones: races inside them are not
+# detected, and reports that concern only their internals are suppressed in threads.supp, with reasons.
 set -eu
 skip() { echo "skipped: $1"; exit 77; }
 echo 'int main(void) { return 0; }' | cc -x c -fsanitize=thread - -o /dev/null 2>/dev/null || skip "no thread sanitizer"
@@ -15,7 +15,7 @@ cd "$work"
 export TSAN_OPTIONS="suppressions=$SUNDER_SOURCE/tests/sanitizers/threads.supp exitcode=66"
 trouble=0
 
-# The sanitizer is there, and it is heard.
+# The sanitizer works: it reports a race.
 cat >race.c <<'C'
 #include <pthread.h>
 static int shared;
@@ -31,7 +31,7 @@ C
 cc -g -fsanitize=thread race.c -o race
 if ./race 2>/dev/null; then echo "FAILED: a race was not seen"; exit 1; fi
 
-ask() { # STATUSES that are fine, then the words of a command: with 2 threads and with 4
+ask() { # accepted STATUSES, then the arguments of the program: runs it with 2 threads and with 4
     local fine=$1 threads status
     shift
     for threads in 2 4; do
@@ -51,7 +51,8 @@ ask "0 3" $separate --gap 3 --max-shift 5 --barrier town.gpkg,layer=roads,width=
 ask "0 3" $separate --gap 4 --max-shift 6 --effort 3 --proof o.proof --report o.html --stats o.json --allow-jumps
 ask "0 3" $separate --gap 1 --contained separate --no-blocks --invalid skip
 ask "0 3" $separate --gap 1 --messages json --log o.log
-"$build/sunder-town" --buildings 6000 --seed 7 large.gpkg >/dev/null # of so many rows two connections read back a half each
+# enough rows that two connections read back one half each
+"$build/sunder-town" --buildings 6000 --seed 7 large.gpkg >/dev/null
 ask "0 3" separate large.gpkg o.gpkg -l buildings --gap 0.1 --effort 0 --overwrite -q
 ogr2ogr -q -dialect SQLite -sql 'SELECT ST_Centroid(geom) AS geom FROM buildings LIMIT 100' -nln points points.gpkg town.gpkg
 ask "0 3" separate points.gpkg o.gpkg --symbol disc:3:8 --gap 0.5 --max-shift 4 --overwrite -q
@@ -70,7 +71,7 @@ for algorithm in convolution arrangement; do
     ask 0 sum town.gpkg disc:1:8 o.gpkg --input-layer buildings --algorithm $algorithm --overwrite -q
 done
 
-# A part that fails ends the others.
+# If one part fails, the others are stopped.
 printf 'WKT\n"POLYGON((0 0,2 0,2 2,0 0))"\n"POLYGON((1.7e308 0,1.79e308 0,1.79e308 1e307,1.7e308 0))"\n"POLYGON((0 0,1 0,1 1,0 0))"\n' >far.csv
 ask 1 buffer far.csv o.gpkg --shape square:1e308 --overwrite -q
 exit $trouble

@@ -1,8 +1,7 @@
 # shellcheck shell=bash
 # PostGIS: layers appear in one transaction, and a refused run leaves the database as it was. Reading from it gives the
-# same as reading a file. A server that stops ends the run, and the former layers are still there. Starts a server of
-# its own, without
-# a network port, in a scratch directory.
+# same as reading a file. A server that stops ends the run, and the former layers are still there. The test starts a
+# server of its own, without a network port, in a scratch directory.
 set -eu
 . "$(dirname "${BASH_SOURCE[0]}")/../cli/io_layers.sh"
 bin=$(ls -d /usr/lib/postgresql/*/bin 2>/dev/null | tail -1)
@@ -43,7 +42,7 @@ make_squares
 refused 1 'has a layer houses already' "$SUNDER" separate --output-layer houses rich.gpkg "$db"
 refused 2 'overwrite-layer' "$SUNDER" separate --overwrite --output-layer houses rich.gpkg "$db"
 
-# Domains are lost in PostgreSQL: with --strict nothing of this run may stay, and the old layer stands.
+# PostgreSQL cannot store domains: with --strict the run is refused, leaves no tables, and the old layer stays.
 sql 'UPDATE houses SET sunder_st = $$mine$$'
 refused 1 'no domain' "$SUNDER" separate --strict --output-layer strict rich.gpkg "$db"
 [ "$(sql "SELECT count(*) FROM pg_tables WHERE tablename LIKE 'strict%'")" = 0 ] || fail "a refused run left tables"
@@ -52,9 +51,9 @@ refused 1 'no domain' "$SUNDER" separate --strict --update --overwrite-layer --o
 "$SUNDER" separate --quiet --update --overwrite-layer --output-layer houses rich.gpkg "$db" 2>/dev/null
 [ "$(sql "SELECT count(*) FROM houses WHERE sunder_st = 'mine'")" = 0 ] || fail "--overwrite-layer did not replace"
 
-# The doubles are the same there and back.
+# Doubles are the same after writing and reading.
 "$SUNDER" separate --quiet --input-layer squares --stats stats.json squares.gpkg "$db"
-grep -q '"verified": true' stats.json || fail "PostGIS keeps doubles, and is not verified"
+grep -q '"verified": true' stats.json || fail "the output in PostGIS is not verified, although it keeps doubles"
 sql 'SELECT ST_AsText(geom, 17) FROM squares ORDER BY 1' | grep -q 'POLYGON((100 0,110 0,110 10,100 10,100 0))' ||
     fail "a geometry changed"
 
@@ -65,7 +64,7 @@ ogr2ogr -f PostgreSQL "$db" squares.gpkg squares -nln plain -lco GEOMETRY_NAME=g
 "$SUNDER" separate --quiet --gap 3 -l plain "$db" of_table.gpkg --output-layer moved
 bytes_of of_file.gpkg moved >of_file
 bytes_of of_table.gpkg moved >of_table
-[ -s of_file ] && cmp -s of_file of_table || fail "a table is separated in another way than a file"
+[ -s of_file ] && cmp -s of_file of_table || fail "the result for a table differs from that for a file"
 "$SUNDER" separate --quiet --gap 3 -l plain --where 'ST_Area(geom) < 1e9' "$db" "$db" --update --output-layer moved
 same_sets=$(sql "SELECT count(*) FROM moved WHERE sunder_st = 'moved'")
 [ "$same_sets" = "$(grep -c 'sunder_st (String) = moved' of_file)" ] || fail "table to table: $same_sets moved"
@@ -86,14 +85,14 @@ sql 'DROP EVENT TRIGGER ended'
 "$SUNDER" separate --quiet --gap 3 -l squares squares.gpkg "$db" --update --output-layer ended
 
 # The server stops after the input has been read, while the program waits for the shape, and starts again. On systems
-# that do not tell for what a process waits, the server stops at some moment; the result is the same.
+# that do not show what a process waits for, the server stops at some moment; the expected result is the same.
 before=$(tables)
 mkfifo shape
 "$SUNDER" buffer --quiet -l plain "$db" "$db" --update --output-layer grown --shape @- <shape >gone.out 2>gone.err &
 run=$!
 trap '' PIPE
 exec 9>shape
-for _ in $(seq 1 100); do # a read (its number on x86-64, on others) of the standard input
+for _ in $(seq 1 100); do # waits for a read() of standard input (0 on x86-64, 63 on others)
     case $(cut -d' ' -f1,2 "/proc/$run/syscall" 2>/dev/null) in '0 0x0' | '63 0x0' | '') break ;; esac
     sleep 0.1
 done
@@ -102,7 +101,7 @@ echo 'POLYGON ((0 0, 1 0, 1 1, 0 0))' >&9 || true
 exec 9>&-
 status=0
 wait "$run" || status=$?
-[ "$status" = 1 ] || { cat gone.err; fail "status $status where the server went away"; }
-[ "$(grep -c '^sunder: error: ' gone.err)" = 1 ] && [ "$(wc -l <gone.err)" = 1 ] || { cat gone.err; fail "no single error line"; }
+[ "$status" = 1 ] || { cat gone.err; fail "status $status after the server stopped"; }
+[ "$(grep -c '^sunder: error: ' gone.err)" = 1 ] && [ "$(wc -l <gone.err)" = 1 ] || { cat gone.err; fail "not exactly one error line"; }
 start
-[ "$(tables)" = "$before" ] || fail "a server that went away has $(tables)"
+[ "$(tables)" = "$before" ] || fail "after the stop of the server there are other tables: $(tables)"

@@ -8,7 +8,7 @@
 
 static double between(rng *r, double low, double high) { return low + (high - low) * rng_unit(r); }
 
-/* A closed wave about a circle: a sum of this many harmonics. */
+/* A closed wave around a circle: a sum of this many harmonics. */
 typedef struct wave {
     int n;
     double size[64], phase[64];
@@ -60,7 +60,7 @@ static void coast(polyset *set, rng *r, const wave *w, int n, double noise, doub
     polyset_end_polygon(set);
 }
 
-/* The outline xy turned by an angle, each member or corner moved by up to d. */
+/* The outline xy turned by an angle, with each member or corner displaced by up to d. */
 static void repeat(polyset *set, rng *r, const double (*xy)[2], int n, int times, double angle, double d, bool corners)
 {
     for (int k = 0; k < times; k++) {
@@ -96,7 +96,7 @@ static void track(polyset *set, rng *r, int n)
     polyset_end_polygon(set);
 }
 
-/* A finely flattened round outline with two neighbours swapped at this many places. */
+/* A finely flattened round outline in which neighbouring vertices are swapped at this many places. */
 static void bows(polyset *set, int n, double cx, double cy, int swapped)
 {
     for (int i = 0; i < n; i++) {

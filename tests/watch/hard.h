@@ -1,4 +1,4 @@
-/* Operands on which geometry code is slow: extreme cases of maps, and random ones. */
+/* Operands on which geometry code is slow: extreme cases of map data, and random ones. */
 #ifndef SUNDER_TESTS_HARD_H
 #define SUNDER_TESTS_HARD_H
 
@@ -6,21 +6,21 @@
 #include "random.h"
 
 typedef enum hard_kind {
-    HARD_STAIRS,   /* a blob traced along pixels, and the same moved a little */
+    HARD_STAIRS,   /* an outline traced along pixels, and the same displaced a little */
     HARD_COAST,    /* a ragged outline, and the same digitised again */
-    HARD_VERSIONS, /* many outlines of one building, corners a millimetre apart; a polygon in full doubles */
+    HARD_VERSIONS, /* many outlines of one building, corners a millimetre apart; a polygon with random doubles */
     HARD_SLIVERS,  /* long rectangles a micrometre apart; an L */
-    HARD_SCRIBBLE, /* a closed random scribble, not valid; a square */
-    HARD_TRACK,    /* a wandering track closed to a ring, not valid; a square */
-    HARD_BOWS,     /* two round outlines with a few vertices swapped, not valid */
-    HARD_COMBS,    /* teeth upwards, teeth sideways */
+    HARD_SCRIBBLE, /* a closed random polyline that crosses itself; a square */
+    HARD_TRACK,    /* a wandering track closed to a ring that crosses itself; a square */
+    HARD_BOWS,     /* two round outlines with a few vertices swapped, invalid */
+    HARD_COMBS,    /* comb with teeth upwards, comb with teeth sideways */
     HARD_SCATTER,  /* many small members far from each other; a star */
-    HARD_SIEVE,    /* a plate with many holes; a square that fits none */
+    HARD_SIEVE,    /* a plate with many holes; a square that fits into none */
     HARD_KINDS
 } hard_kind;
 
 const char *hard_kind_string(hard_kind kind);
-/* Some n vertices; valid or not, so to be read by the even-odd rule. */
+/* About n vertices; it may be invalid, and is then read by the even-odd rule. */
 void random_hard(polyset *p, polyset *q, rng *r, hard_kind kind, int n);
 
 #endif

@@ -1,9 +1,9 @@
-/* number/watch: on hard inputs no function goes on for long without asking whether it may, or after it was told to
- * stop.
+/* number/watch: on hard inputs every function polls often enough whether it may continue, and returns soon after it was
+ * told to stop.
  *
  * The library is compiled a second time for this program, so that every basic block counts a step (gcc's and clang's
- * -fsanitize-coverage=trace-pc): a measure that shares nothing with the steps that the library counts itself, and that
- * is the same on every machine. Some hundred million of them are a second's work. */
+ * -fsanitize-coverage=trace-pc). This measure is independent of the steps that the library counts itself, and it is the
+ * same on every machine. Some hundred million steps take a second. */
 #include "hard.h"
 
 #include <dirent.h>
@@ -16,8 +16,8 @@
 #include <cmocka.h>
 
 enum {
-    MOST = 30000000,      /* steps between two looks, or from the answer to the return */
-    ENOUGH = 40 * 1000000 /* steps after which a call is stopped */
+    MOST = 30000000,      /* largest number of steps between two polls, or from the answer "stop" to the return */
+    ENOUGH = 40 * 1000000 /* after this many steps a call is told to stop */
 };
 
 static uint64_t steps, last, longest;
@@ -218,7 +218,7 @@ static const work works[] = {
     {"route", route, 0},
     {"route, gap", route, 1}};
 
-/* One call, told to stop at look number `at` (0: only when it has had enough). */
+/* One call, told to stop at poll number `at` (0: only after ENOUGH steps). */
 static sunder_status watched(const work *w, operands *o, uint64_t at)
 {
     steps = last = longest = looks = 0;
@@ -231,14 +231,14 @@ static sunder_status watched(const work *w, operands *o, uint64_t at)
     return status;
 }
 
-/* The longest pause of all that is done with these operands; of every so manieth thing, where that takes too long. */
+/* Tests the longest pause of all calls with these operands; if there are too many calls, of every `stride`-th. */
 static void try_all(const char *name, operands *o, rng *r, size_t stride)
 {
     uint64_t worst = 0;
     const char *where = "";
     sunder_watch(NULL, NULL);
     steps = last = 0;
-    if (shape_of(&o->p, &o->shape[0]) || shape_of(&o->q, &o->shape[1])) fail_msg("%s: no shape", name);
+    if (shape_of(&o->p, &o->shape[0]) || shape_of(&o->q, &o->shape[1])) fail_msg("%s: cannot make the shapes", name);
     for (size_t i = (size_t)rng_int(r, 0, (int64_t)stride - 1); i < sizeof works / sizeof *works; i += stride) {
         sunder_status status = watched(&works[i], o, 0);
         uint64_t whole = longest;
@@ -253,7 +253,7 @@ static void try_all(const char *name, operands *o, rng *r, size_t stride)
         }
         if (whole > worst) worst = whole, where = works[i].name;
         if (whole > MOST)
-            print_message("%s, %s: %.1f million steps without a look\n", name, works[i].name, 1e-6 * (double)whole);
+            print_message("%s, %s: %.1f million steps without a poll\n", name, works[i].name, 1e-6 * (double)whole);
     }
     print_message("%-16s longest pause %8.3f million steps, in %s\n", name, 1e-6 * (double)worst, where);
     sunder_shape_free(o->shape[0]);
@@ -277,7 +277,7 @@ static void test_generated(void **state)
     }
 }
 
-/* Inputs that were slow once, P and Q a line each, where they are at hand. */
+/* Inputs that were slow in earlier versions, one line each for P and Q, if the files exist. */
 static void test_files(void **state)
 {
     (void)state;
@@ -305,7 +305,7 @@ static void test_files(void **state)
     if (d) closedir(d);
     free(folder);
     if (n == 0) {
-        print_message("no hard inputs are at hand\n");
+        print_message("there are no files of hard inputs\n");
         skip();
     }
 }
