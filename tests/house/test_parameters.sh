@@ -23,6 +23,6 @@ int differs(const char *words, size_t n) { return g("){", words, n); }
 int unnamed(const char *text, size_t n) { return 0; }
 X
 if said=$(compare "$work" src); then say "made to differ, and found to agree"; fi
-[ "$(tail -n 1 <<<"$said")" = '3 prototypes compared, 3 wrong' ] || say "of a made pair of files: $said"
+[ "$(tail -n 1 <<<"$said")" = '3 prototypes compared, 3 differ' ] || say "of a made pair of files: $said"
 grep -q 'unnamed(, n) leaves a parameter without a name' <<<"$said" || say "a parameter without a name is not found: $said"
 finish
