@@ -1,5 +1,5 @@
-/* Arguments that no program means to give: arrays that contradict themselves, values that no enumeration has, texts of
- * any length, sizes and gaps from one end of the doubles to the other. */
+/* Arguments that no correct program passes: arrays that contradict each other, values outside of enumerations, texts of
+ * any length, sizes and gaps over the whole range of doubles. */
 #include "random.h"
 #include "sunder.h"
 
@@ -59,7 +59,7 @@ static void test_ends(void **state)
 
 static size_t spent;
 
-/* Allocations fail after 64 MB in total, including freed ones. */
+/* Allocations fail after 64 MB in total, including freed memory. */
 static void *within_means(size_t size)
 {
     spent += size;
@@ -72,7 +72,7 @@ static void *within_means_again(void *old, size_t size)
     return spent > (size_t)64 << 20 ? NULL : realloc(old, size);
 }
 
-/* A third, in 200,000 digits above the line and below. */
+/* One third, written with 200,000 digits in numerator and denominator. */
 static void test_long_text(void **state)
 {
     (void)state;
@@ -100,7 +100,7 @@ static void test_long_text(void **state)
 
 /* ---- Sizes ---- */
 
-/* A size, now and then the least or the greatest double. */
+/* A random size, sometimes the least or the greatest double. */
 static double random_size(rng *r)
 {
     switch (rng_int(r, 0, 9)) {
@@ -150,8 +150,7 @@ static void test_sizes(void **state)
     assert_true(answers > n / 3);
 }
 
-/* Sides that are lost below all doubles relative to the gap must not affect distant features: these two are 0.14 apart,
- * not 1. */
+/* Sides that underflow relative to the gap must not affect distant features: these two are 0.14 apart, not 1. */
 static void test_least_square(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* Real memory running out, in a process of its own: huge operands under a limit of the address space. Whatever the
- * limit, a function says what is the matter, or succeeds; no library beneath us ends the process. */
+/* Real memory running out, in a process of its own: huge operands under a limit of the address space. With any limit a
+ * function returns an error, or succeeds; no underlying library ends the process. */
 #include "polyset.h"
 #include "random.h"
 
@@ -13,7 +13,7 @@
 
 #include <cmocka.h>
 
-/* gcc says it by a macro, clang by a feature. */
+/* gcc defines a macro, clang has a feature test. */
 #if defined(__has_feature)
 #if __has_feature(address_sanitizer) && !defined(__SANITIZE_ADDRESS__)
 #define __SANITIZE_ADDRESS__ 1
@@ -22,7 +22,7 @@
 
 enum { DONE = 0, NO_MEMORY = 1, WRONG = 2 };
 
-/* A closed scribble in full doubles: its corners are crossings, whose exact texts are long. */
+/* A closed random polyline that uses all bits of doubles: its corners are crossings, whose exact texts are long. */
 static sunder_status scribble(rng *g, int n, double reach, sunder_shape **out)
 {
     double xy[2 * 64];
@@ -89,7 +89,7 @@ static size_t pages_now(void)
     return pages;
 }
 
-/* In a child process that may take this many bytes more. */
+/* Runs in a child process that may allocate this many more bytes. */
 static int under_limit(size_t bytes, uint64_t seed)
 {
     fflush(NULL);
@@ -114,7 +114,7 @@ static void test_limits(void **state)
 {
     (void)state;
 #if defined(__SANITIZE_ADDRESS__)
-    skip(); /* it wants more address space than there is, and ends the process itself */
+    skip(); /* the sanitizer needs more address space than the limit, and would end the process itself */
 #endif
     if (pages_now() == 0) skip();
     int seen[3] = {0, 0, 0};

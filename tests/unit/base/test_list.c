@@ -1,4 +1,4 @@
-/* Sorted sets of numbers, of few and of many, against the numbers marked one by one. */
+/* Sorted sets of numbers, small and large, compared with an array that marks each number. */
 #include "base/list.h"
 
 #include "random.h"

@@ -27,7 +27,7 @@ static void test_hooks(void **state)
     for (int i = 0; i < 300; i++) assert_int_equal(zeros[i], 7);
     failing_at(1, false);
     assert_null(sunder_i_realloc(zeros, 9000, 1));
-    assert_int_equal(zeros[299], 7); /* as it was */
+    assert_int_equal(zeros[299], 7); /* reallocation keeps the content */
     assert_null(sunder_i_realloc(zeros, SIZE_MAX, 16));
     void *fresh = sunder_i_realloc(NULL, 3, 3);
     assert_non_null(fresh);
@@ -93,7 +93,7 @@ static void test_arena(void **state)
     for (int i = 0; i < 5; i++) assert_int_equal(a[i], 1);
     assert_null(sunder_i_arena_alloc(&arena, SIZE_MAX / 2, 8));
     assert_true(arena.failed);
-    assert_null(sunder_i_arena_alloc(&arena, 1, 1)); /* sticky */
+    assert_null(sunder_i_arena_alloc(&arena, 1, 1)); /* an arena that failed once keeps failing */
     sunder_i_arena_release(&arena, empty);
     assert_int_equal(failing_outstanding(), 0);
     sunder_i_arena_free(&arena);
@@ -189,12 +189,13 @@ static void test_sort(void **state)
         for (size_t i = 0; i < n; i++) {
             assert_true(valued[i].value == (double)key[valued[i].item] && valued[i].mark == ~valued[i].item);
             assert_true(i == 0 || valued[i - 1].value < valued[i].value ||
-                        (valued[i - 1].value == valued[i].value && valued[i - 1].item < valued[i].item)); /* stable */
+                        /* the sort is stable */
+                        (valued[i - 1].value == valued[i].value && valued[i - 1].item < valued[i].item));
         }
         assert_true(sunder_i_sort_indices(index, n, by_tens, key));
         for (size_t i = 1; i < n; i++) {
             const int c = by_tens(key, index[i - 1], index[i]);
-            assert_true(c < 0 || (c == 0 && index[i - 1] < index[i])); /* stable */
+            assert_true(c < 0 || (c == 0 && index[i - 1] < index[i])); /* the sort is stable */
         }
         qsort(sorted, n, sizeof *sorted, numeric);
         assert_true(sunder_i_sort_keys(key, n));

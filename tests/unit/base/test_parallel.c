@@ -1,4 +1,4 @@
-/* Work on several threads: all items are done once, on at most the given number of threads, also if an item starts
+/* Work on several threads: each item is processed once, on at most the given number of threads, also if an item starts
  * parallel work itself. The largest items begin first, and the first failure is reported. */
 #include "base/parallel.h"
 
@@ -19,9 +19,9 @@ enum { ITEMS = 40, INNER = 64 };
 
 typedef struct tally {
     atomic_int done[ITEMS], inner[ITEMS];
-    atomic_int running, most; /* threads that are at work; the most that ever were */
+    atomic_int running, most; /* threads at work now; the most at any time */
     unsigned threads;
-    size_t order[ITEMS]; /* of items, as they began */
+    size_t order[ITEMS]; /* items in the order in which they began */
     atomic_size_t begun;
 } tally;
 
@@ -49,7 +49,7 @@ static sunder_status count_inner(void *context, size_t begin, size_t end, sunder
     return SUNDER_OK;
 }
 
-/* The first item takes as long as all others, and asks for threads. */
+/* The first item takes as long as all others together, and asks for more threads. */
 static sunder_status count(void *context, size_t begin, size_t end, sunder_error *err)
 {
     tally *t = context;
@@ -118,7 +118,7 @@ static void test_largest_begin_first(void **state)
     for (size_t k = 0; k < ITEMS; k++) size[k] = k == 7 ? SIZE_MAX : k % 5;
     memset(&t, 0, sizeof t);
     assert_int_equal(sunder_i_parallel_largest_first(1, size, ITEMS, count, &t, &err), SUNDER_OK);
-    for (size_t k = 0; k < ITEMS; k++) assert_int_equal(t.order[k], k); /* in order on one thread */
+    for (size_t k = 0; k < ITEMS; k++) assert_int_equal(t.order[k], k); /* one thread processes them in order */
     memset(&t, 0, sizeof t);
     t.threads = 2;
     assert_int_equal(sunder_i_parallel_largest_first(2, size, ITEMS, count, &t, &err), SUNDER_OK);

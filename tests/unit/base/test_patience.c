@@ -1,4 +1,5 @@
-/* How many failed attempts are made, and after how many skipped ones another attempt is made. */
+/* sunder_i_patience: the number of failed attempts that are made, and the number of attempts skipped before another one
+ * is made. */
 #include "base/patience.h"
 
 #include <setjmp.h>
@@ -25,8 +26,8 @@ static void ever_fewer(void **state)
     (void)state;
     sunder_i_patience p = sunder_i_patience_of(4, 2);
     assert_int_equal(asked_in_vain(&p, 4), 4);
-    /* Attempts are then made at growing distances: the next one, the second after it, the fourth after that, and so
-     * on. */
+    /* Further attempts are then made at growing distances: the next one, the second after it, the fourth after that,
+     * and so on. */
     assert_int_equal(asked_in_vain(&p, 1), 1);
     assert_int_equal(asked_in_vain(&p, 2), 1);
     assert_int_equal(asked_in_vain(&p, 4), 1);
@@ -40,7 +41,7 @@ static void an_answer_makes_good(void **state)
     asked_in_vain(&p, 100);
     sunder_i_patience_note(&p, true);
     assert_int_equal(asked_in_vain(&p, 2), 2);
-    /* No more than at first, however many answers there were. */
+    /* A long series of successes does not raise the number of failed attempts above the first value. */
     for (int k = 0; k < 10; k++) sunder_i_patience_note(&p, true);
     assert_int_equal(asked_in_vain(&p, 5), 5);
     assert_false(sunder_i_patience_asks(&p));

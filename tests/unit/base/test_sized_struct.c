@@ -1,7 +1,7 @@
-/* base/sized_struct: callers that were compiled with an older or a newer header, and sizes that no caller can mean.
+/* base/sized_struct: callers that were compiled with an older or a newer header, and sizes that are impossible.
  *
- * A caller's struct fills a block of memory of its own, so that sanitizers and valgrind see a byte too many being read
- * or written. */
+ * The struct of a caller fills a heap block of exactly its size, so that sanitizers and valgrind detect reads and
+ * writes beyond its end. */
 #include "base/sized_struct.h"
 
 #include <math.h>
@@ -82,7 +82,7 @@ static sunder_status call(const scene *s, entry e, const void *options, sunder_e
     return status;
 }
 
-/* A struct of `size` bytes, with the size that it says it has. */
+/* Allocates a struct of `size` bytes whose member `size` is `said`. */
 static void *options_new(entry e, size_t size, size_t said)
 {
     unsigned char *options = malloc(size);
@@ -106,8 +106,8 @@ static void test_smaller_struct_of_an_older_caller(void **state)
     scene_free(&s);
 }
 
-/* An older caller that knows the gap alone. The gap counts; the tolerance, which it does not know, is a tenth of
- * the gap by default, so that two features 0.1 apart are one block. */
+/* An older caller that only has the member gap. The gap is used; the tolerance, which its struct does not have, is a
+ * tenth of the gap by default, so that two features 0.1 apart are one block. */
 static void test_what_an_older_caller_sets_counts(void **state)
 {
     struct {
@@ -147,7 +147,8 @@ static void test_larger_struct_of_a_newer_caller(void **state)
         for (size_t size = size_of(e) + sizeof(size_t); size <= SUNDER_OPTIONS_MAX; size += 7 * sizeof(size_t)) {
             unsigned char *options = options_new(e, size, size);
             assert_int_equal(call(&s, e, options, NULL), SUNDER_OK);
-            for (size_t k = size_of(e); k < size; k += size - 1 - k ? size - 1 - k : 1) { /* the first, the last */
+            /* the first byte and the last byte */
+            for (size_t k = size_of(e); k < size; k += size - 1 - k ? size - 1 - k : 1) {
                 options[k] = 1;
                 assert_int_equal(call(&s, e, options, &err), SUNDER_EARG);
                 assert_non_null(strstr(err.message, "does not know"));
@@ -187,7 +188,7 @@ static void test_sizes_that_no_struct_has(void **state)
     scene_free(&s);
 }
 
-/* The defaults are written as far as the caller's struct reaches, and no farther. */
+/* The defaults are written up to the end of the caller's struct, and no farther. */
 static void test_init_keeps_to_the_size(void **state)
 {
     for (entry e = SUM; e < ENTRIES; e++) {

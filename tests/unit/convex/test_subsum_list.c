@@ -1,4 +1,5 @@
-/* Pairs of pieces on a list: each once, known again at any size, ascending in the end. */
+/* A list of pairs of pieces: each pair is stored once, is found again at any size of the list, and the result is
+ * sorted. */
 #include "convex/subsum_list.h"
 #include "failing.h"
 
@@ -12,7 +13,7 @@
 
 enum { PAIRS = 5000 };
 
-/* Pairs of two small numbers, so that many have either half in common; every third comes twice. */
+/* Pairs of two small numbers, so that many share a first or a second number; every third pair occurs twice. */
 static uint64_t pair_of(uint64_t k) { return (k * 7 % 64) << 32 | (k * 13 % 911); }
 
 static void check_each_once(void **state)

@@ -1,5 +1,5 @@
-/* Convex decompositions on shapes small enough to know the answer; sums of convex pieces against hulls of all sums
- * of corners; memory that runs out. The proofs on random input are in property/test_decomposition.c. */
+/* Convex decompositions of shapes small enough to know the result; sums of convex pieces compared with hulls of all
+ * sums of corners; memory that runs out. Properties on random input are tested in property/test_decomposition.c. */
 #include "convex/convex_sum.h"
 #include "decomposition/maker.h"
 #include "failing.h"
@@ -56,10 +56,10 @@ static void expect(const char *wkt, sunder_decomposition kind, uint32_t pieces, 
 }
 
 #define L_SHAPE "POLYGON((0 0,4 0,4 2,2 2,2 4,0 4,0 0))"
-/* A plus: its four reflex vertices see each other in pairs. */
+/* A plus sign: each reflex vertex sees two others along an axis. */
 #define PLUS "POLYGON((1 0,2 0,2 1,3 1,3 2,2 2,2 3,1 3,1 2,0 2,0 1,1 1,1 0))"
 #define FRAME "POLYGON((0 0,6 0,6 6,0 6,0 0),(2 2,2 4,4 4,4 2,2 2))"
-/* Two teeth upwards, their reflex vertices level with each other. */
+/* Two teeth upwards, whose reflex vertices are at the same height. */
 #define TEETH "POLYGON((0 0,7 0,7 5,6 5,6 1,1 1,1 5,0 5,0 0))"
 
 static void test_convex(void **state)
@@ -76,7 +76,7 @@ static void test_one_reflex(void **state)
 {
     expect(L_SHAPE, SUNDER_DECOMPOSITION_TRIANGULATION, 4, 0);
     expect(L_SHAPE, SUNDER_DECOMPOSITION_HERTEL_MEHLHORN, 2, 0);
-    expect(L_SHAPE, SUNDER_DECOMPOSITION_ANGLE_BISECTOR, 2, 0); /* a vertex stands in the cone */
+    expect(L_SHAPE, SUNDER_DECOMPOSITION_ANGLE_BISECTOR, 2, 0); /* a cut to the vertex in the cone */
     expect(L_SHAPE, SUNDER_DECOMPOSITION_VERTICAL, 2, 1);
     expect(L_SHAPE, SUNDER_DECOMPOSITION_OPTIMAL, 2, 0);
 }
@@ -85,8 +85,8 @@ static void test_pairs_of_reflex(void **state)
 {
     expect(PLUS, SUNDER_DECOMPOSITION_ANGLE_BISECTOR, 3, 0);
     expect(PLUS, SUNDER_DECOMPOSITION_OPTIMAL, 3, 0);
-    expect(PLUS, SUNDER_DECOMPOSITION_VERTICAL, 3, 0);        /* verticals that join two vertices are drawn once */
-    expect(TEETH, SUNDER_DECOMPOSITION_ANGLE_BISECTOR, 3, 0); /* to the corners of the base */
+    expect(PLUS, SUNDER_DECOMPOSITION_VERTICAL, 3, 0);        /* a vertical cut through two vertices is made once */
+    expect(TEETH, SUNDER_DECOMPOSITION_ANGLE_BISECTOR, 3, 0); /* cuts to the corners of the base */
     expect(TEETH, SUNDER_DECOMPOSITION_VERTICAL, 3, 2);
 }
 
@@ -100,8 +100,8 @@ static void test_hole(void **state)
     assert_int_equal(got.fallbacks, 1);
 }
 
-/* Nothing is in sight in the cone but the inside of an edge: a Steiner point, which saves a piece. A spike upwards
- * into a long roof. */
+/* The cone contains no vertex, only the inside of an edge: a cut to a Steiner point there saves a piece. A spike
+ * upwards into a long roof. */
 static void test_steiner(void **state)
 {
     expect("POLYGON((-9 0,-1 0,0 5,1 0,9 0,20 9,-20 9,-9 0))", SUNDER_DECOMPOSITION_ANGLE_BISECTOR, 2, 1);
@@ -109,8 +109,8 @@ static void test_steiner(void **state)
     expect("POLYGON((-9 0,-1 0,0 5,1 0,9 0,20 9,-20 9,-9 0))", SUNDER_DECOMPOSITION_OPTIMAL, 3, 0);
 }
 
-/* Cuts from three spikes in a room. From the one below a cut runs straight up to the roof; those from the left and from
- * the upper right end on it at one place, from both sides. */
+/* Cuts from three spikes in a room. The cut from the spike below runs straight up to the roof; those from the left and
+ * from the upper right end at the same point of it, from both sides. */
 static void test_cuts_meet_on_a_cut(void **state)
 {
     static const char wkt[] =
@@ -127,8 +127,9 @@ static void test_cuts_meet_on_an_edge(void **state)
     expect(wkt, SUNDER_DECOMPOSITION_ANGLE_BISECTOR, 3, 1);
 }
 
-/* A vertex that touches the line between two others: the best takes both halves of that line, and the piece above
- * has a straight corner there. Notches from the left, from the right and from below, their tips level. */
+/* A vertex that lies on the line between two others: the optimal decomposition uses both halves of that line, and the
+ * piece above has a straight corner there. Notches from the left, from the right and from below, with their tips at the
+ * same height. */
 static void test_straight_corner(void **state)
 {
     static const char wkt[] = "POLYGON((0 0,5 0,6 3,7 0,12 0,12 2,10 3,12 4,12 6,0 6,0 4,2 3,0 2,0 0))";
@@ -137,8 +138,8 @@ static void test_straight_corner(void **state)
     assert_true(merged.pieces > 3);
 }
 
-/* A cone that small integers do not reach into: a slit as thin as doubles make it. The cut is the extension of an
- * edge. */
+/* A cone that contains no point with small integer coordinates: a slit as thin as doubles allow. The cut is the
+ * extension of an edge. */
 static void test_thin_cone(void **state)
 {
     static const char wkt[] = "POLYGON((-1073741824 0,-4 0,1073741824 1,-3 0,1073741827 0,2147483648 1000,2147483648 "
@@ -196,7 +197,7 @@ static double perimeters(sunder_i_lattice *l, const sunder_i_decomposition *d)
     return sum;
 }
 
-/* The length of all boundaries of subsums, from the pieces themselves. */
+/* The total length of the boundaries of all subsums, computed from the pieces themselves. */
 static double objective(const sunder_shape *p, const sunder_shape *q, sunder_decomposition kind)
 {
     sunder_i_placed placed;
@@ -226,7 +227,7 @@ static void test_mixed(void **state)
         sunder_shape *p = polyset_shape(&set[0]), *q = polyset_shape(&set[1]);
         const double mixed = objective(p, q, SUNDER_DECOMPOSITION_MIXED),
                      optimal = objective(p, q, SUNDER_DECOMPOSITION_OPTIMAL);
-        /* Sums of doubles in different orders: a part in 10^9 is far more than they lose. */
+        /* The sums of doubles are added in different orders: 1e-9 of the sum is far more than the rounding error. */
         assert_true(mixed <= optimal * (1 + 1e-9));
         better += mixed < optimal * (1 - 1e-9);
         sunder_shape_free(p);
@@ -298,8 +299,8 @@ static int side(const qpoint *a, const qpoint *b, const qpoint *c)
     return s;
 }
 
-/* The sum's corners turn left and are sums of corners, and all sums of corners lie on the left of its sides: it is
- * their hull. */
+/* The corners of the sum turn left and are sums of corners, and all sums of corners are on the left of its sides: so it
+ * is their hull. */
 static void check_sum(const sunder_i_decomposition *p, uint32_t i, const sunder_i_decomposition *q, uint32_t j,
                       const sunder_i_convex_sum *s)
 {
@@ -363,7 +364,7 @@ static void test_convex_sum(void **state)
         }
 }
 
-/* Two squares of parallel sides: four sides, each of both. */
+/* Two squares with parallel sides: the sum has four sides, each made of one side of both. */
 static void test_parallel_sides(void **state)
 {
     sunder_shape *p = shape_of("POLYGON((0 0,2 0,2 2,0 2,0 0))"), *q = shape_of("POLYGON((0 0,1 0,1 3,0 3,0 0))");

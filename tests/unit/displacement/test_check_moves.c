@@ -1,4 +1,4 @@
-/* sunder_layer_check_moves(): each move that breaks a rule is reported with the rule, and no others are. */
+/* sunder_layer_check_moves(): each move that violates a rule is reported with the rule, and no others are. */
 #include "polyset.h"
 #include "sunder.h"
 
@@ -31,7 +31,7 @@ static void begin(scene *s, double gap)
     s->options.gap = gap;
 }
 
-/* Adds a feature with its place before and after. */
+/* Adds a feature with its geometries before and after. */
 static sunder_feature *add(scene *s, const char *was, const char *is)
 {
     sunder_feature *f = &s->was[s->n];
@@ -93,7 +93,7 @@ static void check_translates(void **state)
         }
         end(&s);
     }
-    /* Rounded: 0.1 and 0.7, each the nearest double to itself and 100. */
+    /* Rounding: 0.1 and 0.7 from the origin, and the same from 100, each rounded to the nearest double. */
     scene s;
     begin(&s, 0);
     add(&s, "POLYGON ((0.1 0, 0.7 0, 0.7 1, 0.1 1, 0.1 0))", "POLYGON ((100.1 0, 100.7 0, 100.7 1, 100.1 1, 100.1 0))");
@@ -122,8 +122,8 @@ static void check_limits(void **state)
     }
 }
 
-/* Far from the origin many moves round to the same vertices. If one of them is exact for all vertices it is the move,
- * even if a shorter one would keep the limit. */
+/* Far from the origin many moves round to the same vertices. If one of them is exact for all vertices it is taken as
+ * the move, even if a shorter one would be within the limit. */
 static void check_exact_moves(void **state)
 {
     const double move = 5 + 0x1p-33;
@@ -154,7 +154,7 @@ static void check_jumps(void **state)
                      : NEIGHBOUR);
         if (k == 3) s.was[0].block = s.was[1].block = 7;
         run(&s);
-        assert_int_equal(s.found_n, k == 0 ? 2 : 0); /* each over the other, as that sees it */
+        assert_int_equal(s.found_n, k == 0 ? 2 : 0); /* both jump: each crosses the other, relative to it */
         if (s.found_n) {
             assert_int_equal(s.found[0].kind, SUNDER_CONFLICT_JUMP);
             assert_true(s.found[0].a == 0 && s.found[0].b == 1 && s.found[0].from[0] == 2 && s.found[0].to[0] == 14);
@@ -172,7 +172,7 @@ static void check_jumps(void **state)
     end(&s);
 }
 
-/* A house that goes 8 to the right, beside a line; its side anchor is at (2, 2) unless something cuts it. */
+/* A house that moves 8 to the right, beside a line; its side anchor is (2, 2) unless the line cuts the house. */
 static void check_sides(void **state)
 {
     static const struct {
@@ -181,15 +181,16 @@ static void check_sides(void **state)
         bool side, crosses;
         double from[2];
     } line[] = {
-        {{5, -9, 5, 9}, 2, true, true, {2, 2}},         /* across */
-        {{5, -9, 5, 9}, 2, false, false, {0, 0}},       /* which is allowed */
-        {{5, 9, 5, 2}, 2, true, true, {2, 2}},          /* the way touches its end */
-        {{5, 9, 5, 3}, 2, true, false, {0, 0}},         /* passes below it */
-        {{12, -9, 12, 9}, 2, true, false, {0, 0}},      /* the house comes upon it, and its anchor does not */
-        {{1, -9, 1, 9}, 2, true, false, {0, 0}},        /* cuts off little */
-        {{3, -9, 3, 9}, 2, true, true, {2, 2}},         /* cuts off little on the other side */
-        {{2, -9, 2, 9}, 2, true, true, {1, 2}},         /* halves: the left one's middle */
-        {{2, -9, 2, 3, 6, 9}, 3, true, true, {2, 1.5}}, /* through the anchor: the larger part is beside it and below */
+        {{5, -9, 5, 9}, 2, true, true, {2, 2}},         /* the line crosses the path */
+        {{5, -9, 5, 9}, 2, false, false, {0, 0}},       /* the same line without sides: allowed */
+        {{5, 9, 5, 2}, 2, true, true, {2, 2}},          /* the path touches its end */
+        {{5, 9, 5, 3}, 2, true, false, {0, 0}},         /* the path passes below it */
+        {{12, -9, 12, 9}, 2, true, false, {0, 0}},      /* the house reaches the line, but its anchor does not */
+        {{1, -9, 1, 9}, 2, true, false, {0, 0}},        /* cuts a small part off, in front of the anchor's side */
+        {{3, -9, 3, 9}, 2, true, true, {2, 2}},         /* cuts a small part off on the other side */
+        {{2, -9, 2, 9}, 2, true, true, {1, 2}},         /* halves: the anchor is the centre of the left one */
+        {{2, -9, 2, 3, 6, 9}, 3, true, true, {2, 1.5}}, /* the line meets the anchor: the larger part is beside it and
+                                                         * below */
         {{3, 2}, 1, true, false, {0, 0}},               /* points have no sides */
     };
     for (size_t k = 0; k < sizeof line / sizeof *line; k++) {
@@ -211,7 +212,7 @@ static void check_sides(void **state)
     }
 }
 
-/* How often the house crosses the side of an area, on its way of 8 to the right. Frees the area. */
+/* The number of times that the house crosses the boundary of an area, on its path of 8 to the right. Frees the area. */
 static size_t crossings_of(sunder_shape *area)
 {
     scene s;
@@ -227,7 +228,7 @@ static size_t crossings_of(sunder_shape *area)
     return sides;
 }
 
-/* The same for areas: within, out of it, out of it and in again, past it. */
+/* The same for areas: a path inside the area, out of it, out and in again, past it. */
 static void check_sides_of_areas(void **state)
 {
     static const struct {
@@ -257,7 +258,7 @@ static void check_sides_of_repaired_areas(void **state)
         double xy[8];
         bool crosses;
     } area[] = {
-        {{6, -6, 12, 12, 12, -6, 6, 12}, true},   /* in, by an edge that begins at the crossing */
+        {{6, -6, 12, 12, 12, -6, 6, 12}, true},   /* into it, by an edge that begins at the crossing */
         {{7, 1, 8, 3, 8, 1, 7, 4}, true},         /* through both of its parts */
         {{-1, -3, 11, 8, 11, -4, -1, 8}, true},   /* out of one part, and into the other */
         {{-9, -9, 8, 2.125, 8, -9, -9, 9}, true}, /* out of one part, and into the other beyond the crossing */
@@ -277,7 +278,7 @@ static void check_sides_of_repaired_areas(void **state)
 
 static void check_worse(void **state)
 {
-    /* Two, one apart, with a gap of three: nearer, farther, into each other. */
+    /* Two features 1 apart with a gap of 3: they come nearer, farther apart, or overlap. */
     static const char *const to[] = {"POLYGON ((5 0, 9 0, 9 4, 5 4, 5 0))", NEIGHBOUR,
                                      "POLYGON ((7 0, 11 0, 11 4, 7 4, 7 0))", "POLYGON ((3 0, 7 0, 7 4, 3 4, 3 0))"};
     for (int k = 0; k < 4; k++) {

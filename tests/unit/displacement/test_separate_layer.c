@@ -1,4 +1,4 @@
-/* Whole layers of few features with known answers: which pairs are in conflict, which features move, and which
+/* Whole layers of few features with known results: which pairs are in conflict, which features move, and which
  * cannot. */
 #include "scene.h"
 
@@ -12,7 +12,7 @@
 
 #include <cmocka.h>
 
-/* In doubles, which assert_float_equal() is not. */
+/* Compares in doubles; assert_float_equal() uses floats. */
 #define assert_near(a, b, tolerance) assert_true(fabs((a) - (b)) <= (tolerance))
 
 /* Moves are rounded outward by some units in the last place; nothing here is larger than a few hundred. */
@@ -46,7 +46,7 @@ static void check_two_squares(void **state)
     assert_int_equal(s.summary.before.overlap, 1);
     assert_int_equal(scene_left(&s), 0);
     assert_int_equal(s.summary.moved, 2);
-    /* Two apart along x, shared evenly: cost 1 + 1. */
+    /* Two squares separate along x, with equal moves: cost 1 + 1. */
     assert_near(scene_length(&s, 0), 1, HAIR);
     assert_near(scene_length(&s, 1), 1, HAIR);
     assert_near(s.summary.cost, 2, 10 * HAIR);
@@ -62,7 +62,7 @@ static void check_weights(void **state)
     scene_add_box(&s, 0, 0, 10, 10)->weight = 3;
     scene_add_box(&s, 8, 1, 10, 10);
     scene_separate(&s);
-    /* 3 a^2 + b^2 with a + b = 2 is least at a = 1/2. */
+    /* The cost 3 a^2 + b^2 with a + b = 2 is least for a = 1/2. */
     assert_near(scene_length(&s, 0), 0.5, HAIR);
     assert_near(scene_length(&s, 1), 1.5, HAIR);
     assert_near(s.summary.lower_bound, 3, 1e-6);
@@ -104,7 +104,7 @@ static void check_limits(void **state)
     assert_int_equal(scene_left(&s), 0);
     assert_true(scene_length(&s, 0) <= 0.25);
     assert_near(scene_length(&s, 1), 1.75, 1e-6);
-    /* Together too little: the pair is listed, and no body moves to ease it. */
+    /* Both limits together are too short: the pair is listed, and no body moves to reduce the overlap. */
     s.feature[1].max_shift = 0.5;
     scene_separate(&s);
     assert_int_equal(scene_left(&s), 1);
@@ -119,7 +119,7 @@ static void check_limits(void **state)
     scene_end(&s);
 }
 
-/* What is missing is less than the last bit of the limits' sum, as doubles give it. */
+/* The missing distance is less than the last bit of the sum of the limits in doubles. */
 static void check_limits_short_by_a_bit(void **state)
 {
     const double limit[][2] = {{1, 2}, {1, nextafter(2, 0)}, {0.1, 2.9}, {0, nextafter(3, 0)}, {0, 3}};
@@ -143,8 +143,8 @@ static void check_chain_without_room(void **state)
 {
     scene s;
     scene_begin(&s, 1);
-    /* Three between two walls 12 apart, where four gaps of 1 and three widths of 3 need 13, and with moves of 2
-     * the middle one could just pass below the others; a fourth elsewhere has room. */
+    /* Three squares between two walls 12 apart: four gaps of 1 and three widths of 3 need 13. With moves of 2 the
+     * middle one could just pass below the others. A fourth, elsewhere, has room. */
     scene_add_box(&s, -10, -50, 10, 100)->fixed = true;
     scene_add_box(&s, 12, -50, 10, 100)->fixed = true;
     for (int k = 0; k < 3; k++) scene_add_box(&s, 1 + 3.5 * k, 0, 3, 3)->max_shift = 1.75;
@@ -154,7 +154,7 @@ static void check_chain_without_room(void **state)
     assert_int_equal(sunder_report_status(s.report, 5), SUNDER_FEATURE_MOVED);
     size_t n;
     const sunder_conflict *c = sunder_report_conflicts(s.report, &n);
-    /* Either gap between the three could only grow if the other shrank, which nothing may: all stay. */
+    /* Each of the gaps between the three could only grow if another one shrank, which is forbidden: all stay. */
     assert_int_equal(n, 2);
     for (size_t k = 0; k < n; k++) {
         assert_int_equal(c[k].kind, SUNDER_CONFLICT_TOO_CLOSE);
@@ -165,7 +165,7 @@ static void check_chain_without_room(void **state)
 }
 
 /* Twelve houses wall to wall, each of which may move a third of the distance that would make room for the gaps: every
- * remaining conflict is proved, though each pair by itself has room. */
+ * remaining conflict is proved, though each pair by itself could be separated. */
 static void check_row_without_room(void **state)
 {
     scene s;
@@ -190,9 +190,9 @@ static void check_courtyard(void **state)
     scene_separate(&s);
     assert_int_equal(s.summary.before.too_close, 1);
     assert_int_equal(scene_left(&s), 0);
-    assert_true(s.summary.max < 1); /* there is room inside */
+    assert_true(s.summary.max < 1); /* there is enough room inside */
     scene_end(&s);
-    /* No room: the one inside has to leave, if it may jump; else it stays. */
+    /* Not enough room: the feature inside has to leave, if it may jump; otherwise it stays. */
     for (int jumps = 0; jumps < 2; jumps++) {
         scene_begin(&s, 3);
         scene_add(&s, "POLYGON ((0 0, 30 0, 30 30, 0 30, 0 0), (10 10, 20 10, 20 20, 10 20, 10 10))");
@@ -206,7 +206,7 @@ static void check_courtyard(void **state)
     }
 }
 
-/* A yard too narrow for the gap, and no move long enough to leave it: the house stays in it, no worse off than
+/* A courtyard too narrow for the gap, and no move long enough to leave it: the house stays in it, no worse off than
  * before. */
 static void check_narrow_yard(void **state)
 {
@@ -226,8 +226,8 @@ static void check_narrow_yard(void **state)
     scene_end(&s);
 }
 
-/* The same, with moves long enough to leave it: the rule against jumps forbids that, with a proof; and a limit too
- * short to leave it is reported first. */
+/* The same, with moves long enough to leave it: the rule against jumps forbids that, with a proof; if the limit is too
+ * short to leave it, that is the reported reason. */
 static void check_yard_without_gate(void **state)
 {
     for (int k = 0; k < 3; k++) {
@@ -244,7 +244,7 @@ static void check_yard_without_gate(void **state)
         assert_true(s.summary.verified);
         scene_end(&s);
     }
-    /* A gate: if the path of the anchor is free, the house may leave. */
+    /* A courtyard with a gate: if the path of the anchor is free, the house may leave. */
     scene s;
     scene_begin(&s, 3);
     scene_add(&s, "POLYGON ((0 0, 20 0, 20 20, 0 20, 0 13, 5 13, 5 15, 15 15, 15 5, 5 5, 5 7, 0 7, 0 0))")->max_shift =
@@ -255,7 +255,7 @@ static void check_yard_without_gate(void **state)
     scene_end(&s);
 }
 
-/* A hut between two fixed walls that it cannot keep the gap from, and neighbours with room: none moves for the hut. */
+/* A hut between two fixed walls that leave no room for the gap, and neighbours with room: none moves for the hut. */
 static void check_nothing_worse(void **state)
 {
     scene s;
@@ -272,7 +272,7 @@ static void check_nothing_worse(void **state)
     assert_int_equal(s.summary.moved, 0);
     assert_true(s.summary.verified);
     scene_end(&s);
-    /* An overlap gets no deeper, although a neighbour presses. */
+    /* An overlap does not get deeper, although a neighbour presses. */
     scene_begin(&s, 0);
     scene_add_box(&s, 0, 0, 10, 10)->fixed = true;
     scene_add_box(&s, 6, 0, 10, 10)->max_shift = 1;

@@ -94,7 +94,8 @@ static bool stop_later(double fraction, void *user)
     return --*(long *)user > 0;
 }
 
-/* Stopped at every place that asks: no report, no leak, and the word for it. */
+/* The progress function stops the run at each of its calls in turn: there is no report, no leak, and the right
+ * status. */
 static void check_cancel_anywhere(void **state)
 {
     scene s;
@@ -121,7 +122,7 @@ static void check_cancel_anywhere(void **state)
     }
     assert_int_equal(status, SUNDER_OK);
     assert_null(upheld_breach(s.feature, s.n, &s.options, s.report));
-    assert_true(calls > 100); /* it was asked within the search, too */
+    assert_true(calls > 100); /* the search called it, too */
     sunder_layer_free(layer);
     scene_end(&s);
 }

@@ -1,5 +1,5 @@
-/* A layer whose every allocation fails in turn: an error each time, nothing leaked, and the same result when none
- * fails. */
+/* A layer for which every allocation fails in turn: each failure gives an error and no leak, and the result is the same
+ * when none fails. */
 #include "failing.h"
 
 #include "displacement/layer/sides.h"
@@ -20,12 +20,12 @@ enum { HOUSES = 6 };
 typedef struct street {
     sunder_shape *shape[HOUSES];
     bool check, moves;
-    double limit; /* of all: 1.1 is enough for each pair, and for all together not */
+    double limit; /* of all features: 1.1 is enough for each pair, but not for all together */
     bool barriers;
     sunder_layer_options options;
 } street;
 
-/* Two that touch, one that overlaps them, a fixed one, one beside it that may not go far, one far off. */
+/* Two features that touch, one that overlaps them, a fixed one, one beside it with a small limit, one far away. */
 static bool make(street *s)
 {
     static const double at[HOUSES][2] = {{0, 0}, {10, 0}, {18, 2}, {28.5, 0}, {25, 12}, {100, 100}};
@@ -38,7 +38,7 @@ static bool make(street *s)
     return true;
 }
 
-/* A road through one feature, a pole beside another, and an area at the one far away. */
+/* A road through one feature, a point barrier near another, and an area near the far one. */
 static sunder_status set_barriers(const street *s, sunder_layer *layer, sunder_error *err)
 {
     static const double xy[] = {-5, 3, 5, 4, 15, -3, 40, 5};
@@ -83,7 +83,7 @@ static bool attempt(void *context)
     return status == SUNDER_OK;
 }
 
-/* A house in which a road ends; or it and another, between the road and an area. */
+/* A house in which a road ends; or that house and another one, between the road and an area. */
 typedef struct lane {
     size_t houses;
     double limit;
@@ -169,7 +169,7 @@ static void check_separate_with_gap(void **state) { run(false, 1, INFINITY); }
 static void check_separate_without_room(void **state) { run(false, 0, 1.1); }
 static void check_beside_barriers(void **state) { run_beside(true, 1, INFINITY, true); }
 
-/* No feature moved; but the sides of features that the road cuts are computed. */
+/* No feature moved; but the side anchors of features that the road cuts are computed. */
 static void check_moves_beside_barriers(void **state)
 {
     street s = {.check = true, .moves = true, .limit = INFINITY, .barriers = true};
@@ -196,14 +196,14 @@ static bool find_lines(void *user, const double box[4], const sunder_i_side *con
     return true;
 }
 
-/* A comb cut in two by a line through its anchor: another one is found at a height where all teeth are crossed, by more
- * numbers than memory is fetched for at once. */
+/* A comb cut in two by a line through its anchor: another anchor is found at a height where all teeth are crossed, by
+ * more numbers than one allocation holds. */
 static bool attempt_anchor(void *context)
 {
     double xy[2 * (4 * TEETH + 2)];
     const size_t ring_end = 4 * TEETH + 2, poly_end = 1;
     size_t n = 0;
-    for (int k = 0; k < 4 * TEETH; k++) { /* corners from right to left, by twos up and down */
+    for (int k = 0; k < 4 * TEETH; k++) { /* corners from right to left, alternating in pairs between top and bottom */
         xy[n++] = 451234.567 + 1.25 * (4 * TEETH - k);
         xy[n++] = 5411234.567 + (k % 4 == 1 || k % 4 == 2 ? 90.125 : 10.25);
     }
@@ -217,7 +217,7 @@ static bool attempt_anchor(void *context)
         const double from[2] = {anchor[0], anchor[1] - 500}, to[2] = {anchor[0], anchor[1] + 500};
         const sunder_i_side side = {.from = from, .to = to}, *const sides[1] = {&side};
         lines both = {{&side}, 1};
-        /* All parts are as good as the largest, so the room of each is computed. */
+        /* All parts are as large as the largest, so the free distance of each is computed. */
         const sunder_i_side_scope scope = {1e6, find_lines, &both};
         status = sunder_i_side_anchor(shape, sides, 1, &scope, anchor, NULL);
         if (!status) assert_true(anchor[0] != from[0]);

@@ -1,6 +1,6 @@
 /* The stages that the progress of a separation reports: questions about remaining conflicts belong to the stage
- * `explain`, not to `verify`. Work is measured by the number of progress calls, which depends on steps and not on
- * time. */
+ * `explain`, not to `verify`. The amount of work is measured by the number of progress calls, which depends on steps
+ * and not on time. */
 #include "scene.h"
 
 #include <setjmp.h>
@@ -29,7 +29,7 @@ static bool count(double fraction, void *user)
     return true;
 }
 
-/* Rows of houses that overlap, with so little way that most conflicts remain, at that effort. */
+/* Rows of overlapping houses with limits so short that most conflicts remain, at that effort. */
 static calls separate(double effort)
 {
     scene s;

@@ -1,5 +1,5 @@
-/* sunder_minkowski_sum() beside its answers: empty operands, the same operand twice, stopping, memory that runs out at
- * every allocation, numbers beyond the range of doubles. */
+/* sunder_minkowski_sum() apart from its results: empty operands, the same operand twice, stopping, memory that runs out
+ * at every allocation, numbers beyond the range of doubles. */
 #include "failing.h"
 #include "generate.h"
 #include "sum_text.h"
@@ -71,7 +71,7 @@ static void test_same_operand(void **state)
     sunder_shape_free(q);
 }
 
-/* Adds the ring of the square of half side r, its corners (u, v) put at (a u + c v, b u + d v). */
+/* Adds the ring of the square with half side r, whose corners (u, v) are mapped to (a u + c v, b u + d v). */
 static void skewed_square(polyset *set, const double m[4], double r, bool hole)
 {
     static const double corner[4][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
@@ -89,7 +89,7 @@ static void skewed_frame(polyset *set, const double m[4], double outer, double i
     polyset_end_polygon(set);
 }
 
-/* Each polygon's area, by its outer ring less its hole in units of the frame, says which frame it is. */
+/* The area of each polygon, outer ring minus hole in units of its frame, tells which frame it is. */
 static void expect_frames(const sunder_sum *sum, const double m[4])
 {
     static const double outer[3] = {91, 61, 31}, inner[3] = {79, 49, 19};
@@ -107,7 +107,7 @@ static void expect_frames(const sunder_sum *sum, const double m[4])
             double a[2], b[2];
             assert_int_equal(corners, 4);
             sunder_sum_vertex(sum, ring[0], a);
-            sunder_sum_vertex(sum, ring[2], b); /* the opposite one: the difference is 2 r (+-(a, b) +- (c, d)) */
+            sunder_sum_vertex(sum, ring[2], b); /* the opposite corner: the difference is 2 r (+-(a, b) +- (c, d)) */
             half[r] = fabs(b[0] - a[0]) / (2 * (m[0] + m[2])); /* exact: all are integers below 2^53 */
         }
         for (int k = 0; k < 3; k++) found[k] = found[k] || (half[0] == outer[k] && half[1] == inner[k]);
@@ -115,8 +115,8 @@ static void expect_frames(const sunder_sum *sum, const double m[4])
     assert_true(found[0] && found[1] && found[2]);
 }
 
-/* Three frames, each inside the hole of the next, so slanted (by matrices of determinant 1) that their areas in doubles
- * are mostly noise: each hole belongs to its own frame, for any order of the members. */
+/* Three frames, each inside the hole of the next, sheared (by matrices of determinant 1) so much that their areas in
+ * doubles are mostly rounding error: each hole is assigned to its own frame, for any order of the members. */
 static void test_nested_slivers(void **state)
 {
     (void)state;
@@ -222,7 +222,7 @@ static bool sum_run(void *context)
     if (!status) status = sunder_sum_area_text(sum, &area, &err);
     if (!status) status = sunder_sum_vertex_text(sum, 0, &x, &y, &err);
     if (status && (status != SUNDER_ENOMEM || err.status != SUNDER_ENOMEM)) print_message("status %d\n", (int)status);
-    /* Outputs of a failed call are untouched, so everything here is either made or NULL. */
+    /* A failed call leaves outputs untouched, so every pointer here is either valid or NULL. */
     sunder_free(x);
     sunder_free(y);
     sunder_free(area);
@@ -254,8 +254,8 @@ static void test_out_of_memory(void **state)
     }
 }
 
-/* Members that are apart, that overlap once they are grown, and that share a wall, which takes three roads; and enough
- * bars that only the needed sums are made. */
+/* Members that are apart, that overlap after dilation, and that share a wall, which use three different algorithms; and
+ * enough bars that only the needed sums are computed. */
 static void test_out_of_memory_in_members(void **state)
 {
     (void)state;
@@ -278,7 +278,7 @@ static void test_out_of_memory_in_members(void **state)
     }
 }
 
-/* The exact sum is beyond all doubles: the texts are right, the doubles infinite. */
+/* The exact sum is beyond all doubles: the texts are right, the doubles are infinite. */
 static void test_beyond_doubles(void **state)
 {
     (void)state;
@@ -304,8 +304,8 @@ static void test_beyond_doubles(void **state)
     polyset_free(&p);
 }
 
-/* The deviation of a ring as a whole is at least that of each of its vertices. This holds at the origin, far out, and
- * beyond the range in which doubles have fractions; the doubles of each vertex are compared with its text. */
+/* The deviation of a ring as a whole is at least that of each of its vertices: at the origin, far from it, and where
+ * doubles have no fractions; the doubles of each vertex are compared with its text. */
 static void test_deviation(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-/* sunder_morphology() and sunder_shape_union(): known answers, refused arguments, stopping, and memory that runs
+/* sunder_morphology() and sunder_shape_union(): known results, refused arguments, stopping, and memory that runs
  * out. */
 #include "failing.h"
 #include "sum_text.h"
@@ -46,8 +46,8 @@ static void expect_text(const char *p, const char *b, sunder_operation operation
     "{\"polygons\": [{\"outer\": [[\"" x0 "\", \"" y0 "\"], [\"" x1 "\", \"" y0 "\"], [\"" x1 "\", \"" y1              \
     "\"], [\"" x0 "\", \"" y1 "\"]], \"holes\": []}], \"degenerate_segments\": [], \"degenerate_points\": []}"
 
-/* A hall exactly as wide as the square that slides in it: the erosion is the slide, and opening it gives the
- * hall back. */
+/* A hall exactly as wide as the square: the erosion is the segment along which the square slides, and the opening is
+ * the hall. */
 static void test_hall(void **state)
 {
     expect_text(
@@ -58,7 +58,7 @@ static void test_hall(void **state)
     expect_text(HALL, SQUARE, SUNDER_OPERATION_DILATE, RECTANGLE("-2", "-2", "6", "12"));
 }
 
-/* A shape fits into itself in one place. */
+/* A shape fits into itself in exactly one place. */
 static void test_key(void **state)
 {
     expect_text(ELL, ELL, SUNDER_OPERATION_ERODE,
@@ -69,7 +69,7 @@ static void test_key(void **state)
     expect_text(EMPTY, HALL, SUNDER_OPERATION_CLOSE, NOTHING);
 }
 
-/* A room and a corridor exactly as wide as the square: a polygon with a segment hanging off it. */
+/* A room and a corridor exactly as wide as the square: the erosion is a polygon with an attached segment. */
 static void test_room_and_corridor(void **state)
 {
     expect_text("POLYGON ((0 0, 10 0, 10 3, 20 3, 20 7, 10 7, 10 10, 0 10))", SQUARE, SUNDER_OPERATION_ERODE,
@@ -87,7 +87,7 @@ static void test_rational(void **state)
         "\"holes\": []}], \"degenerate_segments\": [], \"degenerate_points\": []}");
 }
 
-/* Gaps as wide as the square are closed, wider ones are not. */
+/* Gaps exactly as wide as the square are closed, wider ones are not. */
 static void test_gap(void **state)
 {
     expect_text("MULTIPOLYGON (((0 0, 10 0, 10 10, 0 10)), ((14 0, 20 0, 20 10, 14 10)))", SQUARE,
@@ -105,7 +105,7 @@ static void test_gap(void **state)
     sunder_shape_free(b);
 }
 
-/* Far from the origin, on a fine lattice, and repaired by the even-odd rule: the same, moved. */
+/* Far from the origin, on a fine lattice, and repaired by the even-odd rule: the result is the same, translated. */
 static void test_places(void **state)
 {
     const double bow[10] = {0, 0, 3, 3, 3, 0, 0, 3, 0, 0};
@@ -133,7 +133,7 @@ static void test_places(void **state)
     sunder_shape_free(b);
 }
 
-/* A member pinched in two, a hole that touches its ring, members that share a wall. */
+/* A member that touches itself in a point, a hole that touches its ring, members that share a wall. */
 static void test_union(void **state)
 {
     sunder_shape *p = shape_of("MULTIPOLYGON (((0 0, 4 0, 4 4, 0 4), (0 2, 1 1, 2 2, 1 3)), ((4 0, 6 0, 6 4, 4 4)))");
@@ -168,7 +168,7 @@ static void test_vertices(void **state)
         sunder_sum_vertex(sum, ring[i], one);
         assert_memory_equal(one, xy + 2 * i, sizeof one);
     }
-    /* 7 + 0.1 and 3 + 0.3 are no doubles; half a unit of 8 and of 4 at most. */
+    /* 7 + 0.1 and 3 + 0.3 are not doubles; the error is at most half a unit in the last place of 8 and of 4. */
     assert_true(off > 0 && off <= 0x1p-51);
     sunder_sum_free(sum);
     sunder_shape_free(p);
@@ -207,7 +207,7 @@ typedef struct stopping {
     double reached;
 } stopping;
 
-/* Progress never goes back. */
+/* The reported progress never decreases. */
 static bool stop_at(double fraction, void *user)
 {
     stopping *s = user;
@@ -216,7 +216,7 @@ static bool stop_at(double fraction, void *user)
     return s->left-- > 0;
 }
 
-/* Stopped at every chance there is, until it runs through. */
+/* Stopped at each possible call in turn, until it completes. */
 static void test_stopping(void **state)
 {
     sunder_shape *p = shape_of("MULTIPOLYGON (((0 0, 4 0, 4 4, 0 4)), ((3 3, 8 3, 8 8)))"), *b = shape_of(ELL);
@@ -237,7 +237,7 @@ static void test_stopping(void **state)
     sunder_shape_free(b);
 }
 
-/* A union asks now and then, so it takes many members. */
+/* A union rarely calls the progress function, so this takes many members. */
 static void test_stopping_a_union(void **state)
 {
     enum { MEMBERS = 2000 };
@@ -263,7 +263,7 @@ static void test_stopping_a_union(void **state)
 
 typedef struct attempt {
     sunder_shape *p, *b;
-    int operation; /* past the last: the union */
+    int operation; /* one past the last operation: the union */
 } attempt;
 
 static bool try_it(void *context)

@@ -1,5 +1,5 @@
-/* Routes through the interface: arguments, reasons, exact answers, places of any size, numbers on every rung, and
- * memory that runs out anywhere. */
+/* Routes through the public interface: arguments, reasons, exact results, coordinates of any size, all kinds of
+ * numbers, and memory that runs out anywhere. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -67,7 +67,8 @@ static void round_a_wall(void **state)
     sunder_shape_free(q);
 }
 
-/* The obstacles united are the sum of the obstacles and the robot turned by half a turn. */
+/* The obstacles of the configuration space are the Minkowski sum of the obstacles and the robot turned by half a
+ * turn. */
 static void obstacles_are_a_sum(void **state)
 {
     static const double bent[] = {0, 0, 9, 0, 9, 2, 2, 2, 2, 6, 9, 6, 9, 8, 0, 8},
@@ -103,13 +104,14 @@ static void obstacles_are_a_sum(void **state)
     sunder_shape_free(minus);
 }
 
-/* A tie between above and below, at coordinates that need big integers, from fractions with long terms. */
+/* A tie between above and below, for coordinates that need big integers: fractions with long numerators and
+ * denominators. */
 static void every_rung(void **state)
 {
     static const double scale[] = {1, 0x1p-300, 0x1p300, 1e-9};
     for (size_t i = 0; i < sizeof scale / sizeof *scale; i++) {
         const double s = scale[i];
-        double small[8], far[2] = {1e9, 1e-7}; /* a point that is far away, with digits of its own */
+        double small[8], far[2] = {1e9, 1e-7}; /* a point far away, with many digits */
         for (int k = 0; k < 8; k++) small[k] = s * robot[k];
         const size_t end = 1;
         sunder_shape *q = shape_of(small, 4);
@@ -125,7 +127,7 @@ static void every_rung(void **state)
     }
     sunder_shape *q = shape_of(robot, 4);
     const sunder_obstacle o = {q, NULL, NULL, 0};
-    /* A coordinate of 1/3, and one that is outside the obstacle by less than any double could distinguish. */
+    /* A coordinate of 1/3, and one that is outside the obstacle by less than doubles can distinguish. */
     const sunder_place from = {
         {0, 0}, {"-200000000000000000000000000000000000000001/100000000000000000000000000000000000000000", "1/3"}};
     const sunder_place inside = {
@@ -145,8 +147,8 @@ static void every_rung(void **state)
     sunder_shape_free(q);
 }
 
-/* The path above and the path below differ in length by less than any double can express: they are distinguished down
- * to 2^-256 of the length, and equal beyond. */
+/* The lengths of the path above and the path below differ by less than a double can represent: differences down to
+ * 2^-256 of the length are distinguished, smaller ones count as equal. */
 static void nearly_tied(void **state)
 {
     static const struct {
@@ -181,7 +183,7 @@ static void rational_obstacles(void **state)
     sunder_route *r = find(&o, 1, q, at(-3, 2), at(10, 2));
     assert_true(sunder_route_vertices(r) > 2 && sunder_route_length(r) > 13);
     sunder_route_free(r);
-    /* At the crossing, where the bow has no breadth, a robot still collides. */
+    /* At the crossing, where the obstacle has no width, a robot still collides. */
     r = find(&o, 1, q, at(2.625, 1.875), at(10, 2));
     assert_int_equal(sunder_route_reason(r, NULL), SUNDER_ROUTE_START_COLLIDES);
     sunder_route_free(r);
@@ -189,12 +191,13 @@ static void rational_obstacles(void **state)
     sunder_shape_free(q);
 }
 
-/* A point or a line that lies along a diagonal between the robot's pieces, or along the wall of two members
- * is inside. */
+/* A point or a line on a diagonal between the robot's pieces, or on the common wall of two members, counts as
+ * inside. */
 static void lines_inside_the_robot(void **state)
 {
     static const double ell[] = {0, 0, 4, 0, 4, 2, 2, 2, 2, 4, 0, 4}, dart[] = {0, 0, 8, 2, 0, 4, 2, 2};
-    static const double bow[] = {0, 0, 8, 0, 1, 5, 8, 7, 0, 7, 5, 2}; /* crosses itself: rational corners */
+    /* crosses itself, so that it has rational corners */
+    static const double bow[] = {0, 0, 8, 0, 1, 5, 8, 7, 0, 7, 5, 2};
     static const double two[] = {0, 0, 2, 0, 2, 4, 0, 4, 2, 0, 4, 0, 4, 4, 2, 4};
     static const double inside[][2] = {{1, 1}, {4, 2}, {3, 1}, {2, 3}};
     static const size_t rings[][2] = {{6, 0}, {4, 0}, {6, 0}, {4, 8}}, polygons[][2] = {{1, 0}, {1, 0}, {1, 0}, {1, 2}};
@@ -220,7 +223,7 @@ static void lines_inside_the_robot(void **state)
         }
 }
 
-/* Prints all corners of a route as texts, "-" if there is none. */
+/* Writes all corners of a route as texts, "-" if there is none. */
 static void tell(const sunder_route *r, char *out, size_t size)
 {
     size_t n = (size_t)snprintf(out, size, "%s", sunder_route_vertices(r) ? "" : "-");
@@ -232,8 +235,8 @@ static void tell(const sunder_route *r, char *out, size_t size)
     }
 }
 
-/* Obstacles on a small grid, and one so far away that in doubles all the others are one place, or some: it changes no
- * route, and routes back are as long. */
+/* Obstacles on a small grid, and one so far away that doubles merge some or all of the others into one place: it
+ * changes no route, and routes back have the same length. */
 static void near_ones_beside_a_far_one(void **state)
 {
     rng g = rng_start(test_seed(), 5);
@@ -374,14 +377,14 @@ static void memory_runs_out(void **state)
     a.gap = 0.25;
     assert_true(failing_loop(try_route, &a, false));
     a.gap = 0;
-    a.o[1].xy = fine; /* big integers */
+    a.o[1].xy = fine; /* so fine that the lattice needs big integers */
     assert_true(failing_loop(try_route, &a, false));
     /* Components with holes of their own. */
     static const double fences[] = {20, 0, 29, 0, 29, 9, 20, 9, 20, 0, 40, 0, 49, 0, 49, 9, 40, 9, 40, 0};
     const size_t fence_end[] = {5, 10};
     a.o[1] = (sunder_obstacle){NULL, fences, fence_end, 2};
     assert_true(failing_loop(try_route, &a, false));
-    /* Two members that touch, one of them not convex, among lines and points. */
+    /* Two members that touch, one of them not convex, together with lines and points. */
     static const double members[] = {-1, -1, 0, -1, 0, 1, -1, 1, 0, -1, 1, -1, 0.5, 0, 1, 1, 0, 1};
     const size_t rings[] = {4, 9}, polygons[] = {1, 2};
     sunder_shape *m;

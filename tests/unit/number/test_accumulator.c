@@ -1,4 +1,4 @@
-/* number/accumulator: sums of products of doubles of every size against GMP's rationals. */
+/* number/accumulator: sums of products of doubles of every size, compared with GMP's rationals. */
 #include "number/accumulator.h"
 #include "random.h"
 #include "sunder_parts.h"
@@ -13,7 +13,7 @@
 
 #include <cmocka.h>
 
-/* Any finite double: exponents all over the range, few or many bits, subnormals too. */
+/* Any finite double: exponents over the whole range, few or many bits, subnormals too. */
 static double any_double(rng *g)
 {
     const double m = rng_int(g, 0, 1) ? rng_unit(g) : (double)rng_int(g, 0, 9);
@@ -21,7 +21,8 @@ static double any_double(rng *g)
     return rng_int(g, 0, 1) ? -v : v;
 }
 
-/* Is d the nearest double to q, ties to even? Below the midpoint to either neighbour, or on it with an even end. */
+/* Is d the nearest double to q, ties to even? q is closer to d than the midpoints to its neighbours, or on a midpoint
+ * if d is even. */
 static void demand_nearest(mpq_t q, double d)
 {
     mpq_t edge, value;
@@ -53,7 +54,7 @@ static void test_random_sums(void **state)
         double x = 0, y = 0;
         const int n = (int)rng_int(&g, 1, 12);
         for (int k = 0; k < n; k++) {
-            const bool again = k > 0 && rng_int(&g, 0, 2) == 0; /* takes the last one away */
+            const bool again = k > 0 && rng_int(&g, 0, 2) == 0; /* subtracts the last product again */
             if (!again) x = any_double(&g), y = any_double(&g);
             mpq_set_d(a, x);
             mpq_set_d(b, y);
@@ -73,7 +74,7 @@ static void test_random_sums(void **state)
         else
             mpq_div_2exp(sum, sum, (mp_bitcnt_t)-e);
         const double d = sunder_i_accumulator_double(&t, e);
-        if (isinf(d)) { /* from DBL_MAX plus half a unit on */
+        if (isinf(d)) { /* true from DBL_MAX plus half a unit on */
             mpq_set_d(a, DBL_MAX);
             mpq_set_d(b, 0x1p970);
             mpq_add(a, a, b);
@@ -94,14 +95,14 @@ static void test_ends(void **state)
     sunder_i_accumulator_sub(&t, 0x1p-1074, 0x1p-1074);
     assert_true(sunder_i_accumulator_sign(&t) < 0 && sunder_i_accumulator_double(&t, 0) == 0);
     assert_true(sunder_i_accumulator_double(&t, 1074) == -0x1p-1074);
-    assert_true(sunder_i_accumulator_double(&t, 1073) == 0); /* half of the least double: a tie, to even */
+    assert_true(sunder_i_accumulator_double(&t, 1073) == 0); /* half of the least double is a tie, rounded to even: 0 */
     for (int k = 0; k < 1000; k++) sunder_i_accumulator_add(&t, DBL_MAX, DBL_MAX);
     assert_true(sunder_i_accumulator_sign(&t) > 0 && isinf(sunder_i_accumulator_double(&t, 0)));
     for (int k = 0; k < 1000; k++) sunder_i_accumulator_sub(&t, DBL_MAX, DBL_MAX);
     assert_true(sunder_i_accumulator_double(&t, 1074) == -0x1p-1074);
 }
 
-/* Sums of any doubles, some of them joined from parts: rounded to nearest, and never above. */
+/* Sums of any doubles, some of them merged from partial sums: rounded to the nearest, and rounded down. */
 static void test_totals(void **state)
 {
     (void)state;

@@ -58,7 +58,7 @@ static void assert_holds(sunder_i_ball b, const mpq_t v)
     assert_true(sign == 0 || sign == mpq_sgn(v));
 }
 
-/* Demands that the ball contains the root of v, by its square. */
+/* Demands that the ball contains the square root of v, by comparing squares. */
 static void assert_holds_root(sunder_i_ball b, const mpq_t v)
 {
     assert_true(is_canonical(b));
@@ -74,7 +74,7 @@ static void assert_holds_root(sunder_i_ball b, const mpq_t v)
     mpq_clears(end, square, NULL);
 }
 
-/* Numbers of up to 2000 bits; some short, some near others, some zero. */
+/* Numbers of up to 2000 bits; some are short, some near others, some zero. */
 static sunder_i_big random_big(sunder_i_arena *a, rng *r, sunder_i_big near)
 {
     const int64_t bits = rng_once_in(r, 3) ? 40 : 2000;
@@ -156,14 +156,14 @@ static void what_is_far_apart_is_told(void **state)
     assert_int_equal(sunder_i_ball_sign(sunder_i_ball_sub(tiny, one)), -1);
     assert_int_equal(sunder_i_ball_sign(sunder_i_ball_mul(huge, tiny)), 1);
     assert_int_equal(sunder_i_ball_sign(sunder_i_ball_sub(sunder_i_ball_sqrt(huge), one)), 1);
-    /* 1 - 3 / 3 may be any number near zero, so nothing is known about a quotient by it. */
+    /* 1 - 3 / 3 may be any number near zero, so a quotient by it has no bounds. */
     const sunder_i_ball zero = sunder_i_ball_sub(one, sunder_i_ball_div(three, three));
     const sunder_i_ball anything = sunder_i_ball_div(huge, zero);
     assert_int_equal(sunder_i_ball_sign(zero), 0);
     assert_true(anything.radius == (double)INFINITY);
     assert_int_equal(sunder_i_ball_sign(sunder_i_ball_add(sunder_i_ball_mul(anything, tiny), huge)), 0);
     assert_int_equal(sunder_i_ball_sign(sunder_i_ball_sqrt(anything)), 0);
-    /* Exact ones cancel exactly. */
+    /* The difference of equal exact numbers is exact. */
     assert_true(sunder_i_ball_sub(three, three).radius == 0);
     sunder_i_arena_free(&a);
 }

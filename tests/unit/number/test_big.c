@@ -1,4 +1,4 @@
-/* number/big: integers of any size, their ratios as doubles and as text, against GMP. */
+/* number/big: integers of any size, their ratios as doubles and as text, compared with GMP. */
 #include "failing.h"
 #include "gmp_numbers.h"
 #include "polyset.h"
@@ -138,12 +138,12 @@ static void test_division_and_root(void **state)
         random_mpz(w.b, &w.g, i % 3 ? 100 : 1500);
         mpz_abs(w.b, w.b);
         mpz_add_ui(w.b, w.b, 1);
-        if (i % 5 == 0) mpz_mul(w.a, w.a, w.b); /* exact */
+        if (i % 5 == 0) mpz_mul(w.a, w.a, w.b); /* makes the quotient exact */
         sunder_i_big a = big_from_mpz(&w.arena, w.a), b = big_from_mpz(&w.arena, w.b);
         mpz_fdiv_q(w.r, w.a, w.b);
         expect(&w, sunder_i_big_div_floor(&w.arena, a, b), w.r);
         mpz_abs(w.a, w.a);
-        if (i % 4 == 0) mpz_mul(w.a, w.a, w.a); /* a square, and one less */
+        if (i % 4 == 0) mpz_mul(w.a, w.a, w.a); /* a square, and one less than a square */
         if (i % 8 == 0 && mpz_sgn(w.a)) mpz_sub_ui(w.a, w.a, 1);
         mpz_sqrt(w.r, w.a);
         expect(&w, sunder_i_big_sqrt_floor(&w.arena, big_from_mpz(&w.arena, w.a)), w.r);
@@ -164,7 +164,8 @@ static void exact_ratio(mpq_t r, const work *w, long exponent)
         mpq_div_2exp(r, r, (mp_bitcnt_t)-exponent);
 }
 
-/* d is the largest double <= r (d may be -infinity below all of them, and is the largest finite one above). */
+/* down is the largest double <= r (-infinity if r is below all finite ones, the largest finite double if r is above),
+ * up is the next one. */
 static void expect_down(double d, const mpq_t r)
 {
     mpq_t x;
@@ -185,7 +186,7 @@ static void expect_down(double d, const mpq_t r)
     mpq_clear(x);
 }
 
-/* The nearer of the two neighbours, or the even one of equals. */
+/* d is the nearer of the two neighbours, or the even one in a tie. */
 static void expect_nearest(double d, double down, double up, const mpq_t r)
 {
     mpq_t x, y;
@@ -195,7 +196,7 @@ static void expect_nearest(double d, double down, double up, const mpq_t r)
     }
     assert_true(d == down || d == up);
     mpq_inits(x, y, NULL);
-    /* Past the greatest double the next in line would be 2^1024: the spacing goes on. */
+    /* The successor of the greatest double would be 2^1024: rounding uses the same spacing there. */
     mpq_set_d(x, isfinite(down) ? down : -0x1p1023);
     if (!isfinite(down)) mpq_mul_2exp(x, x, 1);
     mpq_set_d(y, isfinite(up) ? up : 0x1p1023);
@@ -226,7 +227,7 @@ static void test_ratio(void **state)
         random_mpz(w.a, &w.g, i % 2 ? 150 : 1100);
         random_mpz(w.b, &w.g, i % 3 ? 130 : 1100);
         mpz_abs(w.b, w.b);
-        if (i % 4 == 0) mpz_set_ui(w.b, 1u << rng_int(&w.g, 0, 12)); /* exact, ties */
+        if (i % 4 == 0) mpz_set_ui(w.b, 1u << rng_int(&w.g, 0, 12)); /* exact results and ties */
         if (i % 4 == 0) mpz_tdiv_q_2exp(w.a, w.a, mpz_sizeinbase(w.a, 2) > 54 ? mpz_sizeinbase(w.a, 2) - 54 : 0);
         if (i % 11 == 0) exponent += 900;
         if (i % 11 == 1) exponent -= 1100;
@@ -255,8 +256,8 @@ static void test_ratio_edges(void **state)
                        three = sunder_i_big_i64(&arena, 3);
     assert_true(sunder_i_big_ratio(&arena, zero, three, 900) == 0);
     assert_true(sunder_i_big_ratio(&arena, one, one, -1074) == 0x1p-1074);
-    assert_true(sunder_i_big_ratio(&arena, one, one, -1075) == 0);           /* a tie goes to the even one */
-    assert_true(sunder_i_big_ratio(&arena, three, one, -1076) == 0x1p-1074); /* three quarters of the least */
+    assert_true(sunder_i_big_ratio(&arena, one, one, -1075) == 0);           /* a tie is rounded to even */
+    assert_true(sunder_i_big_ratio(&arena, three, one, -1076) == 0x1p-1074); /* three quarters of the least double */
     assert_true(sunder_i_big_ratio_down(&arena, three, one, -1076) == 0);
     assert_true(sunder_i_big_ratio_up(&arena, one, one, -5000) == 0x1p-1074);
     assert_true(isinf(sunder_i_big_ratio(&arena, one, one, 1024)));
@@ -266,8 +267,8 @@ static void test_ratio_edges(void **state)
     sunder_i_arena_free(&arena);
 }
 
-/* Quotients a little beside the middle between two doubles, and on it, with divisors of all lengths: the highest bits
- * of both do not tell them apart. */
+/* Quotients near or at the midpoint of two doubles, with divisors of all lengths: the highest bits of both numbers do
+ * not decide the rounding. */
 static void test_ratio_in_the_middle(void **state)
 {
     (void)state;
@@ -284,7 +285,7 @@ static void test_ratio_in_the_middle(void **state)
         mpz_mul_ui(w.a, w.a, 2);
         mpz_add_ui(w.a, w.a, 1);
         mpz_mul(w.a, w.a, w.b);
-        if (i % 5) mpz_add(w.a, w.a, w.a); /* and a bit more to round */
+        if (i % 5) mpz_add(w.a, w.a, w.a); /* adds a bit to be rounded */
         const int64_t beside = rng_int(&w.g, -3, 3);
         if (beside < 0)
             mpz_sub_ui(w.a, w.a, (unsigned long)-beside);

@@ -1,5 +1,5 @@
-/* number/big_limbs: numbers that are longer than one operand of GMP, compared with GMP itself. GMP's own allocator,
- * which ends the process if there is no memory, is never called by our code, for numbers of any size. */
+/* number/big_limbs: numbers that are longer than one operand of GMP, compared with GMP itself. Our code never calls
+ * GMP's own allocator, which ends the process if there is no memory. */
 #include "failing.h"
 #include "gmp_numbers.h"
 #include "number/big_limbs.h"
@@ -12,7 +12,7 @@
 
 #include <cmocka.h>
 
-/* Allocators of GMP that count requests while our code runs. */
+/* GMP's allocation functions are replaced by these, which count requests while our code runs. */
 static bool ours;
 static size_t asked;
 
@@ -138,7 +138,7 @@ static void test_texts(void **state)
         open_work(&w);
         if (i % 3)
             draw(w.a, &g, length(&g));
-        else { /* powers of ten and their neighbours: zeros within */
+        else { /* powers of ten and their neighbours: with zeros inside */
             mpz_ui_pow_ui(w.a, 10, (unsigned long)rng_int(&g, 0, 30000));
             if (i % 2) mpz_add_ui(w.a, w.a, (unsigned long)rng_int(&g, 0, 2));
             if (i % 2 == 0 && mpz_cmp_ui(w.a, 1) > 0) mpz_sub_ui(w.a, w.a, 1);
@@ -158,7 +158,7 @@ static void test_texts(void **state)
     mp_set_memory_functions(NULL, NULL, NULL);
 }
 
-/* The 1st, 2nd, 3rd ... allocation fails: zero, and the arena says so. */
+/* The 1st, 2nd, 3rd ... allocation fails: the result is zero, and the arena records the failure. */
 static bool all_in_turn(void *context)
 {
     rng g = rng_start(*(const uint64_t *)context, 63);

@@ -91,7 +91,7 @@ static void check_lattice(const double *p, size_t n, const double *q, size_t m, 
         for (size_t i = 0; i < 2 * (set ? m : n); i++)
             check_value(&l, i & 1 ? at[i / 2].y : at[i / 2].x, origin[set][i & 1], xy[i]);
     }
-    /* The approximation against the exact number, in ulps of the largest magnitude. */
+    /* The error of the approximation, in ulps of the largest magnitude. */
     mpq_t x, y;
     mpq_inits(x, y, NULL);
     const double ulp = nextafter(largest, INFINITY) - largest;

@@ -57,7 +57,7 @@ static void zero_is_seen(void **state)
     sunder_i_arena_free(&a);
 }
 
-/* A number over the same roots, with the roots shared where they are the same. */
+/* A random number over the same roots; equal roots are shared. */
 static void joining_shares_roots(void **state)
 {
     sunder_i_arena a = {0};
@@ -84,7 +84,7 @@ static sunder_i_surd random_surd(sunder_i_arena *a, const sunder_i_roots *roots,
     return (sunder_i_surd){roots->n, part};
 }
 
-/* Products and signs agree with digits, and digits of more places with those of fewer. */
+/* Products and signs agree with the digits, and results with more digits agree with those with fewer. */
 static void signs_agree_with_digits(void **state)
 {
     for (uint64_t i = 0; i < 2000; i++) {

@@ -1,4 +1,4 @@
-/* number/wide: fixed-width integers against GMP, at the widest operands each function allows. */
+/* number/wide: fixed-width integers compared with GMP, at the widest operands that each function allows. */
 #include "gmp_numbers.h"
 #include "number/wide.h"
 
@@ -62,7 +62,7 @@ static void test_cmp_products(void **state)
     for (int i = 0; i < ROUNDS; i++) {
         sunder_i_i128 a = random_i128(&g, 127), b = random_i128(&g, 127), c = random_i128(&g, 127),
                       d = random_i128(&g, 127);
-        if (i % 3 == 0) { /* a * b and b * a, or different by one */
+        if (i % 3 == 0) { /* a * b and b * a, or products that differ by one */
             c = b;
             d = a;
         }
@@ -89,7 +89,7 @@ static sunder_i_i256 random_sum(rng *g, mpz_t r)
     const int64_t a = (int64_t)random_i128(g, 63), c = (int64_t)random_i128(g, 63);
     sunder_i_i128 y = random_i128(g, 127), z = random_i128(g, 127);
     int64_t e = c;
-    if (rng_once_in(g, 6)) z = y, e = -a; /* cancels */
+    if (rng_once_in(g, 6)) z = y, e = -a; /* the terms cancel */
     mpz_from_i128(b, y);
     mpz_from_i128(d, z);
     mpz_mul_si(r, b, a);
@@ -110,7 +110,7 @@ static void test_mul_add(void **state)
         const sunder_i_i256 v = random_sum(&g, n.a), w = random_sum(&g, n.b);
         mpz_from_i256(n.s, &v);
         assert_int_equal(mpz_cmp(n.s, n.a), 0);
-        assert_int_equal(v.sign, mpz_sgn(n.a)); /* canonical: 0 exactly when zero */
+        assert_int_equal(v.sign, mpz_sgn(n.a)); /* canonical: the sign is 0 exactly if the value is zero */
         assert_int_equal(sunder_i_i256_cmp(&v, &w), sign(mpz_cmp(n.a, n.b)));
         assert_int_equal(sunder_i_i256_cmp(&v, &v), 0);
         zeros += v.sign == 0;
@@ -119,7 +119,7 @@ static void test_mul_add(void **state)
     close_numbers(&n);
 }
 
-/* Short factors: the extremes of 64 bits among them. */
+/* Short factors, including the extremes of 64 bits. */
 static void test_mul_add_short(void **state)
 {
     (void)state;
@@ -178,7 +178,7 @@ static void test_low_bits(void **state)
         const sunder_i_i128 w = (sunder_i_i128)sunder_i_i128_abs(random_i128(&g, bits)) + 1;
         mpz_from_i128(n.b, v);
         mpz_from_i128(n.d, w);
-        mpz_from_i128(n.a, random_i128(&g, 126)); /* p = a v + some, q = a w + some */
+        mpz_from_i128(n.a, random_i128(&g, 126)); /* p = a v + a small number, q = a w + a small number */
         mpz_mul(n.c, n.a, n.d);
         mpz_mul(n.a, n.a, n.b);
         const int64_t off = i % 3 ? (int64_t)random_i128(&g, 20) : 0;
@@ -232,7 +232,7 @@ static void test_cmp_products_256(void **state)
     close_numbers(&n);
 }
 
-/* With a divisor of any length in common, as fractions of crossings have; of a long number and a short one, too. */
+/* With divisors of any length, as in coordinates of crossings; also a long and a short one. */
 static void test_gcd(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* Sums of members that are tiny compared with their distances: clusters that doubles cannot distinguish from points. No
- * further splitting in doubles separates them, and memory must not be spent on it. */
+/* Sums of members that are tiny compared with their distances: clusters that doubles cannot distinguish from points.
+ * Splitting such a cluster further in doubles does not separate its members, and memory must not be spent on it. */
 #include "roads.h"
 #include "sum_text.h"
 
@@ -11,7 +11,7 @@
 
 #include <cmocka.h>
 
-/* 256 times the memory that these sums need; a former version took gigabytes. */
+/* 256 times the memory that these sums need; an earlier version took gigabytes. */
 #define ALLOWED ((size_t)64 << 20)
 
 static size_t held;
@@ -33,7 +33,7 @@ static void limited_free(void *p)
     free(p);
 }
 
-/* Rectangles and triangles of some units, the unit an nth of 2^-30, in clusters from the origin to 10^7. */
+/* Rectangles and triangles with sides of a few units (a unit is 2^-30 / n), in clusters from the origin to 10^7. */
 static void make_clusters(polyset *set, unsigned members)
 {
     static const double places[] = {0, 1e5, 3e6, 1e7};

@@ -1,5 +1,5 @@
-/* outline/pairs.h: added pairs, without those that were removed, are returned line by line and ascending, whether they
- * were added in rows of one line, in rows of one part, or singly. */
+/* outline/pairs.h: pairs that were added, without those that were removed, are returned line by line in ascending
+ * order, whether they were added in rows of one line, in rows of one part, or singly. */
 #include "failing.h"
 #include "outline/pairs.h"
 #include "random.h"
@@ -25,7 +25,7 @@ static void add(sunder_i_pairs *pairs, tally *t, uint32_t line, uint32_t part)
     assert_int_equal(pairs->count, t->all);
 }
 
-/* A row of some length, along lines or parts. */
+/* Adds a row of random length, along lines or along parts. */
 static void add_some(sunder_i_pairs *pairs, tally *t, rng *r)
 {
     const int kind = (int)rng_int(r, 0, 2), n = kind == 2 ? 1 : (int)rng_int(r, 1, 9);

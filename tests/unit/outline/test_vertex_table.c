@@ -1,4 +1,4 @@
-/* outline/vertex_table.h: every point gets the number of its place for any representation of its integers, also if
+/* outline/vertex_table.h: every point gets the number of its place for any representation of its integers, even if
  * points are so close that doubles cannot distinguish them; finding it takes a few comparisons in either case. */
 #include "failing.h"
 #include "outline/vertex_table.h"
@@ -10,7 +10,7 @@
 
 #include <cmocka.h>
 
-#define SIDE 60 /* places form a board of columns and rows */
+#define SIDE 60 /* places form a grid of columns and rows */
 #define FAR ((int64_t)1 << 57)
 
 static void open_lattice(sunder_i_lattice *l, bool wide)
@@ -23,7 +23,7 @@ static void open_lattice(sunder_i_lattice *l, bool wide)
     assert_true(l->narrow != wide);
 }
 
-/* Place i of the board: thirds of `step` lattice units beside a far corner, written with a factor drawn at random. */
+/* Place i of the grid: thirds of `step` lattice units near a far corner, multiplied by a random common factor. */
 static sunder_i_hpoint point(sunder_i_lattice *l, rng *r, int i, int64_t step)
 {
     sunder_i_arena *arena = &l->arena;
@@ -33,7 +33,7 @@ static sunder_i_hpoint point(sunder_i_lattice *l, rng *r, int i, int64_t step)
     return sunder_i_hpoint_make(l, (sunder_i_rational_point){x, y, sunder_i_big_i64(arena, 3 * k)});
 }
 
-/* All places in a random order, then all again; the comparisons that took. */
+/* Adds all places in a random order, then all again; returns the number of comparisons. */
 static uint64_t add_twice(bool wide, int64_t step, size_t expected)
 {
     sunder_i_lattice l;
@@ -62,7 +62,7 @@ static uint64_t add_twice(bool wide, int64_t step, size_t expected)
     return l.counts.comparisons;
 }
 
-/* Far apart, within a square of the grid, and closer than neighbouring doubles are. */
+/* Places far apart, within one cell of the grid, and closer than neighbouring doubles. */
 static void test_places(void **state)
 {
     (void)state;
@@ -71,7 +71,8 @@ static void test_places(void **state)
     for (int wide = 0; wide < 2; wide++)
         for (size_t i = 0; i < sizeof steps / sizeof *steps; i++)
             for (size_t expected = 0; expected <= SIDE * SIDE; expected += SIDE * SIDE) {
-                /* Until the crowd is seen each new place is compared with all others: some 128^2 / 2. */
+                /* Until the table detects the crowd, each new place is compared with all others: some 128^2 / 2
+                 * comparisons. */
                 const uint64_t comparisons = add_twice(wide, steps[i], expected);
                 assert_true(comparisons < 3 * 3 * SIDE * SIDE + 4 * 128 * 128);
             }
@@ -87,8 +88,8 @@ static uint32_t find(const sunder_i_vertex_table *t, const sunder_i_hpoint *p, u
     return found;
 }
 
-/* A place is known by the two lines that it was found with, from either of them, wherever its doubles are; by others
- * it is not. Columns are lines 0 .. SIDE - 1, rows those above. */
+/* A place is found by the two lines with which it was first found, from either of them, whatever its doubles are; by
+ * other lines it is not. Columns are lines 0 .. SIDE - 1, rows those above. */
 static void test_lines(void **state)
 {
     (void)state;

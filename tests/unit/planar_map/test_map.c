@@ -1,5 +1,5 @@
 /* planar_map/: each degenerate position, on maps small enough to know the result; every kind of query; numbers of every
- * size; and every allocation failing once. */
+ * size; and every allocation fails once. */
 #include "failing.h"
 #include "planar_map/planar_map.h"
 #include "predicate/predicate.h"
@@ -144,11 +144,11 @@ static void test_grid_of_overlaps(void **state)
         twice += s == 2;
         assert_true(s <= 2);
     }
-    assert_int_equal(twice, 8); /* the middle third of each line: both its pieces have their region on one side */
+    assert_int_equal(twice, 8); /* the middle third of each line: the regions of both pieces are on the same side */
     close_bed(&b);
 }
 
-/* Sixteen lines through one point, none of whose pieces ends there. */
+/* Sixteen lines through one point; no piece ends there. */
 static void test_star(void **state)
 {
     (void)state;
@@ -158,7 +158,7 @@ static void test_star(void **state)
         segment(&b, 8, i, -8, -i, 0, 0);
         segment(&b, i, -8, -i, 8, 0, 0);
     }
-    expect_size(&b, 1 + 64, 64, 1); /* the diagonal through both corners came twice */
+    expect_size(&b, 1 + 64, 64, 1); /* the diagonal through both corners was added twice */
     const sunder_i_location l = locate(&b, 0, 0, 1);
     assert_int_equal(l.place, SUNDER_I_AT_VERTEX);
     size_t degree = 0;
@@ -172,8 +172,8 @@ static void test_star(void **state)
     close_bed(&b);
 }
 
-/* Four squares around a vertex and four half-planes (so large that they are) look alike on their sides: the vertex that
- * the squares leave uncovered has one region all around it, the other two. */
+/* Four squares around a vertex and four half-planes (large enough to act as such) look the same along their sides: the
+ * vertex not covered by the squares has one region all around it, the other has two. */
 static void test_wrapped_vertex(void **state)
 {
     (void)state;
@@ -196,7 +196,7 @@ static void test_wrapped_vertex(void **state)
     close_bed(&b);
 }
 
-/* The union of the following boxes has a hole with an antenna, an isolated point and a segment, in each algorithm. */
+/* The union of the following boxes has a hole with an antenna, an isolated point and a segment, for each algorithm. */
 static void build_holes(bed *b, bool unite)
 {
     box(b, 0, 0, 10, 4, unite);
@@ -204,18 +204,18 @@ static void build_holes(bed *b, bool unite)
     box(b, 0, 0, 4, 10, unite);
     box(b, 6, 0, 4, 10, unite); /* a hole (4, 4) - (6, 6) in a square */
     box(b, 4, 0, 1, 5, unite);
-    box(b, 5, 0, 1, 5, unite); /* its lower half filled, all but the segment between the two */
+    box(b, 5, 0, 1, 5, unite); /* fills its lower half, except the segment between the two */
     box(b, 20, 0, 4, 4, unite);
     box(b, 24, 4, 4, 4, unite);
     box(b, 20, 4, 4, 4, unite);
-    box(b, 24, 0, 4, 4, unite); /* four squares: a cross of segments */
-    box(b, 20, 3, 8, 2, unite); /* which loses its middle and its arms to the sides */
+    box(b, 24, 0, 4, 4, unite); /* four squares: their common sides form a cross of segments */
+    box(b, 20, 3, 8, 2, unite); /* which removes the centre and the two side arms of the cross */
 }
 
 static void expect_holes(bed *b)
 {
-    /* outer square 4, hole 4 + antenna from (5, 4) to (5, 5) through the hole's bottom; second: outer 4, two segments
-     * that hang off it. */
+    /* Outer square 4, hole 4 + antenna from (5, 4) to (5, 5) through the hole's bottom; second: outer 4, with two
+     * attached segments. */
     assert_int_equal(sunder_i_planar_map_faces(b->map, NULL), SUNDER_OK);
     assert_int_equal(locate(b, 5, 6, 1).place, SUNDER_I_ON_EDGE);
     assert_int_equal(locate(b, 11, 11, 2).covered, 0); /* in the hole */
@@ -252,7 +252,7 @@ static void test_holes(void **state)
     assert_int_equal(edges[0], edges[2]);
 }
 
-/* An exact fit leaves a point; a polygon over it takes it. */
+/* An exact fit leaves an isolated point; a polygon that covers it removes it. */
 static void test_degenerate_point(void **state)
 {
     (void)state;
@@ -286,7 +286,8 @@ static void test_degenerate_point(void **state)
     close_bed(&b);
 }
 
-/* Small polygons come and a large one buries them, until the history is worth a hundred maps: it must not stay. */
+/* Small polygons are added and a large one covers them, until the history is a hundred times the size of the map: it
+ * must not stay in memory. */
 static void test_history_starts_afresh(void **state)
 {
     (void)state;
@@ -327,7 +328,7 @@ static void test_faces(void **state)
     box(&b, 2, 2, 4, 4, false);
     box(&b, 10, 10, 5, 5, false);
     segment(&b, 0, 10, 3, 10, 0, 0); /* an antenna */
-    segment(&b, 16, 2, 18, 4, 0, 0); /* a piece of its own */
+    segment(&b, 16, 2, 18, 4, 0, 0); /* an isolated segment */
     sunder_i_rational_point p;
     set(&b, &p, 17, 17, 1);
     uint32_t v;
@@ -361,8 +362,8 @@ static void test_faces(void **state)
 
 /* ---- Numbers ---- */
 
-/* Corners with denominators of sixty bits, at coordinates of sixty bits, which neither one double nor the sum of three
- * distinguishes. */
+/* Corners with denominators of sixty bits, at coordinates of sixty bits, which neither a double nor the sum of three
+ * doubles distinguishes. */
 static void test_large_numbers(void **state)
 {
     (void)state;

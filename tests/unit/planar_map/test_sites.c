@@ -1,5 +1,6 @@
-/* planar_map/sites.c: order, sides, turns and crossings against GMP's rationals, with numbers of five to two thousand
- * bits, positions that no double tells apart, and the exact rung both after the filter and in its place. */
+/* planar_map/sites.c: order, sides, turns and crossings compared with GMP's rationals, with numbers of five to two
+ * thousand bits, positions that doubles do not distinguish, and exact arithmetic both after the filter and in place of
+ * it. */
 #include "gmp_numbers.h"
 #include "planar_map/map.h"
 
@@ -50,7 +51,7 @@ static void spot_random(bed *b, spot *s, unsigned bits)
     }
 }
 
-/* Over a common denominator, times some more. */
+/* Makes a site: coordinates over a common denominator, times a random factor. */
 static sunder_i_site site_of(bed *b, const spot *s)
 {
     mpz_t n, d;
@@ -93,7 +94,7 @@ static int cross_sign(const spot *p, const spot *q, const spot *s, const spot *r
     return turn;
 }
 
-/* Makes a spot on the line pq, or slightly beside it. */
+/* Makes a spot on the line pq, or slightly off it. */
 static void spot_near(bed *b, spot *r, const spot *p, const spot *q)
 {
     mpq_t t, u;
@@ -121,7 +122,7 @@ static sunder_i_map_line line_of(bed *b, const spot *p, const spot *q, const sun
     return sunder_i_line_through(b->map, &s, &t, along, &b->arena);
 }
 
-/* Moves q to somewhere on a line through p whose direction is a lattice vector, or its reverse. */
+/* Moves q to some place on a line through p whose direction is a lattice vector, or its reverse. */
 static sunder_i_point put_along(bed *b, const spot *p, spot *q)
 {
     const int64_t most = rng_once_in(&b->g, 2) ? 9 : (INT64_C(1) << SUNDER_I_PLAIN_BITS) - 1;
@@ -129,7 +130,7 @@ static sunder_i_point put_along(bed *b, const spot *p, spot *q)
     if (rng_once_in(&b->g, 4) || v.x == 0) v = (sunder_i_point){v.y, v.x ? v.x : 1};
     mpq_t far, t;
     mpq_inits(far, t, NULL);
-    mpq_set(far, q->x); /* as it happens */
+    mpq_set(far, q->x); /* only in x */
     for (int axis = 0; axis < 2; axis++) {
         mpq_set_si(t, axis ? v.y : v.x, 1);
         mpq_mul(t, t, far);
@@ -144,9 +145,9 @@ static void check_cmp(bed *b, const spot *p, const spot *q)
     sunder_i_site s = site_of(b, p), t = site_of(b, q);
     assert_int_equal(sunder_i_site_cmp(b->map, &s, &t), spot_cmp(p, q));
     s.ax = t.ax;
-    s.ay = t.ay; /* the filter says nothing */
+    s.ay = t.ay; /* disables the filter */
     assert_int_equal(sunder_i_site_cmp(b->map, &s, &t), spot_cmp(p, q));
-    const sunder_i_site once = site_of(b, p), again = site_of(b, p); /* over other denominators perhaps */
+    const sunder_i_site once = site_of(b, p), again = site_of(b, p); /* perhaps over different denominators */
     assert_int_equal(sunder_i_site_cmp(b->map, &once, &again), 0);
 }
 
@@ -168,7 +169,7 @@ static void check_pair_of_lines(bed *b, const sunder_i_map_line *f, const sunder
     if (turn == 0) return;
     const sunder_i_site c = sunder_i_line_crossing(b->map, f, g, &b->arena);
     assert_true(sunder_i_big_sign(c.at.w) > 0);
-    if (fabs(c.ax) > 0x1p501 || fabs(c.ay) > 0x1p501) return; /* far outside the lattice: no edge goes there */
+    if (fabs(c.ax) > 0x1p501 || fabs(c.ay) > 0x1p501) return; /* far outside the lattice, where no edge can be */
     assert_int_equal(sunder_i_site_side(b->map, f, &c), 0);
     assert_int_equal(sunder_i_site_side(b->map, g, &c), 0);
 }

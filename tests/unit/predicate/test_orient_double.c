@@ -1,4 +1,5 @@
-/* predicate/orient_double: sunder_orient() and each of its rungs against GMP, for doubles of every size. */
+/* predicate/orient_double: sunder_orient() and each of its stages (filter, wide integers, big integers) compared with
+ * GMP, for doubles of every size. */
 #include "failing.h"
 #include "predicate/orient_double.h"
 #include "random.h"
@@ -31,7 +32,7 @@ static int slow(const sunder_point *a, const sunder_point *b, const sunder_point
     return (sign > 0) - (sign < 0);
 }
 
-/* How often the filter answered, and how often they were in line. */
+/* How often the filter decided, and how often the points were collinear. */
 typedef struct tally {
     int filter, zero;
 } tally;
@@ -62,7 +63,7 @@ static void test_near_collinear(void **state)
         c.x = a.x + s * (b.x - a.x);
         c.y = a.y + s * (b.y - a.y);
         if (i % 2) c.y = nextafter(c.y, i % 4 == 1 ? 9 : -9);
-        if (i % 5 == 0) { /* small integers: exact ties */
+        if (i % 5 == 0) { /* small integers: exact zeros */
             a = (sunder_point){(double)rng_int(&g, 0, 6), (double)rng_int(&g, 0, 6)};
             b = (sunder_point){(double)rng_int(&g, 0, 6), (double)rng_int(&g, 0, 6)};
             c = (sunder_point){2 * b.x - a.x, 2 * b.y - a.y};
@@ -108,7 +109,7 @@ static void test_map(void **state)
     assert_true(t.zero >= 10000);
 }
 
-/* The sign is the true one if no memory is available. */
+/* Without memory the sign is still the true one. */
 static void test_orient_without_memory(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
 /* predicate/: the same random questions on a narrow lattice, on a forced wide one, and in GMP; points on small grids
- * and on the largest narrow coordinates, so that all signs, ties and coincidences come up. */
+ * and at the largest narrow coordinates, so that all signs, ties and coincidences occur. */
 #include "failing.h"
 #include "gmp_numbers.h"
 #include "predicate/narrow.h"
@@ -18,7 +18,7 @@ typedef struct spot {
     int64_t x, y;
 } spot;
 
-/* Two lattices over the same integers, and GMP's numbers beside them. */
+/* Two lattices over the same integers, and numbers of GMP to compare with. */
 typedef struct bench {
     sunder_i_lattice l[2];
     rng g;
@@ -67,7 +67,7 @@ static void random_spots(rng *g, int round, spot *p, int n)
         p[i].x = coordinate(g, round % 4);
         p[i].y = coordinate(g, round % 4);
     }
-    if (round % 7 == 6 && n > 2) { /* collinear: the third in the middle, or at twice the distance */
+    if (round % 7 == 6 && n > 2) { /* collinear: the third at the midpoint, or at twice the distance */
         p[2].x = p[0].x / 4 + p[1].x / 4;
         p[2].y = p[0].y / 4 + p[1].y / 4;
         p[0] = (spot){p[2].x - p[1].x / 8, p[2].y - p[1].y / 8};
@@ -75,7 +75,7 @@ static void random_spots(rng *g, int round, spot *p, int n)
     }
 }
 
-/* The spot on lattice k. */
+/* The point on lattice k. */
 static sunder_i_point at(bench *b, int k, spot p)
 {
     return (sunder_i_point){sunder_i_lattice_big(&b->l[k], sunder_i_big_i64(&b->l[k].arena, p.x)),
@@ -246,7 +246,7 @@ static bool cross_line(bench *b, int round, const spot p[2], crossed *c)
 {
     spot q[2];
     random_spots(&b->g, round, q, 2);
-    if (round % 5 == 0 && rng_once_in(&b->g, 2)) { /* through the first end: many lines cross there */
+    if (round % 5 == 0 && rng_once_in(&b->g, 2)) { /* through the first end, so that many lines cross there */
         q[0] = (spot){p[0].x / 2, p[0].y / 2};
         q[1] = (spot){p[0].x + (p[0].x - q[0].x), p[0].y + (p[0].y - q[0].y)};
     }
@@ -286,7 +286,7 @@ static void test_crossings(void **state)
         const int px = sign(mpq_cmp(c[0].x, c[2].x)), lex = px ? px : sign(mpq_cmp(c[0].y, c[2].y));
         ties += order == 0;
         equal_points += lex == 0;
-        /* Side of a crossing to another line: (d - a) x (h - a). */
+        /* The side of a crossing relative to another line: (d - a) x (h - a). */
         mpq_t s, t;
         mpq_inits(s, t, NULL);
         mpq_set_si(s, p[2].y, 1);
@@ -338,7 +338,7 @@ static void test_feet(void **state)
             const sunder_i_point a = at(&b, k, p[0]), d = at(&b, k, p[1]), e = at(&b, k, p[2]);
             sunder_i_fraction f = sunder_i_foot(&b.l[k], a, d, e);
             check_fraction(&b, k, &f, want);
-            if (mpz_sgn(b.u) == 0) { /* on the line the foot is the point */
+            if (mpz_sgn(b.u) == 0) { /* if the point is on the line, it is the foot */
                 f = sunder_i_along(&b.l[k], a, d, e);
                 check_fraction(&b, k, &f, want);
             }

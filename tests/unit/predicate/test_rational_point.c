@@ -1,4 +1,4 @@
-/* predicate/ off narrow lattices: the same random questions about lattice points and crossings of lattice segments,
+/* predicate/ beyond narrow lattices: the same random questions about lattice points and crossings of lattice segments,
  * with the filters and without (all numbers pooled), and in GMP's rationals. */
 #include "failing.h"
 #include "gmp_numbers.h"
@@ -15,7 +15,7 @@
 #define ROUNDS 1500
 #define SPOTS 4
 
-/* A point of both lattices, and the truth. */
+/* A point on both lattices, and its exact coordinates. */
 typedef struct spot {
     mpq_t x, y;
     sunder_i_point at[2];
@@ -62,7 +62,7 @@ static int64_t coordinate(rng *g, int kind)
     return kind == 2 ? rng_int(g, -big, big) : big - rng_int(g, 0, 3);
 }
 
-/* The truth onto both lattices. */
+/* Puts the exact coordinates onto both lattices. */
 static void put(bench *b, spot *s)
 {
     for (int k = 0; k < 2; k++) {
@@ -111,7 +111,7 @@ static void between(spot *s, const spot *a, const spot *b, const mpq_t t)
     mpq_clears(p, q, NULL);
 }
 
-/* A lattice point; or the crossing of two lattice segments; or a point of a line through two others. */
+/* Draws a lattice point, the crossing of two lattice segments, or a point of a line through two others. */
 static void random_spot(bench *b, int i, int kind)
 {
     spot *s = &b->s[i], c[4];
@@ -128,7 +128,7 @@ static void random_spot(bench *b, int i, int kind)
         product(b->u, &c[0], &c[1], &c[2], &c[3], false);
         if (mpq_sgn(b->u) != 0) {
             mpq_div(b->t, b->t, b->u);
-            /* Inside the first segment, so that it stays within the lattice. */
+            /* Only inside the first segment, so that it stays within the lattice. */
             if (mpq_sgn(b->t) >= 0 && mpq_cmp_si(b->t, 1, 1) <= 0) between(s, &c[0], &c[1], b->t);
         }
         for (int k = 0; k < 4; k++) mpq_clears(c[k].x, c[k].y, NULL);

@@ -1,5 +1,5 @@
-/* predicate/segment: how two segments meet, in every degenerate form, and their distance against a gap; both lattices,
- * and GMP beside them. */
+/* predicate/segment: how two segments meet, in every degenerate form, and their distance compared with a gap; on both
+ * lattices, and by GMP. */
 #include "gmp_numbers.h"
 #include "predicate/predicate.h"
 
@@ -49,7 +49,7 @@ static sunder_i_meeting meeting(int k, const spot p[4])
     return sunder_i_segments_meet(&lattice[k], at(k, p[0]), at(k, p[1]), at(k, p[2]), at(k, p[3]));
 }
 
-/* In every order of the ends and of the segments. */
+/* Tests all orders of the ends and of the segments. */
 static void expect_meeting(const spot p[4], sunder_i_meeting want)
 {
     for (int k = 0; k < 2; k++)
@@ -135,11 +135,11 @@ static bool meet(const spot p[4])
            on_closed(p[2], p[3], p[1]);
 }
 
-/* Classifies by the common points: none, more than one, or otherwise by where the one point is. */
+/* Classifies by the number of common points: none, one (by its place on the segments), or more. */
 static sunder_i_meeting slow_meeting(const spot p[4])
 {
     if (!meet(p)) return SUNDER_I_APART;
-    /* Distinct ends that lie on the other segment. */
+    /* The ends, without repetitions, that lie on the other segment. */
     spot on[4];
     int n = 0;
     for (int i = 0; i < 4; i++) {
@@ -214,7 +214,7 @@ static void test_meetings(void **state)
         random_segments(&g, i, p);
         const sunder_i_meeting want = slow_meeting(p);
         seen[want]++;
-        /* Two points in one place share it as their common end. */
+        /* Two coincident degenerate segments share their point as a common end. */
         for (int k = 0; k < 2; k++) assert_int_equal(meeting(k, p), want);
     }
     for (int m = 0; m < 5; m++) assert_true(seen[m] > 100);
@@ -233,7 +233,7 @@ static void test_distances(void **state)
         spot p[4];
         random_segments(&g, i, p);
         least_distance2(d, p);
-        /* The gap is the floor of the distance, one more, or any number. */
+        /* The gap is the distance rounded down, one more, or any number. */
         mpz_fdiv_q(root, mpq_numref(d), mpq_denref(d));
         mpz_sqrt(root, root);
         int64_t gap = mpz_sizeinbase(root, 2) < 60 ? mpz_get_si(root) + rng_int(&g, 0, 1) : 0;

@@ -1,4 +1,4 @@
-/* The tree of covered elements beside a plain array of counts. */
+/* The tree of covered elements compared with a plain array of counts. */
 #include "random.h"
 #include "rectilinear/cover_tree.h"
 
@@ -9,7 +9,7 @@
 
 #include <cmocka.h>
 
-#define MOST_ELEMENTS 9000 /* three levels of nodes: 64^2 are 4,096 */
+#define MOST_ELEMENTS 9000 /* enough for three levels of nodes: two levels hold 64^2 = 4,096 */
 #define SOME_ELEMENTS 700
 #define RANGES 60
 

@@ -1,4 +1,4 @@
-/* Least translations, overlap, containment, gap and distance on small figures with known answers. */
+/* Least translations, overlap, containment, gap and distance of small figures with known results. */
 #include "polyset.h"
 
 #include "separation/least_translation.h"
@@ -39,7 +39,8 @@ typedef struct known {
 #define POCKET "POLYGON((-9 -9,13 -9,13 13,-9 13,-9 -9),(0 0,0 4,4 4,4 0,0 0))"
 #define POCKET8 "POLYGON((-10 -10,18 -10,18 18,-10 18,-10 -10),(0 0,0 8,8 8,8 0,0 0))"
 
-/* Walls that are nearly collinear: at the foot on one of them the other one is nearer than the gap, by 1e-13 of it. */
+/* Nearly collinear walls: at the foot of the perpendicular on one wall the other one is nearer than the gap, by 1e-13
+ * of it. */
 #define NEAR_WALLS                                                                                                     \
     "POLYGON((-4096 -1024,4095.999999999999 -1024,4095.999999999999 0.0001220703125,0 0,-4096 0,-4096 -1024))"
 #define NEAR_POST "POLYGON((-1 -1,2.384185791015625e-07 -1,2.384185791015625e-07 9,-1 9,-1 -1))"
@@ -118,8 +119,7 @@ static void check_known(const known *k, const sunder_i_least_options *options)
     sunder_shape_free(q);
 }
 
-/* Long numbers on the way, a short vector at the end, whose length is a double, and so the
- * lower bound, too. */
+/* Long numbers in the computation, and a short result: a vector whose length is a double, and so is the lower bound. */
 static void long_fractions(void **state)
 {
     (void)state;
@@ -155,7 +155,7 @@ static void known_answers(void **state)
         }
 }
 
-/* Translations of both operands by the same vector change nothing, exactly, even if they need more bits. */
+/* Translating both operands by the same vector changes nothing, exactly, even if they need more bits. */
 static void translated_alike(void **state)
 {
     static const double SHIFT[][2] = {{1, 2}, {451234.567, 5411234.567}, {0x1p60, -0x1p-60}, {1e300, 1e-300}};
@@ -167,7 +167,7 @@ static void translated_alike(void **state)
         }
 }
 
-/* A pocket and a peg of sizes that no narrow lattice holds together. */
+/* A pocket and a peg whose sizes do not fit on a narrow lattice together. */
 static void huge_and_tiny(void **state)
 {
     const double big = 1e300, small = 1e-300;
@@ -200,7 +200,7 @@ static void huge_and_tiny(void **state)
     polyset_free(&q);
 }
 
-/* An answer beyond the range of doubles is exact as text, and says that its doubles are of no use. */
+/* A result beyond the range of doubles is exact as text, and the doubles are marked as unusable. */
 static void beyond_doubles(void **state)
 {
     sunder_shape *p = shape("POLYGON((-1e308 -1e308,1e308 -1e308,1e308 1e308,-1e308 1e308))");
@@ -226,8 +226,8 @@ static sunder_shape *triangle(double scale, bool swap)
     return s;
 }
 
-/* Beside a gap of 2^406 a triangle of 2^-1000 has sides that doubles in units of both cannot represent. Its top, over
- * the origin, gives the least translation too many digits: the nearest doubles stay below it by this much. */
+/* With a gap of 2^406, the sides of a triangle of size 2^-1000 cannot be represented in doubles in units of both. Its
+ * top, above the origin, gives the least translation too many digits: the nearest doubles are below it by this much. */
 static void tiny_beside_a_gap(void **state)
 {
     const double gap = 0x1p406, bottom = gap * (1 - 0x1p-14);
@@ -266,7 +266,7 @@ static void rounded_or_not(void **state)
     sunder_shape_free(q);
 }
 
-/* A bow tie crosses itself at (2, 2/3); three times as large it is two triangles on integers. */
+/* A ring that crosses itself at (2, 2/3); scaled by three it is two triangles with integer corners. */
 static void repaired_operands(void **state)
 {
     static const double TIE[] = {0, 0, 3, 1, 3, 0, 0, 2};
@@ -432,7 +432,7 @@ static void counting_free(void *m)
     free(m);
 }
 
-/* One question, numbered; the status. */
+/* Runs the question with that number; returns the status. */
 static sunder_status ask(int question, const sunder_shape *p, const sunder_shape *q, bool wide)
 {
     bool answer;
@@ -516,7 +516,7 @@ static void bound_alone(void **state)
         }
 }
 
-/* A square of that side, standing on the x axis from x on. */
+/* A square of that side, with its lower side on the x axis, starting at x. */
 static sunder_shape *square(double x, double side)
 {
     const double xy[] = {x, 0, x + side, 0, x + side, side, x, side};
@@ -526,8 +526,8 @@ static sunder_shape *square(double x, double side)
     return s;
 }
 
-/* Texts of numbers of any number of digits, with zeros in all places, as printf() and GMP write them: of squares that
- * share one half of each, which are parted by half a side. */
+/* Texts of numbers with any number of digits, with zeros at all places, as printf() and GMP write them: for two squares
+ * that overlap by half, which are separated by half a side. */
 static void digits(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* separation/separating_line: two sets that are reported to be apart by a length are so by the exact distance. Convex
- * sets that are clearly farther apart are usually reported. */
+/* separation/separating_line: if two sets are reported to be a given length apart, their exact distance is at least
+ * that. Convex sets that are clearly farther apart are usually reported. */
 #include "random.h"
 #include "separation/separation.h"
 
@@ -14,7 +14,7 @@
 
 enum { CORNERS = 8 };
 
-/* A star-shaped ring about a place: convex if all radii are one. */
+/* A star-shaped ring around a place: convex if all radii are equal to one. */
 static sunder_shape *draw(rng *r, const double at[2], double size, bool convex)
 {
     double xy[2 * CORNERS];
@@ -32,7 +32,7 @@ static sunder_shape *draw(rng *r, const double at[2], double size, bool convex)
     return shape;
 }
 
-/* Draws lengths near the distance, some of them its neighbouring doubles. */
+/* Draws lengths near the distance, including neighbouring doubles of it. */
 static double length_about(rng *r, double distance)
 {
     switch (rng_int(r, 0, 4)) {

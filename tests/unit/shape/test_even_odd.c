@@ -1,6 +1,6 @@
-/* shape: nasty rings on a small grid (bow-ties, rings that run back along themselves, pinches, touching and coincident
- * holes). Every invariant of the shape is checked, and membership of random points against a count of crossings of the
- * raw rings. */
+/* shape: difficult rings on a small grid (rings that cross themselves, that run back along themselves, self-touching
+ * points, touching and coincident holes). Every invariant of the shape is checked, and membership of random points is
+ * compared with a count of crossings of the input rings. */
 #include "gmp_numbers.h"
 #include "polyset.h"
 #include "random.h"
@@ -15,9 +15,9 @@
 
 #define CASES 3000
 #define POINTS 24
-#define DEN 101 /* of the sample points; odd and larger than the grid, so that few lie on edges */
+#define DEN 101 /* spacing of sample points; odd and larger than the grid, so that few lie on edges */
 
-/* A ring that keeps coming back to places and edges already used. */
+/* A ring that repeatedly returns to places and edges used before. */
 static void nasty_ring(polyset *set, rng *g, int64_t span, size_t most)
 {
     double xy[64];
@@ -26,7 +26,7 @@ static void nasty_ring(polyset *set, rng *g, int64_t span, size_t most)
         const int kind = (int)rng_int(g, 0, 9);
         double *p = xy + 2 * i;
         if (kind == 0 && i > 0) {
-            memcpy(p, xy + 2 * (i - 1), 2 * sizeof *p); /* repeated */
+            memcpy(p, xy + 2 * (i - 1), 2 * sizeof *p); /* repeats the last point */
         } else if (kind == 1 && i > 1) {
             memcpy(p, xy + 2 * (size_t)rng_int(g, 0, (int64_t)i - 2), 2 * sizeof *p); /* a place used before */
         } else if (kind <= 3 && i > 0) {
@@ -51,7 +51,7 @@ static void nasty_set(polyset *set, rng *g)
 }
 
 /* Long walks along the eight directions of a small board: crossings on half-integers only, edges covered many times,
- * dozens of passages through one place. Large enough for the grids and trees that small rings do without. */
+ * dozens of passages through one point. Large enough for the grids and trees that small rings do not use. */
 static void walk_set(polyset *set, rng *g)
 {
     static const int step[8][2] = {{1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}, {0, -1}, {1, -1}};
@@ -90,7 +90,7 @@ static int even_odd(const polyset *set, size_t ring_lo, size_t ring_hi, int64_t 
     return inside;
 }
 
-/* How often a ring winds round a point that is on none of its edges. */
+/* The winding number of a ring around a point that is not on any of its edges. */
 static int winding(const polyset *set, size_t ring, int64_t x, int64_t y)
 {
     const size_t lo = ring ? set->ring_end[ring - 1] : 0, hi = set->ring_end[ring];
@@ -105,8 +105,8 @@ static int winding(const polyset *set, size_t ring, int64_t x, int64_t y)
     return n;
 }
 
-/* Properties of a sound polygon at any point: every ring winds round it once or not at all, always in the same
- * direction; at most one hole contains it, and then the outer ring does too. */
+/* Properties of a valid polygon at any point: every ring winds around it once or not at all, always in the same
+ * direction; at most one hole contains it, and then the outer ring does, too. */
 static bool looks_sound(const polyset *set, rng *g)
 {
     int way[64] = {0};
@@ -130,7 +130,7 @@ static bool looks_sound(const polyset *set, rng *g)
     return true;
 }
 
-/* A set of polygons, each by the even-odd rule: inside any of them. */
+/* A set of polygons, each by the even-odd rule: is the point inside any of them? */
 static int in_set(const polyset *set, int64_t x, int64_t y)
 {
     int inside = 0;
@@ -159,7 +159,7 @@ static void coordinate(mpq_t r, const sunder_shape *s, size_t i)
         mpq_div_2exp(r, r, (mp_bitcnt_t)-v->exponent);
 }
 
-/* All corners as rationals, so that each is converted once. */
+/* All corners as rationals, so that each is converted only once. */
 static mpq_t *coordinates(const sunder_shape *s)
 {
     mpq_t *at = test_alloc(2 * (size_t)s->vertices + 1, sizeof *at);
@@ -176,7 +176,7 @@ static void free_coordinates(mpq_t *at, const sunder_shape *s)
     free(at);
 }
 
-/* Is (x, y) / DEN in some closed piece? */
+/* Is (x, y) / DEN in some piece, which is a closed set? */
 static bool in_pieces(const sunder_shape *s, mpq_t *at, int64_t x, int64_t y)
 {
     bool found = false;
@@ -222,7 +222,7 @@ static void check_members(const polyset *set, const sunder_shape *s, rng *g, uin
     free_coordinates(at, s);
 }
 
-/* The same set, flat and far wider than a narrow lattice holds: everything is decided in big integers, with the same
+/* The same set, flat and far wider than a narrow lattice allows: everything is decided in big integers, with the same
  * result. */
 static void check_wide(const polyset *set, const sunder_shape *s, uint64_t i)
 {
@@ -284,7 +284,7 @@ static void test_nasty_rings(void **state)
         check_case(&set, &g, i, &strict);
         polyset_free(&set);
     }
-    /* Both kinds must have come up. */
+    /* Both valid and invalid sets occurred. */
     assert_true(strict > n / 100);
     assert_true(strict < n);
 }

@@ -22,7 +22,7 @@ static sunder_status build(const char *wkt, sunder_validity validity, sunder_sha
     return status;
 }
 
-/* Makes a shape by strict validity, and checks its invariants. */
+/* Makes a shape, demanding validity, and checks its invariants. */
 static sunder_shape *sound(const char *wkt)
 {
     sunder_shape *s = NULL;
@@ -78,7 +78,7 @@ static void test_refusals(void **state)
             "polygon 0, ring 2, vertex 0 (2 2): the hole lies inside ring 1", 2, 0);
 }
 
-/* Rings without vertices, which no WKT has: first, last, alone. */
+/* Rings without vertices, which WKT cannot express: first, last, alone. */
 static void test_empty_rings(void **state)
 {
     (void)state;
@@ -133,7 +133,7 @@ static void test_not_finite(void **state)
 static void test_cleaning(void **state)
 {
     (void)state;
-    /* Closed, repeated, collinear vertices, at the seam too; either orientation. */
+    /* Closing, repeated and collinear vertices, also at the start of the ring; either orientation. */
     static const char *const square[] = {"POLYGON((0 0,4 0,4 4,0 4,0 0))", "POLYGON((0 0,0 4,4 4,4 0))",
                                          "POLYGON((2 0,2 0,4 0,4 0,4 0,4 4,2 4,1 4,0 4,0 0,1 0,2 0,2 0))",
                                          "POLYGON((0 2,0 1,0 0,4 0,4 4,0 4,0 3))"};
@@ -154,13 +154,13 @@ static void test_cleaning(void **state)
     sunder_shape *s = sound("POLYGON((0 0,1e300 0,1e300 1e-300,0 1e-300))");
     assert_true(sunder_shape_area(s) == 1e300 * 1e-300 || fabs(sunder_shape_area(s) - 1) < 1e-15);
     sunder_shape_free(s);
-    /* One ulp makes it no longer collinear. */
+    /* A difference of one ulp makes it non-collinear. */
     s = sound("POLYGON((0 0,1 1,2 2.0000000000000004,0 3))");
     assert_int_equal(sunder_shape_vertices(s), 4);
     sunder_shape_free(s);
 }
 
-/* The extent is that of the corners, whether a vertex went or none did. */
+/* The extent is that of the corners, whether or not a vertex was removed. */
 static void test_extent(void **state)
 {
     (void)state;
@@ -193,13 +193,13 @@ static void test_touching(void **state)
         /* Holes that touch each other: corner to corner, corner to edge. */
         {"POLYGON((0 0,9 0,9 9,0 9),(1 1,4 1,4 4,1 4),(4 4,7 4,7 7,4 7))", 1, 12, 63},
         {"POLYGON((0 0,9 0,9 9,0 9),(1 1,4 1,4 4,1 4),(4 2,7 1,7 3))", 1, 12, 69},
-        /* A chain of holes that cuts the interior in two. */
+        /* A chain of holes that cuts the interior into two parts. */
         {"POLYGON((0 0,8 0,8 8,0 8),(4 0,6 4,4 8,2 4))", 2, 10, 48},
         /* A ring that touches itself from outside, and from inside. */
         {"POLYGON((0 0,2 2,4 0,4 4,2 2,0 4))", 2, 6, 8},
         {"POLYGON((0 0,8 0,8 8,4 8,6 4,2 4,4 8,0 8))", 1, 8, 56},
         {"POLYGON((0 0,4 0,8 0,8 8,0 8,0 6,2 6,4 0,2 2))", 2, 9, 50},
-        /* An edge that a vertex of the same ring touches from outside: nothing is split. */
+        /* A vertex that touches an edge of the same ring from outside: nothing is split. */
         {"POLYGON((0 0,8 0,8 2,2 2,2 6,4 6,5 2,6 6,8 6,8 8,0 8))", 1, 11, 44},
         /* Members may touch, overlap and coincide. */
         {"MULTIPOLYGON(((0 0,4 0,4 4,0 4)),((2 2,6 2,6 6,2 6)),((0 0,4 0,4 4,0 4)))", 3, 12, 48},
@@ -213,18 +213,18 @@ static void test_touching(void **state)
     }
 }
 
-/* The checker has to find each fault. A fault is undone before the next one. */
+/* The checker has to find each fault. Each fault is undone before the next one. */
 static void test_check_finds(void **state)
 {
     (void)state;
     sunder_shape *s = sound("POLYGON((0 0,9 0,9 9,4 4,0 9),(4 0,5 1,4 2))");
     double *const xy = s->xy;
-    bool *const shared = (bool *)s->form->cleaned.shared; /* arrays of its own: it has two rings */
+    bool *const shared = (bool *)s->form->cleaned.shared; /* it has arrays of its own, since it has two rings */
     uint32_t *const piece_vertex = (uint32_t *)sunder_i_piece_vertices(s), *const along =
                                                                                (uint32_t *)s->form->cleaned.next;
     const double keep = xy[1];
     xy[1] = -1;
-    assert_non_null(sunder_i_shape_check(s)); /* out of its box, no longer at a shared place */
+    assert_non_null(sunder_i_shape_check(s)); /* outside its box, and no longer at a place shared with another ring */
     xy[1] = keep;
     shared[1] = !shared[1];
     assert_non_null(sunder_i_shape_check(s));
@@ -248,7 +248,7 @@ static void test_check_finds(void **state)
     sunder_shape_free(s);
 }
 
-/* Rings of few corners share data, and a ring that is clean as given is stored once. The results must not depend on
+/* Rings of few corners share data, and a ring that needs no cleaning is stored once. The results must not depend on
  * that, if the first corner is repeated, a vertex is not a corner, or the ring is clockwise. */
 static void test_few_corners(void **state)
 {
@@ -257,12 +257,12 @@ static void test_few_corners(void **state)
         for (int kind = 0; kind < 8; kind++) {
             double xy[2 * 24];
             size_t m = 0;
-            for (uint32_t k = 0; k < n; k++, m++) { /* on a parabola, so strictly convex */
+            for (uint32_t k = 0; k < n; k++, m++) { /* corners on a parabola, so strictly convex */
                 const double x = kind & 1 ? (double)n - 1 - k : k;
                 xy[2 * m] = 4 * x;
                 xy[2 * m + 1] = 4 * x * x;
                 if (!(kind & 2) || k) continue;
-                xy[2 * ++m] = kind & 1 ? 4 * x - 2 : 2; /* on the way to the next */
+                xy[2 * ++m] = kind & 1 ? 4 * x - 2 : 2; /* a vertex on the edge to the next corner */
                 xy[2 * m + 1] = kind & 1 ? 4 * x * x - 2 * (2 * x - 1) : 2;
             }
             if (kind & 4) {
@@ -314,18 +314,18 @@ static void repaired_to(const char *wkt, size_t polygons, size_t vertices, doubl
 static void test_repairs(void **state)
 {
     (void)state;
-    repaired_to("POLYGON((0 0,4 4,4 0,0 4,0 0))", 2, 6, 8, false);      /* bow-tie, a dyadic crossing */
-    repaired_to("POLYGON((0 0,3 3,3 0,0 2,0 0))", 2, 6, 3.9, true);     /* a crossing at 6/5 */
+    repaired_to("POLYGON((0 0,4 4,4 0,0 4,0 0))", 2, 6, 8, false);      /* crosses itself at a dyadic point */
+    repaired_to("POLYGON((0 0,3 3,3 0,0 2,0 0))", 2, 6, 3.9, true);     /* crosses itself at 6/5 */
     repaired_to("POLYGON((0 0,4 0,6 0,4 0,4 4,0 4))", 1, 4, 16, false); /* a spike */
-    repaired_to("POLYGON((0 0,1 0,0 0))", 0, 0, 0, false);              /* nothing */
+    repaired_to("POLYGON((0 0,1 0,0 0))", 0, 0, 0, false);              /* nothing is left */
     repaired_to("POLYGON((0 0,1 1,2 2,0 0))", 0, 0, 0, false);
-    repaired_to("POLYGON((0 0,8 0,8 8,0 8,0 0,8 0,8 8,0 8))", 0, 0, 0, false); /* twice round */
+    repaired_to("POLYGON((0 0,8 0,8 8,0 8,0 0,8 0,8 8,0 8))", 0, 0, 0, false); /* a ring traversed twice */
     repaired_to("POLYGON((0 0,8 0,8 8,0 8),(0 0,8 0,8 8,0 8))", 0, 0, 0, false);
     repaired_to("POLYGON((0 0,8 0,8 8,0 8),(0 0,4 0,4 8,0 8))", 1, 4, 32, false);   /* shared edges cancel */
     repaired_to("POLYGON((0 0,8 0,8 8,0 8),(9 0,10 0,10 1,9 1))", 2, 8, 65, false); /* a hole outside is filled */
     repaired_to("POLYGON((0 0,9 0,9 9,0 9),(1 1,8 1,8 8,1 8),(2 2,3 2,3 3,2 3))", 2, 12, 33, false);
     repaired_to("POLYGON((0 0,8 0,8 8,0 8),(5 5,5 5,5 5))", 1, 4, 64, false); /* a hole that is a point */
-    /* Members are repaired by themselves: the sound one stays, overlaps count twice. */
+    /* Members are repaired separately: the valid one stays, overlaps of members count twice. */
     repaired_to("MULTIPOLYGON(((0 0,4 4,4 0,0 4,0 0)),((0 0,4 0,4 4,0 4)))", 3, 10, 24, false);
 }
 
@@ -354,7 +354,7 @@ static void test_empty(void **state)
     sunder_shape_free(NULL);
 }
 
-/* The unit of rounding of long doubles at run time: an emulator may have no more than doubles, whatever the header
+/* The unit of rounding of long doubles at run time: an emulator may compute them as doubles, whatever the header
  * says. */
 static long double unit_of_rounding(void)
 {
@@ -370,8 +370,9 @@ static bool has_corner(const sunder_shape *s, double x, double y)
     return found;
 }
 
-/* The distance of the line through two points from the origin against the radius, in long doubles: their 11 more bits
- * are enough to see a fault of an ulp of the radius, and the proof itself is checked for truth, not for tightness. */
+/* The distance from the origin to the line through two points is compared with the radius, in long doubles: their 11
+ * additional bits are enough to detect an error of an ulp of the radius. Only the truth of the bound is checked, not
+ * its tightness. */
 static void check_disc(double radius, unsigned n, bool inside)
 {
     sunder_shape *s = NULL;
@@ -391,12 +392,13 @@ static void check_disc(double radius, unsigned n, bool inside)
         if (inside) {
             assert_true(corner <= 1 + 2 * unit);
         } else {
-            const long double dx = bx - ax, dy = by - ay; /* no cancelling, however short the side */
+            const long double dx = bx - ax, dy = by - ay; /* the differences have no cancellation, however short the
+                                                           * side */
             const long double edge = (ax * dy - ay * dx) / hypotl(dx, dy);
             assert_true(edge >= 1 - 8 * unit);
         }
-        /* Few segments: corners are multiples of a coarse unit, 2^-25 of the radius at most, which the factor makes up
-         * for. */
+        /* With few segments, corners are multiples of a coarse unit, at most 2^-25 of the radius, which the factor
+         * allows for. */
         assert_true(fabsl(corner / tight - 1) < (n <= 256 ? 0x1p-21L : 1e-12L));
         /* Symmetric about the x axis: the mirror image of each corner is a corner. */
         assert_true(has_corner(s, s->xy[2 * i], -s->xy[2 * i + 1]));
@@ -488,12 +490,12 @@ static void test_translate(void **state)
     for (size_t k = 0; k < 2 * (size_t)s->vertices; k++) assert_true(t->xy[k] == s->xy[k] + (k & 1 ? -7.5 : 1024.125));
     assert_true(sunder_shape_area(t) == sunder_shape_area(s));
     sunder_shape_free(t);
-    /* 0.1 is not a sum of few bits. */
+    /* 0.1 is not a sum of few powers of two. */
     assert_int_equal(sunder_shape_translate(s, 0.1, 0, &t, &exact, &err), SUNDER_OK);
     assert_false(exact);
     assert_null(sunder_i_shape_check(t));
     sunder_shape_free(t);
-    /* Far away all places coincide, and the shape is empty. */
+    /* Far away all vertices coincide, and the shape is empty. */
     assert_int_equal(sunder_shape_translate(s, 1e30, 1e30, &t, &exact, &err), SUNDER_OK);
     assert_false(exact);
     assert_true(sunder_shape_is_empty(t));
@@ -505,7 +507,7 @@ static void test_translate(void **state)
     assert_int_equal(sunder_shape_translate(s, 1e308, 0, &t, &exact, &err), SUNDER_ERANGE);
     assert_null(t);
     sunder_shape_free(s);
-    /* Rational corners move exactly too. */
+    /* Rational corners are translated exactly, too. */
     assert_int_equal(build("POLYGON((0 0,3 3,3 0,0 2,0 0))", SUNDER_VALIDITY_EVEN_ODD, &s, NULL), SUNDER_OK);
     assert_int_equal(sunder_shape_translate(s, 0.125, -16, &t, &exact, &err), SUNDER_OK);
     assert_true(exact && t->rational);

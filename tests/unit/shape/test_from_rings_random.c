@@ -1,7 +1,7 @@
-/* shape: random valid sets of every kind the generators know (touching holes, pinched rings, map coordinates, ragged
- * and huge ones) are accepted however they are written, and sound in every respect; on a wide lattice too. Placing two
- * shapes on one lattice keeps every coordinate, shifts and reflections included. Memory that runs out is reported and
- * nothing leaks. */
+/* shape: random valid sets of every kind that the generators make (touching holes, rings that touch themselves, map
+ * coordinates, ragged and huge ones) are accepted in every way of writing them, and satisfy all invariants; also on a
+ * wide lattice. Placing two shapes on one lattice keeps every coordinate, shifts and reflections included. If memory
+ * runs out, an error is reported and nothing leaks. */
 #include "failing.h"
 #include "generate.h"
 #include "gmp_numbers.h"
@@ -55,7 +55,8 @@ static void test_valid_sets(void **state)
     }
 }
 
-/* A ring of many corners round a middle, spikes and bays in turn, with a net of holes in it: enough for the trees. */
+/* A ring of many corners around a centre, alternating between spikes and bays, with a net of holes in it: large enough
+ * for the trees. */
 static void gear(polyset *set, rng *g)
 {
     const int teeth = (int)rng_int(g, 30, 120);
@@ -91,7 +92,7 @@ static void test_gears(void **state)
         gear(&set, &g);
         sunder_shape *s = NULL;
         sunder_error err;
-        /* A hole may have come out crossing itself. */
+        /* A hole may cross itself by chance. */
         if (sunder_shape_from_rings(set.xy, set.ring_end, set.poly_end, set.polygons, SUNDER_VALIDITY_EVEN_ODD, &s,
                                     &err))
             explain(&set, i, err.message);
@@ -122,7 +123,7 @@ static void value_of(mpq_t r, sunder_i_lattice *l, int64_t n, double origin)
     mpq_clear(o);
 }
 
-/* The true place: (coordinate + shift), negated if asked. */
+/* The exact coordinate: (coordinate + shift), negated if asked. */
 static void truth(mpq_t r, const sunder_shape *s, size_t i, const double *shift, bool negate)
 {
     mpq_t d;
@@ -264,11 +265,11 @@ static void test_no_memory(void **state)
         attempt_context c = {.validity = SUNDER_VALIDITY_EVEN_ODD};
         polyset_init(&c.set);
         assert_true(polyset_read_wkt(&c.set, wkt[i], NULL));
-        /* Area and anchor answer zero where memory is out, so an attempt may well survive a failure elsewhere. */
+        /* Area and anchor return zero if memory is out, so an attempt may succeed although an allocation failed. */
         assert_true(failing_loop(attempt, &c, false));
         polyset_free(&c.set);
     }
-    /* Something large: grids, trees, many holes. */
+    /* A large set: for grids, trees, many holes. */
     attempt_context c = {.validity = SUNDER_VALIDITY_STRICT};
     polyset_init(&c.set);
     const double outer[] = {0, 0, 100, 0, 100, 100, 0, 100};

@@ -1,5 +1,5 @@
 /* shape/measure, shape/anchor: the area is compared with brute force in rationals, and the anchor in doubles with the
- * same rule in integers, for coordinates of every size and with no memory available. Copies keep both.
+ * same rule in integers, for coordinates of every size and without memory. Copies keep both.
  * (tests/cli/test_side_anchors.sh tests that the anchor follows the documented rule.) */
 #include "failing.h"
 #include "generate.h"
@@ -39,7 +39,7 @@ static bool is_nearest(mpq_t q, double d)
 {
     mpq_t error, other;
     mpq_inits(error, other, NULL);
-    if (isinf(d)) { /* from the middle between DBL_MAX and the next power of two on */
+    if (isinf(d)) { /* true from the midpoint of DBL_MAX and the next power of two on */
         mpq_set_d(error, DBL_MAX);
         mpq_set_d(other, 0x1p970);
         mpq_add(error, error, other);
@@ -83,7 +83,7 @@ static sunder_i_big in_units(sunder_i_arena *arena, double v, int unit)
     return m.size ? sunder_i_big_shl(arena, m, (unsigned long)(e - unit)) : m;
 }
 
-/* By the same rule, of corners that are rational points. */
+/* Computes the anchor by the same rule, for corners that are rational points. */
 static void anchor_in_integers(const sunder_shape *s, double xy[2])
 {
     sunder_i_arena arena;
@@ -115,8 +115,8 @@ static void check_anchor(const sunder_shape *s, const char *name, size_t i)
                  quick[0], quick[1], exact[0], exact[1]);
 }
 
-/* Triangles of few units, whose anchors lie halfway between doubles, or near that; far from the origin, near it and
- * about it. */
+/* Triangles with sides of a few units, whose anchors lie halfway between doubles, or near that; far from the origin,
+ * near it and around it. */
 static void test_anchor_at_ties(void **state)
 {
     (void)state;
@@ -130,7 +130,7 @@ static void test_anchor_at_ties(void **state)
         for (int k = 0; k < 6; k++) xy[k] = unit * (off + floor(size * rng_unit(&g)));
         sunder_shape *s;
         if (sunder_shape_from_rings(xy, ring_end, poly_end, 1, SUNDER_VALIDITY_EVEN_ODD, &s, NULL) != SUNDER_OK)
-            continue; /* flat */
+            continue; /* no area */
         if (s->pieces) made++;
         check_anchor(s, "triangle", i);
         sunder_shape_free(s);
@@ -158,7 +158,7 @@ static void test_area_and_anchor_without_memory(void **state)
         sunder_shape_anchor(s, anchor);
         assert_false(failing_happened());
         failing_end();
-        if (s->rational) { /* where rings touch in no double: another test's */
+        if (s->rational) { /* rings that touch at a point that is not a double, which another test covers */
         } else if (!area_is_nearest(s, area))
             fail_msg("SUNDER_SEED=%llu, case %zu: area", (unsigned long long)test_seed(), i);
         check_anchor(s, "cells", i);
@@ -204,9 +204,9 @@ static void test_repaired_area_and_anchor(void **state)
     failing_end();
 }
 
-/* Corners with denominators whose area is the very middle of two doubles: no precision of a rounded sum tells to which
- * side it goes, only the exact one. Three bows with crossings at thirds have 5/6 each, the square 2^52, and another
- * `square` of area 1 turns the even neighbour from below to above. */
+/* Rational corners for which the area is exactly the midpoint of two doubles: no precision of a rounded sum decides the
+ * rounding, only the exact value does. Three rings that cross themselves at thirds have an area of 5/6 each, the square
+ * has 2^52, and another `square` of area 1 moves the even neighbour from below to above. */
 static void test_area_between_two_doubles(void **state)
 {
     (void)state;
@@ -242,7 +242,7 @@ static void test_area_between_two_doubles(void **state)
     }
 }
 
-/* A ring that meets itself still does so reflected and moved. */
+/* A ring that touches itself still does after a reflection and a translation. */
 static void test_copies_keep_touches(void **state)
 {
     (void)state;

@@ -45,7 +45,7 @@ static void random_ring(fixture *f, rng *r)
     f->ring_end[f->r.rings++] = f->r.vertices;
 }
 
-/* As clean.c leaves rings: no corner repeated or straight, no spike. */
+/* Links the vertices as clean.c leaves rings: without repeated or straight corners, without spikes. */
 static bool link_clean(fixture *f)
 {
     for (uint32_t k = 0, v = 0; k < f->r.rings; k++) {
@@ -121,7 +121,8 @@ static void test_spikes(void **state)
     assert_false(sunder_shape_touches(shape));
     sunder_shape_free(shape);
 
-    const double *foot = xy + 2 * (SPIKES - 2), *other = xy + 2 * 300; /* a foot moved onto another, and past it */
+    /* a base corner moved onto another one, and past it */
+    const double *foot = xy + 2 * (SPIKES - 2), *other = xy + 2 * 300;
     double moved[2 * SPIKES];
     memcpy(moved, xy, sizeof moved);
     moved[2 * (SPIKES - 2)] = other[0];

@@ -13,7 +13,7 @@
 #include <cmocka.h>
 
 #define CASES 30000
-#define MOST 36 /* corners, closed rings and all: more than are small */
+#define MOST 36 /* corners, including closing ones: more than a small polygon has */
 #define MOST_RINGS 5
 
 typedef struct drawn {
@@ -21,7 +21,7 @@ typedef struct drawn {
     size_t n, rings, ring_end[MOST_RINGS];
 } drawn;
 
-/* A ring round a middle, mostly sound; or any corners on a small grid, which may repeat, lie on one line, or cross. */
+/* A ring around a centre, mostly valid; or random corners on a small grid, which may repeat, be collinear, or cross. */
 static void add_ring(rng *g, drawn *d, size_t n, bool around, double mid_x, double mid_y, int64_t size)
 {
     const bool back = rng_once_in(g, 2);
@@ -33,13 +33,13 @@ static void add_ring(rng *g, drawn *d, size_t n, bool around, double mid_x, doub
         xy[2 * k] = mid_x + (around ? rint(r * cos(angle)) : (double)rng_int(g, 0, 4));
         xy[2 * k + 1] = mid_y + (around ? rint(r * sin(angle)) : (double)rng_int(g, 0, 4));
     }
-    if (rng_once_in(g, 2)) memcpy(xy + 2 * n++, xy, 2 * sizeof *xy); /* closed */
+    if (rng_once_in(g, 2)) memcpy(xy + 2 * n++, xy, 2 * sizeof *xy); /* repeats the first vertex */
     d->n += n;
     d->ring_end[d->rings++] = d->n;
 }
 
-/* Some as large as turns in 64 bits allow, or a little larger, or as native integers do; some with holes, which may lie
- * side by side, in each other, outside, or touch. */
+/* Some are as large as orientation tests in 64 bits allow, or slightly larger, or as large as native integers allow;
+ * some have holes, which may be side by side, nested, outside, or touching. */
 static void draw(rng *g, drawn *d)
 {
     const int64_t size = rng_once_in(g, 2)   ? 4
@@ -89,7 +89,7 @@ static bool same(const sunder_shape *s, const sunder_shape *t)
         s->form->cleaned.polygons != t->form->cleaned.polygons || s->low_bit != t->low_bit ||
         s->touches != t->touches || s->repaired != t->repaired)
         return false;
-    for (int k = 0; k < 4; k++) /* zeros may differ in sign: boxes begin with another corner */
+    for (int k = 0; k < 4; k++) /* zeros may differ in sign, since boxes begin with another corner */
         if (s->box[k] != t->box[k]) return false;
     const uint32_t corners = s->piece_end[s->pieces - 1];
     return memcmp(s->piece_end, t->piece_end, s->pieces * sizeof *s->piece_end) == 0 &&
@@ -105,8 +105,7 @@ static bool same(const sunder_shape *s, const sunder_shape *t)
            s->form->cleaned.poly_end[0] == t->form->cleaned.poly_end[0];
 }
 
-/* Counts the polygons that the special algorithm takes, since the comparison would prove nothing if it refused all of
- * them. */
+/* Counts the polygons that the special algorithm accepts; if it refused all of them, the comparison could not fail. */
 static void test_against_the_general_way(void **state)
 {
     (void)state;
@@ -159,7 +158,7 @@ static bool take_ring(const double *xy, size_t n, sunder_shape **out)
     return take(&d, out);
 }
 
-/* What it leaves to others: corners that repeat, are straight or touch an edge, crossings, numbers too long. */
+/* What it refuses: corners that repeat, are straight or touch an edge, crossings, numbers that are too long. */
 static void test_left_to_others(void **state)
 {
     (void)state;
@@ -177,14 +176,14 @@ static void test_left_to_others(void **state)
     assert_false(take_ring(longer, 3, &s));
     assert_false(take_ring(nothing, 3, &s));
     assert_false(take_ring(twice, 2, &s));
-    /* Edges on one line that are apart, as of a recess in a wall, are no trouble. */
+    /* Separate edges on one line, as at a recess in a wall, are accepted. */
     const double recess[] = {0, 0, 2, 0, 2, 1, 3, 1, 3, 0, 5, 0, 5, 4, 0, 4};
     assert_true(take_ring(recess, 8, &s));
     assert_int_equal(s->vertices, 8);
     sunder_shape_free(s);
 }
 
-/* Holes that lie in each other, lie outside, or touch; and too many holes. */
+/* Nested holes, holes outside, holes that touch; and too many holes. */
 static void test_holes(void **state)
 {
     (void)state;
@@ -196,7 +195,7 @@ static void test_holes(void **state)
                               {3, 3, 3, 2.5, 2.5, 2.5, 2.5, 3}, {-1, -1, 10, -1, 10, 10, -1, 10}};
     memcpy(d.xy, outer, sizeof outer);
     memcpy(d.xy + 8, hole[0], sizeof hole[0]);
-    assert_true(take(&d, &s)); /* both run in the same direction as given */
+    assert_true(take(&d, &s)); /* both rings have the same orientation in the input */
     assert_int_equal(s->form->cleaned.rings, 2);
     assert_null(sunder_i_shape_check(s));
     sunder_shape_free(s);

@@ -20,7 +20,7 @@ typedef struct boxes {
     size_t n;
 } boxes;
 
-/* On a grid of quarters, so that boxes touch; some are points; now and then one is far away. */
+/* Boxes on a grid of quarters, so that they touch; some are points; a few are far away. */
 static void random_box(rng *r, double box[4])
 {
     const int64_t wide = rng_once_in(r, 50) ? 100000 : 400;
@@ -84,7 +84,7 @@ static void check_boxes(const boxes *b, const sunder_i_rtree *tree)
     sunder_i_free(all);
 }
 
-/* The boxes of a tree that was lent move, and those of the other do not. */
+/* If the boxes of a borrowed tree move, those of the other do not. */
 static void test_lent(void **state)
 {
     (void)state;
@@ -117,7 +117,7 @@ static void test_lent(void **state)
     }
 }
 
-/* Many that go far wear the tree; one does not, nor do all of them going a little. */
+/* Many boxes that move far make the tree worn; a single one does not, nor do all of them if they move a little. */
 static void test_wears_by_many(void **state)
 {
     (void)state;

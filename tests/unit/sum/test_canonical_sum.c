@@ -1,5 +1,5 @@
-/* The checker of canonical sums: a sum with polygons, holes, segments and points is canonical, and no longer so once
- * any two of them change places. */
+/* The checker of canonical sums: a sum with polygons, holes, segments and points is canonical, and is no longer after
+ * any two of them are swapped. */
 #include "generate.h"
 #include "minkowski/minkowski.h"
 #include "sum/canonical_sum.h"
@@ -10,8 +10,8 @@
 
 #include <cmocka.h>
 
-/* Two frames, each with two holes that shrink; the first with two that close to segments and two that close
- * to points. */
+/* Two frames, each with two holes that shrink; the first also has two that become segments and two that become
+ * points. */
 static const char frames[] =
     "MULTIPOLYGON (((0 0, 100 0, 100 100, 0 100), (10 10, 10 20, 20 20, 20 10), (10 40, 10 50, 20 50, 20 40),"
     " (40 10, 40 15, 42 15, 42 10), (40 40, 40 45, 42 45, 42 40), (70 10, 70 12, 72 12, 72 10),"

@@ -1,6 +1,5 @@
-/* unions/: the planar map beneath a sum, through the public interface; orders of insertion and measures of fatness;
- * options out of range, stops, and every allocation failing once. tests/property tests that all algorithms give the
- * same sum. */
+/* unions/: the planar map of a sum, through the public interface; orders of insertion and measures of fatness; options
+ * out of range, stops, and every allocation fails once. tests/property tests that all algorithms give the same sum. */
 #include "failing.h"
 #include "generate.h"
 #include "generated.h"
@@ -23,7 +22,7 @@ static uint32_t find(uint32_t *parent, uint32_t v)
     return v;
 }
 
-/* Half-edges, vertices and faces know each other; faces are as many as Euler says. */
+/* Half-edges, vertices and faces refer to each other consistently; the number of faces agrees with Euler's formula. */
 static void check_links(const sunder_map *m)
 {
     const uint32_t vertices = (uint32_t)sunder_map_vertices(m), halves = 2 * (uint32_t)sunder_map_edges(m);
@@ -61,7 +60,7 @@ static void check_links(const sunder_map *m)
     free(degree);
 }
 
-/* Each half-edge is on one boundary of its face, and the boundaries listed are all. */
+/* Each half-edge is on one boundary of its face, and the listed boundaries are complete. */
 static void check_boundaries(const sunder_map *m)
 {
     size_t seen = 0;
@@ -94,7 +93,8 @@ static void vertex_at(const sunder_map *m, uint32_t v, mpq_t x, mpq_t y)
     sunder_free(yt);
 }
 
-/* The area of the covered faces is the sum's; so are the degenerate holes, as many as can be counted one by one. */
+/* The covered faces have together the area of the sum; the degenerate holes are those that can be counted one by
+ * one. */
 static void check_covered(const sunder_sum *sum, const sunder_map *m)
 {
     mpq_t a[2], b[2], area, part, want;
@@ -106,7 +106,7 @@ static void check_covered(const sunder_sum *sum, const sunder_map *m)
         const uint32_t on = sunder_map_edge_covered(m, h >> 1);
         assert_true(on <= left && on <= right);
         slits += !on && left && right;
-        if (!left || right) continue; /* edges inside, and edges of holes from the other side, add nothing */
+        if (!left || right) continue; /* inner edges, and edges of holes from the other side, add nothing */
         vertex_at(m, sunder_map_origin(m, h), a[0], a[1]);
         vertex_at(m, sunder_map_origin(m, sunder_map_twin(h)), b[0], b[1]);
         mpq_mul(part, a[0], b[1]);
@@ -166,7 +166,7 @@ static void test_map(void **state)
     assert_true(holes > 2 * test_count(10));
 }
 
-/* A square in a square: one face of four regions, laid out by hand. */
+/* A square in a square: a map of four regions, made by hand. */
 static void test_map_of_four(void **state)
 {
     polyset p, q;
@@ -186,7 +186,7 @@ static void test_map_of_four(void **state)
     assert_int_equal(method.pieces_p, 2);
     assert_int_equal(method.pieces_q, 1);
     const sunder_map *m = sunder_sum_map(sum);
-    /* [0, 3]^2 and [1, 4]^2: they cross twice; outside, one, both, the other. */
+    /* [0, 3]^2 and [1, 4]^2: their boundaries cross twice; faces: outside, one, both, the other. */
     assert_int_equal(sunder_map_vertices(m), 10);
     assert_int_equal(sunder_map_edges(m), 12);
     assert_int_equal(sunder_map_faces(m), 4);
@@ -280,8 +280,9 @@ static void test_order(void **state)
     }
 }
 
-/* The measures side by side: one union, its cost in crossings drawn. On the covered fork, where two subsums cover
- * everything, any measure that finds them first must do better than chance by far. */
+/* Compares the measures: the union is the same, and each measure has its cost in crossings. For an operand shaped like
+ * a fork, where two subsums cover everything, a measure that takes them first must be far better than a random
+ * order. */
 static void test_fatness(void **state)
 {
     static const struct {
@@ -355,7 +356,7 @@ static void test_options(void **state)
     polyset_free(&square);
 }
 
-/* With an operand that is empty, or both: an empty sum, on a map of one face. */
+/* One operand or both are empty: an empty sum, on a map of one face. */
 static void test_empty(void **state)
 {
     polyset nothing, square;

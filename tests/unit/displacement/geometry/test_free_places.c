@@ -1,5 +1,6 @@
-/* Free places in crowds of convex obstacles, which the search takes through cells: the nearest one is free, and as near
- * as the nearest of all feet of perpendiculars and all crossings of sides that are free, each tested against all. */
+/* Free places among many convex obstacles, which the search finds through grid cells: the result is free, and as near
+ * as the nearest free one of all candidates (feet of perpendiculars, crossings of sides), each tested against all
+ * obstacles. */
 #include "base/watch.h"
 #include "displacement/geometry/grown_cache.h"
 #include "random.h"
@@ -14,7 +15,7 @@
 
 enum { MOST = 90, CORNERS = 9 };
 
-/* Places on a side are not inside; those that miss a place by less are taken to be it. */
+/* Places on a side are not inside. Places that are nearer to a side than this count as on it. */
 #define ON 1e-9
 
 typedef struct crowd {
@@ -23,7 +24,7 @@ typedef struct crowd {
     double target[2];
 } crowd;
 
-/* Regular polygons, from few and far apart to many over each other, some far larger or thinner than the others. */
+/* Regular polygons, from few and far apart to many on top of each other, some far larger or thinner than the others. */
 static void draw(rng *r, crowd *c)
 {
     c->n = (size_t)rng_int(r, 1, MOST);
@@ -44,7 +45,7 @@ static void draw(rng *r, crowd *c)
     for (int e = 0; e < 2; e++) c->target[e] = far[e] + size * spread * (rng_unit(r) - 0.5) / 2;
 }
 
-/* How far x lies to the left of side m of obstacle k. */
+/* The distance of x to the left of side m of obstacle k. */
 static double left_of(const crowd *c, size_t k, size_t m, const double x[2])
 {
     const double *p = c->corner[k][m], *q = c->corner[k][m + 1 < c->corners[k] ? m + 1 : 0];
@@ -89,7 +90,7 @@ static void consider_crossing(const crowd *c, const double *p, const double *q, 
     consider(c, x, on, best);
 }
 
-/* How far the nearest free place is, by trying all that it could be. */
+/* The distance of the nearest free place, by trying all candidates. */
 static double try_all(const crowd *c, double on)
 {
     double best = INFINITY;
@@ -141,7 +142,7 @@ static void test_crowds(void **state)
     }
 }
 
-/* Rounded corners: their resolution depends on the width of the gap; if the gap is tiny compared with the obstacle two
+/* Rounded corners: their resolution depends on the width of the gap; if the gap is tiny compared with the obstacle, two
  * tangents suffice. */
 static void test_corners(void **state)
 {
@@ -162,7 +163,7 @@ static void test_corners(void **state)
     sunder_i_obstacles_free(&o);
 }
 
-/* Kept results are added again unchanged after any other additions, as long as they fit. */
+/* Cached results are returned unchanged after other additions, as long as they fit into the cache. */
 static void test_kept(void **state)
 {
     (void)state;
@@ -211,7 +212,7 @@ static bool go_on_once(void *user)
     return go_on;
 }
 
-/* A search that is stopped on request, even while cells are made, reports failure. */
+/* A search that is stopped on request, even while its cells are made, reports failure. */
 static void test_stopped(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-/* The obstacle of two convex pieces: A + (-B), corner by corner. */
+/* The obstacle of two convex pieces, A + (-B), corner by corner. */
 #include "base/memory.h"
 #include "displacement/geometry/obstacle.h"
 #include "random.h"
@@ -34,7 +34,7 @@ static bool is_difference(const double *a, size_t na, const double *b, size_t nb
     return false;
 }
 
-/* Every corner is the difference of two, rounded no further, however many edges led there. */
+/* Every corner is the difference of two corners, rounded once, whatever the number of edges before it. */
 static void test_corners_are_differences(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-/* Boxes beside a road, with known answers: kinds, reasons, links, moves. */
+/* Boxes beside a road, with known results: kinds, reasons, links, moves. */
 #include "scene.h"
 
 #include <math.h>
@@ -9,14 +9,14 @@
 
 #include <cmocka.h>
 
-/* In doubles, which assert_float_equal() is not. */
+/* Compares in doubles; assert_float_equal() uses floats. */
 #define assert_near(a, b, tolerance) assert_true(fabs((a) - (b)) <= (tolerance))
 
 /* Moves are rounded outward by some units in the last place; nothing here is larger than a few hundred. */
 #define HAIR 1e-9
 
-/* One box of 10 by 10 at the origin, beside a road that leads upward at x, of width 2 at a gap of 1: so 2 from its
- * middle. The report lives until the next call. */
+/* One box of 10 by 10 at the origin, beside a vertical road at x that has width 2 and gap 1, so the required distance
+ * from its centre line is 2. The report is valid until the next call. */
 static const sunder_conflict *beside_road(double x, double limit, sunder_layer_summary *summary, double t[2])
 {
     static sunder_report *report;
@@ -46,20 +46,21 @@ static void check_beside_barrier(void **state)
 {
     sunder_layer_summary s;
     double t[2];
-    assert_null(beside_road(-1, INFINITY, &s, t)); /* 1 off: 1 more is needed */
-    assert_int_equal(s.before.barrier_near, 1);    /* and touches the drawn edge, which is no overlap */
+    assert_null(beside_road(-1, INFINITY, &s, t)); /* the distance is 1, so 1 more is needed */
+    assert_int_equal(s.before.barrier_near, 1);    /* it touches the drawn edge, which is not an overlap */
     assert_int_equal(s.before.barrier_drawn, 0);
     assert_near(t[0], 1, HAIR);
     assert_near(s.lower_bound, 1, 1e-6);
-    assert_null(beside_road(-2, INFINITY, &s, t)); /* just so */
+    assert_null(beside_road(-2, INFINITY, &s, t)); /* exactly the required distance */
     assert_int_equal(s.before.barrier_near, 0);
-    assert_null(beside_road(nextafter(-1, 0), INFINITY, &s, t)); /* a hair within it */
+    assert_null(beside_road(nextafter(-1, 0), INFINITY, &s, t)); /* just inside the drawn edge */
     assert_int_equal(s.before.barrier_drawn, 1);
-    assert_null(beside_road(0, INFINITY, &s, t)); /* along a wall, which meets no interior */
+    assert_null(beside_road(0, INFINITY, &s, t)); /* along a wall: the road does not meet the interior */
     assert_int_equal(s.before.barrier_drawn, 1);
     assert_int_equal(s.before.barrier_near, 0);
     assert_near(t[0], 2, HAIR);
-    assert_null(beside_road(3, INFINITY, &s, t)); /* through it: the nearer side is that of x = 3 */
+    assert_null(beside_road(3, INFINITY, &s, t)); /* the road cuts the box: moving the box off at its nearer side, at x
+                                                   * = 3, is shorter */
     assert_int_equal(s.before.barrier, 1);
     assert_near(t[0], 5, HAIR);
     assert_near(s.cost, 25, 100 * HAIR);

@@ -1,4 +1,4 @@
-/* Blocks and contained features, on small layers with known answers. */
+/* Blocks and contained features, in small layers with known results. */
 #include "scene.h"
 
 #include <math.h>
@@ -9,7 +9,7 @@
 
 #include <cmocka.h>
 
-/* In doubles, which assert_float_equal() is not. */
+/* Compares in doubles; assert_float_equal() uses floats. */
 #define assert_near(a, b, tolerance) assert_true(fabs((a) - (b)) <= (tolerance))
 
 /* Moves are rounded outward by some units in the last place; nothing here is larger than a few hundred. */
@@ -61,8 +61,9 @@ static void check_inside_blocks(void **state)
     scene_check(&s);
     size_t n;
     const sunder_conflict *c = sunder_report_conflicts(s.report, &n);
-    assert_int_equal(s.summary.blocks, 1);               /* 0 and 1 by number, 2 by the tolerance of 0.1 */
-    assert_int_equal(s.summary.before.inside_blocks, 2); /* 1 and 2 are the gap apart, exactly */
+    assert_int_equal(s.summary.blocks, 1);               /* 0 and 1 have the same number, 2 is within the tolerance of
+                                                          * 0.1 */
+    assert_int_equal(s.summary.before.inside_blocks, 2); /* 1 and 2 are exactly the gap apart */
     assert_int_equal(s.summary.before.overlap + s.summary.before.too_close, 0);
     assert_int_equal(n, 1);
     assert_int_equal(c->kind, SUNDER_CONFLICT_OVERLAP);
@@ -76,7 +77,8 @@ static void check_inside_blocks(void **state)
     scene_end(&s);
 }
 
-/* Two outlines have to part; the house in the one stands by the edge that is pushed in, and stays inside. */
+/* Two outlines have to be separated; the house in one of them is near the edge that is pushed inwards, and stays
+ * inside. */
 static void check_kept_inside(void **state)
 {
     scene s;
@@ -90,10 +92,10 @@ static void check_kept_inside(void **state)
     scene_separate(&s);
     assert_int_equal(s.summary.before.overlap, 1);
     assert_int_equal(scene_left(&s), 0);
-    /* The outline gives way by nearly 3, and would leave the house 1 of the 4 that it had; it need not move. */
+    /* The outline moves by nearly 3, which would leave the house 1 of its 4; the house need not move. */
     assert_near(scene_length(&s, 0), 3, 0.01);
     assert_int_equal(sunder_report_status(s.report, 2), SUNDER_FEATURE_UNMOVED);
-    /* Near the edge it is pushed inward, by the amount that the edge comes too far. */
+    /* A house near the edge is pushed inwards, by the distance that the edge comes beyond it. */
     scene_end(&s);
     scene_begin(&s, 0);
     s.options.contained = SUNDER_CONTAINMENT_IGNORE;
@@ -101,7 +103,7 @@ static void check_kept_inside(void **state)
     scene_add_box(&s, 97, 0, 100, 100)->weight = 1000;
     scene_add_box(&s, 0.5, 40, 6, 6);
     scene_add_box(&s, 90.5, 40, 6, 6);
-    scene_add_box(&s, 0, 60, 6, 6)->weight = 1e-3; /* touches the edge that moves away from it, and may stay */
+    scene_add_box(&s, 0, 60, 6, 6)->weight = 1e-3; /* touches the edge that moves away from it, so it may stay */
     scene_separate(&s);
     assert_int_equal(scene_left(&s), 0);
     assert_near(scene_length(&s, 0), 3, 0.02);
@@ -111,7 +113,7 @@ static void check_kept_inside(void **state)
     sunder_report_move(s.report, 3, &dx, &dy);
     assert_near(dx, 0, HAIR);
     scene_end(&s);
-    /* The edge is pushed across the whole house: kept inside, the house goes along. */
+    /* The edge is pushed across the whole house: the house, which has to stay inside, moves with it. */
     scene_begin(&s, 0);
     s.options.contained = SUNDER_CONTAINMENT_IGNORE;
     scene_add_box(&s, 0, 0, 100, 100);
@@ -122,7 +124,7 @@ static void check_kept_inside(void **state)
     sunder_report_move(s.report, 2, &dx, &dy);
     assert_near(dx, -5, 0.1);
     scene_end(&s);
-    /* In both of two that part: it stays in the one whose edge is farther. */
+    /* A house in both of two outlines that are separated: it stays in the one whose edge is farther away. */
     scene_begin(&s, 0);
     s.options.contained = SUNDER_CONTAINMENT_IGNORE;
     scene_add_box(&s, 0, 0, 100, 100);
@@ -154,9 +156,9 @@ static void check_contained(void **state)
     scene_separate(&s);
     assert_int_equal(s.summary.before.contained, 1);
     assert_int_equal(scene_left(&s), 0);
-    assert_near(s.summary.total, 9, HAIR); /* out by the left: 5 + 4 */
+    assert_near(s.summary.total, 9, HAIR); /* leaves to the left: 5 + 4 */
     scene_end(&s);
-    /* Up to the tolerance: 0.2 beyond the wall, with a tolerance of 0.3. */
+    /* Containment up to the tolerance: 0.2 beyond the wall, with a tolerance of 0.3. */
     scene_begin(&s, 3);
     scene_add_box(&s, 0, 0, 20, 20);
     scene_add_box(&s, -0.2, 6, 8, 8);
@@ -185,7 +187,8 @@ static void check_duplicates(void **state)
     scene_end(&s);
 }
 
-/* A house that sticks out of its outline and is too near a block beside it: into the outline is a way out of both. */
+/* A house that projects from its outline and is too near to a block beside it: moving it into the outline resolves both
+ * conflicts. */
 static void check_way_inside(void **state)
 {
     scene s;
@@ -198,7 +201,8 @@ static void check_way_inside(void **state)
     assert_int_equal(scene_left(&s), 0);
     assert_near(scene_length(&s, 1), 4, HAIR);
     assert_true(s.summary.lower_bound <= s.summary.cost);
-    /* 3.5 is too short for either way. Off the block it would only go deeper into the outline: it stays. */
+    /* The limit 3.5 is too short for either solution. Away from the block it would only get deeper into the outline's
+     * wall: it stays. */
     s.feature[1].max_shift = 3.5;
     scene_separate(&s);
     size_t n;
@@ -207,7 +211,7 @@ static void check_way_inside(void **state)
     assert_int_equal(c->reason, SUNDER_REASON_MAX_SHIFT);
     assert_true(scene_length(&s, 1) == 0);
     scene_end(&s);
-    /* Neither fits in the other: then the gap is the only way. */
+    /* Neither fits into the other, so the only solution is to be the gap apart. */
     scene_begin(&s, 3);
     s.options.contained = SUNDER_CONTAINMENT_IGNORE;
     scene_add_box(&s, 0, 0, 8, 100)->fixed = true;

@@ -1,6 +1,6 @@
-/* The search's view of a body: not made until its first use, and then the same for every thread that asks first: pieces
- * relative to the body's origin, in the order of the shapes', with boxes that make up the body's; anchors; and convex
- * outlines. */
+/* The search's representation of a body: made at its first use, and the same for every thread that uses it first:
+ * pieces relative to the body's origin, in the order of the shapes' pieces, with boxes whose union is the body's box;
+ * anchors; and convex outlines. */
 #include "random.h"
 #include "scene.h"
 #include "scene_model.h"
@@ -17,8 +17,8 @@
 
 #include <cmocka.h>
 
-/* The first two share a wall and are one body; the third is not convex, and has more pieces than a run; the last is a
- * row of six. */
+/* The first two features share a wall and are one body; the third is not convex, and has more pieces than fit into a
+ * run; the last is a row of six. */
 static void draw(scene *s)
 {
     scene_begin(s, 1);
@@ -68,7 +68,7 @@ static void check_outlines(const sunder_i_model *model, const sunder_i_body *bod
     }
 }
 
-/* The box of a body's anchors is that of its anchors as pieces, be they few or many. */
+/* The box of a body's anchors is the box of its anchors given as pieces, for few and for many anchors. */
 static void check_anchors(const sunder_i_model *model, const sunder_i_body *body, const sunder_i_body_pieces *pieces)
 {
     double box[4], all[4];
@@ -112,7 +112,7 @@ static void test_made_when_asked(void **state)
         most_members = body->members > most_members ? body->members : most_members;
     }
     assert_true(diagonal_covers >= model->most_pieces - 1);
-    assert_true(most_members > 4); /* runs with a stored box */
+    assert_true(most_members > 4); /* so that there are runs with a stored box */
     assert_true(model->most_pieces >= 2 * SUNDER_I_RUN - 1);
     scene_model_end(&of);
     scene_end(&s);

@@ -1,5 +1,5 @@
-/* The order of work depends on the places of features only: for any order of the list, any distances, and equal
- * features. */
+/* The order of processing depends on the positions of features only: for any order of the list, any distances, and
+ * features that are equal. */
 #include "random.h"
 #include "scene.h"
 
@@ -15,8 +15,8 @@
 
 #include <cmocka.h>
 
-/* Boxes, many with the same lower edge, on either side of 0 and on it; some absent, some alike, and now and then one as
- * far away as doubles go. */
+/* Boxes, many with the same lower edge, on either side of 0 and on it; some are missing, some are equal, and some are
+ * as far away as doubles allow. */
 static void draw_scene(rng *g, scene *s)
 {
     scene_begin(s, 1);
@@ -36,7 +36,7 @@ static void draw_scene(rng *g, scene *s)
 
 static int by_double(double a, double b) { return (a > b) - (a < b); }
 
-/* The documented order (head of feature_order.c) of two places of the list. */
+/* The documented order (at the top of feature_order.c) of two entries of the list. */
 static int by_place(const scene *s, size_t i, size_t j)
 {
     const sunder_feature *a = &s->feature[i], *b = &s->feature[j];
@@ -72,7 +72,7 @@ static void check_order(const scene *s, bool as_given)
         const int order = by_place(s, before, f);
         assert_true(order <= 0);
         /* Features that are equal in everything keep the order of the list. Ignored ones are excepted: they are ordered
-         * by corners and demands first. */
+         * by corners and required distances first. */
         if (order == 0 && !s->feature[f].ignored) assert_true(before < f);
     }
     sunder_i_ordered_clear(&work);
@@ -93,7 +93,7 @@ static void test_by_place(void **state)
     }
 }
 
-/* All features are absent; or there are none. */
+/* All features are missing, or the list is empty. */
 static void test_of_none(void **state)
 {
     (void)state;

@@ -37,20 +37,20 @@ static void test_thin(void **state)
     scene_add_box(&s, 9.75, 0, 10, 10);
     scene_add_box(&s, 19, 0, 10, 10); /* 0.75 deep in the second */
     scene_add_box(&s, 28, 0, 10, 10); /* 1 deep in the third */
-    scene_add_box(&s, 5, 5, 1, 1);    /* contained, which is a question of its own */
+    scene_add_box(&s, 5, 5, 1, 1);    /* contained: containment is handled apart from overlaps */
     s.options.contained = SUNDER_CONTAINMENT_SEPARATE;
     s.options.thin = 0.75;
     scene_check(&s);
     assert_int_equal(s.summary.before.overlap, 3);
     assert_int_equal(s.summary.thin, 2);
-    s.feature[0].block = s.feature[1].block = 3; /* what is one block already */
+    s.feature[0].block = s.feature[1].block = 3; /* features that are in one block already are not counted */
     scene_check(&s);
     assert_int_equal(s.summary.thin, 1);
-    s.options.no_touch = true; /* then no tolerance joins anything */
+    s.options.no_touch = true; /* with this option no tolerance joins anything, so none is proposed */
     scene_check(&s);
     assert_int_equal(s.summary.thin, 0);
     s.options.no_touch = false;
-    s.options.touch_tolerance = 0.8; /* nor is it asked where there is one */
+    s.options.touch_tolerance = 0.8; /* with a tolerance nothing is proposed, either */
     scene_check(&s);
     assert_int_equal(s.summary.thin, 0);
     assert_int_equal(s.summary.before.overlap, 1);
@@ -80,7 +80,7 @@ static void test_no_touch(void **state)
     scene_add_box(&s, 0, 0, 10, 10);
     scene_add_box(&s, 10, 0, 10, 10);
     scene_add_box(&s, 2, 2, 1, 1);
-    s.options.no_touch = true; /* containment joins all the same */
+    s.options.no_touch = true; /* containment joins even so */
     scene_check(&s);
     assert_int_equal(s.summary.blocks, 1);
     assert_int_equal(sunder_report_block(s.report, 2), 0);

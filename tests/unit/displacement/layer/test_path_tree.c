@@ -1,5 +1,5 @@
-/* The bodies whose paths from their original places come near a box: by the tree, and by a loop over all bodies; for
- * small, large and reversed moves, and for features with moves of their own. */
+/* The bodies whose paths from their original places come near a box: compares the tree with a loop over all bodies, for
+ * small, large and reversed moves, and for features that move on their own. */
 #include "random.h"
 #include "scene_model.h"
 
@@ -45,7 +45,7 @@ static void add_features(rng *r, scene *s, size_t n)
             scene_add_box(s, (double)rng_int(r, 0, 200), (double)rng_int(r, 0, 200), 1 + (double)rng_int(r, 0, 9), 3);
 }
 
-/* Some bodies move so far; returns the features that did. */
+/* Moves some bodies by up to `far`; returns the features that moved. */
 static size_t move_some(rng *r, sunder_i_model *model, int64_t far, uint32_t *moved)
 {
     size_t n = 0;

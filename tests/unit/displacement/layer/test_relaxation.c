@@ -1,5 +1,5 @@
 /* displacement/layer/relaxation: a remaining overlap is limited to its depth along the shortest way out at the present
- * places, if that is no longer than the first least translation. */
+ * places, if that is not longer than the first least translation. */
 #include "polyset.h"
 #include "scene.h"
 
@@ -22,7 +22,7 @@ typedef struct layer {
     sunder_layer work;
     sunder_i_barriers parts;
     sunder_i_model model;
-    sunder_i_relaxation relaxation; /* of things 0 and 1, at their first places */
+    sunder_i_relaxation relaxation; /* of features 0 and 1, at their original places */
 } layer;
 
 /* A box of 10 by 10, and another one, or a barrier, that reaches 3 into its side; the gap is 1. */
@@ -57,7 +57,8 @@ static void end(layer *l)
     scene_end(&l->scene);
 }
 
-/* Moved so, one against the other: is there a way out as short, and which? As long as the former, less a hair. */
+/* With the one moved relative to the other by (x, y): is there an equally short way out, and which is it? Up to a
+ * rounding error. */
 static void expect(const layer *l, double x, double y, bool fits, double dx, double dy)
 {
     sunder_i_relaxation t = l->relaxation;
@@ -77,11 +78,11 @@ static void check(bool barrier)
 {
     layer l;
     begin(&l, barrier);
-    expect(&l, 2, 0, true, 3, 0);    /* less deep, the same way */
-    expect(&l, -1, 4.5, true, 0, 3); /* 4 deep in that direction, 1.5 in the other */
+    expect(&l, 2, 0, true, 3, 0);    /* less deep, in the same direction */
+    expect(&l, -1, 4.5, true, 0, 3); /* 4 deep in the old direction, 1.5 in the other */
     expect(&l, -4, -6, true, 0, -3);
     expect(&l, -1, 0, false, 3, 0); /* deeper in each direction: unchanged */
-    expect(&l, 5, 0, true, 0, 0);   /* no longer overlapping; this has to stay so */
+    expect(&l, 5, 0, true, 0, 0);   /* no longer overlapping; it has to stay so */
     end(&l);
 }
 

@@ -1,5 +1,5 @@
-/* The relations of things at the start, also for a few things only, and the demand on a pair that is left in
- * conflict. */
+/* The relations of features and barriers at the start, also for a subset of them, and the requirement on a pair that is
+ * left in conflict. */
 #include "random.h"
 #include "scene_model.h"
 
@@ -28,7 +28,7 @@ static void draw_scene(rng *g, scene *s)
     for (size_t k = 0; k < n; k++) s->feature[k].fixed = rng_once_in(g, 2);
 }
 
-/* The relations of a few things are all relations with one of them, and no others. */
+/* The relations of a subset are all relations with a member of it, and no others. */
 static void test_relations_of_some(void **state)
 {
     (void)state;
@@ -62,7 +62,7 @@ static void test_relations_of_some(void **state)
     }
 }
 
-/* Moves some bodies, far or slightly; lists the changed ones, sorted, and their neighbours. */
+/* Moves some bodies, far or slightly; lists those that moved, sorted, and their neighbours. */
 static void move_some(rng *g, scene_model *m, sunder_i_changes *changes, sunder_i_list *about)
 {
     sunder_error err;
@@ -131,8 +131,8 @@ static void test_brought_up_to_date(void **state)
     assert_true(most > 20);
 }
 
-/* The demand of a relaxation, slightly reduced, is satisfied by the start and is never stricter: it is the former
- * distance, or a way out of the overlap. */
+/* The requirement of a relaxation, slightly reduced, is satisfied at the start and is never stricter than the full one:
+ * it is the former distance, or a way out of the overlap. */
 static void test_below_what_it_had(void **state)
 {
     (void)state;

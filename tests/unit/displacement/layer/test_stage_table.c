@@ -1,5 +1,5 @@
-/* displacement/layer/stage_table: stages run in the order of the table, if their preconditions are true, until one ends
- * the sequence; those that changed a figure are in the trace. */
+/* displacement/layer/stage_table: stages whose preconditions are true run in the order of the table, until one of them
+ * ends the sequence; those that changed a figure appear in the trace. */
 #include "displacement/layer/stage_table.h"
 
 #include <setjmp.h>

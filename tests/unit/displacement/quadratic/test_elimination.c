@@ -1,6 +1,6 @@
 /* Elimination orders: each ranks all nodes, and gives the same neighbours as eliminating one node after the other in
- * that order, with sets. Where nodes stand beside their neighbours dissection takes less than minimum degree; a graph
- * without a small separator is declined. */
+ * that order, with sets. For points that are connected with near ones, nested dissection takes less work than minimum
+ * degree; a graph without a small separator is declined. */
 #include "displacement/quadratic/elimination.h"
 #include "random.h"
 
@@ -90,7 +90,7 @@ static void check_drawn(void **state)
     assert_true(dissected > 0 && left > 0);
 }
 
-/* How many products of entries the factor takes. */
+/* The number of products of entries that the factorisation takes. */
 static size_t count_work(size_t n, const sunder_i_id_pair *pair, size_t pairs, const double *place, bool *done)
 {
     uint32_t *rank = malloc(n * sizeof *rank);
@@ -142,10 +142,10 @@ static void check_star(void **state)
     const size_t work = count_work(N, pair, N, NULL, &done);
     assert_true(work == N - 1);
     count_work(N, pair, N, place, &done);
-    assert_true(done); /* one node parts them: it comes last */
+    assert_true(done); /* one node separates all others: it comes last */
     for (int k = 0; k < N; k++) pair[k] = (sunder_i_id_pair){(uint32_t)k, (uint32_t)((k + N / 2) % N)};
     count_work(N, pair, N, place, &done);
-    assert_false(done); /* each is in contact with one of the other half */
+    assert_false(done); /* each node is connected with one of the other half: no small separator */
 }
 
 int main(void)

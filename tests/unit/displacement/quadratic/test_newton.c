@@ -1,4 +1,4 @@
-/* Newton steps on quadratic programs: results satisfy the optimality conditions, for soft and for hard programs. If
+/* Newton steps on quadratic programs: results satisfy the optimality conditions, for soft and for hard constraints. If
  * constraints contradict each other, the forces prove that every solution costs too much. A program that is not solved
  * is left unchanged. A compromise for a terrace takes a fraction of the work of the dual methods. */
 #include "displacement/quadratic/methods.h"
@@ -34,8 +34,8 @@ static void begin(program *p)
     for (size_t k = 0; k < BODIES; k++) p->mass[k] = 0.5;
 }
 
-/* Random contacts of bodies with their neighbours in a list, some with the ground, some of them fixed; all distances
- * grow along one direction, so that there is a solution: all move along it. */
+/* Random contacts of bodies with their neighbours in a list, some with the ground, and some bodies fixed; all distances
+ * grow along one direction, so there is a solution: all move along it. */
 static void draw(rng *r, program *p)
 {
     begin(p);
@@ -84,7 +84,7 @@ static void check_solutions(void **state)
         const double softness = rng_once_in(&r, 2) ? pow(10, -1 - 5 * rng_unit(&r)) : 0, tolerance = 1e-8;
         assert_true(sunder_i_quadratic_newton(&p.q, softness, tolerance, &done));
         if (done) check_optimal(&p, trial, softness, tolerance);
-        /* From its forces it is there at once. */
+        /* Started from its own forces it finishes at once. */
         const uint64_t work = p.q.work;
         if (done) assert_true(sunder_i_quadratic_newton(&p.q, softness, tolerance, &done) && done);
         if (done && p.q.work - work > work) fail_msg("trial %zu: once more takes longer", trial);
@@ -94,7 +94,7 @@ static void check_solutions(void **state)
     assert_true(10 * solved >= 9 * trials);
 }
 
-/* A row between two walls that has no room. */
+/* A row between two walls, without enough room. */
 static void row(program *p, double limit)
 {
     begin(p);
@@ -104,7 +104,7 @@ static void row(program *p, double limit)
     }
 }
 
-/* With a bound on the cost, it is found that no solution is below it; without one, the forces are what they were. */
+/* With a bound on the cost, the method detects that no solution is below it; without one, the forces stay unchanged. */
 static void check_contradiction(void **state)
 {
     (void)state;
@@ -118,7 +118,7 @@ static void check_contradiction(void **state)
     p.constraint[3].force = 0.25;
     assert_true(sunder_i_quadratic_newton(&p.q, 0, 1e-9, &done) && !done);
     for (size_t k = 0; k < p.q.n; k++) assert_true(p.constraint[k].force == (k == 3 ? 0.25 : 0));
-    /* For a long list the solver as a whole gives the same result. */
+    /* For a long row the solver as a whole gives the same result. */
     row(&p, 10);
     p.q.most_cost = BODIES * 100.0;
     assert_true(sunder_i_quadratic_solve(&p.q, 0, 1e-9, 1) == INFINITY);
@@ -138,7 +138,7 @@ static void check_slight_contradiction(void **state)
         assert_true(sunder_i_quadratic_is_beyond(&p.q, 0));
         for (size_t k = 0; k < p.q.n; k++) assert_true(p.constraint[k].force >= 0 && p.constraint[k].force < INFINITY);
     }
-    /* And with as much room there is a solution. */
+    /* With that much more room there is a solution. */
     bool done;
     row(&p, (BODIES - 1) / 2.0 + 1e-6);
     p.q.most_cost = BODIES * 1000.0;

@@ -1,6 +1,6 @@
-/* Quadratic programs with and without solutions: all results are numbers, and the returned violation is that of the
- * moves. A mended program is as accurate as a solved one. For the nearest place the forces prove that it is the
- * nearest, or that there is none. */
+/* Quadratic programs with and without solutions: all results are finite numbers, and the returned violation is that of
+ * the moves. A solution that was repaired near a few constraints is as accurate as one computed from scratch. For the
+ * nearest feasible point the forces prove that it is the nearest, or that there is none. */
 #include "displacement/quadratic/methods.h"
 #include "displacement/quadratic/nearest.h"
 #include "random.h"
@@ -28,8 +28,8 @@ static void demand(program *p, uint32_t i, uint32_t j, const double n[2], double
     p->constraint[p->q.n++] = (sunder_i_constraint){.i = i, .j = j, .n = {n[0], n[1]}, .d = d};
 }
 
-/* Draws random contacts. In half of the programs some bodies are pushed from both sides, exactly or nearly: then
- * constraints must be violated, and no force is enough. Sizes vary over many orders of magnitude. */
+/* Draws random contacts. In half of the programs some bodies are pushed from both sides, in opposite or nearly opposite
+ * directions: then constraints must be violated, and no force is enough. Sizes vary over many orders of magnitude. */
 static bool draw(rng *r, program *p)
 {
     memset(p, 0, sizeof *p);
@@ -125,7 +125,7 @@ static void check_found(const program *p, size_t trial, double size)
     }
 }
 
-/* They demand more than bodies can give that may go that far. */
+/* Demands that the forces prove infeasibility: they require more than bodies within these limits can give. */
 static void check_none(const program *p, size_t trial, double limit)
 {
     double net[2 * BODIES], lost = 0;
@@ -149,7 +149,7 @@ static void check_nearest(void **state)
         for (size_t b = 0; b < BODIES; b++) limit[b] = 100 * size;
         assert_true(sunder_i_nearest_begin(&nearest, &p.q));
         const size_t all = p.q.n;
-        p.q.n = (size_t)rng_int(&r, 0, (int)all); /* some come later */
+        p.q.n = (size_t)rng_int(&r, 0, (int)all); /* the others are added later */
         sunder_i_nearest_outcome outcome = sunder_i_nearest_go_on(&nearest, &p.q, from, limit, 1e-12 * size);
         if (outcome == SUNDER_I_NEAREST_FOUND) {
             check_found(&p, trial, size);
@@ -165,8 +165,8 @@ static void check_nearest(void **state)
     assert_true(outcomes[0] > 0 && outcomes[1] > 0 && outcomes[2] <= test_count(4000) / 100);
 }
 
-/* A crowd in rows; each body has to keep a distance from those around it, in directions that are off by as much as a
- * right angle: chains of contacts send the outer ones fifty times as far as the bodies are large. */
+/* A crowd in rows; each body has to keep a distance from its neighbours, in directions that deviate by up to a right
+ * angle: chains of contacts push the outer ones by fifty times their size. */
 enum { SIDE = 40, CROWD = SIDE * SIDE };
 
 static size_t crowd(rng *r, sunder_i_constraint *constraint)
@@ -183,7 +183,8 @@ static size_t crowd(rng *r, sunder_i_constraint *constraint)
     return n;
 }
 
-/* The interior point method, begun near, with slacks and forces such as small bodies have, takes half as much again. */
+/* The interior point method, started near the solution, with slacks and forces as for small bodies, takes half as much
+ * work again. */
 static void check_crowd(void **state)
 {
     (void)state;
@@ -204,7 +205,7 @@ static double cost_of(const sunder_i_quadratic *q)
     return cost;
 }
 
-/* A crowd that is solved, and a body beside it without contacts. */
+/* A crowd that is solved, and another body without contacts. */
 enum { MORE = 3, LONE = CROWD };
 
 typedef struct solved_crowd {
@@ -222,7 +223,7 @@ static void solve_crowd(rng *r, solved_crowd *c)
     assert_true(sunder_i_quadratic_solve(&c->q, 0, 1e-9, 0.02) <= 1e-9);
 }
 
-/* Three that are side by side may go less far than they did. */
+/* Reduces the required distances of three neighbouring bodies. */
 static void demand_less(solved_crowd *c, uint32_t first)
 {
     const uint32_t place[MORE] = {first, first + 1, first + SIDE};
@@ -239,8 +240,9 @@ static void demand_both(solved_crowd *c, uint32_t of)
         c->constraint[c->q.n++] = (sunder_i_constraint){.i = SUNDER_I_GROUND, .j = of, .n = {k ? -1 : 1, 0}, .d = 10};
 }
 
-/* Mended near a few further constraints, the solution keeps all constraints, and costs more than the solution of all by
- * at most the allowed amount. If that amount is zero, or constraints contradict each other, nothing is changed. */
+/* After a repair near a few further constraints, the solution satisfies all constraints, and costs at most the allowed
+ * amount more than the exact solution. If that amount is zero, or constraints contradict each other, nothing is
+ * changed. */
 static void check_mended(void **state)
 {
     (void)state;
@@ -277,8 +279,8 @@ static void check_mended(void **state)
     assert_true(mended > 0 && left > 0);
 }
 
-/* A bound on the cost changes nothing if a solution costs less. If there is no solution, the program usually ends with
- * a proof that it would cost more. */
+/* If a solution below the bound on the cost exists, the bound changes nothing. If there is no solution, the program
+ * usually ends with a proof that any solution would cost more. */
 static void check_dear(void **state)
 {
     (void)state;
@@ -323,8 +325,8 @@ static size_t bend_row(rng *r, size_t bodies, sunder_i_constraint *c)
     return n;
 }
 
-/* A program with constraints that give: the forces prove that no moves cost less than those found (weak duality). Few
- * and many bodies, with and without a limit of the cost, so that each method has some. */
+/* A program with soft constraints: the forces prove that no moves cost less than those found (weak duality). With few
+ * and with many bodies, with and without a limit of the cost, so that each method is used. */
 static void check_springs(void **state)
 {
     (void)state;
@@ -364,8 +366,8 @@ static void check_springs(void **state)
     }
 }
 
-/* Distances up to the greatest double, and light and heavy bodies: the forces exceed all doubles, and no constraint is
- * negative. The active set is left as it is. */
+/* Distances up to the greatest double, and light and heavy bodies: the forces overflow, and no multiplier is negative.
+ * The active set is left as it is. */
 static void check_forces_beyond_doubles(void **state)
 {
     (void)state;

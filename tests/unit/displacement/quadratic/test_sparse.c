@@ -40,7 +40,7 @@ static void eliminate(double *a, double *b, size_t n)
     }
 }
 
-/* A random graph on n nodes; a star now and then, as an outline with its houses is. */
+/* A random graph on n nodes; sometimes a star, like an outline with its houses. */
 static size_t draw_graph(rng *g, size_t n, sunder_i_id_pair *pair)
 {
     size_t m = 0;
@@ -49,12 +49,12 @@ static size_t draw_graph(rng *g, size_t n, sunder_i_id_pair *pair)
         for (uint32_t b = a + 1; b < n; b++)
             if (rng_once_in(g, 6) || (star && a == 3))
                 pair[m++] = rng_once_in(g, 2) ? (sunder_i_id_pair){b, a} : (sunder_i_id_pair){a, b};
-    /* A pair may come more than once. */
+    /* A pair may occur twice. */
     if (m) pair[m] = pair[0];
     return m ? m + 1 : 0;
 }
 
-/* Adds v n n' as one contact of a and b does, to both matrices. */
+/* Adds v n n', the term of a contact of a and b, to both matrices. */
 static void add_contact(sunder_i_sparse *matrix, double *full, size_t n, uint32_t a, uint32_t b, rng *g)
 {
     const double angle = 6.3 * rng_unit(g), v = pow(10, 6 * rng_unit(g) - 3), u[2] = {cos(angle), sin(angle)};

@@ -1,4 +1,5 @@
-/* Crowds: many features at one place. The bound by their area, compared with the cost of the layout that is found. */
+/* Crowds: many features at one place. Their lower bound by area is compared with the cost of the layout that is
+ * found. */
 #include "random.h"
 #include "scene.h"
 
@@ -10,7 +11,7 @@
 
 #include <cmocka.h>
 
-/* Boxes of about that size within that distance, which may jump. */
+/* Boxes of sizes from `least` to `most` within the distance `within`; jumps are allowed. */
 static void begin_crowd(scene *s, rng *g, size_t n, double gap, double least, double most, double within)
 {
     scene_begin(s, gap);
@@ -34,7 +35,8 @@ static void test_bound_is_near(void **state)
     scene_end(&s);
 }
 
-/* A crowd that spread out without prices costs more than they prove, and more than one that begins where they say. */
+/* If no prices are used, the crowd costs more than the bound that prices prove, and more than a crowd that starts from
+ * the positions that prices give. */
 static void test_bound_holds_of_other_layouts(void **state)
 {
     (void)state;
@@ -75,7 +77,7 @@ static void test_far_crowds_add_up(void **state)
 {
     (void)state;
     double bound[3], cost[3];
-    for (int which = 0; which < 3; which++) { /* the one, the other, both */
+    for (int which = 0; which < 3; which++) { /* the first crowd, the second, both */
         scene s;
         scene_begin(&s, 0);
         s.options.no_blocks = s.options.allow_jumps = true;

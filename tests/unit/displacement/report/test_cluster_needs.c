@@ -1,5 +1,5 @@
-/* Changes that would free the remaining pairs of a crowd: for each pair a limit, from one layout of the whole crowd;
- * and a gap. */
+/* Changes of options that would resolve the remaining pairs of a crowd: for each pair a longer limit, from one layout
+ * of the whole crowd; and a smaller gap. */
 #include "polyset.h"
 #include "run_layer.h"
 
@@ -26,7 +26,7 @@ static void begin(crowd *c)
     sunder_layer_options_init(&c->options);
     c->options.gap = 3;
     c->options.no_blocks = true;
-    c->options.effort = 0x1p-6; /* next to no work is spent on the bound */
+    c->options.effort = 0x1p-6; /* so that little work is spent on the bound */
 }
 
 static void end(crowd *c)
@@ -54,7 +54,8 @@ static void add_grid(crowd *c, size_t rows, size_t columns, double limit)
     }
 }
 
-/* Separates, and asks that each conflict has a limit and a gap that would do; returns the longest limit. */
+/* Separates, and demands that each conflict has a limit and a gap with which it would be resolved; returns the longest
+ * limit. */
 static double longest_need(crowd *c, size_t least)
 {
     sunder_report *report = run_separate(c->feature, c->n, &c->options);
@@ -83,7 +84,7 @@ static void demand_solved_within(crowd *c, double limit)
     sunder_report_free(report);
 }
 
-/* Without limits a grid has one layout, and its longest move is what all pairs need at most. */
+/* Without limits the grid as a whole has a layout, and its longest move is the longest limit that a pair needs. */
 static void test_grid(void **state)
 {
     (void)state;
@@ -94,7 +95,7 @@ static void test_grid(void **state)
     end(&c);
 }
 
-/* One body in the middle is fixed: the others give way to it, too. */
+/* One body in the middle is fixed: the others move away from it, too. */
 static void test_about_one_that_stands(void **state)
 {
     (void)state;
@@ -106,8 +107,8 @@ static void test_about_one_that_stands(void **state)
     end(&c);
 }
 
-/* Terraces of more than a hundred houses are not solved without limits, since they run into each other: the whole crowd
- * is stretched instead. */
+/* Terraces of more than a hundred houses are not solved without limits, since they run into each other: instead the
+ * layout of the whole crowd is stretched. */
 static void test_terraces(void **state)
 {
     (void)state;
@@ -120,12 +121,12 @@ static void test_terraces(void **state)
         add_box(&c, x, y, 6, 10, 4);
     }
     const double longest = longest_need(&c, 50);
-    /* By half of 6 m, and 3 of 10, about the middle of 324 by 52 m. */
+    /* stretched about the centre of 324 m by 52 m: by 1/2 (3 m per 6 m), and by 3/10 */
     assert_true(longest > 75 && longest < 0.5 * 162 + 0.3 * 26 + 1);
     end(&c);
 }
 
-/* Without effort nothing is asked. */
+/* At effort 0 no such questions are asked. */
 static void test_nothing_asked(void **state)
 {
     (void)state;

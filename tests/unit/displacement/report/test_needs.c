@@ -1,4 +1,4 @@
-/* Changes that would free a conflict, on small layers with known answers. */
+/* Changes of options that would resolve a conflict, in small layers with known results. */
 #include "scene.h"
 
 #include <math.h>
@@ -9,7 +9,7 @@
 
 #include <cmocka.h>
 
-/* Nothing joins, jumps are allowed. */
+/* No blocks; jumps are allowed. */
 static void begin(scene *s, double gap)
 {
     scene_begin(s, gap);
@@ -24,7 +24,7 @@ static void add_box(scene *s, double x, double y, double w, double h, double lim
     f->fixed = limit == 0;
 }
 
-/* Separates; how many conflicts are left. */
+/* Separates; returns the number of conflicts left. */
 static size_t separate(scene *s, const sunder_conflict **conflict)
 {
     size_t n;
@@ -33,7 +33,7 @@ static size_t separate(scene *s, const sunder_conflict **conflict)
     return n;
 }
 
-/* Each of two squares may go 0.2, and would have to go a half. */
+/* Two squares with limit 0.2, which would have to move 0.5 each. */
 static void a_longer_limit(void **state)
 {
     (void)state;
@@ -49,8 +49,8 @@ static void a_longer_limit(void **state)
     scene_end(&s);
 }
 
-/* A box of 2 between walls that are 4 from each other, at a gap of 1.5; it could keep 1, and would go over the right
- * one. */
+/* A box of width 2 between walls 4 apart, at a gap of 1.5: a gap of 1 would do, and without it the box would have to
+ * jump over the right wall. */
 static void a_smaller_gap(void **state)
 {
     (void)state;
@@ -71,7 +71,7 @@ static void a_smaller_gap(void **state)
     scene_end(&s);
 }
 
-/* Two between walls that leave room for one, unless one goes above the other. */
+/* Two boxes between walls that leave room for one, unless one moves above the other. */
 static void one_less(void **state)
 {
     (void)state;
@@ -90,7 +90,7 @@ static void one_less(void **state)
     scene_end(&s);
 }
 
-/* Without effort nothing is asked. */
+/* At effort 0 no such questions are asked. */
 static void nothing_asked(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-/* Conflicts without room that are proved: of a block of many parts, and in a yard without a limit. */
+/* Conflicts that are proved to have no room: of a block with many parts, and in a courtyard without a limit. */
 #include "random.h"
 #include "scene.h"
 #include "sunder_proof.h"
@@ -14,7 +14,7 @@
 
 enum { MEMBERS = 15, PARTS = 16, FIELD = 100 };
 
-/* Squares of side 1, strewn over the field, and none near another. */
+/* A unit square at a random place of the field, away from all others. */
 static sunder_feature *add_strewn(scene *s, rng *r)
 {
     char wkt[PARTS * 120 + 20];
@@ -36,8 +36,8 @@ static sunder_feature *add_strewn(scene *s, rng *r)
     return scene_add(s, wkt);
 }
 
-/* Hundreds of squares that move as one block, among as many fixed ones: at every place some two of them meet. Each
- * conflict needs its own proof, with hundreds of them. */
+/* Hundreds of squares that move as one block, among as many fixed ones: in every position some of them overlap. Each
+ * conflict needs its own proof, with hundreds of squares. */
 static void check_strewn_block(void **state)
 {
     rng r = rng_start(7, 0);
@@ -63,8 +63,8 @@ static void check_strewn_block(void **state)
     scene_end(&s);
 }
 
-/* A hut in a yard of four walls, without a limit: it would have room beside each of two of them, if it were not for the
- * other, and may not jump out. */
+/* A hut in a courtyard of four walls, without a limit: beside each of two opposite walls there would be room if it were
+ * not for the other, and jumping out is forbidden. */
 static void check_tight_yard(void **state)
 {
     scene s;
@@ -76,7 +76,8 @@ static void check_tight_yard(void **state)
     scene_add_box(&s, 0, 5, 5, 20);
     scene_add_box(&s, 25, 5, 5, 20);
     scene_add_box(&s, 7, 10, 16, 10);
-    for (int dropped = 0; dropped < 2; dropped++) { /* the features named by a proof are known without it, too */
+    for (int dropped = 0; dropped < 2; dropped++) { /* the features that a proof names are known even if it is not
+                                                     * stored */
         s.options.drop_proofs = dropped;
         scene_separate(&s);
         const sunder_conflict *c = sunder_report_conflicts(s.report, &n);
@@ -85,7 +86,7 @@ static void check_tight_yard(void **state)
             if (c[k].inside_block) continue;
             const sunder_proof *proof = sunder_report_proof(s.report, k);
             assert_int_equal(c[k].reason, SUNDER_REASON_NO_ROOM);
-            assert_int_equal(c[k].n_blocked_by, 3); /* the other, and those over which it would leave */
+            assert_int_equal(c[k].n_blocked_by, 3); /* the opposite wall, and the walls over which it would leave */
             assert_true(dropped ? !proof : proof && proof->within > 0);
         }
     }

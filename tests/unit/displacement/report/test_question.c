@@ -1,6 +1,6 @@
-/* In a crowd in which every question fails the number of questions is limited: which change would solve a pair
- * (displacement/report/needs), is there a proof that it has no room (displacement/report/no_room), and does a pair by
- * itself have a solution (displacement/clusters/one_by_one)? */
+/* In a crowd for which every question fails the number of questions is limited: which change would resolve a pair
+ * (displacement/report/needs), is there a proof that it has no room (displacement/report/no_room), and has a pair by
+ * itself a solution (displacement/solve/clusters/one_by_one)? */
 #include "polyset.h"
 #include "scene_solver.h"
 
@@ -62,12 +62,12 @@ static void end(crowd *c)
     free(c->feature);
 }
 
-/* Copies of the constants of report/tuning.h, which documents each of them: patience and efforts of questions and
- * proofs about one cluster. */
+/* Copies of constants in report/tuning.h, which documents each of them: numbers of failures allowed, and efforts of
+ * questions and proofs about one cluster. */
 enum {
     NEED_IN_VAIN = 200000,
     NEED_PATIENCE = 32,
-    CROWD_PATIENCE = 4, /* if the need of the crowd is known */
+    CROWD_PATIENCE = 4, /* if the change that the crowd as a whole needs is known */
     PROOF_PATIENCE = 8,
     FIRST_EFFORT = 10000,
     PROOFS_IN_VAIN = 32,
@@ -80,7 +80,7 @@ enum {
 /* Numbers of questions for the field and for the far pair: about limits, about gaps, and for proofs. */
 static size_t asked_limit[2], asked_gap[2], asked_proof[2];
 
-/* No layer has a solution. */
+/* In place of the solver: every layer fails. */
 static sunder_status solve_in_vain(const sunder_layer *layer, const sunder_layer_options *options,
                                    const sunder_i_spared *spared, sunder_i_proof_found *proof, sunder_i_solver *x,
                                    sunder_error *err)
@@ -135,8 +135,8 @@ static void test_needs(void **state)
     (void)state;
     crowd c;
     sunder_report *report = ask_for_needs(&c, NAN);
-    /* Between a dozen and 200 features take part in each, and gaps are examined for all pairs until the budget is
-     * spent; limits for a fixed number, and then for one in every power of two. */
+    /* Each question involves between a dozen and 200 features. Gaps are examined for all pairs until the budget is
+     * spent; limits for a fixed number of pairs, and after that for one in every power of two. */
     assert_true(asked_gap[0] >= NEED_IN_VAIN / 200 && asked_gap[0] <= NEED_IN_VAIN / 12);
     assert_true(asked_gap[0] < report->conflicts - 1);
     assert_true(asked_limit[0] >= NEED_PATIENCE && asked_limit[0] <= NEED_PATIENCE + 12);
@@ -147,7 +147,7 @@ static void test_needs(void **state)
     end(&c);
 }
 
-/* The answer for the crowd is kept, and only a few pairs are asked for an answer of their own. */
+/* The answer for the whole crowd is cached, and a question of its own is asked for only a few pairs. */
 static void test_needs_of_crowd(void **state)
 {
     (void)state;
@@ -167,7 +167,7 @@ static void test_needs_of_crowd(void **state)
  * the field's questions at the second effort that count as decided; all others fail. */
 static size_t asked_first[2], asked_again[2], told;
 
-/* Every effort is too small; or, for the first ones, the pair counts as decided. */
+/* In place of the proof: every effort is too small, except that the first `told` questions count as decided. */
 static sunder_status decide_in_vain(const sunder_i_subproblem *q, sunder_i_decision *decision, sunder_error *err)
 {
     (void)err;
@@ -205,7 +205,7 @@ static size_t ask_for_proofs(size_t side, size_t tell)
 
 /* All are asked once. At the second effort the questions of the field end after PROOFS_IN_VAIN_OF_CROWD failures in
  * succession, after any number of decided ones, while those about the far pair continue to the greatest effort. In a
- * larger field not all are asked. */
+ * larger field not all pairs are asked about. */
 static void test_proofs(void **state)
 {
     (void)state;
@@ -219,7 +219,7 @@ static void test_proofs(void **state)
     assert_int_equal(asked_again[0], 0);
 }
 
-/* In a field with fewer pairs than that, all are asked at the second effort, and half as many at the third. */
+/* In a field with fewer pairs than that, all are asked about at the second effort, and half of them at the third. */
 static void test_proofs_of_few(void **state)
 {
     (void)state;
@@ -258,9 +258,9 @@ static void test_one_by_one(void **state)
     assert_int_equal(sunder_i_solver_ask_one_by_one(&c.solver, &changed, &err), SUNDER_OK);
     uint64_t work = 0;
     for (size_t b = 0; b < model->bodies; b++) work += c.solver.asked_work[b];
-    /* The questions about the far pair continue. For pairs of the field a few questions have decreasing efforts, then a
-     * number of brief ones for each power of two. Each ends at the next program after its effort, or if too many bodies
-     * take part. */
+    /* The questions about the far pair continue. For pairs of the field a few questions are asked with decreasing
+     * efforts, then a number of brief ones for each power of two. Each ends at the next program after its effort, or if
+     * too many bodies take part. */
     assert_true(changed);
     assert_true(n > 1000 && work > ALONE_PATIENCE * EFFORT_BRIEFLY_ALONE && work < 40 * EFFORT_BRIEFLY_ALONE);
     c.of.model = *model;

@@ -11,7 +11,7 @@
 
 #include <cmocka.h>
 
-/* A scene without moves, in which rows are found. */
+/* A scene in which nothing moves, to find rows in it. */
 static void begin(scene *s, double gap)
 {
     scene_begin(s, gap);
@@ -58,7 +58,7 @@ static void check_street(void **state)
     scene_end(&s);
 }
 
-/* Two houses are no row, and without a wish for rows there are none. */
+/* Two houses are not a row, and without the option no rows are found. */
 static void check_none(void **state)
 {
     (void)state;
@@ -73,7 +73,7 @@ static void check_none(void **state)
     scene_end(&s);
 }
 
-/* Each of these is a street of three houses and a fourth one, which does not continue it, though it is near. */
+/* Streets of three houses, with a fourth one nearby; true: it continues the row. */
 static void check_ends(void **state)
 {
     (void)state;
@@ -82,8 +82,8 @@ static void check_ends(void **state)
         bool continues;
     } cases[] = {
         {"POLYGON((36 0,46 0,46 10,36 10,36 0))", true},
-        {"POLYGON((54 0,64 0,64 10,54 10,54 0))", true},        /* as far as four gaps */
-        {"POLYGON((54.1 0,64 0,64 10,54.1 10,54.1 0))", false}, /* farther */
+        {"POLYGON((54 0,64 0,64 10,54 10,54 0))", true},        /* four gaps away */
+        {"POLYGON((54.1 0,64 0,64 10,54.1 10,54.1 0))", false}, /* farther away */
         {"POLYGON((36 5,46 5,46 15,36 15,36 5))", true},        /* offset by the gap */
         {"POLYGON((36 5.1,46 5.1,46 15.1,36 15.1,36 5.1))", false},
         {"POLYGON((36 0,46 0,46 25,36 25,36 0))", true}, /* 2.5 times as deep, with a common front */
@@ -91,7 +91,7 @@ static void check_ends(void **state)
         {"POLYGON((36 0,45 4,41 13,32 9,36 0))", false},  /* turned by 24 degrees */
         {"POLYGON((36 0,46 2,44 12,34 10,36 0))", true},  /* turned by 11 degrees */
         {"POLYGON((32 0,46 0,46 10,32 10,32 0))", true},  /* overlaps the third one a little */
-        {"POLYGON((26 1,36 1,36 11,26 11,26 1))", false}, /* lies on most of it */
+        {"POLYGON((26 1,36 1,36 11,26 11,26 1))", false}, /* overlaps most of it */
     };
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         scene s;
@@ -137,7 +137,7 @@ static void check_corner(void **state)
 
 enum { HOUSES = 40 };
 
-/* Houses around a round place. */
+/* Houses around a circular square. */
 static void add_ring(scene *s)
 {
     for (int k = 0; k < HOUSES; k++) {
@@ -155,7 +155,7 @@ static void add_ring(scene *s)
     }
 }
 
-/* The row of houses around a round place is a ring. */
+/* A row of houses around a circular square is a ring. */
 static void check_ring(void **state)
 {
     (void)state;
@@ -190,7 +190,7 @@ static void check_passed_twice(void **state)
     scene_end(&s);
 }
 
-/* A line between two houses ends the row; one that only passes near their link does not. */
+/* A barrier line between two houses ends the row; a line that only passes near their link does not. */
 static void check_barrier(void **state)
 {
     (void)state;
@@ -217,7 +217,7 @@ static void check_barrier(void **state)
     scene_end(&s);
 }
 
-/* A terrace counts once, and its separation is that of the whole. */
+/* A terrace is one body of the row, and its separation is that of the whole terrace. */
 static void check_block(void **state)
 {
     (void)state;
@@ -230,13 +230,13 @@ static void check_block(void **state)
     const sunder_row *row = rows_of(&s, &n);
     assert_int_equal(n, 1);
     assert_int_equal(row->bodies, 4);
-    assert_int_equal(row->features, 5); /* the terrace by its first and its last house */
+    assert_int_equal(row->features, 5); /* the terrace counts by its first and its last house */
     assert_int_equal(row->feature[2], 2);
     assert_int_equal(row->feature[3], 4);
     scene_end(&s);
 }
 
-/* Kinks are measured across the row, in the result. */
+/* Kinks, in the result, are measured across the row. */
 static void check_kinks(void **state)
 {
     (void)state;
@@ -289,7 +289,7 @@ enum { STREET = 30 };
 typedef struct cut_short {
     sunder_layer *layer;
     sunder_layer_options options;
-    size_t calls, most; /* of progress: the call `most` stops the work; 0: none does */
+    size_t calls, most; /* of progress calls; call number `most` stops the run; 0: none does */
 } cut_short;
 
 static bool count_calls(double fraction, void *user)
@@ -304,7 +304,7 @@ static void begin_street(scene *s, cut_short *c)
     static const double xy[] = {47, -50, 47, 50};
     static const size_t end[] = {2};
     const sunder_barrier barrier = {.geometry = {.xy = xy, .line_end = end, .lines = 1}, .gap = 0};
-    begin(s, 60); /* each house is within reach of all others */
+    begin(s, 60); /* with this gap each house is within reach of all others */
     s->options.no_blocks = true;
     s->options.effort = 0;
     add_houses(s, STREET, 0, 0, 12, 0);
@@ -349,8 +349,8 @@ static void check_memory(void **state)
     scene_end(&s);
 }
 
-/* Each call of the progress function stops the work in turn. It is called more often with rows than without
- * them, since finding rows counts its steps. */
+/* Each call of the progress function stops the run in turn. It is called more often with rows than without them, since
+ * finding rows counts its steps. */
 static void check_stops(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-/* The board of held squares: its answers for points and segments equal those of all subsums one by one. */
+/* The board of covered squares: its answers for points and segments equal those of a loop over all subsums. */
 #include "failing.h"
 #include "generate.h"
 #include "separation/obstacle/board.h"
@@ -10,7 +10,7 @@
 
 #include <cmocka.h>
 
-/* In doubles, with room to spare: `held` promises more than being inside. */
+/* Computed in doubles, with a margin: `held` promises more than being inside. */
 static bool inside(const sunder_i_subsum *s, double x, double y)
 {
     for (uint32_t k = 0; k < s->sides; k++)
@@ -23,7 +23,8 @@ static bool box_has(const sunder_i_subsum *s, double x, double y)
     return x >= s->box[0] && x <= s->box[2] && y >= s->box[1] && y <= s->box[3];
 }
 
-/* A point of the board: in a held square inside the holder; in an open one every subsum whose box has it is listed. */
+/* A point of the board: a covered square lies inside its holder; in an open square every subsum whose box contains the
+ * point is listed. */
 static void check_point(const sunder_i_operands *g, double x, double y, size_t *held, size_t *open)
 {
     const sunder_i_board *h = g->board;
@@ -38,12 +39,12 @@ static void check_point(const sunder_i_operands *g, double x, double y, size_t *
     uint32_t i = square ? h->list_end[square - 1] : 0;
     for (size_t k = 0; k < g->subsums; k++) {
         if (!box_has(g->subsum + k, x, y)) continue;
-        while (i < h->list_end[square] && h->list[i] != k) i++; /* lists keep the order */
+        while (i < h->list_end[square] && h->list[i] != k) i++; /* lists are in order */
         assert_true(i < h->list_end[square]);
     }
 }
 
-/* A segment that is held has no point in an open square; one inside a held square is held. */
+/* No point of a covered segment is in an open square; a segment inside a covered square is covered. */
 static void check_segment(const sunder_i_operands *g, rng *r, size_t *held, size_t *open)
 {
     const sunder_i_board *h = g->board;
@@ -52,15 +53,15 @@ static void check_segment(const sunder_i_operands *g, rng *r, size_t *held, size
     const double dx = length * (2 * rng_unit(r) - 1), dy = length * (2 * rng_unit(r) - 1);
     const bool is = sunder_i_board_segment(h, g->error, ax, ay, dx, dy);
     ++*(is ? held : open);
-    bool all = true, one = true; /* the squares are held; all points are in one square */
+    bool all = true, one = true; /* all: the squares of all points are covered; one: all points are in one square */
     const uint32_t first = sunder_i_board_square(h, ax, ay);
     for (int i = 0; i <= 64; i++) {
         const uint32_t square = sunder_i_board_square(h, ax + dx * i / 64, ay + dy * i / 64);
-        all = all && (square == h->n * h->n || h->holder[square]); /* out of reach does not count */
+        all = all && (square == h->n * h->n || h->holder[square]); /* points out of reach count as covered */
         one = one && square == first;
     }
     assert_true(!is || all);
-    const double step = 2 * reach / h->n, low = 1e-6; /* well inside its square, so that rounding does not matter */
+    const double step = 2 * reach / h->n, low = 1e-6; /* well inside a square, so that rounding does not matter */
     const double fx = fmod(ax + reach, step) / step, fy = fmod(ay + reach, step) / step;
     const double gx = fmod(ax + dx + reach, step) / step, gy = fmod(ay + dy + reach, step) / step;
     const bool clear = fmin(fmin(fx, fy), fmin(gx, gy)) > low && fmax(fmax(fx, fy), fmax(gx, gy)) < 1 - low;
@@ -111,7 +112,7 @@ static bool separate(void *context)
     return true;
 }
 
-/* Operands with enough subsums for a board: the answer comes, or an error and no leak, wherever memory runs out. */
+/* Operands with enough subsums for a board: wherever memory runs out, there is a result, or an error and no leak. */
 static void test_out_of_memory(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* displacement/prove/areas: masses against integrals of another kind; what prices prove against the cost of random
- * moves. */
+/* displacement/prove/areas: masses compared with integrals computed in another way; the bound that prices prove
+ * compared with the cost of random moves. */
 #include "displacement/prove/areas/areas.h"
 #include "failing.h"
 #include "random.h"
@@ -23,7 +23,7 @@ typedef struct body {
     sunder_i_outline outline;
 } body;
 
-/* Corners around a place, turning to the left, or to the right; enough of them that it is within the ring. */
+/* Corners around a point, turning left or right; there are enough of them that the point is inside the ring. */
 static void draw_ring(rng *g, sunder_i_outline *o, const double at[2], double least, double most, bool left)
 {
     const size_t from = o->rings ? o->ring_end[o->rings - 1] : 0, n = (size_t)rng_int(g, 5, MOST_CORNERS);
@@ -47,7 +47,8 @@ static void draw_corner(rng *g, sunder_i_outline *o, const double at[2], double 
     o->ring_end[o->rings++] = 6;
 }
 
-/* So large, so far from the origin; with a hole now and then. step > 0: all of its numbers are multiples. */
+/* A shape of this size, at this distance from the origin, sometimes with a hole. step > 0: all coordinates are
+ * multiples of it. */
 static void draw_body(rng *g, double size, double far, double step, body *b)
 {
     const double at[2] = {far * (2 * rng_unit(g) - 1), far * (2 * rng_unit(g) - 1)};
@@ -69,7 +70,7 @@ static void draw_body(rng *g, double size, double far, double step, body *b)
 /* ---- Integrals of hats, another way: under each edge, by pieces that lie in one square each ---------------------- */
 
 typedef struct table {
-    int64_t x, y; /* node of at[0], of all the plane */
+    int64_t x, y; /* the node of at[0], in the grid of the whole plane */
     size_t columns, rows;
     long double *at;
 } table;
@@ -83,7 +84,7 @@ static void give(const table *t, int64_t i, int64_t j, const long double one[4],
     at[t->columns + 1] += sign * one[3];
 }
 
-/* Adds the area between the piece and the floor of the table. */
+/* Adds the area between the segment pq and the lower edge of the table. */
 static void give_under(const table *t, const long double p[2], const long double q[2])
 {
     const long double dx = q[0] - p[0];
@@ -125,7 +126,7 @@ static void give_edge(const table *t, const long double p[2], const long double 
     }
 }
 
-/* Integrals over the body moved by (dx, dy) squares. The caller frees at[]. */
+/* The integrals for the body moved by (dx, dy) squares. The caller frees at[]. */
 static table integrate(const sunder_i_outline *o, double side, long double dx, long double dy)
 {
     const long double move[2] = {dx, dy};
@@ -195,8 +196,8 @@ typedef struct market {
     uint32_t price[MOST_NODES * MOST_NODES];
 } market;
 
-/* A plateau, or a hill, less noise, holes of one node each, or valleys along one axis; nothing in the two outermost
- * rows and columns. */
+/* Prices: a plateau or a hill, reduced by noise, by holes of one node each, or by valleys along one axis; 0 in the two
+ * outermost rows and columns. */
 static void draw_prices(rng *g, sunder_i_prices *p, double height)
 {
     const int kind = (int)rng_int(g, 0, 4);
@@ -214,7 +215,7 @@ static void draw_prices(rng *g, sunder_i_prices *p, double height)
         }
 }
 
-/* Bodies as small as a part of a square meet kinks with all that they have. */
+/* Draws a body and prices. A body may be smaller than a square, so that kinks of the prices affect its whole mass. */
 static void draw_market(rng *g, market *m)
 {
     const double side = ldexp(1, (int)rng_int(g, -3, 3)), far = rng_once_in(g, 2) ? 0 : 1e6;
@@ -232,7 +233,7 @@ static void draw_market(rng *g, market *m)
     m->prices.unit = ldexp(1, (int)rng_int(g, -14, 4));
     draw_prices(g, &m->prices, height);
     assert_true(sunder_i_masses_make(&m->body.outline, l, &m->payer.masses));
-    /* The cost of staying is worth a move of some squares. */
+    /* The weight is such that the price of staying equals the cost of moving some squares. */
     const double stays = height * m->prices.unit * (double)m->payer.masses.total / (double)SUNDER_I_MASS_OF_SQUARE;
     m->payer.weight = fmax(stays / pow(1 + 7 * rng_unit(g), 2), m->prices.unit * 0x1p-18);
     m->payer.limit = rng_once_in(g, 3) ? side * 5 * rng_unit(g) : INFINITY;
@@ -245,7 +246,7 @@ static double worth_of(const sunder_i_prices *p)
     return sum * p->unit * p->grid.side * p->grid.side;
 }
 
-/* The payment of one payer for a move by a number of squares. */
+/* The price that one payer pays after a move by t, in squares. */
 static long double paid_at(const market *m, const double t[2])
 {
     const sunder_i_prices *p = &m->prices;
@@ -262,7 +263,7 @@ static long double paid_at(const market *m, const double t[2])
     return (sum * p->unit + (long double)m->payer.weight * (t[0] * t[0] + t[1] * t[1])) * l->side * l->side;
 }
 
-/* A move within the limit, in squares: any, to a node, or as far as it may go. */
+/* A move within the limit, in squares: any move, one onto a node, or one of full length. */
 static void draw_move(rng *g, const market *m, double limit, double at[2])
 {
     const double *box = m->body.outline.box, reach = fmin(limit, 8);
@@ -277,7 +278,7 @@ static void draw_move(rng *g, const market *m, double limit, double at[2])
         for (int c = 0; c < 2; c++) at[c] *= far > 0 ? most / far : 0;
 }
 
-/* No place is cheaper than what is proved: descents from random places by ever shorter steps. */
+/* Descends from a random place by ever shorter steps, and demands that no place is cheaper than the proved bound. */
 static void seek_cheaper(rng *g, const market *m, long double least)
 {
     const double limit = m->payer.limit / m->prices.grid.side;
@@ -296,7 +297,7 @@ static void seek_cheaper(rng *g, const market *m, long double least)
     if (paid < least) fail_msg("by (%g, %g) squares %.17Lg is paid, and not %.17Lg", at[0], at[1], paid, least);
 }
 
-/* Enough payers of one kind that the worth of all area is small beside their payments. */
+/* As many equal payers as make the value of the whole area small beside their payments. */
 static double prove_copies(const market *m)
 {
     static sunder_i_payer payer[COPIES];
@@ -325,8 +326,8 @@ static void test_prices(void **state)
     assert_true(4 * proved > cases);
 }
 
-/* A fixed body pays for the area that it occupies, up to bends and rounding. Prices at the border prove nothing, and
- * neither do weights that are too small or too large for the unit. */
+/* A fixed body pays for the area that it occupies, up to the curvature of the prices and rounding. Prices at the border
+ * prove nothing, and neither do weights that are too small or too large for the unit. */
 static void test_limits(void **state)
 {
     static market m;
@@ -349,7 +350,7 @@ static void test_limits(void **state)
         assert_true(bound > 0 && bound <= before);
         before = bound;
     }
-    m.payer.limit = 4 * (1 - 0x1p-40); /* squares that it may only just reach, or not */
+    m.payer.limit = 4 * (1 - 0x1p-40); /* squares at the very limit, just out of reach */
     before = prove_copies(&m);
     m.payer.limit = 4;
     assert_true(prove_copies(&m) < before);
@@ -371,7 +372,8 @@ static void test_limits(void **state)
 
 /* ---- Ascent ------------------------------------------------------------------------------------------------------ */
 
-/* The prices of a coarser grid reach the border; prices made of them are 0 within two rows and columns of it. */
+/* Prices are refined from a coarser grid, which extends to the border; after that they are 0 within two rows and
+ * columns of it. */
 static void test_border(void **state)
 {
     static market m;
@@ -393,7 +395,7 @@ static void test_border(void **state)
     }
 }
 
-/* The cost of one payer for a move by whole squares, with float prices. */
+/* The cost of one payer for a move by whole squares, with prices as floats. */
 static double paid_by(const sunder_i_grid *l, const sunder_i_payer *payer, const float *price, int64_t dx, int64_t dy)
 {
     const sunder_i_masses *m = &payer->masses;
@@ -406,7 +408,7 @@ static double paid_by(const sunder_i_grid *l, const sunder_i_payer *payer, const
     return sum / (double)SUNDER_I_MASS_OF_SQUARE + payer->weight * (double)(dx * dx + dy * dy);
 }
 
-/* The mean of all moves within its limit, those that are dearer by `heat` counted e times less. */
+/* The weighted mean of all moves within the limit: a move that costs `heat` more has a weight e times smaller. */
 static void find_mean(const sunder_i_grid *l, const sunder_i_payer *payer, const float *price, double heat,
                       double mean[2])
 {
@@ -424,7 +426,7 @@ static void find_mean(const sunder_i_grid *l, const sunder_i_payer *payer, const
     for (int c = 0; c < 2; c++) mean[c] = l->side * sum[1 + c] / sum[0];
 }
 
-/* Places are left out that are known to be too dear: the mean is that of all. */
+/* Places that are too expensive to matter are left out: the mean is still that of all places. */
 static void test_places(void **state)
 {
     (void)state;
@@ -456,7 +458,7 @@ static void test_places(void **state)
     assert_true(moved > test_count(60) / 4);
 }
 
-/* More payers than are processed at a time: prices, places and the bound have the same bits for every number of
+/* With more payers than are processed at a time, prices, places and the bound have the same bits for every number of
  * threads. */
 static void test_threads(void **state)
 {

@@ -1,4 +1,5 @@
-/* displacement/optimum/contact: bodies of many pieces that were moved far touch as others do. */
+/* displacement/prove/optimum/body_contact: the contact of bodies with many pieces that were moved far is found as for
+ * others. */
 #include "scene_model.h"
 
 #include "displacement/prove/optimum/body_contact.h"
@@ -13,7 +14,8 @@
 
 #include <cmocka.h>
 
-/* Its box is 0..80 by 0..4; pairs of its pieces and another's are more than a tree looks at. */
+/* A body of many pieces in the box 0..80 by 0..4: it has more pairs of pieces with another body than a tree
+ * examines. */
 enum { TEETH = 80 };
 
 static const double gap = 3;
@@ -44,7 +46,7 @@ static void test_far(void **state)
     scene_model_begin(&m, &s);
     assert_true(m.model.bodies == 2 && m.model.body[0].pieces * m.model.body[1].pieces > 4096);
     for (int k = 0; k < 6; k++) {
-        /* Side by side: they touch at the right distance, and neither nearer nor farther. */
+        /* Side by side: they are in contact at the right distance, and not at a smaller or greater one. */
         const double side = k < 3 ? 1 : -1, t[2] = {-40 * side, 0}, v[2] = {side * (43 + 0.25 * (k % 3 - 1)), 0};
         bool contact;
         assert_true(sunder_i_are_in_contact(&m.model, 0, 1, t, v, &contact));

@@ -1,7 +1,7 @@
-/* displacement/optimum/bundle: the most of a sum of blocks' least values is found, from cuts alone.
+/* displacement/prove/optimum/bundle: the maximum of a sum of blocks' minima is found, from cuts alone.
  *
- * Each block is a list of layouts, so that its value at any place is known without a tree; the oracle is to ask the
- * whole sum at places at random. */
+ * Each block is a list of layouts, so that its value at any place is known without a tree; the oracle evaluates the
+ * whole sum at random places. */
 #include "random.h"
 
 #include "displacement/prove/optimum/bundle.h"
@@ -25,7 +25,8 @@ typedef struct problem {
     bool still; /* the last member does not move */
 } problem;
 
-/* Block k has members k, k + 1 and k + 2. Its layouts place them at rest, at the cost of the squared distance. */
+/* Block k has members k, k + 1 and k + 2. Its layouts give their positions, and cost the squared distances from the
+ * places of rest. */
 static void make(rng *r, problem *p)
 {
     size_t count[MEMBERS] = {0};
@@ -99,7 +100,7 @@ static double distance(const double *a, const double *b)
     return square;
 }
 
-/* A place at random, about another, that keeps the sums. */
+/* A random place near another, with the same sums. */
 static void draw_near(rng *r, const problem *p, const double *at, double far, double *x)
 {
     memcpy(x, at, NUMBERS * sizeof *x);
@@ -131,8 +132,8 @@ static void check_case(rng *r)
         assert_true(sunder_i_bundle_propose(&b, centre, stride, x, &promise));
         check_sums(&p, x);
         const double value = value_at(&p, x);
-        /* Cuts are no less than the value, and the proposal is the best of them: so no less than at the centre, nor
-         * at any other place. */
+        /* A cut is never less than the value, and the proposal is the maximum of the cuts' model: so the model there is
+         * no less than the value at the centre, or at any other place. */
         assert_true(promise >= now - 1e-3);
         assert_true(promise + 1e-3 >= value - distance(x, centre) / (2 * stride));
         for (int k = 0; k < 8; k++) {

@@ -1,5 +1,5 @@
 /* displacement/prove/optimum: forbidden sets of few and of many pieces, their coverage and their free places, compared
- * with a loop over all pieces. Pieces are grown rectangles, so the oracle needs only a distance. */
+ * with a loop over all pieces. Pieces are dilated rectangles, so the oracle only needs distances. */
 #include "random.h"
 
 #include "displacement/prove/optimum/region.h"
@@ -20,7 +20,7 @@ typedef struct set {
     sunder_i_forbidden forbidden;
     sunder_i_forbidden_piece piece[MOST];
     sunder_i_obstacle_edge edge[4 * MOST];
-    double box[MOST][4], radius[MOST]; /* what the oracle knows */
+    double box[MOST][4], radius[MOST]; /* the pieces as the oracle uses them: rectangle and radius */
     size_t n;
 } set;
 
@@ -41,7 +41,7 @@ static void add(set *s, const double box[4], double radius)
     f->grain = 0x1p-46 * f->size;
 }
 
-/* Makes n rectangles around the centre, enough to overlap; some are not grown. */
+/* Makes n rectangles around the centre, enough to overlap; some are not dilated. */
 static void make(rng *r, size_t n, set *s)
 {
     memset(s, 0, sizeof *s);
@@ -56,7 +56,7 @@ static void make(rng *r, size_t n, set *s)
     }
 }
 
-/* How deep a place is in the deepest piece that it is in, by the oracle; else 0. */
+/* The depth of a place in the deepest piece that contains it, by the oracle; 0 outside. */
 static double depth_of(const set *s, double x, double y)
 {
     double depth = 0;
@@ -69,7 +69,7 @@ static double depth_of(const set *s, double x, double y)
     return depth;
 }
 
-/* Lines that the oracle draws are right up to this: coordinates are below 2^7, and it asks for nothing finer. */
+/* Tolerance of the oracle: coordinates are below 2^7, and no test needs finer results. */
 static const double hair = 0x1p-26;
 
 static void check_places(rng *r, const set *s)
@@ -79,7 +79,7 @@ static void check_places(rng *r, const set *s)
         const double angle = (double)rng_int(r, 0, 62) / 10 + 0.05, dir[2] = {cos(angle), sin(angle)};
         const double depth = sunder_i_forbidden_depth(&s->forbidden, u), oracle = depth_of(s, u[0], u[1]);
         assert_true(fabs(depth - oracle) <= hair);
-        for (size_t g = 0; g <= s->forbidden.pieces; g++) { /* for any guess, also beyond all pieces */
+        for (size_t g = 0; g <= s->forbidden.pieces; g++) { /* for any first guess of the piece, also beyond the last */
             const double asked[] = {0x1p-40 * s->forbidden.size, depth * 0.75, depth, depth + 1};
             size_t guess = g;
             for (int e = 0; e < 4; e++)
@@ -90,13 +90,13 @@ static void check_places(rng *r, const set *s)
         assert_true(depth_of(s, u[0] + way * dir[0], u[1] + way * dir[1]) <= hair);
         const double half = sunder_i_forbidden_exit(&s->forbidden, u, dir, way / 2);
         assert_true(way == 0 || (half >= way / 2 && half <= way));
-        /* A search limited to a distance finds no less than that, or where the set ends. */
+        /* A search that is limited to a distance returns at least that distance, or the point where the set ends. */
         for (int e = 1; e < 16; e++) {
             const double most = way * e / 12, some = sunder_i_forbidden_exit(&s->forbidden, u, dir, most);
             assert_true(most > way ? some == way : some >= most && some <= way);
         }
         for (int e = 1; e < 8 && way > 1; e++) {
-            /* Up to the exit every place is forbidden, except on seams between pieces that touch. */
+            /* All places up to the exit are forbidden, except on the common border of pieces that touch. */
             const double on = way * e / 8, off = on + 0x1p-10;
             assert_true(depth_of(s, u[0] + on * dir[0], u[1] + on * dir[1]) > 0 ||
                         depth_of(s, u[0] + off * dir[0], u[1] + off * dir[1]) > 0);
@@ -112,8 +112,8 @@ static void check_places(rng *r, const set *s)
     }
 }
 
-/* A place that is reported as covered is covered; if a set is not covered because of a gap, the reported place lies in
- * the gap. */
+/* A place that is reported as covered is covered; if a region is not covered because of an opening, the reported place
+ * lies in the opening. */
 static size_t check_cover(rng *r, const set *s, sunder_i_reflex *reflex)
 {
     size_t covered = 0;
@@ -149,7 +149,7 @@ static size_t check_cover(rng *r, const set *s, sunder_i_reflex *reflex)
     return covered;
 }
 
-/* The sides of the region computed from `known` equal those computed from scratch, in places and in steps. */
+/* The sides of the region computed from `known` equal those computed from scratch, in coordinates and in steps. */
 static void check_known(const set *s, const sunder_i_free_sides *known, const sunder_i_region *region)
 {
     sunder_i_free_sides fresh = {0}, told = {0};
@@ -164,8 +164,8 @@ static void check_known(const set *s, const sunder_i_free_sides *known, const su
     sunder_i_free(told.place);
 }
 
-/* Kept sides of a region equal those that are found from scratch. Getting them again costs no steps, and all memory is
- * freed. For a region that was cut, the remaining sides are returned. */
+/* Cached sides of a region equal those that are computed from scratch. Getting them again costs no steps, and all
+ * memory is freed. For a region that was cut, the remaining sides are returned. */
 static void check_sides(rng *r, const set *s)
 {
     sunder_i_free_sides kept = {0};
@@ -197,7 +197,7 @@ static void check(size_t n, size_t i)
     rng r = rng_start(test_seed(), i);
     sunder_i_reflex reflex = {0};
     make(&r, n, &s);
-    /* Sorts in memory of its own. */
+    /* The index is sorted in the set's own memory. */
     assert_true(sunder_i_forbidden_index(&s.forbidden));
     assert_true(sunder_i_forbidden_is_many(&s.forbidden) == (n > MANY_PIECES));
     check_places(&r, &s);
@@ -216,7 +216,7 @@ static void test_few_and_many(void **state)
         for (size_t k = 0; k < sizeof sizes / sizeof *sizes; k++) check(sizes[k], 16 * i + k);
 }
 
-/* A wall with a notch: the way down leads to the notch's ground, wherever it begins. */
+/* A wall with a notch: the way down leads to the bottom of the notch, wherever it begins. */
 static void test_down_into_a_notch(void **state)
 {
     (void)state;
@@ -225,7 +225,7 @@ static void test_down_into_a_notch(void **state)
     memset(&s, 0, sizeof s);
     s.forbidden = (sunder_i_forbidden){.piece = s.piece, .edge = s.edge};
     for (int k = 0; k < 110; k++) {
-        /* A saw: all of x < 0 except a notch with its bottom at (-8, 0) between slopes made of steps. */
+        /* A sawtooth shape: all of x < 0 except a notch with its bottom at (-8, 0) between slopes made of steps. */
         const double y = k < 55 ? -8 - k / 8.0 : 8 + (k - 55) / 8.0;
         add(&s, (double[4]){-40, y - 1, 0, y + 1}, 0);
     }
@@ -249,8 +249,8 @@ static void test_down_into_a_notch(void **state)
     sunder_i_free(s.forbidden.tree.box);
 }
 
-/* A region across some pieces of a small set, which overlap by little: it takes long to prove that they cover it, and
- * it is proved. Without one of them there is a hole, and it is found. */
+/* A region across some pieces of a small set, which overlap only a little: proving that they cover it takes long, and
+ * succeeds. Without one of them there is a hole, and it is found. */
 static void test_across_narrow_overlaps(void **state)
 {
     (void)state;
@@ -272,7 +272,8 @@ static void test_across_narrow_overlaps(void **state)
     }
 }
 
-/* Two pieces that overlap in a strip alone, ever narrower, and a region across it that no side of is parallel to it. */
+/* Two pieces that overlap only in a strip, ever narrower, and a region across it none of whose sides is parallel to
+ * it. */
 static void test_cover_by_a_strip(void **state)
 {
     (void)state;
@@ -315,7 +316,7 @@ static void test_behind_the_tree(void **state)
     }
 }
 
-/* Is the place in the convex region, or about as near to it as that is known? */
+/* Is the place in the convex region, or within its tolerance of it? */
 static bool is_in(const sunder_i_region *region, const double u[2])
 {
     for (uint32_t k = 0; k < region->n; k++) {

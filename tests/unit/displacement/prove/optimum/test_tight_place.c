@@ -1,4 +1,4 @@
-/* Places with no room to spare: the cheapest layout leads through a passage exactly as wide as the body, which a margin
+/* Passages without clearance: the cheapest layout leads through a passage exactly as wide as the body, which a margin
  * for rounding would close. */
 #include "scene.h"
 
@@ -11,7 +11,8 @@
 
 #include <cmocka.h>
 
-/* A U that is open to the top, its slot 6 wide from x = 6 to 12, and a box 6 wide that stands in its left arm. */
+/* A U that is open at the top, with a slot of width 6 from x = 6 to 12, and a box of width 6 that overlaps its left
+ * arm. */
 static void begin_slot(scene *s, double dx, double dy)
 {
     char wkt[400];
@@ -35,7 +36,7 @@ static void check_optimal(scene *s, double cost)
     assert_true(s->summary.verified);
 }
 
-/* Half a unit each, into the slot; up and out of it would be 18. */
+/* Each moves half a unit, which brings the box into the slot; upwards out of the slot would cost 18. */
 static void test_slot(void **state)
 {
     (void)state;
@@ -45,7 +46,7 @@ static void test_slot(void **state)
     scene_end(&s);
 }
 
-/* Where coordinates are large, and their sums with thirds are rounded: the weights ask for 2/3 and 1/3. */
+/* Coordinates are large, and their sums with thirds are rounded: by the weights the moves are 2/3 and 1/3. */
 static void test_slot_far_away(void **state)
 {
     (void)state;
@@ -56,7 +57,7 @@ static void test_slot_far_away(void **state)
     scene_end(&s);
 }
 
-/* A row of three between walls, just as long as there is room. */
+/* A row of three between walls that are exactly as far apart as the row needs. */
 static void test_row_between_walls(void **state)
 {
     (void)state;
@@ -67,7 +68,7 @@ static void test_row_between_walls(void **state)
     scene_add_box(&s, 1, 0, 4, 16);
     scene_add_box(&s, 4, 0, 4, 16);
     scene_add_box(&s, 9, 0, 4, 16);
-    check_optimal(&s, 0.25 + 1 + 0.25); /* at 0.5, 5 and 9.5 */
+    check_optimal(&s, 0.25 + 1 + 0.25); /* the places are 0.5, 5 and 9.5 */
     scene_end(&s);
 }
 
@@ -77,7 +78,7 @@ static void test_too_narrow(void **state)
     (void)state;
     scene s;
     begin_slot(&s, 0, 0);
-    scene_add_box(&s, nextafter(12, 0), 4, 1, 8)->block = 3; /* a facing, of one block with the U */
+    scene_add_box(&s, nextafter(12, 0), 4, 1, 8)->block = 3; /* an inner wall, in one block with the U */
     s.feature[0].block = 3;
     scene_separate(&s);
     assert_int_equal(scene_left(&s), 0);
@@ -97,7 +98,7 @@ static void separate_beside_all(scene *s, const sunder_barrier *barrier, size_t 
     sunder_report_summary(s->report, &s->summary);
 }
 
-/* Beside lines, each of some width, without sides; gap: of lines, negative: the layer's. */
+/* Separates beside lines of these widths, without sides; gap: that of the lines; negative: the layer's. */
 static void separate_beside(scene *s, const double *const *xy, const size_t *points, const double *width, double gap,
                             size_t n)
 {
@@ -115,8 +116,8 @@ static void check_optimum(const scene *s, double cost)
     assert_int_equal(s->summary.clusters_optimal, 1);
 }
 
-/* A triangle as wide as the slot of a U, which stands away from an oblique line by a tangent that the place was a hair
- * beyond. */
+/* A triangle exactly as wide as the slot of a U, near a slanted line with a rounded end. The place in the slot violated
+ * a tangent of the line's obstacle by a rounding error. */
 static void test_slot_beside_a_line(void **state)
 {
     (void)state;
@@ -151,7 +152,8 @@ static void test_slot_among_shadows(void **state)
     scene_end(&s);
 }
 
-/* One moves as far as its limit lets it, to the last bit, along an axis: nothing is left for the other coordinate. */
+/* A body moves along an axis by exactly its limit, to the last bit, so that its other coordinate may not change at
+ * all. */
 static void test_all_of_a_limit(void **state)
 {
     (void)state;
@@ -168,8 +170,8 @@ static void test_all_of_a_limit(void **state)
     scene_end(&s);
 }
 
-/* A line and a point without width lie on diagonals between the convex pieces of a U: beside neither piece, but in the
- * U all the same. */
+/* A line and a point without width lie on diagonals between the convex pieces of a U: not inside either piece, but
+ * inside the U. */
 static void test_lines_hide_on_no_diagonal(void **state)
 {
     (void)state;
@@ -180,11 +182,11 @@ static void test_lines_hide_on_no_diagonal(void **state)
     scene_begin(&s, 1.96875);
     scene_add(&s, "POLYGON((2.25 5.625,9 5.625,9 9,7.875 9,7.875 6.75,3.375 6.75,3.375 9,2.25 9,2.25 5.625))");
     separate_beside(&s, xy, points, width, 0, 2);
-    check_optimum(&s, 10.7578125); /* by (2.8125, 1.6875) */
+    check_optimum(&s, 10.7578125); /* the move is (2.8125, 1.6875) */
     scene_end(&s);
 }
 
-/* Beside a point to which no distance is owed, with gap 0: the search radius has to grow from zero. */
+/* Beside a point that requires no distance, with gap 0: the search radius has to grow from zero. */
 static void test_beside_a_point(void **state)
 {
     (void)state;
@@ -201,8 +203,8 @@ static void test_beside_a_point(void **state)
     scene_end(&s);
 }
 
-/* One that fits to the last bit into a yard on the one axis, and beside a neighbour on the other, goes as far as its
- * limit lets it, obliquely. */
+/* A body that fits exactly into a courtyard along one axis, and exactly beside a neighbour along the other, moves by
+ * its full limit, in a slanted direction. */
 static void test_limit_in_a_row(void **state)
 {
     (void)state;
@@ -222,7 +224,7 @@ static void test_limit_in_a_row(void **state)
     scene_end(&s);
 }
 
-/* Two that overlap each other and a fixed one, with jumps forbidden: what is found is proved to be the least. */
+/* Two bodies that overlap each other and a fixed one, with jumps forbidden: the result is proved optimal. */
 static void test_two_on_a_fixed_one(void **state)
 {
     (void)state;
@@ -238,7 +240,7 @@ static void test_two_on_a_fixed_one(void **state)
     scene_end(&s);
 }
 
-/* A move of two millimetres, without a gap, away from what is half a mile long: proved as any other. */
+/* A move of two millimetres, without a gap, away from a feature 800 m long: proved like any other. */
 static void test_small_move_beside_what_is_long(void **state)
 {
     (void)state;
@@ -253,7 +255,8 @@ static void test_small_move_beside_what_is_long(void **state)
     scene_end(&s);
 }
 
-/* Half a unit each leaves the box in the slot, and half a unit from a line that nothing touched. */
+/* If the two move half a unit each, the box is in the slot, and exactly half a unit from a line that was in contact
+ * with nothing before. */
 static void test_slot_beside_a_stranger(void **state)
 {
     (void)state;
@@ -271,8 +274,8 @@ static void test_slot_beside_a_stranger(void **state)
     scene_end(&s);
 }
 
-/* A triangle in a U is drawn away from a line, and the U back within its limit, in turn: the two meet at so narrow an
- * angle that this takes long. */
+/* A triangle in a U is pushed away from a line, and the U has to stay within its limit: the two constraints meet at a
+ * very small angle, so that alternating between them converges slowly. */
 static void test_limit_beside_a_line(void **state)
 {
     (void)state;
@@ -294,8 +297,8 @@ static void test_limit_beside_a_line(void **state)
     scene_end(&s);
 }
 
-/* One goes by the corner of another, just as far as the third pushes it: to the last bit that would be a jump, beside
- * it none. The third has no room to spare in x, in its yard. */
+/* A body passes the corner of another as far as a third one pushes it: exactly there it would count as a jump, a
+ * rounding error beside it not. The third has no clearance in x, in its courtyard. */
 static void test_by_a_corner(void **state)
 {
     (void)state;
@@ -309,14 +312,14 @@ static void test_by_a_corner(void **state)
     scene_add(&s, "POLYGON((400002 5200006,400007 5200006,400007 5200007,400003 5200007,400003 5200010,400002 5200010,"
                   "400002 5200006))");
     const sunder_feature *pool = scene_add_box(&s, 400003, 5200011, 3, 1);
-    s.n--; /* a barrier */
+    s.n--; /* a barrier, not a feature */
     separate_beside_all(&s, &(sunder_barrier){.geometry = {.shape = pool->shape}, .gap = -1}, 1);
     check_optimum(&s, 18.5);
     s.n++;
     scene_end(&s);
 }
 
-/* A box needs all of its limit to separate from an obstacle. */
+/* To be separated from an obstacle, a box has to move by exactly its limit. */
 static void test_all_of_a_limit_to_part(void **state)
 {
     (void)state;
@@ -332,7 +335,7 @@ static void test_all_of_a_limit_to_part(void **state)
     scene_end(&s);
 }
 
-/* A box that fits into a yard to the last bit, with all its gap about it, in company of one that is in its way. */
+/* A box that fits exactly into a courtyard, gaps included, together with another body that is in its way. */
 static void test_into_a_yard(void **state)
 {
     (void)state;
@@ -345,14 +348,15 @@ static void test_into_a_yard(void **state)
     scene_add(&s, "POLYGON((10.5 1.5,22.5 1.5,22.5 10.5,21 10.5,21 3,12 3,12 10.5,10.5 10.5,10.5 1.5))");
     scene_add_box(&s, 1.5, 9, 9, 7.5);
     const sunder_feature *pool = scene_add_box(&s, 7.5, 15, 3, 3);
-    s.n--; /* a barrier */
+    s.n--; /* a barrier, not a feature */
     separate_beside_all(&s, &(sunder_barrier){.geometry = {.shape = pool->shape}, .gap = 0.75}, 1);
     check_optimum(&s, 12.46875);
     s.n++;
     scene_end(&s);
 }
 
-/* A slot without width, which a ray of the branching leads along: it may not leave it to both its cones. */
+/* A slot of zero width, along which a ray of the branching leads: a place on the ray may not be lost from both of its
+ * cones. */
 static void test_a_ray_along_a_slot(void **state)
 {
     (void)state;
@@ -365,7 +369,7 @@ static void test_a_ray_along_a_slot(void **state)
     scene_add(&s, "POLYGON((5 4,11 4,11 7,10 7,10 5,6 5,6 7,5 7,5 4))");
     scene_add(&s, "POLYGON((0 3,3 3,0 10,0 3))");
     const sunder_feature *pool = scene_add_box(&s, 7, 5, 2, 1);
-    s.n--; /* a barrier */
+    s.n--; /* a barrier, not a feature */
     const sunder_barrier barrier[] = {{{.xy = line, .line_end = &points, .lines = 1}, 0, 1, false},
                                       {{.shape = pool->shape}, 1.5, 0.25, false}};
     separate_beside_all(&s, barrier, 2);
@@ -374,8 +378,8 @@ static void test_a_ray_along_a_slot(void **state)
     scene_end(&s);
 }
 
-/* Four boxes press on each other obliquely, and one just passes a corner. Branching ends a few parts in ten million
- * below the cost, and dividing improves nothing there. */
+/* Four boxes press on each other in slanted directions, and one just passes a corner. Branching ends a few parts in ten
+ * million below the cost, and further division improves nothing there. */
 static void test_no_nearer_by_dividing(void **state)
 {
     (void)state;
@@ -395,7 +399,7 @@ static void test_no_nearer_by_dividing(void **state)
 }
 
 /* Without limits the box would leave the ring by half a unit; with a limit of its own it stays inside, and the ring
- * moves: a pair with a solution without limits is examined once more within them. */
+ * moves: a pair that has a solution without limits is examined once more within them. */
 static void test_within_limits_too(void **state)
 {
     (void)state;
@@ -411,8 +415,8 @@ static void test_within_limits_too(void **state)
     scene_end(&s);
 }
 
-/* A triangle moves by all of its limit along an axis; what the move falls short of the limit allows a thousand times as
- * much across. */
+/* A triangle moves along an axis by nearly its limit: the tiny amount by which the move is shorter than the limit
+ * allows a move across the axis that is a thousand times larger. */
 static void test_nothing_left_of_a_limit(void **state)
 {
     (void)state;
@@ -429,8 +433,8 @@ static void test_nothing_left_of_a_limit(void **state)
     scene_end(&s);
 }
 
-/* Two limits meet in one row: a house (all of its limit) within a wall that is within another, whose limit leaves the
- * row no other way than along a circle. Found with random layers, where it cost five times as much. */
+/* Two limits meet in one row: a house, which moves by its full limit, within a wall that is within another wall; its
+ * limit leaves the row only positions along a circle. Found with random layers, where it cost five times as much. */
 static void test_two_limits_in_a_row(void **state)
 {
     (void)state;
@@ -453,8 +457,8 @@ static void test_two_limits_in_a_row(void **state)
     scene_end(&s);
 }
 
-/* Two limits that draw a row to and fro, far from the origin: what lies within both is narrow, but has room. Found with
- * random layers. */
+/* Two limits that pull a row in opposite directions, far from the origin: the intersection of both limit discs is
+ * narrow, but has room. Found with random layers. */
 static void test_between_two_limits(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* displacement/optimum/tree_regions: the kept regions of an open node equal those that its cuts define, to the last
- * bit, also if other cuts were tried in between. */
+/* displacement/prove/optimum/tree_regions: the cached regions of an open node equal those computed from its cuts, to
+ * the last bit, also if other cuts were tried in between. */
 #include "scene_model.h"
 
 #include "displacement/prove/optimum/tree.h"
@@ -22,7 +22,7 @@ typedef struct crowd {
     uint32_t body[BODIES];
 } crowd;
 
-/* Boxes of 10 every 8, overlapping each other, and their tree after a number of steps. */
+/* Boxes of side 10 at a spacing of 8, so that they overlap, and their tree after a number of steps. */
 static void begin(crowd *c, uint64_t steps)
 {
     const sunder_i_waived none = {0};
@@ -80,7 +80,7 @@ static void test_as_made_again(void **state)
     end(&c);
 }
 
-/* A tree that is freed with open nodes leaves no memory, and regions beyond the maximum are not kept. */
+/* Freeing a tree with open nodes frees all memory, and regions beyond the maximum number are not cached. */
 static void test_no_more_than_the_most(void **state)
 {
     (void)state;

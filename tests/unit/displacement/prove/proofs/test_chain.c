@@ -1,5 +1,5 @@
-/* displacement/proofs/chain: each remaining pair of a long row is proved to have no room, with the fewest links, in
- * steps that grow linearly with the row. The common line of several ways. */
+/* displacement/prove/proofs/chain: each remaining pair of a long row is proved to have no room, with the fewest links,
+ * in a number of steps that grows linearly with the row. Also the common line of several ways out of one obstacle. */
 #include "polyset.h"
 #include "scene_model.h"
 
@@ -18,8 +18,8 @@
 
 /* ---- A row ------------------------------------------------------------------------------------------------------- */
 
-/* Squares of 10 every 12, which owe each other 3: each pair lacks 1. Four pairs are solved, a fifth of the row apart,
- * by moves of 2, 1, 0, 1 and 2; the others are left. */
+/* Squares of side 10 at a spacing of 12, which have to be 3 apart: each pair lacks 1. At four places, a fifth of the
+ * row apart, the pair is solved, by moves of 2, 1, 0, 1 and 2; the other pairs are left. */
 typedef struct row {
     sunder_feature *feature;
     size_t n;
@@ -90,14 +90,14 @@ static void end(row *r)
     free(r->required);
 }
 
-/* From the first pair that is solved, or this one, to the last. */
+/* The links from this pair, or the first pair that is solved, to the last. */
 static size_t links_of(const row *r, size_t pair)
 {
     const size_t first = r->n / (SOLVED + 1), last = SOLVED * r->n / (SOLVED + 1);
     return (pair > last ? pair : last) - (pair < first ? pair : first);
 }
 
-/* Asks about all pairs that are left. Returns how many steps one took at most. */
+/* Tries to prove all pairs that are left. Returns the most steps that one of them took. */
 static uint64_t ask(const row *r, bool has_proof)
 {
     sunder_error err;
@@ -118,7 +118,7 @@ static uint64_t ask(const row *r, bool has_proof)
         assert_int_equal(decision.proof != NULL, has_proof);
         if (has_proof) assert_int_equal(links, links_of(r, q.a));
         all += decision.work;
-        if (k && decision.work > most) most = decision.work; /* the first finds the links */
+        if (k && decision.work > most) most = decision.work; /* the first one takes more, since it finds the links */
         sunder_i_decision_clear(&decision);
     }
     assert_true(all > 0);
@@ -140,7 +140,7 @@ static void test_row(void **state)
     assert_true(many < 12 * few && many < 500 * 200);
 }
 
-/* A fifth pair would have room. */
+/* There would be room to solve a fifth pair. */
 static void test_room(void **state)
 {
     (void)state;
@@ -157,8 +157,8 @@ static sunder_i_half_plane way_of(double angle, double d)
     return (sunder_i_half_plane){.n = {cos(angle), sin(angle)}, .d = d};
 }
 
-/* Each place within reach and beyond one of the ways is beyond the line; places at the ends of the ways' arcs are only
- * just so. */
+/* Each place that is within reach and beyond one of the ways is beyond the line; the ends of the ways' arcs touch
+ * it. */
 static void test_chord(void **state)
 {
     (void)state;

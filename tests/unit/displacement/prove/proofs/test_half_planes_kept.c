@@ -1,5 +1,5 @@
-/* displacement/proofs/half_planes_kept: kept lines between pieces equal new ones and count the same number of steps,
- * for any number and order of requests, and also if others have taken their place in the cache. */
+/* displacement/prove/proofs/half_planes_kept: cached lines between pieces equal new ones and count the same number of
+ * steps, for any number and order of requests, and also if others have replaced them in the cache. */
 #include "random.h"
 #include "scene_model.h"
 
@@ -26,7 +26,7 @@ static void add_house(rng *r, scene *s)
     scene_add(s, wkt)->max_shift = (double)rng_int(r, 2, 8);
 }
 
-/* Returns whether there are any. */
+/* Compares the lines of a pair; returns whether there are any. */
 static bool check_pair(rng *r, sunder_i_branching *kept, sunder_i_branching *anew)
 {
     const sunder_i_model *model = kept->model;
@@ -36,7 +36,7 @@ static bool check_pair(rng *r, sunder_i_branching *kept, sunder_i_branching *ane
     const sunder_i_body_piece *a = &of_p->piece[rng_int(r, 0, p->pieces - 1)],
                               *b = &of_q->piece[rng_int(r, 0, q->pieces - 1)];
     const bool shadow = rng_once_in(r, 3);
-    if (shadow) a = &of_p->anchor[0]; /* features here stand alone */
+    if (shadow) a = &of_p->anchor[0]; /* features here have no blocks */
     const double clearance = shadow ? 0 : (double)rng_int(r, -1, 1);
     size_t n;
     const sunder_i_half_plane *way = sunder_i_branching_kept_half_planes(kept, p, a, q, b, clearance, shadow, &n);

@@ -1,5 +1,5 @@
-/* displacement/proofs/plane: a body in a yard that is too small for it has no solution. Walls touch, so the region that
- * claims leave of the plane may be a line or a point, which is no contradiction by itself. */
+/* displacement/prove/proofs/plane: a body in a courtyard that is too small for it has no solution. Walls touch, so the
+ * part of the plane that remains free may be a line or a point; that is not a contradiction by itself. */
 #include "random.h"
 #include "scene_model.h"
 
@@ -16,7 +16,7 @@
 
 enum { LAYERS = 60, UNKNOWN = 2, MOST_SIDES = 9 };
 
-/* Places on a circle, turned by some angle, as doubles: neighbours share them exactly. */
+/* Places on a circle, rotated by an angle, as doubles: neighbouring houses share them exactly. */
 static void put_round(double (*at)[2], int n, const double centre[2], double radius, double turn)
 {
     for (int k = 0; k <= n; k++) {
@@ -40,7 +40,7 @@ static void add_house(scene *s, const double *const *corner, int n, int64_t bloc
     f->max_shift = INFINITY;
 }
 
-/* Houses wall to wall about a yard, and in it a block of houses that meet in its middle, a little too large. */
+/* Houses wall to wall around a courtyard, and in it a block of houses that meet in its centre, slightly too large. */
 static void add_yard(rng *r, scene *s)
 {
     const double centre[2] = {10 * rng_unit(r), 10 * rng_unit(r)}, yard = 5 + 5 * rng_unit(r),
@@ -60,7 +60,7 @@ static void add_yard(rng *r, scene *s)
     }
 }
 
-/* Decides the pair in the plane only. */
+/* Decides the pair in the plane of its relative move only. */
 static sunder_i_verdict decide(const sunder_i_model *model, size_t features)
 {
     const uint32_t a = 0, b = (uint32_t)features - 1, body[2] = {model->body_of[a], model->body_of[b]};
@@ -94,7 +94,7 @@ static void test_seams(void **state)
         scene_model_end(&of);
         scene_end(&s);
     }
-    /* Nineteen are unknown where seams are not divided. */
+    /* Without dividing seams nineteen are unknown. */
     assert_int_equal(told[SUNDER_I_FEASIBLE], 0);
     assert_true(told[SUNDER_I_UNKNOWN] <= UNKNOWN);
 }

@@ -24,7 +24,7 @@ typedef struct layer {
 
 static int64_t draw_block(rng *r) { return rng_once_in(r, 3) ? -1 : rng_int(r, 0, 1); }
 
-/* A box with a blunt gable, which coarse lines pass by. */
+/* A box with an obtuse gable, which coarse lines cannot represent. */
 static sunder_feature *add_house(rng *r, scene *s)
 {
     char wkt[200];
@@ -56,8 +56,8 @@ static void end(layer *l)
     scene_end(&l->scene);
 }
 
-/* Draws a question: one of three movable bodies and another one or the ground, under some of the rules, with only some
- * features considered, and some pair with a reduced demand. */
+/* Draws a question: one of three movable bodies and another body or a fixed one, under some of the rules, with only
+ * some features considered, and with a reduced requirement for some pair. */
 static void draw_question(rng *r, const layer *l, uint32_t body[2], uint32_t *feature, sunder_i_requirement *required,
                           sunder_i_subproblem *q)
 {
@@ -149,8 +149,8 @@ static void test_questions(void **state)
 
 enum { HOUSES = 30, CROWDS = 6, CROWD_QUESTIONS = 40 };
 
-/* Each in the midst of the other: houses of the one stand between those of the other, or on them. So hundreds of pieces
- * and shadows are in the plane of their relative move, for which there is a tree. */
+/* Two blocks that interpenetrate: houses of the one are between those of the other, or overlap them. So hundreds of
+ * pieces and shadows are in the plane of their relative move, which then uses a tree. */
 static void begin_crowd(rng *r, layer *l)
 {
     memset(l, 0, sizeof *l);
@@ -166,7 +166,7 @@ static void begin_crowd(rng *r, layer *l)
     scene_model_related(&l->of, &l->scene);
 }
 
-/* About one pair or another, with all or some of the houses, others being held to nothing or to little. */
+/* A question about a random pair, with all or some of the houses, where others have no requirement or a small one. */
 static void check_crowd(rng *r, const layer *l, size_t *told)
 {
     sunder_i_planes planes = {0};

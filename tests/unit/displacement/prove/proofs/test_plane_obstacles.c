@@ -1,5 +1,5 @@
-/* displacement/proofs/plane_obstacles: the set behind the ways of an obstacle lies in the box that is known before they
- * are made. Ways are made only for obstacles near the queried places. */
+/* displacement/prove/proofs/plane_obstacles: the set shadowed by an obstacle lies in the box that is known before its
+ * ways are made. Ways are made only for obstacles near the places asked about. */
 #include "random.h"
 #include "scene_model.h"
 
@@ -22,7 +22,7 @@ typedef struct two {
     sunder_i_subproblem asked;
 } two;
 
-/* A triangle that looks anywhere. */
+/* A triangle of random orientation. */
 static void add_house(rng *r, scene *s, int64_t block, double limit)
 {
     char wkt[300];

@@ -1,5 +1,6 @@
-/* displacement/prove/proofs/precedents: a further question about the same bodies has the same answer with earlier
- * answers at hand, sooner; and what coarse lines do not prove of some things they do not prove of fewer. */
+/* displacement/prove/proofs/precedents: a further question about the same bodies has the same answer if earlier answers
+ * are used, with fewer steps; and if coarse lines do not prove a pair with some features, they do not prove it with
+ * fewer features. */
 #include "random.h"
 #include "scene_model.h"
 
@@ -25,7 +26,7 @@ typedef struct crowd {
     size_t required_n;
 } crowd;
 
-/* Two interlocking blocks. Most of their houses have no demand, or a small one. */
+/* Two interlocking blocks. Most of their houses have no requirement, or a small one. */
 static void begin(rng *r, crowd *c)
 {
     memset(c, 0, sizeof *c);
@@ -54,7 +55,7 @@ static void end(crowd *c)
     scene_end(&c->scene);
 }
 
-/* About some pair of the two, all houses heeded. */
+/* A question about a random pair of the two, with all houses considered. */
 static sunder_i_subproblem draw_question(rng *r, const crowd *c)
 {
     const uint32_t f = 2 * (uint32_t)rng_int(r, 0, HOUSES - 1), g = 2 * (uint32_t)rng_int(r, 0, HOUSES - 1) + 1;
@@ -79,7 +80,7 @@ static sunder_i_verdict decide(const sunder_i_subproblem *q, sunder_i_decision *
     return decision->verdict;
 }
 
-/* The outcome of each question with and without precedents, and the work that it takes. */
+/* The outcome of each question with and without precedents, and the number of steps. */
 static void test_questions(void **state)
 {
     size_t told[3] = {0};
@@ -112,7 +113,8 @@ static void test_questions(void **state)
 
 enum { YARD = 10, ROUND = 24, WALLS = 4, SHEDS = 6 };
 
-/* A block about a square yard, with sheds behind its walls, and in the yard a round house, a little too large. */
+/* A block around a square courtyard, with sheds behind its walls, and in the courtyard a round house, slightly too
+ * large. */
 static void begin_yard(crowd *c)
 {
     char wkt[2000];
@@ -135,7 +137,7 @@ static void begin_yard(crowd *c)
     scene_model_related(&c->of, &c->scene);
 }
 
-/* A question that only fine lines prove infeasible uses only fine lines when a thing is left out; the outcome is the
+/* A question that only fine lines prove infeasible uses only fine lines when a feature is left out; the outcome is the
  * same. */
 static void test_fine_planes(void **state)
 {

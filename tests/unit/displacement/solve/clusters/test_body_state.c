@@ -1,5 +1,5 @@
-/* The states of a body: each aspect behaves like the independent facts that its states stand for, events that cannot
- * happen are refused, and the checker finds a solver whose states contradict its bodies. */
+/* The states of a body: each aspect behaves like the independent facts that its states combine, impossible events are
+ * refused, and the checker finds a solver whose states contradict its bodies. */
 #include "displacement/solve/clusters/solver.h"
 
 #include "random.h"
@@ -16,7 +16,7 @@
 
 enum { BODIES = 3, EVENTS_DRAWN = 20000 };
 
-/* The same states as independent facts. */
+/* The same states, as independent facts. */
 typedef struct facts {
     bool due, improved, cheapest; /* the search */
     bool wanted, doubtful, asked; /* the pass, and questions */
@@ -109,7 +109,7 @@ static void expect_states(const sunder_i_solver *s, uint32_t b, const facts *f)
     assert_int_equal(sunder_i_is_in(s, SUNDER_I_DIAGONALS, b, SUNDER_I_WITH_DIAGONALS), f->diagonals);
 }
 
-/* Events at random: the states are those of the facts, and an event is possible if the facts allow it. */
+/* Random events: the states correspond to the facts, and an event is possible if the facts allow it. */
 static void check_events(void **state)
 {
     (void)state;
@@ -137,7 +137,7 @@ static void check_events(void **state)
     sunder_i_body_states_free(&s.states);
 }
 
-/* A solver of bodies that may go anywhere, one of them fixed. */
+/* A solver with bodies without limits, one of them fixed. */
 static void begin(sunder_i_solver *s, sunder_i_body *body)
 {
     memset(s, 0, sizeof *s);
@@ -150,7 +150,7 @@ static void begin(sunder_i_solver *s, sunder_i_body *body)
     assert_null(sunder_i_solver_check_states(s));
 }
 
-/* The checker: states that it accepts, and faults that it finds. */
+/* The checker accepts valid states, and reports faults. */
 static void check_checker(void **state)
 {
     (void)state;
@@ -167,7 +167,7 @@ static void check_checker(void **state)
     sunder_i_body_event(&s.states, 2, SUNDER_I_IS_HELD);
     assert_non_null(sunder_i_solver_check_states(&s));
     body[2].held = true;
-    assert_non_null(sunder_i_solver_check_states(&s)); /* it may move */
+    assert_non_null(sunder_i_solver_check_states(&s)); /* the body is not fixed */
     body[2].fixed = true;
     assert_null(sunder_i_solver_check_states(&s));
     sunder_i_body_event(&s.states, 2, SUNDER_I_IS_LET_GO);
@@ -193,7 +193,7 @@ static void check_checker(void **state)
     sunder_i_body_states_free(&s.states);
 }
 
-/* States that exist are kept: bodies are held before and after the solver's other arrays are made. */
+/* States are not initialised again: bodies are held before and after the solver's other arrays are made. */
 static void check_second_init(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-/* displacement/clusters/contact_groups: groups that are made of other groups keep the cost at which these were
+/* displacement/solve/clusters/contact_groups: groups that are unions of other groups keep the cost at which these were
  * perturbed, whether or not a bound was proved for them; parts of a group do not keep it. */
 #include "scene_solver.h"
 
@@ -44,7 +44,7 @@ static void test_what_was_shaken(void **state)
     assert_non_null(s.groups.joined);
     s.groups.joined[0] = (sunder_i_id_pair){1, 2};
     s.groups.joins = 1;
-    for (int round = 0; round < 2; round++) { /* and once more, unchanged */
+    for (int round = 0; round < 2; round++) { /* the second time nothing has changed */
         gather(&s, 1);
         assert_int_equal(s.groups.group[0].n, 4);
         assert_true(s.groups.group[0].shaken_at == 7 && s.groups.group[0].bound == 0.5);

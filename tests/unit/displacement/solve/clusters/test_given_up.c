@@ -1,5 +1,5 @@
-/* Pairs that were given up: their list, kept in order one by one, and as a whole; and a body that can be solved alone
- * is solved in any crowd. */
+/* Pairs that were given up: their list, sorted after single changes and after being rebuilt; and a body that can be
+ * solved by itself is solved in any crowd. */
 #include "displacement/layer/model.h"
 
 #include "random.h"
@@ -23,7 +23,7 @@
 
 enum { FEATURES = 24, BODIES = 12 };
 
-/* The same relaxations; p, from which some were removed one by one, may record a larger reach for bodies. */
+/* Are the relaxations the same? p, from which some were removed one by one, may record a larger reach for bodies. */
 static void expect_same(const sunder_i_relaxations *p, const sunder_i_relaxations *q)
 {
     assert_int_equal(p->n, q->n);
@@ -40,7 +40,7 @@ static void expect_same(const sunder_i_relaxations *p, const sunder_i_relaxation
     }
 }
 
-/* All relaxations, or those that are not among `without`. */
+/* Indexes all relaxations, or those that are not among `without`. */
 static void index_all(const sunder_i_model *model, const sunder_i_relaxation *relaxation, size_t n,
                       const sunder_i_restored *without, size_t without_n, sunder_i_relaxations *out)
 {
@@ -106,9 +106,9 @@ static void add_box(sunder_feature *out, double x, double y, double w, double h,
     *out = (sunder_feature){.shape = shape, .weight = 1, .max_shift = 1, .block = -1, .fixed = fixed};
 }
 
-/* A row of slabs, each overlapping the next: within the limits only a handful separate. Beneath each stands a hut that
- * it overlaps by less than it may move. However long the row is, no slab stays on its hut. The search has to achieve
- * that: with more effort only proofs of the rest take longer. */
+/* A row of slabs, each overlapping the next: within the limits only a few can be separated. Below each slab is a hut
+ * that it overlaps by less than it may move. However long the row is, no slab may stay on its hut. The search has to
+ * achieve that itself: more effort only adds proofs for the rest. */
 static void check_row(size_t slabs, double effort)
 {
     sunder_feature feature[2 * MOST];
@@ -164,9 +164,9 @@ static void check_inside(void **state)
     for (size_t k = 0; k < 3; k++) sunder_shape_free((sunder_shape *)feature[k].shape);
 }
 
-/* A house between one that is within rounding of its limit and two fixed ones. The pair that is given up is slightly
- * too near, which sends others home, although nothing had to be examined for that before. This ended in a segmentation
- * fault. */
+/* A house between two fixed ones and one whose limit is reached within rounding. The pair that is given up is slightly
+ * too near, so that other bodies return to their original places, although nothing had to be examined for that before.
+ * An earlier version ended with a segmentation fault. */
 static void check_last_hair(void **state)
 {
     (void)state;
@@ -188,7 +188,8 @@ static void check_last_hair(void **state)
 
 enum { SYMBOLS = 30, HEAP_WIDE = 6, HEAP_HIGH = 9, HEAP = HEAP_WIDE * HEAP_HIGH };
 
-/* Squares of this side at random places, with this limit; moves: their moves. Returns how many conflicts are left. */
+/* Separates squares of this side at random places, with this limit; `moves` receives the moves. Returns the number of
+ * conflicts left. */
 static size_t separate_symbols(double (*at)[2], size_t n, double side, double limit, double (*move)[2])
 {
     sunder_feature feature[HEAP];
@@ -212,8 +213,8 @@ static size_t separate_symbols(double (*at)[2], size_t n, double side, double li
     return left;
 }
 
-/* A limit that no move reaches changes none of them; and a limit of four fifths of the longest move leaves few of the
- * pairs in conflict that all have a solution without it. The crowds are fixed, so the number left is a property of
+/* A limit that no move reaches changes nothing. With a limit of four fifths of the longest move few pairs remain in
+ * conflict, all of which have a solution without limits. The crowds are fixed, so the number of pairs left is known for
  * each. */
 static void check_symbols(void **state)
 {
@@ -234,8 +235,8 @@ static void check_symbols(void **state)
     assert_true(left <= 6);
 }
 
-/* A heap of squares of side 4, a unit from one to the next, each overlapping a dozen and more: within the limit there
- * is room for most of them, but not for all. So few pairs are given up compared with those in conflict. */
+/* A pile of squares of side 4 at a spacing of 1, each overlapping a dozen others or more: within the limit there is
+ * room for most of them, but not for all. So few pairs are given up compared with those in conflict. */
 static void check_heap(void **state)
 {
     (void)state;
@@ -261,9 +262,9 @@ static bool count_looks(double fraction, void *user)
     return true;
 }
 
-/* Terraces back to back, house by house, in streets too narrow to separate all of them within the limit. Without it
- * they would fill the town and leave it, so no room is made for bodies that cannot stay where they went. Pairs that
- * blocks solved by themselves are not given up because the blocks ran into each other. */
+/* Terraces back to back, house by house, in streets too narrow to separate all of them within the limit. Without limits
+ * they would fill the town and spread beyond it; so bodies whose limits forbid their new places get no room from
+ * others. Pairs that blocks solved by themselves are not given up when blocks run into each other. */
 static void check_terraces(void **state)
 {
     (void)state;

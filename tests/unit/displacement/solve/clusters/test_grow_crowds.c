@@ -1,5 +1,5 @@
-/* Before it is solved, a large crowd absorbs the bodies on the ground that it needs: those that may go anywhere, alone
- * or in small crowds, and no others. */
+/* Before a large crowd is solved, it absorbs the bodies on the area that it needs: those without limits, alone or in
+ * small crowds, and no others. */
 #include "random.h"
 #include "scene_solver.h"
 
@@ -40,7 +40,8 @@ static sunder_feature *add_square(crowd *c, double x, double y)
     return &c->feature[c->n++];
 }
 
-/* y is drawn first. As arguments of one call both would be drawn in the order that the compiler chooses. */
+/* y is drawn first: C leaves the order of evaluation of arguments to the compiler, so two random numbers may not be
+ * drawn in one call. */
 static void add_heap(crowd *c, rng *g, size_t n, double x, double y, double within)
 {
     for (size_t k = 0; k < n; k++) {
@@ -77,7 +78,7 @@ static void draw(crowd *c)
     rng g = {1};
     add_heap(c, &g, HEAP, 0, 0, 60);
     add_heap(c, &g, SMALL_HEAP, 130, 30, 12);
-    for (int k = 0; k < ALONE; k++) { /* within, and far beyond */
+    for (int k = 0; k < ALONE; k++) { /* some within the area, some far outside */
         const double angle = 0.3 + 0.5 * k;
         add_square(c, 30 + 110 * cos(angle), 30 + 110 * sin(angle));
         add_square(c, 30 + 900 * cos(angle), 30 + 900 * sin(angle));
@@ -110,11 +111,11 @@ static void test_takes_in(void **state)
         assert_false(joined[0][HEAP + SMALL_HEAP + 2 * k + 1]);
     }
     for (size_t k = 1; k <= HELD; k++) assert_false(joined[0][c.n - k]);
-    assert_memory_equal(joined[0], joined[1], c.n * sizeof **joined); /* threads change nothing */
+    assert_memory_equal(joined[0], joined[1], c.n * sizeof **joined); /* the number of threads changes nothing */
     for (size_t k = 0; k < c.n; k++) sunder_shape_free((sunder_shape *)(uintptr_t)c.feature[k].shape);
 }
 
-/* Without effort no body starts where prices put it; and a small crowd starts again whenever it grows. */
+/* At effort 0 no body starts at the position that prices give; and a small crowd is started again whenever it grows. */
 static void test_others_stay(void **state)
 {
     (void)state;

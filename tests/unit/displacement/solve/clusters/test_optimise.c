@@ -1,4 +1,4 @@
-/* If cheaper layouts of several groups collide, a layout that holds is accepted. */
+/* If cheaper layouts of several groups collide with each other, a combination that is valid is accepted. */
 #include "scene.h"
 
 #include <math.h>
@@ -9,7 +9,7 @@
 
 #include <cmocka.h>
 
-/* Boxes and frames may not lie in one another; there are no other rules. */
+/* Containment counts as a conflict; there are no blocks. */
 static void begin(scene *s)
 {
     scene_begin(s, 0);
@@ -17,7 +17,7 @@ static void begin(scene *s)
     s->options.contained = SUNDER_CONTAINMENT_SEPARATE;
 }
 
-/* To their west is a line that no feature may cross. */
+/* Separates beside a line, to the west of the features, that they may not cross. */
 static void separate_beside_a_line(scene *s)
 {
     const double xy[] = {0, -2, 4, 14};
@@ -39,9 +39,9 @@ static void check_optimum(scene *s, double cost)
     scene_end(s);
 }
 
-/* An L within a frame within another frame, which the search sends far from each other. Then the L may go home, and so
- * may the frames, which are another group; together they are in each other's way. The L has to be home when the frames
- * are examined again. */
+/* An L within a frame within another frame, which the search moves far apart. By itself the L could return to its
+ * original place, and so could the frames, which are another group; but not both. When the frames are examined again,
+ * the L has to be at its original place. */
 static void test_who_goes_home_first(void **state)
 {
     (void)state;
@@ -55,7 +55,7 @@ static void test_who_goes_home_first(void **state)
     check_optimum(&s, 1.6180555555555556);
 }
 
-/* The same of a triangle, a U and a box, without jumps. */
+/* The same for a triangle, a U and a box, with jumps forbidden. */
 static void test_who_stays_in_a_court(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* displacement/clusters/shut_in_conflicts: of a house in a yard of four others, which of its conflicts with them have
- * no solution if the others stay as they are? */
+/* displacement/solve/clusters/shut_in_conflicts: a house in a courtyard of four others: which of its conflicts with
+ * them have no solution if the others remain as they are? */
 #include "scene_model.h"
 
 #include "displacement/solve/clusters/cluster_stages.h"
@@ -28,7 +28,7 @@ static void add_box(scene *s, double x, double y, double width, double height, i
     scene_add(s, wkt)->block = block;
 }
 
-/* A house of 2 by 2, half a gap from three sides of its yard, and `east` from the fourth. */
+/* A house of 2 by 2, half a gap away from three sides of its courtyard, and `east` away from the fourth. */
 static void begin(yard *y, double east)
 {
     memset(y, 0, sizeof *y);
@@ -48,7 +48,7 @@ static void end(yard *y)
     scene_end(&y->scene);
 }
 
-/* The side of the yard to which the pair belongs, from the middle of the member that is not the house. */
+/* The side of the courtyard that the pair is about, from the centre of the member that is not the house. */
 static int side_of(const yard *y, const sunder_i_relaxation *t, double width)
 {
     for (uint32_t e = 0; e < 2; e++) {
@@ -60,7 +60,7 @@ static int side_of(const yard *y, const sunder_i_relaxation *t, double width)
     return SIDES;
 }
 
-/* Says of each conflict whether it was proved; of how many there are. */
+/* Determines for each conflict whether it is proved unsolvable; returns the number of conflicts. */
 static size_t ask(yard *y, double width, bool proved[SIDES])
 {
     sunder_i_relaxation relaxation[SIDES];
@@ -80,7 +80,7 @@ static size_t ask(yard *y, double width, bool proved[SIDES])
     return n;
 }
 
-/* Each alone has a solution; none has, since the side across is as near. */
+/* Each conflict alone has a solution; with the others none has, since the opposite side is equally near. */
 static void check_no_place(void **state)
 {
     yard y;

@@ -1,5 +1,5 @@
-/* displacement/search/cheapest: a solution is reported as the cheapest only if no other start leads to a cheaper one,
- * and usually whenever that is so. If it is not reported, nothing is changed. */
+/* displacement/solve/search/cheapest: a solution is reported as the cheapest only if no other start leads to a cheaper
+ * one, and usually whenever that is true. If it is not reported, nothing is changed. */
 #include "random.h"
 #include "scene_board.h"
 
@@ -34,7 +34,7 @@ static sunder_i_cluster cluster_of(scene_board *b)
     return (sunder_i_cluster){.body = b->body, .n = b->scene.n, .margin = margin};
 }
 
-/* A box, a triangle, or an angle of two boxes. */
+/* Adds a box, a triangle, or an L of two boxes. */
 static void add_any(rng *r, scene *s)
 {
     char wkt[400];
@@ -56,7 +56,7 @@ static void add_any(rng *r, scene *s)
     s->feature[s->n - 1].fixed = s->n > 1 && rng_once_in(r, 8);
 }
 
-/* Is there a start from which it goes down to less? */
+/* Is there a start from which the descent reaches a lower cost? */
 static bool is_beaten(rng *r, scene_board *b, double cost)
 {
     sunder_error err;
@@ -102,7 +102,7 @@ static void test_nothing_is_cheaper(void **state)
     assert_true(10 * said > 3 * all && beaten > 0);
 }
 
-/* Two boxes that overlap by less from the side than from above, and stand parted upwards. */
+/* Two boxes that overlap less along x than along y, and are separated along y. */
 static void test_the_wrong_side(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* displacement/search/confined: for two bodies that are shut in, places are searched no farther off than those that may
- * be free; the places found are the same. */
+/* displacement/solve/search/confined: for two bodies that are shut in, the search for places is limited to the distance
+ * of possible free places; the places found are the same. */
 #include "random.h"
 #include "scene_model.h"
 
@@ -18,7 +18,8 @@ enum { YARDS = 40 };
 
 static const double margin = 0x1p-30;
 
-/* A house in a yard that is too small for it, as near to one side as allowed: all conflicts are left as they are. */
+/* A house in a courtyard that is too small for it, as near to one side as allowed: all conflicts are left as they
+ * are. */
 static void begin(rng *r, scene *s, scene_model *of)
 {
     const double width = 2.5 + rng_unit(r), height = 2.5 + rng_unit(r);
@@ -40,7 +41,7 @@ static void begin(rng *r, scene *s, scene_model *of)
     assert_true(sunder_i_relaxations_index(&model->relaxations, model));
 }
 
-/* The place beside the other that is found nearest to the target, if any, and with how many steps. */
+/* The place beside the other body that is nearest to the target, if any, and the number of steps to find it. */
 static size_t find(const scene_model *of, const double target[2], double place[2], uint64_t *steps)
 {
     static const uint32_t body[2] = {0, 1};
@@ -56,7 +57,7 @@ static size_t find(const scene_model *of, const double target[2], double place[2
     return n;
 }
 
-/* Compares the places that are found if it is known that the two are shut in, and if it is not. */
+/* Compares the places that are found with and without the knowledge that the two are shut in. */
 static void compare(rng *r, scene_model *of, size_t found[2], uint64_t all[2])
 {
     sunder_i_id_pair two = {0, 1};
@@ -84,7 +85,7 @@ static void test_yards(void **state)
         scene_model of;
         bool shut = false;
         begin(&r, &s, &of);
-        if (of.model.bodies == 2) /* a house that stands at a wall is of the yard's block */
+        if (of.model.bodies == 2) /* a house that touches a wall is in one block with it */
             assert_true(sunder_i_is_shut_in(&of.model, 0, 1, &shut));
         if (shut) compare(&r, &of, found, all);
         scene_model_end(&of);

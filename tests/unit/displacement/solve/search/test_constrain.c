@@ -1,6 +1,6 @@
 /* displacement/solve/search: a pair that is free at its target uses the sides of the target, another pair those of its
- * present place. Violations by rough solutions are corrected: a large crowd that descends roughly first is free at the
- * end to the last digit, and its cost cannot be improved further. */
+ * present place. Violations by approximate solutions are corrected: a large crowd that first descends approximately is
+ * free of conflicts at the end, to the last digit, and its cost cannot be improved further. */
 #include "scene_field.h"
 
 #include "displacement/solve/search/search_stages.h"
@@ -19,7 +19,7 @@
 
 enum { SIDE = 33, MOST = SIDE * SIDE, CORNERS = 12 };
 
-/* Something round of a radius of 6. */
+/* Adds a round polygon of radius 6. */
 static void add_round(scene_field *f, double x, double y)
 {
     char wkt[CORNERS * 60 + 100];
@@ -33,12 +33,12 @@ static void add_round(scene_field *f, double x, double y)
     scene_field_add(f, wkt, INFINITY);
 }
 
-/* Round bodies in columns and rows at a fixed distance. */
+/* A grid of round bodies. */
 static scene_field *begin(size_t columns, size_t rows, double apart)
 {
     scene_field *f = scene_field_new(columns * rows);
     for (size_t k = 0; k < columns * rows; k++) {
-        /* Rows are shifted by some of the distance, each by another. */
+        /* Each row is shifted by another fraction of the distance. */
         const double row = (double)(k / columns), x = apart * ((double)(k % columns) + fmod(0.381 * row, 1));
         add_round(f, x, apart * row);
     }
@@ -46,7 +46,7 @@ static scene_field *begin(size_t columns, size_t rows, double apart)
     return f;
 }
 
-/* How far to the right the sides that one pair owes each other look, on the whole; in [-1, 1]. */
+/* The mean direction of the sides between pairs, as its component to the right; in [-1, 1]. */
 static double look_right(sunder_i_search *s, const double *lead)
 {
     double right = 0;
@@ -111,7 +111,7 @@ static void test_a_large_crowd(void **state)
     }
 }
 
-/* With one limited body the crowd does not descend coarsely, but still finds the solution. */
+/* With one body that has a limit the crowd does not descend approximately, but still finds the solution. */
 static void test_with_a_limit(void **state)
 {
     (void)state;

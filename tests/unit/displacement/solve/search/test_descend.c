@@ -1,5 +1,5 @@
-/* displacement/solve/search/descend: a body that misses a hair beside a wide barrier descends to the place there, not
- * elsewhere. */
+/* displacement/solve/search/descend: a body that is a rounding error too near to a wide barrier descends to the
+ * adjacent free place, not to one elsewhere. */
 #include "scene.h"
 
 #include "displacement/solve/search/search_stages.h"
@@ -14,12 +14,12 @@
 
 #include <cmocka.h>
 
-static const double width = 7, lower = 4, left = 6; /* of the bar: its lower left corner, how wide it is */
-static const double half = 0.5;                     /* of the barrier's width */
+static const double width = 7, lower = 4, left = 6; /* of the bar: its width, and its lower left corner */
+static const double half = 0.5;                     /* half the barrier's width */
 static const double low[2] = {10, 2}, tip[2] = {13, 9};
 
-/* The bar's move where its left corner touches the first part of the line from (x, 11) by `low` to `tip`, and its right
- * one the round end, from above. */
+/* The move of the bar for which its left corner touches, from above, the segment of the line from (x, 11) by `low` to
+ * `tip`, and its right corner touches the round end. */
 static void find_corner(double x, double t[2])
 {
     const double along[2] = {low[0] - x, low[1] - 11}, length = hypot(along[0], along[1]);
@@ -39,7 +39,7 @@ static void find_corner(double x, double t[2])
     }
 }
 
-/* Descends from slightly below the place. */
+/* Descends from slightly below that place. */
 static void go_down(double x)
 {
     const sunder_i_relations none = {0};

@@ -1,5 +1,5 @@
-/* displacement/search/lone_pair: two features without neighbours separate by their least translation, the lighter one
- * moving farther; if anything else has an influence, nothing is changed. */
+/* displacement/solve/search/lone_pair: two features without neighbours are separated by their least translation, of
+ * which the lighter one takes more; if anything else has an influence, nothing is changed. */
 #include "random.h"
 #include "scene_board.h"
 
@@ -33,7 +33,7 @@ static scene *scene_of(pair *p, double gap)
     return &p->board.scene;
 }
 
-/* The exact answer for the two; to be cleared. */
+/* The exact result for the two; the caller clears it. */
 static sunder_separation least_of(const scene *s)
 {
     sunder_separation least;
@@ -42,7 +42,7 @@ static sunder_separation least_of(const scene *s)
     return least;
 }
 
-/* Begins with a scene that has its two features. */
+/* Starts a search with the two features of the scene. */
 static void begin(pair *p, const double stood[4])
 {
     sunder_error err;
@@ -61,7 +61,8 @@ static void end(pair *p)
     scene_board_end(&p->board);
 }
 
-/* A box that is cut at a corner, or notched at a side: with a concave corner, and so places with two lines. */
+/* A box with a corner cut off, or with a notch in a side: it has a concave corner, so there are places in contact with
+ * two lines. */
 static void add_any(rng *r, scene *s)
 {
     char wkt[400];
@@ -114,7 +115,7 @@ static void test_the_least_is_paid(void **state)
 }
 
 /* Other influences: no conflict; a limit that is too short; a third body; a given-up pair; a mode in which one may lie
- * in the other. */
+ * inside the other. */
 static void test_others_have_a_say(void **state)
 {
     (void)state;
@@ -134,7 +135,7 @@ static void test_others_have_a_say(void **state)
     }
 }
 
-/* Adds a box of that size along e and across it. */
+/* Adds a box of that size at an offset along e and across it. */
 static void add_slanted(scene *s, const double o[2], const double e[2], double along, double across, double w, double h)
 {
     char wkt[400];
@@ -149,7 +150,8 @@ static void add_slanted(scene *s, const double o[2], const double e[2], double a
     scene_add(s, wkt);
 }
 
-/* Two that keep the gap up to the rounding of their corners: the least translation may be too short for doubles. */
+/* Two bodies that keep the gap up to the rounding of their corners: the least translation may be too short for
+ * doubles. */
 static void test_hardly_too_near(void **state)
 {
     (void)state;
@@ -163,7 +165,7 @@ static void test_hardly_too_near(void **state)
         add_slanted(s, o, e, 0, 0, 10, 5);
         add_slanted(s, o, e, 1, 5 + gap, 4, 3);
         begin(&p, (double[4]){0});
-        for (int c = 0; c < 4; c++) assert_true(fabs(p.search.t[c]) < 1e-6); /* and a number */
+        for (int c = 0; c < 4; c++) assert_true(fabs(p.search.t[c]) < 1e-6); /* the comparison also fails for NAN */
         sunder_separation least = least_of(s);
         conflicts += least.overlap;
         sunder_separation_clear(&least);

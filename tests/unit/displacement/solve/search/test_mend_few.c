@@ -1,6 +1,6 @@
-/* displacement/solve/search/mend_few: a crowd in which a body was sent back, with few clashes, is repaired around
- * these, and no other body moves. If no body was sent back, many clash, or the crowd is not large, it is left as it
- * was. */
+/* displacement/solve/search/mend_few: a crowd in which a body was moved back is repaired around the few resulting
+ * clashes, and no other body moves. If no body was moved back, if there are many clashes, or if the crowd is not large,
+ * it is left as it was. */
 #include "scene_field.h"
 
 #include "displacement/solve/search/search_stages.h"
@@ -18,7 +18,7 @@
 
 enum { MOST = 24 * 24 };
 
-/* Squares of 10 m that owe each other 3 m, and stand 4 m apart in a square field; each may move 2 m. */
+/* Squares of side 10 with a gap of 3, at distances of 4 in a square grid; each may move 2. */
 static scene_field *begin(size_t side)
 {
     scene_field *f = scene_field_new(side * side);
@@ -32,7 +32,7 @@ static scene_field *begin(size_t side)
     return f;
 }
 
-/* Sends every so-manieth right by 1.5, which puts it too near to the next. Returns how many clash. */
+/* Moves every `every`-th square right by 1.5, which is too near to the next. Returns the number of clashes. */
 static size_t disturb(scene_field *f, size_t every)
 {
     for (size_t k = every / 2; k < f->n; k += every) f->search.t[2 * k] = 1.5;
@@ -59,7 +59,7 @@ static void test_few(void **state)
     scene_field_free(f);
 }
 
-/* Nothing is done. */
+/* Demands that nothing changes. */
 static void expect_left_alone(scene_field *f)
 {
     double stood[2 * MOST];

@@ -1,4 +1,4 @@
-/* Which pairs of pieces of two bodies are examined: those whose boxes come near each other, in order, for every kind of
+/* Which pairs of pieces of two bodies are examined: those whose boxes are near each other, in order, for every kind of
  * pruning; compared with a loop over all of them. Few pieces and many, near and far. */
 #include "random.h"
 
@@ -81,7 +81,7 @@ typedef struct found {
 static void note(sunder_i_search *s, const sunder_i_piece_pair *part, void *context)
 {
     found *f = context;
-    const sunder_i_body_piece *all = ((const world *)s->model)->piece; /* the model is its first member */
+    const sunder_i_body_piece *all = ((const world *)s->model)->piece; /* the model is the first member of the struct */
     assert_int_equal(part->key, (uint64_t)(part->a - all) << 32 | (uint64_t)(part->b - all));
     if (f->n < sizeof f->key / sizeof *f->key) f->key[f->n++] = part->key;
     f->all++;

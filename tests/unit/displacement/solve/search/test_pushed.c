@@ -1,5 +1,6 @@
 /* displacement/solve/search/pushed: which bodies are pushed when a pair is separated, how far each has to move, and
- * when it fails; what a row gives back like this. Also common_moves: bodies that moved together up to a hair. */
+ * when it fails; which given-up pairs of a row are restored that way. Also equalise_moves: bodies that moved by the
+ * same vector up to rounding. */
 #include "scene_board.h"
 
 #include "displacement/solve/search/pushed.h"
@@ -17,7 +18,7 @@
 
 static const double margin = 0x1p-30, right[2] = {1, 0};
 
-/* Squares of 10 m in a row, `apart` of each from the next, that owe each other 3 and may go so far. */
+/* Squares of side 10 in a row, at the distances `apart`, with a gap of 3 and this limit. */
 static void begin_row(scene_board *b, sunder_i_search *s, const double *apart, size_t n, double limit)
 {
     double x = 0;
@@ -47,7 +48,7 @@ static void end_row(scene_board *b, sunder_i_search *s)
 
 static void assert_near(double a, double b) { assert_true(fabs(a - b) <= 1e-6); }
 
-/* The first two miss 1; the third is pushed at once, the fourth has half a metre before it is, the last two metres. */
+/* The first two lack 1; the third is pushed at once, the fourth after half a metre, the last after two metres. */
 static void test_pushed_as_far_as_need_be(void **state)
 {
     (void)state;
@@ -67,7 +68,7 @@ static void test_pushed_as_far_as_need_be(void **state)
     assert_true(p.front[0].spare[4] == INFINITY && p.front[1].spare[1] == INFINITY);
     assert_true(sunder_i_pushed_part(&p, missing));
     assert_near(sunder_i_pushed_missing(&p, 0, 1, n), 0);
-    assert_near(s.t[0], -0.75); /* one against three */
+    assert_near(s.t[0], -0.75); /* one body on the left, three on the right */
     assert_near(s.t[2], 0.25);
     assert_true(s.t[4] == s.t[2] && s.t[6] == 0 && s.t[8] == 0);
     sunder_i_pushed_free(&p);
@@ -92,7 +93,7 @@ static void test_limits(void **state)
     }
 }
 
-/* A body beside the pushed direction, but in the way of one of the pushed bodies: the push is not made. */
+/* Another body is not in the pushed direction, but obstructs one of the pushed bodies: the push fails. */
 static void test_put_back(void **state)
 {
     (void)state;
@@ -112,9 +113,9 @@ static void test_put_back(void **state)
     end_row(&b, &s);
 }
 
-/* A row of sixty: no few bodies about a pair could give way. All that the limits allow is restored, the smallest
- * violations first. With ten pairs that lack 0.5 and fifty that lack 1, and limits of 2 at either end, seven of the
- * former are restored, since margins take a little. */
+/* A row of sixty, in which no small set of bodies could give way. As many pairs are restored as the limits allow, the
+ * smallest violations first. With ten pairs that lack 0.5 and fifty that lack 1, and limits of 2 at either end, seven
+ * of the former are restored, since margins take a little. */
 static void test_row(void **state)
 {
     (void)state;
@@ -134,9 +135,9 @@ static void test_row(void **state)
     end_row(&b, &s);
 }
 
-/* In a row without any room left every question fails, after reading everything between the pair and the ends of the
- * row. When the obstruction is known from repeated questions, a question reads less and fails as before. Questions that
- * succeed are not affected. */
+/* In a row without any room every attempt fails, after examining everything between the pair and the ends of the row.
+ * After repeated attempts the obstruction is known, and a further attempt examines less, with the same result. Attempts
+ * that succeed are not affected. */
 static void test_known_in_vain(void **state)
 {
     (void)state;
@@ -160,7 +161,7 @@ static void test_known_in_vain(void **state)
         assert_false(sunder_i_pushed_reaches(&p, k, k + 1, right, 1));
     }
     assert_true(s.steps - steps < 70 * first);
-    /* The room at the ends is that of the present positions, also for ways that were found earlier. */
+    /* The room at the ends is taken from the present positions, even for obstructions that were found earlier. */
     s.t[2 * 70] = -0.4;
     assert_true(sunder_i_pushed_is_in_vain(&p, 69, 70, right, 1.39));
     s.t[2 * 70] = 0;
@@ -171,8 +172,8 @@ static void test_known_in_vain(void **state)
     end_row(&b, &s);
 }
 
-/* The same with all bodies at home and all demands in force, which is how such a crowd is recognised. With more room it
- * is not. */
+/* The same with all bodies at their original places and all requirements in force, which is how such a crowd is
+ * recognised. A crowd with more room is not. */
 static void test_crowd(void **state)
 {
     (void)state;
@@ -194,7 +195,7 @@ static void test_crowd(void **state)
     }
 }
 
-/* Moves of the bodies of a row that a program gave slightly different values become one move, and the last body makes
+/* The bodies of a row, to which a program gave slightly different moves, get one common move, and the last body makes
  * up the difference. */
 static void test_together(void **state)
 {
@@ -210,7 +211,7 @@ static void test_together(void **state)
     assert_true(sunder_i_search_find_clashes(&s, s.t) <= s.tolerance);
     size_t same = 0;
     for (size_t k = 1; k < 6; k++) same += s.t[2 * k] == s.t[2 * (k - 1)];
-    assert_int_equal(same, s.relaxations.n); /* all except where the row was opened */
+    assert_int_equal(same, s.relaxations.n); /* all except at the pairs that were separated */
     end_row(&b, &s);
 }
 

@@ -1,5 +1,5 @@
-/* displacement/search/retry_cluster: a given-up pair is tried again, also if another pair is slightly too near for the
- * search and cannot be separated. */
+/* displacement/solve/search/retry_cluster: a given-up pair is tried again, even if another pair is slightly too near
+ * for the search and cannot be separated. */
 #include "scene_board.h"
 
 #include "displacement/solve/search/cluster.h"
@@ -15,8 +15,8 @@
 
 static const double margin = 0x1p-30;
 
-/* Two that overlap by 2, were given up, and may separate; two beside each other that miss a number of tolerances, one
- * of them fixed and the other hardly movable. Does the first pair succeed? */
+/* Two bodies that overlap by 2, were given up, and can be separated; and another two that are too near by a few
+ * tolerances, one of them fixed and the other hardly movable. Is the first pair resolved? */
 static bool is_granted(double missed)
 {
     scene_board b;

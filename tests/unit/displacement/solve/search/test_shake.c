@@ -19,15 +19,15 @@ enum { WIDE = 5, HIGH = 4, MOST = WIDE * HIGH, HALF = MOST / 2 };
 
 static const double size = 10, pitch = 11, gap = 3;
 
-/* Boxes in a grid with a passage of 1 between them, which is to be 3, and their group: all of them moved away from the
- * middle so far that they are apart, in rows and columns. */
+/* Boxes in a grid with passages of width 1, which have to be 3, and their group: all of them moved away from the centre
+ * until they are separated, in rows and columns. */
 typedef struct grid {
     scene scene;
     scene_model of;
     sunder_i_group group;
 } grid;
 
-/* In place of the box, a comb with teeth upwards; nothing fits between them. */
+/* In place of the box, a comb with teeth upwards; nothing fits between the teeth. */
 static void add_comb(scene *s, double x, double y, int teeth)
 {
     char wkt[4096];
@@ -139,8 +139,7 @@ static void test_same_seed(void **state)
     }
 }
 
-/* With bodies of many pieces no descent ends within the budget. Such groups are perturbed a limited number of times,
- * and then no more. */
+/* With bodies of many pieces no descent ends within the budget. Such groups are perturbed a limited number of times. */
 static void test_patience(void **state)
 {
     (void)state;
@@ -166,7 +165,7 @@ static void test_ends(void **state)
     begin(&g, 3, 1, 0, 1);
     shake(&g, UINT64_MAX / 8);
     check_layout(&g, 3, 1e-12);
-    assert_true(g.group.cost >= 8 - 1e-9 && g.group.cost <= 8 + 1e-6); /* 2 to either side */
+    assert_true(g.group.cost >= 8 - 1e-9 && g.group.cost <= 8 + 1e-6); /* a move of 2 to either side */
     end(&g);
     for (int k = 0; k < 3; k++) {
         begin(&g, WIDE, HIGH, 0, 1);
@@ -186,7 +185,7 @@ static bool count_look(void *looks)
     return true;
 }
 
-/* How often a proof looks up. */
+/* The number of polls during a proof. */
 static size_t prove_waived(grid *g, const sunder_i_waived *waived)
 {
     size_t looks = 0;
@@ -204,8 +203,8 @@ static size_t prove(grid *g)
     return prove_waived(g, &none);
 }
 
-/* A group too large for its tree whose cost is that of the last time, or nearly, keeps its bound, at a fraction of the
- * work. A group with only a part examined is examined once more. */
+/* A group that is too large for its tree, and whose cost is the same as in the last proof or nearly so, keeps its
+ * bound, at a fraction of the work. A group of which only a part was examined is examined once more. */
 static void test_asked_once(void **state)
 {
     (void)state;
@@ -225,8 +224,8 @@ static void test_asked_once(void **state)
     end(&g);
 }
 
-/* A group too large for a tree of whose own pairs one for every two bodies is listed is a crowd: it is not shaken, and
- * bounded at a fraction of the work. */
+/* In a group that is too large for a tree, if listed pairs within the group are at least half the number of its bodies,
+ * the group is a crowd: it is not perturbed, and bounded at a fraction of the work. */
 static void test_crowded(void **state)
 {
     (void)state;
@@ -243,7 +242,7 @@ static void test_crowded(void **state)
         end(&g);
     }
     assert_true(looks[1] < looks[0] / 4);
-    /* Pairs that are not all its own do not count, nor does a group that a tree may do. */
+    /* Pairs with a body outside the group do not count, and a group small enough for a tree is not a crowd. */
     grid g;
     begin(&g, WIDE, HIGH, 0, 1);
     for (uint32_t k = 0; k < MOST - 3; k++) g.group.body[k] = k + 3;

@@ -1,6 +1,6 @@
-/* displacement/search/take_back: pairs that a search gave up and that have a solution are restored, the smallest
- * violation first, and nothing else is changed. displacement/search/ease: a pair that is left in conflict gets a margin
- * if there is room for one. */
+/* displacement/solve/search/take_back: pairs that a search gave up and that have a solution are restored, the smallest
+ * violation first, and nothing else is changed. displacement/solve/search/demand_margin: a pair that is left in
+ * conflict gets a margin if there is room for one. */
 #include "scene_board.h"
 
 #include "displacement/solve/search/search_stages.h"
@@ -27,7 +27,7 @@ static void relax(const scene_board *b, sunder_i_relaxations *list, uint32_t p, 
     assert_true(sunder_i_relaxations_add(list, &t) && sunder_i_relaxations_index(list, &b->of.model));
 }
 
-/* How far q stands to the right of p, both ten wide. */
+/* The distance by which q is to the right of p, both of width 10. */
 static double between(const double *t, const double *x, size_t p, size_t q)
 {
     return x[q] + t[2 * q] - x[p] - t[2 * p] - 10;
@@ -36,8 +36,8 @@ static double between(const double *t, const double *x, size_t p, size_t q)
 static void test_taken_back(void **state)
 {
     (void)state;
-    /* Two that overlap by 2 and may part; two that overlap by 3, and may not; and one between two that are fixed, which
-     * cannot leave the one without going deeper into the other. */
+    /* Two bodies that overlap by 2 and can be separated; two that overlap by 3 and cannot; and one between two fixed
+     * ones, which cannot leave one without going deeper into the other. */
     static const double x[] = {0, 8, 100, 107, 200, 209, 218.5};
     scene_board b;
     memset(&b, 0, sizeof b);
@@ -67,8 +67,8 @@ static void test_taken_back(void **state)
     scene_board_end(&b);
 }
 
-/* A pair given up with a body far from all of the search, and so not part of it: like a far part of a barrier that a
- * feature was near to before. */
+/* A pair given up with a body that is far from all bodies of the search, and so not part of it: like a far part of a
+ * barrier that a feature was near to before. */
 static void test_stranger(void **state)
 {
     (void)state;
@@ -90,8 +90,8 @@ static void test_stranger(void **state)
     scene_board_end(&b);
 }
 
-/* Pairs that overlap by 2 and may not separate, as many as that; then one that overlaps by 3, and may, but only
- * sideways, since something fixed stands on either side, so pushing fails. Is it asked for? */
+/* `in_vain` pairs that overlap by 2 and cannot be separated; then one that overlaps by 3 and can, but only sideways,
+ * since fixed boxes are on both sides, so pushing fails. Is the last pair tried at all? */
 static bool is_asked_after(size_t in_vain)
 {
     const double last = 100 * (double)in_vain;
@@ -116,8 +116,8 @@ static bool is_asked_after(size_t in_vain)
     return asked;
 }
 
-/* The same, except that the last is to push a row of bodies that have no other place to go to; and at its end is a
- * slope that the last of the row has to climb. */
+/* The same, except that the last pair can only be solved by pushing a row of bodies that have no other place to go to;
+ * at the end of the row is a slope along which its last body has to move up. */
 static bool is_whole_asked_after(size_t in_vain, size_t row)
 {
     scene_board b;
@@ -155,12 +155,12 @@ static void test_in_vain(void **state)
     assert_false(is_asked_after(TAKE_BACK_FEW_IN_VAIN));
     assert_true(is_whole_asked_after(TAKE_BACK_IN_VAIN - 1, TAKE_BACK_FEW + 4));
     assert_false(is_whole_asked_after(TAKE_BACK_IN_VAIN, TAKE_BACK_FEW + 4));
-    assert_true(is_whole_asked_after(TAKE_BACK_IN_VAIN, TAKE_BACK_FEW - 4)); /* few will do */
+    assert_true(is_whole_asked_after(TAKE_BACK_IN_VAIN, TAKE_BACK_FEW - 4)); /* few bodies take part, so it is tried */
 }
 
-/* If two pairs cannot both be solved, the one with the smaller violation is restored, independently of the order of the
- * list. The second body has to go right, off the first, and up, off the third; its limit allows the longer of these
- * moves, but not both. */
+/* If two pairs cannot both be solved, the one with the smaller violation is restored, whatever the order of the list.
+ * The second body has to move right, away from the first, and up, away from the third; its limit allows the longer of
+ * these moves, but not both. */
 static void test_least_first(void **state)
 {
     (void)state;
@@ -187,7 +187,7 @@ static void test_least_first(void **state)
     }
 }
 
-/* Two bodies that owe each other 3 stood 1 apart, are left in conflict, and are slightly nearer now; a fixed one is to
+/* Two bodies with a gap of 3 that were 1 apart are left in conflict, and are slightly nearer now; a fixed one is to
  * their right, 3 away or farther. */
 static void ask_for_margin(double room, bool others, bool expected)
 {
