@@ -1,5 +1,6 @@
-/* Sums of convex pieces by merging: random polygons with straight corners, segments and points, their directions often
- * shared, against the hull of all sums of corners, in plain integers; ranks, directions and candidates besides. */
+/* Sums of convex pieces by merging: random polygons with straight corners, segments and points, whose directions are
+ * often equal, compared with the hull of all sums of corners, in plain integers. Also ranks, directions and
+ * candidates. */
 #include "convex/pieces.h"
 #include "predicate/predicate.h"
 #include "random.h"
@@ -84,7 +85,7 @@ static void list_of(sunder_i_lattice *l, const piece *p, sunder_i_convex_pieces 
     out->end[out->n++] = out->corners;
 }
 
-/* The sum's corners as plain integers: each is the sum of two corners. */
+/* The corners of the sum as plain integers: each is the sum of two corners. */
 static void read_sum(sunder_i_lattice *l, const sunder_i_convex_pieces *sum, const piece *p, const piece *q, piece *out)
 {
     out->n = 0;
@@ -115,7 +116,7 @@ static int strict_corners(const piece *p, place *out)
     return n;
 }
 
-/* Sides of p in the direction d; whether one of them is a candidate. */
+/* The sides of p in the direction d, and whether one of them is a candidate. */
 static int sides_along(const piece *p, place d, bool *candidate)
 {
     int n = 0;
@@ -128,7 +129,8 @@ static int sides_along(const piece *p, place d, bool *candidate)
     return n;
 }
 
-/* Where neither has straight corners along a side, it is a candidate exactly if one of its parts is. */
+/* If neither operand has straight corners along a side of the sum, that side is a candidate exactly if one of its parts
+ * is. */
 static bool candidates_agree(const piece *sum, const piece *p, const piece *q)
 {
     for (int i = 0; i < sum->n && sum->n > 1; i++) {
@@ -203,7 +205,7 @@ static void test_sums_are_hulls(void **state)
     }
 }
 
-/* The checker finds descending ranks, and corners that turn too far. */
+/* The checker finds descending ranks, and corners with too large a turn. */
 static void test_checker(void **state)
 {
     (void)state;

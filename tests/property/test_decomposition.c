@@ -1,8 +1,8 @@
-/* Convex decompositions of random sets, proved right in GMP rationals: every piece is strictly convex and
- * counter-clockwise; no edge of its member runs through its inside and its centroid lies in the member, so it lies in
- * the member. Pieces of one member are kept apart by a line; their areas add up to the member's. Together: they are the
- * member. Besides, at random rational points the number of pieces around them is that of the input polygons, by the
- * even-odd rule on the raw rings. And the counts are what theory says. */
+/* Convex decompositions of random sets, verified in GMP rationals. Every piece is strictly convex and
+ * counter-clockwise. No edge of its member meets its inside and its centroid lies in the member, so the piece lies in
+ * the member. Pieces of one member are separated by a line, and their areas add up to the member's; together this
+ * proves that they make up the member. Independently, at random rational points the number of pieces around the point
+ * equals the number of input polygons by the even-odd rule. The numbers of pieces obey the bounds known from theory. */
 #include "decomposition/maker.h"
 #include "generate.h"
 #include "gmp_numbers.h"
@@ -24,7 +24,7 @@ typedef struct qpoint {
     mpq_t x, y;
 } qpoint;
 
-/* A shape on a lattice, and one decomposition, in rationals of lattice units. */
+/* A shape on a lattice, and one decomposition of it, in rationals, in lattice units. */
 typedef struct subject {
     const polyset *raw;
     sunder_shape *shape;
@@ -120,8 +120,8 @@ static int in_member(subject *s, uint32_t member, const qpoint *x)
 
 /* ---- The proof ---- */
 
-/* Does the segment ab meet the inside of the piece? Clipped by one side after the other: what stays strictly left of
- * all. The part is a + t (b - a), lo <= t <= hi, in s->a and s->b. */
+/* Does the segment ab meet the inside of the piece? The segment is clipped by one side after the other. What stays
+ * strictly left of all sides is a + t (b - a), lo <= t <= hi, with lo and hi in s->a and s->b. */
 static bool enters(subject *s, const qpoint *a, const qpoint *b, uint32_t piece)
 {
     mpq_set_ui(s->a, 0, 1);
@@ -143,7 +143,7 @@ static bool enters(subject *s, const qpoint *a, const qpoint *b, uint32_t piece)
     return true;
 }
 
-/* Is there a side of piece i that has all of piece j on its right or on it? */
+/* Is there a side of piece i such that all of piece j is on its right or on it? */
 static bool keeps_off(subject *s, uint32_t i, uint32_t j)
 {
     for (uint32_t k = 0; k < sides_of(s, i); k++) {
@@ -215,7 +215,7 @@ static bool areas_agree(subject *s)
 
 /* ---- Random points ---- */
 
-/* A double of the raw input in lattice units. */
+/* A double of the input, in lattice units. */
 static void to_units(const subject *s, double v, double origin, mpq_t out)
 {
     mpq_t o;
@@ -229,7 +229,7 @@ static void to_units(const subject *s, double v, double origin, mpq_t out)
     mpq_clear(o);
 }
 
-/* How many raw polygons hold x inside; negative if x lies on some ring. */
+/* The number of input polygons that contain x, by the even-odd rule; negative if x lies on a ring. */
 static int raw_count(subject *s, const qpoint *raw, const qpoint *x)
 {
     int count = 0;
@@ -257,7 +257,7 @@ static bool points_agree(subject *s, rng *r, int points)
     qpoint_init(&x);
     bool ok = true;
     for (int i = 0; i < points && ok; i++) {
-        /* Near the middle of two vertices, a random part of the way: many fall on diagonals and edges. */
+        /* On the line between two vertices, near its midpoint: many of these points are on diagonals and edges. */
         const qpoint *a = &raw[rng_next(r) % s->raw->vertices], *b = &raw[rng_next(r) % s->raw->vertices];
         const qpoint *c = &raw[rng_next(r) % s->raw->vertices];
         const long k = rng_int(r, 0, 8), m = rng_int(r, 0, 8 - k);
@@ -326,7 +326,7 @@ static bool counts_hold(subject *s, sunder_decomposition kind, uint32_t *pieces_
         if (kind == SUNDER_DECOMPOSITION_TRIANGULATION) ok &= t.pieces == most;
         ok &= t.pieces <= most && t.pieces >= 1 &&
               (kind == SUNDER_DECOMPOSITION_TRIANGULATION || (t.reflex > 0) == (t.pieces > 1));
-        /* Each piece more takes away at most two reflex vertices, and a hole costs one. */
+        /* Each additional piece removes at most two reflex vertices, and a hole needs at least one more piece. */
         ok &= 2 * (t.pieces + t.holes) >= t.reflex + 2;
         const bool solved = kind == SUNDER_DECOMPOSITION_OPTIMAL && t.holes == 0 && t.vertices <= SUNDER_I_OPTIMAL_MOST;
         if (solved) pieces_of_best[member] = t.pieces;
@@ -390,7 +390,7 @@ static void subject_free(subject *s)
     sunder_shape_free(s->shape);
 }
 
-/* Decomposes P in all ways, and Q with it in the mixed one. Takes the shape. Returns NULL, or the fault. */
+/* Decomposes P in all ways, and Q with it by the mixed method. Frees the shape. Returns NULL, or the failure. */
 static char *try_shape(const polyset *raw, sunder_shape *shape, rng *r, bool wide, bool prove)
 {
     subject s = {.raw = raw, .shape = shape};
@@ -400,7 +400,7 @@ static char *try_shape(const polyset *raw, sunder_shape *shape, rng *r, bool wid
     uint32_t *best = test_alloc(shape->form->cleaned.polygons + 1, sizeof *best);
     memset(best, 0, (shape->form->cleaned.polygons + 1) * sizeof *best);
     char *message = NULL;
-    static const int order[KINDS] = {4, 0, 1, 2, 3, 5}; /* the optimal one first: others are compared with it */
+    static const int order[KINDS] = {4, 0, 1, 2, 3, 5}; /* the optimal method first: others are compared with it */
     for (int i = 0; i < KINDS && !message; i++) {
         const sunder_decomposition kind = kinds[order[i]];
         sunder_i_decomposition other;
@@ -468,7 +468,7 @@ static void test_families(void **state)
     assert_int_equal(bad, 0);
 }
 
-/* Random rings with crossings, taken by the even-odd rule: rational vertices. */
+/* Random rings that cross themselves, by the even-odd rule, which gives rational vertices. */
 static void test_repaired(void **state)
 {
     const uint64_t seed = test_seed();
@@ -496,7 +496,7 @@ static void test_repaired(void **state)
     assert_int_equal(bad, 0);
 }
 
-/* The literature's families beside the repository. */
+/* The families of the literature, if they are beside the repository. */
 static void test_shared(void **state)
 {
     static const char *const names[] = {"comb_10",    "comb_20",   "comb_50",     "fork_20",    "fork_50",

@@ -1,5 +1,5 @@
-/* The optimal convex decomposition is the optimum: beside it, every choice of diagonals of small simple polygons, by
- * their number and by their lengths. */
+/* The optimal convex decomposition is optimal: compared with all sets of diagonals of small simple polygons, both by
+ * the number of diagonals and by their total length. */
 #include "decomposition/maker.h"
 #include "generate.h"
 
@@ -36,7 +36,7 @@ static bool is_diagonal(const spot *v, int n, int i, int j)
         if (strictly_between(v[i], v[j], v[k])) return false;
         if (cross_inside(v[i], v[j], v[k], v[(k + 1) % n])) return false;
     }
-    /* The middle, in doubled coordinates, by parity. */
+    /* The midpoint is inside, by the parity of crossings, in doubled coordinates. */
     const spot m = {v[i].x + v[j].x, v[i].y + v[j].y};
     int crossings = 0;
     for (int k = 0; k < n; k++) {
@@ -49,7 +49,7 @@ static bool is_diagonal(const spot *v, int n, int i, int j)
 /* Are all angles at vertex i at most pi, with the diagonals chosen? */
 static bool angles_fit(const spot *v, int n, const int (*diagonal)[2], int count, unsigned chosen, int i)
 {
-    /* Neighbours around i in the order of their numbers from i on: that is counter-clockwise. */
+    /* The neighbours of i, in the order of their numbers from i on, which is counter-clockwise. */
     int last = (i + 1) % n;
     for (int step = 2; step < n; step++) {
         const int k = (i + step) % n;
@@ -65,7 +65,7 @@ static bool angles_fit(const spot *v, int n, const int (*diagonal)[2], int count
     return true;
 }
 
-/* The diagonals of the polygon; how many. */
+/* Lists the diagonals of the polygon; returns their number. */
 static int find_diagonals(const spot *v, int n, int (*diagonal)[2])
 {
     int count = 0;
@@ -78,7 +78,7 @@ static int find_diagonals(const spot *v, int n, int (*diagonal)[2])
     return count;
 }
 
-/* The least sum of weights of diagonals that decompose the polygon. */
+/* The least total weight of a set of diagonals that decomposes the polygon. */
 static double lightest(const spot *v, int n, const int (*diagonal)[2], int count, const double *weight)
 {
     double best = INFINITY;
@@ -97,7 +97,7 @@ static double lightest(const spot *v, int n, const int (*diagonal)[2], int count
     return best;
 }
 
-/* Both by the program and by trying everything, each diagonal weighing `each` and its length times by_length. */
+/* Compares the program with brute force; a diagonal weighs `each` plus its length times by_length. */
 static bool same_optimum(const polyset *set, double each, double by_length, double *want)
 {
     sunder_shape *shape = polyset_shape(set);
@@ -116,7 +116,7 @@ static bool same_optimum(const polyset *set, double each, double by_length, doub
         weight[d] = each + by_length * hypot((double)(a.x - b.x), (double)(a.y - b.y));
     }
     *want = 0;
-    if (count <= 18) { /* else too many to try */
+    if (count <= 18) { /* otherwise there are too many sets to try */
         *want = lightest(v, n, (const int(*)[2])diagonal, count, weight);
         sunder_i_maker m;
         assert_true(sunder_i_maker_init(&m, &placed.lattice, shape, placed.p));
@@ -130,7 +130,7 @@ static bool same_optimum(const polyset *set, double each, double by_length, doub
     }
     sunder_i_placed_free(&placed);
     sunder_shape_free(shape);
-    /* Sums of a handful of doubles in different orders; all terms are positive. */
+    /* A few doubles are added in different orders; all terms are positive. */
     return fabs(got - *want) <= 1e-12 * *want;
 }
 
@@ -167,7 +167,7 @@ static void test_optimum(void **state)
         polyset_free(&set);
     }
     assert_int_equal(bad, 0);
-    assert_true(more > 10); /* the question was asked */
+    assert_true(more > 10); /* enough polygons were compared */
 }
 int main(void)
 {

@@ -1,6 +1,6 @@
-/* Discs of any number of segments that four divides: the corners of an inside disc on the axes are at the radius
- * exactly, all corners lie in the disc, those of an outside disc are outside of it, and both polygons are their own
- * mirror images. Squared lengths are compared as rationals. */
+/* Discs whose number of segments is a multiple of four. The corners of an inside disc on the axes are exactly at the
+ * radius, all its corners lie in the disc, those of an outside disc lie outside, and both polygons are symmetric about
+ * the axes. Squared lengths are compared as rationals. */
 #include "polyset.h"
 #include "random.h"
 
@@ -12,7 +12,7 @@
 #include <cmocka.h>
 #include <gmp.h>
 
-/* x^2 + y^2 against r^2. */
+/* Compares x^2 + y^2 with r^2. */
 static int compare_to_radius(mpq_t work[2], const double *xy, double radius)
 {
     for (int k = 0; k < 2; k++) {
@@ -27,7 +27,7 @@ static int compare_to_radius(mpq_t work[2], const double *xy, double radius)
 
 static bool is_point(const double *xy, double x, double y) { return xy[0] == x && xy[1] == y; }
 
-/* The ring from the corner on the positive x axis on. */
+/* The ring, starting at the corner on the positive x axis. */
 static double *ring_from_axis(const sunder_shape *shape, size_t *corners)
 {
     const double *xy = sunder_shape_ring(shape, 0, 0, corners);
@@ -63,7 +63,7 @@ static size_t count_faults(unsigned n, double radius, bool inside)
     return faults;
 }
 
-/* All numbers up to 1024, then some thousands. */
+/* All multiples of four up to 1024, then some thousands. */
 static void test_axis_corners_are_on_the_circle(void **state)
 {
     static const double plain[] = {5, 2, 1, 0.1, 0.15, 1.0 / 3, 12345.678};

@@ -1,9 +1,9 @@
 /* Features beside barriers: lines, points and areas with a width and a gap of their own.
  *
  * The report about a layer as given, and about a separated one, is compared with brute force in rationals that shares
- * no code with src/: does the feature's interior meet the barrier, and if not, is it nearer than half the width and the
- * gap? Coordinates are small integers, so that lines run along walls, through corners, from hole to hole and along the
- * diagonals of decompositions; in some cases they are moved far from the origin. */
+ * no code with src/: does the feature's interior meet the barrier, and if not, is it nearer than half the width plus
+ * the gap? Coordinates are small integers, so that lines run along walls, through corners, from hole to hole and along
+ * the diagonals of decompositions; in some cases they are shifted far from the origin. */
 #include "random.h"
 
 #include "sunder.h"
@@ -28,7 +28,7 @@ typedef struct point {
     mpq_t x, y;
 } point;
 
-/* Scratch, made once: a test program has one thread. */
+/* Temporary numbers, initialised once: the program has one thread. */
 static point scratch[8];
 static mpq_t number[8], cut[CUTS];
 
@@ -64,8 +64,8 @@ static void dot(mpq_t r, const point *p, const point *q)
     mpq_add(r, number[6], number[7]);
 }
 
-/* Rings of a figure, moved; cells: the union of these squares of side 4 by their lower left corners, else the even-odd
- * set of the rings. */
+/* The rings of a figure, translated. If `cells` is set, the figure is the union of squares of side 4 with these lower
+ * left corners, else the even-odd set of the rings. */
 typedef struct figure {
     point at[CORNERS];
     size_t n, ring_end[10], rings;
@@ -114,7 +114,8 @@ static bool ray_crosses(const point *p, const point *a, const point *b)
     return vp ? mpq_sgn(number[0]) > 0 : mpq_sgn(number[0]) < 0;
 }
 
-/* Is p inside a union of cells? All cells about it must be there: each of the four, a little way off, in one. */
+/* Is p inside a union of cells? It is if the four points slightly off p in the diagonal directions are all in a
+ * cell. */
 static bool is_inside_cells(const figure *f, const point *p)
 {
     for (int k = 0; k < 4; k++) {
@@ -145,8 +146,8 @@ static bool is_inside(const figure *f, const point *p)
 
 static int by_value(const void *a, const void *b) { return mpq_cmp(*(const mpq_t *)a, *(const mpq_t *)b); }
 
-/* Does the interior meet the closed segment ab? It is cut wherever it passes an edge's line or a corner; between two
- * cuts it is inside all along or nowhere, and the interior is open. */
+/* Does the interior meet the closed segment ab? The segment is cut wherever it meets the line of an edge or a corner. A
+ * part between two cuts is entirely inside or entirely outside, and the interior is open. */
 static bool meets_segment(const figure *f, const point *a, const point *b)
 {
     size_t n = 2;
@@ -227,7 +228,7 @@ typedef struct barrier {
 } barrier;
 
 typedef struct scene {
-    double at[2], unit; /* integers count these from here */
+    double at[2], unit; /* the place of integer (0, 0), and the length of 1 */
     double xy[2 * CORNERS];
     figure figure;
     sunder_feature feature;
@@ -269,7 +270,7 @@ static sunder_shape *shape_of(const figure *f, const double *xy)
     return shape;
 }
 
-/* Outer corners of some plain figures, then of a yard in the last. */
+/* The corners of some simple outer rings, and of a hole in the last. */
 static void draw_feature(scene *s, rng *r)
 {
     static const int figures[5][25] = {{4, 0, 0, 8, 0, 8, 4, 0, 4},
@@ -359,7 +360,7 @@ static void draw(scene *s, rng *r)
         fail_msg("%s", err.message);
 }
 
-/* The same layer, where the feature may go no farther than that. */
+/* Separates the same layer, with this limit for the feature. */
 static sunder_layer *limit_to(scene *s, double limit)
 {
     sunder_layer *layer = NULL;
@@ -396,7 +397,7 @@ static bool meets_area(const scene *s, const barrier *b)
     return is_inside(&s->figure, &scratch[5]);
 }
 
-/* The feature, placed, and barrier k; square: their squared distance where they do not meet. */
+/* Relates the translated feature and barrier k; square: their squared distance if they do not meet. */
 static stance stand(const scene *s, size_t k, mpq_t square)
 {
     const barrier *b = &s->made[k];
@@ -434,11 +435,11 @@ static const sunder_conflict *find(const sunder_report *report, size_t b)
     return NULL;
 }
 
-static uint64_t current; /* the case at hand */
+static uint64_t current; /* the number of the present case */
 
 static size_t seen[MET + 1];
 
-/* The report lists exactly the conflicts that exist, for the feature at its place. */
+/* The report lists exactly the conflicts that exist when the feature is at its place. */
 static void compare(const scene *s, const sunder_report *report)
 {
     static const sunder_conflict_kind kind_of[] = {[NEAR] = SUNDER_CONFLICT_BARRIER_NEAR,
@@ -455,7 +456,7 @@ static void compare(const scene *s, const sunder_report *report)
         if (c && !wrong && c->kind != kind_of[now]) wrong = "of the wrong kind";
         seen[now]++;
         if (c && !wrong && now != MET) {
-            const double d = sqrt(mpq_get_d(square)); /* to some ulps of the far coordinates, 2^-20 */
+            const double d = sqrt(mpq_get_d(square)); /* correct to a few ulps of the far coordinates, 2^-20 */
             if (!(fabs(c->distance - d) <= 1e-9 * (d + 1))) wrong = "at another distance";
         }
         if (c && !wrong && c->missing != fmax(0, c->required - c->distance) + c->depth)
@@ -495,8 +496,8 @@ static void check_as_they_stand(void **state)
     for (int k = 0; k < MOST; k++) figure_clear(&s.made[k].area);
 }
 
-/* After a separation the list equals the conflicts of the result as written. Without a limit there are none, since the
- * feature can always go around the barrier. */
+/* After a separation the list contains exactly the conflicts of the written result. Without a limit there are none,
+ * since the feature can always go around the barrier. */
 static void check_separated(void **state)
 {
     (void)state;

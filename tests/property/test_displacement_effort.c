@@ -1,5 +1,5 @@
-/* The lower bound of a layer is valid for every effort: no layout found with more effort costs less than the bound
- * proved with little, whichever method proved it (one tree, blocks of a large group, parts of a very large one).
+/* The lower bound of a layer is valid for every effort: no layout found with a greater effort costs less than the bound
+ * proved with a small one, whichever method proved it (one tree, blocks of a large group, parts of a very large one).
  *
  * Layers are rows and crowds of slanted boxes that overlap, with groups of five to some dozens of boxes; and one crowd
  * of hundreds. */
@@ -45,7 +45,7 @@ static void add_box(crowd *c, rng *r, double x, double y)
     c->n++;
 }
 
-/* n boxes in rows of `row`, nearer to each other than they are large. */
+/* n boxes in rows of `row`, at distances less than their size. */
 static void gather(crowd *c, rng *r, size_t n, size_t row)
 {
     memset(c, 0, sizeof *c);

@@ -1,9 +1,9 @@
-/* Moves without a limit end in exact contact where doubles hold it: no margin is left in them.
+/* Moves without a limit end in exact contact if doubles represent it: no margin is left in them.
  *
  * Rows of boxes on a grid, where each has to move a given number of steps away from the one before: in the cheapest
  * solution all neighbours are in contact. A row begins at a fixed box, or is free, and then its moves add up to zero.
- * The moves follow from the construction of the row, without the library. And pairs of boxes with arbitrary
- * coordinates, whose relative move is the double by which they miss the gap. */
+ * The expected moves follow from the construction of the row, without the library. Also pairs of boxes with arbitrary
+ * coordinates, whose expected relative move is the exact double that the gap lacks. */
 #include "random.h"
 #include "scene.h"
 
@@ -20,11 +20,11 @@ enum { MOST = 6 };
 typedef struct row {
     scene scene;
     size_t n;
-    double t[MOST]; /* how far each goes along the row */
-    bool upright;   /* along y */
+    double t[MOST]; /* expected moves along the row */
+    bool upright;   /* the row is parallel to y */
 } row;
 
-/* A box that reaches from `from` to `to` along the row, and lies somewhat beside the others. */
+/* A box that extends from `from` to `to` along the row, with a small offset across it. */
 static void add_box(row *w, double from, double to, double beside, double wide)
 {
     if (w->upright)
@@ -33,7 +33,7 @@ static void add_box(row *w, double from, double to, double beside, double wide)
         scene_add_box(&w->scene, from, beside, to - from, wide);
 }
 
-/* How many steps each goes: from 0 up behind a fixed box, else about a mean of 0. */
+/* The number of steps of each: from 0 up after a fixed box, else around a mean of 0. */
 static void draw_steps(rng *r, row *w, bool fixed, double unit)
 {
     int64_t step[MOST] = {0}, sum = 0;
@@ -53,7 +53,7 @@ static void draw_row(rng *r, row *w)
     draw_steps(r, w, fixed, unit);
     double from = at;
     for (size_t k = 0; k < w->n; k++) {
-        /* A pair of neighbours lacks exactly the difference of their two moves; boxes that are not neighbours are too
+        /* Each pair of neighbours lacks exactly the difference of their moves; boxes that are not neighbours are too
          * far apart to meet. */
         const double to = from + (double)rng_int(r, 600, 900) * (double)MOST * unit, wide = 8000 * MOST * unit;
         add_box(w, from, to, at + (double)rng_int(r, 0, 40) * unit, wide);
@@ -84,7 +84,7 @@ static void test_rows_end_in_contact(void **state)
     }
 }
 
-/* Both boxes, before and after, are between 2^21 and 2^22, so all coordinates have the same unit. */
+/* All coordinates, before and after, are between 2^21 and 2^22, so they have the same unit in the last place. */
 static void test_pairs_end_in_contact(void **state)
 {
     (void)state;
@@ -110,7 +110,7 @@ static void test_pairs_end_in_contact(void **state)
     }
 }
 
-/* The smallest case: the moves were 1.0000000000000071. */
+/* The smallest case: an earlier version gave the moves 1.0000000000000071. */
 static void test_two_squares_that_overlap_by_2(void **state)
 {
     (void)state;

@@ -1,11 +1,12 @@
-/* An exact fit within limits is solved, and distinguished from a fit that fails by the last bit of a limit.
+/* An exact fit within limits is solved, and distinguished from a case without a solution, in which one limit is shorter
+ * by its last bit.
  *
  * Rows of shapes along a direction of rational length, all on one grid: each has to move a given number of grid steps,
- * those at the ends exactly as far as they may, and neighbours then have exactly the distance owed. So there is one
- * solution, in whole steps, which doubles hold. Neighbours face each other with whole edges, or with corners across a
- * gap; a row may begin at a barrier, or at a fixed shape, and every limit may be slightly longer than necessary. With
- * the limit at one end shorter by one unit in the last place there is no solution. All this follows from the
- * construction of a row, without the library. */
+ * those at the ends exactly by their limits, after which neighbours have exactly the required distance. So there is one
+ * solution, in whole steps, which doubles represent. Neighbours face each other with whole edges, or with corners
+ * across a gap; a row may begin at a barrier, or at a fixed shape, and every limit may be slightly longer than
+ * necessary. With the limit at one end shorter by one unit in the last place there is no solution. All this follows
+ * from the construction of a row, without the library. */
 #include "random.h"
 #include "run_layer.h"
 
@@ -33,10 +34,10 @@ typedef struct row {
     sunder_layer_options options;
     beginning begins;
     double origin[2], unit;
-    int64_t p, q, r; /* p^2 + q^2 = r^2: the direction, and its length, in units */
+    int64_t p, q, r; /* p^2 + q^2 = r^2: the direction (p, q), and its length r, in units */
 } row;
 
-/* The given numbers of steps along the row and to its left. */
+/* The point at a given number of steps along the row and to its left. */
 static void place(const row *w, int64_t along, int64_t left, double xy[2])
 {
     xy[0] = w->origin[0] + (double)(along * w->p - left * w->q) * w->unit;
@@ -56,7 +57,7 @@ static void add(row *w, const double *xy, size_t corners, double limit)
         (sunder_feature){.shape = shape, .weight = 1, .max_shift = limit, .fixed = limit == 0, .block = -1};
 }
 
-/* A box from `from` to `to` along, or with its corners there. */
+/* A box from `from` to `to` along the row, or a shape with its corners there. */
 static void add_shape(row *w, bool corners, int64_t from, int64_t to, int64_t left, int64_t wide, double limit)
 {
     double xy[8];
@@ -80,7 +81,7 @@ static void draw_grid(rng *r, row *w)
     for (int c = 0; c < 2; c++) w->origin[c] = at[rng_int(r, 0, 4)];
 }
 
-/* How the first of a row begins: anywhere, at home for good, or beside a barrier. */
+/* The first shape of a row is free, fixed, or beside a barrier. */
 static void draw_barrier(rng *r, row *w, int64_t owed, int64_t far)
 {
     const int64_t drawn = rng_int(r, 0, 2) * owed;
@@ -93,7 +94,7 @@ static void draw_barrier(rng *r, row *w, int64_t owed, int64_t far)
                                   .side = rng_once_in(r, 2)};
 }
 
-/* How many steps each goes, ascending: the last one away from the others. */
+/* The number of steps of each, ascending: the last one moves away from the others. */
 static void draw_steps(rng *r, beginning begins, int64_t most, size_t n, int64_t *step)
 {
     step[0] = begins == FIXED ? 0 : begins == FREE ? -rng_int(r, 0, 20) : rng_int(r, 1, 20);
@@ -112,7 +113,7 @@ static void set_options(row *w, int64_t owed)
     w->options.barrier_reach = INFINITY;
 }
 
-/* missing: the last one's limit is too short by a unit in the last place. */
+/* missing: the limit of the last one is too short by a unit in the last place. */
 static void draw_row(rng *r, row *w, bool missing)
 {
     memset(w, 0, sizeof *w);
@@ -122,7 +123,7 @@ static void draw_row(rng *r, row *w, bool missing)
     const size_t least = w->begins == BESIDE_BARRIER ? 1 : 2,
                  n = corners ? least : (size_t)rng_int(r, (int64_t)least, rng_once_in(r, 2) ? 2 : 4);
     const int64_t owed = corners ? rng_int(r, 8, 40) : rng_once_in(r, 3) ? 0 : rng_int(r, 1, 40), far = owed + 80 * 4;
-    int64_t step[MOST], along = 0; /* along: where the last one ends, once it has moved */
+    int64_t step[MOST], along = 0; /* along: the end of the last one, after its move */
     draw_steps(r, w->begins, corners ? owed / 2 : 20, n, step);
     if (w->begins == BESIDE_BARRIER) draw_barrier(r, w, owed, far);
     for (size_t k = 0; k < n; k++) {

@@ -1,23 +1,24 @@
-/* Laws over whole layers: how the answers to related questions are related.
+/* Laws over whole layers: how the results for related inputs are related.
  *
- * Without a proof of its optimum a search can only be good, so three of them are counted, not demanded:
+ * Without a proof of optimality the result of a search is not exact, so violations of three laws are counted:
  *
- *   (a) a looser limit leaves no more conflicts and, where none are left, costs no more; overlaps come first, then
- *       pairs, so an overlap less may cost two that are too near (counted aside)
- *   (c) a smaller gap costs no more where none are left
- *   (g) features shifted by what all coordinates hold exactly have the same conflicts, and costs within 1 %
+ *   (a) with a looser limit no more conflicts remain and, if none remain, the cost is no greater; overlaps are compared
+ *       first, then pairs, so an overlap less may leave two more pairs that are too near (counted separately)
+ *   (c) with a smaller gap the cost is no greater, if no conflicts remain
+ *   (g) features shifted by a vector that all coordinates represent exactly have the same conflicts, and costs within
+ *       1 %
  *
- * by groups of features that could meet in either run; fewer than one in a hundred may break them (of few groups two).
- * The rest holds always:
+ * They are counted by groups of features that could meet in either run; fewer than one group in a hundred may violate a
+ * law (at most two if there are few groups). The other laws hold always:
  *
- *   (b) a limit longer than the longest move without one changes nothing, to the byte
- *   (d) a feature farther than anything can reach changes no other's move
- *   (e) a layer scaled by a power of two, lengths too, has its moves scaled, to the byte
- *   (f) features in another order have the same moves, to the byte, unless two are alike in everything
- *   (g) where a group's optimum is proved in either place, the costs agree within 1e-9, and what rounding adds; where
- *       coordinates stay in their binades the moves are the same, to the byte
+ *   (b) a limit longer than the longest move of the run without a limit changes nothing, to the byte
+ *   (d) a feature out of reach of everything changes no other's move
+ *   (e) a layer scaled by a power of two, with all lengths, has its moves scaled, to the byte
+ *   (f) features in another order have the same moves, to the byte, unless two are equal in everything
+ *   (g) if a group is proved optimal in one of the places, the costs agree within 1e-9 plus rounding; if
+ *       coordinates keep their binary exponents the moves are the same, to the byte
  *
- * Breaches are shown where SUNDER_LAWS_SHOW is set. */
+ * Violations are printed if SUNDER_LAWS_SHOW is set. */
 #include "random.h"
 #include "run_layer.h"
 
@@ -36,8 +37,8 @@
 
 enum { MOST = 48, CORNERS = 8 };
 
-/* The number of towns, and the most houses in each: with half as many houses again they take as long as all others, so
- * that is left to larger runs. */
+/* The number of towns, and the most houses in each. With half as many houses again the test takes as long as all others
+ * together, so that is left to larger runs. */
 enum { TOWNS = 40, HOUSES = 20, MORE_HOUSES = 32 };
 
 typedef struct house {
@@ -59,14 +60,14 @@ typedef struct outcome {
     size_t conflicts, clusters;
     bool proved;                         /* are all groups reported as optimal? */
     size_t conflict[2 * MOST * MOST];    /* pairs of features */
-    bool overlaps[MOST * MOST];          /* the interiors of each meet */
-    sunder_bound_pair pair[MOST * MOST]; /* the pairs of the lower bound */
+    bool overlaps[MOST * MOST];          /* for each: do their interiors meet? */
+    sunder_bound_pair pair[MOST * MOST]; /* pairs for which the lower bound is proved */
     size_t pairs;
 } outcome;
 
 /* ---- Towns */
 
-/* An L whose arms end at (w, d), cut to a box if they are as wide; or a slanted quadrangle. Eighths. */
+/* An L whose arms are (w, d) wide, which is a box if they are as wide as it; or a slanted quadrangle. In eighths. */
 static void build(rng *r, house *h, double x, double y)
 {
     const double w = (double)rng_int(r, 24, 100) / 8, d = (double)rng_int(r, 24, 100) / 8;
@@ -79,7 +80,7 @@ static void build(rng *r, house *h, double x, double y)
     memcpy(h->xy, kind == 1 ? l : kind == 2 ? slanted : box, 2 * h->corners * sizeof *h->xy);
 }
 
-/* Scattered, or in rows along streets with some pushed into their neighbours. */
+/* At random places, or in rows along streets with some houses pushed into their neighbours. */
 static void found(rng *r, town *t)
 {
     const bool rows = rng_once_in(r, 2), weights = rng_once_in(r, 3), fixed = rng_once_in(r, 4);
@@ -157,7 +158,7 @@ static size_t find(size_t *parent, size_t x)
     return x;
 }
 
-/* The box of the area that the house sweeps in either run on straight moves. */
+/* The bounding box of the area that the house sweeps in either run, on straight moves. */
 static void swept(const house *h, const double *p, const double *q, double box[4])
 {
     box[0] = box[1] = INFINITY;
@@ -171,7 +172,7 @@ static void swept(const house *h, const double *p, const double *q, double box[4
     }
 }
 
-/* Features whose boxes in either run come near each other belong together. */
+/* Features whose boxes in either run come near each other are in one group. */
 static void group(const town *t, double gap, const outcome *p, const outcome *q, size_t root[MOST])
 {
     double box[MOST][4];
@@ -189,7 +190,7 @@ static void group(const town *t, double gap, const outcome *p, const outcome *q,
 
 typedef struct account {
     double cost;
-    size_t overlaps, conflicts; /* among them the overlaps */
+    size_t overlaps, conflicts; /* the overlaps are included in conflicts */
 } account;
 
 static void settle_accounts(const town *t, const outcome *o, const size_t root[MOST], account sum[MOST])
@@ -206,14 +207,15 @@ static void settle_accounts(const town *t, const outcome *o, const size_t root[M
     }
 }
 
-/* As few overlaps, then as few pairs as the search reaches: an overlap less may cost two pairs that are too near. */
+/* First the fewest overlaps, then the fewest pairs, as the search does: an overlap less may leave two more pairs that
+ * are too near. */
 static bool leaves_more(const account *p, const account *q)
 {
     return p->overlaps != q->overlaps ? p->overlaps > q->overlaps : p->conflicts > q->conflicts;
 }
 
-/* The amount that rounding and its margin may add to the cost of moves: each move is within 2^-47 of its coordinates,
- * here a millionth of a millimetre, of the ideal one. */
+/* The amount that rounding and its margin may add to the cost: each move deviates from the ideal one by at most 2^-47
+ * of its coordinates, here a millionth of a millimetre. */
 static double slack(const town *t, const outcome *o)
 {
     double sum = 0;
@@ -227,7 +229,7 @@ typedef struct tally {
     size_t groups, more_conflicts, dearer, traded;
 } tally;
 
-/* `easy` was asked for less than `hard`. */
+/* Compares two runs of which `easy` has the weaker demands. */
 static void compare(tally *sum, size_t i, const town *t, double gap, const outcome *easy, const outcome *hard)
 {
     size_t root[MOST] = {0};
@@ -249,7 +251,7 @@ static void compare(tally *sum, size_t i, const town *t, double gap, const outco
     }
 }
 
-/* Fewer than one in a hundred groups, and of few groups two. */
+/* Fewer than one group in a hundred may violate a law, or at most two if there are few. */
 static void judge(const tally *t)
 {
     const size_t breaches = t->more_conflicts + t->dearer;
@@ -272,7 +274,7 @@ static void test_limits(void **state)
         found(&r, &t);
         separate(&t, run);
         if (run->longest == 0) continue;
-        /* Now and then hardly longer. */
+        /* In some cases only slightly longer. */
         limit_all(&t, run->longest * (1 + (rng_once_in(&r, 3) ? 0x1p-40 : rng_unit(&r))));
         separate(&t, run + 1);
         if (memcmp(run->move, run[1].move, sizeof run->move))
@@ -323,7 +325,7 @@ static void test_far_feature(void **state)
         found(&r, &t);
         if (rng_once_in(&r, 2)) limit_all(&t, (double)rng_int(&r, 1, 80) / 8);
         separate(&t, run);
-        /* Before the others and behind them: a pair that has to part, and one that stands alone. */
+        /* Added before the others and after them: a pair that has to separate, and a single feature. */
         u = t;
         const size_t before = rng_once_in(&r, 2) ? 2 : 0;
         memmove(u.house + before, t.house, t.n * sizeof *t.house);
@@ -415,7 +417,7 @@ static void test_order(void **state)
     free(run);
 }
 
-/* What pairs of each group prove of its cost: sum l d - sum (sum l)^2 / 4 w. */
+/* What the pairs of each group prove about its cost: sum l d - sum (sum l)^2 / 4 w. */
 static void bound_groups(const town *t, const outcome *o, const size_t root[MOST], double bound[MOST])
 {
     double load[MOST] = {0};
@@ -447,10 +449,11 @@ static bool same_conflicts(const outcome *p, const outcome *q, const size_t root
 
 typedef struct agreement {
     size_t groups, proved, other_conflicts, other_cost;
-    size_t layers; /* that are proved as a whole, both times */
+    size_t layers; /* layers that are proved as a whole in both runs */
 } agreement;
 
-/* Two runs in which all groups are proved cost the same, up to what a group may miss: as the interface says. */
+/* Two runs in which all groups are proved optimal have the same cost, up to the documented tolerance of that
+ * statement. */
 static void agree_as_proved(agreement *sum, size_t i, const town *t, const outcome *p, const outcome *q)
 {
     const double most = 1e-6 * fmax(p->cost, q->cost) + 1e-7 * (double)(p->clusters + q->clusters);
@@ -461,7 +464,7 @@ static void agree_as_proved(agreement *sum, size_t i, const town *t, const outco
                  (unsigned long long)test_seed(), i, p->cost, q->cost);
 }
 
-/* A bound computed by features is less than one by the blocks that they form, so it is valid for these. */
+/* A bound computed for single features is less than one for the blocks that they form, so it is valid for these. */
 static void agree(agreement *sum, size_t i, const town *t, const outcome *p, const outcome *q)
 {
     size_t root[MOST] = {0};
@@ -505,7 +508,7 @@ static void test_place(void **state)
         if (rng_once_in(&r, 2)) limit_all(&t, (double)rng_int(&r, 1, 80) / 8);
         separate(&t, run);
         u = t;
-        /* Coordinates from 2^18 and 2^22 up to twice that, or elsewhere. */
+        /* Coordinates from 2^18 or 2^22 up to twice that, or other ones. */
         const bool near = rng_once_in(&r, 2);
         for (int c = 0; c < 2; c++) {
             const int64_t farthest = near ? 800000 : 80000000;

@@ -1,8 +1,8 @@
 /* The reasons of conflicts that remain within limits, compared with layers whose answer is known.
  *
- * Planted: boxes that stand apart are moved by at most their limits, so a solution exists: no conflict may have a
+ * Planted: boxes that are separate are moved by at most their limits, so a solution exists: no conflict may have a
  * reason of limits or of missing room. Packed: boxes that together are too wide for the lane that they cannot leave:
- * the remaining conflicts are for want of room, and have that reason. */
+ * the remaining conflicts have the reason that there is no room. */
 #include "random.h"
 #include "run_layer.h"
 
@@ -39,7 +39,7 @@ static sunder_feature *add_box(town *t, double x, double y, double w, double h)
     return f;
 }
 
-/* No feature moved farther than its limit, and fixed ones did not move; exact. */
+/* Demands, exactly, that no feature moved farther than its limit, and that fixed ones did not move. */
 static void demand_within(const town *t, const sunder_report *report)
 {
     mpq_t sum, square;
@@ -76,14 +76,14 @@ static sunder_report *separate(const town *t, double gap)
     return run_separate(t->feature, t->n, &options);
 }
 
-/* Boxes in rows with alleys between them; each carried off by a multiple of 1/8 within the limit; some
- * fixed instead. */
+/* Boxes in rows with alleys between them; each is moved by a multiple of 1/8 within its limit; some are fixed
+ * instead. */
 static double plant(rng *r, town *t)
 {
     memset(t, 0, sizeof *t);
     const int rows = (int)rng_int(r, 1, 4), columns = (int)rng_int(r, 2, 6);
     const double limit = (double)rng_int(r, 4, 40) / 8, alley = (double)rng_int(r, 0, 8) / 8;
-    const bool barriers = rng_once_in(r, 2), far = rng_once_in(r, 3); /* far: back by the whole limit */
+    const bool barriers = rng_once_in(r, 2), far = rng_once_in(r, 3); /* far: the way back is the whole limit */
     double y = 5000000;
     for (int i = 0; i < rows; i++) {
         double x = 400000 + (double)rng_int(r, 0, 24) / 8, tallest = 0;
@@ -141,8 +141,8 @@ static void check_planted(void **state)
     assert_true(open * 20 <= before);
 }
 
-/* A lane between two fixed boxes, narrower than the boxes in it are together; all too tall to leave it, and too wide to
- * change places. */
+/* A lane between two fixed boxes, narrower than the boxes in it together; these are too tall to leave it, and too wide
+ * to change places. */
 static void check_packed(void **state)
 {
     (void)state;
@@ -156,7 +156,7 @@ static void check_packed(void **state)
         double width[8];
         for (int k = 0; k < n; k++) width[k] = (double)rng_int(&r, 64, 120) / 8;
         const double excess = (double)rng_int(&r, 1, 6) / 8;
-        /* The boxes overlap, so the row in the lane is connected with its walls. */
+        /* The boxes overlap, so that the row in the lane is connected with its walls. */
         const double share = excess / (n + 1);
         double x = 400000;
         add_box(&t, x - 10, 5000000, 10, 40)->fixed = true;

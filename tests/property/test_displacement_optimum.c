@@ -19,18 +19,18 @@
 
 #include <cmocka.h>
 
-/* Relative accuracy of the optimum. The library's figures may differ by as much, and by the tolerance of places in
+/* Relative accuracy of the optimum. The library's results may differ by as much, and by the tolerance of places in
  * optimum.c. */
 static const double CLOSE = 1e-8;
 /* The distance from the optimum up to which a cost counts as optimal, relative and absolute, as the interface documents
  * it. */
 static const double OPTIMAL = 1e-6, OPTIMAL_TOO = 1e-7;
-/* Limits are reduced by this share if a place of optimum.c, which may exceed them by 1e-9, has to be certainly allowed.
- * If one coordinate uses up a whole limit, such a place may be wrong by a ten-thousandth in the other coordinate, and
- * cost less by as much. */
+/* A place of optimum.c may exceed limits by 1e-9; limits are reduced by this share if a place has to be certainly
+ * allowed. If one coordinate uses up a whole limit, such a place may be wrong by a ten-thousandth in the other
+ * coordinate, and cost less by as much. */
 static const double WITHIN = 1e-8;
-/* The distance that a move keeps from shadows. These are closed, and if there is no room to spare no move is free
- * beside one. */
+/* The distance that a move keeps from shadows. These are closed sets, and if there is no clearance no move beside one
+ * is free. */
 static const double BESIDE = 1e-7;
 
 typedef struct tally {
@@ -46,7 +46,7 @@ typedef struct tally {
 
 /* ---- What is asked */
 
-/* The problem that a verdict says has no solution. */
+/* The problem that has no solution according to a verdict. */
 static bool pose_verdict(const hamlet *t, const sunder_conflict *c, size_t n, const sunder_conflict *own,
                          optimum_problem *m)
 {
@@ -61,7 +61,7 @@ static bool pose_verdict(const hamlet *t, const sunder_conflict *c, size_t n, co
     return alone;
 }
 
-/* A conflict that is reported without a solution has none within the limits, at any cost. */
+/* A conflict that is reported to have no solution has none within the limits, at any cost. */
 static void check_verdict(const hamlet *t, const sunder_conflict *c, size_t n, const sunder_conflict *own, size_t i,
                           tally *sum)
 {
@@ -76,16 +76,17 @@ static void check_verdict(const hamlet *t, const sunder_conflict *c, size_t n, c
     sum->proved += proved;
     sum->unresolved += !proved;
     sum->resolvable += !proved && solvable;
-    /* A proof may stand on other listed pairs that overlapped, and are no deeper in each other; the problem leaves them
-     * out. */
+    /* A proof may use other listed pairs that overlapped, which may not get deeper into each other; the problem leaves
+     * them out. */
     if (proved && solvable && (alone || n == 1))
         FAIL(i, "%zu and %zu (%s) are said to have no solution, but have one of cost %.17g", own->a, own->b,
              sunder_reason_string(own->reason), answer.high);
     optimum_free(&m);
 }
 
-/* Does a certain place cost less than `than`? A certain place exceeds no limit even slightly, and touches no shadow,
- * which would be a jump although it costs no more than a place beside it. found: the cost of a place that may do so. */
+/* Does a certainly allowed place cost less than `than`? Such a place exceeds no limit even slightly, and touches no
+ * shadow, which would be a jump although it costs no more than a place beside it. found: the cost of a place for which
+ * these may be violated slightly. */
 static bool costs_less(const optimum_problem *m, double found, double than)
 {
     if (found >= than) return false;
@@ -110,13 +111,14 @@ static void judge(const hamlet *t, size_t i, tally *sum)
     for (size_t k = 0; k < n; k++) listed += !c[k].inside_block;
     hamlet_pose(t, c, n, NULL, &m);
     const double cost = summary.cost, bound = summary.lower_bound, slack = CLOSE * cost + 1e-8;
-    /* A little dearer than the library's place is allowed, so that a cost that is too low is seen. */
+    /* Places slightly more expensive than the library's are examined, too, so that a cost that is too low is
+     * detected. */
     const optimum_answer answer = optimum_find(&m, cost * 1.001 + 1e-6, CLOSE / 4, 40000);
     if (cost < answer.low - slack) FAIL(i, "cost %.17g; the optimum is at least %.17g", cost, answer.low);
     if (bound > cost + slack || costs_less(&m, answer.high, bound - slack))
         FAIL(i, "bound %.17g; the optimum is at most %.17g", bound, fmin(answer.high, cost));
     if (!answer.open && !(answer.high < INFINITY)) FAIL(i, "no place costs as little as %.17g", cost);
-    const double most = OPTIMAL * cost + OPTIMAL_TOO * (double)summary.clusters; /* of the optimum */
+    const double most = OPTIMAL * cost + OPTIMAL_TOO * (double)summary.clusters; /* the tolerance of reported optima */
     if (summary.clusters_optimal == summary.clusters && costs_less(&m, answer.high, cost - most - slack))
         FAIL(i, "all %zu groups are said to be at their optimum, cost %.17g; it is at most %.17g", summary.clusters,
              cost, answer.high);
@@ -211,16 +213,17 @@ static void test_oracle(void **state)
     const double box[] = {0, 0, 4, 0, 4, 4, 0, 4}, beside[] = {3, 1, 7, 1, 7, 5, 3, 5},
                  off[] = {7, 8, 9, 8, 9, 9, 7, 9};
     const double wall[] = {2, -9, 2, 9}, post[] = {1, 2};
-    assert_true(fabs(known(box, 4, beside, 4, 0, INFINITY) - 0.5) < 1e-7); /* 1/2 each */
-    assert_true(fabs(known(box, 4, beside, 4, 2, INFINITY) - 4.5) < 1e-7); /* 3/2 each */
-    assert_true(fabs(known(box, 4, beside, 4, 2, 0) - 9) < 1e-7);          /* 3 by one */
-    assert_true(fabs(known(box, 4, beside, 4, 2, 1) - 5) < 1e-7);          /* 1 and 2 */
-    assert_true(fabs(known(box, 4, off, 4, 7, INFINITY) - 2) < 1e-7);      /* corners 5 apart: 1 each */
-    assert_true(fabs(known(box, 4, wall, 2, 0, INFINITY) - 2) < 1e-7);     /* 1 each */
-    assert_true(fabs(known(box, 4, post, 1, 2, INFINITY) - 4.5) < 1e-7);   /* 3/2 each */
+    assert_true(fabs(known(box, 4, beside, 4, 0, INFINITY) - 0.5) < 1e-7); /* each moves 1/2 */
+    assert_true(fabs(known(box, 4, beside, 4, 2, INFINITY) - 4.5) < 1e-7); /* each moves 3/2 */
+    assert_true(fabs(known(box, 4, beside, 4, 2, 0) - 9) < 1e-7);          /* one moves 3 */
+    assert_true(fabs(known(box, 4, beside, 4, 2, 1) - 5) < 1e-7);          /* the moves are 1 and 2 */
+    assert_true(fabs(known(box, 4, off, 4, 7, INFINITY) - 2) < 1e-7);      /* corners 5 apart: each moves 1 */
+    assert_true(fabs(known(box, 4, wall, 2, 0, INFINITY) - 2) < 1e-7);     /* each moves 1 */
+    assert_true(fabs(known(box, 4, post, 1, 2, INFINITY) - 4.5) < 1e-7);   /* each moves 3/2 */
 }
 
-/* Three discs in a row, as points round which boxes have to stay; a wall with a door that is wide enough, and not. */
+/* Three discs in a row, as points around which boxes have to stay; a wall with a door that is wide enough, or too
+ * narrow. */
 static void test_oracle_in_company(void **state)
 {
     (void)state;
@@ -236,11 +239,12 @@ static void test_oracle_in_company(void **state)
     const double near[] = {1, 1, 9, 1, 9, 9, 1, 9};
     optimum_keep_apart(&m, 0, 1, box, 4, near, 4, 0);
     answer = optimum_find(&m, 1e6, 1e-9, 10000);
-    assert_true(fabs(answer.high - 1) < 1e-7 && answer.low > 1 - 1e-7); /* 1.5 wide: out, by 1 */
+    /* the door is 1.5 wide, so the box moves out by 1 */
+    assert_true(fabs(answer.high - 1) < 1e-7 && answer.low > 1 - 1e-7);
     optimum_free(&m);
 }
 
-/* From (0, 0) behind a wall from (2, -1) to (2, 1): a body that has to move right by 4 goes round the shadow of an
+/* From (0, 0) behind a wall from (2, -1) to (2, 1): a body that has to move right by 4 goes around the shadow of an
  * end. */
 static void test_oracle_of_shadows(void **state)
 {
@@ -252,7 +256,7 @@ static void test_oracle_of_shadows(void **state)
     assert_true(fabs(answer.high - 16) < 1e-6);
     optimum_keep_off(&m, 0, 1, wall, 2, anchor);
     answer = optimum_find(&m, 1e6, 1e-9, 10000);
-    assert_true(fabs(answer.high - 20) < 1e-6 && fabs(answer.low - 20) < 1e-6); /* (4, 2) */
+    assert_true(fabs(answer.high - 20) < 1e-6 && fabs(answer.low - 20) < 1e-6); /* the move is (4, 2) */
     optimum_free(&m);
 }
 

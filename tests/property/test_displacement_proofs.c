@@ -1,5 +1,5 @@
-/* Conflicts with the reason no_room: each proof is verified by independent code (support/proof_check.c), in rationals,
- * also for coordinates far larger than the limits.
+/* Conflicts with the reason no_room: independent code (support/proof_check.c) verifies each proof in rationals, also
+ * for coordinates far larger than the limits.
  *
  * Planted: boxes that fit exactly, or up to a unit in the last place, and were moved by at most the limit: no conflict
  * may have this reason. Packed: a lane that is slightly too narrow: every remaining conflict has a proof. */
@@ -39,8 +39,8 @@ static void random_scale(rng *r, double *origin, double *unit, double *limit)
 
 static double multiple(double v, double unit) { return floor(v / unit) * unit; }
 
-/* Boxes in a row between two fixed ones, with `excess` more width than there is room; taller than they may move, so
- * that none can leave the row. All widths, places and the gap are multiples of the unit. */
+/* Boxes in a row between two fixed ones, which lack `excess` of the required width; taller than their limits, so that
+ * none can leave the row. All widths, places and the gap are multiples of the unit. */
 static void pack(rng *r, proof_town *t, double excess_units)
 {
     double origin, unit, limit;
@@ -54,7 +54,7 @@ static void pack(rng *r, proof_town *t, double excess_units)
     proof_town_add_box(t, x - tall, y - tall, tall, 3 * tall, 0);
     for (int k = 0; k < n; k++) {
         const double width = multiple(limit * (3 + 2 * rng_unit(r)), unit);
-        /* Within half the limit of where it fits. */
+        /* The start is within half the limit of the place where it fits. */
         const double off = multiple(limit * (rng_unit(r) - 0.5), unit);
         proof_town_add_box(t, x + t->gap + off, y + multiple(limit * rng_unit(r), unit), width, tall, limit);
         x += t->gap + width;
@@ -80,7 +80,7 @@ static void check_packed(void **state)
         proof_town_free(&t);
     }
     print_message("%zu with a proof, %zu without\n", proved, open);
-    /* some have a solution: the search gave up two pairs instead of one, or they are too near to decide */
+    /* in some cases there is a solution: the search gave up two pairs instead of one, or they are too near to decide */
     assert_true(open * 25 <= proved);
 }
 
@@ -92,7 +92,7 @@ static void check_exact_fits(void **state)
     for (size_t trial = 0; trial < trials; trial++) {
         rng r = rng_start(test_seed(), trial);
         proof_town t;
-        /* Boxes with no room to spare, or one unit too little. */
+        /* Boxes with no clearance, or with one unit too little. */
         pack(&r, &t, rng_once_in(&r, 2) ? 0 : -1);
         sunder_report *report = proof_town_separate(&t);
         size_t n;
@@ -158,9 +158,9 @@ static void check_towns(void **state)
 
 /* ---- Held pairs ------------------------------------------------------------------------------------------------- */
 
-/* A house that is too near to a slanted fixed wall, and may not go far enough to mend that; on its other side a fixed
- * one that it is too near to by less than it may move. So it has no room, since it may come no nearer to the wall: by
- * no more than their distance, which no double is. */
+/* A house is too near to a slanted fixed wall, and its limit is too short to correct that; on its other side a fixed
+ * house is too near by less than the limit. It may not come nearer to the wall than it was at the start, a distance
+ * that is not a double; so it has no room. */
 static void check_held(void **state)
 {
     (void)state;
@@ -191,7 +191,7 @@ static void check_held(void **state)
 
 /* ---- What stops it --------------------------------------------------------------------------------------------- */
 
-/* No thing of blocked_by can be left out: the pair and all of them except one have a solution. */
+/* No feature of blocked_by can be left out: the pair and all of them except one have a solution. */
 static void check_irreducible(void **state)
 {
     (void)state;
@@ -200,7 +200,7 @@ static void check_irreducible(void **state)
     for (size_t trial = 0; trial < trials; trial++) {
         rng r = rng_start(test_seed(), trial);
         proof_town t;
-        /* A lane, and further boxes nearby, some of which block those of the lane. */
+        /* A lane, and further boxes nearby, some of which obstruct those in the lane. */
         pack(&r, &t, 64);
         sunder_report *report = proof_town_separate(&t);
         size_t n, open = 0;
@@ -238,12 +238,13 @@ static void check_irreducible(void **state)
 
 /* ---- Corridors -------------------------------------------------------------------------------------------------- */
 
-/* The start and the direction of a road; across is to its left. */
+/* The start and the direction of a road; offsets across it are positive to the left. */
 typedef struct street {
     double from[2], along[2];
 } street;
 
-/* A quadrangle beside it, from s to s + length along it, at least so far off; on its left, or its right. */
+/* A quadrangle beside the road, from s to s + length along it, at a distance of at least `off`; on the left or on the
+ * right. */
 static void add_beside(rng *r, proof_town *t, const street *at, double s, double length, double off, bool left,
                        double limit)
 {
@@ -259,8 +260,8 @@ static void add_beside(rng *r, proof_town *t, const street *at, double s, double
 }
 
 /* A block on both sides of a straight road to which it is too near, and at one end a fixed house that is too near to
- * it. It could slide along the road, exactly, if the ends of the road were multiples of some step apart; usually they
- * are not. A third of the roads have round coordinates, along which there usually is a step. */
+ * it. The block could slide exactly along the road if there was a step of which both coordinates of the road are
+ * multiples; usually there is none. A third of the roads have round coordinates, for which there usually is one. */
 static void check_corridors(void **state)
 {
     (void)state;
@@ -284,7 +285,7 @@ static void check_corridors(void **state)
         const double length = hypot(at.along[0], at.along[1]);
         for (size_t x = 0; x < 2; x++) at.along[x] /= length;
         odd += !round;
-        /* Or the line runs through both. */
+        /* In half of the cases the line runs through both houses. */
         const double in = rng_once_in(&r, 2) ? 3 : 0;
         add_beside(&r, &t, &at, 10, 6, 1 + rng_unit(&r) - in, true, limit);
         add_beside(&r, &t, &at, in > 0 ? 18 : 12, 8, 1 + rng_unit(&r) - in, false, limit);

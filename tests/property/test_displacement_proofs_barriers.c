@@ -1,5 +1,5 @@
-/* Conflicts beside barriers with the reasons no_room and side: each proof is verified by independent code
- * (support/proof_check.c), in rationals, and false statements about shadows and chords are refused. */
+/* Conflicts beside barriers with the reasons no_room and side: independent code (support/proof_check.c) verifies each
+ * proof in rationals, and refuses false statements about shadows and chords. */
 #include "proof_town.h"
 #include "random.h"
 #include "sunder_proof.h"
@@ -18,7 +18,7 @@
 
 static double quarters(rng *r, int64_t low, int64_t high) { return (double)rng_int(r, 4 * low, 4 * high) / 4; }
 
-/* A box, a triangle or a slanted quadrangle: of what is convex it can be asked how deep a line lay in it. */
+/* A box, a triangle or a slanted quadrangle. They are convex, for which the depth of a line inside is defined. */
 static void add_convex(rng *r, proof_town *t, double x, double y, double limit)
 {
     const double w = quarters(r, 2, 6), h = quarters(r, 2, 6), lean = quarters(r, 0, 1);
@@ -45,8 +45,7 @@ static void add_some_barrier(rng *r, proof_town *t, double x, double y, double w
                            width, gap, rng_once_in(r, 2));
 }
 
-/* Houses among lines, points and areas that are too near to them, or run through them; half of the barriers have
- * sides. */
+/* Houses among lines, points and areas that are too near to them, or cut them; half of the barriers have sides. */
 static void check_beside_barriers(void **state)
 {
     (void)state;
@@ -84,7 +83,7 @@ static void check_beside_barriers(void **state)
     assert_true(of_barriers > trials / 8 && sides > trials / 50);
 }
 
-/* The proof of conflict k with all that a side takes away a little greater: it has to be refused. */
+/* Enlarges, in the proof of conflict k, each region that a side is said to exclude: the proof has to be refused. */
 static void check_refused(const proof_town *t, const sunder_report *report, size_t trial, size_t k)
 {
     const sunder_proof *p = sunder_report_proof(report, k);
@@ -142,11 +141,12 @@ static void check_beside_sides(void **state)
     assert_true(sides > trials / 4 && 10 * open <= proved);
 }
 
-/* A chord nearer to the anchor than the corner, or told of one side twice, or with both ends in one shadow. */
+/* False chords: nearer to the anchor than the corner, with one side given twice, or with both ends in one shadow. Each
+ * has to be refused. */
 static void check_chord_refused(const proof_town *t, const sunder_report *report, size_t trial, size_t k)
 {
     const sunder_proof *p = sunder_report_proof(report, k);
-    double *corner = (double *)p->corner; /* the report's own, as above */
+    double *corner = (double *)p->corner; /* the report's own copy, which may be changed */
     for (size_t m = 0; m < p->nodes; m++) {
         const sunder_proof_node *node = &p->node[m];
         if (!node->chord) continue;
@@ -166,7 +166,7 @@ static void check_chord_refused(const proof_town *t, const sunder_report *report
     }
 }
 
-/* A house between two walls that want more than there is between them, each of two lines that meet where the house
+/* A house between two walls that require more distance than there is, each made of two lines that meet where the house
  * would have to pass, or of one line with a bend there. */
 static void check_corners_of_sides(void **state)
 {

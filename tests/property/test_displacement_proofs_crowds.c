@@ -1,6 +1,6 @@
-/* Grids of houses that all lack room: the remaining conflicts are proved to be crowded, a few features that cannot all
- * be solved. Independent code verifies each proof (support/proof_check.c), and without any one of the features that it
- * names, with very few exceptions, the rest is solved. */
+/* Grids of houses that all lack room: the remaining conflicts are proved crowded, that is, a few features cannot all be
+ * solved together. Independent code (support/proof_check.c) verifies each proof, and without any one of the features
+ * that it names, with very few exceptions, the rest has a solution. */
 #include "proof_town.h"
 #include "random.h"
 
@@ -27,7 +27,7 @@ static void add_grid(rng *r, proof_town *t)
     }
 }
 
-/* For the features of a conflict's proof without one of them: how many pairs remain, and with which reasons? */
+/* Separates the features of a conflict's proof without one of them: how many pairs remain, and with which reasons? */
 static size_t ask_without(const proof_town *t, const sunder_conflict *c, size_t out, bool *proved)
 {
     proof_town part;
@@ -52,7 +52,7 @@ typedef struct tally {
     size_t proved, crowded, open, named, solved, asked, proved_without;
 } tally;
 
-/* All of them need each other: without one the others are solved. */
+/* All of them are necessary: without one the others have a solution. */
 static void demand_irreducible(const proof_town *t, const sunder_conflict *c, size_t trial, tally *sum)
 {
     for (size_t b = 0; b < c->n_blocked_by; b++) {
@@ -92,11 +92,11 @@ static void check_grids(void **state)
                   sum.proved, sum.crowded, (double)sum.named / (double)sum.crowded, sum.open, sum.solved, sum.asked,
                   sum.proved_without);
     assert_true(sum.crowded > 10 * trials && sum.open * 10 < sum.proved);
-    /* It is made irreducible as far as the effort goes. */
+    /* Proofs are reduced only as far as the effort allows, so a few exceptions are accepted. */
     assert_true(sum.solved * 50 >= sum.asked * 49);
 }
 
-/* If all have room when all move as far as they may, no pair is crowded. */
+/* If there is room for all when all move by their limits, no pair is proved crowded. */
 static void check_that_fit(void **state)
 {
     (void)state;
@@ -109,8 +109,8 @@ static void check_that_fit(void **state)
         const double lack = (double)rng_int(&r, 1, 8) / 8;
         memset(&t, 0, sizeof t);
         t.gap = 3;
-        /* The limit of each box is half of what all gaps of its row lack, along x alone, so a row could solve its
-         * conflicts from the middle. */
+        /* The limit of each box is half of what all gaps of its row lack, so a row can solve its conflicts by moves
+         * along x, from its middle outwards. */
         const double limit = lack * (double)(columns - 1) / 2;
         for (size_t k = 0; k < rows * columns; k++)
             proof_town_add_box(&t, (13 - lack) * (double)(k % columns), 13 * (double)(k / columns), 10, 10, limit);

@@ -1,5 +1,5 @@
-/* Layers in which the conflicts without room, and their report, are known. Independent code verifies each proof
- * (support/proof_check.c), in rationals. */
+/* Layers for which the conflicts without room, and their report, are known. Independent code (support/proof_check.c)
+ * verifies each proof in rationals. */
 #include "proof_town.h"
 #include "random.h"
 
@@ -22,8 +22,8 @@ static const sunder_conflict *find(const sunder_report *report, size_t a, size_t
     return NULL;
 }
 
-/* A square of 10 km at 5,000 km; one of its sides overlaps a fixed square by 2^-20 more than it may move, and another
- * fixed one is behind it: plain doubles with a slack of 1e-7 cannot decide this. */
+/* A square of side 10 km at coordinates of 5,000 km; on one side it overlaps a fixed square by 2^-20 more than its
+ * limit, and another fixed one is behind it: plain doubles with a tolerance of 1e-7 cannot decide this. */
 static void check_huge_and_small(void **state)
 {
     (void)state;
@@ -44,7 +44,7 @@ static void check_huge_and_small(void **state)
     assert_int_equal(c->blocked_by[0], 2);
     sunder_report_free(report);
     proof_town_free(&t);
-    /* Without that hair there is room, exactly. */
+    /* Without the 2^-20 there is exactly enough room. */
     memset(&t, 0, sizeof t);
     proof_town_add_box(&t, 4990000, 5000000, 10000, 10000, 0);
     proof_town_add_box(&t, 5000000 - limit / 2, 5000000, 10000, 10000, limit);
@@ -57,8 +57,8 @@ static void check_huge_and_small(void **state)
     proof_town_free(&t);
 }
 
-/* A house between two fixed blocks too near to each other, and, hanging together with it over a third, two that have
- * room: the one want of room explains the conflicts at the first house, and no others. */
+/* A house between two fixed blocks that are too near to each other, and two houses with enough room, connected with it
+ * through another house. The missing room at the first house explains the conflicts there, and no others. */
 static void check_explains_its_own(void **state)
 {
     (void)state;
@@ -67,7 +67,7 @@ static void check_explains_its_own(void **state)
     proof_town_add_box(&t, 0, 0, 10, 40, 0);
     proof_town_add_box(&t, 9, 5, 12, 30, 2);
     proof_town_add_box(&t, 20.5, 0, 10, 40, 0);
-    /* Overlaps the house that has no room, and one that has all the room there is. */
+    /* It overlaps the house that has no room, and the one that has enough. */
     proof_town_add_box(&t, 12, 34.5, 6, 6, 2);
     proof_town_add_box(&t, 12, 40, 6, 6, 4);
     sunder_report *report = proof_town_separate(&t);
@@ -86,7 +86,7 @@ static void check_explains_its_own(void **state)
     proof_town_free(&t);
 }
 
-/* Two wants of room that hang together: each conflict is blocked by its own. */
+/* Two places without room that are connected: each conflict is blocked by the features at its own place. */
 static void check_two_lanes(void **state)
 {
     (void)state;

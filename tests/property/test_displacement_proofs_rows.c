@@ -1,6 +1,6 @@
 /* Rows of houses with limits that let a few pairs separate. A remaining pair has a proof exactly if a sum along the row
- * shows that there is no room, and the proof names the houses of that sum and no more. Proofs also hold for rows of
- * rotated houses. Independent code verifies each proof (support/proof_check.c). */
+ * shows that there is no room, and the proof names the houses of that sum and no more. Proofs are also verified for
+ * rows of rotated houses. Independent code verifies each proof (support/proof_check.c). */
 #include "proof_town.h"
 #include "random.h"
 
@@ -19,12 +19,12 @@ enum { LONGEST = 20 };
 
 typedef struct row {
     proof_town town;
-    double lack[LONGEST]; /* between each house and the next */
-    double owed[LONGEST]; /* the same if the pair is solved, otherwise 0 */
+    double lack[LONGEST]; /* the distance that each pair of neighbours lacks */
+    double owed[LONGEST]; /* the same for pairs that are solved, otherwise 0 */
 } row;
 
-/* Boxes beside each other, so high that none can pass another; every third row ends at a house that stands, or has one
- * within. Gap 0: they overlap. */
+/* Boxes in a row, so tall that none can pass another; every third row ends at a fixed house, or contains one. With gap
+ * 0 they overlap. */
 static void add_row(rng *r, row *out)
 {
     proof_town *t = &out->town;
@@ -42,7 +42,7 @@ static void add_row(rng *r, row *out)
     }
 }
 
-/* The amount that the houses from `first` to `last` lack beyond their limits, if `pair` is solved, too. */
+/* The distance that the houses from `first` to `last` lack beyond their limits if `pair` has to be solved, too. */
 static double excess(const row *r, size_t pair, size_t first, size_t last)
 {
     double sum = -r->town.plain[first].max_shift - r->town.plain[last].max_shift;
@@ -58,7 +58,7 @@ static double most_excess(const row *r, size_t pair)
     return most;
 }
 
-/* The houses of a proof stand side by side, and without the first or the last there is room. */
+/* The houses of a proof are consecutive, and without the first or the last there is room. */
 static void check_named(const row *r, const sunder_conflict *c, size_t pair)
 {
     size_t first = pair, last = pair + 1;
@@ -107,8 +107,8 @@ static void check_rows(void **state)
 
 /* ---- Turned houses ----------------------------------------------------------------------------------------------- */
 
-/* A row in any direction, each house turned by up to a few degrees: at most pairs two walls face each other, and either
- * may be passed by. */
+/* A row in any direction, each house rotated by a few degrees: at most pairs two walls face each other, and one house
+ * can pass the other. */
 static void check_turned(void **state)
 {
     (void)state;

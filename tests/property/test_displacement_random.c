@@ -2,9 +2,9 @@
  *
  * They are checked in rational arithmetic by code that shares nothing with src/. The features as written keep the gap,
  * except for listed pairs and pairs inside a block. Each move shifts every vertex by one vector, exactly. No move
- * exceeds its limit, and no listed pair is worse than at the start. The lower bound is computed again from the written
- * pairs, and every pair's least separation is at most the one in the result. The report is the same for every number of
- * threads, and a check of the result agrees with it. */
+ * exceeds its limit, and no listed pair is worse than at the start. The lower bound is computed again from the pairs
+ * given with it, and every reported least separation of a pair is at most the one in the result. The report is the same
+ * for every number of threads, and a check of the result agrees with it. */
 #include "passage_oracle.h"
 #include "random.h"
 #include "run_layer.h"
@@ -25,8 +25,8 @@
 
 enum { MOST = 40, CORNERS = 8 };
 
-/* The number of towns, and the most houses in each: with half as many houses again they take as long as all others, so
- * that is left to larger runs. */
+/* The number of towns, and the most houses in each. With half as many houses again the test takes as long as all others
+ * together, so that is left to larger runs. */
 enum { TOWNS = 60, HOUSES = 28 };
 
 typedef struct house {
@@ -49,8 +49,8 @@ static void corner(house *h, double x, double y)
     h->xy[2 * h->corners++ + 1] = y;
 }
 
-/* A box, an L, a U, a slanted quadrangle, or a box with a yard; at coordinates as maps have them, on a grid of 1/8 or
- * with all their bits. */
+/* A box, an L, a U, a slanted quadrangle, or a box with a courtyard; at coordinates as in maps, on a grid of 1/8 or
+ * using all their bits. */
 static void make_house(rng *r, house *h, double wide, bool grid)
 {
     memset(h, 0, sizeof *h);
@@ -199,8 +199,9 @@ static int locate(rational *s, const house *h, const double *x)
     return in ? 1 : -1;
 }
 
-/* Are the two surely in conflict: boundaries nearer than the gap or crossing, or a corner of one inside the other? With
- * a gap that is all there can be. Without one a pair that overlaps only where corners lie on walls is missed. */
+/* Are the two certainly in conflict: are boundaries nearer than the gap or crossing, or is a corner of one inside the
+ * other? With a gap these are all cases. Without one a pair that overlaps although corners lie only on walls is
+ * missed. */
 static bool conflict(const house *a, const house *b, double gap)
 {
     rational s;
@@ -231,7 +232,7 @@ static bool conflict(const house *a, const house *b, double gap)
 
 /* ---- The laws --------------------------------------------------------------------------------------------------- */
 
-/* The house as written; false if some coordinate was rounded. */
+/* The house as written; false if a coordinate was rounded. */
 static bool write_house(const house *from, double dx, double dy, house *to)
 {
     bool exact = true;
@@ -319,7 +320,7 @@ static bool same_body(const sunder_report *report, size_t a, size_t b)
            (sunder_report_block(report, a) >= 0 && sunder_report_block(report, a) == sunder_report_block(report, b));
 }
 
-/* The bound from its pairs: sum l d - sum (sum l)^2 / (4 w), in rationals. */
+/* The bound computed from its pairs: sum l d - sum (sum l)^2 / (4 w), in rationals. */
 static void check_bound(const town *t, const sunder_report *report, bool may_overlap)
 {
     size_t n;
@@ -334,7 +335,7 @@ static void check_bound(const town *t, const sunder_report *report, bool may_ove
         mpq_set_d(y, p[k].least);
         mpq_mul(x, x, y);
         mpq_add(value, value, x);
-        /* The reported least translation is no longer than the relative move in the result. */
+        /* The reported least translation of a pair is no longer than its relative move in the result. */
         double a[2], b[2];
         sunder_report_move(report, p[k].a, &a[0], &a[1]);
         sunder_report_move(report, p[k].b, &b[0], &b[1]);
@@ -365,8 +366,8 @@ static void check_bound(const town *t, const sunder_report *report, bool may_ove
     }
     mpq_set_d(x, s.pair_bound);
     assert_true(s.pair_bound == 0 || mpq_cmp(x, value) <= 0);
-    /* Trees prove slightly less for pairs than their least translations do, and nothing for pairs that may lie in each
-     * other. */
+    /* Trees prove slightly less for pairs than their least translations do, and nothing for pairs that may be inside
+     * each other. */
     assert_true(may_overlap || s.pair_bound * (1 - 0x1p-17) <= s.lower_bound);
     assert_true(s.lower_bound <= s.cost * (1 + 1e-12));
     assert_true(s.pair_bound >= mpq_get_d(value) - 1e-9 * (1 + fabs(mpq_get_d(value))));
@@ -383,7 +384,7 @@ static void boundary_of(const house *h, oracle_boundary *out)
     polyset_free(&set);
 }
 
-/* No anchor met, on its way as the other sees it, one that did not hold it; in rationals. */
+/* On its path relative to another feature, no anchor met that feature, unless it was inside it; in rationals. */
 static void check_jumps(const town *t, const sunder_report *report)
 {
     oracle_boundary truth[MOST];
@@ -426,8 +427,9 @@ static void check_same(const town *t, const sunder_report *a, const sunder_repor
     }
 }
 
-/* A check of the features as written, blocks given by number, counts what `after` says. */
-/* No move broke a rule; and the features, compared by their coordinates alone, broke none. */
+/* A check of the features as written, with blocks given by number, counts what `after` says. */
+/* No move violated a rule; and if the moves are derived from the coordinates alone, the check finds no violation,
+ * either. */
 static void check_way(const town *t, const sunder_feature *now, const sunder_layer_options *o)
 {
     sunder_layer *before = NULL, *after = NULL;
@@ -499,7 +501,7 @@ static void check_towns(void **state)
         sunder_layer_summary s;
         sunder_report_summary(one, &s);
         assert_true(s.verified);
-        /* A feature that may not jump may have to stay in a yard. */
+        /* A feature that may not jump may have to stay in a courtyard. */
         if (free_to_move && o.allow_jumps && o.contained != SUNDER_CONTAINMENT_IGNORE)
             assert_int_equal(s.after.overlap + s.after.too_close + s.after.contained + s.after.duplicate, 0);
         sunder_report_free(one);

@@ -2,8 +2,8 @@
  * of these, its features get the same moves to the last bit, its conflicts the same reasons, and its pairs and groups
  * the same proofs.
  *
- * Towns are crowds of slanted boxes that overlap and lie in each other; limits and fixed features leave some without a
- * solution. Each has coordinates of its own at any place of the list; its features keep their order. */
+ * Towns are crowds of slanted boxes that overlap and contain each other; limits and fixed features leave some without a
+ * solution. The coordinates of a town are the same wherever it is in the list; its features keep their order. */
 #include "polyset.h"
 #include "random.h"
 #include "run_layer.h"
@@ -32,7 +32,7 @@ typedef struct country {
     sunder_layer_options options;
 } country;
 
-/* An order of all features, or of the features of a town. */
+/* An order of all features, as pairs of a town and a house. */
 typedef struct order {
     size_t town[MOST], house[MOST];
     size_t n;
@@ -69,10 +69,10 @@ static void draw_options(country *c, rng *r)
     c->options.keep_pushes = c->options.keep_trees = true;
 }
 
-/* The number of towns in a row, and their distance. */
+/* Places towns in a row, with a distance between them. */
 static void found(country *c, rng *r, size_t towns, size_t houses, double far)
 {
-    const int which = (int)rng_int(r, 0, 2); /* limits for all, for some, for none */
+    const int which = (int)rng_int(r, 0, 2); /* limits for all, for some, for none of the towns */
     for (c->towns = 0; c->towns < towns; c->towns++) {
         const size_t k = c->towns;
         /* Towns have limits of different sizes: one that no feature exceeds in one town is small in another. */
@@ -98,7 +98,7 @@ static void add_to_order(order *o, size_t which, size_t house)
     o->house[o->n++] = house;
 }
 
-/* One town after the other, first to last or back; or a house of whichever comes up. */
+/* The order: town after town, forwards or backwards; or interleaved at random. */
 static void draw_order(const country *c, rng *r, order *o)
 {
     size_t at[TOWNS] = {0}, left = 0;
@@ -126,7 +126,7 @@ static sunder_report *run(const country *c, const order *o)
 
 /* ---- What is said of one town ------------------------------------------------------------------------------------ */
 
-/* A line of numbers for each fact, features by their places in the town; in the report's order. */
+/* Prints a line of numbers for each fact in the report's order, with features given by their indices in the town. */
 typedef struct facts {
     double number[40 * HOUSES * HOUSES];
     size_t n;
@@ -157,7 +157,7 @@ static void note_conflict(facts *f, const order *o, const sunder_conflict *c)
     for (size_t k = 0; k < c->n_blocked_by; k++) note(f, house_at(o, c->blocked_by[k]));
 }
 
-/* The town that a tree is about: no body that moves is of another. */
+/* The town that a proof is about: no moving body of it belongs to another town. */
 static size_t town_of(const order *o, const sunder_bound_tree *tree)
 {
     for (size_t k = 0; k < tree->bodies; k++)
@@ -276,7 +276,7 @@ static void found_many(country *c, rng *r, size_t number)
     found(c, r, TOWNS, SMALL, 3000);
 }
 
-/* In some of many small towns a pair is given up late, or a body goes back because of its limit: then the work on the
+/* In some of many small towns a pair is given up late, or a body returns because of its limit: then the work on the
  * layer continues, and must not change towns that were finished. */
 static void test_many_towns(void **state)
 {
@@ -301,8 +301,8 @@ typedef struct house {
     bool fixed;
 } house;
 
-/* In the first town a retried pair runs into other features, a pair is given up then, and it is tried again. The second
- * town has a given-up pair whose result would change if it were tried again, too. */
+/* In the first town a retried pair runs into other features, another pair is given up then, and it is tried again. The
+ * second town has a given-up pair whose result would change if it were tried again, too. */
 static const house late[] = {{{1000.58, 3562, 1031.66, 3562, 1031.66, 3579.79, 1000.58, 3579.79}, 1, false},
                              {{1008.66, 3561.9, 1014.83, 3566.43, 1012.29, 3569.88, 1006.13, 3565.35}, 1, false},
                              {{1013.43, 3560.24, 1032.66, 3560.24, 1032.66, 3576.97, 1013.43, 3576.97}, 1, false},
@@ -366,7 +366,7 @@ static void test_asked_again(void **state)
     abandon(&c);
 }
 
-/* Countries where a town was once treated differently because of other towns: one without limits, whose solved pairs
+/* Layers in which a town was once treated differently because of other towns: one without limits, whose solved pairs
  * were examined again because others have limits; one whose pushes came from another program where others had
  * bounds. */
 static void test_found_countries(void **state)

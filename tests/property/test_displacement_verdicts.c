@@ -1,9 +1,9 @@
-/* Verdicts on small layers with planted solutions, and the rule that no conflict gets worse.
+/* Verdicts on small layers with known (planted) solutions, and the rule that no conflict gets worse.
  *
- * A layer is laid out without conflicts: houses in rows, in outlines that may contain them, in yards; blocks by number;
- * some fixed. Then each block is moved by at most its limit. So there is a solution, and no conflict may be listed as
- * max_shift or no_room. No listed pair is worse than at the start, in rationals by brute force. A check confirms that
- * the planted layer has no conflicts, with the features that join at the start as blocks. */
+ * A layer is laid out without conflicts: houses in rows, in outlines that may contain them, in courtyards; blocks by
+ * number; some fixed. Then each block is moved by at most its limit. So there is a solution, and no conflict may be
+ * listed as max_shift or no_room. No listed pair is worse than at the start, in rationals by brute force. A check
+ * confirms that the planted layer has no conflicts, with the features that join at the start as blocks. */
 #include "polyset.h"
 #include "random.h"
 #include "run_layer.h"
@@ -23,8 +23,8 @@ enum { MOST = 16 };
 typedef struct plot {
     polyset solved, start;
     sunder_feature feature;
-    double back[2]; /* from start to solved */
-    bool inner;     /* lies in an outline: goes with the outline's block where containment joins */
+    double back[2]; /* the move from the start to the solution */
+    bool inner;     /* inside an outline: moves with the outline's block if containment joins blocks */
 } plot;
 
 typedef struct layer {
@@ -53,7 +53,7 @@ static plot *add_box(layer *l, double x, double y, double w, double h)
 
 static double eighths(rng *r, int low, int high) { return (double)rng_int(r, low, high) / 8; }
 
-/* A box, or one that is cut off at a corner or has a notch, in the same place. */
+/* A box, or one with a corner cut off or with a notch, in the same place. */
 static plot *add_house(layer *l, rng *r, double x, double y, double w, double h)
 {
     if (!rng_once_in(r, 3)) return add_box(l, x, y, w, h);
@@ -67,8 +67,8 @@ static plot *add_house(layer *l, rng *r, double x, double y, double w, double h)
     return p;
 }
 
-/* An outline with houses in it, apart from each other, that touch its edge or overstep it by less than the tolerance.
- * Returns its width. */
+/* An outline with houses in it, separate from each other, that touch its edge or project from it by less than the
+ * tolerance. Returns its width. */
 static double plant_outline(layer *l, rng *r, double x, double y, double tolerance)
 {
     const double gap = l->options.gap, w = eighths(r, 96, 240), h = eighths(r, 96, 160);
@@ -88,7 +88,7 @@ static double plant_outline(layer *l, rng *r, double x, double y, double toleran
     return w;
 }
 
-/* A yard that is closed all round, with a house in it. */
+/* A closed courtyard with a house in it. */
 static double plant_yard(layer *l, rng *r, double x, double y)
 {
     const double gap = l->options.gap, w = eighths(r, 16, 60), h = eighths(r, 16, 60), wall = eighths(r, 4, 24);
@@ -108,7 +108,7 @@ static double plant_yard(layer *l, rng *r, double x, double y)
     return wx;
 }
 
-/* Two that touch, and are one block by number. */
+/* Two features that touch, in one block by number. */
 static double plant_block(layer *l, rng *r, double x, double y)
 {
     const double w = eighths(r, 8, 40), h = eighths(r, 8, 40);
@@ -158,7 +158,7 @@ static void lay_out(layer *l, rng *r, double tolerance)
     }
 }
 
-/* Carries off by a multiple of 1/8 within the limit; a block as one. */
+/* Moves each block by multiples of 1/8 within its limit. */
 static void carry_off(layer *l, rng *r)
 {
     const double limit = eighths(r, 4, 64);
@@ -199,7 +199,7 @@ static void plant(rng *r, layer *l)
 {
     memset(l, 0, sizeof *l);
     sunder_layer_options_init(&l->options);
-    l->options.allow_jumps = true; /* a planted place may lie behind a neighbour */
+    l->options.allow_jumps = true; /* a planted place may be behind a neighbour */
     l->options.gap = rng_once_in(r, 4) ? 0 : eighths(r, 1, 24);
     l->options.contained = (sunder_containment)rng_int(r, 0, 2);
     l->options.touch_tolerance = l->options.gap > 0 && rng_once_in(r, 2) ? l->options.gap / 4 : 0;
@@ -224,7 +224,7 @@ static size_t count(const sunder_conflict_counts *c)
     return c->overlap + c->too_close + c->barrier + c->barrier_drawn + c->barrier_near + c->contained + c->duplicate;
 }
 
-/* Is what was planted a solution, as the rules see it: do the blocks of the start go as one, and is it at peace? */
+/* Is the planted layout a solution by the rules: do the blocks of the start move as one, and are there no conflicts? */
 static bool is_solution(const layer *l, const sunder_report *report)
 {
     sunder_feature feature[MOST];
@@ -303,7 +303,8 @@ static plot *add_slanted(layer *l, const double o[2], const double e[2], double 
 }
 
 /* A slanted corridor between fixed walls. A body in it that is too near to both walls, or exactly between them, is
- * pressed along it by others, and doubles hold no such move. The rest, beside the corridor, has room. */
+ * pressed along it by others, and no double represents such a move exactly. The other features, outside the corridor,
+ * have room. */
 static void check_corridors(void **state)
 {
     (void)state;

@@ -1,8 +1,9 @@
-/* Worlds are independent of the rest of the layer. Let a part of the layer contain everything that a world read. Then
- * the part gives the same result for that world as the whole layer, to the last bit, unless another world of the part
- * changed something there. The results of worlds, of unchanged blocks and of moves add up to the result of the layer.
+/* Worlds (sunder_parts.h: groups of features whose result does not depend on others) are independent of the rest of the
+ * layer. Let a part of the layer contain everything that the computation of a world looked at. Then the part gives the
+ * same result for that world as the whole layer, to the last bit, unless another world of the part changed something
+ * there. The results of worlds, of unchanged blocks and of moves add up to the result of the layer.
  *
- * Layers are fields of slanted boxes, most of them apart, some with fixed ones, limits, blocks, and barriers: roads
+ * Layers are fields of slanted boxes, most of them separate, some with fixed ones, limits, blocks, and barriers: roads
  * across the whole layer, and ponds. */
 #include "polyset.h"
 #include "random.h"
@@ -25,7 +26,7 @@ enum { MOST = 160, FIELDS = 200, BARRIERS = 4, BENDS = 5 };
 typedef struct field {
     sunder_feature feature[MOST];
     size_t n;
-    sunder_barrier barrier[BARRIERS]; /* all of them are of each part, too */
+    sunder_barrier barrier[BARRIERS]; /* every part contains all of them */
     double road[BARRIERS][2 * BENDS];
     size_t bends, barriers;
     sunder_layer_options options;
@@ -61,7 +62,7 @@ static void draw_options(field *f, rng *r)
     f->options.threads = (unsigned)rng_int(r, 1, 2);
 }
 
-/* On a grid with rather more room than they need, shaken; their places in the list are drawn. */
+/* Boxes on a grid with slightly more room than they need, displaced at random; their order in the list is random. */
 static void lay_out(field *f, rng *r)
 {
     const bool limited = rng_once_in(r, 2);
@@ -145,7 +146,8 @@ static void demand_same_counts(const sunder_conflict_counts *a, const sunder_con
 
 static double or_none(double length) { return isnan(length) ? -1 : length; }
 
-/* Conflicts of the world's features, k-th and k-th; from: the whole's number of each of the part's things. */
+/* Compares the conflicts of the world's features one by one; from: the index in the whole layer of each feature of the
+ * part. */
 static void demand_same_conflicts(const sunder_report *whole, const sunder_report *part, size_t world, size_t of_part,
                                   const size_t *from)
 {
@@ -172,7 +174,7 @@ static void demand_same_conflicts(const sunder_report *whole, const sunder_repor
     assert_int_equal(j, m);
 }
 
-/* The parts of a world, in any order. */
+/* Compares the bounds of the parts of a world, in any order. */
 static void demand_same_bounds(const sunder_world_bound *one, const sunder_world_bound *other, size_t n)
 {
     sunder_total a[2] = {{.beyond = 0}}, b[2] = {{.beyond = 0}};
@@ -216,7 +218,7 @@ static void demand_same_world(const sunder_report *whole, const sunder_report *p
     demand_same_conflicts(whole, part, world, of_part, from);
 }
 
-/* Does all of the field that meets what the part's world saw belong to the part? */
+/* Does the part contain all features that meet the area at which the part's world looked? */
 static bool is_complete(const field *f, const bool *there, const sunder_report *part, size_t of_part)
 {
     size_t n, footprints;
@@ -231,8 +233,8 @@ static bool is_complete(const field *f, const bool *there, const sunder_report *
     return true;
 }
 
-/* Did others, that are not in the part or are cut by it, come where the part's world looked? Then they are of one world
- * in the whole. */
+/* Did features that are not in the part, or of which it has only some, come into the area at which the part's world
+ * looked? Then the world of the whole layer has more features. */
 static bool is_joined(const sunder_report *whole, const sunder_report *part, size_t of_part, const size_t *from,
                       size_t parts)
 {
@@ -260,7 +262,7 @@ static size_t look_at_part(const field *f, const sunder_report *whole, const boo
         chosen[n] = f->feature[k];
         from[n++] = k;
     }
-    if (n == f->n) return 0; /* it tells nothing */
+    if (n == f->n) return 0; /* the whole layer, so there is nothing to compare */
     for (size_t k = 0; k < f->barriers; k++) from[n + k] = f->n + k;
     sunder_report *part = separate_beside(f, chosen, n);
     const sunder_world *w = sunder_report_worlds(part, &worlds);
@@ -281,7 +283,7 @@ static void add_blocks(const field *f, bool *there)
             there[k] = there[m] && f->feature[m].block == f->feature[k].block;
 }
 
-/* Tests the part that meets everything that a world read, and the part that meets a random box. */
+/* Tests the part that meets everything that a world looked at, and the part that meets a random box. */
 static size_t look_at_parts(const field *f, rng *r, const sunder_report *whole)
 {
     size_t worlds, footprints, same = 0;

@@ -1,11 +1,11 @@
-/* Huts in yards, with known answers: a yard is closed, or has a gate, and is as wide as its hut needs or is not.
+/* Huts in courtyards, with known results: a courtyard is closed, or has a gate, and is wide enough for its hut or not.
  *
- * The yard is a rectangle, within one wall with a hole or within several that touch: side by side, mitred, cut in two.
- * The hut is a rectangle too, so it has a place in the yard exactly if both sides leave the gap twice. It may leave by
- * the gate exactly if some ray from its anchor goes through without touching the gate's corners, and no anchor of a
- * wall would go over the hut, as that sees it. Then no conflict is proved to need a jump. Else each that is left is, of
- * a wall all around; beside one of several walls the hut may have room, as the reason asks, though not beside them all.
- * All lengths are eighths. */
+ * The courtyard is a rectangle, within one wall with a hole or within several walls that touch: side by side, mitred,
+ * cut in two. The hut is a rectangle, too, so it fits in the courtyard exactly if both dimensions leave twice the gap.
+ * It may leave through the gate exactly if some ray from its anchor passes without touching the gate's corners, and no
+ * anchor of a wall would cross the hut, relative to the hut. In that case no conflict may be proved to need a jump.
+ * Otherwise each remaining conflict with a wall that surrounds the hut has to be proved to; with one of several walls
+ * it need not be, since beside that wall alone the hut may have room. All lengths are eighths. */
 #include "random.h"
 #include "scene.h"
 
@@ -22,8 +22,8 @@
 #define MOST_TOLD 256
 
 typedef struct yard {
-    double x, y, w, h, wall; /* the free inside, and the thickness of its walls */
-    double gate[2];          /* in the right wall, from and to; both NAN: none */
+    double x, y, w, h, wall; /* the free rectangle inside, and the thickness of its walls */
+    double gate[2];          /* the interval of the gate in the right wall; both NAN: there is none */
     double hut[4];           /* its box */
     bool turned;             /* x and y are swapped */
 } yard;
@@ -78,7 +78,7 @@ static void add_mitred(scene *s, const yard *y)
     add(s, y, (double[]){l - k, b - k, l, b, l, t, l - k, t + k});
 }
 
-/* Walls below and above reach over the corners; each is of one part or of two. The right one may have a gate. */
+/* The walls below and above extend over the corners; each is of one part or of two. The right one may have a gate. */
 static void add_walls(scene *s, const yard *y, rng *r)
 {
     const double left = y->x - y->wall, right = y->x + y->w + y->wall, top = y->y + y->h;
@@ -95,7 +95,7 @@ static void add_walls(scene *s, const yard *y, rng *r)
     add_box(s, y, y->x + y->w, gate ? y->gate[1] : at, right, top);
 }
 
-/* The angles of the box as seen from p; those of the corners differ by less than half a turn. */
+/* The interval of angles at which the box is seen from p, less than half a turn. */
 static void angles_of(const double box[4], const double p[2], double out[2])
 {
     const double mid = atan2((box[1] + box[3]) / 2 - p[1], (box[0] + box[2]) / 2 - p[0]);
@@ -109,7 +109,7 @@ static void angles_of(const double box[4], const double p[2], double out[2])
     }
 }
 
-/* Takes the directions from..to out of a list of intervals; returns how many they are then. */
+/* Removes the directions from..to from a list of intervals; returns their new number. */
 static size_t take_out(double (*free)[2], size_t n, double from, double to)
 {
     for (size_t k = 0, before = n; k < before; k++) {
@@ -124,8 +124,8 @@ static size_t take_out(double (*free)[2], size_t n, double from, double to)
     return n;
 }
 
-/* May the hut leave through the gate in a straight line, so that its anchor meets no wall and the hut no anchor of the
- * walls? NAN: too close to decide. */
+/* May the hut leave through the gate in a straight line, so that its anchor meets no wall and the hut meets no anchor
+ * of the walls? NAN: too close to decide. */
 static double may_leave(const yard *y, const scene *s, size_t walls)
 {
     const double *b = y->hut, at[2] = {(b[0] + b[2]) / 2, (b[1] + b[3]) / 2};
@@ -140,7 +140,7 @@ static double may_leave(const yard *y, const scene *s, size_t walls)
         sunder_shape_anchor(s->feature[k].shape, p);
         const double in_yard[2] = {p[y->turned], p[!y->turned]};
         angles_of(b, in_yard, angle);
-        /* The wall moves in the opposite direction. */
+        /* Relative to the hut, a wall moves in the opposite direction. */
         for (int turn = -3; turn <= 3; turn += 2) n = take_out(free, n, angle[0] + turn * PI, angle[1] + turn * PI);
     }
     for (size_t k = 0; k < n; k++) widest = fmax(widest, free[k][1] - free[k][0]);
@@ -161,12 +161,12 @@ static void make(rng *r, yard *y, double gap)
     y->hut[1] = y->y + (centred ? (y->h - h) / 2 : floor(8 * (y->h - h) * rng_unit(r)) / 8);
     y->hut[2] = y->hut[0] + w;
     y->hut[3] = y->hut[1] + h;
-    /* Too narrow for the hut: it stands nowhere in it. */
+    /* Too narrow for the hut, which therefore overlaps the walls at the start. */
     y->gate[0] = y->y + eighths(r, 1, (int)(8 * h) - 2);
     y->gate[1] = y->gate[0] + eighths(r, 1, (int)(8 * (y->y + h - y->gate[0])));
 }
 
-/* How far the hut stands from the nearest wall. */
+/* The distance of the hut from the nearest wall. */
 static double clearance(const yard *y)
 {
     const double *b = y->hut;
@@ -235,7 +235,7 @@ static void check_case(rng *r, size_t counts[3])
         assert_true(kind == 0 ? jump == shut : jump <= shut);
     }
     assert_true(s.summary.verified);
-    /* A place just as wide as the hut leaves a search no margin. */
+    /* If the courtyard is exactly as wide as the hut needs, the search has no margin and may fail. */
     if (spare > 2 * gap) assert_int_equal(left, 0);
     if (spare < 2 * gap && !(leaves > 0)) assert_true(left > 0);
     counts[fits ? 0 : leaves > 0 ? 1 : 2]++;
@@ -257,8 +257,8 @@ static void check_yards(void **state)
     assert_true(counts[0] && counts[1] && counts[2]);
 }
 
-/* A box and a quadrangle of one block lie across a frame, and neither may jump over it. The box has no solution; the
- * quadrangle has one by itself, and it is taken. */
+/* A box and a quadrangle in one block lie across a frame, and neither may jump over it. The box's conflict has no
+ * solution; the quadrangle's has one by itself, and it is used. */
 static void check_one_of_two(void **state)
 {
     (void)state;

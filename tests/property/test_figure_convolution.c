@@ -1,8 +1,9 @@
-/* The convolution's curve against bands in a map: one stage of a closing or an opening, made along both roads, is the
- * same sum, exactly. A closing by an n-gon takes work that grows with n as the dilation does.
+/* The convolution computed as a curve compared with bands in a planar map: one stage of a closing or an opening,
+ * computed by both algorithms, is exactly the same sum. The work for a closing by an n-gon grows with n as that for a
+ * dilation does.
  *
- * Huts are rectangles at all angles on a fine grid, rows of boxes on a coarse one meet in the places where the curve
- * has to decline. */
+ * Houses are rectangles at all angles on a fine grid; rows of boxes on a coarse grid meet in configurations for which
+ * the curve algorithm has to decline. */
 #include "polyset.h"
 #include "random.h"
 #include "sum_text.h"
@@ -42,7 +43,7 @@ static void add_box(polyset *set, rng *r, int extent)
     polyset_rectangle(set, x, y, x + (double)rng_int(r, 1, 6), y + (double)rng_int(r, 1, 6));
 }
 
-/* Houses whose diagonals are walls: corners in the middle of others' sides, and at others' corners. */
+/* Houses whose walls are diagonal: corners in the middle of other houses' sides, and at other houses' corners. */
 static void add_roof(polyset *set, rng *r, int extent)
 {
     const double x = (double)rng_int(r, 0, extent), y = (double)rng_int(r, 0, extent), a = (double)rng_int(r, 1, 4);
@@ -117,7 +118,7 @@ static void compare(const sunder_i_morphology_operands *o, const sunder_i_figure
     sunder_sum_free(curve);
 }
 
-/* Compares each island of a set: eroded, and (open) dilated again. */
+/* Compares each component of a set: eroded, and (open) dilated again. */
 static void compare_islands(const sunder_i_morphology_operands *o, const sunder_sum *whole, bool open, tally *t)
 {
     for (size_t i = 0; i < whole->polygons; i++) {
@@ -156,7 +157,7 @@ static void compare_scene(uint64_t seed, size_t i, scene_kind kind, bool open, t
     sunder_shape_free(b);
 }
 
-/* At least `share` of the stages have to go along the curve: else nothing is compared. */
+/* At least `share` of the stages have to use the curve algorithm, else there is nothing to compare. */
 static void compare_scenes(bool open, scene_kind kind, double share)
 {
     const size_t n = test_count(150);
@@ -205,8 +206,7 @@ static size_t looks_of(const sunder_shape *p, sunder_operation operation, unsign
     return looks;
 }
 
-/* From n to 8 n segments a work that is linear grows to eight times as much at most, one of bands to some fifty
- * times. */
+/* From n to 8 n segments linear work grows at most by a factor of eight, and the work with bands by some fifty. */
 static void test_work_grows_with_segments_as_dilation_does(void **state)
 {
     polyset set;

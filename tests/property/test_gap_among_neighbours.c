@@ -12,19 +12,19 @@
 
 #include <cmocka.h>
 
-/* A question moves the two and their neighbours; in a longer row more boxes would have to keep the places of the
- * result. */
+/* The computation of need_gap moves the two features and their neighbours only; in a longer row more boxes would have
+ * to keep the places of the result. */
 enum { MOST = 2, TALL = 400 };
 
-/* Boxes between walls; stood: the distance between each and the next at the start. */
+/* Boxes between walls; stood: the distances between neighbours at the start. */
 typedef struct row {
     size_t n;
     double at[MOST + 2], wide[MOST + 2], limit[MOST + 2], stood[MOST + 1], gap;
     bool listed[MOST + 1];
 } row;
 
-/* Can all boxes stand so that each pair keeps the distance that it owes at that gap? From the left, each box is placed
- * as far left as possible. all: listed pairs other than `pair` owe it, too. */
+/* Can all boxes be placed so that each pair keeps the distance required with that gap? Each box, from left to right, is
+ * placed as far left as possible. all: listed pairs other than `pair` have to keep the gap, too. */
 static bool has_solution(const row *r, size_t pair, double gap, bool all)
 {
     double end = r->at[0] + r->wide[0];
@@ -38,7 +38,7 @@ static bool has_solution(const row *r, size_t pair, double gap, bool all)
     return true;
 }
 
-/* -1: there is none. */
+/* Returns -1 if there is none. */
 static double largest_gap(const row *r, size_t pair, bool all)
 {
     double low = 0, high = r->gap;
@@ -57,7 +57,7 @@ static row random_row(rng *r)
     for (size_t k = 0; k < out.n; k++) {
         const bool wall = k == 0 || k + 1 == out.n;
         out.at[k] = x;
-        out.wide[k] = 15 + 5 * rng_unit(r); /* no two but neighbours are near */
+        out.wide[k] = 15 + 5 * rng_unit(r); /* so that only neighbours are near each other */
         out.limit[k] = wall ? 0 : 0.1 + out.gap * rng_unit(r);
         if (k) out.stood[k - 1] = out.at[k] - (out.at[k - 1] + out.wide[k - 1]);
         x += out.wide[k] + out.gap * (1.3 * rng_unit(r) - 0.3);

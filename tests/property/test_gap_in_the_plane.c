@@ -1,7 +1,7 @@
-/* The interval that contains a conflict's largest gap by the report, need_gap to need_gap_most, compared with a branch
- * and bound over the moves of one box among fixed boxes. The signed distance of two boxes (the distance, or minus the
- * depth) changes by no more than the move, so its value at the middle of a square bounds it in the whole square, from
- * both sides. */
+/* The interval that contains a conflict's largest gap according to the report, need_gap to need_gap_most, compared with
+ * a branch and bound over the moves of one box among fixed boxes. The signed distance of two boxes (the distance, or
+ * minus the depth) changes by no more than the move, so its value at the centre of a square bounds it in the whole
+ * square, from both sides. */
 #include "random.h"
 #include "scene.h"
 
@@ -34,8 +34,9 @@ static double signed_distance(const box *a, const box *b, double ux, double uy)
     return hypot(fmax(x, 0), fmax(y, 0));
 }
 
-/* The largest gap that all moves of a square leave at most (r: half its diagonal), or that its middle leaves (r = 0).
- * all: listed pairs other than `pair` owe the gap as well; else they stand no worse than at the start. */
+/* An upper bound of the gap that moves in a square leave (r: half its diagonal), or the gap that its centre leaves (r =
+ * 0). all: listed pairs other than `pair` have to keep the gap as well; else they may not be worse than at the
+ * start. */
 static double gap_at(const room *g, size_t pair, bool all, double ux, double uy, double r)
 {
     double least = g->gap;
@@ -48,7 +49,7 @@ static double gap_at(const room *g, size_t pair, bool all, double ux, double uy,
     return least;
 }
 
-/* Squares that may hold better moves than those found are divided, until none is better by more than `width`. */
+/* Squares that may contain better moves than those found are divided, until none is better by more than `width`. */
 static void largest_gap(const room *g, size_t pair, bool all, double width, double *low, double *high)
 {
     static double square[SQUARES][3];

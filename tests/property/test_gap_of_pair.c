@@ -1,5 +1,5 @@
-/* The value of need_gap for a conflict of two features alone, compared with the two directly: with that gap their
- * limits are long enough, and with a gap larger by a hundredth of the layer's they are not. */
+/* The value of need_gap for a conflict of two features without neighbours: with that gap their limits are long enough,
+ * and with a gap that is larger by a hundredth of the layer's gap they are not. */
 #include "generate.h"
 #include "scene.h"
 
@@ -32,7 +32,8 @@ static void add(scene *s, const polyset *set, double limit)
     free(wkt);
 }
 
-/* Two that overlap, the one fixed as often as not, with limits that part them and do not leave the gap. */
+/* Two features that overlap, one of them fixed in half of the cases, with limits that are long enough to separate them,
+ * and too short for the gap. */
 static bool is_right(uint64_t i, size_t *asked)
 {
     rng r = rng_start(test_seed() + 90, i);

@@ -1,5 +1,6 @@
-/* The sizes of the sums of the families, and the work for them, as functions of the sizes of P and Q: counts of the
- * output and of operations, never time. The families come from sunder-families, so the generator is tested, too. */
+/* The sizes of sums of the families, and the work for them, as functions of the sizes of P and Q: measured by the size
+ * of the output and counts of operations, never by time. The families come from sunder-families, so the generator is
+ * tested, too. */
 #include "generated.h"
 
 #include <setjmp.h>
@@ -57,7 +58,7 @@ static void test_convex(void **state)
         }
 }
 
-/* Half of the m vertices are tips, and each tip shows nearly half of Q. */
+/* Half of the m vertices are tips, and nearly half of Q is visible at each tip. */
 static void test_comb(void **state)
 {
     growth before = grow("comb", 20, 20, 1);
@@ -71,7 +72,8 @@ static void test_comb(void **state)
     }
 }
 
-/* The holes of the grid, and no more vertices than crossings of all pairs of sums of teeth allow. */
+/* The number of holes of the grid is exact, and there are no more vertices than crossings of all pairs of sums of
+ * teeth. */
 static void test_fork(void **state)
 {
     static const char *const names[] = {"fork", "slanted-fork"};
@@ -82,8 +84,7 @@ static void test_fork(void **state)
             const growth g = grow(names[slanted], n, n, 1);
             assert_true(g.out.holes >= (teeth * teeth - 1) * (teeth * teeth - 1));
             assert_true(g.out.vertices <= g.m * g.m * g.n * g.n);
-            if (n > 32)
-                assert_ratio(before.out.vertices, g.out.vertices, 10, 32); /* 2^4, and more while the forks are short */
+            if (n > 32) assert_ratio(before.out.vertices, g.out.vertices, 10, 32); /* 2^4, and more for short forks */
             if (n > 32) assert_ratio(before.counts.segment_intersections, g.counts.segment_intersections, 8, 40);
             before = g;
         }
@@ -92,7 +93,8 @@ static void test_fork(void **state)
     }
 }
 
-/* A sum no larger than its operands, on top of the fork's; what is covered is discarded before it is arranged. */
+/* A sum that is no larger than its operands, added to the fork's; covered parts are discarded before the arrangement is
+ * computed. */
 static void test_covered_fork(void **state)
 {
     for (size_t n = 16; n <= 256; n *= 2) {
@@ -117,7 +119,7 @@ static void test_fat(void **state)
     }
 }
 
-/* Every room a hole, every passage a segment, the blind one too. */
+/* Every room gives a hole, every passage a segment, also the one with a dead end. */
 static void test_tight(void **state)
 {
     for (size_t m = 8; m <= 264; m = 2 * m - 4)
@@ -158,7 +160,7 @@ static void test_committed(void **state)
     }
 }
 
-/* For a wrong family, size or seed the status is 2, and standard output is empty. */
+/* For a wrong family, size or seed the status is 2, and nothing is written to standard output. */
 static void test_refused(void **state)
 {
     static const char *const wrong[] = {

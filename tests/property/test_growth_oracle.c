@@ -1,5 +1,5 @@
-/* Small members of every family, other seeds each, at integer and at map-like coordinates: the library's sum, on both
- * kinds of numbers, is the oracle's, byte for byte. */
+/* Small members of every family, with other seeds each, at integer coordinates and at coordinates as in maps: the
+ * library's sum, with both kinds of numbers, equals the oracle's, byte for byte. */
 #include "generated.h"
 #include "oracle.h"
 #include "random.h"

@@ -1,5 +1,5 @@
-/* The three unions of subsums, measured by counts of operations and sizes of maps, never by time, on the families that
- * distinguish them. */
+/* The three algorithms that unite subsums, measured by counts of operations and sizes of maps, never by time, on the
+ * families that distinguish them. */
 #include "generated.h"
 
 #include <setjmp.h>
@@ -61,9 +61,9 @@ static size_t logarithm(size_t n)
     return l;
 }
 
-/* I + k log k: the questions asked are few for each edge of the arrangement and, to find the first corner of each
- * subsum, few for each level of the history. The edges are I up to a constant. That constant grew slowly over the sizes
- * tried, and less than the logarithm of the size of the map. */
+/* I + k log k: the questions are few per edge of the arrangement and, to find the first corner of each subsum, few per
+ * level of the history. The number of edges is I up to a constant factor. That factor grew slowly over the sizes tried,
+ * and less than the logarithm of the size of the map. */
 static void test_arrangement(void **state)
 {
     for (size_t n = 16; n <= 96; n *= 2) {
@@ -74,8 +74,8 @@ static void test_arrangement(void **state)
     }
 }
 
-/* With the largest subsums first the cost follows the output; drawn at random, the forks are arranged before they are
- * covered. */
+/* With the largest subsums first the cost is proportional to the output; in random order, the arrangement of the forks
+ * is computed before they are covered. */
 static void test_covered_fork(void **state)
 {
     for (size_t n = 32; n <= 96; n += 32) {
@@ -88,9 +88,9 @@ static void test_covered_fork(void **state)
     }
 }
 
-/* Where one operand is a single convex polygon there is nothing for the first round of divide and conquer to unite:
- * each P + Q_j is one subsum, and log t rounds of overlays do the work, each on maps nearly as large as the result.
- * With the operands exchanged the only P + Q_1 is the incremental union itself. */
+/* If one operand is a single convex polygon there is nothing for the first round of divide and conquer to unite: each P
+ * + Q_j is one subsum, and log t rounds of overlays are necessary, each on maps nearly as large as the result. With the
+ * operands exchanged the only P + Q_1 is the incremental union itself. */
 static void test_divide_on_comb(void **state)
 {
     for (size_t n = 32; n <= 128; n *= 2) {

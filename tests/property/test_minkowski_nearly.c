@@ -1,5 +1,6 @@
-/* Sums and unions of operands whose members nearly coincide: the sum by every road, on every rung and with the operands
- * exchanged is the same, byte for byte; of small ones it is the oracle's. The union's area is that found by slabs. */
+/* Sums and unions of operands whose members nearly coincide: all algorithms, with all kinds of numbers and with the
+ * operands exchanged, give the same sum, byte for byte; for small operands it equals the oracle's. The area of the
+ * union is compared with that computed by slabs. */
 #include "generate_nearly.h"
 #include "oracle.h"
 #include "roads.h"
@@ -13,7 +14,7 @@
 
 #include <cmocka.h>
 
-#define SHOWN 3 /* disagreements written out; the rest are counted */
+#define SHOWN 3 /* at most this many disagreements are printed; the rest are counted */
 
 typedef struct nearly_case {
     polyset p, q;
@@ -52,7 +53,7 @@ static bool same(char *got, const char *want)
     return equal;
 }
 
-/* NULL, or the oracle that disagrees. */
+/* Returns NULL, or the name of the algorithm that disagrees. */
 static const char *roads_differ(const nearly_case *c, const char *sum, bool all, bool shown)
 {
     if (!same(library_sum_text(&c->q, &c->p), sum)) return "Q + P is another sum";

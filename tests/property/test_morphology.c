@@ -1,10 +1,10 @@
-/* Erosions and closings against brute force.
+/* Erosions and closings compared with brute force.
  *
- * The oracle (support/oracle.h, no code of src/) decides whether a point lies in int X + int Y. Let D be a closed
- * regular set. B + x lies within D exactly if x is not in the sum of -B and the complement of D (cut off by a frame).
- * This is tested for erosions and closings at all places where they could be wrong: their corners, middles between two
- * of them, all differences of corners of D and B (which include ends of degenerate parts), middles between two of
- * those, and random places. Everything is scaled so that all of these are integers. */
+ * The oracle (support/oracle.h, which shares no code with src/) decides whether a point lies in int X + int Y. Let D be
+ * a closed regular set. B + x lies within D exactly if x is not in the sum of -B and the complement of D (cut off by a
+ * frame). Erosions and closings are tested at all places where they could be wrong: their corners, midpoints of two
+ * corners, all differences of corners of D and B (which include ends of degenerate parts), midpoints of two of those,
+ * and random places. Everything is scaled so that all of these are integers. */
 #include "morphology_case.h"
 #include "oracle.h"
 
@@ -35,9 +35,9 @@ static bool contains(const integer_set *s, const double *at)
 
 typedef struct probing {
     const integer_set *set;
-    const oracle *outside;         /* of the complement and -B */
-    double *at;                    /* places to ask */
-    size_t n, wrong, inside, slim; /* slim: inside, but not in the polygons */
+    const oracle *outside;         /* the oracle for the complement and -B */
+    double *at;                    /* places to test */
+    size_t n, wrong, inside, slim; /* slim: inside, but not in the polygons, so in a degenerate part */
 } probing;
 
 static void ask(probing *p, double x, double y)
@@ -54,7 +54,8 @@ static void ask(probing *p, double x, double y)
     if (p->wrong < 4) print_message("at (%s %s): the library says %d, the oracle %d\n", tx, ty, ours, theirs);
 }
 
-/* All corners, all differences of corners, then middles of pairs, and others. All are even: so middles are integers. */
+/* All corners, all differences of corners, then midpoints of pairs, and others. All corners are even, so that midpoints
+ * are integers. */
 static void ask_all(probing *p, const polyset *d, const polyset *b, rng *r, double reach)
 {
     const integer_set *s = p->set;
@@ -82,11 +83,11 @@ static void ask_all(probing *p, const polyset *d, const polyset *b, rng *r, doub
     free(p->at);
 }
 
-/* Is `sum`, from operands that are the integers given, the erosion of the regular set d by b? */
+/* Is `sum`, computed from the given integer operands, the erosion of the regular set d by b? */
 static bool is_erosion(const sunder_sum *sum, const polyset *d, const polyset *b, rng *r, size_t *slim)
 {
     const long k = morphology_scale(sum);
-    if (!k) return true; /* counted by the caller */
+    if (!k) return true; /* the caller counts it */
     integer_set s;
     polyset big_d, big_b, outside;
     sunder_sum_get_size(sum, &s.size);

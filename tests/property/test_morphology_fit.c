@@ -1,7 +1,7 @@
-/* Does a convex D fit into the intersection of P and Q? Compared with a brute force in integers that shares no code. If
- * D fits, it fits at a corner of the set of its positions. There two of these lines meet: the line of a side of P or Q,
- * moved by minus a corner of D; or the line of a side of -D, moved to a corner of P or Q. Every such place is tried.
- * Coordinates are small, so exact fits, along a line and at a point, are frequent. */
+/* Does a convex D fit into the intersection of P and Q? Compared with brute force in integers that shares no code with
+ * the library. If D fits, it fits at a corner of the set of its positions, where two of these lines meet: the line of a
+ * side of P or Q, moved by minus a corner of D; or the line of a side of -D, moved to a corner of P or Q. Every such
+ * place is tried. Coordinates are small, so exact fits, along a line and at a point, are frequent. */
 #include "failing.h"
 #include "morphology/morphology.h"
 #include "random.h"
@@ -36,7 +36,7 @@ static sunder_status make(const ring *r, int rings, const double origin[2], sund
     return sunder_shape_from_rings(xy[0], ring_end, poly_end, (size_t)rings, SUNDER_VALIDITY_STRICT, out, NULL);
 }
 
-/* Does it fit, and is the answer the same moved, and with P and Q exchanged? */
+/* Does D fit, and is the answer the same after a translation, and with P and Q exchanged? */
 static bool asked(const sunder_shape *p, const sunder_shape *q, const sunder_shape *d, rng *r)
 {
     bool fits, again;
@@ -54,7 +54,7 @@ static int64_t cross(const int64_t a[2], const int64_t b[2], const int64_t c[2])
     return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
 }
 
-/* Does the segment meet the interior of the convex ring, counter-clockwise? Its part inside every side's half-plane is
+/* Does the segment meet the interior of the convex, counter-clockwise ring? Its part within every side's half-plane is
  * low < s < high, in fractions; a segment along a side is outside. */
 static bool meets_interior(const int64_t a[2], const int64_t b[2], const ring *d)
 {
@@ -83,7 +83,8 @@ static bool holds_point(const ring *r, const int64_t at[2])
     return in;
 }
 
-/* Does D + x / w lie in the ring? Everything times w; its middle times the number of corners besides. */
+/* Does D + x / w lie in the ring? All numbers are multiplied by w, and those of the centre also by the number of
+ * corners. */
 static bool lies_in(const ring *r, const ring *d, const int64_t x[2], int64_t w)
 {
     ring at = {.n = d->n}, grown = {.n = r->n}, moved = {.n = d->n};
@@ -114,7 +115,7 @@ static size_t lines_of(const ring *r, const ring *d, line *out)
             for (int j = 0; j < by->n; j++) {
                 const int64_t *p = of->xy[i], *q = of->xy[(i + 1) % of->n], *v = by->xy[j];
                 const int64_t a = p[1] - q[1], b = q[0] - p[0], sign = k ? -1 : 1;
-                /* A side of r less v; or minus a side of D, at v. */
+                /* A side of r, moved by -v; or minus a side of D, at v. */
                 out[n++] = (line){a, b, sign * (a * (p[0] - v[0]) + b * (p[1] - v[1]))};
             }
     }
@@ -179,8 +180,8 @@ static void test_polygons(void **state)
 
 /* ---- Members that overlap and share walls ------------------------------------------------------------------------ */
 
-/* Rectangles: a rectangle fits into a union of such where all cells of the grid of half units that it holds are in
- * it; whole places, or ones that touch, are enough to try, since all corners are whole. */
+/* A rectangle fits into a union of rectangles if all cells of a grid of half units that it contains are in the union.
+ * All corners are integers, so it suffices to try integer positions, or positions in contact. */
 static bool rectangles_hold(const ring *r, int n, int x0, int y0, int x1, int y1)
 {
     for (int x = 2 * x0 + 1; x < 2 * x1; x += 2)
@@ -240,9 +241,9 @@ static void test_members(void **state)
 
 /* ---- The layer's question ---------------------------------------------------------------------------------------- */
 
-/* A bar in a slot that is too narrow by w on both sides. The translation that separates them is as long as they are,
- * and the overlap consists of two strips of width w. They are one block exactly if no disc fits, and a strip as wide as
- * the disc's box lets it fit. */
+/* A bar in a slot that is too narrow by w on both sides. A translation that separates them is as long as they are, and
+ * the overlap consists of two strips of width w. They are two bodies exactly if a disc of the tolerance fits into the
+ * overlap, which it does if the strips are as wide as the disc's box. */
 static bool join(double w, double tolerance)
 {
     const double slot[] = {0, 0, 10, 0, 10, 90, 0, 90, 20, 0, 30, 0, 30, 90, 20, 90},
@@ -276,8 +277,8 @@ static bool join(double w, double tolerance)
 static void test_slot(void **state)
 {
     for (double any = 0x1p-20; any < 4; any *= 1.75) {
-        const double hair = 0x1p-47;                                /* 20 + w holds it exactly, */
-        const double tolerance = ldexp(floor(ldexp(any, 45)), -45); /* and the disc's corners on the axes */
+        const double hair = 0x1p-47;                                /* exact in 20 + w, */
+        const double tolerance = ldexp(floor(ldexp(any, 45)), -45); /* and in the disc's corners on the axes */
         sunder_shape *disc;
         double box[4];
         assert_int_equal(sunder_shape_disc(tolerance / 2, 16, true, &disc, NULL), SUNDER_OK);

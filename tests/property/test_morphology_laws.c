@@ -12,7 +12,7 @@
 
 #include <cmocka.h>
 
-/* Canonical text of the union of two sets' polygons, which are integers. */
+/* Canonical text of the union of two sets of polygons with integer coordinates. */
 static char *union_text(const polyset *a, const polyset *b)
 {
     polyset both;
@@ -29,7 +29,7 @@ static char *union_text(const polyset *a, const polyset *b)
     return text;
 }
 
-/* Does a regular set lie within another? */
+/* Is a regular set a subset of another? */
 static bool within(const polyset *a, const polyset *b)
 {
     polyset none;
@@ -41,7 +41,7 @@ static bool within(const polyset *a, const polyset *b)
     return same;
 }
 
-/* Segments and points of an erosion, each plus B: members of a set. */
+/* Adds B at the segments and points of an erosion to a set, as members. */
 static void add_slim_parts(polyset *out, const polyset *b, const double *segments, size_t n, const double *points,
                            size_t m)
 {
@@ -72,8 +72,8 @@ static void add_slim_parts(polyset *out, const polyset *b, const double *segment
     free(t);
 }
 
-/* Let the closing of the complement by -B be removed from the frame. What remains is the sum of B and the interior of
- * the erosion. Together with the sum of B and the erosion's parts without area (exact fits), this is the opening. */
+/* The closing of the complement by -B is removed from the frame. What remains is the sum of B and the interior of the
+ * erosion. Together with the sum of B and the erosion's parts without area (exact fits), this is the opening. */
 static bool opening_is_what_closing_leaves(const polyset *p, const polyset *b, const sunder_sum *opened)
 {
     polyset c, turned;
@@ -98,7 +98,7 @@ static bool opening_is_what_closing_leaves(const polyset *p, const polyset *b, c
         polyset_copy(&large, b);
         polyset_scale(&large, (double)k, (double)k);
         add_slim_parts(&left, &large, segments, size.degenerate_segments, points, size.degenerate_points);
-        /* All else than the closed set was left, beyond the frame, too: that goes to the other side. */
+        /* The boundary of the frame was a part of the closed set; it belongs to the other side. */
         polyset ring;
         polyset_init(&ring);
         const double f = MORPHOLOGY_FRAME * (double)k, corners[8] = {-f, -f, f, -f, f, f, -f, f};

@@ -71,7 +71,8 @@ static void test_against_itself(void **state)
         }
     print_message("with holes %zu, degenerate segments %zu, degenerate points %zu\n", holes, segments, points);
     assert_int_equal(bad, 0);
-    /* The generators lean towards trouble: if they no longer do, the comparison with the library means little. */
+    /* The generators are meant to produce degenerate cases; if they no longer do, comparisons with the library mean
+     * little. */
     assert_true(10 * segments >= n && 10 * points >= n && 10 * holes >= n);
 }
 

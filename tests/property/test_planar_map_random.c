@@ -1,5 +1,6 @@
-/* planar_map/: random convex polygons on small grids, where coincidences are the rule, inserted, united, overlaid and
- * removed; the checker after every step, and counts and places against the polygons themselves in GMP's rationals. */
+/* planar_map/: random convex polygons on small grids, where coincidences are frequent, are inserted, united, overlaid
+ * and removed. The checker runs after every step, and counts and places are compared with the polygons themselves in
+ * GMP's rationals. */
 #include "gmp_numbers.h"
 #include "planar_map/planar_map.h"
 #include "random.h"
@@ -19,7 +20,7 @@
 
 typedef struct polygon {
     int n;
-    long x[MOST_CORNERS], y[MOST_CORNERS], w; /* over w */
+    long x[MOST_CORNERS], y[MOST_CORNERS], w; /* coordinates over the common denominator w */
 } polygon;
 
 typedef struct point {
@@ -44,7 +45,7 @@ static int by_xy(const void *a, const void *b)
     return p[0] != q[0] ? (p[0] < q[0] ? -1 : 1) : (p[1] > q[1]) - (p[1] < q[1]);
 }
 
-/* The hull of random points; `loose` keeps collinear corners and repeats some. False if it has no area. */
+/* The hull of random points; `loose` keeps collinear corners and repeats some. Returns false if it has no area. */
 static bool random_polygon(rng *g, polygon *p, bool loose)
 {
     const int style = (int)rng_int(g, 0, 3), wide = style == 3 ? 1000 : (int)rng_int(g, 2, 8);
@@ -86,7 +87,7 @@ static bool random_polygon(rng *g, polygon *p, bool loose)
         area += cross(hull[i][0], hull[i][1], hull[(i + 1) % m][0], hull[(i + 1) % m][1]);
     }
     if (area <= 0) return false;
-    if (loose && rng_once_in(g, 3)) { /* the last corner twice */
+    if (loose && rng_once_in(g, 3)) { /* repeats the last corner */
         p->x[m] = p->x[m - 1];
         p->y[m] = p->y[m - 1];
         p->n++;
@@ -94,7 +95,7 @@ static bool random_polygon(rng *g, polygon *p, bool loose)
     return true;
 }
 
-/* Sign of the side of (x, y) to side i of p: 0 on its line; 2 for a side without length. */
+/* Sign of the side on which (x, y) is of side i of p: 0 on its line; 2 for a side of length zero. */
 static int side_of(const polygon *p, int i, mpq_srcptr x, mpq_srcptr y)
 {
     const int j = (i + 1) % p->n;
@@ -131,7 +132,7 @@ static int place_in(const polygon *p, mpq_srcptr x, mpq_srcptr y)
     return least;
 }
 
-/* Has p a side on the line through a and b that goes the same way, with the point m between them on it? */
+/* Does p have a side on the line through a and b, with the same direction, that contains the midpoint m? */
 static bool has_side(const polygon *p, const point *a, const point *b, const point *m)
 {
     if (place_in(p, m->x, m->y) != 0) return false;
@@ -165,8 +166,8 @@ static void add_point(world *w, mpq_srcptr x, mpq_srcptr y)
     mpq_set(w->at[w->points++].y, y);
 }
 
-/* Crossings of the lines of all sides (among them every vertex of the arrangement), in random order and not more than
- * fit, points halfway between them, and points of a grid. */
+/* Crossings of the lines of all sides (which include every vertex of the arrangement), in random order and at most as
+ * many as fit, midpoints of pairs of them, and points of a grid. */
 static void choose_points(world *w)
 {
     mpq_t x, y;
@@ -177,7 +178,7 @@ static void choose_points(world *w)
                 for (int j = 0; j < w->p[b].n; j++) {
                     const polygon *p = &w->p[a], *q = &w->p[b];
                     const int i2 = (i + 1) % p->n, j2 = (j + 1) % q->n;
-                    /* Over p.w q.w: lines A x + B y = C. */
+                    /* Coordinates times p.w q.w: lines A x + B y = C. */
                     const long A = (p->y[i] - p->y[i2]) * q->w, B = (p->x[i2] - p->x[i]) * q->w;
                     const long C = (A * p->x[i] + B * p->y[i]) * q->w;
                     const long D = (q->y[j] - q->y[j2]) * p->w, E = (q->x[j2] - q->x[j]) * p->w;
@@ -299,8 +300,8 @@ static void vertex_point(const sunder_i_planar_map *map, uint32_t v, point *out)
     coordinate(out->y, at->y, at->w);
 }
 
-/* Every vertex and edge against the polygons. Where the map is clean (united) covered counts are 0 or 1 and all that
- * is left is uncovered. */
+/* Compares every vertex and edge with the polygons. If the map is clean (united), covered counts are 0 or 1, and no
+ * covered edges or vertices are left. */
 static void compare_cells(world *w, sunder_i_planar_map *map, bool clean)
 {
     point p, q, m;
@@ -429,7 +430,7 @@ static void test_divide(void **state)
     }
 }
 
-/* Edges out and segments in, in any order; at the end everything out, and one face left. */
+/* Edges are removed and segments inserted in any order; at the end all are removed, and one face is left. */
 static void test_removal(void **state)
 {
     (void)state;

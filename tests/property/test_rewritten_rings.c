@@ -1,6 +1,6 @@
-/* Operands whose rings are written in another way give the same sums, pairs, buffers and routes. A set is drawn, valid
- * or not, and written once more: rings reversed, begun at another vertex, closed twice, with repeated vertices and
- * vertices on straight edges; members and holes in another order. All results must be equal to the last letter: the
+/* Operands whose rings are written in another way give the same sums, pairs, buffers and routes. A random set, valid or
+ * not, is written a second time: rings reversed, starting at another vertex, closed twice, with repeated vertices and
+ * vertices on straight edges; members and holes in another order. All results must be equal to the last character: the
  * cleaned rings, exact texts, doubles, the order of ties, and the number of operations. (The number is not compared for
  * repaired sets: their lattice contains all given vertices, so a vertex in the middle of an edge makes it finer.) */
 #include "generate.h"
@@ -106,7 +106,7 @@ static void tell_pair(FILE *out, const sunder_shape *p, const sunder_shape *q, d
             on_q[0], on_q[1]);
 }
 
-/* Past P, from corner to corner of a box about it that leaves room for the robot. */
+/* A route around P, between opposite corners of a box around it that leaves room for the robot. */
 static void tell_route(FILE *out, const sunder_shape *p, const sunder_shape *robot)
 {
     double a[4], b[4];

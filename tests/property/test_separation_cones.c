@@ -1,5 +1,6 @@
-/* Which vertices an edge may meet, and whether a subsum of many sides holds a point: what sectors of directions and a
- * fan of triangles say, against every vertex in rationals, and every side. */
+/* Which vertices an edge may be in contact with, and whether a subsum with many sides contains a point: the answers by
+ * sectors of directions and by a fan of triangles, compared with tests of every vertex in rationals, and of every
+ * side. */
 #include "generate.h"
 #include "separation/obstacle/carrier.h"
 #include "separation/obstacle/cones.h"
@@ -36,7 +37,7 @@ static int turn(const double *a, const double *b, const double *c, const double 
     return sign;
 }
 
-/* Round, ragged or of many kinds of spikes, at coordinates that lattices hold narrowly and ones that they do not. */
+/* Round or ragged outlines, or ones with spikes of many kinds, at coordinates for narrow lattices and for wide ones. */
 static void random_outline(polyset *s, rng *r, int vertices)
 {
     polyset_init(s);
@@ -55,7 +56,7 @@ static void open_operands(sunder_i_operands *g, const sunder_shape *p, const sun
     assert_int_equal(sunder_i_operands_init(g, p, q, &options, NULL), SUNDER_OK);
 }
 
-/* For each edge of one operand every vertex of the other whose edges enclose it is found, and few others. */
+/* For each edge of one operand every vertex of the other whose edges enclose its direction is found, and few others. */
 static void check_cones(sunder_i_operands *g, size_t *asked, size_t *all)
 {
     for (int side = 0; side < 2; side++) {
@@ -100,7 +101,7 @@ static void check_meeting(void **state)
         random_outline(&p, &r, (int)rng_int(&r, 20, 400));
         random_outline(&q, &r, (int)rng_int(&r, 20, 400));
         sunder_shape *a = polyset_shape(&p), *b = polyset_shape(&q);
-        if (a && b) { /* few of these are no outlines once they are scaled */
+        if (a && b) { /* some of these are not valid outlines after scaling */
             sunder_i_operands g;
             open_operands(&g, a, b, rng_once_in(&r, 3));
             check_cones(&g, &asked, &all);
@@ -115,7 +116,7 @@ static void check_meeting(void **state)
     assert_true(asked * 4 < all * 3);
 }
 
-/* Is the start of the line in the interior of some subsum? Every side is tested exactly. */
+/* Is the start of the line in the interior of a subsum? Every side is tested exactly. */
 static bool is_held(sunder_i_operands *g, const sunder_i_carrier *line, const sunder_i_fraction *zero)
 {
     for (size_t k = 0; k < g->subsums; k++) {
@@ -128,8 +129,8 @@ static bool is_held(sunder_i_operands *g, const sunder_i_carrier *line, const su
     return false;
 }
 
-/* Ends of lines on corners, on sides, a hair off them and anywhere, asked of the subsums of two round outlines, mostly
- * one. */
+/* Ends of lines on corners, on sides, slightly off them and anywhere are tested for the subsums of two round outlines,
+ * mostly a single one. */
 static void check_holding(void **state)
 {
     (void)state;
@@ -153,7 +154,7 @@ static void check_holding(void **state)
         for (int t = 0; t < 60; t++) {
             const uint32_t i = (uint32_t)rng_int(&r, 0, (int)s->sides - 1);
             const uint32_t j = (uint32_t)rng_int(&r, 0, (int)s->sides - 1);
-            /* A corner, the sum of a corner and an edge's end, or one moved by a unit. */
+            /* A corner, the sum of a corner and an edge's end, or one of these moved by a unit. */
             sunder_i_point at = s->corner[i];
             if (rng_once_in(&r, 2)) at = sunder_i_operands_add(&g, at, s->side[j]);
             if (rng_once_in(&r, 2))

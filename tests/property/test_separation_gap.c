@@ -1,8 +1,9 @@
-/* Least translations with a gap: that they keep it, in rationals; that none shorter does, against an enumeration of
- * every place where two stretches of the grown boundary meet, in doubles. Shares no code with the library.
+/* Least translations with a gap: they keep the gap, in rationals; and no shorter one does, compared with an enumeration
+ * in doubles of all crossings of two parts of the dilated boundary. Shares no code with the library.
  *
- * Inputs are small integers, so what is not exactly at the gap is off it by far more than the 1e-9 allowed to doubles,
- * save for near-coincidences of irrational numbers, which the tolerance of 1e-6 on lengths absorbs. */
+ * Inputs are small integers, so a distance that is not exactly the gap differs from it by far more than the 1e-9
+ * allowed to doubles, except for near-coincidences of irrational numbers, which the tolerance of 1e-6 on lengths allows
+ * for. */
 #include "generate.h"
 #include "separation/least_translation.h"
 #include "separation/separation.h"
@@ -44,8 +45,8 @@ static double point_side(double x, double y, const side *s)
     return hypot(x - s->ax - t * dx, y - s->ay - t * dy);
 }
 
-/* Distance of P and Q + (tx, ty), 0 where they meet. Edges that cross are seen by their ends or by the inside tests
- * only where the boundaries do not cross; so crossings are looked for. */
+/* Distance of P and Q + (tx, ty), 0 if they meet. The distances of ends and the inside tests detect everything except
+ * edges that cross properly; so crossings are tested, too. */
 static double set_distance(const polyset *p, const polyset *q, const side *a, size_t n, const side *b, size_t m,
                            double tx, double ty, double enough)
 {
@@ -64,7 +65,7 @@ static double set_distance(const polyset *p, const polyset *q, const side *a, si
                          c4 = vx * (a[i].by - s.ay) - vy * (a[i].bx - s.ax);
             if (c1 * c2 < 0 && c3 * c4 < 0) return 0;
         }
-    /* Boundaries apart: one of a ring inside the other set means that the interiors meet. */
+    /* The boundaries do not meet: if one of them is inside the other set, the interiors meet. */
     for (size_t r = 0, v = 0; r < q->rings; v = q->ring_end[r++])
         if (polyset_holds(p, q->xy[2 * v] + tx, q->xy[2 * v + 1] + ty)) return 0;
     for (size_t r = 0, v = 0; r < p->rings; v = p->ring_end[r++])
@@ -134,7 +135,7 @@ static size_t find_tracks(track *t, const polyset *p, const polyset *q, double g
                     dy = -dy;
                 }
                 for (int sign = -1; sign <= 1; sign += 2) {
-                    /* Its point nearest to the origin stands for the line. */
+                    /* The line is given by its point nearest to the origin. */
                     const double h = dx * y - dy * x + sign * gap;
                     add_track(t, &n, (track){-dy * h, dx * h, dx, dy});
                 }
@@ -212,7 +213,8 @@ static void subtract(mpq_t out, double a, double b, const mpq_t t)
     mpq_clear(u);
 }
 
-/* Is the point v (as vectors from a to it, v, and along the side, d) at least the gap from the side? */
+/* Is the point at least the gap away from the side? The vector from a to the point is v, the one along the side is
+ * d. */
 static bool far_enough(const mpq_t vx, const mpq_t vy, double dx, double dy, double gap)
 {
     mpq_t u, w, along, square, limit, x, y;

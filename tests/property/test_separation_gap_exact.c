@@ -1,7 +1,7 @@
-/* Least translations with a gap on figures made to hurt the search, against brute force in long numbers (gap_oracle.h):
- * walls that are nearly collinear or nearly parallel, sides of rational length, corners and walls as far apart as
- * exactly fits, all moved off by powers of two from 2^-8 to 2^-52. Every answer is to keep the gap exactly, to be no
- * longer than the least by more than 1e-9, and to carry a bound that nothing beats; and there is to be one. */
+/* Least translations with a gap for figures that are difficult for the search, compared with brute force in long
+ * numbers (gap_oracle.h): walls that are nearly collinear or nearly parallel, sides of rational length, corners and
+ * walls at exactly fitting distances, all displaced by powers of two from 2^-8 to 2^-52. Each search has to find a
+ * result that keeps the gap exactly, is at most 1e-9 longer than the least, and has a valid lower bound. */
 #include "gap_oracle.h"
 #include "random.h"
 
@@ -36,7 +36,7 @@ static void box(polyset *s, double x0, double y0, double x1, double y1)
     polyset_polygon(s, xy, 4);
 }
 
-/* A floor of walls that bend by next to nothing, and a post over a bend. */
+/* A floor with nearly straight bends, and a post above a bend. */
 static double near_walls(polyset *p, polyset *q, rng *r)
 {
     static const double GAPS[] = {32, 31, 1, 0.5, 5, 3.25, 100};
@@ -49,7 +49,8 @@ static double near_walls(polyset *p, polyset *q, rng *r)
     return ANY_OF(r, GAPS);
 }
 
-/* Two walls, parallel or nearly so, and between them a box that has as much room as the gap asks for, or nearly. */
+/* Two walls, parallel or nearly so, and between them a box for which there is exactly as much room as the gap requires,
+ * or nearly. */
 static double corridor(polyset *p, polyset *q, rng *r)
 {
     static const double GAPS[] = {1, 0.5, 2, 3, 0.375};
@@ -70,12 +71,12 @@ typedef struct triple {
 static const triple TRIPLES[] = {{3, 4, 5}, {5, 12, 13}, {8, 15, 17}, {7, 24, 25}, {20, 21, 29}, {4, 3, 5}, {1, 0, 1}};
 static triple any_triple(rng *r) { return TRIPLES[rng_int(r, 0, 6)]; }
 
-/* Slanted walls of rational length, and a corner before them or between them. */
+/* Slanted walls of rational length, and a corner in front of them or between them. */
 static double rational_walls(polyset *p, polyset *q, rng *r)
 {
     const triple t = any_triple(r), u = any_triple(r);
     const double k = (double)rng_int(r, 1, 8), m = (double)rng_int(r, 1, 8), e = offset(r);
-    /* A valley down to the origin, or a wedge up to it. */
+    /* A valley with its bottom at the origin, or a wedge with its top there. */
     if (rng_once_in(r, 2)) {
         const double xy[] = {-k * t.x - 9,        -99, m * u.x + 9, -99,      m * u.x + 9, m * u.y,      m * u.x,
                              m * u.y + offset(r), e,   0,           -k * t.x, k * t.y,     -k * t.x - 9, k * t.y};
@@ -97,7 +98,7 @@ static double rational_walls(polyset *p, polyset *q, rng *r)
     return ANY_OF(r, GAPS);
 }
 
-/* Posts whose circles touch each other, or cross or miss by next to nothing. */
+/* Posts whose circles (with the gap as radius) touch each other, or nearly touch. */
 static double tangent_arcs(polyset *p, polyset *q, rng *r)
 {
     const triple t = any_triple(r), u = any_triple(r);
@@ -115,7 +116,7 @@ static double tangent_arcs(polyset *p, polyset *q, rng *r)
     return rng_once_in(r, 3) ? gap + offset(r) : gap;
 }
 
-/* A court or a bay that holds the box with the gap all round, exactly or nearly. */
+/* A courtyard or a bay that contains the box with the gap on all sides, exactly or nearly. */
 static double exact_fit(polyset *p, polyset *q, rng *r)
 {
     static const double GAPS[] = {1, 0.5, 2, 0.25, 1.5};
@@ -136,7 +137,7 @@ static double exact_fit(polyset *p, polyset *q, rng *r)
     return gap;
 }
 
-/* Small polygons on integers, each vertex a little off. */
+/* Small polygons with integer corners, each slightly displaced. */
 static double loose_integers(polyset *p, polyset *q, rng *r)
 {
     polyset *const set[] = {p, q};
@@ -166,7 +167,7 @@ static const maker MAKERS[] = {
 };
 #define KINDS (sizeof MAKERS / sizeof *MAKERS)
 
-/* The same figure seen otherwise: mirrored, with the axes swapped, with P and Q swapped. */
+/* The same figure mirrored, with the axes swapped, with P and Q swapped. */
 static void look_at(polyset *p, polyset *q, rng *r)
 {
     polyset *const set[] = {p, q};

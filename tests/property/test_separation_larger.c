@@ -1,6 +1,6 @@
-/* Least translations (and distances) of larger operands, where whole squares of the plane are dismissed at once:
+/* Least translations (and distances) of larger operands, for which the search discards whole squares of the plane:
  * equal, as rationals, to the least distance of the origin from the boundary and the degenerate holes of P + (-Q),
- * which the sum finds by other means. */
+ * which the sum computes by other means. */
 #include "generate.h"
 #include "sunder.h"
 
@@ -39,7 +39,8 @@ static void dot(mpq_t result, const mpq_t ax, const mpq_t ay, const mpq_t bx, co
     mpq_clear(t);
 }
 
-/* *least becomes the squared distance of the origin from the segment ab, where that is less (or *least is negative). */
+/* Replaces *least by the squared distance of the origin from the segment ab if that is less (or if *least is
+ * negative). */
 static void nearer(mpq_t least, const place *a, const place *b)
 {
     mpq_t dx, dy, t, length, x, y;
@@ -94,7 +95,7 @@ static void from_sum(mpq_t least, const sunder_sum *sum)
         nearer_segment(least, sum, sunder_sum_point(sum, i), sunder_sum_point(sum, i));
 }
 
-/* Q is put where its box is centred in that of P, or a little beside. */
+/* Moves Q so that its box is centred on that of P, or nearly so. */
 static void centre(polyset *q, const polyset *p, rng *r)
 {
     double low[2][2], high[2][2];
@@ -124,7 +125,7 @@ static bool agree(family_kind kind, uint64_t seed, size_t i, int low, int high)
     sunder_sum *sum = NULL;
     sunder_separation s;
     random_family(&p, &q, &r, kind, low, high);
-    if (kind != FAMILY_MAP && kind != FAMILY_TOWN) centre(&q, &p, &r); /* whole numbers only */
+    if (kind != FAMILY_MAP && kind != FAMILY_TOWN) centre(&q, &p, &r); /* these kinds have integer coordinates */
     sunder_shape *a = polyset_shape(&p), *b = polyset_shape(&q);
     assert_true(a && b);
     assert_int_equal(sunder_shape_reflect(b, &reflected, NULL), SUNDER_OK);
@@ -135,7 +136,7 @@ static bool agree(family_kind kind, uint64_t seed, size_t i, int low, int high)
     bool apart = false;
     assert_int_equal(sunder_pair_apart(a, b, 0, &apart, NULL), SUNDER_OK);
     assert_int_equal(apart, !s.overlap);
-    if (!apart) from_sum(least, sum); /* else zero */
+    if (!apart) from_sum(least, sum); /* otherwise the distance is zero */
     assert_int_equal(mpq_set_str(got, s.distance_squared_text, 10), 0);
     const bool ok = mpq_equal(least, got) != 0;
     if (!ok) {
@@ -190,8 +191,8 @@ static long double vertices_to_edges(const polyset *v, const polyset *e)
     return least;
 }
 
-/* Distances of stars that are apart, against every vertex and edge. The library's is promised to about an ulp, ours
- * in long double is better than that; 1e-12 leaves room for both. */
+/* Distances of separate stars, compared with the distances of every vertex and edge. The library promises about an ulp,
+ * the comparison in long double is more exact; 1e-12 allows for both. */
 static void test_distance(void **state)
 {
     (void)state;

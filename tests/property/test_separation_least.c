@@ -1,9 +1,9 @@
-/* The least separating translation against brute force in rationals that shares no code with the library.
+/* The least separating translation compared with brute force in rationals that shares no code with the library.
  *
  * The oracle: a free placement nearest to the origin lies on a line on which a vertex of one operand touches an edge of
  * the other. So it is the foot of a perpendicular on such a line, or a crossing of two, or an end of a contact segment.
- * All are made, sorted by length, and the first free one is the answer; of several of that length the lexicographically
- * smallest. Free is decided by cutting both sets into vertical slabs. */
+ * All of these are computed and sorted by length, and the first free one is the answer; among several of equal length
+ * the lexicographically smallest. Whether a placement is free is decided by cutting both sets into vertical slabs. */
 #include "generate.h"
 #include "separation/least_translation.h"
 #include "separation/separation.h"
@@ -34,7 +34,7 @@ typedef struct segment {
 
 static size_t contact_segments(segment *s, const polyset *p, const polyset *q, int sign)
 {
-    /* Q + t touches P where an edge of one meets a vertex of the other: t = p - q. */
+    /* Q + t touches P if an edge of one meets a vertex of the other: t = p - q. */
     size_t n = 0;
     for (size_t r = 0, v = 0; r < p->rings; r++) {
         const size_t first = v, end = p->ring_end[r];
@@ -75,7 +75,7 @@ static int compare_candidates(const void *a, const void *b)
     return k ? k : mpq_cmp(c->y, d->y);
 }
 
-/* The rational num / den in [0, 1] of the segment. */
+/* The point at the rational parameter num / den in [0, 1] on the segment. */
 static void add(candidate *c, size_t *n, const segment *s, long num, long den, double limit)
 {
     if (den < 0) {
@@ -85,7 +85,7 @@ static void add(candidate *c, size_t *n, const segment *s, long num, long den, d
     if (num < 0 || num > den) return;
     const double t = (double)num / (double)den, x = (double)s->ax + t * (double)s->dx,
                  y = (double)s->ay + t * (double)s->dy;
-    if (x * x + y * y > limit * limit + 1) return; /* farther than a way out known to be free; generously */
+    if (x * x + y * y > limit * limit + 1) return; /* longer than a translation known to be free, with a tolerance */
     put(c + (*n)++, s, num, den);
 }
 
@@ -205,7 +205,8 @@ static int surroundings(const polyset *p, const polyset *q, const mpq_t x, const
     for (size_t i = 0; i < n && kind; i++) {
         const ray a = r[i], b = r[i + 1 < n ? i + 1 : 0];
         const long cross = a.x * b.y - a.y * b.x;
-        /* Between them: never along an edge. Directions are less than pi apart, since every one has its opposite. */
+        /* Between two directions of edges, so never along an edge. Neighbouring directions differ by less than pi,
+         * since each has its opposite. */
         if (cross != 0 && free_beside(p, q, x, y, a.x + b.x, a.y + b.y)) kind = 0;
         if (kind == 2 && free_beside(p, q, x, y, a.x, a.y)) kind = 1;
     }
@@ -220,7 +221,7 @@ static int kind_of(sunder_contact contact)
 
 /* In 64-bit integers; in big integers; or in 128-bit integers, for the same pair scaled up. */
 typedef enum rung { BRIEF, WIDE, NARROW } rung;
-#define LARGER 2147483659.0 /* odd, so that it does not go into the unit */
+#define LARGER 2147483659.0 /* odd, so that the unit does not absorb it */
 
 static void expect_answer(const polyset *p, const polyset *q, const sunder_shape *a, const sunder_shape *b,
                           const mpq_t x, const mpq_t y, rung by)
@@ -260,7 +261,7 @@ static void expect_answer(const polyset *p, const polyset *q, const sunder_shape
     mpq_set_d(t, s.lower_bound);
     mpq_mul(t, t, t);
     assert_true(mpq_cmp(t, norm) <= 0);
-    /* The doubles, asked again by the oracle. */
+    /* The oracle tests whether the rounded translation is free. */
     if (by == BRIEF) {
         mpq_set_d(u, s.dx);
         mpq_set_d(v, s.dy);
@@ -270,7 +271,7 @@ static void expect_answer(const polyset *p, const polyset *q, const sunder_shape
     sunder_separation_clear(&s);
 }
 
-/* The kinds that live on small integers; the oracle is too slow for long outlines. */
+/* The kinds with small integer coordinates; the oracle is too slow for long outlines. */
 static const pair_kind KINDS[] = {PAIR_SQUARES, PAIR_STEPS,   PAIR_TRIANGLES, PAIR_TRIANGLE_STEPS, PAIR_PEG,
                                   PAIR_SLIDE,   PAIR_SLANTED, PAIR_SIMPLE,    PAIR_MEMBERS,        PAIR_BOARDS,
                                   PAIR_HOLES,   PAIR_ROOMS,   PAIR_SELF};
@@ -282,7 +283,7 @@ static bool integers_only(const polyset *s)
     return true;
 }
 
-/* Adds convex shapes, slivers, and a large one beside a small one to the kinds. */
+/* Convex shapes, slivers, and a large shape with a small one, in addition to the kinds. */
 static void vary(polyset *p, polyset *q, rng *r)
 {
     const int way = (int)rng_int(r, 0, 7);
@@ -302,7 +303,7 @@ static void vary(polyset *p, polyset *q, rng *r)
     }
 }
 
-/* Scales both in the end. */
+/* Draws a pair, and may scale it. */
 static void one_pair(polyset *p, polyset *q, size_t kinds[3])
 {
     sunder_shape *a = polyset_shape(p), *b = polyset_shape(q);
@@ -341,7 +342,7 @@ static void least_is_least(void **state)
         rng r = rng_start(seed, i);
         polyset p, q;
         random_pair(&p, &q, &r, KINDS[i % (sizeof KINDS / sizeof *KINDS)]);
-        polyset_negate(&q); /* generated for sums */
+        polyset_negate(&q); /* the generator makes operands of sums */
         vary(&p, &q, &r);
         bring_together(&p, &q, &r);
         if (p.vertices * q.vertices <= 120 && p.polygons <= 64 && q.polygons <= 64 && integers_only(&p) &&

@@ -19,7 +19,7 @@ typedef struct tally {
     size_t asked, held, met, unsure;
 } tally;
 
-/* A place that leans towards the set's corners and edges: one of them, between two, or anywhere about. */
+/* A place that is often related to the set's corners and edges: a corner, between two corners, or anywhere nearby. */
 static void random_place(const polyset *set, rng *r, double out[2])
 {
     const double *p = set->xy + 2 * (size_t)rng_int(r, 0, (int64_t)set->vertices - 1);
@@ -34,7 +34,7 @@ static void random_place(const polyset *set, rng *r, double out[2])
     }
 }
 
-/* A way from a that ends at e as nearly as doubles say it, or exactly, in two moves. */
+/* A path from a that ends at e as nearly as doubles allow, or exactly, in two moves. */
 static void random_moves(rng *r, const double a[2], const double e[2], double t[2], double s[2])
 {
     for (int k = 0; k < 2; k++) {
@@ -124,7 +124,7 @@ static void repaired_shapes_are_passed(void **state)
     assert_true(sum.held > 0 && sum.met > 0 && sum.held + sum.met < sum.asked);
 }
 
-/* Each rung gives the exact answer, or none. */
+/* Each kind of arithmetic gives the exact answer, or none. */
 static void rungs_agree(void **state)
 {
     const uint64_t seed = test_seed();

@@ -31,8 +31,8 @@ static double point_side(const double *v, const double *a, const double *b)
     return hypot(v[0] - a[0] - t * dx, v[1] - a[1] - t * dy);
 }
 
-/* Least distance of a vertex of p from an edge of q: with the reverse, the distance of sets whose interiors are
- * disjoint. */
+/* Least distance of a vertex of p from an edge of q: together with the reverse, the distance of sets whose interiors
+ * are disjoint. */
 static double vertices_to_edges(const polyset *p, const polyset *q)
 {
     double least = INFINITY;
@@ -63,8 +63,8 @@ static void check_distance(const polyset *p, const polyset *q, const sunder_shap
     if (apart) complain("not apart by a little more", p, q);
 }
 
-/* Combined questions give the same answers, and never a false touch. Only the difference of the translations
- * matters. */
+/* Combined questions give the same answers, and never report a touch by mistake. Only the difference of the
+ * translations matters. */
 static void check_meeting(const polyset *p, const polyset *q, const sunder_shape *a, const sunder_shape *b,
                           const double t[2], bool meet)
 {
@@ -109,7 +109,7 @@ static void check_pair(const polyset *p, const polyset *q, rng *r, tally *t)
     if (answer != in) complain("contained", p, q);
     check_distance(p, q, a, b, meet);
 
-    /* The same pair, with translations whose difference is the same; one of them makes the lattice wide. */
+    /* The same pair, with translations that have the same difference; one of them makes the lattice wide. */
     const double big = rng_once_in(r, 4) ? 0x1p90 : 0, x = (double)rng_int(r, -9, 9) / 8 + big,
                  y = (double)rng_int(r, -9, 9);
     const double t1[2] = {x, y};
@@ -158,7 +158,7 @@ static void predicates_agree(void **state)
         random_pair(&p, &q, &r, KINDS[i % (sizeof KINDS / sizeof *KINDS)]);
         polyset_negate(&q);
         bring_together(&p, &q, &r);
-        if (rng_once_in(&r, 3)) polyset_append(&q, &p); /* then P lies in Q for certain */
+        if (rng_once_in(&r, 3)) polyset_append(&q, &p); /* then P certainly lies in Q */
         if (rng_once_in(&r, 9)) polyset_move(&q, (double)rng_int(&r, -1, 1), 0);
         if (small_integers(&p) && small_integers(&q)) {
             check_pair(&p, &q, &r, &t);

@@ -1,5 +1,6 @@
-/* Lengths of translations, roots that are mostly irrational, against GMP: the nearest double and the greatest that is
- * no more, of random vectors and of such whose length is a double, or as near to one as can be. */
+/* Lengths of translations, square roots that are mostly irrational, compared with GMP: the nearest double and the
+ * greatest that is not larger, for random vectors and for vectors whose length is a double, or as near to one as
+ * possible. */
 #include "random.h"
 
 #include "separation/answer/answer.h"
@@ -58,7 +59,7 @@ static sunder_separation answer(int64_t x, int64_t y, int64_t w, int exponent)
 
 static void check(int64_t x, int64_t y, int64_t w)
 {
-    const sunder_separation s = answer(x, y, w, 0), far = answer(x, y, w, 500); /* big integers take that one */
+    const sunder_separation s = answer(x, y, w, 0), far = answer(x, y, w, 500); /* the second uses big integers */
     if (far.distance != ldexp(s.distance, 500) || far.lower_bound != ldexp(s.lower_bound, 500))
         fail_msg("(%lld, %lld) / %lld: %a, at least %a, but times 2^500 %a, at least %a", (long long)x, (long long)y,
                  (long long)w, s.distance, s.lower_bound, far.distance, far.lower_bound);
@@ -82,7 +83,7 @@ static void check(int64_t x, int64_t y, int64_t w)
                  s.lower_bound);
 }
 
-/* Numbers of at most that many bits; small ones are as frequent as large ones. */
+/* Numbers with at most that many bits; small ones are as frequent as large ones. */
 static int64_t of_bits(rng *r, int most) { return (int64_t)(rng_next(r) >> (64 - rng_int(r, 1, most))); }
 
 /* The inverse of an odd number modulo 2^64 [Newton's steps, each doubles the digits that are right]. */
@@ -93,8 +94,8 @@ static uint64_t inverse(uint64_t odd)
     return x;
 }
 
-/* b / w so near to m / 2^bits as two such numbers can be without being equal, above it or below: m w = 2^bits b -+ 1.
- * With 53 bits m / 2^bits is a double, with 54 it lies in the middle of two. */
+/* b / w as near to m / 2^bits as two such numbers can be without being equal, above it or below: m w = 2^bits b -+ 1.
+ * With 53 bits m / 2^bits is a double, with 54 it is the midpoint of two. */
 static bool quotient_near(rng *r, int bits, bool above, int64_t *b, int64_t *w)
 {
     const uint64_t one = (uint64_t)1 << bits, odd = (uint64_t)1 << 52 | rng_next(r) >> 12 | 1;
@@ -105,7 +106,7 @@ static bool quotient_near(rng *r, int bits, bool above, int64_t *b, int64_t *w)
     return m >= one / 2;
 }
 
-/* Lengths as near to a double, or to the middle of two, as can be. */
+/* Lengths as near as possible to a double, or to the midpoint of two. */
 static void near_doubles(void **state)
 {
     (void)state;
@@ -114,7 +115,7 @@ static void near_doubles(void **state)
     for (size_t i = 0; i < test_count(4000); i++) {
         const int64_t k = of_bits(&r, 26), shift = (int64_t)1 << rng_int(&r, 0, 52);
         check(2 * k * k, 2 * k, shift);         /* the root of (2 k^2 + 1)^2 - 1 */
-        check(of_bits(&r, 53), 1, shift);       /* of a square and one */
+        check(of_bits(&r, 53), 1, shift);       /* the root of a square plus one */
         check(3 * k * k, 4 * k * k, 2 * shift); /* 5 k^2, a double or not */
         int64_t b, w;
         for (int how = 0; how < 4; how++) {
@@ -134,10 +135,10 @@ static void lengths(void **state)
         int64_t x = of_bits(&r, 62), y = of_bits(&r, 62), w = of_bits(&r, 62) + 1;
         if (i % 2) w = (int64_t)1 << rng_int(&r, 0, 52);
         switch (i / 2 % 4) {
-        case 0: break;                                  /* irrational, as a rule */
-        case 1: y = 0; break;                           /* x / w */
-        case 2: x = 3 * (x >> 3), y = x / 3 * 4; break; /* 5 x / 3 w */
-        default: y = rng_int(&r, 0, 3); break;          /* next to x / w */
+        case 0: break;                                  /* usually irrational */
+        case 1: y = 0; break;                           /* the length is x / w */
+        case 2: x = 3 * (x >> 3), y = x / 3 * 4; break; /* the length is 5 x / 3 w */
+        default: y = rng_int(&r, 0, 3); break;          /* the length is nearly x / w */
         }
         check(x, y, w);
     }

@@ -1,6 +1,6 @@
-/* Round outlines of many corners, whose subsums have enough sides that they are searched by bisection, compared with
- * the same sets cut into triangles, whose subsums have few: the least translations, with a gap and without, are equally
- * long to the last digit, and keep the gap for both. */
+/* Round outlines of many corners, whose subsums have so many sides that they are searched by bisection, compared with
+ * the same sets cut into triangles, whose subsums have few: the least translations, with a gap and without, have equal
+ * lengths to the last digit, and both keep the gap. */
 #include "polyset.h"
 #include "random.h"
 #include "sunder.h"
@@ -17,7 +17,7 @@
 
 enum { MOST = 60 };
 
-/* A ring round the origin, some of its corners pushed in or out, and the triangles from the origin to its sides. */
+/* A ring around the origin, some of its corners pushed in or out, and the triangles from the origin to its sides. */
 static void round_outline(polyset *whole, polyset *cut, rng *r)
 {
     double xy[2 * MOST];

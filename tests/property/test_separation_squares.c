@@ -1,8 +1,8 @@
 /* The nearest free placement, searched square by square as for large operands, equals the one found without squares:
  * the same point and the same contact. Pairs of all kinds of degeneracy are drawn, also translated so that they overlap
- * by little, and ragged outlines that are large enough for squares to matter, among them stars of equal spikes and
- * round outlines, whose pieces are cut. Every fourth pair is on a wide lattice. With a gap: the same least length,
- * rounded down, the same contact, and an answer that is hardly longer. */
+ * by little, and ragged outlines that are large enough for squares to matter, including stars of equal spikes and round
+ * outlines, whose pieces are cut. Every fourth pair is on a wide lattice. With a gap: the same least length, rounded
+ * down, the same contact, and a result that is hardly longer. */
 #include "failing.h"
 #include "generate.h"
 #include "separation/least_translation.h"
@@ -45,7 +45,7 @@ static result look(sunder_i_operands *g, bool squares)
     return r;
 }
 
-/* The integers of the point found, on an arena. */
+/* The exact coordinates of the point, in memory of the arena. */
 static sunder_i_rational_point read_point(sunder_i_arena *arena, sunder_i_operands *g, const sunder_i_free_point *found)
 {
     sunder_i_lattice *l = &g->placed.lattice;
@@ -53,7 +53,7 @@ static sunder_i_rational_point read_point(sunder_i_arena *arena, sunder_i_operan
     return sunder_i_hpoint_read(arena, l, &point);
 }
 
-/* Each lattice has numbers of its own; their units are the same. */
+/* Each lattice has its own numbers; their units are the same. */
 static bool same_point(sunder_i_operands *g, const sunder_i_free_point *a, sunder_i_operands *h,
                        const sunder_i_free_point *b)
 {
@@ -67,7 +67,7 @@ static bool same_point(sunder_i_operands *g, const sunder_i_free_point *a, sunde
     return same;
 }
 
-/* Both ways, perhaps on wide lattices; whether the squares led there. */
+/* Searches with and without squares, perhaps on wide lattices; returns whether the search with squares succeeded. */
 static bool compare(const polyset *p, const polyset *q, const double *move, bool wide, bool *same)
 {
     sunder_shape *a = polyset_shape(p), *b = polyset_shape(q);
@@ -117,7 +117,8 @@ static void test_kinds(void **state)
     assert_true(done > n * PAIR_HUGE / 2);
 }
 
-/* With a gap. The answer beside an irrational point depends on the order of what touches there; the point does not. */
+/* With a gap. If the exact point is irrational, its approximation depends on the order of the contacts there; the exact
+ * point does not. */
 static void expect_same_gap(const polyset *p, const polyset *q, const double *move, double gap, uint64_t seed, size_t i)
 {
     sunder_shape *a = polyset_shape(p), *b = polyset_shape(q);
@@ -159,7 +160,7 @@ static void test_gap_kinds(void **state)
         }
 }
 
-/* Outlines along pixels, ragged stars and combs: exact coincidences, spikes that overlap in crowds, exact fits. */
+/* Outlines along pixels, ragged stars and combs: exact coincidences, many spikes that overlap, exact fits. */
 static void random_large(polyset *p, rng *r, size_t kind, int n)
 {
     cells board;
@@ -199,7 +200,7 @@ static void test_large(void **state)
     assert_true(done > n / 2);
 }
 
-/* n corners round a circle, every second at `inner` of its radius. */
+/* n corners around a circle, every second one at `inner` of its radius. */
 static void round_outline(polyset *p, rng *r, int n, double size, double inner)
 {
     const double turn = rng_once_in(r, 2) ? 0 : rng_unit(r);
@@ -212,7 +213,7 @@ static void round_outline(polyset *p, rng *r, int n, double size, double inner)
     polyset_end_polygon(p);
 }
 
-/* Equal spikes, round outlines, and stars of unequal ones, against each other. */
+/* Pairs of stars of equal spikes, round outlines, and stars of unequal spikes. */
 static void test_even(void **state)
 {
     (void)state;

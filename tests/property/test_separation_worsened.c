@@ -1,5 +1,5 @@
-/* Does a pair stand worse than it stood? The library's exact answer against rationals by brute force, on placements
- * that tie, that differ by a unit in the last place, and others. */
+/* Is a pair worse than it was? The library's exact answer compared with brute force in rationals, for placements that
+ * are equally good, that differ by a unit in the last place, and others. */
 #include "generate.h"
 #include "standing.h"
 
@@ -23,7 +23,8 @@ static void random_shape(rng *r, polyset *s)
     if (rng_once_in(r, 3)) polyset_scale(s, 0.1, 0.3);
 }
 
-/* The same again, mirrored or turned by a quarter, by which nothing is nearer or deeper; then put off by a hair. */
+/* The same again, mirrored or rotated by a quarter turn, which changes no distance or depth; then shifted by a unit in
+ * the last place. */
 static void restage(rng *r, const polyset *from, polyset *to, int way, double hair)
 {
     polyset_copy(to, from);
@@ -38,7 +39,7 @@ static void restage(rng *r, const polyset *from, polyset *to, int way, double ha
     polyset_move(to, rng_once_in(r, 2) ? hair : 0, rng_once_in(r, 2) ? -hair : 0);
 }
 
-/* Makes a shape, with its rings in the right direction again. */
+/* Makes a shape, after correcting the orientation of its rings. */
 static sunder_shape *shape_of(polyset *s)
 {
     double area = 0;
@@ -101,7 +102,7 @@ static void check_worse(void **state)
     assert_true(ties > trials / 10 && worse_n > trials / 4);
 }
 
-/* Is the sum no other than it would be without rounding? (Knuth's TwoSum.) */
+/* Is the sum exact in doubles? (Knuth's TwoSum.) */
 static bool add_exactly(double *to, double d)
 {
     const double sum = *to + d, part = sum - *to, lost = (*to - (sum - part)) + (d - part);
@@ -179,7 +180,8 @@ static void support_of(mpq_t out, const polyset *p, const mpq_t n[2])
     mpq_clears(at, t, NULL);
 }
 
-/* How far, squared, one must go along the normal of p's edge from a to b; 0 where the edge parts them. */
+/* The squared distance by which one must move along the normal of p's edge from a to b; 0 if the line of the edge
+ * separates them. */
 static void depth_along(mpq_t out, const double *a, const double *b, const polyset *p, const polyset *q)
 {
     mpq_t n[2], t;
@@ -218,8 +220,8 @@ static void convex_depth(mpq_t best, const polyset *p, const polyset *q)
     mpq_clear(depth);
 }
 
-/* A parallelogram and a copy of it, or another convex polygon, shifted by an amount that doubles round. Their edges are
- * parallel up to the last place, and contacts cross anywhere. */
+/* A parallelogram and a copy of it, or another convex polygon, shifted by a vector that is rounded to doubles. Their
+ * edges are parallel up to the last place, so lines of contact may cross anywhere. */
 static void check_nearly_parallel(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* The library's sums against the oracle's, byte for byte, on small random operands of every kind of trouble; every
- * fourth on forced big integers too. */
+/* The library's sums compared with the oracle's, byte for byte, on small random operands of every kind of degeneracy;
+ * every fourth also with big integers forced. */
 #include "generate.h"
 #include "oracle.h"
 #include "sum_text.h"
@@ -11,7 +11,7 @@
 
 #include <cmocka.h>
 
-#define SHOWN 5 /* disagreements written out; the rest are counted */
+#define SHOWN 5 /* at most this many disagreements are printed; the rest are counted */
 
 static void show(pair_kind kind, uint64_t seed, size_t i, const polyset *p, const polyset *q, const char *ours,
                  const char *expected)
@@ -33,7 +33,7 @@ static bool agree(pair_kind kind, uint64_t seed, size_t i, bool shown)
     if (rng_once_in(&r, 3)) random_dress(&q, &r);
     char *ours = library_sum_text(&p, &q);
     bool same = ours && strcmp(ours, expected) == 0;
-    if (same && i % 4 == 0) { /* and on big integers */
+    if (same && i % 4 == 0) { /* also with big integers */
         free(ours);
         ours = library_sum_text_wide(&p, &q);
         same = ours && strcmp(ours, expected) == 0;

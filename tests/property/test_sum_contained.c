@@ -1,6 +1,6 @@
-/* Layers of members that overlap and touch, grown by a convex shape: subsums inside another are dropped, and sides
- * inside a single one, before anything else then. Against the oracle byte for byte, and against the same sum on big
- * integers, where none is dropped. */
+/* Layers of members that overlap and touch, dilated by a convex shape: subsums inside another one, and sides inside a
+ * single one, are dropped before all further steps. Compared byte for byte with the oracle, and with the same sum on
+ * big integers, where none is dropped. */
 #include "convex/subsums.h"
 #include "generate.h"
 #include "minkowski/minkowski.h"
@@ -128,7 +128,7 @@ static size_t candidates(const sunder_i_convex_pieces *s)
     return n;
 }
 
-/* How many candidates there are before and after. */
+/* The numbers of candidate sides before and after. */
 static void count_candidates(const polyset *p, const polyset *q, size_t count[2])
 {
     parts s;
@@ -139,7 +139,7 @@ static void count_candidates(const polyset *p, const polyset *q, size_t count[2]
     free_parts(&s);
 }
 
-/* Strictly inside, by whole numbers. */
+/* Strictly inside, computed in integers. */
 static bool is_inside(const sunder_i_convex_pieces *s, uint32_t i, uint32_t j)
 {
     const uint32_t from = sunder_i_convex_pieces_first(s, j);
@@ -159,7 +159,7 @@ static bool is_same_part(const sunder_i_convex_pieces *s, uint32_t i, const sund
            memcmp(s->rank + a, t->rank + b, n * sizeof *s->rank) == 0;
 }
 
-/* Those that stay are those inside no other, in their order, with no candidate more. */
+/* The remaining subsums are those that are inside no other, in their old order, and no side became a candidate. */
 static size_t check_parts(const parts *before, const parts *after)
 {
     const sunder_i_convex_pieces *s = &before->list, *t = &after->list;
@@ -199,11 +199,11 @@ static void test_parts(void **state)
         polyset_free(&q);
     }
     print_message("%zu parts inside another\n", gone);
-    assert_true(2 * gone > n); /* there are some: about one a layer */
+    assert_true(2 * gone > n); /* about one per layer */
 }
 
-/* A row of squares: each one's sides towards its neighbours are inside these, all but the first and the last; sides
- * that only touch a neighbour's are not. */
+/* A row of squares: the sides towards neighbours are inside these, except for the first and the last; sides that only
+ * touch a neighbour's are not. */
 static void test_row(void **state)
 {
     (void)state;
@@ -213,17 +213,17 @@ static void test_row(void **state)
         polyset_init(&p);
         polyset_init(&q);
         for (int i = 0; i < 40; i++) polyset_rectangle(&p, step * i, 0.25 * (i % 2), step * i + 2, 0.25 * (i % 2) + 2);
-        polyset_rectangle(&q, -2, -2, 2, 2); /* sums are 6 wide */
+        polyset_rectangle(&q, -2, -2, 2, 2); /* each subsum is 6 wide */
         count_candidates(&p, &q, count);
         assert_int_equal(count[0], 160);
-        /* The vertical sides reach a quarter out of the neighbours, and end on the outline of the next but one. */
+        /* The vertical sides extend by a quarter beyond the neighbours, and end on the outline of the next but one. */
         assert_int_equal(count[1], 160);
         polyset_free(&p);
         polyset_init(&p);
         for (int i = 0; i < 40; i++) polyset_rectangle(&p, step * i, i % 2, step * i + 2, 4 - i % 2);
         count_candidates(&p, &q, count);
         assert_int_equal(count[0], 160);
-        /* The low ones' upright sides lie in the high ones, where these overlap by more than a touch. */
+        /* The vertical sides of the low ones lie in the high ones, if these overlap by more than a touch. */
         assert_int_equal(count[1], step < 6 ? 160 - 40 + 1 : 160);
         polyset_free(&p);
         polyset_free(&q);

@@ -1,7 +1,7 @@
-/* Sums with a convex operand, traced along the outline, byte for byte as the oracle's: polygons of all kinds, with
- * holes and bays that close, and convex shapes from small to larger than the polygon. The tracing is called by itself,
- * so that the general algorithm cannot replace it. If it declines there is nothing to compare, and it must not always
- * decline. */
+/* Sums with a convex operand, traced along the outline, compared byte for byte with the oracle's: polygons of all
+ * kinds, with holes and bays that close, and convex shapes from small to larger than the polygon. The tracing is called
+ * directly, so that the general algorithm cannot replace it. If it declines there is nothing to compare, and it must
+ * not decline always. */
 #include "generate.h"
 #include "minkowski/convolution.h"
 #include "oracle.h"
@@ -32,14 +32,14 @@ static void random_subject(polyset *p, rng *r, subject kind)
     case BUILDING: random_building(p, r); return;
     default: break;
     }
-    /* Maps of coordinates with decimals are rounded, and break. */
+    /* Decimal coordinates as in maps would be rounded, which makes sides that are not axis-parallel cross. */
     const spacing lines = kind == SLANTED || rng_once_in(r, 2) ? SPACING_SMALL : SPACING_MAP;
     random_cells(&board, r, (int)rng_int(r, 2, 6), (int)rng_int(r, 2, 5), lines, kind != BOARD, 80);
     cells_outline(p, &board, false, true);
     if (kind == SLANTED) polyset_map(p, 3, 1, -1, 2);
 }
 
-/* Convex, about as large as `size`; sides of the subjects' own directions among them. */
+/* A convex polygon of about the size `size`; some of its sides have directions of the subject's sides. */
 static void random_brush(polyset *q, rng *r, double size)
 {
     if (rng_once_in(r, 3)) {
@@ -95,7 +95,7 @@ static void test_subject(void **state)
     assert_true(bad > 0 || traced >= n / 20);
 }
 
-/* One case for each condition under which a sum is traced, or is not. */
+/* One case for each condition on which it depends whether a sum is traced. */
 static void test_cases(void **state)
 {
     (void)state;
@@ -103,24 +103,24 @@ static void test_cases(void **state)
         const char *p, *q;
         bool traced;
     } cases[] = {
-        /* a jog that the shape swallows */
+        /* a small step in the outline that disappears in the sum */
         {"POLYGON ((0 0, 40 0, 40 20, 21 20, 20 21, 0 21))", "POLYGON ((-9 0, 0 -8, 8 0, 0 9))", true},
-        /* a bay that stays open, and one whose mouth closes on a hole */
+        /* a bay that stays open, and one whose mouth closes, which makes a hole */
         {"POLYGON ((0 0, 40 0, 40 30, 30 30, 30 10, 10 10, 10 30, 0 30))", "POLYGON ((-3 0, 0 -4, 5 0, 0 3))", true},
         {"POLYGON ((0 0, 40 0, 40 30, 22 30, 22 25, 30 25, 30 10, 10 10, 10 25, 18 25, 18 31, 0 31))",
          "POLYGON ((-3 0, 0 -4, 5 0, 0 3))", true},
         /* bays whose floor is shorter than the shape's side along it: between steep walls, between walls so gentle that
-         * the shape rests in both corners, and one of each; and floors of equal length: an exact fit, or not */
+         * the shape touches both corners, and one of each; and floors of equal length: an exact fit, or not */
         {"POLYGON ((0 0, 40 0, 40 30, 28 30, 22 20, 18 20, 12 30, 0 30))", "POLYGON ((-4 -3, 4 -3, 4 3, -4 3))", true},
         {"POLYGON ((0 0, 40 0, 40 30, 22 20, 18 20, 0 30))", "POLYGON ((-4 -4, 4 -4, 6 0, 4 4, -4 4, -6 0))", true},
         {"POLYGON ((0 0, 40 0, 40 30, 22 20, 18 20, 17 30, 0 30))", "POLYGON ((-4 -4, 4 -4, 6 0, 4 4, -4 4, -6 0))",
          true},
         {"POLYGON ((0 0, 40 0, 40 30, 24 20, 16 20, 0 30))", "POLYGON ((-4 -4, 4 -4, 6 0, 4 4, -4 4, -6 0))", false},
-        /* a mouth that just closes: a degenerate segment */
+        /* a mouth that closes exactly: a degenerate segment */
         {"POLYGON ((0 0, 40 0, 40 30, 22 30, 22 25, 30 25, 30 10, 10 10, 10 25, 18 25, 18 30, 0 30))",
          "POLYGON ((-2 -2, 2 -2, 2 2, -2 2))", false},
-        /* a courtyard that remains; some that are too small, or narrow, and fill up; one that the shape's box just fits
-         * into, and one that it fits into from side to side: degenerate */
+        /* a courtyard that remains as a hole; some that are too small, or narrow, and are filled; one that the shape's
+         * bounding box fits exactly, and one that the shape fits exactly from side to side, which is degenerate */
         {"POLYGON ((0 0, 40 0, 40 40, 0 40), (10 10, 12 29, 30 30, 28 11))", "POLYGON ((-3 0, 0 -4, 5 0, 0 3))", true},
         {"POLYGON ((0 0, 40 0, 40 40, 0 40), (10 10, 10 13, 13 13, 13 10))", "POLYGON ((-3 0, 0 -4, 5 0, 0 3))", true},
         {"POLYGON ((0 0, 40 0, 40 40, 0 40), (10 10, 10 30, 15 30, 15 10))", "POLYGON ((-3 0, 0 -4, 5 0, 0 3))", true},
@@ -145,7 +145,7 @@ static void test_cases(void **state)
     }
 }
 
-/* A jog, a mouth that closes, a courtyard, and no memory at any place. */
+/* A step, a mouth that closes, and a courtyard, with each allocation failing in turn. */
 static void test_memory(void **state)
 {
     (void)state;

@@ -1,7 +1,7 @@
-/* Layers of members that overlap deeply, such as rings of reach around one place, or overlapping service areas. Most of
- * their sides are inside other members, and the outline is small. No cell separates them until it is as small as their
- * distances. The sum by the convolution equals that of another algorithm, and its cost is proportional to the layer:
- * the memory for a layer four times as long is compared, which no timing disturbs. */
+/* Layers of members that overlap deeply, such as rings of equal travel time around one place, or overlapping service
+ * areas. Most of their sides are inside other members, and the outline is small. No cell of a grid separates them until
+ * it is as small as their distances. The sum by the convolution equals that of another algorithm, and its memory grows
+ * linearly: the memory for a layer four times as long is compared, which, unlike time, does not vary. */
 #include "generate.h"
 #include "roads.h"
 #include "sum_text.h"
@@ -15,12 +15,12 @@
 #include <cmocka.h>
 
 typedef enum deep_kind {
-    DEEP_SQUARES, /* one within the other */
+    DEEP_SQUARES, /* nested squares */
     DEEP_RINGS,   /* circles about one centre, their corners on the same rays */
-    DEEP_STAIRS,  /* each moved along the diagonal by little */
-    DEEP_TURNED,  /* squares about one centre, turned by little */
-    DEEP_JITTER,  /* one circle, its corners somewhere else by little each time */
-    DEEP_DISCS,   /* circles that overlap by much */
+    DEEP_STAIRS,  /* squares, each shifted slightly along the diagonal */
+    DEEP_TURNED,  /* squares about one centre, each rotated slightly */
+    DEEP_JITTER,  /* one circle, with slightly different corners each time */
+    DEEP_DISCS,   /* circles that overlap to a great extent */
     DEEP_KINDS
 } deep_kind;
 
@@ -41,7 +41,7 @@ static void circle(polyset *set, double x, double y, double radius, double turn,
 
 static void add_member(polyset *set, deep_kind kind, int i, int n, rng *r)
 {
-    const double reach = 4 * n; /* members are as far apart however many there are */
+    const double reach = 4 * n; /* the distance of members does not depend on their number */
     switch (kind) {
     case DEEP_SQUARES: polyset_rectangle(set, i, i, 2 * reach - i, 2 * reach - i); break;
     case DEEP_RINGS: circle(set, 0, 0, reach - i, 0.1, 16, r, 0); break;
@@ -52,7 +52,7 @@ static void add_member(polyset *set, deep_kind kind, int i, int n, rng *r)
     }
 }
 
-/* The members in an order that says nothing, rising or falling. */
+/* The members in random order, in ascending or in descending order. */
 static void deep_layer(polyset *set, deep_kind kind, int n, rng *r)
 {
     polyset_init(set);
@@ -158,14 +158,15 @@ static void use_it(use how, const sunder_shape *p, const sunder_shape *q)
         return;
     }
     const sunder_obstacle obstacle = {p, NULL, NULL, 0};
-    const sunder_place from = {{-1e5, -1e5}, {NULL, NULL}}, to = {{-1e5, 1e5}, {NULL, NULL}}; /* past them all */
+    /* a path past all members */
+    const sunder_place from = {{-1e5, -1e5}, {NULL, NULL}}, to = {{-1e5, 1e5}, {NULL, NULL}};
     sunder_route *route = NULL;
     assert_int_equal(sunder_route_find(&obstacle, 1, q, &from, &to, NULL, &route, NULL), SUNDER_OK);
     assert_int_equal(sunder_route_reason(route, NULL), SUNDER_ROUTE_FOUND);
     sunder_route_free(route);
 }
 
-/* The most memory at a time; sides are long beside the shape that they are grown by. */
+/* The peak memory; sides are long compared with the shape by which they are dilated. */
 static size_t memory_for(deep_kind kind, use how, int n, uint64_t seed)
 {
     rng r = rng_start(seed * 41, (uint64_t)kind);
@@ -190,10 +191,10 @@ static size_t memory_for(deep_kind kind, use how, int n, uint64_t seed)
     return most;
 }
 
-/* Memory for four times the members: linear growth gives 4, all pairs of members would give 16. Tables double in size,
- * which adds a factor of up to 2 between two sizes. The union of squares that are turned and not grown is left out:
- * near their corners, which are all on one circle, each side is covered by many others together, the more the larger
- * the layer. */
+/* Memory for four times the members: linear growth gives a factor of 4, all pairs of members would give 16. Tables
+ * double in size, which adds a factor of up to 2 between two sizes. The union of rotated squares without dilation is
+ * left out: near their corners, which are all on one circle, each side is covered only by many others together, and
+ * their number grows with the layer. */
 static void test_memory(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* Larger sums against the oracle, byte for byte. They reach code of the library that small operands do not (cells split
- * many times, long lists of crossings on one segment), and are small enough for the oracle. */
+/* Larger sums compared with the oracle, byte for byte. They reach code of the library that small operands do not (cells
+ * split many times, long lists of crossings on one segment), and are small enough for the oracle. */
 #include "generate.h"
 #include "oracle.h"
 #include "sum_text.h"

@@ -1,5 +1,5 @@
 /* Laws of Minkowski sums, exactly: P + Q = Q + P; translation; scaling by powers of two; the hull of the sum is the sum
- * of the hulls. The area is that of the polygons; the operands said otherwise give the same bytes; reflection. */
+ * of the hulls. The area is that of the polygons; operands written in another way give the same bytes; reflection. */
 #include "expect.h"
 #include "generate.h"
 #include "sum_text.h"
@@ -33,7 +33,7 @@ static bool same(char *got, const char *want)
 
 static bool commutes(law_case *c) { return same(library_sum_text(&c->q, &c->p), c->sum); }
 
-/* Both operands are moved by eighths: exact where their coordinates have bits to spare. */
+/* Both operands are translated by eighths, which is exact if their coordinates have unused bits. */
 static bool translates(law_case *c)
 {
     double by[4], total[2];
@@ -51,8 +51,8 @@ static bool translates(law_case *c)
     return ok;
 }
 
-/* P far out on integers, Q fine and near the origin: no double holds the sum of the two places. Only operands of small
- * integers. */
+/* P far away with integer coordinates, Q fine and near the origin: no double represents the sum of two places. Only for
+ * operands with small integer coordinates. */
 static bool translates_far(law_case *c)
 {
     const double dx = 0x1p51 + (double)rng_int(&c->r, -999, 999), dy = (double)rng_int(&c->r, -9, 9) - 0x1p50;
@@ -119,7 +119,7 @@ static bool ignores_dress(law_case *c)
     return same(library_sum_text(&c->p, &c->q), c->sum);
 }
 
-/* (-P) + (-Q) = -(P + Q), through sunder_shape_reflect(); turned twice, the text is the first again. */
+/* (-P) + (-Q) = -(P + Q), through sunder_shape_reflect(); after reflecting twice the text is that of the original. */
 static bool reflects(law_case *c)
 {
     sunder_shape *a = polyset_shape(&c->p), *b = polyset_shape(&c->q), *ra = NULL, *rb = NULL;

@@ -1,4 +1,4 @@
-/* Sums of several polygons with one polygon. Polygons that stay apart are traced by themselves, small groups that
+/* Sums of several polygons with one polygon. Polygons whose sums stay apart are traced one by one, small groups that
  * overlap are traced together, and the rest goes through the general algorithm. The result equals, byte for byte, that
  * of the general algorithm for all of them. */
 #include "generate.h"
@@ -16,7 +16,7 @@
 
 typedef enum kind { CONVEX, STARS, MIXED, HOLES, TOUCHING, PATCHES, KINDS } kind;
 
-/* A frame whose hole may hold others. */
+/* A frame, in whose hole there may be others. */
 static void frame(polyset *set, double x, double y, double half, double width)
 {
     const double out[] = {x - half, y - half + 1, x + half, y - half, x + half - 1, y + half, x - half, y + half};
@@ -80,7 +80,7 @@ static void draw_one(polyset *set, rng *r, bool convex)
         random_star(set, r, (int)rng_int(r, 5, 14), (double)rng_int(r, 20, 90));
 }
 
-/* How many members are left for the general road; all there are if none is traced. */
+/* The number of members left for the general algorithm; all of them if none is traced. */
 static size_t left_of(const polyset *many, const polyset *one)
 {
     sunder_shape *a = polyset_shape(many), *b = polyset_shape(one);
@@ -161,7 +161,7 @@ static void test_nested(void **state)
     polyset_free(&one);
 }
 
-/* A yard that a tooth shuts, whose tip touches an edge from outside. */
+/* A courtyard that is closed by a tooth whose tip touches an edge from outside. */
 static void test_shut_yard(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* Sums of enough subsums that those deep inside are not made: the same, byte for byte, as by a road that makes them
- * all, on the lattice and on big integers. */
+/* Sums with so many subsums that those deep inside are not computed: the same, byte for byte, as by an algorithm that
+ * computes them all, on the lattice and on big integers. */
 #include "convex/hertel_mehlhorn.h"
 #include "convex/needed_subsums.h"
 #include "generate.h"
@@ -104,7 +104,7 @@ static void test_share(void **state)
     assert_true(before < 0.1);
 }
 
-/* A part far from everything else, and one that is tiny beside the others, keep their sums. */
+/* A part far from everything else, and one that is tiny compared with the others, keep their sums. */
 static void test_far_and_tiny(void **state)
 {
     (void)state;
@@ -125,8 +125,8 @@ static void test_far_and_tiny(void **state)
     }
 }
 
-/* Long copies of one outline a little apart stay together in every cell: of their sides, half-planes there, the widest
- * covers the others. Questions are counted, for each vertex that comes out. */
+/* Long copies of one outline at small distances stay together in every cell. There their sides are half-planes, the
+ * widest of which covers the others. The number of questions is compared with the number of output vertices. */
 static void test_copies(void **state)
 {
     (void)state;
@@ -156,7 +156,8 @@ static void test_copies(void **state)
     polyset_free(&q);
 }
 
-/* One large piece is of use where it has others inside: squares spread over it, not teeth along its edge. */
+/* A large piece is only worth its cost if it has others inside: tested with squares spread over it, and with teeth
+ * along its edge. */
 static void test_one_large_piece(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* Sums of sets whose sides run along the axes, united as rectangles: the same, byte for byte, as by roads that know
- * nothing of rectangles, holes, exact fits and rings that touch included. */
+/* Sums of sets with axis-parallel sides, united as rectangles: the same, byte for byte, as by algorithms that do not
+ * treat rectangles specially, including holes, exact fits and rings that touch. */
 #include "generate.h"
 #include "minkowski/minkowski.h"
 #include "rectilinear/rectangles.h"
@@ -15,7 +15,7 @@
 
 #include <cmocka.h>
 
-/* Is the sum made of rectangles, and what then is it? NULL if it is not. */
+/* The sum if it is computed by rectangles; NULL if it is not. */
 static char *text_by_rectangles(const polyset *p, const polyset *q)
 {
     sunder_shape *a = polyset_shape(p), *b = polyset_shape(q);
@@ -44,13 +44,13 @@ static bool agrees(const polyset *p, const polyset *q, sunder_algorithm algorith
     return same;
 }
 
-/* Some squares of a board, half of the time with vertices that are straight, or with rings that touch themselves. */
+/* Some squares of a board, half of the time with straight vertices, or with rings that touch themselves. */
 static void draw(polyset *set, rng *r, spacing kind)
 {
     cells c;
     random_cells(&c, r, (int)rng_int(r, 1, CELLS_MAX), (int)rng_int(r, 1, CELLS_MAX), kind, false,
                  (int)rng_int(r, 20, 95));
-    c.on[0][0][1] = c.on[0][0][0]; /* half a square if no square is set */
+    c.on[0][0][1] = c.on[0][0][0]; /* half a square if none is set */
     polyset_init(set);
     cells_outline(set, &c, rng_once_in(r, 2), rng_once_in(r, 2));
 }
@@ -94,7 +94,7 @@ static void test_boards(void **state)
     assert_int_equal(bad, 0);
 }
 
-/* Bars that overlap, touch and coincide; enough of them that only the needed sums are made. */
+/* Bars that overlap, touch and coincide; so many that only the needed subsums are computed. */
 static void draw_bars(polyset *set, rng *r, int n, int span)
 {
     polyset_init(set);
@@ -177,7 +177,7 @@ static size_t places_below(const sunder_i_rectangle_list *list, int axis, int64_
     return n;
 }
 
-/* Ranks count the places below; of coordinates that leave keys no room for numbers, too. */
+/* The rank of a coordinate is the number of smaller ones; also for coordinates whose keys leave no bits for indices. */
 static void test_rank(void **state)
 {
     (void)state;
@@ -209,7 +209,7 @@ static void test_rank(void **state)
     }
 }
 
-/* A side aslant, and operands on big integers, go another way. */
+/* Operands with a slanted side, and operands on big integers, use another algorithm. */
 static void test_not_for_all(void **state)
 {
     (void)state;
@@ -233,7 +233,7 @@ static void test_not_for_all(void **state)
     polyset_free(&r);
 }
 
-/* Four bars around a place that none of them covers: it is a degenerate point, and no vertex of a ring. */
+/* Four bars around a point that none of them covers: it is a degenerate point, and not a vertex of a ring. */
 static void test_pinwheel(void **state)
 {
     (void)state;

@@ -1,6 +1,6 @@
-/* Sums of two simple polygons by their reduced convolution, byte for byte as the oracle's, holes included. The tracing
- * is called by itself, so that the general algorithm cannot replace it. If it declines there is nothing to compare, and
- * it must not always decline. */
+/* Sums of two simple polygons by their reduced convolution, compared byte for byte with the oracle's, holes included.
+ * The tracing is called directly, so that the general algorithm cannot replace it. If it declines there is nothing to
+ * compare, and it must not decline always. */
 #include "generate.h"
 #include "minkowski/reduced_convolution.h"
 #include "oracle.h"
@@ -22,7 +22,7 @@ static const char *const subject_name[SUBJECTS] = {
     "small polygons", "polygons on a few places", "stars", "combs", "bays that close", "beyond 32 bits",
 };
 
-/* The sum of these often has a hole: a ring with a gap, about as wide as the other operand is. */
+/* A ring with an opening about as wide as the other operand, so that the sum often has a hole. */
 static void random_bay(polyset *p, rng *r)
 {
     enum { MOST = 8 };
@@ -45,7 +45,7 @@ static void random_operands(polyset *p, polyset *q, rng *r, subject kind)
         random_simple(p, r, (int)rng_int(r, 4, 8), 60);
         random_simple(q, r, (int)rng_int(r, 4, 8), 40);
         break;
-    case TIGHT: /* vertices of the one on sides of the other, equal sums, three segments in a point */
+    case TIGHT: /* vertices of one on sides of the other, equal sums, three segments through a point */
         random_simple(p, r, (int)rng_int(r, 4, 8), (int)rng_int(r, 5, 12));
         random_simple(q, r, (int)rng_int(r, 4, 8), (int)rng_int(r, 4, 9));
         break;
@@ -63,7 +63,7 @@ static void random_operands(polyset *p, polyset *q, rng *r, subject kind)
         random_star(q, r, (int)rng_int(r, 5, 14), 70);
         break;
     }
-    if (kind == FAR) { /* by odd numbers of 45 bits: numbers are as long as they look */
+    if (kind == FAR) { /* multiplied by odd numbers of 45 bits, so that coordinates need all their bits */
         polyset_scale(p, 0x1.23456789abcp+44, 0x1.abcdef12345p+44);
         polyset_scale(q, 0x1.23456789abcp+44, 0x1.abcdef12345p+44);
     }
@@ -107,7 +107,7 @@ static void test_subject(void **state)
     assert_true(bad > 0 || kind != BAYS || holes >= n / 20);
 }
 
-/* A round outline of n vertices so far from its centre: of a star, or of a jagged shore. */
+/* A round outline of n vertices at this distance from its centre: like a star, or like a jagged coast. */
 static void random_round(polyset *p, rng *r, int n, double least, double most)
 {
     double *xy = test_alloc(2 * (size_t)n, sizeof *xy);
@@ -121,7 +121,7 @@ static void random_round(polyset *p, rng *r, int n, double least, double most)
 }
 
 /* Operands with some thousand segments, compared with an arrangement of all subsums: a few stars, whose segments have
- * many stops, and shores of hundreds of vertices plus a star, whose segments are short. */
+ * many stops, and coasts of hundreds of vertices plus a star, whose segments are short. */
 static void test_larger(void **state)
 {
     (void)state;
@@ -160,7 +160,7 @@ static void test_larger(void **state)
     assert_true(traced > n / 2);
 }
 
-/* One case for each condition under which a sum is traced, or is not. */
+/* One case for each condition on which it depends whether a sum is traced. */
 static void test_cases(void **state)
 {
     (void)state;
@@ -173,16 +173,17 @@ static void test_cases(void **state)
     } cases[] = {
         /* two arrowheads */
         {"POLYGON ((0 0, 50 7, 3 41, 11 13))", "POLYGON ((0 0, 19 -22, 31 17, 17 5))", true, 0},
-        /* a bay with a mouth of eight: an arrowhead that closes it leaves a hole; a larger one fills it, a smaller one
-         * goes in and out */
+        /* a bay with a mouth of width eight: an arrowhead that closes it leaves a hole; a larger one fills it, a
+         * smaller one fits through */
         {"", "POLYGON ((-6 -6, 7 -5, 1 0, 2 8))", true, 1},
         {"", "POLYGON ((-60 -60, 70 -50, 10 0, 20 80))", true, 0},
         {"", "POLYGON ((-1.5 -1.5, 1.5 -1.25, 0.25 0, 0.5 1))", true, 0},
-        /* a side of the one has the direction of one of the other's: along an axis, and not; opposite ones may be */
+        /* a side of one has the direction of a side of the other: along an axis, and not; opposite directions are
+         * allowed */
         {"POLYGON ((0 0, 50 0, 3 41, 11 13))", "POLYGON ((0 0, 19 0, 31 17, 17 5))", false, 0},
         {"POLYGON ((0 0, 50 7, 3 41, 11 13))", "POLYGON ((0 0, 100 14, 31 37, 47 15))", false, 0},
         {"POLYGON ((0 0, 50 7, 3 41, 11 13))", "POLYGON ((0 0, -50 -7, -12 -43, -9 -11))", true, 0},
-        /* with itself every sum of two vertices is there twice */
+        /* the sum with itself: every sum of two vertices occurs twice */
         {"POLYGON ((0 0, 50 7, 3 41, 11 13))", "POLYGON ((0 0, 50 7, 3 41, 11 13))", false, 0},
         /* a hole, and a second polygon */
         {"POLYGON ((0 0, 50 7, 3 41, 11 13), (20 12, 18 18, 26 14))", "POLYGON ((0 0, 19 -22, 31 17, 17 5))", false, 0},
@@ -190,7 +191,7 @@ static void test_cases(void **state)
          false, 0},
         /* a ring that touches itself */
         {"POLYGON ((0 0, 51 7, 20 20, 3 41, 11 13, 20 20, 17 9))", "POLYGON ((0 0, 19 -22, 31 17, 17 5))", false, 0},
-        /* ends of segments inside others, inside the sum; and three segments that cross in one point of the boundary */
+        /* ends of segments on others, inside the sum; and three segments that cross in one point of the boundary */
         {"POLYGON ((0 0, 4 1, 8 0, 5 4, 4 9, 3 4))", "POLYGON ((0 0, 3 2, 6 -1, 2 6))", false, 0},
         {"POLYGON ((-55 -75, -34 -68, 74 -104, 82 -88, -26 -52, -14 -28, 85 -61, 93 -45, -6 -12, -15 5))",
          "POLYGON ((90 -11.25, 88 1, 82 81, 80 81, 74 0, 70 1, 65 84, 61 85, 56 0, 52 0, 46 77, 44 77, 38 0, 34 1, "

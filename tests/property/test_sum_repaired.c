@@ -1,6 +1,6 @@
-/* Sums of operands with rational vertices: bow-ties, taken by the even-odd rule. The crossing of a bow-tie is computed
- * here; times its denominator both operands are integers, and the oracle's sum of those is the library's times that
- * number. */
+/* Sums of operands with rational vertices: quadrangles that cross themselves, by the even-odd rule. The test computes
+ * the crossing. Multiplied by its denominator both operands are integers, and the oracle's sum of those is the
+ * library's multiplied by that number. */
 #include "generate.h"
 #include "oracle.h"
 #include "sum_text.h"
@@ -36,7 +36,7 @@ static int64_t bow_tie(rng *r, spot v[4], spot *x, int span)
         const int64_t s = cross(v[0], v[1], v[2]), t = cross(v[0], v[1], v[3]);
         const int64_t u = cross(v[2], v[3], v[0]), w = cross(v[2], v[3], v[1]);
         if (!((s > 0) != (t > 0) && s && t && (u > 0) != (w > 0) && u && w)) continue;
-        /* The point of ab at u / (u - w). */
+        /* The point of ab with the parameter u / (u - w). */
         int64_t den = u - w, nx = v[0].x * den + (v[1].x - v[0].x) * u, ny = v[0].y * den + (v[1].y - v[0].y) * u;
         const int64_t g = gcd(gcd(nx, ny), den) * (den < 0 ? -1 : 1);
         *x = (spot){nx / g, ny / g};
@@ -44,7 +44,7 @@ static int64_t bow_tie(rng *r, spot v[4], spot *x, int span)
     }
 }
 
-/* The two lobes times k, the crossing being x / den and k a multiple of den. */
+/* The two triangles, multiplied by k; the crossing is x / den, and k is a multiple of den. */
 static void lobes(polyset *set, const spot v[4], spot x, int64_t den, int64_t k)
 {
     static const int corner[2][2] = {{1, 2}, {3, 0}}; /* b c and d a */
@@ -98,7 +98,7 @@ static bool agree(uint64_t seed, size_t i)
     polyset_init(&kp);
     polyset_init(&kq);
     raw_ring(&p, v);
-    if (i % 3 == 0) { /* both operands are bow-ties */
+    if (i % 3 == 0) { /* both operands cross themselves */
         const int64_t other = bow_tie(&r, w, &y, 6);
         k = den / gcd(den, other) * other;
         raw_ring(&q, w);

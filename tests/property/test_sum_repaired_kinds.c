@@ -1,6 +1,6 @@
-/* Operands repaired by the even-odd rule, of every kind: the rungs of the ladder (plain numbers and filters; all
- * numbers in the pool) and the roads to the sum give the same bytes, sums commute, a translation in exact doubles is
- * one, and least translations do not depend on the rung either. */
+/* Operands of every kind, repaired by the even-odd rule: all kinds of arithmetic (plain numbers with filters; all
+ * numbers in the pool) and all algorithms for the sum give the same bytes, sums commute, a translation by exact doubles
+ * moves the result exactly, and least translations do not depend on the arithmetic, either. */
 #include "generate.h"
 #include "minkowski/minkowski.h"
 #include "separation/least_translation.h"
@@ -132,7 +132,7 @@ static void test_least(void **state)
     print_message("SUNDER_SEED=%llu\n", (unsigned long long)seed);
 }
 
-/* There and back again: by a power of two, so that every coordinate stays exact where it is not much larger. */
+/* Translated by a power of two and back, so that every coordinate stays exact unless it is far smaller. */
 static void test_moves(void **state)
 {
     (void)state;

@@ -1,7 +1,7 @@
-/* Operands repaired by the even-odd rule, of every kind, against exact brute force (even_odd.h, oracle.h): sums;
- * whether the interiors meet; least translations without a gap, to the digit. Those with a gap, by the brute force for
- * gaps, on the operands times a number that makes integers of their corners; what obstacles are to a robot, and that a
- * route past them stays free. */
+/* Operands of every kind, repaired by the even-odd rule, compared with exact brute force (even_odd.h, oracle.h): sums;
+ * whether the interiors meet; least translations without a gap, to the last digit; those with a gap, by the brute force
+ * for gaps, on the operands scaled so that their corners are integers; the obstacles of a robot; and that a route past
+ * them is free. */
 #include "even_odd.h"
 #include "gap_oracle.h"
 #include "generate.h"
@@ -17,7 +17,7 @@
 
 #include <cmocka.h>
 
-#define SHOWN 3 /* disagreements written out; the rest are counted */
+#define SHOWN 3 /* at most this many disagreements are printed; the rest are counted */
 
 typedef struct repaired {
     polyset p, q;
@@ -56,7 +56,7 @@ static void close_case(repaired *c)
     polyset_free(&c->q);
 }
 
-/* NULL, or what is wrong. */
+/* A test of a case: returns NULL, or what is wrong. */
 typedef const char *(*question)(const repaired *c, size_t i);
 
 static const char *ask_sum(const repaired *c, size_t i)
@@ -79,7 +79,7 @@ static void read_place(mpq_t place[2], const json *xy)
         if (mpq_set_str(place[k], json_text(&xy->item[k]), 10)) abort();
 }
 
-/* The least of *least (negative: none yet) and the squared distance of the segment from the origin. */
+/* Replaces *least by the squared distance of the segment from the origin if that is less (negative: none yet). */
 static void take_nearer(mpq_t least, const json *from, const json *to)
 {
     mpq_t a[2], b[2], d[2], t, u, v;
@@ -128,7 +128,7 @@ static void nearest_of(mpq_t least, const char *sum)
     json_free(text);
 }
 
-/* Q + t is off P exactly when t is not in int P + int -Q. */
+/* Q + t is disjoint from P exactly if t is not in int P + int -Q. */
 static const char *ask_least(const repaired *c, size_t i)
 {
     (void)i;
@@ -188,7 +188,7 @@ static const char *judge(const polyset *p, const polyset *q, double gap, double 
     return what;
 }
 
-/* Only if corners times a moderate number are integers, since the brute force takes doubles. */
+/* Only if a moderate factor makes all corners integers, since the brute force takes doubles. */
 static const char *ask_gap(const repaired *c, size_t i)
 {
     static const double GAPS[] = {1, 0.5, 2, 3.25};
@@ -220,7 +220,7 @@ static const char *ask_gap(const repaired *c, size_t i)
 
 /* ---- Routes ---- */
 
-/* Is the place between two vertices of the route, in eighths of the way, free? */
+/* Is the place between two vertices of the route, given in eighths, free? */
 static bool leg_is_free(const oracle *o, const sunder_route *route, size_t leg, unsigned long eighth)
 {
     const char *text[2][2];
@@ -285,7 +285,7 @@ static const char *ask_route(const repaired *c, size_t i)
 typedef struct run {
     const char *name;
     question ask;
-    size_t cases; /* of each kind */
+    size_t cases; /* cases of each kind */
     int most_p, most_q;
     bool near;
 } run;

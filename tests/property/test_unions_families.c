@@ -1,7 +1,7 @@
 /* All algorithms, with every decomposition and every order, for sums of known inputs: the golden cases; the cases and
- * families kept beside the repository in ../shared, if they are there; the families as sunder-families draws them.
- * Operands of up to 30 vertices with all combinations; larger ones with each algorithm, the angle bisector and one
- * order and seed, or (with SUNDER_TEST_SCALE above 1) with nearly all combinations. */
+ * families kept beside the repository in ../shared, if they are there; families made by sunder-families. Operands of up
+ * to 30 vertices use all combinations; larger ones use each algorithm with the angle bisector and one order and seed,
+ * or (with SUNDER_TEST_SCALE above 1) nearly all combinations. */
 #include "generated.h"
 #include "random.h"
 #include "roads.h"
@@ -15,14 +15,14 @@
 
 #include <cmocka.h>
 
-#define SMALL 34  /* vertices of an operand, "30" in round numbers */
+#define SMALL 34  /* vertices of an operand; about 30 */
 #define LARGE 140 /* larger ones are left to benchmarks */
 
 typedef struct tally {
     size_t inputs, sums, bad;
 } tally;
 
-/* A family's name makes the seed and, of larger inputs, chooses the roads. */
+/* The name of a family determines the seed and, for larger inputs, the algorithms. */
 static uint64_t number_of(const char *name)
 {
     uint64_t h = test_seed();
@@ -78,7 +78,7 @@ static void compare_folder(tally *t, const char *folder, const char *suffix)
     for (struct dirent *e; dir && (e = readdir(dir));) {
         const size_t n = strlen(e->d_name), k = strlen(suffix);
         if (n <= k || strcmp(e->d_name + n - k, suffix) != 0) continue;
-        /* The size is in the name of larger families, which are not even read. */
+        /* The names of larger families contain their sizes, so these files are not even read. */
         if (strstr(e->d_name, "00.txt") && !strstr(e->d_name, "_100.txt")) continue;
         char *file = test_format("%s/%s", path, e->d_name), *text = test_read_file(file);
         if (text) compare_text(t, e->d_name, text);

@@ -1,6 +1,6 @@
-/* The three unions on small random operands of every kind of trouble: each sum the same, byte for byte, as the
- * convolution's, some of them compared with the oracle's too, and some computed on big integers. Decomposition, order
- * and seed change from case to case, so that every combination comes up in every kind. */
+/* The three algorithms for unions on small random operands of every kind of degeneracy: each sum equals the
+ * convolution's, byte for byte; some are compared with the oracle's, too, and some computed on big integers.
+ * Decomposition, order and seed change from case to case, so that every combination occurs for every kind. */
 #include "generate.h"
 #include "oracle.h"
 #include "roads.h"
@@ -13,9 +13,9 @@
 
 #include <cmocka.h>
 
-#define SHOWN 3 /* disagreements written out; the rest are counted */
+#define SHOWN 3 /* at most this many disagreements are printed; the rest are counted */
 
-/* How many of the three roads are wrong. */
+/* The number of algorithms, of three, that disagree. */
 static size_t disagreements(pair_kind kind, uint64_t seed, size_t i, bool shown)
 {
     rng r = rng_start(seed + (uint64_t)kind * 1000003, i);

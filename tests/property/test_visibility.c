@@ -1,5 +1,5 @@
-/* Nodes visible from a node: none is missing, for any coordinates, and most others are excluded. Legs are compared with
- * the exact test, turns with exact orientations. */
+/* The nodes that are visible from a node: none is missing, for any coordinates, and most others are excluded. Legs are
+ * compared with the exact test, turns with exact orientations. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -20,12 +20,12 @@ typedef struct scene {
     sunder_i_free_space space;
     sunder_i_corners corners;
     sunder_i_visibility view;
-    bool *seen; /* [nodes] by the last look */
+    bool *seen; /* [nodes] visible in the last query */
 } scene;
 
 enum { WHOLE, MAP, RAGGED, FAR, WIDE, KINDS };
 
-/* One coordinate of a kind: whole numbers; map coordinates with all bits in use; full doubles. */
+/* A coordinate of one kind: integers; map coordinates that use all bits; arbitrary doubles. */
 static double put(rng *r, int kind, int64_t whole)
 {
     if (kind == MAP) return 13000000 + 0x1p-28 * (double)(whole * (1 << 20) + rng_int(r, 0, 1 << 12));
@@ -33,7 +33,7 @@ static double put(rng *r, int kind, int64_t whole)
     return (double)whole;
 }
 
-/* Boxes, segments and points on a loose grid, which touch and overlap now and then. */
+/* Boxes, segments and points on a loose grid, which sometimes touch and overlap. */
 static size_t make_obstacles(rng *r, int kind, double (*xy)[10], size_t *ends, sunder_obstacle *out,
                              sunder_shape **shapes)
 {
@@ -44,7 +44,7 @@ static size_t make_obstacles(rng *r, int kind, double (*xy)[10], size_t *ends, s
         const double x0 = put(r, kind, x), y0 = put(r, kind, y), x1 = put(r, kind, x + w), y1 = put(r, kind, y + h);
         const double box[] = {x0, y0, x1, y0, x1, y1, x0, y1};
         memcpy(xy[i], box, sizeof box);
-        ends[i] = 1 + (size_t)rng_int(r, 0, 1) * 2; /* a point, or an angle */
+        ends[i] = 1 + (size_t)rng_int(r, 0, 1) * 2; /* a point, or a line with a bend */
         shapes[i] = NULL;
         if (rng_once_in(r, 5)) continue;
         if (rng_once_in(r, 5)) {
@@ -75,7 +75,7 @@ static sunder_shape *make_robot(rng *r, int kind)
     return s;
 }
 
-/* A free place somewhere. */
+/* A random free place. */
 static sunder_i_filtered_point somewhere(rng *r, int kind, const sunder_i_free_space *space)
 {
     for (;;) {
@@ -127,8 +127,8 @@ static bool is_free(const scene *s, uint32_t v, uint32_t w)
     return sunder_i_leg_is_free(&s->space, place(s, v), place(s, w), false, NULL);
 }
 
-/* The sides of the neighbours of the plain corner v to the line pq, in *lowest and *highest; false: not a
- * plain corner. */
+/* The sides of the neighbours of the plain corner v relative to the line pq, in *lowest and *highest; returns false if
+ * v is not a plain corner. */
 static bool sides(const scene *s, uint32_t v, const sunder_i_filtered_point *p, const sunder_i_filtered_point *q,
                   int *lowest, int *highest)
 {
@@ -143,7 +143,7 @@ static bool sides(const scene *s, uint32_t v, const sunder_i_filtered_point *p, 
     return true;
 }
 
-/* May a shortest path have a vertex at v where it comes along pq, as far as that corner is concerned? */
+/* May a shortest path that comes along pq have a vertex at v, as far as that corner is concerned? */
 static bool is_tangent(const scene *s, uint32_t v, const sunder_i_filtered_point *p, const sunder_i_filtered_point *q)
 {
     int low, high;
@@ -160,12 +160,12 @@ static bool is_taut(const scene *s, uint32_t u, uint32_t v, uint32_t w)
     const int turn = sunder_i_filtered_orient(&s->space.filter, a, b, c);
     if (turn > 0) return low[0] == 0 && low[1] == 0;
     if (turn < 0) return high[0] == 0 && high[1] == 0;
-    /* Does bc continue ab straight on? A way back does not count. */
+    /* Does bc continue ab straight on? The reverse direction does not count. */
     const sunder_i_filter *g = &s->space.filter;
     return sunder_i_filtered_cmp(g, a, b) == sunder_i_filtered_cmp(g, b, c);
 }
 
-/* Nodes that are seen from v and should be, for the counts; each that should be must be. */
+/* Counts the nodes visible from v and those that have to be, and demands that each of the latter is found. */
 static void check_look(const scene *s, uint32_t before, uint32_t v, double room, size_t *needed)
 {
     const uint32_t nodes = s->corners.nodes, start = nodes - 2, goal = nodes - 1;
@@ -206,8 +206,7 @@ static void nothing_is_missed(void **state)
         }
         free_scene(&s);
     }
-    /* Otherwise nothing could be missed, or nothing would be excluded: most nodes are hidden, and even more after a
-     * leg. */
+    /* Otherwise the test could not fail: most nodes have to be hidden, and even more after a leg. */
     print_message("of %zu nodes %zu are seen; of %zu after a leg %zu\n", all, seen, after, onward);
     assert_true(all > 1000 && after > 1000);
     assert_true(seen > all / 100 && seen < all / 4);

@@ -1,5 +1,5 @@
 /* displacement/solve/search/take_back: pairs that a search gave up and that have a solution are restored, the smallest
- * violation first, and nothing else is changed. displacement/solve/search/demand_margin: a pair that is left in
+ * violation first, and nothing else is changed. displacement/solve/search/pair_margin: a pair that is left in
  * conflict gets a margin if there is room for one. */
 #include "scene_board.h"
 
