@@ -107,7 +107,7 @@ static void square(gis_polygons *set, double at, double side, bool clockwise)
     assert_true(gis_polygons_end_ring(set, &error) && gis_polygons_end_polygon(set, &error));
 }
 
-/* Squares whose area, or only an intermediate value of it, leaves the range of doubles; and in the other direction. */
+/* Squares whose area, or only an intermediate value of it, leaves the range of doubles; in both orientations. */
 static void check_range(void **state)
 {
     (void)state;
@@ -131,9 +131,9 @@ static void check_range(void **state)
         gis_polygons_wind(&set);
         gis_polygons wound = {0};
         square(&wound, squares[i].at, squares[i].side, false);
-        if (squares[i].side > 0) gis_polygons_wind(&wound); /* it runs so already */
+        if (squares[i].side > 0) gis_polygons_wind(&wound); /* the ring already has this orientation */
         if (squares[i].side > 0) assert_true(wound.xy[3] == wound.xy[1]);
-        for (size_t k = 0; k < 4; k++) { /* the same ring from another start */
+        for (size_t k = 0; k < 4; k++) { /* the same ring from another starting vertex */
             const double *p = xy + 2 * k, *q = xy + 2 * ((k + 1) % 4);
             bool found = squares[i].side == 0;
             for (size_t m = 0; m < 4; m++) {

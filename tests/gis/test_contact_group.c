@@ -47,13 +47,12 @@ static void lay_out(layer *l, rng *r)
     }
 }
 
-/* The shortest link between two diamonds runs between corners, or between a corner and a side at an eighth of a
- * turn. */
+/* The shortest link between two diamonds is between corners, or between a corner and a side at 45 degrees. */
 static double distance(const diamond *a, const diamond *b)
 {
     const double dx = fabs(a->x - b->x), dy = fabs(a->y - b->y), size = a->size + b->size;
     if (dx + dy <= size) return 0;
-    const double along = (dx - dy) / 2; /* the diamond of that size about a, and the centre of b */
+    const double along = (dx - dy) / 2; /* the diamond of that size around a, and the centre of b */
     return fabs(along) <= size / 2 ? (dx + dy - size) / sqrt(2) : hypot(fmax(dx, dy) - size, fmin(dx, dy));
 }
 
@@ -142,7 +141,7 @@ static void test_largest(void **state)
     assert_true(cells > 6 && fewer > 0);
 }
 
-/* Ten thousand diamonds on top of each other, and two more: too many pairs to be enumerated. */
+/* Ten thousand diamonds on top of each other, and two more: too many pairs to enumerate. */
 static void test_pile(void **state)
 {
     (void)state;

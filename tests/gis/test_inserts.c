@@ -17,10 +17,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { ROWS = 13000 }; /* more than are buffered at a time */
+enum { ROWS = 13000 }; /* more than the buffer holds */
 
 static GDALDatasetH dataset;
-static unsigned threads; /* that rows go in on */
+static unsigned threads; /* on which rows are inserted */
 
 static void *database(void) { return GDALGetInternalHandle(dataset, "SQLITE_HANDLE"); }
 
@@ -137,7 +137,7 @@ static void test_refused(void **state)
     }
 }
 
-/* After inserts are given up, only the batch that has begun is written. */
+/* After inserts are abandoned, only the batch that has begun is written. */
 static void test_given_up(void **state)
 {
     (void)state;
@@ -152,8 +152,8 @@ static void test_given_up(void **state)
     assert_true(in > 0 && in < ROWS && in % 64 == 0);
 }
 
-/* Demands that the rows, given in two calls, are stored: keys that are consecutive, have gaps, are below zero, are the
- * greatest possible, descend. */
+/* Demands that the rows, given in two calls, are stored; for keys that are consecutive, have gaps, are negative, reach
+ * the maximum, or descend. */
 static void demand_pairs(int64_t first, int64_t step, size_t gap_at)
 {
     enum { PAIRS = 1234, CUT = 333 };

@@ -1,5 +1,5 @@
-/* Plans and shards are written as their structs lie in memory, except for padding, whose bytes are zero. The compiler,
- * if it has a builtin for it, finds the padding by itself. */
+/* Plans and shards are written as their structs are in memory, except for padding, whose bytes are zero. If the
+ * compiler has a builtin that clears padding, it is compared with our list of padding. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -24,8 +24,8 @@
 
 enum { FULL = 0xff };
 
-/* Two values in a list, with every bit set, are stored: the bytes after the counts of all lists are zero, as the
- * compiler would clear them. */
+/* Stores two values in a list with all bits set: the bytes after the counts of all lists have to be zero, as the
+ * compiler's builtin makes them. */
 #define ASSERT_STORED(type, array, count)                                                                              \
     do {                                                                                                               \
         type thing[2];                                                                                                 \

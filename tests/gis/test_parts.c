@@ -56,7 +56,7 @@ static void lay_out(town *t, rng *r, size_t n)
     const double pitch = 15 + 4 * rng_unit(r), crowded = 0.01 + 0.02 * rng_unit(r);
     const size_t row = 40 + (size_t)rng_int(r, 0, 60);
     for (t->n = 0; t->n < n; t->n++) {
-        const bool street = t->n / row % 7 == 3 && t->n % row < 50; /* fixed by its first */
+        const bool street = t->n / row % 7 == 3 && t->n % row < 50; /* the first of a street is fixed */
         const bool crowd = rng_unit(r) < crowded, terrace = street || rng_once_in(r, 12);
         const double x = 4000.25 + pitch * (double)(t->n % row), y = 9000 + pitch * (double)(t->n / row);
         const double w = terrace ? pitch : crowd ? pitch - 1 + 3 * rng_unit(r) : 4 + 6 * rng_unit(r);
@@ -128,11 +128,11 @@ static void lay_barriers(town *t, rng *r, bool any)
                  (double[]){20 * rng_unit(r) - 10, 20 * rng_unit(r) - 10}, (size_t)rng_int(r, 1, 6));
     for (int k = 0; k < 30; k++)
         add_meadow(t, r, all[0] + w * rng_unit(r), all[1] + h * rng_unit(r), 3 + 9 * rng_unit(r));
-    if (rng_once_in(r, 2)) /* nearly all in one place */
+    if (rng_once_in(r, 2)) /* many in one place */
         for (int k = 0; k < 300; k++)
             add_line(t, r, (double[]){all[0] + w / 2, all[1] + h / 2}, (double[]){3 * rng_unit(r), 3 * rng_unit(r)}, 2);
     add_line(t, r, (double[]){all[0] - 9 * w, all[1] - 9 * h}, (double[]){1, 1}, 9);
-    /* Proofs about given-up pairs read everything within reach, so the reach is kept small. */
+    /* Proofs about given-up pairs look at everything within reach, so the reach is kept small. */
     for (size_t k = 0; k < t->n; k++) t->feature[k].max_shift = fmin(t->feature[k].max_shift, 2);
     t->how.barrier_reach = INFINITY;
     t->how.effort = 0;
@@ -149,7 +149,7 @@ static void clear_barriers(town *t)
     t->barriers = 0;
 }
 
-/* Numbers of barriers may have gaps; here there is one after each. */
+/* Numbers of barriers may have gaps: here every second number is used. */
 static size_t number_of(const town *t, size_t thing)
 {
     return thing < t->n || thing == SIZE_MAX ? thing : t->n + 2 * (thing - t->n);
@@ -266,7 +266,7 @@ static void demand_same_sums(const sunder_report *whole, const gis_joined *j)
     assert_true(s.cost == t->cost && s.lower_bound == t->lower_bound && s.verified == t->verified);
 }
 
-/* Writes each part into a file of its own, or all of them into one. */
+/* Writes each part into a file of its own, or all of them into one file. */
 static void separate_parts(gis_layout *layout, unsigned shards, bool apart)
 {
     gis_part_file file = {0};
@@ -336,7 +336,7 @@ static void separate_towns(bool barriers)
         sunder_report_summary(whole, &s);
         moved += s.moved;
         more += compare(&t, whole, 1, -1) + compare(&t, whole, 2, -1) + compare(&t, whole, 7, -1);
-        more += compare(&t, whole, 7, t.how.gap); /* hardly a halo */
+        more += compare(&t, whole, 7, t.how.gap); /* a small margin around each part */
         sunder_report_free(whole);
         sunder_layer_free(layer);
         clear_barriers(&t);

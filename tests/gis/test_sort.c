@@ -1,5 +1,5 @@
-/* The order of features in a spool: records sorted by their keys, with any amount of memory, and the curve on which
- * keys are places. */
+/* The order of features in a spool: records are sorted by their keys, with any amount of memory, where keys are
+ * positions on a space-filling curve. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -68,7 +68,8 @@ static void test_keys(void **state)
         }
 }
 
-/* Each position occurs once, and consecutive positions are in neighbouring cells: this characterises the curve. */
+/* Each position occurs once, and consecutive positions are in neighbouring cells: these properties define such a
+ * curve. */
 static void test_curve(void **state)
 {
     enum { BITS = 6, SIDE = 1 << BITS };

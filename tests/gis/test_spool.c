@@ -39,12 +39,12 @@ static void add_ring(gis_polygons *to, const double *at, double size, bool clock
         const double x = at[0] + size * c[0], y = at[1] + size * c[1];
         const int repeated = rng_once_in(random, 4) ? 2 : 1;
         for (int r = 0; r < repeated; r++) assert_true(gis_polygons_vertex(to, x, y, NULL));
-        if (rng_once_in(random, 3)) /* a straight corner: halves of these sizes are exact */
+        if (rng_once_in(random, 3)) /* adds a straight vertex; the half is exact */
             assert_true(gis_polygons_vertex(to, (x + at[0] + size * d[0]) / 2, (y + at[1] + size * d[1]) / 2, NULL));
     }
 }
 
-/* Draws shapes of several squares with holes; some are bow-ties. */
+/* Draws shapes of several squares with holes; some cross themselves. */
 static sunder_shape *draw_shape(rng *random)
 {
     gis_polygons set = {0};
@@ -178,7 +178,7 @@ static bool see(void *user, const gis_spool_feature *feature, gis_error *error)
     r->vertices += ring_end[poly_end[polygons - 1] - 1];
     sunder_shape_box(feature->demands.shape, box);
     for (int k = 0; k < 2; k++) {
-        r->box[k] = fmin(fmin(r->box[k], box[k]), feature->start[k]); /* no number: of none */
+        r->box[k] = fmin(fmin(r->box[k], box[k]), feature->start[k]); /* NAN, if there is none, is ignored */
         r->box[k + 2] = fmax(fmax(r->box[k + 2], box[k + 2]), feature->start[k]);
     }
     sunder_shape_free((sunder_shape *)feature->demands.shape);
@@ -209,7 +209,7 @@ static void read_board(const board *b, unsigned parts)
         last = cell->part;
     }
     for (size_t i = 0; i < b->n; i++) assert_true(r->found[i]);
-    /* Each record is found again by its place. */
+    /* Each record is found again by its place in the file. */
     for (size_t i = 0; i < b->n; i++) {
         const uint64_t place = r->place[i];
         r->found[i] = false;
@@ -289,7 +289,7 @@ static bool refuse_some(void *user, gis_spool_feature *feature, gis_error *error
     return feature->index % 7 != 5 || gis_fail(error, "feature %zu is refused", feature->index);
 }
 
-/* Whatever the order on the disk; and the former spool stays. */
+/* If a feature is refused when the spool is finished, the former spool stays; for both orders on the disk. */
 static void test_refused(void **state)
 {
     const double *const around[] = {NULL, frame};
@@ -366,7 +366,7 @@ static void find_box(const board *b, double all[4])
     }
 }
 
-/* The bytes of a file, the caller's. */
+/* The bytes of a file; the caller frees them. */
 static char *bytes_of(const char *name, size_t *n)
 {
     const char *path = scratch_path(name);
@@ -435,7 +435,7 @@ static bool pass(void *user, const gis_spool_feature *feature, gis_error *error)
     return true;
 }
 
-/* Reads the whole spool; false: the error. */
+/* Reads the whole spool; false: sets the error. */
 static bool read_all(gis_error *error)
 {
     gis_spool *spool;
@@ -474,7 +474,7 @@ static void test_harm(void **state)
     free_board(b);
 }
 
-/* The marks of a file are checked before its checksum, so the message says what is wrong. */
+/* The marks of a file are checked before its checksum, so that the message names the cause. */
 static void test_marks(void **state)
 {
     static const struct {
@@ -496,7 +496,7 @@ static void test_marks(void **state)
     free_board(b);
 }
 
-/* A spool that is not finished leaves the former one, and no other files. */
+/* A spool that is not finished leaves the former one in place, and no other files. */
 static void test_given_up(void **state)
 {
     board *b = draw_board(20);
@@ -528,7 +528,7 @@ static void test_full_disk(void **state)
     done = done && gis_disk_file_flush(&file, &error);
     assert_false(done);
     assert_non_null(strstr(error.message, "/dev/full: cannot be written: No space left"));
-    gis_leftover_forget(file.leftover); /* the device must not be removed */
+    gis_leftover_forget(file.leftover); /* the device may not be removed by the clean-up */
     file.leftover = NULL;
     gis_disk_file_close(&file);
 }

@@ -1,5 +1,5 @@
-/* A layer that is read to disk in batches equals a layer that is read whole, feature by feature and to the last bit:
- * shapes, demands, FIDs, ids, statuses, and the properties of the layer. */
+/* A layer that is read to disk in batches equals a layer that is read as a whole, feature by feature and to the last
+ * bit: shapes, requirements, FIDs, ids, statuses, and the properties of the layer. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -31,7 +31,7 @@ static OGRGeometryH draw_polygon(rng *random, double x, double y)
     char text[600];
     const double a = 1 + 8 * rng_unit(random), b = 1 + 8 * rng_unit(random);
     OGRGeometryH geometry = NULL;
-    if (rng_once_in(random, 40)) /* a bow-tie */
+    if (rng_once_in(random, 40)) /* a ring that crosses itself */
         snprintf(text, sizeof text, "POLYGON((%.17g %.17g,%.17g %.17g,%.17g %.17g,%.17g %.17g,%.17g %.17g))", x, y,
                  x + a, y + b, x + a, y, x, y + b, x, y);
     else if (rng_once_in(random, 10))
@@ -228,7 +228,7 @@ static void test_plain(void **state)
     request.source.bbox = (double[]){100, 200, 1700, 1500};
     request.id_field = "street";
     compare_spool(&request);
-    request.source.where = "kind > 11"; /* none */
+    request.source.where = "kind > 11"; /* selects no features */
     compare_spool(&request);
 }
 
@@ -291,7 +291,7 @@ static void test_failures(void **state)
     request.rules.fixed_where = "nothing = 3";
     expect_failure(&request, "--fixed-where \"nothing = 3\"");
     request = request_for("polygons.gpkg");
-    request.rules.weight_field = "kind"; /* it is 0 somewhere */
+    request.rules.weight_field = "kind"; /* the field is 0 for some features, an invalid weight */
     expect_failure(&request, "the weight in kind is 0");
     request.rules.weight_field = NULL;
     request.rules.block_field = "streets";
@@ -336,7 +336,7 @@ static void test_batches(void **state)
             request.facts = &facts;
         }
     }
-    /* Wrong facts about the layer are noticed. */
+    /* Wrong facts about the layer are detected. */
     facts.features++;
     assert_true(gis_source_open(&request, &source, &error));
     bool any = true, done = true;

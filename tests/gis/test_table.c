@@ -1,5 +1,5 @@
-/* A GeoPackage's table that is read without GDAL gives, feature by feature, the features that GDAL reads; and if a row
- * is not plain, GDAL reads the whole table. */
+/* A GeoPackage table that is read without GDAL gives the same features as GDAL, one by one; and if a row is not plain,
+ * GDAL reads the whole table. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -24,13 +24,13 @@
 static const char *const wkt[] = {
     "POLYGON((0.1 0,7 0,7 7.3,0 7,0.1 0))",
     "POLYGON((10 0,19 0,19 9,10 9,10 0),(12 2,12 3,13 3,12 2))",
-    "POLYGON((20 0,29 0,29 9))", /* not closed */
+    "POLYGON((20 0,29 0,29 9))", /* the ring is not closed */
     "MULTIPOLYGON(((30 0,34 0,34 4,30 0)),((36 0,39 0,39 3,36 0),(37 0.1,38 0.1,38 0.2,37 0.1)))",
     "POLYGON((40 0,49 0,49 9,40 9,40 0))",
 };
 enum { FEATURES = sizeof wkt / sizeof *wkt };
 
-/* The layer, after a statement that changes it; NULL: none does. */
+/* The layer, after an SQL statement that changes it; NULL: no statement. */
 static void make_layer(const char *name, const char *statement)
 {
     static const struct {
@@ -79,7 +79,7 @@ static bool count(void *user, const unsigned char *record, gis_error *error)
     return true;
 }
 
-/* For a number of threads, into how many chunks. */
+/* For a number of threads, the number of chunks. */
 static bool is_read(const char *name, unsigned threads, size_t *chunks)
 {
     gis_error error = {0};
@@ -105,7 +105,7 @@ static bool is_read_past_gdal(const char *name)
     return read;
 }
 
-/* Each half has its own chunks; the first are the smallest. */
+/* Each half of the table has its own chunks; the first are the smallest. */
 static bool is_read_in_halves(const char *name)
 {
     size_t whole, halves;
@@ -176,7 +176,7 @@ static void test_plain(void **state)
     assert_read_alike("plain.gpkg");
 }
 
-/* The shape of feature i, with the positions of vertices as they were read. */
+/* The shape of feature i, with the positions of its vertices in the input. */
 static sunder_shape *shape_of(const gis_source *source, size_t i)
 {
     gis_polygonal_part part = {0};
@@ -189,7 +189,7 @@ static sunder_shape *shape_of(const gis_source *source, size_t i)
     return shape;
 }
 
-/* Demands that the geometry of feature i, moved, is that of the row written without GDAL. */
+/* Demands that the geometry of feature i, after a move, is the one in the row written without GDAL. */
 static void assert_written_moved(const gis_source *source, size_t i, OGRGeometryH geometry)
 {
     const int map[] = {0, 1, 2, 3};
@@ -206,7 +206,7 @@ static void assert_written_moved(const gis_source *source, size_t i, OGRGeometry
     OGR_G_DestroyGeometry(written);
 }
 
-/* A record that borrows its vertices from shapes equals the original, also if there is no shape, or that of another
+/* A record that refers to the vertices of shapes equals the original, also if there is no shape, or that of another
  * feature. */
 static void test_borrowing(void **state)
 {
@@ -244,16 +244,17 @@ static void test_not_plain(void **state)
     static const char *const statement[] = {
         UPDATE "geom = NULL" LAST,
         UPDATE "geom = 'text'" LAST,
-        UPDATE "geom = substr(geom, 1, length(geom) - 8)" LAST,                                  /* cut short */
-        UPDATE "geom = CAST(geom || x'00' AS BLOB)" LAST,                                        /* and too long */
-        UPDATE "geom = CAST(x'475000010000000001060000000000000000' AS BLOB)" LAST,              /* empty */
-        UPDATE "geom = CAST(x'4750000100000000010300000001000000' || x'00000000' AS BLOB)" LAST, /* a ring is */
+        UPDATE "geom = substr(geom, 1, length(geom) - 8)" LAST,                     /* cut short */
+        UPDATE "geom = CAST(geom || x'00' AS BLOB)" LAST,                           /* a byte too long */
+        UPDATE "geom = CAST(x'475000010000000001060000000000000000' AS BLOB)" LAST, /* no members */
+        /* a ring without points */
+        UPDATE "geom = CAST(x'4750000100000000010300000001000000' || x'00000000' AS BLOB)" LAST,
         UPDATE "geom = CAST(x'47500001000000000000000003000000010000000400000000000000000000000000000000000000003ff"
                "000000000000000000000000000003ff00000000000003ff000000000000000000000000000000000000000000000' AS "
-               "BLOB)" LAST, /* the other order of bytes */
+               "BLOB)" LAST, /* the other byte order */
         UPDATE "geom = CAST(x'4750000100000000010100000000000000000000000000000000000000' AS BLOB)" LAST, /* a point */
         UPDATE "geom = CAST(x'475000010000000001030000000100000003000000000000000000f07f000000000000000000000000000000"
-               "000000000000000000000000000000000000000000000000000000' AS BLOB)" LAST, /* not finite, and short */
+               "000000000000000000000000000000000000000000000000000000' AS BLOB)" LAST, /* not finite, and too short */
         UPDATE "small = 'many'" LAST,
         UPDATE "small = 1.5" LAST,
         UPDATE "small = 5000000000" LAST,
@@ -274,7 +275,7 @@ static void test_not_plain(void **state)
     }
 }
 
-/* A field of another kind than records hold. */
+/* A field of a type that records do not have. */
 static void test_other_fields(void **state)
 {
     (void)state;
@@ -286,13 +287,14 @@ static void test_other_fields(void **state)
 /* ---- In halves --------------------------------------------------------------------------------------------------- */
 
 #define LAYER "\"a \"\"layer\"\"\""
-/* Inserts 6000 more rows, copies of existing ones, with keys by a term in i, which is 1 to 6000. */
+/* Inserts 6000 more rows, copies of existing ones, whose keys are given by an SQL expression in i, which is 1 to
+ * 6000. */
 #define MORE(key)                                                                                                      \
     "INSERT INTO " LAYER " (fid, geom, \"say \"\"so\"\"\", small, large, real) "                                       \
     "WITH RECURSIVE k(i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM k WHERE i < 6000) "                                  \
     "SELECT " key ", geom, \"say \"\"so\"\"\", i, large, real FROM k JOIN " LAYER " ON fid = 7 * (1 + i % 5)"
 
-/* The layer after several statements; NULL ends them. */
+/* The layer after several SQL statements; NULL ends the list. */
 static void make_by(const char *name, const char *const *statement)
 {
     make_layer(name, NULL);
@@ -307,7 +309,7 @@ static void make_by(const char *name, const char *const *statement)
     GDALClose(dataset);
 }
 
-/* Keys with gaps, below zero, at both ends of the range of integers, and tables whose rows lie in one half only. */
+/* Keys with gaps, negative, at both ends of the range of integers, and tables whose rows are all in one half. */
 static void test_halves(void **state)
 {
     static const struct {
@@ -337,10 +339,11 @@ static void test_halves(void **state)
     }
 }
 
-/* If a row is not plain, in either half, GDAL reads all of it, and the message is that of GDAL's first such feature. */
+/* If a row in either half is not plain, GDAL reads all rows, and the message is that of GDAL about the first such
+ * feature. */
 static void test_not_plain_in_halves(void **state)
 {
-    /* Not finite. */
+    /* A coordinate that is not finite. */
     static const char *const first =
         UPDATE "geom = CAST(substr(geom, 1, 53) || x'000000000000f07f' || substr(geom, 62) "
                "AS BLOB) WHERE fid = 107 AND length(geom) > 62";
@@ -363,13 +366,14 @@ static void test_not_plain_in_halves(void **state)
     }
 }
 
-/* Rows that do not lie by their keys, or that each connection may see otherwise, are read as one. */
+/* If rows are not stored in the order of their keys, or two connections may see different rows, the table is read by
+ * one connection. */
 static void test_as_one(void **state)
 {
     static const char *const index[] = {
         MORE("i + 100"), "CREATE INDEX covering ON " LAYER " (real, small, large, \"say \"\"so\"\"\", geom)", "ANALYZE",
-        "UPDATE sqlite_stat1 SET stat = stat || ' sz=1' WHERE idx = 'covering'", /* told to be short: it is read */
-        NULL};
+        /* statistics that claim short index entries, so that SQLite reads the rows by the index */
+        "UPDATE sqlite_stat1 SET stat = stat || ' sz=1' WHERE idx = 'covering'", NULL};
     static const char *const part[] = {MORE("i + 100"), "CREATE INDEX by_small ON " LAYER " (small)", NULL};
     static const char *const log[] = {MORE("i + 100"), "PRAGMA journal_mode = wal", NULL};
     (void)state;

@@ -1,6 +1,6 @@
-/* All edges of a member are cut at their intersections, and pieces that lie on one another an even number of times are
- * dropped. Each remaining piece has the set on one side: the side on which a ray meets an odd number of the other
- * pieces. */
+/* All edges of a member are cut at their intersections. Of coincident pieces an even number is dropped, and one remains
+ * of an odd number. Each remaining piece has the set on one side: the side on which a ray meets an odd number of the
+ * other pieces. */
 #include "even_odd.h"
 
 #include <stdlib.h>
@@ -9,7 +9,7 @@ typedef struct spot {
     mpq_t x, y;
 } spot;
 
-/* From a to b; lexicographically a < b, until it is known on which side the set is. */
+/* From a to b, with a < b lexicographically; reversed later if the set has to be on the left. */
 typedef struct piece {
     spot a, b;
     size_t next;
@@ -69,7 +69,7 @@ static int turn(const spot *a, const spot *b, const spot *c, const spot *d)
 
 static bool between(const spot *p, const spot *a, const spot *b) { return spot_cmp(a, p) < 0 && spot_cmp(p, b) < 0; }
 
-/* Puts on the list where edge f meets edge e inside e; both run lexicographically upwards. */
+/* Lists the points inside edge e at which edge f meets it; both edges run lexicographically upwards. */
 static size_t add_meeting(spot *list, size_t n, spot *const e, spot *const f)
 {
     const int fa = turn(&e[0], &e[1], &e[0], &f[0]), fb = turn(&e[0], &e[1], &e[0], &f[1]);
@@ -79,7 +79,7 @@ static size_t add_meeting(spot *list, size_t n, spot *const e, spot *const f)
             spot_set(&list[n++], &f[k]);
         }
     if (fa * fb >= 0 || turn(&f[0], &f[1], &f[0], &e[0]) * turn(&f[0], &f[1], &f[0], &e[1]) >= 0) return n;
-    mpq_t t, d; /* at e[0] + t (e[1] - e[0]) */
+    mpq_t t, d; /* the point e[0] + t (e[1] - e[0]) */
     mpq_inits(t, d, NULL);
     cross(t, &e[0], &f[0], &f[0], &f[1]);
     cross(d, &e[0], &e[1], &f[0], &f[1]);
@@ -150,7 +150,7 @@ static void drop_even_pieces(cutter *c)
         }
 }
 
-/* Is the set above the piece (to the left, if it is vertical)? By a ray from its middle. */
+/* Is the set above the piece (to the left, if it is vertical)? Decided by a ray from its midpoint. */
 static bool set_is_left(const cutter *c, const piece *p)
 {
     spot m;
@@ -166,7 +166,7 @@ static bool set_is_left(const cutter *c, const piece *p)
         if (q->gone || q == p) continue;
         if (upright) {
             const bool a = mpq_cmp(q->a.y, m.y) <= 0, b = mpq_cmp(q->b.y, m.y) <= 0;
-            /* Directed upwards, the piece is met by the ray to the left if the middle is right of it. */
+            /* The piece is directed upwards, so the ray to the left meets it if the midpoint is on its right. */
             if (a != b && turn(&q->a, &q->b, &q->a, &m) * (a ? 1 : -1) < 0) in = !in;
         } else if (mpq_cmp(q->a.x, m.x) <= 0 && mpq_cmp(m.x, q->b.x) < 0 && turn(&q->a, &q->b, &q->a, &m) < 0) {
             in = !in;
@@ -178,8 +178,8 @@ static bool set_is_left(const cutter *c, const piece *p)
 
 /* ---- Rings ---- */
 
-/* Going clockwise from direction 0 (of `from`), is u met before v? All are directions from `at`; u and v are not
- * from's. */
+/* Turning clockwise from the direction of `from`, does one meet u before v? All are directions from `at`; u and v
+ * differ from the direction of `from`. */
 static bool sooner(const spot *at, const spot *from, const spot *u, const spot *v)
 {
     /* Half-turns: 0 for directions right of `from`, 1 for straight on, 2 for directions left of it. */
@@ -188,7 +188,8 @@ static bool sooner(const spot *at, const spot *from, const spot *u, const spot *
     return turn(at, u, at, v) < 0;
 }
 
-/* The corner at the end of each piece: the set lies clockwise from the way back, up to the piece that leaves there. */
+/* Joins pieces at their ends: the next piece is the first one clockwise from the way back, so that the set is in
+ * between. */
 static void link_pieces(cutter *c)
 {
     for (size_t i = 0; i < c->pieces; i++) {

@@ -8,7 +8,7 @@ typedef struct point {
     mpq_t x, y;
 } point;
 
-/* A list of directed segments; points are segments of no length. */
+/* A list of directed segments; points are segments of length zero. */
 typedef struct pieces {
     point (*end)[2];
     size_t n;
@@ -72,7 +72,7 @@ static void add_ring(pieces *list, const json *ring)
         add_piece(list, &ring->item[i], &ring->item[i + 1 < ring->n ? i + 1 : 0]);
 }
 
-/* The order of the ends of degenerate segments is not part of a record. */
+/* A record does not determine the order of the ends of degenerate segments. */
 static void put_in_order(pieces *list)
 {
     for (size_t i = 0; i < list->n; i++)
@@ -148,7 +148,7 @@ static char *compare_boundary(const json *sum, const json *record)
     const bool touching = atoi(json_text(json_get(record, "touch_vertices"))) > 0;
     const size_t known = strtoul(json_text(json_get(record, "outer")), NULL, 10) +
                          strtoul(json_text(json_get(record, "holes")), NULL, 10);
-    /* A record of very many rings gives their number only. */
+    /* For a very large number of rings a record only gives the number. */
     if (json_count(list) && !same_pieces(&ours, &theirs))
         complaint = test_format("boundary: %zu edges, not the same as the %zu known", ours.n, theirs.n);
     else if (!touching && rings != known)

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Squared distance of corner (cx, cy) + sign (x, y) from the side, less that of the gap. */
+/* Squared distance of corner (cx, cy) + sign (x, y) from the side, minus the square of the gap. */
 static void excess(mpf_t out, const side *s, double cx, double cy, const mpf_t x, const mpf_t y, int sign, double gap,
                    numbers *w)
 {
@@ -41,7 +41,7 @@ static double side_distance(const side *s, double x, double y)
 }
 
 /* Returns 1 if the place keeps the gap, 0 if it does not, -1 if more bits are needed. With many bits a difference near
- * zero counts as zero. Pairs that doubles see farther apart than the gap plus `spare` are skipped. */
+ * zero counts as zero. Pairs that are farther apart in doubles than the gap plus `spare` are skipped. */
 static int keeps(const figure *f, const mpf_t x, const mpf_t y, double spare, int level, numbers *w)
 {
     const double dx = mpf_get_d(x), dy = mpf_get_d(y), far = f->gap + spare;
@@ -67,7 +67,7 @@ static int keeps(const figure *f, const mpf_t x, const mpf_t y, double spare, in
     return answer;
 }
 
-/* In doubles: does a place fail to keep the gap, by far more than they are off? */
+/* In doubles: does the place violate the gap by far more than their rounding error? */
 static bool plainly_near(const figure *f, double x, double y, double spare)
 {
     for (size_t i = 0; i < f->n; i++)
@@ -80,8 +80,8 @@ static bool plainly_near(const figure *f, double x, double y, double spare)
 
 typedef struct judging {
     figure f;
-    double size, limit;  /* of the figure; places farther than this do not matter */
-    mpf_t answer, bound; /* squares: of the answer less 1e-9 of it, and of the bound */
+    double size, limit;  /* size of the figure; places farther away than `limit` do not matter */
+    mpf_t answer, bound; /* squares: of the answer minus 1e-9 of it, and of the bound */
     numbers work[2];
     mpf_t x[2], y[2], square;
     gap_verdict verdict;
@@ -97,7 +97,7 @@ static void try_place(judging *g, place *p)
     if (!locate(g->x[SHORT], g->y[SHORT], p, SHORT, &g->work[SHORT])) return;
     const double x = mpf_get_d(g->x[SHORT]), y = mpf_get_d(g->y[SHORT]);
     if (hypot(x, y) > g->limit) return;
-    /* Once one is found that is as near, only those matter that would say otherwise. */
+    /* After a free place is found, only places that are nearer than the answer or the bound can change the verdict. */
     pair_sum(g->square, g->x[SHORT], g->x[SHORT], g->y[SHORT], g->y[SHORT], g->work[SHORT].v[0], false);
     if (g->length < INFINITY && mpf_cmp(g->square, g->answer) >= 0 && mpf_cmp(g->square, g->bound) >= 0) return;
     if (plainly_near(&g->f, x, y, spare)) return;

@@ -1,12 +1,12 @@
 /* Least translations with a gap by brute force, for tests. Shares no code with the library.
  *
  * The least translation is the nearest to the origin of three kinds of places: feet of perpendiculars on lines at the
- * gap from a side of one set moved to a corner of the other, nearest points of circles about the differences of two
- * corners, and crossings of two of these curves. Each place that is no farther than the answer under test is computed
- * in long binary fractions, and it is tested whether it keeps the gap, corner against side. A difference from the gap
- * of less than 2^-2700 counts as equality. Reason: places have degree 4 at most over the coordinates, which have 60
- * bits here, and the squares that are compared are integers of less than 700 bits in a common unit; so the product with
- * the three conjugates bounds a nonzero difference from below by 2^-2100. */
+ * distance of the gap from a side of one set moved to a corner of the other, nearest points of circles about the
+ * differences of two corners, and crossings of two of these curves. Each place that is no farther than the answer under
+ * test is computed in long binary fractions, and corner against side it is tested whether the place keeps the gap. A
+ * difference from the gap of less than 2^-2700 counts as equality. Reason: places have degree 4 at most over the
+ * coordinates, which have 60 bits here, and the squares that are compared are integers of less than 700 bits in a
+ * common unit; so the product with the three conjugates bounds a nonzero difference from below by 2^-2100. */
 #ifndef SUNDER_TESTS_GAP_ORACLE_H
 #define SUNDER_TESTS_GAP_ORACLE_H
 
@@ -15,17 +15,17 @@
 #include <gmp.h>
 #include <stdbool.h>
 
-/* Do the interiors of P and Q + (x, y) stay apart, and the sets at least gap from each other? Exact. gap > 0. */
+/* Are the interiors of P and Q + (x, y) disjoint, and the sets at least the gap apart? Exact. gap > 0. */
 bool gap_oracle_keeps(const polyset *p, const polyset *q, double gap, const mpq_t x, const mpq_t y);
 
 typedef enum gap_verdict {
     GAP_FINE,
-    GAP_TOO_LONG,  /* something free is nearer than the answer by more than 1e-9 of it */
-    GAP_BOUND_HIGH /* something free is nearer than the bound */
+    GAP_TOO_LONG,  /* a free place is nearer than the answer by more than 1e-9 of it */
+    GAP_BOUND_HIGH /* a free place is nearer than the bound */
 } gap_verdict;
 
-/* Judges the length of an answer that keeps the gap, by its square, and a lower bound. *length: of the nearest place
- * found, nearly; it is infinite if nothing so near is free. */
+/* Judges a translation that keeps the gap, given by its squared length, and a lower bound. *length: approximately the
+ * length of the nearest free place; infinite if none is as near as the answer. */
 gap_verdict gap_oracle_judge(const polyset *p, const polyset *q, double gap, const mpq_t square, double bound,
                              double *length);
 

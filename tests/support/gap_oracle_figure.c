@@ -91,10 +91,10 @@ static bool far_enough(const side *s, double cx, double cy, const mpq_t x, const
     cross_and_dot(none, square, dx, dy, dx, dy);
     mpq_set_d(limit, gap);
     mpq_mul(limit, limit, limit);
-    if (mpq_sgn(dot) > 0 && mpq_cmp(dot, square) < 0) { /* over the side: cross^2 >= gap^2 |d|^2 */
+    if (mpq_sgn(dot) > 0 && mpq_cmp(dot, square) < 0) { /* the foot is on the side: cross^2 >= gap^2 |d|^2 */
         mpq_mul(cross, cross, cross);
         mpq_mul(limit, limit, square);
-    } else { /* |v|^2, from the other end if that is nearer */
+    } else { /* |v|^2, measured from the nearer end */
         if (mpq_sgn(dot) > 0) {
             mpq_sub(vx, vx, dx);
             mpq_sub(vy, vy, dy);

@@ -1,4 +1,4 @@
-/* Brute force for gaps: lines and circles, and where they meet. */
+/* Brute force for gaps: lines and circles, and their crossings. */
 #include "gap_oracle_inner.h"
 
 #include <math.h>
@@ -111,7 +111,7 @@ static bool line_line(mpf_t x, mpf_t y, const track *t, const track *u, int k, n
     return true;
 }
 
-/* From the point (x, y), half a chord of sqrt(gap^2 - off^2) along (dx, dy), |d| = 1. */
+/* Adds to the point (x, y) half a chord, of length sqrt(gap^2 - off^2), in the direction (dx, dy), |d| = 1. */
 static bool along_chord(mpf_t x, mpf_t y, mpf_t dx, mpf_t dy, mpf_t off, double gap, int root, int k, mpf_t work)
 {
     mpf_mul(off, off, off);
@@ -132,7 +132,7 @@ static bool along_chord(mpf_t x, mpf_t y, mpf_t dx, mpf_t dy, mpf_t off, double 
 static bool line_circle(mpf_t x, mpf_t y, const track *t, const track *u, int root, int k, numbers *w)
 {
     pair_sum(w->v[0], t->hnx[k], u->hx[k], t->hny[k], u->hy[k], w->v[1], false);
-    mpf_sub(w->v[0], t->hc[k], w->v[0]); /* the line is so far from the center */
+    mpf_sub(w->v[0], t->hc[k], w->v[0]); /* the distance of the line from the centre */
     mpf_mul(x, t->hnx[k], w->v[0]);
     mpf_add(x, x, u->hx[k]);
     mpf_mul(y, t->hny[k], w->v[0]);
@@ -212,7 +212,7 @@ size_t drop_far_tracks(track *t, size_t n, double limit)
     return left;
 }
 
-/* Two sides along the same axis. */
+/* Are both parallel to the same axis? */
 static bool plainly_parallel(const track *t, const track *u)
 {
     return (t->nx == 0 && u->nx == 0) || (t->ny == 0 && u->ny == 0);

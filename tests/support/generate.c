@@ -7,8 +7,8 @@
 /* ---- Boards of triangles ---- */
 
 typedef struct side {
-    int from, to; /* corners of the board, column + row * (columns + 1) */
-    int part;     /* edge-connected part of its triangle */
+    int from, to; /* corners on the board, column + row * (columns + 1) */
+    int part;     /* the edge-connected part that contains its triangle */
     bool done;
 } side;
 
@@ -36,7 +36,8 @@ static void triangle_corners(const cells *c, int i, int j, int upper, int out[3]
     memcpy(out, t[2 * f + upper], 3 * sizeof *out);
 }
 
-/* Adds the sides of a triangle; a side met from both triangles joins their parts and is no outline. */
+/* Adds the sides of a triangle; a side that is added from both triangles joins their parts and is not on the
+ * outline. */
 static void add_sides(tracer *t, int number, const int v[3])
 {
     for (int k = 0; k < 3; k++) {
@@ -52,7 +53,8 @@ static void add_sides(tracer *t, int number, const int v[3])
     }
 }
 
-/* The angle of a step on the board, in eighths of a turn: order is all that matters, and the real slopes keep it. */
+/* The direction of a step on the board, in eighths of a turn: only the order of directions matters, and it is that of
+ * the true slopes. */
 static int octant(const tracer *t, int from, int to)
 {
     const int w = t->c->columns + 1, dx = to % w - from % w, dy = to / w - from / w;
@@ -82,7 +84,7 @@ typedef struct walk {
 static double px(const cells *c, int v) { return c->x[v % (c->columns + 1)]; }
 static double py(const cells *c, int v) { return c->y[v / (c->columns + 1)]; }
 
-/* Area on the board with unit steps: its sign is that of the true one. */
+/* Area on the board with unit steps: its sign is that of the true area. */
 static walk trace(tracer *t, int e, bool pinched, bool bends_only)
 {
     const int w = t->c->columns + 1;
@@ -93,7 +95,8 @@ static walk trace(tracer *t, int e, bool pinched, bool bends_only)
         t->s[f].done = true;
         r.area += (s->from % w) * (s->to / w) - (s->from / w) * (s->to % w);
         const int g = follow(t, f, pinched), d = octant(t, s->from, s->to), h = octant(t, t->s[g].from, t->s[g].to);
-        if (!bends_only || d != h || d % 2) r.v[r.n++] = s->to; /* slopes of diagonals differ, unless steps are equal */
+        /* the slopes of diagonals differ, unless steps are equal */
+        if (!bends_only || d != h || d % 2) r.v[r.n++] = s->to;
         f = g;
     } while (f != e);
     return r;
@@ -198,8 +201,8 @@ void pocket_for(cells *board, rng *r, const cells *peg, int slide)
             board->falling[i][j] = rng_once_in(r, 2);
             board->on[i][j][0] = board->on[i][j][1] = true;
         }
-    /* Turned by half a turn, a lower triangle is an upper one and a diagonal keeps its direction. A place swept over by
-     * triangles of both directions is emptied whole: the pocket is then wider than the peg there. */
+    /* After a half turn a lower triangle is an upper one, and diagonals keep their direction. A square that triangles
+     * of both kinds sweep over is emptied as a whole: there the pocket is wider than the peg. */
     for (int s = 0; s <= slide; s++)
         for (int i = 0; i < peg->columns; i++)
             for (int j = 0; j < peg->rows; j++)

@@ -1,4 +1,4 @@
-/* Random polygonal sets that lean towards trouble. All are valid: rings touch at points at most; members of one set may
+/* Random polygonal sets that are often degenerate. All are valid: rings touch at most in points; members of one set may
  * touch, share walls and overlap. */
 #ifndef SUNDER_TESTS_GENERATE_H
 #define SUNDER_TESTS_GENERATE_H
@@ -16,9 +16,9 @@ typedef struct cells {
     bool on[CELLS_MAX][CELLS_MAX][2];          /* [column][row][lower, upper] triangle is part of the set */
 } cells;
 
-/* The outline of the triangles that are on: a member for each edge-connected part, with its holes. pinched: rings run
- * through points where they touch themselves (one closed walk for each side that the part shows); else they only meet
- * there. bends_only: collinear vertices are left out. */
+/* The outline of the triangles that are on: a member for each edge-connected part, with its holes. pinched: where a
+ * part touches itself in a point, its rings run through that point (one closed walk for each side of the part);
+ * otherwise different rings only meet there. bends_only: collinear vertices are left out. */
 void cells_outline(polyset *set, const cells *c, bool pinched, bool bends_only);
 
 /* The spacing of the lines of a board. */
@@ -30,20 +30,22 @@ typedef enum spacing {
     SPACING_HUGE    /* from 1e-300 to 1e300 */
 } spacing;
 
-/* A random board: squares only, or with single triangles too; `percent` of the area is on. */
+/* A random board: squares only, or single triangles, too; `percent` of the area is on. */
 void random_cells(cells *c, rng *r, int columns, int rows, spacing kind, bool triangles, int percent);
 
-/* A board with a pocket into which -Q fits exactly, Q the outline of `peg`: the places of the reflected peg are off,
- * and with slide > 0 the places it sweeps in moving up to that many columns. The same unit steps as the peg. */
+/* A board with a pocket into which -Q fits exactly, where Q is the outline of `peg`: the cells of the reflected peg are
+ * off and, with slide > 0, those that it sweeps when it moves up by that many columns. The board has the same unit
+ * steps as the peg. */
 void pocket_for(cells *board, rng *r, const cells *peg, int slide);
 
-/* A simple polygon of n <= 8 vertices on the integers 0..span, no vertex on another edge. */
+/* A simple polygon of n <= 8 vertices with integer coordinates in 0..span, without vertices on other edges. */
 void random_simple(polyset *set, rng *r, int n, int span);
 /* A star-shaped polygon: n directions in order, random lengths up to size, integer vertices. */
 void random_star(polyset *set, rng *r, int n, double size);
-/* n teeth upwards with slanted sides on a base, jittered; integer vertices. slant 0: the sides are vertical. */
+/* n teeth upwards with slanted sides on a base, randomly displaced; integer vertices. slant 0: the sides are
+ * vertical. */
 void random_comb(polyset *set, rng *r, int teeth, double size, bool slanted);
-/* A comb lying on its side: for forks, with random_comb(..., false). */
+/* The comb turned on its side: for forks, with random_comb(..., false). */
 void random_fork(polyset *set, rng *r, int teeth, double size, bool sideways);
 /* A convex polygon: integer vertices near a circle. */
 void random_convex(polyset *set, rng *r, int n, double size);
@@ -53,7 +55,7 @@ void random_building(polyset *set, rng *r);
 /* ---- Pairs of operands, by kind of trouble ---- */
 
 typedef enum pair_kind {
-    PAIR_SQUARES,   /* parts of a unit grid: every direction repeated, exact fits by chance */
+    PAIR_SQUARES,   /* parts of a unit grid: every direction is repeated, exact fits occur by chance */
     PAIR_STEPS,     /* the same with steps of 1, 2 or 3 */
     PAIR_TRIANGLES, /* half squares: vertices on edges, rings that touch */
     PAIR_TRIANGLE_STEPS,
@@ -66,7 +68,7 @@ typedef enum pair_kind {
     PAIR_HOLES,     /* holes on both sides, rings that touch themselves */
     PAIR_ROOMS,     /* P on a grid twice as wide as Q's: rooms, passages, corridors exactly as wide */
     PAIR_MAP,       /* boards at map coordinates with three decimals */
-    PAIR_BUILDINGS, /* turned buildings at map coordinates */
+    PAIR_BUILDINGS, /* rotated buildings at map coordinates */
     PAIR_RAGGED,    /* boards with 53-bit spacing */
     PAIR_SELF,      /* Q is P, or -P */
     PAIR_HUGE,      /* coordinates from 1e-300 to 1e300 */
@@ -75,7 +77,7 @@ typedef enum pair_kind {
 
 const char *pair_kind_string(pair_kind kind);
 void random_pair(polyset *p, polyset *q, rng *r, pair_kind kind);
-/* Moves q over p, a few units off. */
+/* Moves q onto p, up to a few units. */
 void bring_together(const polyset *p, polyset *q, rng *r);
 
 /* ---- Larger pairs, in the manner of the literature's families ---- */
@@ -94,22 +96,22 @@ typedef enum family_kind {
 } family_kind;
 
 const char *family_kind_string(family_kind kind);
-/* Some `low` to `high` vertices an operand. */
+/* Operands of about `low` to `high` vertices. */
 void random_family(polyset *p, polyset *q, rng *r, family_kind kind, int low, int high);
 /* ---- Sets that are not valid, and taken by the even-odd rule ---- */
 
 typedef enum invalid_kind {
-    INVALID_SCRIBBLE, /* a ring through random places of a small grid: crossings, overlaps, touching */
-    INVALID_RAGGED,   /* the same in 53-bit doubles */
+    INVALID_SCRIBBLE, /* a ring through random points of a small grid: it crosses itself, overlaps, touches */
+    INVALID_RAGGED,   /* the same with coordinates of 53 bits */
     INVALID_ROUND,    /* a round outline at map coordinates with neighbouring vertices swapped: tiny crossings */
     INVALID_HOUSE,    /* a building with two corners swapped */
-    INVALID_TRACK,    /* a walk that comes back to where it was */
-    INVALID_MEMBERS,  /* two scribbles, each a member */
-    INVALID_SCALED,   /* a scribble, huge or tiny */
-    INVALID_TOUCHING, /* a walk by unit steps: it meets itself in vertices and runs along itself */
-    INVALID_HOLES,    /* holes that cross the outer ring, each other, or lie in each other */
-    INVALID_DOUBLED,  /* a ring that is there two or three times, once turned round or as a part of itself */
-    INVALID_SPIKES,   /* a polygon whose sides go out and come back */
+    INVALID_TRACK,    /* a path that returns to points where it was before */
+    INVALID_MEMBERS,  /* two random rings of the first kind, each a member */
+    INVALID_SCALED,   /* a random ring of the first kind, huge or tiny */
+    INVALID_TOUCHING, /* a path of unit steps: it meets itself in vertices and runs along itself */
+    INVALID_HOLES,    /* holes that cross the outer ring or each other, or are nested */
+    INVALID_DOUBLED,  /* a ring that occurs two or three times, perhaps reversed or as a part of itself */
+    INVALID_SPIKES,   /* a polygon with spikes on its sides */
     INVALID_KINDS
 } invalid_kind;
 
@@ -117,8 +119,8 @@ const char *invalid_kind_string(invalid_kind kind);
 /* `most` bounds the number of vertices, >= 8. */
 void random_invalid(polyset *set, rng *r, invalid_kind kind, int most);
 
-/* Says the same set otherwise: rings turned round, started elsewhere, closed, with repeated vertices and vertices in
- * the middle of edges where these are exact; members and holes in another order. */
+/* Writes the same set in another way: rings reversed, from another vertex, closed, with repeated vertices and vertices
+ * in the middle of edges if these are exact; members and holes in another order. */
 void random_dress(polyset *set, rng *r);
 
 /* x' = a x + b y, y' = c x + d y; exact for small integers. */

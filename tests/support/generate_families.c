@@ -1,4 +1,4 @@
-/* Larger pairs of operands, in the manner of the literature's families. */
+/* Larger pairs of operands, similar to the families of the literature. */
 #include "generate.h"
 
 #include <math.h>

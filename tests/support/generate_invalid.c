@@ -27,7 +27,7 @@ static void scribble(polyset *set, rng *r, int n, bool ragged, double scale)
     polyset_polygon(set, xy, (size_t)n);
 }
 
-/* Thousandths, as maps have them. */
+/* Coordinates with three decimals, as in maps. */
 static double on_map(double v) { return round(v * 1000) / 1000; }
 
 static void round_outline(polyset *set, rng *r, int n)
@@ -83,7 +83,7 @@ static void touching(polyset *set, rng *r, int n)
         at[0] += (double)rng_int(r, -1, 1);
         at[1] += (double)rng_int(r, -1, 1);
     }
-    xy[2 * k] = at[0]; /* back by way of a corner, so that there is some area */
+    xy[2 * k] = at[0]; /* the way back leads through another corner, so that there is some area */
     xy[2 * k++ + 1] = -2;
     polyset_polygon(set, xy, (size_t)k);
 }
@@ -114,7 +114,7 @@ static void doubled(polyset *set, rng *r, int n)
     }
     polyset_ring(set, xy, (size_t)k);
     if (rng_once_in(r, 2)) polyset_ring(set, back, (size_t)k);
-    if (rng_once_in(r, 2)) polyset_ring(set, xy, (size_t)k - (k == 4)); /* its first three corners */
+    if (rng_once_in(r, 2)) polyset_ring(set, xy, (size_t)k - (k == 4)); /* a ring of its first three corners */
     if (rng_once_in(r, 2)) polyset_ring(set, xy, (size_t)k);
     polyset_end_polygon(set);
     if (rng_once_in(r, 3)) polyset_polygon(set, back, (size_t)k);

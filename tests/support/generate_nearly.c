@@ -2,10 +2,10 @@
 
 #include <math.h>
 
-/* Where an outline stands, how large it is and how it is turned; and how much its versions are off. */
+/* The place, size and direction of an outline, and how much its versions differ. */
 typedef struct stand {
     double x, y, size, c, s;
-    double off; /* 0: units in the last place */
+    double off; /* relative; 0: by units in the last place */
 } stand;
 
 typedef struct outline {
@@ -34,7 +34,7 @@ static stand random_stand(rng *r)
     return (stand){a[0], a[1], a[2], cos(turn), sin(turn), off[rng_int(r, 0, 6)]};
 }
 
-/* Changes a number by some units in the last place; zero by units of the size. */
+/* Changes a number by some units in the last place; zero by units relative to the size. */
 static double step(const stand *t, double v, int64_t units)
 {
     if (v == 0) return (double)units * t->size * 0x1p-53;
@@ -43,13 +43,13 @@ static double step(const stand *t, double v, int64_t units)
     return v;
 }
 
-/* Off by a little: by up to `off` of the size, or by up to three units in the last place. */
+/* A small random change: by up to `off` of the size, or by up to three units in the last place. */
 static double nearly(rng *r, const stand *t, double v)
 {
     return t->off > 0 ? v + t->off * t->size * (2 * rng_unit(r) - 1) : step(t, v, rng_int(r, -3, 3));
 }
 
-/* The outline, stretched by (w, h), at its stand; each corner off by a little unless r is NULL. */
+/* The outline, scaled by (w, h) and placed; each corner slightly changed unless r is NULL. */
 static void put(polyset *set, rng *r, const stand *t, const outline *o, double w, double h)
 {
     for (int i = 0; i < o->n; i++) {
@@ -64,8 +64,8 @@ static void put(polyset *set, rng *r, const stand *t, const outline *o, double w
 
 static const outline *any_outline(rng *r) { return &OUTLINES[rng_int(r, 0, 3)]; }
 
-/* A long side and a short one of some units in the last place: the first two corners differ in y alone, the third in x,
- * so the three are never in line. */
+/* A long side, and a short one of some units in the last place: the first two corners differ in y alone, the third
+ * differs in x, so the three are never collinear. */
 static void thin(polyset *set, rng *r, const stand *t)
 {
     const double y = step(t, t->y, rng_int(r, 1, 4));
@@ -78,8 +78,7 @@ static void heap(polyset *set, rng *r, stand t, int members)
 {
     if (!(t.off > 0)) t.off = 1e-13;
     for (int i = 0; i < members; i++) {
-        const double turn = t.off * rng_unit(r), c = t.c - t.s * turn,
-                     s = t.s + t.c * turn; /* not quite a unit vector */
+        const double turn = t.off * rng_unit(r), c = t.c - t.s * turn, s = t.s + t.c * turn; /* nearly a unit vector */
         stand one = t;
         one.c = c;
         one.s = s;
@@ -88,8 +87,8 @@ static void heap(polyset *set, rng *r, stand t, int members)
     }
 }
 
-/* Rectangles along one line through the origin whose direction is of small integers, so that their walls are on it
- * exactly; or off by a little. */
+/* Rectangles along one line through the origin whose direction has small integer coordinates, so that their walls lie
+ * on it exactly; or slightly changed. */
 static void edges(polyset *set, rng *r, const stand *t, int members)
 {
     static const double along[][2] = {{1, 0}, {2, 1}, {3, -1}, {1, 3}};
@@ -121,7 +120,8 @@ static void magnitudes(polyset *set, rng *r, int members)
     }
 }
 
-/* Makes Q for versions of an outline in one place: its directions are also directions of P, nearly so, or different. */
+/* Makes Q for versions of an outline in one place: its directions are equal to directions of P, nearly so, or
+ * different. */
 static void robot(polyset *q, rng *r, const stand *t)
 {
     stand own = *t;
@@ -139,7 +139,7 @@ static void robot(polyset *q, rng *r, const stand *t)
     }
 }
 
-/* A U, and a shape that nearly fills its free inside, reflected. */
+/* A U, and a reflected shape that nearly fills its opening. */
 static void fits(polyset *p, polyset *q, rng *r, const stand *t)
 {
     stand at = *t;
@@ -188,7 +188,7 @@ void random_nearly(polyset *p, polyset *q, rng *r, nearly_kind kind, int members
     case NEARLY_KINDS: break;
     }
     if (kind != NEARLY_FITS) robot(q, r, &t);
-    if (rng_once_in(r, 4)) { /* the same again */
+    if (rng_once_in(r, 4)) { /* the same rectangle once more */
         polyset again;
         polyset_copy(&again, q);
         polyset_append(q, &again);

@@ -1,4 +1,4 @@
-/* Pairs of operands, by kind of trouble. Small: the oracle has to keep up. */
+/* Pairs of operands, by kind of degeneracy. They are small, since the oracle is slow. */
 #include "generate.h"
 
 #include <math.h>
@@ -25,7 +25,7 @@ static void fit(polyset *p, polyset *q, rng *r, int slide)
     cells peg, pocket;
     random_cells(&peg, r, (int)rng_int(r, 1, 3), (int)rng_int(r, 1, 2), SPACING_UNIT, rng_once_in(r, 2), 70);
     pocket_for(&pocket, r, &peg, slide);
-    if (rng_once_in(r, 3)) { /* a way in from the side, as high as chance has it */
+    if (rng_once_in(r, 3)) { /* an entrance from the side, at a random height */
         const int row = (int)rng_int(r, 1, pocket.rows - 2);
         pocket.on[0][row][0] = pocket.on[0][row][1] = false;
     }
@@ -158,7 +158,7 @@ void bring_together(const polyset *p, polyset *q, rng *r)
     }
 }
 
-/* A point of small integers: middles of two such are exact. */
+/* A point with small even coordinates, so that midpoints of two are integers. */
 static bool small(const double *a)
 {
     return fabs(a[0]) < 1e6 && fabs(a[1]) < 1e6 && a[0] == rint(a[0]) && a[1] == rint(a[1]);

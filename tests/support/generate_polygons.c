@@ -1,5 +1,5 @@
-/* Random polygons with slopes: small ones by trial, large ones of the kinds that the benchmarks of the literature
- * use. */
+/* Random polygons with slanted sides: small ones by trial and error, large ones of the kinds in benchmarks of the
+ * literature. */
 #include "generate.h"
 
 #include <math.h>
@@ -41,7 +41,7 @@ void random_simple(polyset *set, rng *r, int n, int span)
 {
     double xy[16];
     for (int tries = 0;; tries++) {
-        const int k = tries > 2000 ? 3 : n; /* a crowded grid: a triangle will do */
+        const int k = tries > 2000 ? 3 : n; /* on a grid with too few free points a triangle is made */
         for (int i = 0; i < 2 * k; i++) xy[i] = (double)rng_int(r, 0, span);
         if (!is_simple(xy, k)) continue;
         polyset_polygon(set, xy, (size_t)k);
@@ -101,7 +101,7 @@ void random_convex(polyset *set, rng *r, int n, double size)
     }
     polyset_end_ring(&all);
     polyset_end_polygon(&all);
-    /* Rounding may dent it a little. */
+    /* Rounding may make it slightly concave. */
     int kept = 0;
     polyset_init(&hull);
     for (size_t i = 0; i < all.vertices; i++) {

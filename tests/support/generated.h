@@ -4,10 +4,10 @@
 
 #include "polyset.h"
 
-/* Is the program there? If not, says so on stdout. */
+/* Does the program exist? If not, prints a message on stdout. */
 bool generated_available(void);
-/* What it prints with these arguments of a shell; *status (may be NULL) is its exit status, else anything but 0 ends
- * the test program. Freed by the caller. */
+/* The output of the program for these arguments, as in a shell; *status (may be NULL) is its exit status, else any
+ * status but 0 ends the test program. Freed by the caller. */
 char *generated_text(const char *arguments, int *status);
 /* The two operands that it prints. */
 void generated_pair(polyset *p, polyset *q, const char *arguments);

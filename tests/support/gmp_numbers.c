@@ -50,7 +50,7 @@ void random_mpz(mpz_t r, rng *g, unsigned bits)
         mpz_setbit(r, b);
         mpz_sub_ui(r, r, 1);
         break;
-    case 3: /* ones in blocks */
+    case 3: /* blocks of ones */
         for (unsigned i = 0; i < b; i++)
             if (i / 13 % 2) mpz_setbit(r, i);
         break;

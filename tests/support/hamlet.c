@@ -23,8 +23,8 @@ static void set_outline(house *h, const double *xy, size_t outer, size_t inner)
     h->rings = inner ? 2 : 1;
 }
 
-/* In units of the grid: a box, a triangle, a slanted quadrangle, an L, a U, a frame round a yard. Parts overlap: their
- * interiors have to cover the feature's, so that no line finds room between two of them. */
+/* In units of the grid: a box, a triangle, a slanted quadrangle, an L, a U, a frame around a courtyard. Parts overlap:
+ * their interiors have to cover the feature's interior, so that a line cannot lie between two of them. */
 static void build(rng *r, house *h, double x, double y, double unit)
 {
     const double w = unit * (double)rng_int(r, 3, 8), d = unit * (double)rng_int(r, 3, 8), a = unit, b = unit;
@@ -87,11 +87,11 @@ static void found_barrier(rng *r, hamlet_barrier *b, double x, double y, double 
     if (rng_once_in(r, 2)) b->gap = unit * 0.25 * (double)rng_int(r, 0, 4);
 }
 
-/* Convex parts: a polygon, or the segments of a line, or a point. */
+/* A convex part: a polygon, or a segment of a line, or a point. */
 static size_t barrier_parts(const hamlet_barrier *b) { return b->area || b->points == 1 ? 1 : b->points - 1; }
 static size_t part_corners(const hamlet_barrier *b) { return b->area || b->points == 1 ? b->points : 2; }
 
-/* Does the line of an edge of the first have the second strictly beyond it? A segment has two edges. */
+/* Is there an edge of the first part such that the second is strictly beyond its line? A segment has two edges. */
 static bool edge_parts(const double *p, size_t np, const double *q, size_t nq)
 {
     for (size_t k = 0; k < np; k++) {
@@ -104,7 +104,8 @@ static bool edge_parts(const double *p, size_t np, const double *q, size_t nq)
     return false;
 }
 
-/* Does it meet a feature? Then it is not known where the side anchor is. A segment in line with another is taken to. */
+/* Does it meet a feature? Then the position of the side anchor is unknown. A segment that is collinear with another
+ * counts as meeting it. */
 static bool may_cut(const hamlet *t, const hamlet_barrier *b)
 {
     for (size_t k = 0; k < t->n; k++)
@@ -204,11 +205,11 @@ typedef struct posing {
     const hamlet *t;
     optimum_problem *m;
     size_t body_of[HAMLET_HOUSES];
-    size_t barriers; /* the body that contains all of them */
+    size_t barriers; /* the body that contains all barriers */
     double anchor[HAMLET_HOUSES][2];
 } posing;
 
-/* Features of one block are one body. Anchors are the library's, which are nearest doubles. */
+/* Features of one block are one body. Anchors are those of the library, rounded to doubles. */
 static void start(posing *p, const hamlet *t, optimum_problem *m)
 {
     *p = (posing){.t = t, .m = m};
@@ -230,7 +231,7 @@ static void start(posing *p, const hamlet *t, optimum_problem *m)
     m->body[m->bodies++] = (optimum_body){1, 0};
 }
 
-/* Is all of q on the outer side of an edge of p, or on it? Counter-clockwise; of a segment on either side. */
+/* Is all of q on the outer side of an edge of p, or on it? p is counter-clockwise; a segment has two outer sides. */
 static bool is_beside(const double *p, size_t n, const double *q, size_t m)
 {
     for (size_t k = 0; k < n && n > 1; k++) {
@@ -243,7 +244,7 @@ static bool is_beside(const double *p, size_t n, const double *q, size_t m)
     return false;
 }
 
-/* From the corners of p to the sides of q. */
+/* The least distance of a corner of p from a side of q. */
 static double corners_distance(const double *p, size_t n, const double *q, size_t m)
 {
     double least = INFINITY;
@@ -258,7 +259,7 @@ static double corners_distance(const double *p, size_t n, const double *q, size_
     return least;
 }
 
-/* How far apart two convex parts stand, up to rounding no more than that; negative where the interior of one meets the
+/* A lower bound, exact up to rounding, of the distance of two convex parts; negative if the interior of one meets the
  * other. */
 static double part_distance(const double *p, size_t n, const double *q, size_t m)
 {
@@ -292,7 +293,7 @@ static part_list parts_of_barrier(const hamlet_barrier *b)
     return list;
 }
 
-/* What of the convex polygon is on the one side of the line from a to b; returns how many corners. */
+/* The part of the convex polygon on one side of the line from a to b; returns its number of corners. */
 static size_t clip(const double *xy, size_t n, const double *a, const double *b, double sign, double *out)
 {
     size_t kept = 0;
@@ -310,8 +311,8 @@ static size_t clip(const double *xy, size_t n, const double *a, const double *b,
 
 enum { CLIPPED = 32 };
 
-/* The area of what of a convex polygon is in none of the parts from the k-th on: beyond the first side of part k, or
- * before that and beyond the second, and so on. */
+/* The area of the part of a convex polygon that is in none of the parts from the k-th on. It is divided: beyond the
+ * first side of part k, or before that and beyond the second, and so on. */
 static double area_outside(const double *xy, size_t n, const part_list *of, size_t k)
 {
     double area = 0, rest[2 * CLIPPED], before[2 * CLIPPED];
@@ -353,7 +354,7 @@ static void keep_parts_apart(optimum_problem *m, size_t a, size_t b, const part_
             optimum_keep_apart(m, a, b, p->xy[i], p->corners[i], q->xy[j], q->corners[j], radius);
 }
 
-/* The length of the least translation that parts them, up to rounding no less than that. */
+/* An upper bound, exact up to rounding, of the length of the least translation that separates them. */
 static double depth_of(const part_list *p, const part_list *q)
 {
     optimum_problem m = {.bodies = 2, .body = {{1, INFINITY}, {1, 0}}};
@@ -370,8 +371,8 @@ static bool says_parted(const sunder_conflict *c)
            c->kind == SUNDER_CONFLICT_BARRIER_NEAR;
 }
 
-/* A listed pair, which does not have to keep the distance that it owes. Its demand is posed as a bound states it, or,
- * if not `kept`, as a verdict does: then there is none if the two overlapped. */
+/* A listed pair, which need not keep the required distance. Its requirement is that of a bound, or, if not `kept`, that
+ * of a verdict: there is none if the two overlapped. */
 static void keep_listed_apart(posing *p, size_t a, size_t b, const part_list *g, const part_list *h, double owed,
                               const sunder_conflict *listed, bool kept)
 {
@@ -388,7 +389,7 @@ static void keep_listed_apart(posing *p, size_t a, size_t b, const part_list *g,
     keep_parts_apart(p->m, a, b, g, h, radius);
 }
 
-/* listed: NULL, or the pair's conflict. */
+/* listed: the conflict of the pair, or NULL if it is not listed. */
 static void keep_houses_apart(posing *p, size_t a, size_t b, const sunder_conflict *listed, bool kept)
 {
     const part_list g = parts_of_house(&p->t->house[a]), h = parts_of_house(&p->t->house[b]);
@@ -433,8 +434,8 @@ static void keep_from_jumps(posing *p, size_t a, size_t b)
     }
 }
 
-/* Barriers with sides meet no feature, so the side anchor is the plain one, and out of a convex polygon there is one
- * way only, which is allowed. */
+/* Barriers with sides meet no feature, so the side anchor is the plain anchor, and a path leaves a convex polygon only
+ * once, which is allowed. */
 static void keep_side(posing *p, size_t a, size_t k)
 {
     const hamlet_barrier *b = &p->t->barrier[k];

@@ -1,4 +1,4 @@
-/* Reads JSON as far as the program's output and the recorded answers need it: a tree, with numbers kept as text. */
+/* Reads JSON as far as the program's output and the recorded results need it: a tree, with numbers kept as text. */
 #ifndef SUNDER_TESTS_JSON_H
 #define SUNDER_TESTS_JSON_H
 
@@ -16,7 +16,7 @@ typedef struct json {
     size_t n;
 } json;
 
-/* NULL if the text is not one JSON value. */
+/* NULL if the text is not exactly one JSON value. */
 json *json_read(const char *text);
 void json_free(json *value);
 /* Returns a member, or NULL if there is none (or value is NULL). */

@@ -36,7 +36,7 @@ static void vertex_of(const sunder_sum *sum, uint32_t v, mpq_t xy[2])
     sunder_free(y);
 }
 
-/* All vertices that the sum names: of rings, segments, points. */
+/* All vertices in the sum: of rings, segments, points. */
 static uint32_t *named(const sunder_sum *sum, size_t *n)
 {
     sunder_sum_size c;
@@ -55,7 +55,7 @@ static uint32_t *named(const sunder_sum *sum, size_t *n)
     return all;
 }
 
-/* The least k that makes all of them integers; 0 if it is too large. */
+/* The least k for which all coordinates times k are integers; 0 if it is too large. */
 long morphology_scale(const sunder_sum *sum)
 {
     size_t n;
@@ -90,7 +90,7 @@ static void scaled(const sunder_sum *sum, uint32_t v, long k, double xy[2])
     mpq_clears(q[0], q[1], factor, NULL);
 }
 
-/* Its polygons times k, and (may be NULL) segments and points as pairs and singles of coordinates. */
+/* The polygons times k, and (may be NULL) segments and points as arrays of coordinates. */
 void morphology_scaled(const sunder_sum *sum, long k, polyset *set, double **segments, double **points)
 {
     sunder_sum_size c;
@@ -135,7 +135,7 @@ bool morphology_on_segment(const double *a, const double *b, const double *c)
     return side(a, b, c) == 0 && between(a[0], b[0], c[0]) && between(a[1], b[1], c[1]);
 }
 
-/* Members of a sum are disjoint: so even and odd count. */
+/* Members of a sum are disjoint, so the even-odd rule suffices. */
 bool morphology_in_polygons(const polyset *set, const double *at)
 {
     bool in = false;
@@ -183,7 +183,7 @@ static double ring_area(const polyset *set, size_t r)
     return area < 0 ? -area : area;
 }
 
-/* The hole that a member lies in, the smallest if several; SIZE_MAX: none. */
+/* The index of the smallest hole that contains the member; SIZE_MAX: none. */
 static size_t hole_around(const polyset *set, const bool *hole, size_t outer)
 {
     size_t host = SIZE_MAX;
@@ -200,7 +200,7 @@ static void add_ring(polyset *out, const polyset *d, size_t r)
 }
 
 /* The complement of a regular set without overlaps, within a frame: the frame and the holes become members, and the
- * outer rings holes of those around them. */
+ * outer rings become holes of the members around them. */
 void morphology_complement(polyset *out, const polyset *d, double frame)
 {
     polyset_init(out);
@@ -227,8 +227,8 @@ void morphology_complement(polyset *out, const polyset *d, double frame)
 
 /* ---- Cases ---- */
 
-/* P: two simple polygons, or a board whose parts are disjoint members. B, to grow and shrink by: a smaller board, a
- * simple or a convex polygon, or one with coordinates of the board's grid, so that fits are exact. */
+/* P: two simple polygons, or a board whose parts are disjoint members. B, the shape of the operation: a smaller board,
+ * a simple or a convex polygon, or one with coordinates of the board's grid, so that exact fits occur. */
 void morphology_case(polyset *p, polyset *b, rng *r)
 {
     cells board, small;

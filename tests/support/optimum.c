@@ -1,14 +1,14 @@
-/* Plain branch and bound. A place outside a convex piece is beyond one of its sides, or (if the piece is rounded) in
- * the sector of one of its corners and at least the radius from it. The convex hull of a sector between directions d
- * and e is bounded by the chord: m.(u - corner) >= radius * min(m.d/|d|, m.e/|e|), m = d + e. So a node is a set of
+/* A plain branch and bound. A place outside a convex piece is beyond one of its sides, or (if the piece is rounded) in
+ * the sector of one of its corners and at least the radius away from it. The convex hull of a sector between directions
+ * d and e is bounded by the chord: m.(u - corner) >= radius * min(m.d/|d|, m.e/|e|), m = d + e. So a node is a set of
  * half-planes, one to three for each piece that was branched on; its bound is that of optimum_dual.c. If the solution
- * of a node lies in pieces, the deepest one is branched on: over all sides and sectors of a new piece, or over the two
- * halves of a sector whose chord the solution lies beyond. The children of a node cover it, and a chord differs from
- * its arc by the square of its length, so bounds converge. Limits are replaced by tangents, added when a solution
- * exceeds a limit.
+ * of a node lies in pieces, the node branches on the deepest one: over all sides and sectors of a new piece, or over
+ * the two halves of a sector whose chord the solution lies beyond. The children of a node cover it, and the distance of
+ * a chord from its arc is quadratic in its length, so bounds converge. Limits are replaced by tangents, which are added
+ * when a solution exceeds a limit.
  *
- * Rows are valid as doubles: normals of sides are exact, their distances rounded down; the directions that divide
- * sectors may be any, and neighbours share them. */
+ * Constraints are valid in spite of rounding: normals of sides are exact, their distances are rounded down. The
+ * directions that divide sectors may be any, as long as neighbours share them. */
 #include "optimum.h"
 
 #include "optimum_dual.h"
@@ -18,9 +18,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double MISSED = 1e-9; /* a place may violate a demand by this and count as outside */
+static const double MISSED = 1e-9; /* a place may violate a requirement by this much and still count as outside */
 
-/* A piece that was branched on: into which sector? */
+/* A piece that was branched on, and the chosen sector. */
 typedef struct choice {
     size_t piece, corner;
     bool sector;
@@ -50,10 +50,10 @@ static void add_row(search *s, size_t a, size_t b, double nx, double ny, double 
     s->row[s->rows++] = (optimum_row){a, b, {nx, ny}, h};
 }
 
-/* Sides of a piece: its edges; of a shadow the ray that comes in, its edges, the ray that goes out. */
+/* The number of sides: the edges; for a shadow the incoming ray, its edges, the outgoing ray. */
 static size_t side_count(const optimum_piece *p) { return p->shadow ? p->corners + 1 : p->corners; }
 
-/* The outer normal, exact, and a point of the side; the ends' rays are on lines through the origin. */
+/* The outer normal, exact, and a point of the side; the rays of a shadow are on lines through the origin. */
 static void side_of(const optimum_piece *p, size_t k, double n[2], double at[2])
 {
     const double origin[2] = {0, 0}, *from, *to;
@@ -90,7 +90,7 @@ static void add_sector(search *s, const optimum_piece *p, const choice *c)
 
 /* ---- What a place misses ---- */
 
-/* How deep u lies in the open piece; negative outside. */
+/* The depth of u in the open piece; negative outside. */
 static double depth_in_piece(const optimum_piece *p, const double u[2])
 {
     double deepest = -INFINITY, nearest = INFINITY;
@@ -112,7 +112,7 @@ static void relative_move(const optimum_piece *p, const optimum_solution *at, do
     for (size_t k = 0; k < 2; k++) u[k] = at->t[2 * p->b + k] - at->t[2 * p->a + k];
 }
 
-/* The piece that the solution lies deepest in, or NULL. */
+/* The piece in which the solution lies deepest, or NULL. */
 static const optimum_piece *find_deepest(const search *s, const optimum_solution *at)
 {
     const optimum_piece *worst = NULL;
@@ -190,7 +190,7 @@ static int by_bound(const void *p, const void *q)
     return (a->bound > b->bound) - (a->bound < b->bound);
 }
 
-/* All sides of a piece, and all sectors. */
+/* All sides of a piece, and all sectors, as children. */
 static size_t list_children(const optimum_problem *m, size_t k, child *out)
 {
     const optimum_piece *p = &m->piece[k];

@@ -1,11 +1,11 @@
-/* The dual active-set method of Goldfarb and Idnani for a Hessian that is a diagonal (1983), in variables x = sqrt(w) t
- * in which it is the identity. Doubles throughout: what counts is the bound, a value of the dual function
+/* The dual active-set method of Goldfarb and Idnani (1983) for a diagonal Hessian, in variables x = sqrt(w) t, in which
+ * the Hessian is the identity. All in doubles: only the bound has to be certain, a value of the dual function
  *
  *     D(l) = sum_c l_c h_c - sum_i |g_i|^2 / (4 w_i),   g_i = sum of +-l_c n_c over the rows of body i,
  *
- * which is below the optimum for every l >= 0, whatever gave it. Its own rounding is taken off: a sum of m terms of k
- * factors errs by at most (m + k) 2^-52 of the sum of the terms' absolute values. Infeasible rows have an l with g = 0
- * and sum l_c h_c > 0: along it D grows beyond all bounds, but for what rounding leaves of g. */
+ * which is below the optimum for every l >= 0, however l was found. Its own rounding error is subtracted: a sum of m
+ * terms of k factors errs by at most (m + k) 2^-52 of the sum of the terms' absolute values. For infeasible rows there
+ * is an l with g = 0 and sum l_c h_c > 0: along it D is unbounded, except for the rounding errors in g. */
 #include "optimum_dual.h"
 
 #include <math.h>
@@ -16,10 +16,10 @@ enum { DIMENSIONS = 2 * OPTIMUM_BODIES };
 static const double UNIT = 0x1p-52;
 
 typedef struct active_set {
-    double normal[OPTIMUM_ROWS][DIMENSIONS], size[OPTIMUM_ROWS]; /* of the rows, in x; length of each */
-    size_t row[DIMENSIONS], n;                                   /* those in force */
-    double force[OPTIMUM_ROWS];                                  /* of each row; 0 where it is not */
-    double q[DIMENSIONS][DIMENSIONS], r[DIMENSIONS][DIMENSIONS]; /* normals in force = Q R */
+    double normal[OPTIMUM_ROWS][DIMENSIONS], size[OPTIMUM_ROWS]; /* normals of the rows, in x; the length of each */
+    size_t row[DIMENSIONS], n;                                   /* the active rows */
+    double force[OPTIMUM_ROWS];                                  /* of each row; 0 if it is not active */
+    double q[DIMENSIONS][DIMENSIONS], r[DIMENSIONS][DIMENSIONS]; /* normals of active rows = Q R */
     double x[DIMENSIONS];
 } active_set;
 
@@ -62,7 +62,7 @@ static void factor(active_set *s)
     }
 }
 
-/* normal p = sum of y_j times the normals in force + z, z at right angles to them. */
+/* normal p = sum of y_j times the active normals + z, where z is orthogonal to them. */
 static void split(const active_set *s, size_t p, double y[DIMENSIONS], double z[DIMENSIONS])
 {
     double along[DIMENSIONS] = {0};
@@ -87,7 +87,8 @@ static void drop(active_set *s, size_t j)
     factor(s);
 }
 
-/* Makes row p active. Returns false if there is nothing left to move: then the forces are a certificate. */
+/* Makes row p active. Returns false if no variable can move any more: then the forces are a certificate of
+ * infeasibility. */
 static bool enforce(active_set *s, size_t p, double h)
 {
     double y[DIMENSIONS], z[DIMENSIONS];
@@ -119,7 +120,7 @@ static bool enforce(active_set *s, size_t p, double h)
     }
 }
 
-/* Returns D(scale * force) minus a bound of its rounding. */
+/* Returns D(scale * force) minus a bound of its rounding error. */
 static double dual_value(const optimum_problem *m, const optimum_row *row, size_t n, const double *force, double scale)
 {
     double sum = 0, all = 0, g[OPTIMUM_BODIES + 1][2] = {{0}}, size[OPTIMUM_BODIES + 1][2] = {{0}};

@@ -7,7 +7,7 @@
 enum { OPTIMUM_ROWS = 512, OPTIMUM_NOBODY = OPTIMUM_BODIES };
 
 typedef struct optimum_row {
-    size_t a, b; /* bodies, or OPTIMUM_NOBODY, which stands still */
+    size_t a, b; /* bodies, or OPTIMUM_NOBODY, which is fixed */
     double n[2], h;
 } optimum_row;
 
@@ -18,7 +18,7 @@ typedef struct optimum_solution {
     double cost, bound;                 /* the bound is valid for any solution */
 } optimum_solution;
 
-/* For an infeasible program the bound is at least `enough`; otherwise the verdict is OPTIMUM_STUCK. */
+/* For an infeasible program the bound is at least `enough`; otherwise the result is OPTIMUM_STUCK. */
 optimum_verdict optimum_solve(const optimum_problem *m, const optimum_row *row, size_t n, double enough,
                               optimum_solution *s);
 

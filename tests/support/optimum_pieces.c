@@ -1,5 +1,5 @@
-/* Convex sets that a relative move must avoid, from convex parts: the hull of all differences of corners; and the
- * shadow of a part, { s q : q in part, s >= 1 }, represented by its near side. Exact: sums and turns of such
+/* Convex sets that a relative move must avoid, made from convex parts: the hull of all differences of corners; and the
+ * shadow of a part, { s q : q in part, s >= 1 }, represented by its near side. Exact: sums and orientations of such
  * coordinates are doubles. */
 #include "optimum.h"
 
@@ -17,7 +17,7 @@ static int by_place(const void *p, const void *q)
     return a[0] != b[0] ? (a[0] > b[0]) - (a[0] < b[0]) : (a[1] > b[1]) - (a[1] < b[1]);
 }
 
-/* Andrew's chain; counter-clockwise, strictly convex. Returns how many corners. */
+/* Andrew's chain; counter-clockwise, strictly convex. Returns the number of corners. */
 static size_t hull(double *xy, size_t n, double *out)
 {
     size_t k = 0;
@@ -61,9 +61,9 @@ void optimum_keep_apart(optimum_problem *m, size_t a, size_t b, const double *p,
     memcpy(piece->xy, corner, 2 * n * sizeof *corner);
 }
 
-/* The sides that face away from the origin are consecutive; a side whose line contains it is none of them. If all of a
- * part lies on a line through the origin, its shadow has no area, and only relative moves along the line are in it.
- * Such a part is left out, since the infimum is the same. */
+/* The sides that face away from the origin are consecutive; a side whose line contains the origin does not. If all of a
+ * part lies on a line through the origin, its shadow has no area, and contains only relative moves along the line. Such
+ * a part is left out, since the infimum is the same. */
 void optimum_keep_off(optimum_problem *m, size_t a, size_t b, const double *q, size_t nq, const double anchor[2])
 {
     const double origin[2] = {0, 0};

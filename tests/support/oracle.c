@@ -52,7 +52,7 @@ static int cmp_ratio(const mpz_t a, const mpz_t v, const mpz_t b, const mpz_t w)
     return (c > 0) - (c < 0);
 }
 
-/* Both are near enough that doubles this far apart settle it. */
+/* If the two approximations differ by more than this, their order is certain. */
 static int cmp_near(double a, double b)
 {
     const double slack = 1e-12 * (fabs(a) + fabs(b));
@@ -87,7 +87,7 @@ static void extent(const polyset *set, int *low, double *high)
     }
 }
 
-/* The side of T + S with the outward normal of T's (or S's) edge ab: h = max over T + max over S of n . x. */
+/* The side of T + S with the outward normal of an edge ab of T (or S): h = max over T + max over S of n . x. */
 static void make_side(const oracle *o, halfplane *s, const zpoint *a, const zpoint *b, const zpoint *const t[3],
                       const zpoint *const u[3])
 {
@@ -127,7 +127,7 @@ static void make_box(const oracle *o, double box[4], const zpoint *const t[3], c
     mpz_clears(v, one, NULL);
 }
 
-/* Once both operands are there. */
+/* Called after both operands are loaded. */
 static void make_subsums(oracle *o)
 {
     oracle_triangulate(o, &o->p);
@@ -209,7 +209,7 @@ void oracle_free(oracle *o)
     free(o);
 }
 
-/* Sign of n . x - h. The doubles are near to 1e-15 each; the bound is a hundred times their joint error. */
+/* Sign of n . x - h. Each double has an error of at most 1e-15; the bound is a hundred times their joint error. */
 static int side_of(const halfplane *s, const hpoint *x)
 {
     const double a = s->anx * x->ax, b = s->any * x->ay, v = a + b - s->ah;
@@ -286,7 +286,7 @@ double *oracle_triangles(const polyset *set, size_t *count)
     *count = o->p.triangles;
     for (size_t i = 0; i < 3 * *count; i++) {
         const zpoint *v = &o->p.v[o->p.triangle[i]];
-        xy[2 * i] = near_ratio(v->x, one, o->shift); /* exact: these were doubles */
+        xy[2 * i] = near_ratio(v->x, one, o->shift); /* exact, since the coordinates were doubles */
         xy[2 * i + 1] = near_ratio(v->y, one, o->shift);
     }
     mpz_clear(one);
@@ -294,7 +294,7 @@ double *oracle_triangles(const polyset *set, size_t *count)
     return xy;
 }
 
-/* Frees it. */
+/* Returns the text, and frees the oracle. */
 static char *text_of(oracle *o, bool all_segments)
 {
     oracle_map map;

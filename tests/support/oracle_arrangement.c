@@ -1,11 +1,10 @@
 /* The arrangement of the oracle: all segments, all crossings, and the uncovered parts.
  *
  * Which segments are needed? If x is a boundary point of O, P and x - Q touch without their interiors meeting. Let x
- * lie in the relative interior of edge e of P + vertex v of Q. Suppose that the corner of Q at v, turned round and put
- * on e, reaches strictly to the outer side of the line through e (it is reflex, or has a leg that leaves through the
- * outer side). Then the two interiors meet near that contact, and so they do at every point of the relative interior:
- * all points of the segment are covered. The other segments suffice. With all_segments the omitted ones are arranged,
- * too, as a check. */
+ * lie in the relative interior of edge e of P + vertex v of Q. Suppose that the corner of Q at v, reflected and placed
+ * on e, extends strictly to the outer side of the line through e (it is reflex, or has a leg on the outer side). Then
+ * the two interiors meet near that contact, and so they do at every point of the relative interior: all points of the
+ * segment are covered. The other segments suffice. With all_segments the omitted ones are arranged, too, as a check. */
 #include "oracle_inner.h"
 
 #include <math.h>
@@ -23,7 +22,7 @@ typedef struct builder {
     zsegment *segment;
     size_t segments;
     oracle_map *map;
-    uint32_t *bucket; /* open addressing over map->point */
+    uint32_t *bucket; /* hash table over map->point, with open addressing */
     size_t buckets;
 } builder;
 
@@ -44,7 +43,7 @@ static int cross_sign(const zpoint *a, const zpoint *b, const zpoint *c, const z
     return sign;
 }
 
-/* May edge i of e carry an uncovered point when added to vertex k of z? The interior of both is on the left. */
+/* Can edge i of e, added to vertex k of z, contain an uncovered point? The interior of both is on the left. */
 static bool extreme(const oracle *o, const zset *e, size_t i, const zset *z, size_t k)
 {
     const zpoint *a = &e->v[i], *b = &e->v[e->next[i]];
@@ -138,7 +137,7 @@ static void rehash(builder *w)
     }
 }
 
-/* The number of the point; takes p over. */
+/* Returns the number of the point; takes ownership of p. */
 static uint32_t point_number(builder *w, hpoint *p)
 {
     hpoint_finish(w->o, p);
@@ -204,8 +203,8 @@ static uint32_t crossing(builder *w, const zsegment *s, const zsegment *t)
 
 static bool between(const zpoint *p, const zsegment *s) { return zpoint_cmp(&s->a, p) < 0 && zpoint_cmp(p, &s->b) < 0; }
 
-/* Puts what s and t have in common on both: a crossing, ends of one inside the other. Common ends are on both
- * anyway. */
+/* Adds to both s and t the points that they have in common: a crossing, ends of one inside the other. Common ends need
+ * not be added. */
 static void meet(builder *w, zsegment *s, zsegment *t)
 {
     const oracle *o = w->o;
@@ -263,7 +262,7 @@ static int piece_order(const void *l, const void *r)
     return (a->to > b->to) - (a->to < b->to);
 }
 
-/* Sorts the points of one segment, along it. Shell sort: qsort() has no room for the map. */
+/* Sorts the points of one segment along it. Shell sort, since qsort() cannot pass the map to the comparison. */
 static void sort_along(const oracle_map *m, uint32_t *on, size_t n)
 {
     for (size_t gap = n / 2; gap; gap /= 2)
@@ -358,7 +357,7 @@ void oracle_map_build(const oracle *o, bool all_segments, oracle_map *map)
     bool *free_end = test_alloc(map->points, sizeof *free_end);
     for (size_t i = 0; i < map->points; i++) free_end[i] = false;
     for (size_t i = 0; i < pieces; i++) classify(&w, &c[i], free_end);
-    /* A point all of whose pieces are covered has covered sides all around. */
+    /* If all pieces at a point are covered, so are all of its sides. */
     map->lone = test_alloc(map->points, sizeof *map->lone);
     for (size_t i = 0; i < map->points; i++)
         if (!free_end[i] && !oracle_covered(o, &map->point[i], NULL)) map->lone[map->lones++] = (uint32_t)i;

@@ -1,4 +1,4 @@
-/* Operands of the oracle: doubles on an integer grid, and a triangulation found by trying everything. */
+/* Operands of the oracle: doubles on an integer grid, and a triangulation found by trying all candidates. */
 #include "oracle_inner.h"
 
 #include <limits.h>
@@ -160,14 +160,14 @@ static bool inside_segment(const oracle *o, const zpoint *a, const zpoint *b, co
     return (s < 0 && t < 0) || (s > 0 && t > 0);
 }
 
-/* Do the open segments ab and cd meet in a point that is an end of neither? */
+/* Do the open segments ab and cd cross in a point that is not an end of either? */
 static bool cross(const oracle *o, const zpoint *a, const zpoint *b, const zpoint *c, const zpoint *d)
 {
     return oracle_orient(o, a, b, c) * oracle_orient(o, a, b, d) < 0 &&
            oracle_orient(o, c, d, a) * oracle_orient(o, c, d, b) < 0;
 }
 
-/* Is the point (x, y) / k, on no edge, inside member m? By the even-odd rule along the ray to the right. */
+/* Is the point (x, y) / k inside member m? It is not on an edge. By the even-odd rule along the ray to the right. */
 static bool inside_member(const zset *z, size_t m, const mpz_t x, const mpz_t y, unsigned long k)
 {
     bool in = false;
@@ -180,7 +180,8 @@ static bool inside_member(const zset *z, size_t m, const mpz_t x, const mpz_t y,
         mpz_mul_ui(by, b->y, k);
         const bool up = mpz_cmp(ay, y) <= 0, vp = mpz_cmp(by, y) <= 0;
         if (up == vp) continue;
-        /* Side of the point to the edge drawn upwards: left means that the ray to the right meets it. */
+        /* The side on which the point is of the edge directed upwards: if it is left, the ray to the right meets the
+         * edge. */
         mpz_sub(d, b->x, a->x);
         mpz_sub(t, y, ay);
         mpz_mul(d, d, t);
@@ -203,7 +204,7 @@ typedef struct diagram {
     bool *joined; /* [n * n] there is a segment */
 } diagram;
 
-/* Is the segment between places i and j unobstructed, with its middle inside? */
+/* Is the segment between places i and j unobstructed, with its midpoint inside? */
 static bool admissible(const diagram *g, size_t m, size_t i, size_t j)
 {
     const zpoint *a = &g->z->v[g->at[i]], *b = &g->z->v[g->at[j]];
@@ -221,7 +222,7 @@ static bool admissible(const diagram *g, size_t m, size_t i, size_t j)
     return in;
 }
 
-/* Is the triangle of three joined places, turning left, an empty part of the member? */
+/* Are three joined places that turn left an empty triangle of the member? */
 static bool is_face(const diagram *g, size_t m, const size_t t[3])
 {
     const zpoint *a = &g->z->v[g->at[t[0]]], *b = &g->z->v[g->at[t[1]]], *c = &g->z->v[g->at[t[2]]];
@@ -241,7 +242,7 @@ static bool is_face(const diagram *g, size_t m, const size_t t[3])
     return in;
 }
 
-/* Boundary edges cut at the places on them, then every diagonal that crosses nothing so far: a maximal set, so its
+/* Boundary edges cut at the places on them, then every diagonal that crosses no segment so far: a maximal set, so its
  * bounded faces inside the member are triangles. */
 static void triangulate_member(const oracle *o, zset *z, size_t m)
 {
@@ -260,7 +261,7 @@ static void triangulate_member(const oracle *o, zset *z, size_t m)
     for (size_t i = 0; i < z->n; i++) {
         if (z->member[i] != m) continue;
         const zpoint *a = &z->v[i], *b = &z->v[z->next[i]];
-        /* Consecutive places on the edge: those with no third place between. */
+        /* Consecutive places on the edge, that is, without a third place between them. */
         for (size_t k = 0; k < g.n; k++)
             for (size_t l = k + 1; l < g.n; l++) {
                 const zpoint *s = &z->v[g.at[k]], *t = &z->v[g.at[l]];

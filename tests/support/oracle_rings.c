@@ -51,7 +51,7 @@ static int dot_vectors(const zpoint *a, const zpoint *b)
     return sign;
 }
 
-/* Quarter of the turn from r to a: 0 in (0, pi), 1 at pi, 2 in (pi, 2 pi), 3 at 2 pi. */
+/* The quadrant of the angle from r to a: 0 in (0, pi), 1 at pi, 2 in (pi, 2 pi), 3 at 2 pi. */
 static int turn_class(const zpoint *r, const zpoint *a, int sense)
 {
     const int c = sense * cross_vectors(r, a);
@@ -59,7 +59,7 @@ static int turn_class(const zpoint *r, const zpoint *a, int sense)
     return dot_vectors(r, a) < 0 ? 1 : 3;
 }
 
-/* Does a come before b when one turns from r in the sense given (+1 counter-clockwise)? */
+/* Is a met before b when turning from r in the given sense (+1 counter-clockwise)? */
 static bool sooner(const zpoint *r, const zpoint *a, const zpoint *b, int sense)
 {
     const int ca = turn_class(r, a, sense), cb = turn_class(r, b, sense);
@@ -67,8 +67,8 @@ static bool sooner(const zpoint *r, const zpoint *a, const zpoint *b, int sense)
     return sense * cross_vectors(a, b) > 0;
 }
 
-/* The piece that follows e: the first out of its end, turning from the way back in the sense given; only those of
- * component c unless c is SIZE_MAX. */
+/* The piece that follows e: the first outgoing one at its end, turning from the way back in the given sense; only
+ * pieces of component c unless c is SIZE_MAX. */
 static size_t follow(const canon *k, size_t e, int sense, size_t c)
 {
     const uint32_t v = k->m->boundary[e].to;
@@ -144,7 +144,8 @@ static void trace_walks(canon *k)
     }
 }
 
-/* Does walk w wind around the middle of piece e, which is of another walk? Signed crossings of the ray to the right. */
+/* Does walk w wind around the midpoint of piece e, which belongs to another walk? Counts signed crossings of the ray to
+ * the right. */
 static bool winds_around(const canon *k, size_t w, size_t e)
 {
     const oracle_map *m = k->m;
@@ -211,7 +212,7 @@ static int ring_cmp(const oracle_map *m, const ring *a, const ring *b)
     return (a->n > b->n) - (a->n < b->n);
 }
 
-/* Ring through piece e, marking its pieces done: only the corners, from the smallest on. */
+/* The ring through piece e, whose pieces are marked as done: only the corners, from the smallest on. */
 static ring trace_ring(const canon *k, size_t e, bool *done)
 {
     const oracle_map *m = k->m;
@@ -241,7 +242,7 @@ static ring trace_ring(const canon *k, size_t e, bool *done)
     return r;
 }
 
-/* Insertion sort: the numbers are small. */
+/* Insertion sort, since there are few. */
 static void insert_ring(const oracle_map *m, ring **rings, size_t *n, ring r)
 {
     *rings = test_resize(*rings, *n + 1, sizeof **rings);
@@ -337,7 +338,7 @@ static void put_polygons(const canon *k, FILE *f)
     free(done);
 }
 
-/* Thin pieces that continue each other straight on are joined until nothing changes. */
+/* Collinear pieces of degenerate segments are joined until nothing changes. */
 static void put_segments(const canon *k, FILE *f)
 {
     const oracle_map *m = k->m;

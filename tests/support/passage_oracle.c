@@ -108,7 +108,7 @@ bool oracle_holds(const oracle_boundary *b, const double point[2])
     return held;
 }
 
-/* The way from p by u, and the edge: a + x (b - a) = p + y u with 0 <= x, y <= 1, by Cramer's rule. */
+/* The path from p by u, and the edge: a + x (b - a) = p + y u with 0 <= x, y <= 1, by Cramer's rule. */
 static bool crosses(const oracle_edge *e, const mpq_t p[2], const mpq_t u[2])
 {
     mpq_t d[2], w[2], det, x, y, h;
@@ -136,7 +136,7 @@ static bool crosses(const oracle_edge *e, const mpq_t p[2], const mpq_t u[2])
     return meets;
 }
 
-/* Is an end of either on the other? Two on one line that meet always have such an end. */
+/* Is an end of either on the other? Two collinear segments that meet always have such an end. */
 static bool ends_meet(const oracle_edge *e, const mpq_t p[2], const mpq_t q[2])
 {
     oracle_edge way;

@@ -1,5 +1,5 @@
-/* Does the way of a point meet a set that does not hold its start? In rationals and by brute force; shares no code with
- * src/. */
+/* Does the path of a point meet a set that does not contain its start? In rationals and by brute force; shares no code
+ * with src/. */
 #ifndef SUNDER_TESTS_PASSAGE_ORACLE_H
 #define SUNDER_TESTS_PASSAGE_ORACLE_H
 
@@ -12,7 +12,7 @@ typedef struct oracle_edge {
     size_t member;
 } oracle_edge;
 
-/* The boundary of a set, as edges in no order; each member by the even-odd rule. */
+/* The boundary of a set, as edges in any order; each member by the even-odd rule. */
 typedef struct oracle_boundary {
     oracle_edge *edge;
     size_t n, members;

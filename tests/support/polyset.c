@@ -41,7 +41,7 @@ void polyset_free(polyset *set)
     polyset_init(set);
 }
 
-/* Arrays grow to the next power of two, so the capacity need not be kept. */
+/* Arrays grow to the next power of two, so the capacity need not be stored. */
 static void *room(void *array, size_t n, size_t size)
 {
     return (n & (n - 1)) ? array : test_resize(array, n ? 2 * n : 1, size);

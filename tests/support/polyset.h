@@ -17,7 +17,7 @@ typedef struct polyset {
 
 void *test_alloc(size_t n, size_t size);
 void *test_resize(void *old, size_t n, size_t size);
-/* malloc'ed text from a format. */
+/* A text made from a format, in memory from malloc(). */
 char *test_format(const char *format, ...) __attribute__((format(printf, 1, 2), nonnull(1)));
 
 void polyset_init(polyset *set);
@@ -37,9 +37,9 @@ void polyset_move(polyset *set, double dx, double dy);
 void polyset_scale(polyset *set, double sx, double sy);
 /* -S, every coordinate negated. */
 void polyset_negate(polyset *set);
-/* Every ring turned round, and started at another vertex. */
+/* Every ring reversed, and starting at another vertex. */
 void polyset_turn_rings(polyset *set, size_t start);
-/* Is (x, y) inside a member, by parity? Told in doubles: away from edges. */
+/* Is (x, y) inside a member, by the even-odd rule? Computed in doubles, so only for points that are not near edges. */
 bool polyset_holds(const polyset *set, double x, double y);
 
 /* POLYGON or MULTIPOLYGON from WKT; false if the text is anything else. *end (if not NULL): past the last character
@@ -48,12 +48,12 @@ bool polyset_read_wkt(polyset *set, const char *text, const char **end);
 /* As WKT with 17 digits, for messages. */
 char *polyset_wkt(const polyset *set);
 
-/* The shape of these rings (strict), or the sentence and the WKT on stderr and NULL. */
+/* The shape of these rings (strict); or NULL, with the message and the WKT on stderr. */
 sunder_shape *polyset_shape(const polyset *set);
-/* The shape of a text; NULL if it is none, or is refused. */
+/* The shape of a text; NULL if it is not WKT, or is refused. */
 sunder_shape *polyset_shape_of_wkt(const char *wkt);
 
-/* A whole file as text, NULL if it cannot be opened. */
+/* A whole file as text; NULL if it cannot be opened. */
 char *test_read_file(const char *path);
 
 #endif

@@ -1,4 +1,4 @@
-/* The tree of a proof, from its root, and what each node may ask for. */
+/* Follows the tree of a proof from its root, and checks what each node requires. */
 #include "proof_check.h"
 
 #include "proof_checking.h"
@@ -8,7 +8,8 @@
 
 /* ---- What is owed ---- */
 
-/* The conflict that the two are listed as, and so held to less than all; in a crowd all is owed. */
+/* The listed conflict of the two, for which less than the full distance is required; for a crowded pair the full
+ * distance is. */
 static const sunder_conflict *find_listed(const checking *c, size_t a, size_t b)
 {
     if (c->listed[c->conflict].crowded) return NULL;
@@ -39,8 +40,8 @@ bool proof_find_standing(const proof_feature *a, const proof_feature *b, bool *m
     return true;
 }
 
-/* May two features be held to the clearance, as they stood? Disjoint, or touching: to their distance. Else to the least
- * way out, which must not be longer. */
+/* May the clearance be required of two listed features, given their state at the start? If they were disjoint or
+ * touched, up to their distance. Otherwise by the least translation out of the overlap, which must not be longer. */
 static bool stood_so(const proof_feature *a, const proof_feature *b, double clearance)
 {
     mpq_t square, was;
@@ -54,7 +55,7 @@ static bool stood_so(const proof_feature *a, const proof_feature *b, double clea
     return so;
 }
 
-/* Parts that are not convex are not tested. */
+/* Is one of the features contained in the other? Only tested for convex ones. */
 static bool are_contained(const checking *c, const sunder_proof_node *node)
 {
     const proof_feature *a = &c->feature[node->a], *b = &c->feature[node->b];
@@ -62,7 +63,7 @@ static bool are_contained(const checking *c, const sunder_proof_node *node)
            (node->b < c->n && is_convex_part(b->xy, b->corners) && is_part_of(b->xy, b->corners, a));
 }
 
-/* The demand on a held pair: to stay inside, or else to keep a distance whose square is `square`. */
+/* The requirement on a held pair: to remain inside, or to keep a distance whose square is `square`. */
 static const char *check_held(const checking *c, const sunder_proof_node *node, bool *inside, mpq_t square)
 {
     const sunder_conflict *listed = find_listed(c, node->a, node->b);
@@ -89,7 +90,7 @@ static const char *check_clearance(const checking *c, const sunder_proof_node *n
     if (node->slack && (!listed || listed == own || node->clearance >= 0))
         return "slack, where nothing is held to less";
     *inside = !node->slack && node->clearance < 0;
-    mpq_set_d(square, node->slack ? 0 : node->clearance); /* with its slack it is disjoint */
+    mpq_set_d(square, node->slack ? 0 : node->clearance); /* with its slack the pair is disjoint */
     mpq_mul(square, square, square);
     if (!listed || listed == own) return node->clearance <= owed ? NULL : "more than is owed is asked for";
     if (node->clearance > owed) return "a listed pair is held to more than it owes";
@@ -105,7 +106,7 @@ static bool is_part(const checking *c, size_t thing, const double *part, size_t 
     return f->line ? is_part_of_line(part, corners, f) : is_convex_part(part, corners) && is_part_of(part, corners, f);
 }
 
-/* Is the node about parts of its two features, is its distance owed, and do its ways leave no case out? */
+/* Is the node about parts of its two features, is its distance required, and do its ways cover all cases? */
 static const char *check_question(const checking *c, const sunder_proof_node *node)
 {
     const double *a = c->proof->corner + 2 * node->part_a, *b = c->proof->corner + 2 * node->part_b;

@@ -1,4 +1,4 @@
-/* The parts of proof_check.h's walk through a proof. Each says what is wrong, or NULL. */
+/* The parts of proof_check.h's verification. Each returns the fault, or NULL. */
 #ifndef SUNDER_TESTS_PROOF_CHECKING_H
 #define SUNDER_TESTS_PROOF_CHECKING_H
 
@@ -20,41 +20,41 @@ typedef struct checking {
     bool *seen;
 } checking;
 
-/* proof_parts.c: every other corner on the left of every side; convex, and inside the feature. */
+/* proof_parts.c: is every other corner on the left of every side? Is the part convex, and inside the feature? */
 bool is_convex_part(const double *xy, size_t n);
 bool is_part_of(const double *part, size_t n, const proof_feature *f);
 
-/* proof_lines.c: of a line and a polygon. Does it run through the open polygon? The square of their distance. */
+/* proof_lines.c, for a line and a polygon: does the line run through the open polygon? The square of their distance. */
 bool proof_line_meets(const proof_feature *line, const proof_feature *polygon);
 void proof_line_square(mpq_t square, const proof_feature *line, const proof_feature *polygon);
 /* Sets `square` to the square of the least translation that separates a convex polygon and one segment. Returns false
  * for all other operands. */
 bool proof_line_least(mpq_t square, const proof_feature *line, const proof_feature *polygon);
-/* Are the part's one or two corners on one segment of the line? */
+/* Are the one or two corners of the part on one segment of the line? */
 bool is_part_of_line(const double *part, size_t n, const proof_feature *line);
 
-/* proof_ways.c: the set behind all ways, an open convex polygon, must be in conflict: at a squared distance of less
+/* proof_ways.c: the set behind all ways, an open convex polygon, has to be in conflict: at a squared distance of less
  * than `most`, or deeper inside. */
 const char *proof_check_ways(const checking *c, const sunder_proof_node *node, bool inside, const mpq_t most);
 /* The crossing of two ways' lines; false if there is none. Does v lie behind all ways, or on their lines? exact, first:
  * NULL, or a replacement for the d of way a, or of the first way. */
 bool proof_crossing(const sunder_proof_way *a, const mpq_t *exact, const sunder_proof_way *b, vec *v);
 bool proof_is_behind_all(const sunder_proof_way *way, const mpq_t *first, size_t n, const vec *v);
-/* The greatest value of the way's n over the polygon. */
+/* The maximum over the polygon of the dot product with the way's n. */
 void proof_farthest(mpq_t d, const hull *k, const sunder_proof_way *way);
 
-/* proof_shadow.c: the node is about an anchor and a thing that it may not jump over, or about a side anchor and a side;
- * and the set behind all the ways is in its shadow. */
+/* proof_shadow.c: the node is about an anchor and a feature or barrier that it may not jump over, or about a side
+ * anchor and a side; and the set behind all the ways is in its shadow. */
 const char *proof_check_shadow(const checking *c, const sunder_proof_node *node);
 
-/* proof_check.c: did the two meet at the start? The square of their least way out then, else of their distance. False:
- * not known. */
+/* proof_check.c: did the two meet at the start? Sets the square of their least translation out of the overlap, or of
+ * their distance. False: not known. */
 bool proof_find_standing(const proof_feature *a, const proof_feature *b, bool *meet, mpq_t square);
 
-/* proof_still.c: two lines leave a block one place; a member of it is *first then, else SIZE_MAX. */
+/* proof_still.c: two lines leave a block only one place; *first is then a member of it, otherwise SIZE_MAX. */
 const char *proof_check_still(const checking *c, const sunder_proof_node *leaf, size_t depth, size_t *first);
 
-/* proof_leaf.c: the forces on the way to the leaf win more than the limits can lose. */
+/* proof_leaf.c: the forces on the path to the leaf gain more than the limits can lose. */
 bool proof_same_block(const checking *c, size_t a, size_t b);
 double proof_limit_of(const checking *c, size_t feature);
 const char *proof_check_leaf(const checking *c, const sunder_proof_node *leaf, size_t depth);

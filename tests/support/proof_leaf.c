@@ -22,7 +22,7 @@ double proof_limit_of(const checking *c, size_t f)
     return limit == 1e308 && c->proof->within > 0 ? c->proof->within : limit;
 }
 
-/* r = at least the square root of s >= 0, by a share of 2^-200 at most and 2^-600. */
+/* r is an upper bound of the square root of s >= 0, exact to a share of 2^-200 plus 2^-600. */
 static void root_above(mpq_t r, const mpq_t s)
 {
     mpz_t n;
@@ -76,7 +76,7 @@ static void add_lost(mpq_t lost, const vec *net, double limit)
     mpq_clears(f, most, NULL);
 }
 
-/* Is it the first of the proof's nodes about the slack of its pair? */
+/* Is it the first node of the proof with the slack of its pair? */
 static bool is_first_slack(const sunder_proof *p, size_t k)
 {
     for (size_t m = 0; m < k; m++)
@@ -84,7 +84,7 @@ static bool is_first_slack(const sunder_proof *p, size_t k)
     return p->node[k].slack;
 }
 
-/* The least clearance that the pair's slack is known by: a leaf loses most by that. */
+/* The longest slack that a node gives for the pair: a leaf loses most with that one. */
 static double longest_slack(const sunder_proof *p, const sunder_proof_node *of)
 {
     double longest = 0;
@@ -94,8 +94,8 @@ static double longest_slack(const sunder_proof *p, const sunder_proof_node *of)
     return longest;
 }
 
-/* What the limits lose of a leaf: the sum over blocks, each by its first member, but that which stays still; and over
- * slacks. */
+/* The amount that a leaf loses by the limits: the sum over blocks, each represented by its first member, except the
+ * block that cannot move; and over slacks. */
 static void sum_lost(const checking *c, const sunder_proof_node *leaf, size_t still, mpq_t lost)
 {
     const sunder_proof *p = c->proof;

@@ -1,4 +1,4 @@
-/* Lines and points beside polygons, in rationals: what proof_check.c asks of barriers without area. */
+/* Lines and points beside polygons, in rationals: the questions that proof_check.c has about barriers without area. */
 #include "proof_checking.h"
 
 #include <stdlib.h>
@@ -50,7 +50,7 @@ void proof_line_square(mpq_t square, const proof_feature *line, const proof_feat
     mpq_clear(own);
 }
 
-/* Is the place inside the polygon, and on none of its edges? By a ray to the right. */
+/* Is the place inside the polygon, and not on an edge? By a ray to the right. */
 static bool is_inside(const proof_feature *polygon, const vec *at)
 {
     vec p, q, v, w;
@@ -74,8 +74,8 @@ static bool is_inside(const proof_feature *polygon, const vec *at)
 
 static int by_value(const void *a, const void *b) { return mpq_cmp(*(const mpq_t *)a, *(const mpq_t *)b); }
 
-/* Shares of the segment p q at which it meets the lines of the polygon's edges, 0 and 1 among them, sorted: between two
- * in a row it is all inside, or all outside, or on an edge. */
+/* Sorted parameters of the segment p q at which it meets the lines of the polygon's edges, including 0 and 1: between
+ * two consecutive ones the segment is entirely inside, outside, or on an edge. */
 static size_t find_cuts(const proof_feature *polygon, const vec *p, const vec *q, mpq_t *cut)
 {
     size_t n = 2;

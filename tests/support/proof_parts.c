@@ -1,4 +1,4 @@
-/* Are the parts that a proof is about convex, and of their features? */
+/* Are the parts that a proof is about convex, and inside their features? */
 #include "proof_checking.h"
 #include "rational_plane.h"
 
@@ -7,7 +7,7 @@ bool is_convex_part(const double *xy, size_t n)
     vec p[3];
     bool convex = n > 2;
     for (int k = 0; k < 3; k++) vec_init(&p[k]);
-    /* Every other corner is on the left of every side: once round, not twice. */
+    /* Every other corner is on the left of every side, so the ring winds once and not twice. */
     for (size_t k = 0; k < n && convex; k++)
         for (size_t m = 0; m < n && convex; m++) {
             const size_t next = (k + 1) % n;
@@ -21,7 +21,7 @@ bool is_convex_part(const double *xy, size_t n)
     return convex;
 }
 
-/* Does the segment run through the interior of the convex polygon? By its part on the left of all sides. */
+/* Does the segment run through the interior of the convex polygon? Clips it by all sides. */
 static bool enters(const double *p, const double *q, const double *xy, size_t n)
 {
     mpq_t low, high, sp, sq, cut;
@@ -43,7 +43,7 @@ static bool enters(const double *p, const double *q, const double *xy, size_t n)
         if (mpq_sgn(sp) <= 0 && mpq_sgn(sq) <= 0) in = false;
         if (!in || mpq_equal(sp, sq)) continue;
         mpq_sub(cut, sp, sq);
-        mpq_div(cut, sp, cut); /* where it passes the side's line */
+        mpq_div(cut, sp, cut); /* where it crosses the side's line */
         if (mpq_cmp(sp, sq) < 0 ? mpq_cmp(cut, low) > 0 : mpq_cmp(cut, high) < 0)
             mpq_set(mpq_cmp(sp, sq) < 0 ? low : high, cut);
     }
@@ -53,7 +53,7 @@ static bool enters(const double *p, const double *q, const double *xy, size_t n)
     return in;
 }
 
-/* Is the middle of the part's first three corners in the polygon? By a ray to the right. */
+/* Is the centroid of the part's first three corners in the polygon? By a ray to the right. */
 static bool holds_middle(const proof_feature *f, const double *part)
 {
     vec m, p, q;

@@ -1,13 +1,13 @@
 /* The set behind all ways of a node about a shadow is open and convex, and may be unbounded. The shadow is closed and
- * convex. The set lies in it exactly if the set's corners do, and if the directions along its lines in which it is
+ * convex. The set lies in it exactly if the set's corners do, and if the directions of its lines in which it is
  * unbounded lead from the origin through the part that casts the shadow. */
 #include "passage_oracle.h"
 #include "proof_checking.h"
 
 #include <math.h>
 
-/* Is x v on the segment for some x > 0, no more than 1 unless `far`? Of one that looks at the origin endways it is not
- * told. */
+/* Is x v on the segment for some x > 0, with x <= 1 unless `far`? For a segment on a line through the origin the answer
+ * is no. */
 static bool is_behind_segment(const hull *k, const vec *v, bool far)
 {
     mpq_t x, slope, along, whole;
@@ -33,7 +33,7 @@ static bool is_behind_segment(const hull *k, const vec *v, bool far)
     return on;
 }
 
-/* Is x v in the polygon for some x >= 0, no more than 1 unless `far`? The origin is not in it. */
+/* Is x v in the polygon for some x >= 0, with x <= 1 unless `far`? The origin is not in the polygon. */
 static bool is_shaded(const hull *k, const vec *v, bool far)
 {
     mpq_t low, high, slope, level;
@@ -67,7 +67,7 @@ static bool is_shaded(const hull *k, const vec *v, bool far)
     return in;
 }
 
-/* Never reaches a way, in that direction. */
+/* Is the set unbounded in that direction, that is, does the direction lead to no way? */
 static bool is_endless(const sunder_proof_way *way, size_t n, const vec *w)
 {
     vec m;
@@ -104,7 +104,7 @@ static const char *check_ways(const checking *c, const sunder_proof_node *node, 
     return wrong;
 }
 
-/* The anchor is what the library says it is; the other feature does not hold it. */
+/* The anchor is the one that the library computes, and it is not inside the other feature. */
 static const char *check_anchor(const proof_feature *of, const proof_feature *other, const double anchor[2])
 {
     polyset p, q;
@@ -124,7 +124,7 @@ static const char *check_anchor(const proof_feature *of, const proof_feature *ot
     return held ? "an anchor is held by what it may not jump over" : NULL;
 }
 
-/* A side anchor: which it is the library chooses, one for each feature and within its box. */
+/* A side anchor: the checker accepts any point in the feature's box, but only one for each feature. */
 static const char *check_side_anchor(const checking *c, size_t f, const double anchor[2])
 {
     const proof_feature *of = &c->feature[f];
@@ -235,8 +235,8 @@ static const char *find_chord_fault(const vec *anchor, const vec *const end[2][2
     return NULL;
 }
 
-/* A side of each barrier, each with an end on one ray from the anchor, and a chord from the shadow of the one to that
- * of the other. */
+/* A side of each of two barriers, each with an end on one ray from the anchor, and a chord from the shadow of one to
+ * that of the other. */
 static const char *check_chord(const checking *c, const sunder_proof_node *node)
 {
     const double *side = c->proof->corner + 2 * node->sides;
@@ -266,7 +266,7 @@ static const char *check_side(const checking *c, const sunder_proof_node *node)
     return check_side_of(c, node, node->b, c->proof->corner + 2 * node->part_b);
 }
 
-/* A part of a feature, and the anchor of another. */
+/* A part of a feature, and the anchor of another one. */
 static const char *check_jump(const checking *c, const sunder_proof_node *node)
 {
     const double *a = c->proof->corner + 2 * node->part_a, *b = c->proof->corner + 2 * node->part_b;

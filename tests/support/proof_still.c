@@ -1,4 +1,5 @@
-/* Does a block between two lines stay where it is? By the lattice of moves that leave all of its corners doubles. */
+/* Is a block between two lines unable to move? Proved by the lattice of moves for which all of its corners remain
+ * doubles. */
 #include "proof_checking.h"
 
 #include <math.h>
@@ -50,7 +51,7 @@ static const char *take_line(const checking *c, const sunder_proof_node *leaf, s
     return NULL;
 }
 
-/* The exponent of the unit of one coordinate of the block; false: it may leave its binade. */
+/* The exponent of the unit of one coordinate of the block; false: the coordinate may get another binary exponent. */
 static bool find_unit(const checking *c, size_t feature, size_t x, double limit, int *unit)
 {
     bool any = false, same = true;
@@ -58,7 +59,7 @@ static bool find_unit(const checking *c, size_t feature, size_t x, double limit,
         for (size_t k = 0; k < c->feature[f].corners && same && proof_same_block(c, f, feature); k++)
             for (int end = -1; end < 2 && same; end += 2) {
                 const double at = c->feature[f].xy[2 * k + x], sum = at + end * limit;
-                /* Rounding may carry it to the power of two, and not beyond. */
+                /* Rounding may carry it up to the power of two, and not beyond. */
                 same = isfinite(sum) && sum != 0 && (sum > 0) == (at > 0) && (!any || ilogb(sum) == *unit) &&
                        fabs(sum) != ldexp(1, ilogb(sum));
                 if (same) *unit = ilogb(sum);

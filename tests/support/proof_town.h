@@ -1,5 +1,5 @@
-/* proof_town.h: a layer whose proofs are checked: features, and barriers behind them, as the library has them and as
- * the checker does. */
+/* proof_town.h: a layer whose proofs are verified: features followed by barriers, both for the library and for the
+ * checker. */
 #ifndef PROOF_TOWN_H
 #define PROOF_TOWN_H
 
@@ -20,15 +20,15 @@ typedef struct proof_town {
     bool blocks;
 } proof_town;
 
-/* A feature that is a ring of this many corners; 0: it is fixed. */
+/* A feature that is a ring with this many corners; limit 0: it is fixed. */
 sunder_feature *proof_town_add(proof_town *t, const double *xy, size_t corners, double limit);
 sunder_feature *proof_town_add_box(proof_town *t, double x, double y, double w, double h, double limit);
-/* A line, a point or (four corners) an area, behind all features. width: a dyadic, like the gap. */
+/* A line, a point or (four corners) an area, after all features. width: a dyadic fraction, like the gap. */
 void proof_town_add_barrier(proof_town *t, const double *xy, size_t corners, double width, double gap, bool sides);
-/* Separated, by the town's gap and blocks; contained ones, too. */
+/* Separates with the town's gap and blocks; containment counts as a conflict. */
 sunder_report *proof_town_separate(const proof_town *t);
-/* How many conflicts have no room, or none on their side, all of them proved; the others have no proof. *open: the
- * number left without a reason. */
+/* Verifies all proofs. Returns the number of conflicts with the reason no_room or side, all of which have to be proved;
+ * the others must have no proof. *open: the number of conflicts left without a reason. */
 size_t proof_town_check(const proof_town *t, const sunder_report *report, size_t trial, size_t *open);
 void proof_town_free(proof_town *t);
 

@@ -1,7 +1,7 @@
 /* Do the ways of a node cover every place that keeps the clearance? */
 #include "proof_checking.h"
 
-/* Is there a direction in which none of the ways is reached? If so, there is one along a way's line. */
+/* Is there a direction in which no way is ever reached? If so, there is one along the line of a way. */
 static bool is_open(const sunder_proof_way *way, size_t n)
 {
     vec w, m;
@@ -85,7 +85,7 @@ bool proof_is_behind_all(const sunder_proof_way *way, const mpq_t *first, size_t
     return behind;
 }
 
-/* What lies behind all the ways, an open convex polygon, must be in conflict: its corners within the clearance of the
+/* The set behind all ways, an open convex polygon, has to be in conflict: its corners are within the clearance of the
  * parts' difference or, inside, deeper in it than that. */
 const char *proof_check_ways(const checking *c, const sunder_proof_node *node, bool inside, const mpq_t most)
 {

@@ -98,7 +98,7 @@ hull hull_difference(const double *a, size_t na, const double *b, size_t nb)
         m--;
     }
     hull_free(&all);
-    out.n = m ? m : 1; /* all in one place */
+    out.n = m ? m : 1; /* all corners coincide */
     return out;
 }
 

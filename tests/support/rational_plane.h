@@ -1,4 +1,4 @@
-/* Vectors of the plane and convex polygons in rationals, for oracles: plain, slow, and with no code of src/. */
+/* Vectors of the plane and convex polygons in rationals, for oracles: simple, slow, and without code from src/. */
 #ifndef SUNDER_TESTS_RATIONAL_PLANE_H
 #define SUNDER_TESTS_RATIONAL_PLANE_H
 
@@ -22,7 +22,7 @@ int vec_side(const vec *p, const vec *q, const vec *r);
 /* Counter-clockwise, strictly convex; a segment or a point has two corners or one. */
 typedef struct hull {
     vec *v;
-    size_t n, room; /* room: how many vectors there are to clear */
+    size_t n, room; /* room: the number of initialised vectors */
 } hull;
 
 /* The convex hull of all differences of a corner of a and one of b. */
@@ -30,7 +30,7 @@ hull hull_difference(const double *a, size_t na, const double *b, size_t nb);
 void hull_free(hull *h);
 /* The squared distance of p from the closed polygon. */
 void hull_square_from(mpq_t square, const hull *h, const vec *p);
-/* Does the disc round p lie in the polygon? square: of its radius. */
+/* Is the disc around p inside the polygon? square: of its radius. */
 bool hull_holds_disc(const hull *h, const vec *p, const mpq_t square);
 
 #endif

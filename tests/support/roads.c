@@ -23,8 +23,8 @@ static bool same_operations(const sunder_counts *a, const sunder_counts *b)
            a->segment_intersections == b->segment_intersections && a->exact_fallbacks == b->exact_fallbacks;
 }
 
-/* The road is the one asked for, or its decomposition fell back; phases add up to all operations (except those of
- * placing the operands, which counts none). */
+/* The algorithm is the requested one, and the decomposition is the requested one or the one to which it falls back;
+ * phases add up to all operations (except those of placing the operands, which counts none). */
 static bool honest(const sunder_sum *sum, const sunder_sum_options *how)
 {
     sunder_sum_method method;

@@ -11,7 +11,7 @@ typedef struct scene {
     sunder_feature feature[SCENE_MOST];
     size_t n;
     sunder_layer_options options;
-    sunder_report *report; /* the last one; freed by the next and by scene_end() */
+    sunder_report *report; /* the last one; freed by the next run and by scene_end() */
     sunder_layer_summary summary;
 } scene;
 
@@ -19,7 +19,7 @@ typedef struct scene {
 void scene_begin(scene *s, double gap);
 void scene_end(scene *s);
 
-/* Adds a feature of weight 1, without a limit, in no block; without a shape if wkt is NULL. It belongs to the scene. */
+/* Adds a feature of weight 1, without a limit, in no block; without a shape if wkt is NULL. The scene owns it. */
 sunder_feature *scene_add(scene *s, const char *wkt);
 /* The axis-parallel rectangle of that width and height with its lower left corner at (x, y). */
 sunder_feature *scene_add_box(scene *s, double x, double y, double w, double h);
@@ -27,9 +27,9 @@ sunder_feature *scene_add_box(scene *s, double x, double y, double w, double h);
 void scene_separate(scene *s);
 void scene_check(scene *s);
 
-/* Conflicts left between blocks, of every kind. */
+/* The number of conflicts left between blocks, of every kind. */
 size_t scene_left(const scene *s);
-/* How far a feature went. */
+/* The length of a feature's move. */
 double scene_length(const scene *s, size_t feature);
 
 #endif

@@ -9,17 +9,17 @@
 typedef struct scene_field {
     sunder_feature *feature; /* [n] of weight 1, in no block */
     size_t n;
-    uint32_t *body; /* [n] each is one */
+    uint32_t *body; /* [n] each feature is a body */
     double *move;   /* [2 * n] */
     scene_model of;
-    sunder_i_search search; /* of all of them */
+    sunder_i_search search; /* a search of all bodies */
 } scene_field;
 
-/* Capacity. */
+/* A field for up to `most` shapes. */
 scene_field *scene_field_new(size_t most);
-/* One more, from WKT, which goes no farther than that. */
+/* Adds a shape, from WKT, with this limit. */
 void scene_field_add(scene_field *field, const char *wkt, double max_shift);
-/* They are all there, and owe each other the gap; jumps are allowed. */
+/* Call it after all shapes were added: makes the search, with this gap; jumps are allowed. */
 void scene_field_begin(scene_field *field, double gap);
 void scene_field_free(scene_field *field);
 

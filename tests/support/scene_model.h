@@ -1,5 +1,5 @@
-/* A scene's layer in the form that the search and the proofs use: a fixture for unit tests of these rooms. Any failure
- * fails the test. */
+/* A scene's layer in the form that the search and the proofs use: a fixture for unit tests of these folders. Any
+ * failure fails the test. */
 #ifndef SUNDER_TESTS_SCENE_MODEL_H
 #define SUNDER_TESTS_SCENE_MODEL_H
 
@@ -9,16 +9,16 @@
 
 typedef struct scene_model {
     sunder_layer *layer;
-    sunder_layer work; /* the layer in the order of the work */
+    sunder_layer work; /* the layer in the order of processing */
     sunder_i_barriers parts;
     sunder_i_model model;
-    sunder_i_placement placement; /* these two by scene_model_related() only */
+    sunder_i_placement placement; /* these two are set by scene_model_related() only */
     sunder_i_relations start;
     bool placed;
 } scene_model;
 
-/* Begins a model with the scene's options; the features belong to the scene. Pairs are not related: blocks come from
- * the features' numbers, and searches look at all features. */
+/* Begins a model with the scene's options; the scene keeps its features. Pairs are not related: blocks come from the
+ * features' numbers, and searches examine all features. */
 void scene_model_begin(scene_model *m, const scene *s);
 /* The same, placed and related as at the start of a run, with its seams. */
 void scene_model_related(scene_model *m, const scene *s);

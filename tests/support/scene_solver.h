@@ -8,9 +8,9 @@
 #include "displacement/solve/clusters/cluster_stages.h"
 
 /* For a model with relations, which the scene keeps; bodies that are too close are joined, and no clusters are
- * gathered. */
+ * formed. */
 void scene_solver_begin(sunder_i_solver *solver, scene_model *of);
-/* Before the model ends. */
+/* Call it before the model ends. */
 void scene_solver_end(sunder_i_solver *solver);
 
 #endif

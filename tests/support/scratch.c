@@ -1,5 +1,5 @@
 /* scratch.c: see scratch.h. */
-#define _XOPEN_SOURCE 700 /* nftw() */
+#define _XOPEN_SOURCE 700 /* for nftw() */
 #include "scratch.h"
 
 #include <ftw.h>

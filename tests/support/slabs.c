@@ -17,7 +17,7 @@ static size_t load_edges(edge *e, const polyset *s, int set, const mpq_t *x, con
             const size_t first = v, end = s->ring_end[r];
             for (; v < end; v++) {
                 const size_t w = v + 1 < end ? v + 1 : first;
-                if (s->xy[2 * v] == s->xy[2 * w]) continue; /* vertical: bounds no slab from above or below */
+                if (s->xy[2 * v] == s->xy[2 * w]) continue; /* vertical: does not bound a slab from above or below */
                 const size_t a = s->xy[2 * v] < s->xy[2 * w] ? v : w, b = a == v ? w : v;
                 mpq_inits(e[n].ax, e[n].ay, e[n].bx, e[n].by, NULL);
                 mpq_set_d(e[n].ax, s->xy[2 * a]);
@@ -38,7 +38,7 @@ static size_t load_edges(edge *e, const polyset *s, int set, const mpq_t *x, con
     return n;
 }
 
-/* Sets `out` to y of the edge at x. */
+/* Sets `out` to the y of the edge at x. */
 static void height(mpq_t out, const edge *e, const mpq_t x)
 {
     mpq_t t, u;
@@ -52,7 +52,7 @@ static void height(mpq_t out, const edge *e, const mpq_t x)
     mpq_clears(t, u, NULL);
 }
 
-/* Adds the x of the crossing of two edges, if it lies within both. */
+/* Adds the x of the crossing of two edges, if the crossing lies within both. */
 static size_t add_crossing(mpq_t *xs, size_t n, const edge *e, const edge *f)
 {
     mpq_t lo, hi, a, b, c, d;
@@ -91,7 +91,8 @@ static int compare_crossings(const void *a, const void *b)
     return mpq_cmp(((const crossing *)a)->y, ((const crossing *)b)->y);
 }
 
-/* Where edges meet a vertical line that runs through no end of any, in order; freed by clear_crossings(). */
+/* The points at which edges meet a vertical line that contains no end of an edge, in order; freed by
+ * clear_crossings(). */
 static crossing *crossings_of(const edge *e, size_t n, const mpq_t x, size_t *count)
 {
     crossing *c = test_alloc(n, sizeof *c);
@@ -114,10 +115,11 @@ static void clear_crossings(crossing *c, size_t n)
     free(c);
 }
 
-/* What a vertical line decides: does it cross both interiors at the same place, or the first set outside the second? */
+/* The questions decided on a vertical line: does it meet both interiors at the same place, or the first set outside the
+ * second? */
 typedef enum question { MEET, ESCAPE } question;
 
-/* By parity within each member. */
+/* By the even-odd rule within each member. */
 static bool line_says(const edge *e, size_t n, const mpq_t x, question what)
 {
     size_t m;
@@ -137,7 +139,7 @@ static bool line_says(const edge *e, size_t n, const mpq_t x, question what)
     return yes;
 }
 
-/* How much of a vertical line the members cover together. */
+/* The length of the part of a vertical line that the members cover together. */
 static void covered_length(mpq_t length, const edge *e, size_t n, const mpq_t x)
 {
     size_t m, covers = 0;
@@ -156,7 +158,7 @@ static void covered_length(mpq_t length, const edge *e, size_t n, const mpq_t x)
 
 typedef struct slabs {
     edge *e;
-    mpq_t *x; /* borders, in order, some of them the same */
+    mpq_t *x; /* borders of slabs, in order, some of them equal */
     size_t edges, borders;
 } slabs;
 
@@ -187,7 +189,7 @@ static void slabs_close(slabs *s)
     free(s->e);
 }
 
-/* The middle of slab i; false if it has no width. */
+/* The x in the middle of slab i; false if the slab has no width. */
 static bool slab_middle(mpq_t middle, const slabs *s, size_t i)
 {
     if (mpq_equal(s->x[i], s->x[i + 1])) return false;
@@ -226,7 +228,7 @@ void area_by_slabs(mpq_t area, const polyset *set)
     slabs_open(&s, set, NULL, NULL, NULL);
     for (size_t i = 0; i + 1 < s.borders; i++) {
         if (!slab_middle(middle, &s, i)) continue;
-        /* edges do not cross within a slab, so the middle gives the mean length */
+        /* edges do not cross within a slab, so the length in its middle is the mean length */
         covered_length(length, s.e, s.edges, middle);
         mpq_sub(width, s.x[i + 1], s.x[i]);
         mpq_mul(width, width, length);

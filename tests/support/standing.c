@@ -1,7 +1,7 @@
-/* The least translation that separates two sets lies on the boundary of those that do not, on a segment made by an edge
- * of one and a vertex of the other. So it is an end of such a segment, the foot of the perpendicular from the origin,
- * or a crossing of two segments. Candidates are sorted by their lengths in doubles; those that may be the shortest are
- * computed in rationals, and vertical slabs decide whether they separate the two. */
+/* The least translation that separates two sets lies on the boundary of the set of translations that do not, on a
+ * segment made by an edge of one and a vertex of the other. So it is an end of such a segment, the foot of the
+ * perpendicular from the origin, or a crossing of two segments. Candidates are sorted by their lengths in doubles;
+ * those that may be the shortest are computed in rationals, and vertical slabs decide whether they separate the two. */
 #include "standing.h"
 
 #include "slabs.h"
@@ -16,7 +16,7 @@ typedef struct contact {
 
 typedef struct candidate {
     double length;
-    size_t first, second; /* contacts; the same: a foot or an end */
+    size_t first, second; /* contacts; both equal: a foot or an end */
     int kind;             /* 0, 1: ends; 2: the foot; 3: the crossing */
 } candidate;
 
@@ -30,7 +30,7 @@ static void difference(mpq_t out, double x, double y)
     mpq_clear(t);
 }
 
-/* The edges of p less the vertices of q, or (negative) of them the negatives. */
+/* The edges of p minus the vertices of q; `negative`: multiplied by -1. */
 static size_t add_contacts(contact *c, const polyset *p, const polyset *q, bool negative)
 {
     size_t n = 0;
@@ -60,7 +60,7 @@ static size_t add_contacts(contact *c, const polyset *p, const polyset *q, bool 
     return n;
 }
 
-/* Where on contact c the candidate is, as a share of its length. */
+/* The parameter of the candidate on contact c. */
 static void share_of(mpq_t s, const contact *all, const candidate *c)
 {
     const contact *p = &all[c->first], *q = &all[c->second];
@@ -97,7 +97,7 @@ static void share_of(mpq_t s, const contact *all, const candidate *c)
     mpq_clears(t, u, NULL);
 }
 
-/* The distance of the origin from a contact: no candidate on it is shorter. */
+/* The distance of the origin from a contact, which is a lower bound for candidates on it. */
 static double reach_of(const contact *p)
 {
     const double square = p->along[0] * p->along[0] + p->along[1] * p->along[1];
@@ -105,8 +105,8 @@ static double reach_of(const contact *p)
     return hypot(p->at[0] + s * p->along[0], p->at[1] + s * p->along[1]);
 }
 
-/* The length in doubles; infinite if the place is certainly on neither of the two. If both are nearly parallel, doubles
- * cannot locate the crossing; then a lower bound of the length is returned. */
+/* The length in doubles; infinite if the crossing is certainly not on both contacts. If both are nearly parallel,
+ * doubles cannot locate the crossing; then a lower bound of the length is returned. */
 static double rough_length(const contact *all, const candidate *c)
 {
     const contact *p = &all[c->first], *q = &all[c->second];
@@ -147,7 +147,7 @@ static size_t list_candidates(candidate *out, const contact *all, size_t n)
     return m;
 }
 
-/* The candidate exactly, and its square; false if it is not on its contact. */
+/* The candidate exactly, and the square of its length; false if it is not on its contact. */
 static bool make(const contact *all, const candidate *c, mpq_t x, mpq_t y, mpq_t square)
 {
     const contact *p = &all[c->first];
@@ -178,7 +178,7 @@ static void least_parting(mpq_t best, const polyset *a, const polyset *b)
     bool any = false;
     mpq_t x, y, square;
     mpq_inits(x, y, square, NULL);
-    /* Rough lengths are right to far better than a millionth of the extent, or too small. */
+    /* The approximate lengths have errors far below a millionth of the extent, or are lower bounds. */
     for (size_t k = 0; k < m && list[k].length <= most; k++) {
         if (!make(all, &list[k], x, y, square) || (any && mpq_cmp(square, best) >= 0)) continue;
         if (interiors_meet(a, b, (const mpq_t *)&x, (const mpq_t *)&y)) continue;

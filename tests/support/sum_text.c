@@ -12,7 +12,7 @@
 
 /* ---- From the library ---- */
 
-/* Is d nearest to the rational r (no other double is nearer)? Infinite: from halfway past the greatest double on. */
+/* Is d a double nearest to the rational r? Infinite from the midpoint of the greatest double and 2^1024 on. */
 static bool is_nearest(double d, const mpq_t r)
 {
     mpq_t x, gap, other;
@@ -42,7 +42,7 @@ static bool is_nearest(double d, const mpq_t r)
     return nearest;
 }
 
-/* Is `off` a bound of the distance of xy from the rational place, and not a wide one? */
+/* Is `off` an upper bound of the distance of xy from the exact place, and not a much too large one? */
 static bool is_bound(double off, const double xy[2], mpq_t place[2])
 {
     const double ulp =
@@ -227,13 +227,13 @@ static void read_rational(mpq_t r, const json *text)
     mpq_canonicalize(r);
 }
 
-/* Times factor * 2^scale, plus (by[0], by[1]). */
+/* Multiplied by factor * 2^scale, plus (by[0], by[1]). */
 typedef struct motion {
     long factor, scale;
     double by[2];
 } motion;
 
-/* Copies a text; strings are coordinates, the axis told by their place in a pair. */
+/* Copies a text and transforms its coordinates, which are the strings; the position in a pair determines the axis. */
 static void put_moved(FILE *f, const json *v, const motion *m, int axis)
 {
     mpq_t r, d;
@@ -324,7 +324,7 @@ static int turn(const spot *a, const spot *b, const spot *c)
     return sign;
 }
 
-/* Corners of the hull, counter-clockwise from the smallest; returns how many. The spots are sorted. */
+/* The corners of the hull, counter-clockwise from the smallest; returns their number. The spots are sorted. */
 static size_t hull(spot *s, size_t n, size_t *corner)
 {
     size_t k = 0, low = 0;
