@@ -553,7 +553,7 @@ typedef struct sunder_layer_options {
     double barrier_reach;
     sunder_trace trace; /* NULL for none */
     void *trace_user;
-    sunder_rows rows; /* neighbours in a row keep their order; not with keep_worlds, nor with keep_trees */
+    sunder_rows rows; /* neighbours in a row keep their order; not with keep_trees */
     double kink;      /* a kink greater than this counts in summary.kink_share; negative (the default): gap / 10 */
     /* With rows: the stiffness K of springs between neighbours in a row, across it and along it. With u the move of one
      * relative to the other, and w the lesser of their weights, a spring costs w K (u.n)^2. The default: 3 and 0.3. */

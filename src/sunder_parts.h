@@ -86,6 +86,46 @@ SUNDER_EXPERIMENTAL size_t sunder_report_inside(const sunder_report *report, siz
 /* Returns whether the moved coordinates of the feature had to be rounded to doubles. */
 SUNDER_EXPERIMENTAL bool sunder_report_rounded(const sunder_report *report, size_t feature);
 
+/* ---- Rows of parts -------------------------------------------------------------------------------------------- */
+
+/* Two neighbours in a row: the features of two different blocks that are nearest to each other, ascending. A feature
+ * that stands alone counts as a block. A block has four sides, with at most one neighbour on each: sides 0 and 2 are
+ * opposite to each other, and so are sides 1 and 3. A row leaves a block on the side that is opposite to the one it
+ * arrives at. */
+typedef struct sunder_row_pair {
+    size_t feature[2];
+    size_t block[2];   /* the first feature of the block of each */
+    size_t side[2];    /* the sides of the two blocks that face each other */
+    double along[2];   /* the direction of the row, from the first to the second: a unit vector */
+    double offset;     /* at the start, by how much the second is to the left of the first, seen along the row */
+    double weight;     /* the lesser of the weights of the two blocks */
+    double move[2][2]; /* the moves of the two */
+} sunder_row_pair;
+
+/* Returns the pairs of neighbours in rows, in the order of their features, and sets *n to their number; there are none
+ * unless options.rows was set. */
+SUNDER_EXPERIMENTAL const sunder_row_pair *sunder_report_row_pairs(const sunder_report *report, size_t *n);
+/* Sets `box` to the place that decides which neighbours in rows the block of the feature has. They are those of the
+ * larger layer if the part has all of its features and barriers that meet the box. The report has these boxes if
+ * options.rows and keep_worlds were set. */
+SUNDER_EXPERIMENTAL void sunder_report_row_reach(const sunder_report *report, size_t feature, double box[4]);
+
+/* The rows that pairs of neighbours form, in the order of their features. A struct of zeros is empty. */
+typedef struct sunder_row_list {
+    sunder_row *row;
+    size_t rows;
+    size_t *feature; /* the array into which `feature` of all rows points */
+} sunder_row_list;
+
+/* Joins n pairs to rows, with the kinks and costs that follow from their moves. Sets *out, which the caller frees with
+ * sunder_row_list_free(), and in *summary all that is about rows, and adds cost_rows to `cost`. The pairs may be given
+ * in any order, each once. Of the options `gap`, `kink` and `row_stiffness` are used. Fails with SUNDER_EARG if an
+ * option is out of its range, or with SUNDER_ENOMEM. */
+SUNDER_EXPERIMENTAL sunder_status sunder_rows_make(const sunder_row_pair *pair, size_t n,
+                                                   const sunder_layer_options *options, sunder_row_list *out,
+                                                   sunder_layer_summary *summary, sunder_error *err);
+SUNDER_EXPERIMENTAL void sunder_row_list_free(sunder_row_list *list);
+
 #ifdef __cplusplus
 }
 #endif

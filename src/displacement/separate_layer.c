@@ -202,7 +202,7 @@ static sunder_status explain_result(sunder_i_solver *s, const sunder_layer_optio
     if (!status) status = sunder_i_report_bound(report, s, err);
     if (!status) status = sunder_i_report_optimality(report, s, err);
     if (!status) status = sunder_i_report_pushes(report, s, err);
-    if (!status) status = sunder_i_report_rows(report, &s->model, &s->rows, err);
+    if (!status) status = sunder_i_report_row_pairs(report, &s->model, &s->rows, err);
     status = pass_progress(s, BOUNDED, status, err);
     if (!status) status = sunder_i_report_proofs(report, s, sunder_i_decide, err);
     if (!status) status = sunder_i_report_blockers(report, s, err);

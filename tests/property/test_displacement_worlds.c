@@ -3,6 +3,9 @@
  * same result for that world as the whole layer, to the last bit, unless another world of the part changed something
  * there. The results of worlds, of unchanged blocks and of moves add up to the result of the layer.
  *
+ * The same holds for neighbours in rows: a part that contains the place that decides on the neighbours of a feature
+ * gives it the same ones as the whole layer.
+ *
  * Layers are fields of slanted boxes, most of them separate, some with fixed ones, limits, blocks, and barriers: roads
  * across the whole layer, and ponds. */
 #include "polyset.h"
@@ -33,10 +36,10 @@ typedef struct field {
     double width;
 } field;
 
-static sunder_shape *slanted_box(rng *r, double x, double y)
+static sunder_shape *slanted_box(rng *r, double x, double y, double steepest)
 {
     polyset box = {0};
-    const double a = rng_once_in(r, 2) ? 0 : 0.8 * rng_unit(r), w = 3 + 5 * rng_unit(r), h = 3 + 3 * rng_unit(r);
+    const double a = rng_once_in(r, 2) ? 0 : steepest * rng_unit(r), w = 3 + 5 * rng_unit(r), h = 3 + 3 * rng_unit(r);
     const double e[2] = {cos(a), sin(a)};
     polyset_polygon(&box,
                     (double[]){x, y, x + w * e[0], y + w * e[1], x + w * e[0] - h * e[1], y + w * e[1] + h * e[0],
@@ -58,7 +61,9 @@ static void draw_options(field *f, rng *r)
     f->options.gap = rng_once_in(r, 4) ? 0 : 0.5 + 2 * rng_unit(r);
     f->options.effort = rng_once_in(r, 2) ? 0 : 0.02;
     f->options.keep_pushes = f->options.keep_worlds = true;
-    f->options.keep_trees = rng_once_in(r, 2);
+    f->options.rows = rng_once_in(r, 2) ? SUNDER_ROWS_FOUND : SUNDER_ROWS_NONE;
+    if (f->options.rows) f->options.gap = 1 + 2 * rng_unit(r);
+    f->options.keep_trees = rng_once_in(r, 2) && !f->options.rows;
     f->options.threads = (unsigned)rng_int(r, 1, 2);
 }
 
@@ -72,7 +77,7 @@ static void lay_out(field *f, rng *r)
     for (f->n = 0; f->n < n; f->n++) {
         const double x = 1000.25 + pitch * (double)(f->n % row) + 4 * rng_unit(r),
                      y = 2000 + pitch * (double)(f->n / row) + 4 * rng_unit(r);
-        f->feature[f->n] = (sunder_feature){.shape = slanted_box(r, x, y),
+        f->feature[f->n] = (sunder_feature){.shape = slanted_box(r, x, y, f->options.rows ? 0.2 : 0.8),
                                             .weight = rng_once_in(r, 3) ? 1 + 3 * rng_unit(r) : 1,
                                             .max_shift = limited ? 4 * rng_unit(r) : INFINITY,
                                             .fixed = rng_once_in(r, 12),
@@ -96,7 +101,7 @@ static void add_barrier(field *f, rng *r)
                           .side = rng_once_in(r, 2)};
     f->bends = BENDS;
     if (rng_once_in(r, 3)) {
-        b->geometry.shape = slanted_box(r, 1000 + f->width * rng_unit(r), 2000 + f->width * rng_unit(r));
+        b->geometry.shape = slanted_box(r, 1000 + f->width * rng_unit(r), 2000 + f->width * rng_unit(r), 0.8);
         return;
     }
     for (size_t m = 0; m < BENDS; m++) {
@@ -218,18 +223,25 @@ static void demand_same_world(const sunder_report *whole, const sunder_report *p
     demand_same_conflicts(whole, part, world, of_part, from);
 }
 
+/* Does the part contain all features that meet the box? */
+static bool is_known(const field *f, const bool *there, const double place[4])
+{
+    for (size_t k = 0; k < f->n; k++) {
+        double box[4];
+        sunder_shape_box(f->feature[k].shape, box);
+        if (!there[k] && meets(box, place)) return false;
+    }
+    return true;
+}
+
 /* Does the part contain all features that meet the area at which the part's world looked? */
 static bool is_complete(const field *f, const bool *there, const sunder_report *part, size_t of_part)
 {
     size_t n, footprints;
     const sunder_world *w = &sunder_report_worlds(part, &n)[of_part];
     const sunder_footprint *p = sunder_report_footprints(part, &footprints);
-    for (size_t k = 0; k < f->n; k++) {
-        double box[4];
-        sunder_shape_box(f->feature[k].shape, box);
-        for (size_t i = 0; i < w->footprints && !there[k]; i++)
-            if (meets(box, p[w->footprint + i].seen)) return false;
-    }
+    for (size_t i = 0; i < w->footprints; i++)
+        if (!is_known(f, there, p[w->footprint + i].seen)) return false;
     return true;
 }
 
@@ -252,8 +264,59 @@ static bool is_joined(const sunder_report *whole, const sunder_report *part, siz
     return world == SIZE_MAX || in_whole > in_part;
 }
 
+static bool has_block(const sunder_row_pair *pair, size_t block)
+{
+    return pair->block[0] == block || pair->block[1] == block;
+}
+
+static size_t block_of(const sunder_report *report, size_t feature)
+{
+    const int64_t block = sunder_report_block(report, feature);
+    return block < 0 ? feature : (size_t)block;
+}
+
+/* Returns how many pairs of neighbours in rows the feature's block has; all of them are of the other report, too. */
+static size_t demand_same_neighbours(const sunder_report *whole, const sunder_report *part, size_t k,
+                                     const size_t *from)
+{
+    size_t n, m, j = 0, found = 0;
+    const sunder_row_pair *p = sunder_report_row_pairs(whole, &n), *q = sunder_report_row_pairs(part, &m);
+    const size_t block = block_of(whole, from[k]), of_part = block_of(part, k);
+    assert_int_equal(block, from[of_part]);
+    for (size_t i = 0; i < n; i++) {
+        if (!has_block(&p[i], block)) continue;
+        while (j < m && !has_block(&q[j], of_part)) j++;
+        assert_true(j < m);
+        for (int c = 0; c < 2; c++) {
+            assert_int_equal(p[i].feature[c], from[q[j].feature[c]]);
+            assert_int_equal(p[i].block[c], from[q[j].block[c]]);
+            assert_int_equal(p[i].side[c], q[j].side[c]);
+            assert_true(p[i].along[c] == q[j].along[c]);
+        }
+        assert_true(p[i].offset == q[j].offset && p[i].weight == q[j].weight);
+        j++;
+        found++;
+    }
+    while (j < m && !has_block(&q[j], of_part)) j++;
+    assert_int_equal(j, m);
+    return found;
+}
+
+/* Compares the neighbours in rows of the features for which the part knows all that decides on them. */
+static size_t look_at_rows(const field *f, const sunder_report *whole, const sunder_report *part, const bool *there,
+                           const size_t *from, size_t n)
+{
+    size_t found = 0;
+    for (size_t k = 0; k < n && f->options.rows; k++) {
+        double reach[4];
+        sunder_report_row_reach(part, k, reach);
+        if (is_known(f, there, reach)) found += demand_same_neighbours(whole, part, k, from);
+    }
+    return found;
+}
+
 /* Compares what a part of the field reports about the worlds that are complete in it. Returns their number. */
-static size_t look_at_part(const field *f, const sunder_report *whole, const bool *there)
+static size_t look_at_part(const field *f, const sunder_report *whole, const bool *there, size_t *neighbours)
 {
     static sunder_feature chosen[MOST];
     size_t from[MOST + BARRIERS], n = 0, worlds, same = 0;
@@ -271,6 +334,7 @@ static size_t look_at_part(const field *f, const sunder_report *whole, const boo
         demand_same_world(whole, part, sunder_report_world(whole, from[w[k].first]), from, n);
         same++;
     }
+    *neighbours += look_at_rows(f, whole, part, there, from, n);
     sunder_report_free(part);
     return same;
 }
@@ -284,7 +348,7 @@ static void add_blocks(const field *f, bool *there)
 }
 
 /* Tests the part that meets everything that a world looked at, and the part that meets a random box. */
-static size_t look_at_parts(const field *f, rng *r, const sunder_report *whole)
+static size_t look_at_parts(const field *f, rng *r, const sunder_report *whole, size_t *neighbours)
 {
     size_t worlds, footprints, same = 0;
     const sunder_world *w = sunder_report_worlds(whole, &worlds);
@@ -301,12 +365,33 @@ static size_t look_at_parts(const field *f, rng *r, const sunder_report *whole)
                 there[i] = meets(box, p[w[k].footprint + m].seen);
         }
         add_blocks(f, there);
-        same += look_at_part(f, whole, there);
+        same += look_at_part(f, whole, there, neighbours);
     }
     return same;
 }
 
 /* ---- What they add up to ----------------------------------------------------------------------------------------- */
+
+/* The rows of a report are those that its pairs of neighbours form. */
+static void demand_same_rows(const sunder_report *report, const sunder_layer_options *options)
+{
+    size_t n, pairs;
+    sunder_layer_summary s, t;
+    sunder_row_list list = {0};
+    const sunder_row *row = sunder_report_rows(report, &n);
+    const sunder_row_pair *pair = sunder_report_row_pairs(report, &pairs);
+    sunder_report_summary(report, &s);
+    t = s;
+    t.cost = s.cost_moves;
+    assert_int_equal(sunder_rows_make(pair, pairs, options, &list, &t, NULL), SUNDER_OK);
+    assert_int_equal(list.rows, n);
+    for (size_t k = 0; k < n; k++) {
+        assert_int_equal(list.row[k].features, row[k].features);
+        for (size_t i = 0; i < row[k].features; i++) assert_int_equal(list.row[k].feature[i], row[k].feature[i]);
+    }
+    assert_memory_equal(&s, &t, sizeof s);
+    sunder_row_list_free(&list);
+}
 
 static void demand_sums(const field *f, const sunder_report *report)
 {
@@ -355,14 +440,15 @@ static void demand_sums(const field *f, const sunder_report *report)
     assert_int_equal(optimal, s.clusters_optimal);
     assert_true(sunder_total_below(&proved) == s.lower_bound);
     assert_true(sunder_total_below(&by_pairs) == s.pair_bound);
-    assert_true(sunder_total_nearest(&cost) == s.cost);
+    assert_true(sunder_total_nearest(&cost) == s.cost_moves);
+    demand_same_rows(report, &f->options);
 }
 
 static void test_worlds(void **state)
 {
     (void)state;
     static field f;
-    size_t seen = 0, asked = 0;
+    size_t seen = 0, asked = 0, neighbours = 0;
     for (size_t number = 0; number < test_count(FIELDS); number++) {
         rng r = rng_start(test_seed(), 7100 + number);
         size_t worlds;
@@ -372,13 +458,14 @@ static void test_worlds(void **state)
         sunder_report *whole = separate_beside(&f, f.feature, f.n);
         demand_sums(&f, whole);
         sunder_report_worlds(whole, &worlds);
-        asked += look_at_parts(&f, &r, whole);
+        asked += look_at_parts(&f, &r, whole, &neighbours);
         seen += worlds;
         sunder_report_free(whole);
         clear(&f);
     }
-    print_message("%zu worlds, found %zu times in parts of their layers\n", seen, asked);
-    assert_true(asked > 0);
+    print_message("%zu worlds, found %zu times in parts of their layers; %zu neighbours in rows\n", seen, asked,
+                  neighbours);
+    assert_true(asked > 0 && neighbours > 0);
 }
 
 int main(void)

@@ -434,9 +434,12 @@ sunder_status sunder_i_model_cover_walls(sunder_i_model *model, const uint32_t *
 const sunder_i_row_side *sunder_i_row_side_of(const sunder_i_model *model, const sunder_i_body *body, uint32_t other);
 /* Sets `spring` to the springs between the two, with their weight. Returns their number. */
 size_t sunder_i_springs_of(const sunder_i_model *model, const sunder_i_row_side *side, sunder_i_spring spring[2]);
-/* Returns the cost of these springs for the moves t of the body and s of the neighbour. */
+/* Returns the cost of these springs for the moves t of the body and s of the neighbour. The second function takes the
+ * stiffness across and along the row instead of that of the model's rules. */
 double sunder_i_spring_cost(const sunder_i_model *model, const sunder_i_row_side *side, const double t[2],
                             const double s[2]);
+double sunder_i_spring_cost_with(const double stiffness[2], const sunder_i_row_side *side, const double t[2],
+                                 const double s[2]);
 /* Returns the cost of the springs between n bodies, which ascend, with these moves. The second function returns that of
  * the springs between one of them and a body that is not listed, at its present move. */
 double sunder_i_springs_within(const sunder_i_model *model, const uint32_t *body, size_t n, const double *move);

@@ -14,26 +14,37 @@ const sunder_i_row_side *sunder_i_row_side_of(const sunder_i_model *model, const
     return NULL;
 }
 
-size_t sunder_i_springs_of(const sunder_i_model *model, const sunder_i_row_side *side, sunder_i_spring spring[2])
+static size_t springs_with(const double stiffness[2], const sunder_i_row_side *side, sunder_i_spring spring[2])
 {
-    const double *stiffness = model->rules.row_stiffness, *a = side->along;
+    const double *a = side->along;
     size_t n = 0;
     if (stiffness[0] > 0) spring[n++] = (sunder_i_spring){{-a[1], a[0]}, side->weight * stiffness[0]};
     if (stiffness[1] > 0) spring[n++] = (sunder_i_spring){{a[0], a[1]}, side->weight * stiffness[1]};
     return n;
 }
 
-double sunder_i_spring_cost(const sunder_i_model *model, const sunder_i_row_side *side, const double t[2],
-                            const double s[2])
+size_t sunder_i_springs_of(const sunder_i_model *model, const sunder_i_row_side *side, sunder_i_spring spring[2])
+{
+    return springs_with(model->rules.row_stiffness, side, spring);
+}
+
+double sunder_i_spring_cost_with(const double stiffness[2], const sunder_i_row_side *side, const double t[2],
+                                 const double s[2])
 {
     sunder_i_spring spring[2];
-    const size_t n = sunder_i_springs_of(model, side, spring);
+    const size_t n = springs_with(stiffness, side, spring);
     double cost = 0;
     for (size_t k = 0; k < n; k++) {
         const double u = (s[0] - t[0]) * spring[k].n[0] + (s[1] - t[1]) * spring[k].n[1];
         cost += spring[k].stiff * u * u;
     }
     return cost;
+}
+
+double sunder_i_spring_cost(const sunder_i_model *model, const sunder_i_row_side *side, const double t[2],
+                            const double s[2])
+{
+    return sunder_i_spring_cost_with(model->rules.row_stiffness, side, t, s);
 }
 
 /* Returns the cost of the springs of n bodies to others that are listed, each once, or (beyond) that are not. */

@@ -181,7 +181,7 @@ sunder_status sunder_i_report_renumber(sunder_report *report, const uint32_t *nu
     }
     for (size_t k = 0; !status && k < report->bound_trees; k++) number_tree(&report->bound_tree[k], number);
     if (!status) number_pushes(report, number);
-    if (!status) sunder_i_report_number_rows(report, number);
+    if (!status) status = sunder_i_report_number_rows(report, number, err);
     if (!status) find_longest(report);
     return status;
 }

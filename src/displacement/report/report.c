@@ -75,21 +75,6 @@ static void count_statuses(sunder_report *report, const sunder_i_model *model)
     if (moved) s->mean = s->total / (double)moved;
 }
 
-static double cost_of_rows(const sunder_i_model *model)
-{
-    sunder_total cost = {0};
-    for (uint32_t b = 0; b < model->bodies && model->row_sides; b++) {
-        const sunder_i_extras *has = model->body[b].has;
-        for (uint32_t k = has->row_side; k < has->row_side + has->row_sides; k++) {
-            const uint32_t other = model->row_side[k].other;
-            if (other > b)
-                sunder_total_add(&cost, sunder_i_spring_cost(model, &model->row_side[k], model->move + 2 * (size_t)b,
-                                                             model->move + 2 * (size_t)other));
-        }
-    }
-    return sunder_total_nearest(&cost);
-}
-
 void sunder_i_report_moves(sunder_report *report, const sunder_i_model *model)
 {
     sunder_layer_summary *s = &report->summary;
@@ -111,8 +96,7 @@ void sunder_i_report_moves(sunder_report *report, const sunder_i_model *model)
     }
     s->total = sunder_total_nearest(&total);
     s->cost_moves = sunder_total_nearest(&cost);
-    s->cost_rows = cost_of_rows(model);
-    s->cost = s->cost_moves + s->cost_rows;
+    s->cost = s->cost_moves; /* and that of rows: sunder_i_report_number_rows() */
     report_blocked(report, model);
     count_statuses(report, model);
 }
@@ -124,7 +108,8 @@ void sunder_report_free(sunder_report *report)
     for (size_t k = 0; report->proof && k < report->conflicts; k++) sunder_i_proof_free(report->proof[k]);
     sunder_i_free_all(report->proof, report->bound_pair);
     for (size_t k = 0; k < report->bound_trees; k++) sunder_i_bound_tree_free(&report->bound_tree[k]);
-    sunder_i_free_all(report->bound_tree, report->push, report->row, report->row_feature, report->world,
+    sunder_row_list_free(&report->row_list);
+    sunder_i_free_all(report->bound_tree, report->push, report->row_pair, report->row_reach, report->world,
                       report->world_of, report->stands, report->inside, report->inexact, report->footprint,
                       report->world_bound, report->thin, report->proved, report->by_pairs, report);
 }

@@ -10,6 +10,11 @@
 
 /* ---- report.c ---------------------------------------------------------------------------------------------------- */
 
+/* What the figures of rows depend on: the kink that counts, and the stiffness of springs. */
+typedef struct sunder_i_row_figures {
+    double kink, stiffness[2];
+} sunder_i_row_figures;
+
 struct sunder_report {
     size_t n;
     double *move;                  /* [2 * n] the moves, x and y alternating */
@@ -27,9 +32,10 @@ struct sunder_report {
     size_t bound_trees;
     sunder_push *push;
     size_t pushes;
-    sunder_row *row;
-    size_t rows;
-    size_t *row_feature; /* the array into which `feature` of all rows points */
+    sunder_row_pair *row_pair;
+    size_t row_pairs;
+    sunder_i_row_figures row_figures;
+    sunder_row_list row_list;
     /* The following are NULL unless the worlds (the parts of the layer that did not influence each other) are
      * wanted. */
     sunder_world *world;
@@ -38,6 +44,7 @@ struct sunder_report {
     size_t *inside;   /* [n] conflicts at the start inside a block without a world, counted at the first feature */
     bool *inexact;    /* [n] whether the moved coordinates were rounded */
     bool *stands;     /* [n] whether the feature's block is fixed */
+    double (*row_reach)[4]; /* [n] for sunder_report_row_reach(); NULL if no rows are wanted */
     sunder_footprint *footprint;
     size_t footprints;
     sunder_world_bound *world_bound;
@@ -187,11 +194,12 @@ sunder_status sunder_i_report_pair_trees(const sunder_report *report, sunder_i_s
 
 /* ---- row_kinks.c ------------------------------------------------------------------------------------------------- */
 
-/* Fills the report's rows, and how much the moves bend them. */
-sunder_status sunder_i_report_rows(sunder_report *report, const sunder_i_model *model, const sunder_i_rows *rows,
-                                   sunder_error *err);
-/* Converts the rows to the caller's numbers: number[k] is the caller's number of feature k. */
-void sunder_i_report_number_rows(sunder_report *report, const uint32_t *number);
+/* Fills in the pairs of neighbours in rows, with their moves. */
+sunder_status sunder_i_report_row_pairs(sunder_report *report, const sunder_i_model *model, const sunder_i_rows *rows,
+                                        sunder_error *err);
+/* Converts the pairs to the caller's numbers, number[k] for feature k, and joins them to rows. Adds the cost of their
+ * springs to that of the moves. The report has its blocks in the caller's numbers. */
+sunder_status sunder_i_report_number_rows(sunder_report *report, const uint32_t *number, sunder_error *err);
 
 /* ---- contact_pushes.c -------------------------------------------------------------------------------------------- */
 

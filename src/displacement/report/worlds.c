@@ -21,8 +21,9 @@ typedef struct gathering {
     const sunder_i_solver *solver;
     const sunder_i_model *model;
     double reach;
-    uint32_t *root; /* [bodies] union-find of bodies that influenced each other */
-    bool *active;   /* [bodies] the body influenced another, or was influenced */
+    const double (*row_reach)[4]; /* [bodies] sunder_i_rows.reach; NULL: there are no rows */
+    uint32_t *root;               /* [bodies] union-find of bodies that influenced each other */
+    bool *active;                 /* [bodies] the body influenced another, or was influenced */
     /* [bodies] boxes of each set of root[], at its root: the places read, the places seen, the places where its bodies
      * stood */
     double (*read)[4], (*seen)[4], (*wrote)[4];
@@ -89,6 +90,20 @@ static void meet_groups(gathering *g)
 
 /* ---- Where sets looked, and where they stood --------------------------------------------------------------------- */
 
+/* Adds to what the body read: its neighbours in rows as they stand, and the place that decides which ones they are. */
+static void look_along_rows(gathering *g, uint32_t b)
+{
+    const sunder_i_model *model = g->model;
+    const sunder_i_extras *has = model->body[b].has;
+    const uint32_t at = sunder_i_union_find(g->root, b);
+    if (g->row_reach) sunder_i_box_join(g->seen[at], g->row_reach[b]);
+    for (uint32_t k = has->row_side; k < has->row_side + has->row_sides && !is_fixed(model, b); k++) {
+        double box[4];
+        box_of(model, model->row_side[k].other, box);
+        sunder_i_box_join(g->read[at], box);
+    }
+}
+
 static void find_boxes(gathering *g)
 {
     for (uint32_t b = 0; b < g->model->bodies; b++) {
@@ -106,6 +121,7 @@ static void find_boxes(gathering *g)
         sunder_i_box_join(g->read[at], about);
         sunder_i_box_join(g->read[at], g->model->read[b].place);
         sunder_i_box_join(g->seen[at], g->model->read[b].seen);
+        look_along_rows(g, b);
     }
     for (uint32_t b = 0; b < g->model->bodies; b++) {
         if (!g->active[b] || sunder_i_union_find(g->root, b) != b) continue;
@@ -279,7 +295,8 @@ static sunder_status count_proved(sunder_report *report, const gathering *g, sun
     return SUNDER_OK;
 }
 
-/* Stores for each feature, in the caller's numbers, whether its coordinates were rounded and whether it is fixed. */
+/* Stores for each feature, in the caller's numbers, whether its coordinates were rounded, whether it is fixed, and what
+ * decides on its neighbours in rows. */
 static sunder_status keep_each(sunder_report *report, const gathering *g, sunder_error *err)
 {
     const sunder_i_model *model = g->model;
@@ -290,6 +307,11 @@ static sunder_status keep_each(sunder_report *report, const gathering *g, sunder
         report->inexact[g->solver->layer.number[f]] = model->inexact[f];
         report->stands[g->solver->layer.number[f]] = is_fixed(model, model->body_of[f]);
     }
+    if (!g->row_reach) return SUNDER_OK;
+    report->row_reach = sunder_i_alloc(model->features, sizeof *report->row_reach);
+    if (!report->row_reach) return sunder_i_failure_cause(err);
+    for (size_t f = 0; f < model->features; f++)
+        sunder_i_box_grow(g->row_reach[model->body_of[f]], g->reach, report->row_reach[g->solver->layer.number[f]]);
     return SUNDER_OK;
 }
 
@@ -301,6 +323,7 @@ sunder_status sunder_i_report_worlds(sunder_report *report, const sunder_i_solve
     gathering g = {.solver = solver,
                    .model = model,
                    .reach = (model->rules.gap + model->rules.tolerance + model->rules.thin) * (1 + HAIR),
+                   .row_reach = (const double(*)[4])solver->rows.reach,
                    .root = sunder_i_alloc(n, sizeof *g.root),
                    .active = sunder_i_calloc(n, sizeof *g.active),
                    .read = sunder_i_alloc(n, sizeof *g.read),
@@ -355,6 +378,12 @@ const sunder_world_bound *sunder_report_world_bounds(const sunder_report *report
 {
     *n = report->world_bounds;
     return report->world_bound;
+}
+
+void sunder_report_row_reach(const sunder_report *report, size_t feature, double box[4])
+{
+    sunder_i_box_clear(box);
+    if (report->row_reach) memcpy(box, report->row_reach[feature], sizeof report->row_reach[feature]);
 }
 
 size_t sunder_report_inside(const sunder_report *report, size_t feature)

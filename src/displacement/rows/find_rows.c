@@ -2,7 +2,8 @@
  *
  * Seen from a body there are four sides, in the directions of its walls. On each it has at most one neighbour in a row:
  * the nearest one, if it is also the nearest one of that neighbour. A row leaves a body on the side opposite to the one
- * that it arrives at, so that a body at a corner may belong to two rows. */
+ * that it arrives at, so that a body at a corner may belong to two rows. A row has at least three bodies. All this is
+ * local: the last section says what decides on the neighbours of a body. */
 #include "displacement/rows/row_limits.h"
 #include "displacement/rows/row_pairs.h"
 
@@ -19,6 +20,7 @@ typedef struct row_search {
     double *distance;        /* [edges] of the two members */
     size_t edges;
     uint32_t (*side)[4]; /* [bodies] the edge on each side; NONE */
+    double (*about)[4];  /* [bodies] the surroundings of each; NULL unless rows->reach is wanted */
 } row_search;
 
 #define NONE UINT32_MAX
@@ -93,15 +95,16 @@ static void offer_edge(row_search *s, uint32_t body, const double direction[2], 
     if (*have == NONE || is_before(s, e, *have)) *have = e;
 }
 
-static bool has_edge(const row_search *s, uint32_t body, uint32_t e)
+/* Returns the side of the body on which edge e is; 4 if it is on none. */
+static uint32_t side_with(const row_search *s, uint32_t body, uint32_t e)
 {
-    for (unsigned k = 0; k < 4; k++)
-        if (s->side[body][k] == e) return true;
-    return false;
+    uint32_t side = 0;
+    while (side < 4 && s->side[body][side] != e) side++;
+    return side;
 }
 
-/* Chooses the edge on each side of each body, and drops those that only one of their bodies has chosen. */
-static bool choose_sides(row_search *s)
+/* Chooses the edge on each side of each body. */
+static bool choose_edges(row_search *s)
 {
     for (size_t b = 0; b < s->model->bodies; b++)
         for (unsigned k = 0; k < 4; k++) s->side[b][k] = NONE;
@@ -111,74 +114,82 @@ static bool choose_sides(row_search *s)
         offer_edge(s, s->edge[e].i, to, (uint32_t)e);
         offer_edge(s, s->edge[e].j, back, (uint32_t)e);
     }
-    for (size_t b = 0; b < s->model->bodies; b++) {
+    return true;
+}
+
+/* Takes the edges off the sides that only one of their bodies has chosen. */
+static void drop_one_sided(row_search *s)
+{
+    for (uint32_t b = 0; b < s->model->bodies; b++) {
         for (unsigned k = 0; k < 4; k++) {
             const uint32_t e = s->side[b][k];
-            if (e == NONE) continue;
-            const uint32_t other = s->edge[e].i == b ? s->edge[e].j : s->edge[e].i;
-            if (!has_edge(s, other, e)) s->side[b][k] = NONE;
+            if (e != NONE && side_with(s, s->edge[e].i == b ? s->edge[e].j : s->edge[e].i, e) == 4)
+                s->side[b][k] = NONE;
         }
     }
-    return true;
 }
 
 /* ---- Rows -------------------------------------------------------------------------------------------------------- */
 
-/* Turns an edge around. */
-static sunder_i_row_edge turned(const sunder_i_row_edge *e)
+/* Lists the edges that both of their bodies have chosen. A row has at least three bodies, so it goes on beyond one of
+ * the two bodies of each edge. */
+static bool list_rows(const row_search *s, sunder_i_rows *rows)
 {
-    return (sunder_i_row_edge){.i = e->j,
-                               .j = e->i,
-                               .f = e->g,
-                               .g = e->f,
-                               .along = {-e->along[0], -e->along[1]},
-                               .apart = e->apart,
-                               .offset = e->offset};
-}
-
-/* Takes the edge on that side of the body and those that follow it off the sides, and appends them to the row `out`
- * that ends before *n. Returns the number of bodies of the row. */
-static size_t take_row(row_search *s, uint32_t body, unsigned side, sunder_i_row_edge *out, size_t *n)
-{
-    const uint32_t first = body;
-    size_t bodies = 1;
-    for (uint32_t e; (e = s->side[body][side]) != NONE;) {
-        const sunder_i_row_edge edge = s->edge[e].i == body ? s->edge[e] : turned(&s->edge[e]);
-        out[(*n)++] = edge;
-        s->side[body][side] = NONE;
-        body = edge.j;
-        for (side = 0; s->side[body][side] != e;) side++;
-        s->side[body][side] = NONE;
-        side ^= 2;
-        bodies += body != first;
-    }
-    return bodies;
-}
-
-/* Appends the row that begins on that side of the body, unless it is too short. */
-static void append_row(row_search *s, uint32_t body, unsigned side, sunder_i_rows *rows, size_t *n)
-{
-    const size_t begin = *n;
-    if (s->side[body][side] == NONE) return;
-    if (take_row(s, body, side, rows->edge, n) < ROW_LEAST)
-        *n = begin;
-    else
-        rows->row_end[rows->rows++] = *n;
-}
-
-/* Lists the rows: first those with two ends, each from the end with the lower number, then rings. */
-static bool list_rows(row_search *s, sunder_i_rows *rows)
-{
-    size_t n = 0;
     rows->edge = sunder_i_alloc(s->edges, sizeof *rows->edge);
-    rows->row_end = sunder_i_alloc(s->edges, sizeof *rows->row_end);
-    if (!rows->edge || !rows->row_end) return false;
-    for (uint32_t b = 0; b < s->model->bodies; b++)
-        for (unsigned k = 0; k < 4; k++)
-            if (s->side[b][k ^ 2] == NONE) append_row(s, b, k, rows, &n);
-    for (uint32_t b = 0; b < s->model->bodies; b++)
-        for (unsigned k = 0; k < 4; k++) append_row(s, b, k, rows, &n);
-    return true;
+    for (uint32_t e = 0; e < s->edges && rows->edge; e++) {
+        sunder_i_row_edge edge = s->edge[e];
+        edge.side[0] = side_with(s, edge.i, e);
+        edge.side[1] = side_with(s, edge.j, e);
+        if (edge.side[0] < 4 &&
+            (s->side[edge.i][edge.side[0] ^ 2] != NONE || s->side[edge.j][edge.side[1] ^ 2] != NONE))
+            rows->edge[rows->edges++] = edge;
+    }
+    return rows->edge != NULL;
+}
+
+/* ---- What decides on them ---------------------------------------------------------------------------------------- */
+
+/* Sets s->about to the surroundings of each body: its box grown by ROW_REACH gaps, and the bodies that are so near. */
+static bool find_surroundings(row_search *s)
+{
+    const double home[2] = {0, 0};
+    const sunder_i_body *body = s->model->body;
+    s->about = sunder_i_alloc(s->model->bodies, sizeof *s->about);
+    for (size_t b = 0; b < s->model->bodies && s->about; b++)
+        sunder_i_body_box(&body[b], home, ROW_REACH * s->model->rules.gap, s->about[b]);
+    for (size_t k = 0; k < s->pairs.n && s->about; k++) {
+        double box[4];
+        sunder_i_body_box(&body[s->pairs.pair[k].j], home, 0, box);
+        sunder_i_box_join(s->about[s->pairs.pair[k].i], box);
+        sunder_i_body_box(&body[s->pairs.pair[k].i], home, 0, box);
+        sunder_i_box_join(s->about[s->pairs.pair[k].j], box);
+    }
+    return s->about != NULL;
+}
+
+/* Joins to `reach` the surroundings of a body and of those that it has chosen, and so on for `steps` of them. */
+static void join_surroundings(const row_search *s, uint32_t body, int steps, double reach[4])
+{
+    sunder_i_box_join(reach, s->about[body]);
+    for (unsigned k = 0; k < 4 && steps > 0; k++) {
+        const uint32_t e = s->side[body][k];
+        if (e == NONE) continue;
+        join_surroundings(s, s->edge[e].i == body ? s->edge[e].j : s->edge[e].i, steps - 1, reach);
+    }
+}
+
+/* Sets rows->reach. Which edges a body chooses depends on its surroundings. Whether its neighbour has chosen the same
+ * edge depends on those of the neighbour, and whether the row goes on beyond the neighbour on those of the next body.
+ * Called between choose_edges() and drop_one_sided(). */
+static bool find_reach(const row_search *s, sunder_i_rows *rows)
+{
+    if (!s->about) return true;
+    rows->reach = sunder_i_alloc(s->model->bodies, sizeof *rows->reach);
+    for (uint32_t b = 0; b < s->model->bodies && rows->reach; b++) {
+        sunder_i_box_clear(rows->reach[b]);
+        join_surroundings(s, b, 2, rows->reach[b]);
+    }
+    return rows->reach != NULL;
 }
 
 sunder_status sunder_i_rows_find(const sunder_i_model *model, sunder_i_rows *rows, sunder_error *err)
@@ -189,15 +200,17 @@ sunder_status sunder_i_rows_find(const sunder_i_model *model, sunder_i_rows *row
     s.side = sunder_i_alloc(model->bodies, sizeof *s.side);
     const bool begun = s.walls && s.side && measure_walls(&s);
     sunder_status status = begun ? sunder_i_row_pairs_find(model, &s.pairs, err) : sunder_i_failure_cause(err);
-    if (!status && !(sunder_i_row_pairs_thin_out(&s.pairs, model->bodies) && list_edges(&s) && choose_sides(&s) &&
-                     list_rows(&s, rows)))
-        status = sunder_i_failure_cause(err);
-    sunder_i_free_all(s.walls, s.pairs.pair, s.edge, s.distance, s.side);
+    bool ok = !status && (!model->read || find_surroundings(&s)) &&
+              sunder_i_row_pairs_thin_out(&s.pairs, model->bodies) && list_edges(&s) && choose_edges(&s) &&
+              find_reach(&s, rows);
+    if (ok) drop_one_sided(&s);
+    if (!status && !(ok && list_rows(&s, rows))) status = sunder_i_failure_cause(err);
+    sunder_i_free_all(s.walls, s.pairs.pair, s.edge, s.distance, s.side, s.about);
     return status;
 }
 
 void sunder_i_rows_free(sunder_i_rows *rows)
 {
-    sunder_i_free_all(rows->edge, rows->row_end);
+    sunder_i_free_all(rows->edge, rows->reach);
     *rows = (sunder_i_rows){0};
 }

@@ -15,7 +15,5 @@
 #define ROW_SHARED 0.5
 /* The greatest ratio of two neighbours' depths. */
 #define ROW_DEPTHS 2.5
-/* A row has at least this many bodies. */
-#define ROW_LEAST 3
 
 #endif

@@ -77,15 +77,14 @@ static bool keep_rule(sunder_i_model *model, const half *all, size_t n)
 sunder_status sunder_i_rows_make_rule(const sunder_i_rows *rows, const sunder_i_relations *start, sunder_i_model *model,
                                       sunder_error *err)
 {
-    const size_t edges = rows->rows ? rows->row_end[rows->rows - 1] : 0;
     size_t conflicts, n = 0;
-    if (edges == 0) return SUNDER_OK;
-    half *all = sunder_i_alloc(2 * edges, sizeof *all);
+    if (rows->edges == 0) return SUNDER_OK;
+    half *all = sunder_i_alloc(2 * rows->edges, sizeof *all);
     sunder_i_id_pair *conflict = list_conflicts(model, start, &conflicts);
     bool ok = all && conflict;
-    for (size_t k = 0; k < edges && ok; k++) {
+    for (size_t k = 0; k < rows->edges && ok; k++) {
         const sunder_i_row_edge *e = &rows->edge[k];
-        const sunder_i_id_pair pair = {e->i < e->j ? e->i : e->j, e->i < e->j ? e->j : e->i};
+        const sunder_i_id_pair pair = {e->i, e->j};
         const size_t at = sunder_i_lower_bound(&pair, conflict, conflicts, sizeof pair, sunder_i_by_id_pair);
         const bool in_conflict = at < conflicts && sunder_i_by_id_pair(&conflict[at], &pair) == 0;
         if (!(model->body[e->i].fixed && model->body[e->j].fixed)) add_edge(model, e, in_conflict, all, &n);

@@ -7,20 +7,23 @@
 
 /* Two neighbours i and j in a row. */
 typedef struct sunder_i_row_edge {
-    uint32_t i, j;   /* bodies; in a row, j comes after i */
-    uint32_t f, g;   /* the members of i and of j that are nearest to each other */
-    double along[2]; /* a unit vector: the mean direction of the walls of f and g, towards j */
-    double apart;    /* the separation of the two whole bodies along it; negative: they overlap there */
-    double offset;   /* by how much g is to the left of f, seen along the row: at the front, the back or the middle,
-                      * whichever is the least */
+    uint32_t i, j;    /* bodies; i < j */
+    uint32_t f, g;    /* the members of i and of j that are nearest to each other */
+    uint32_t side[2]; /* the sides of i and of j at which the edge is; a row leaves a body at side `side ^ 2` */
+    double along[2];  /* a unit vector: the mean direction of the walls of f and g, towards j */
+    double apart;     /* the separation of the two whole bodies along it; negative: they overlap there */
+    double offset;    /* by how much g is to the left of f, seen along the row: at the front, the back or the middle,
+                       * whichever is the least */
 } sunder_i_row_edge;
 
-/* The rows of a layer. The edges of a row are consecutive, and the j of one is the i of the next. A row of n bodies has
- * n - 1 edges, or n if it is a ring; a block that it passes twice counts twice here. */
+/* The rows of a layer, as the pairs of neighbours in them. At each side of a body there is at most one edge. */
 typedef struct sunder_i_rows {
-    sunder_i_row_edge *edge; /* [row_end[rows - 1]] */
-    size_t *row_end;         /* [rows] the index past the last edge of each row */
-    size_t rows;
+    sunder_i_row_edge *edge; /* [edges] sorted by (i, j) */
+    size_t edges;
+    /* [bodies] The edges of a body are decided by what meets this box, if blocks are known as a whole: by all that is
+     * within ROW_REACH gaps of the body, of the neighbours that it has chosen on its sides, and of those that these
+     * have chosen. NULL unless the model records reads. */
+    double (*reach)[4];
 } sunder_i_rows;
 
 /* Finds the rows among the bodies of the model, at their original positions. The caller frees them with

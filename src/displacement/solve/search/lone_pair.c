@@ -20,12 +20,15 @@ static uint32_t only_feature(const sunder_i_model *model, uint32_t body)
     return b->members == 1 && !sunder_i_is_barrier_body(model, b) ? model->member[b->member] : SUNDER_I_NOBODY;
 }
 
-/* Is one of the bodies in a row, with springs to its neighbours? */
+/* Is one of the two, which can move, in a row, with springs to its neighbours? The springs of a body that cannot move
+ * are those of its neighbours, and a part of the layer need not know them. */
 static bool has_springs(const sunder_i_search *s)
 {
-    const sunder_i_body *body = s->model->body;
     const double *stiffness = s->model->rules.row_stiffness;
-    return stiffness[0] + stiffness[1] > 0 && body[s->body[0]].has->row_sides + body[s->body[1]].has->row_sides > 0;
+    for (int k = 0; k < 2; k++)
+        if (s->mass[k] > 0 && s->model->body[s->body[k]].has->row_sides > 0 && stiffness[0] + stiffness[1] > 0)
+            return true;
+    return false;
 }
 
 /* Is the search about two single features, with nothing to keep but the gap? */
