@@ -60,6 +60,19 @@ static bool lower_by_body(sunder_i_tight *f, const sunder_i_body *body, int *exp
 
 static bool is_coarse(const sunder_i_tight *f, int exponent) { return ldexp(1, exponent) >= TIGHT_STEP * f->size; }
 
+/* Does one body alone move, without a limit? */
+static bool is_lone_body(const sunder_i_tight *f)
+{
+    size_t movers = 0;
+    bool limited = false;
+    for (size_t k = 0; k < f->n; k++) {
+        const sunder_i_body *body = &f->model->body[f->body[k]];
+        movers += !body->fixed;
+        limited = limited || (!body->fixed && sunder_i_limit_of(body) < INFINITY);
+    }
+    return movers == 1 && !limited;
+}
+
 bool sunder_i_tight_find_step(sunder_i_tight *f, bool *coarse)
 {
     *coarse = true;
@@ -72,6 +85,8 @@ bool sunder_i_tight_find_step(sunder_i_tight *f, bool *coarse)
         *coarse = *coarse && is_coarse(f, f->exponent);
     }
     *coarse = *coarse && f->exponent < INT_MAX && is_coarse(f, f->exponent);
+    /* Sides at an angle cross between the steps of their corners: two at 45 degrees in the middle of a step. */
+    for (int k = 0; k < TIGHT_FINER && *coarse && is_lone_body(f) && is_coarse(f, f->exponent - 1); k++) f->exponent--;
     if (*coarse) f->hair = sunder_i_min(TIGHT_HAIR * f->size, TIGHT_STEP_HAIR * ldexp(1, f->exponent));
     return true;
 }

@@ -5,7 +5,7 @@
 
 /* SUNDER_I_OPTIMUM_TUNING_VERSION is the version of the values below. It is raised with each change of a value, so that
  * a record can name the values by their version (tests/house/TUNING). */
-#define SUNDER_I_OPTIMUM_TUNING_VERSION 1
+#define SUNDER_I_OPTIMUM_TUNING_VERSION 2
 
 /* ---- Contacts (body_contact.c) ----------------------------------------------------------------------------------- */
 
@@ -77,6 +77,8 @@
 #define TIGHT_STEP 0x1p-18
 #define TIGHT_HAIR 0x1p-22
 #define TIGHT_STEP_HAIR 0x1p-8
+/* For one body alone that has no limit the step is halved TIGHT_FINER times. */
+#define TIGHT_FINER 4
 /* Where there is room, TIGHT_MARGIN margins of the group are kept. */
 #define TIGHT_MARGIN 4
 /* Rows are moved away from their contacts in at most TIGHT_TURNS rounds; it takes many rounds where two contacts meet

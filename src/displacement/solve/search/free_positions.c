@@ -422,15 +422,15 @@ static bool is_clear_at(void *user, const double place[2])
     return clear;
 }
 
-/* Finds the free position of body i nearest to `home` within `reach`. Shadows are only added if the position is in one.
- * clear: shadows are added at once, and each position is tested for clashes as it is found, since between two shadows
- * with a common corner there is a ray that is in neither. False if none was found. */
-static bool find_among(others *all, const double home[2], double reach, bool clear, double place[2])
+/* Finds free positions of body i within `reach` of `home`, at most `most` of them, the nearest first. Shadows are only
+ * added if the first is in one. clear: shadows are added at once, and each position is tested for clashes as it is
+ * found, since between two shadows with a common corner there is a ray that is in neither. Returns their number. */
+static size_t find_among(others *all, const double home[2], double reach, bool clear, size_t most, double (*found)[2])
 {
     sunder_i_search *s = all->search;
+    const double spread = most > 1 ? ROUND_SHARE * s->gap : 0;
     size_t n = 0;
     sunder_i_obstacles *o = &s->obstacles;
-    double found[1][2];
     sunder_i_obstacles_clear(o);
     add_surroundings(all, o, home, reach);
     if (clear) {
@@ -439,19 +439,19 @@ static bool find_among(others *all, const double home[2], double reach, bool cle
         o->user = all;
     }
     for (int shadows = clear; shadows < 2; shadows++) {
-        n = sunder_i_free_places(o, home, reach, 0, 1, found, &s->steps, &s->failed);
+        n = sunder_i_free_places(o, home, reach, spread, most, found, &s->steps, &s->failed);
         if (n == 0 && o->n && outside_all(o, home, reach, found[0])) n = !clear || is_clear_at(all, found[0]);
         if (n == 0 || shadows || s->failed || !is_shaded_by_others(all, found[0])) break;
         add_shadows_of_others(all, o, home, reach);
     }
     s->failed = s->failed || o->failed;
-    if (n) memcpy(place, found[0], sizeof found[0]);
-    return n > 0;
+    return n;
 }
 
-/* Finds the free position of body i that is nearest to its original one. The distance searched grows until it reaches
- * `limit`, or exceeds `all`. clear: as in find_among(). False if none was found. */
-static bool find_free_place(sunder_i_search *s, uint32_t i, double limit, double all, bool clear, double place[2])
+/* Finds the free positions of body i that are nearest to its original one, at most `most`. The distance searched grows
+ * until it reaches `limit`, or exceeds `all`. clear: as in find_among(). Returns the number of positions found. */
+static size_t find_free_places(sunder_i_search *s, uint32_t i, double limit, double all, bool clear, size_t most,
+                               double (*places)[2])
 {
     const sunder_i_body *p = &s->model->body[s->body[i]];
     const double home[2] = {0, 0}, now = hypot(s->t[2 * i], s->t[2 * i + 1]);
@@ -460,11 +460,11 @@ static bool find_free_place(sunder_i_search *s, uint32_t i, double limit, double
         others about = {.search = s, .i = i};
         const double r = reach + s->gap, box[4] = {p->box[0] - r, p->box[1] - r, p->box[2] + r, p->box[3] + r};
         if (!find_others(s, p, box, &about.foreign) || !sunder_i_search_find_about(s, i, r)) s->failed = true;
-        const bool found = !s->failed && find_among(&about, home, reach, clear, place);
+        const size_t found = s->failed ? 0 : find_among(&about, home, reach, clear, most, places);
         sunder_i_free(about.foreign.item);
         if (!sunder_i_look()) s->failed = true;
-        if (found || s->failed) return found && !s->failed;
-        if (reach >= limit || reach > all || !(reach > 0)) return false;
+        if (found || s->failed) return s->failed ? 0 : found;
+        if (reach >= limit || reach > all || !(reach > 0)) return 0;
     }
 }
 
@@ -482,10 +482,14 @@ bool sunder_i_search_free_body(sunder_i_search *search, uint32_t i, double limit
     double all = beyond_all(search, i);
     if (!search->model->rules.jumps)
         all = sunder_i_min(all, now + FARTHEST_LEAP * (sunder_i_min(size, search->extent) + search->gap));
-    return find_free_place(search, i, limit, all, false, place);
+    double found[1][2];
+    if (find_free_places(search, i, limit, all, false, 1, found) == 0) return false;
+    memcpy(place, found[0], sizeof found[0]);
+    return true;
 }
 
-bool sunder_i_search_free_body_anywhere(sunder_i_search *s, uint32_t i, double limit, double place[2])
+size_t sunder_i_search_free_body_anywhere(sunder_i_search *s, uint32_t i, double limit, size_t most,
+                                          double (*places)[2])
 {
-    return find_free_place(s, i, limit, beyond_all(s, i), true, place);
+    return find_free_places(s, i, limit, beyond_all(s, i), true, most, places);
 }

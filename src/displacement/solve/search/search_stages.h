@@ -14,9 +14,10 @@ size_t sunder_i_search_free_pair(sunder_i_search *search, uint32_t i, uint32_t j
  * bodies keep their positions. Where jumps are forbidden it looks only a few sizes of the body beyond its present move
  * (FARTHEST_LEAP). False if none was found. */
 bool sunder_i_search_free_body(sunder_i_search *search, uint32_t i, double limit, double place[2]);
-/* As sunder_i_search_free_body(), and far away even where jumps are forbidden. Each position found is tested for
- * clashes. */
-bool sunder_i_search_free_body_anywhere(sunder_i_search *s, uint32_t i, double limit, double place[2]);
+/* As sunder_i_search_free_body(), and far away even where jumps are forbidden; at most `most` positions, the nearest
+ * first. Each is tested for clashes. Returns their number. */
+size_t sunder_i_search_free_body_anywhere(sunder_i_search *s, uint32_t i, double limit, size_t most,
+                                          double (*places)[2]);
 
 /* ---- confined.c: pairs that are shut in -------------------------------------------------------------------------- */
 

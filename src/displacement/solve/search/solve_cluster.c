@@ -196,23 +196,29 @@ static void spread_cluster(void *state)
 
 /* For one movable body among fixed ones, without a limit: moves it to the nearest free position that it can see,
  * however far away, unless it stands at a free position that is no farther. An example is a symbol in a long arm of an
- * area, with room only where the arm begins. */
+ * area, with room only where the arm begins. Since round corners are polygons in that search, it descends from some
+ * positions and takes the cheapest. */
 static void place_lone_body(void *state)
 {
     solving *x = state;
     sunder_i_search *s = x->s;
     uint32_t mover = 0;
-    double place[2], stood[2];
+    double place[LONE_PLACES][2], best[2];
     count_movers(s, &mover);
     double *at = s->t + 2 * (size_t)mover;
-    memcpy(stood, at, sizeof stood);
-    const double farthest = x->done ? hypot(at[0], at[1]) * (1 - NO_NEARER) : INFINITY;
-    if (!(farthest > 0) || !sunder_i_search_free_body_anywhere(s, mover, farthest, place)) return;
-    memcpy(at, place, sizeof place);
-    s->program.n = 0;
-    const bool solved = sunder_i_search_descend(s);
-    if (x->done && !solved) memcpy(at, stood, sizeof stood);
-    x->done = x->done || solved;
+    memcpy(best, at, sizeof best);
+    double nearest = x->done ? hypot(at[0], at[1]) * (1 - NO_NEARER) : INFINITY;
+    const size_t n = nearest > 0 ? sunder_i_search_free_body_anywhere(s, mover, nearest, LONE_PLACES, place) : 0;
+    for (size_t k = 0; k < n && !s->failed; k++) {
+        memcpy(at, place[k], sizeof place[k]);
+        s->program.n = 0;
+        const bool solved = sunder_i_search_descend(s);
+        if (solved ? !(hypot(at[0], at[1]) < nearest) : x->done || k > 0) continue;
+        memcpy(best, at, sizeof best);
+        x->done = x->done || solved;
+        if (solved) nearest = hypot(at[0], at[1]);
+    }
+    memcpy(at, best, sizeof best);
 }
 
 static void ask_whether_cheapest(void *state)
