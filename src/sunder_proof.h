@@ -230,8 +230,8 @@ typedef struct sunder_proof {
  * If one of the two blocks has no limit, the proof assumes `within` as its limit: a length such that the two are
  * certainly far enough apart after any longer relative move. Only shadows forbid such a longer move, and a shadow that
  * contains a move contains all longer moves in the same direction, so the assumption excludes no solution. With
- * SUNDER_REASON_NO_ROOM all nodes of such a proof are about members of the two blocks, or about a member of the
- * feature's block and a barrier. */
+ * SUNDER_REASON_NO_ROOM, and for a `crowded` conflict, all nodes of such a proof are about members of the two blocks,
+ * or about a member of the feature's block and a barrier. */
 SUNDER_EXPERIMENTAL const sunder_proof *sunder_report_proof(const sunder_report *report, size_t k);
 
 #ifdef __cplusplus

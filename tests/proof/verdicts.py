@@ -98,10 +98,11 @@ class Verdict:
         all of a block and the barriers that are named."""
         a, b = self.told["a"], self.told["b"]
         sided = self.told["reason"] == "side" and self.problem.is_barrier(b)
-        demand(sided or self.told["reason"] in ("jump", "no_room"), "a length for those without a limit, with the reason",
+        joint = self.told["reason"] == "no_room" or self.crowded
+        demand(sided or joint or self.told["reason"] == "jump", "a length for those without a limit, with the reason",
                self.told["reason"])
         pairs = [(a, b)]
-        if self.told["reason"] == "no_room":
+        if joint:
             among = self.problem.is_barrier(b)
             bodies = {self.body_of(a), self.body_of(b)}
             named = {k for node in self.nodes if "ways" in node for k in (node["a"], node["b"], node.get("c", node["b"]))} | {b}

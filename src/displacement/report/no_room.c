@@ -9,7 +9,8 @@
  * In a dense group a pair remains in conflict not because of the pairs that are not listed, but because a few features
  * around it, most of them in listed pairs too, need more room than there is. A conflict without a proof of the first
  * kind is crowded if a chain through it (prove/proofs/chain_fewest.c) proves that the pairs of a few features cannot
- * all be solved, whatever other conflicts remain. */
+ * all be solved, whatever other conflicts remain. A conflict of a body without a limit and a barrier is also crowded if
+ * it is proved that the body has no free place among the barriers about it. */
 #include "displacement/prove/proofs/feasibility.h"
 #include "displacement/report/report.h"
 #include "displacement/report/tuning.h"
@@ -293,23 +294,6 @@ static sunder_status ask_chains(const asking *g, matter *first, const matter *la
     return status;
 }
 
-/* For conflicts without a proof: looks for chains that prove them crowded. All pairs then have to keep the full
- * distance, whether they are listed or not. */
-static sunder_status ask_crowded(const asking *g, matter *first, const matter *last, const sunder_i_subproblem *cluster,
-                                 sunder_error *err)
-{
-    sunder_i_subproblem q = *cluster;
-    uint64_t budget = CROWD_REDUCING + CROWD_REDUCING_EACH * (uint64_t)cluster->reserves;
-    q.required = NULL;
-    q.required_n = 0;
-    q.planes = NULL;
-    q.precedents = NULL;
-    q.coarse = COARSE;
-    q.effort = CROWD_EFFORT;
-    q.slack = q.still = q.no_plane = q.fine_plane = false;
-    return ask_chains(g, first, last, &q, &budget, err);
-}
-
 /* Returns the features of the two bodies in ascending order, which the caller frees, and sets *n to their number.
  * Returns NULL if memory is out. */
 static uint32_t *members_of(const sunder_i_model *model, const uint32_t body[2], size_t *n)
@@ -352,25 +336,34 @@ static bool has_barrier_and_no_limit(const asking *g, const matter *m)
     return sunder_i_is_barrier(model, (uint32_t)c->b) && sunder_i_limit_of(body) == INFINITY;
 }
 
-/* Examines a conflict of a body without a limit and a barrier: with all barriers no farther from the body than `reach`
- * times its size, and nothing else (barriers_about.c). The conflict stays open until there is a proof. */
-static sunder_status ask_among_barriers(const asking *g, matter *m, const sunder_i_subproblem *q, double reach,
-                                        uint64_t *pool, sunder_error *err)
+/* Limits the question to the conflict's body, which has no limit, and all barriers no farther from it than `reach`
+ * times its size (barriers_about.c). They are stored in *thing, which the caller frees. False if memory is out. */
+static bool put_among_barriers(const asking *g, const matter *m, double reach, sunder_i_subproblem *q,
+                               sunder_i_list *thing)
 {
     const sunder_i_model *model = q->model;
     const uint32_t body = model->body_of[g->report->conflict[m->conflict].a];
     const sunder_i_body *b = &model->body[body];
     const double size = sunder_i_max(b->box[2] - b->box[0], b->box[3] - b->box[1]) + model->barriers->farthest;
+    bool ok = sunder_i_barriers_about(model, body, reach * size, thing, &q->instead);
+    for (uint32_t k = 0; k < b->members && ok; k++) ok = sunder_i_list_push(thing, model->member[b->member + k]);
+    thing->n = sunder_i_set_make(thing->item, thing->n);
+    q->feature = thing->item;
+    q->features = thing->n;
+    q->reserves = 0;
+    return ok;
+}
+
+/* Examines a conflict of a body without a limit and a barrier, with the barriers within `reach` and nothing else. The
+ * conflict stays open until there is a proof. */
+static sunder_status ask_among_barriers(const asking *g, matter *m, const sunder_i_subproblem *q, double reach,
+                                        uint64_t *pool, sunder_error *err)
+{
     sunder_i_subproblem among = *q;
     sunder_i_list thing = {0};
     sunder_status status = SUNDER_OK;
-    bool ok = sunder_i_barriers_about(model, body, reach * size, &thing, &among.instead);
-    for (uint32_t k = 0; k < b->members && ok; k++) ok = sunder_i_list_push(&thing, model->member[b->member + k]);
+    const bool ok = put_among_barriers(g, m, reach, &among, &thing);
     if (ok && among.instead > 0) {
-        thing.n = sunder_i_set_make(thing.item, thing.n);
-        among.feature = thing.item;
-        among.features = thing.n;
-        among.reserves = 0;
         *m = (matter){.root = m->root, .conflict = m->conflict, .open = true};
         status = ask_conflict(g, m, &among, pool, err);
         m->open = g->report->proof[m->conflict] == NULL;
@@ -378,6 +371,60 @@ static sunder_status ask_among_barriers(const asking *g, matter *m, const sunder
     m->still = false; /* a body without a limit has other places on any line */
     sunder_i_free(thing.item);
     return ok ? status : sunder_i_failure_cause(err);
+}
+
+/* For a conflict without a proof, of a body without a limit and a barrier: looks for a proof that the body has no free
+ * place among the barriers about it. It can be in such a conflict although that one has a solution: where the solution
+ * has more overlaps with other barriers, no more than at the start. */
+static sunder_status ask_for_free_place(const asking *g, const matter *m, const sunder_i_subproblem *all,
+                                        uint64_t *budget, sunder_error *err)
+{
+    sunder_status status = SUNDER_OK;
+    double reach = 1;
+    for (uint64_t effort = FIRST_EFFORT;
+         effort <= MOST_EFFORT && *budget && !status && !g->report->proof[m->conflict]; effort *= GROWTH) {
+        const sunder_conflict *c = &g->report->conflict[m->conflict];
+        sunder_i_subproblem q = *all;
+        sunder_i_list thing = {0};
+        sunder_i_decision decision = {0};
+        q.body = &g->solver->model.body_of[c->a];
+        q.bodies = 1;
+        q.a = (uint32_t)c->a;
+        q.b = (uint32_t)c->b;
+        q.coarse = 0;
+        q.effort = effort;
+        const bool ok = put_among_barriers(g, m, reach, &q, &thing);
+        status = ok ? g->decide(&q, &decision, err) : sunder_i_failure_cause(err);
+        if (!status && decision.proof)
+            status = keep_crowded(g, m, &q, &decision, budget, err);
+        else
+            sunder_i_decision_clear(&decision);
+        sunder_i_free(thing.item);
+        reach *= GROWTH;
+    }
+    return status;
+}
+
+/* For conflicts without a proof: looks for chains that prove them crowded, or for bodies without a limit beside
+ * barriers for any such proof. All pairs then have to keep the full distance, whether they are listed or not. */
+static sunder_status ask_crowded(const asking *g, matter *first, const matter *last, const sunder_i_subproblem *cluster,
+                                 sunder_error *err)
+{
+    sunder_i_subproblem q = *cluster;
+    uint64_t budget = CROWD_REDUCING + CROWD_REDUCING_EACH * (uint64_t)cluster->reserves;
+    q.required = NULL;
+    q.required_n = 0;
+    q.planes = NULL;
+    q.precedents = NULL;
+    q.coarse = COARSE;
+    q.effort = CROWD_EFFORT;
+    q.slack = q.still = q.no_plane = q.fine_plane = false;
+    sunder_status status = ask_chains(g, first, last, &q, &budget, err);
+    for (const matter *m = first; m < last && !status; m++)
+        if (g->report->conflict[m->conflict].reason == SUNDER_REASON_UNRESOLVED && !g->report->proof[m->conflict] &&
+            has_barrier_and_no_limit(g, m))
+            status = ask_for_free_place(g, m, &q, &budget, err);
+    return status;
 }
 
 /* Examines one open conflict with the effort of q. */
