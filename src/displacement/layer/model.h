@@ -432,6 +432,8 @@ sunder_status sunder_i_model_cover_walls(sunder_i_model *model, const uint32_t *
 
 /* Returns the neighbour `other` of the body in a row; NULL if it is none. */
 const sunder_i_row_side *sunder_i_row_side_of(const sunder_i_model *model, const sunder_i_body *body, uint32_t other);
+/* Adds the neighbours of the body in rows to a list of bodies, which is ascending. Returns false if memory is out. */
+bool sunder_i_add_row_neighbours(const sunder_i_model *model, uint32_t body, sunder_i_list *list);
 /* Sets `spring` to the springs between the two, with their weight. Returns their number. */
 size_t sunder_i_springs_of(const sunder_i_model *model, const sunder_i_row_side *side, sunder_i_spring spring[2]);
 /* Returns the cost of these springs for the moves t of the body and s of the neighbour. The second function takes the

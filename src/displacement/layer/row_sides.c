@@ -14,6 +14,15 @@ const sunder_i_row_side *sunder_i_row_side_of(const sunder_i_model *model, const
     return NULL;
 }
 
+bool sunder_i_add_row_neighbours(const sunder_i_model *model, uint32_t body, sunder_i_list *list)
+{
+    const sunder_i_extras *has = model->body[body].has;
+    for (uint32_t k = has->row_side; k < has->row_side + has->row_sides; k++)
+        if (!sunder_i_list_push(list, model->row_side[k].other)) return false;
+    if (has->row_sides) list->n = sunder_i_set_make(list->item, list->n);
+    return true;
+}
+
 static size_t springs_with(const double stiffness[2], const sunder_i_row_side *side, sunder_i_spring spring[2])
 {
     const double *a = side->along;

@@ -11,6 +11,8 @@
  * holds for any shares and places, so they are taken as the doubles that were computed; v_i is nearly 0, and its term
  * is rounded so that the bound stays valid.
  *
+ * A spring between neighbours in a row is a contact, and belongs to one block; the others do without it.
+ *
  * Good places make the present layout the best one for each block alone: then nothing is lost. If F_i^S is the sum of
  * the forces of the block's contacts on a body (contact_forces.c), the body is at rest at a_i^S = t_i - F_i^S / (2
  * w_i^S). So the blocks together contain all contacts with a force, each once (block_cover.c). In a loose group these
@@ -122,6 +124,35 @@ static bool note_cut(sunder_i_lagrangian *d, size_t block, double value)
     return sunder_i_bundle_add(&d->bundle, block, value, x, t);
 }
 
+/* Returns the place in the block of the body that has place `at` in the group's list. */
+static uint32_t place_in_block(const sunder_i_lagrangian *d, size_t block, uint32_t at)
+{
+    uint32_t k = 0;
+    while (d->item[d->first[block] + k].at != at) k++;
+    return k;
+}
+
+/* Lists the springs that belong to the block as cuts of its own bodies, *n of them. Returns their cost at the moves of
+ * the copies. */
+static double list_springs(const sunder_i_lagrangian *d, size_t block, sunder_i_move_cut spring[MOST_SPRINGS],
+                           size_t *n)
+{
+    const sunder_i_contact_forces *c = &d->contacts;
+    double cost = 0;
+    *n = 0;
+    for (size_t k = 0; k < c->n && *n < MOST_SPRINGS; k++) {
+        if (!(c->cut[k].give > 0) || d->home[k] != block) continue;
+        sunder_i_move_cut *cut = &spring[(*n)++];
+        *cut = c->cut[k];
+        cut->i = place_in_block(d, block, c->cut[k].i);
+        cut->j = place_in_block(d, block, c->cut[k].j);
+        const double *t = d->item[d->first[block] + cut->i].t, *s = d->item[d->first[block] + cut->j].t;
+        const double missing = sunder_i_max(0, cut->n[0] * (t[0] - s[0]) + cut->n[1] * (t[1] - s[1]));
+        cost += missing * missing / (2 * cut->give);
+    }
+    return cost;
+}
+
 /* Proves a bound for one block: *value. *most is the cost of the present layout for the block, an upper bound of
  * *value. The moves of the block's best layout go to its copies. trees: NULL, or the tree is appended to it. Returns
  * false if memory is out. */
@@ -131,6 +162,8 @@ static bool ask_block(sunder_i_lagrangian *d, size_t block, sunder_i_bound_trees
     sunder_i_block_copy *item = d->item + d->first[block];
     uint32_t body[MOST_IN_BLOCK];
     double weight[MOST_IN_BLOCK], anchor[2 * MOST_IN_BLOCK], cost = 0, least = INFINITY;
+    sunder_i_move_cut spring[MOST_SPRINGS];
+    size_t springs;
     *value = *most = 0;
     if (n > MOST_IN_BLOCK) return true;
     for (size_t k = 0; k < n; k++) {
@@ -143,6 +176,7 @@ static bool ask_block(sunder_i_lagrangian *d, size_t block, sunder_i_bound_trees
             item[k].t[e] = t[e];
         }
     }
+    cost += list_springs(d, block, spring, &springs);
     *most = cost;
     const sunder_i_task task = {.model = d->model,
                                 .waived = d->waived,
@@ -151,6 +185,8 @@ static bool ask_block(sunder_i_lagrangian *d, size_t block, sunder_i_bound_trees
                                 .weight = weight,
                                 .anchor = anchor,
                                 .goal = cost * (1 - OPTIMAL_SHARE),
+                                .spring = spring,
+                                .springs = springs,
                                 .keep = trees != NULL};
     sunder_i_tree tree;
     bool ok = sunder_i_tree_init(&tree, &task);
@@ -301,6 +337,8 @@ static bool begin_bundle(sunder_i_lagrangian *d)
                                   .others = d->others};
     if (!sunder_i_bundle_init(&d->bundle)) return false;
     for (size_t k = 0; k < d->blocks; k++) {
+        sunder_i_move_cut spring[MOST_SPRINGS];
+        size_t springs;
         double value = 0;
         if (d->first[k + 1] - d->first[k] > MOST_IN_BLOCK) continue;
         for (size_t m = d->first[k]; m < d->first[k + 1]; m++)
@@ -309,6 +347,7 @@ static bool begin_bundle(sunder_i_lagrangian *d)
                 i->t[e] = d->group->move[2 * (size_t)i->at + (size_t)e];
                 value += i->share * i->t[e] * i->t[e];
             }
+        value += list_springs(d, k, spring, &springs);
         if (!note_cut(d, k, value)) return false;
     }
     return true;

@@ -49,6 +49,21 @@ bool sunder_i_contacts_of_pair(const sunder_i_model *model, const sunder_i_waive
     return ok;
 }
 
+size_t sunder_i_spring_cuts(const sunder_i_model *model, uint32_t a, uint32_t b, uint32_t i, uint32_t j,
+                            sunder_i_move_cut cut[4])
+{
+    const sunder_i_row_side *side = model->row_sides ? sunder_i_row_side_of(model, &model->body[a], b) : NULL;
+    sunder_i_spring spring[2];
+    const size_t springs = side ? sunder_i_springs_of(model, side, spring) : 0;
+    for (size_t k = 0; k < 2 * springs; k++) {
+        const sunder_i_spring *s = &spring[k / 2];
+        const double sign = k % 2 ? 1 : -1;
+        cut[k] = (sunder_i_move_cut){
+            .i = i, .j = j, .n = {sign * s->n[0], sign * s->n[1]}, .give = (1 + 0x1p-48) / (2 * s->stiff)};
+    }
+    return 2 * springs;
+}
+
 bool sunder_i_are_in_contact(const sunder_i_model *model, uint32_t i, uint32_t j, const double t[2], const double v[2],
                              bool *contact)
 {
@@ -73,5 +88,5 @@ bool sunder_i_bodies_about(const sunder_i_model *model, uint32_t body, const dou
     if (sunder_i_forbids_paths(model)) sunder_i_box_join(box, start);
     if (!sunder_i_look_about(model, model->standing, box, out)) return false;
     sunder_i_things_to_bodies(model, out);
-    return true;
+    return sunder_i_add_row_neighbours(model, body, out);
 }

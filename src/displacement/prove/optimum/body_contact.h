@@ -2,6 +2,7 @@
 #ifndef SUNDER_I_BODY_CONTACT_H
 #define SUNDER_I_BODY_CONTACT_H
 
+#include "displacement/prove/optimum/dual_program.h"
 #include "displacement/prove/optimum/forbidden.h"
 
 /* A piece of a pair's forbidden set on whose boundary the relative move u lies, up to a hair. The half-plane n.u >= d
@@ -24,6 +25,10 @@ double sunder_i_contact_hair(const sunder_i_model *model, const sunder_i_body *p
 bool sunder_i_contacts_of_pair(const sunder_i_model *model, const sunder_i_waived *waived, uint32_t i, uint32_t j,
                                const double t[2], const double v[2], double hair, sunder_i_contact_list *out,
                                size_t *edges);
+/* Sets cut[] to the springs between bodies `a` and `b` as cuts of bodies i and j of a program, one for each sign, and
+ * returns their number. What they give is rounded upwards, so that a bound with them holds. */
+size_t sunder_i_spring_cuts(const sunder_i_model *model, uint32_t a, uint32_t b, uint32_t i, uint32_t j,
+                            sunder_i_move_cut cut[4]);
 /* Sets *contact if the bodies i and j, moved by t and v, are in contact or in conflict. */
 bool sunder_i_are_in_contact(const sunder_i_model *model, uint32_t i, uint32_t j, const double t[2], const double v[2],
                              bool *contact);

@@ -1,9 +1,10 @@
 /* The forces on the contacts of a layout: those that hold every body in its place.
  *
  * Each contact of two bodies is a half-plane of their relative move, tangent to the forbidden set at the present
- * relative move. A body at its limit is in contact with the ground. For a locally optimal layout, the least cost under
- * these half-planes is the layout's own cost, and the forces (multipliers) of that program show which contacts matter.
- * All of this is in doubles: bounds made from the forces (blocks.c) are proved separately. */
+ * relative move. A body at its limit is in contact with the ground. A spring between neighbours in a row is two
+ * contacts that give. For a locally optimal layout, the least cost under these half-planes is the layout's own cost,
+ * and the forces (multipliers) of that program show which contacts matter. All of this is in doubles: bounds made from
+ * the forces (blocks.c) are proved separately. */
 #include "displacement/prove/optimum/blocks.h"
 #include "displacement/prove/optimum/tuning.h"
 
@@ -12,11 +13,23 @@
 #include <math.h>
 #include <string.h>
 
+static bool add_contacts(sunder_i_contact_forces *c, const sunder_i_move_cut *cut, size_t n)
+{
+    if (!sunder_i_reserve(&c->cut, &c->capacity, c->n + n, sizeof *c->cut)) return false;
+    for (size_t k = 0; k < n; k++) c->cut[c->n++] = cut[k];
+    return true;
+}
+
 static bool add_contact(sunder_i_contact_forces *c, uint32_t i, uint32_t j, const double n[2], double d)
 {
-    if (!sunder_i_reserve(&c->cut, &c->capacity, c->n + 1, sizeof *c->cut)) return false;
-    c->cut[c->n++] = (sunder_i_move_cut){.i = i, .j = j, .n = {n[0], n[1]}, .d = d};
-    return true;
+    const sunder_i_move_cut cut = {.i = i, .j = j, .n = {n[0], n[1]}, .d = d};
+    return add_contacts(c, &cut, 1);
+}
+
+static bool add_springs(sunder_i_contact_forces *c, const sunder_i_group *g, uint32_t i, uint32_t j)
+{
+    sunder_i_move_cut cut[4];
+    return add_contacts(c, cut, sunder_i_spring_cuts(c->model, g->body[i], g->body[j], i, j, cut));
 }
 
 static bool add_contacts_of_pair(sunder_i_contact_forces *c, const sunder_i_group *g, uint32_t i, uint32_t j)
@@ -38,6 +51,7 @@ static bool are_near(const sunder_i_contact_forces *c, const sunder_i_group *g, 
     const sunder_i_model *model = c->model;
     const double home[2] = {0, 0};
     double p[4], q[4], start[4];
+    if (sunder_i_row_side_of(model, &model->body[g->body[i]], g->body[j])) return true;
     sunder_i_body_box(&model->body[g->body[i]], g->move + 2 * (size_t)i, model->rules.gap * (1 + 0x1p-20), p);
     sunder_i_body_box(&model->body[g->body[j]], g->move + 2 * (size_t)j, 0, q);
     if (sunder_i_forbids_paths(model)) {
@@ -60,7 +74,7 @@ static bool find_contacts(sunder_i_contact_forces *c, const sunder_i_group *g)
         }
         for (uint32_t j = i + 1; j < g->n; j++) {
             if (p->fixed && c->model->body[g->body[j]].fixed) continue;
-            if (are_near(c, g, i, j) && !add_contacts_of_pair(c, g, i, j)) return false;
+            if (are_near(c, g, i, j) && !(add_contacts_of_pair(c, g, i, j) && add_springs(c, g, i, j))) return false;
         }
         c->steps += g->n / 4;
         if (!sunder_i_steps(1 + g->n / 64)) return false;
@@ -78,7 +92,7 @@ static bool solve_forces(sunder_i_contact_forces *c, const sunder_i_group *g)
         double most = CONTACT_MISSED * sqrt(g->cost);
         for (uint32_t k = 0; k < c->n; k++) {
             const double missing = sunder_i_dual_missing(p, &c->cut[k]);
-            if (missing <= most) continue;
+            if (missing <= most || (c->cut[k].give > 0 && sunder_i_dual_is_acting(p, k))) continue;
             most = missing;
             worst = k;
         }

@@ -95,6 +95,13 @@ double sunder_i_dual_missing(const sunder_i_dual_program *program, const sunder_
     return v;
 }
 
+bool sunder_i_dual_is_acting(const sunder_i_dual_program *program, uint32_t cut)
+{
+    for (size_t k = 0; k < program->acting_n; k++)
+        if (program->acting[k].cut == cut) return true;
+    return false;
+}
+
 /* ---- The factor -------------------------------------------------------------------------------------------------- */
 
 /* Sets `row` to the row that cut c would have in the factor, and *square to the cut's own square. Returns the square of

@@ -56,5 +56,7 @@ void sunder_i_dual_place(sunder_i_dual_program *program);
 double sunder_i_dual_value(sunder_i_dual_program *program);
 /* Returns the distance by which t violates the cut; negative if t satisfies it. */
 double sunder_i_dual_missing(const sunder_i_dual_program *program, const sunder_i_move_cut *cut);
+/* Is the cut active? One that gives is violated then, by what it gives. */
+bool sunder_i_dual_is_acting(const sunder_i_dual_program *program, uint32_t cut);
 
 #endif

@@ -355,7 +355,7 @@ static void grow_tree(void *state)
                                 .body = g->body,
                                 .n = n,
                                 .goal = goal_of(x->model, g),
-                                .springs = true,
+                                .all_springs = true,
                                 .keep = x->model->rules.keep_trees};
     sunder_i_tree tree;
     sunder_status status = sunder_i_tree_init(&tree, &task) ? SUNDER_OK : sunder_i_failure_cause(x->run.err);

@@ -20,7 +20,9 @@ typedef struct sunder_i_task {
     const double *weight; /* [n] at most the bodies' own weights; NULL: exactly these */
     const double *anchor; /* [2 n] the points a; 0 for bodies that do not move; NULL: all are 0 */
     double goal;          /* the bound to be proved */
-    bool springs;         /* the springs between these bodies count */
+    bool all_springs;                /* all springs between these bodies count; or: */
+    const sunder_i_move_cut *spring; /* [springs] those that count */
+    size_t springs;
     bool no_paths;        /* jumps and sides are ignored, so less is forbidden */
     bool keep;            /* record what a checker of the proof needs: see tree_record.c */
 } sunder_i_task;

@@ -1,4 +1,5 @@
 /* The bodies of a tree: those of its task, and those that join it because its bodies run into them. */
+#include "displacement/prove/optimum/body_contact.h"
 #include "displacement/prove/optimum/tree.h"
 
 void sunder_i_tree_lend_bodies(sunder_i_tree *tree)
@@ -30,30 +31,28 @@ void sunder_i_tree_add_guest(sunder_i_tree *tree, uint32_t body)
     sunder_i_dual_place(&tree->program);
 }
 
-/* Adds one sign of a spring as a cut. What it gives is rounded upwards, so that the bound holds. */
-static void add_spring(sunder_i_tree *t, uint32_t i, uint32_t j, const sunder_i_spring *spring, int sign)
+/* Adds n springs as cuts of the root. */
+static void add_springs(sunder_i_tree *t, const sunder_i_move_cut *spring, size_t n)
 {
-    if (!sunder_i_reserve(&t->cut, &t->cut_capacity, t->cuts + 1, sizeof *t->cut) ||
-        !sunder_i_reserve(&t->note, &t->note_capacity, t->cuts + 1, sizeof *t->note)) {
+    if (!sunder_i_reserve(&t->cut, &t->cut_capacity, t->cuts + n, sizeof *t->cut) ||
+        !sunder_i_reserve(&t->note, &t->note_capacity, t->cuts + n, sizeof *t->note)) {
         t->failed = true;
         return;
     }
-    const double give = (1 + 0x1p-48) / (2 * spring->stiff);
-    t->cut[t->cuts] =
-        (sunder_i_move_cut){.i = i, .j = j, .n = {sign * spring->n[0], sign * spring->n[1]}, .give = give};
-    t->note[t->cuts++] = (sunder_i_cut_note){.kind = SUNDER_I_CUT_SPRING};
+    for (size_t k = 0; k < n; k++) {
+        t->cut[t->cuts] = spring[k];
+        t->note[t->cuts++] = (sunder_i_cut_note){.kind = SUNDER_I_CUT_SPRING};
+    }
 }
 
 void sunder_i_tree_add_springs(sunder_i_tree *tree)
 {
     const sunder_i_model *model = tree->task.model;
-    for (uint32_t i = 0; i < tree->task.n && tree->task.springs && model->row_sides; i++)
-        for (uint32_t j = i + 1; j < tree->task.n; j++) {
-            const sunder_i_row_side *side = sunder_i_row_side_of(model, &model->body[tree->body[i]], tree->body[j]);
-            sunder_i_spring spring[2];
-            const size_t n = side ? sunder_i_springs_of(model, side, spring) : 0;
-            for (size_t k = 0; k < n && !tree->failed; k++)
-                for (int sign = -1; sign <= 1; sign += 2) add_spring(tree, i, j, &spring[k], sign);
+    if (tree->task.springs) add_springs(tree, tree->task.spring, tree->task.springs);
+    for (uint32_t i = 0; i < tree->task.n && tree->task.all_springs && model->row_sides; i++)
+        for (uint32_t j = i + 1; j < tree->task.n && !tree->failed; j++) {
+            sunder_i_move_cut cut[4];
+            add_springs(tree, cut, sunder_i_spring_cuts(model, tree->body[i], tree->body[j], i, j, cut));
         }
     tree->springs = tree->cuts;
     tree->program.cut = tree->cut;

@@ -163,10 +163,7 @@ static uint32_t find_stretched(sunder_i_tree *t)
     for (size_t b = 0; b < 2 * t->task.n; b++) most = sunder_i_max(most, HOLDS * fabs(p->t[b]));
     for (uint32_t c = 0; c < t->springs; c++) {
         const double missing = sunder_i_dual_missing(p, &t->cut[c]);
-        bool acts = false;
-        if (!(missing > most)) continue;
-        for (size_t k = 0; k < p->acting_n && !acts; k++) acts = p->acting[k].cut == c;
-        if (acts) continue;
+        if (!(missing > most) || sunder_i_dual_is_acting(p, c)) continue;
         most = missing;
         worst = c;
     }

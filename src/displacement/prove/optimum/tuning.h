@@ -5,7 +5,7 @@
 
 /* SUNDER_I_OPTIMUM_TUNING_VERSION is the version of the values below. It is raised with each change of a value, so that
  * a record can name the values by their version (tests/house/TUNING). */
-#define SUNDER_I_OPTIMUM_TUNING_VERSION 2
+#define SUNDER_I_OPTIMUM_TUNING_VERSION 3
 
 /* ---- Contacts (body_contact.c) ----------------------------------------------------------------------------------- */
 
@@ -104,6 +104,7 @@
  * evaluations, since their trees complete. */
 #define BLOCK 6
 #define MOST_IN_BLOCK 64 /* fixed: the size of an array */
+#define MOST_SPRINGS 256 /* fixed: the size of an array; further springs of a block do not count */
 #define ROUNDS 4
 /* The share SPARED of each weight is reserved for rounding. */
 #define SPARED 0x1p-30

@@ -80,7 +80,7 @@ static bool find_near_bodies(const flooding *f, uint32_t b, sunder_i_list *near)
     sunder_i_reads_end(&reading);
     if (!ok) near->n = 0;
     sunder_i_things_to_bodies(model, near);
-    return ok;
+    return ok && sunder_i_add_row_neighbours(model, b, near);
 }
 
 static bool add_contact(contacts *out, uint32_t b, uint32_t other)

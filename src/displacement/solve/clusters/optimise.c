@@ -353,7 +353,8 @@ static sunder_status take_over(sunder_i_solver *s, sunder_error *err)
     for (size_t k = 0; !status && k < s->groups.n; k++) {
         sunder_i_group *g = &s->groups.group[k];
         s->groups.unproved = s->groups.unproved || (is_group_wanted(s, g) && g->state != SUNDER_I_IS_PROVED);
-        if (sunder_i_group_is_cheaper(g)) g->state = SUNDER_I_IS_PROVED;
+        /* A group of which nothing is proved yet was only perturbed; its proof follows in the next round. */
+        if (sunder_i_group_is_cheaper(g)) g->state = g->bound > 0 ? SUNDER_I_IS_PROVED : SUNDER_I_TO_BE_PROVED;
     }
     sunder_i_free_all(t.budget, t.by, t.before);
     return status;
