@@ -3,7 +3,6 @@ fractions and by another algorithm. The plane is cut into horizontal slabs betwe
 and each slab into cells between neighbouring edges. Cells that share an uncovered piece of a slab's border belong to
 one part.
 """
-import math
 from fractions import Fraction
 
 import exact_plane as plane
@@ -142,17 +141,17 @@ def size_of(box, unit):
     return (high_x - low_x) + (high_y - low_y)
 
 
-def side_anchor(members, lines, plain, unit, tolerance=0.0, known=math.inf):
+def side_anchor(members, lines, plain, unit, tolerance=0.0):
     """members: outlines of the feature's polygons; lines: all that may cut it or be visible from it; plain: the plain
-    anchor, in doubles; unit: the number of integer units in one unit of the layer; tolerance and known (the distance
-    up to which lines are known) are doubles. Returns None if no line cuts the feature."""
+    anchor, in doubles; unit: the number of integer units in one unit of the layer; tolerance: a double. Returns None if
+    no line cuts the feature."""
     lines = [e for e in lines if e[0] != e[1]]
     box = plane.box_of([p for o in members for e in o.edges for p in e])
     about = [e for e in lines if plane.boxes_near(plane.edge_box(e), box)]
     if not about or not any(plane.interiors_meet(o, plane.Outline(lines=[list(e) for e in about])) for o in members):
         return None
     every = [(cut, k) for cut in (Parts(o, about) for o in members) for k in range(len(cut.parts))]
-    slack, reach = Fraction(tolerance * size_of(box, unit)) * unit * unit, Fraction(min(known, 2 * size_of(box, unit))) * unit
+    slack, reach = Fraction(tolerance * size_of(box, unit)) * unit * unit, Fraction(2 * size_of(box, unit)) * unit
     left = largest(every, slack)
     if len(left) > 1:
         rooms = [room(cut.point(k), box, lines, reach) for cut, k in left]

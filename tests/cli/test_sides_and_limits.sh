@@ -1,6 +1,6 @@
 # shellcheck shell=bash disable=SC1091
 # The side of a feature that a road cuts in half does not depend on the limits of moves: separate chooses the same side
-# with any limit, as a whole or in parts, and check --before uses the same one, too.
+# with any limit, as a whole or in parts, and check --before and the checker of proofs use the same one, too.
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 export PYTHONDONTWRITEBYTECODE=1
 houses() { /usr/bin/python3 "$SUNDER_SOURCE/tests/cli/sides_and_limits.py" "$@" || fail "sides_and_limits.py $*"; }
@@ -30,4 +30,23 @@ for limit in 0 1 3 15 60 1000; do
     run check crossed.geojson --before houses.geojson "${same[@]:0:4}" --max-shift $limit
     says out 'side 30,'
 done
+
+# Ten houses of which a road cuts off slightly less on one side than on the other, which counts as half: the limit lets
+# them go only to the nearer side. Where another road is beyond that side, farther than four times the limit, the house
+# has to go to the other side, and so it stays, with a proof about its side anchor.
+awk 'BEGIN { print "id,WKT" > "h.csv"; print "id,WKT" > "r.csv"
+    for (k = 0; k < 10; k++) {
+        x = 1000 * k; side = k % 2 ? 1 : -1; far = side * (8 + 3 * k); shift = 0.015625
+        printf "%d,\"POLYGON ((%d %f,%d %f,%d %f,%d %f,%d %f))\"\n", k, x, shift - 1, x + 20, shift - 1, x + 20,
+            shift + 1, x, shift + 1, x, shift - 1 > "h.csv"
+        printf "%d,\"LINESTRING (%d 0,%d 0)\"\n%d,\"LINESTRING (%d %f,%d %f)\"\n", k, x - 300, x + 300, k, x - 300, far,
+            x + 300, far > "r.csv"
+    } }'
+layer h.gpkg h POLYGON <h.csv
+layer r.gpkg r LINESTRING <r.csv
+halves=(--gap 0.5 --barrier r.gpkg --max-shift 1.5)
+expect 3 separate h.gpkg o.gpkg "${halves[@]}" -q --proof h.jsonl
+same "$(grep -c '"reason": "side"' h.jsonl)" 5 'houses that stay on their side'
+/usr/bin/python3 "$SUNDER_SOURCE/tests/proof/check_proof.py" h.jsonl h.gpkg --result o.gpkg "${halves[@]}" >checked 2>&1 ||
+    fail "the proof of the sides: $(tail -n 1 checked)"
 finish

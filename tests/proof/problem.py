@@ -355,15 +355,9 @@ class Problem:
         if fid not in self.side_anchors:
             box, plain = self.whole(fid).box, self.anchor(fid)
             members = [o for o in self.things[fid].outlines if o.box]
-            known = self.lines_known()
             lines = [e for key in self.sides for e in self.things[key].edges_near(box, 4 * (box[2] - box[0] + box[3] - box[1]))]
-            self.side_anchors[fid] = side_anchor(members, lines, plain, self.lattice.unit, self.tolerance, known) or plain
+            self.side_anchors[fid] = side_anchor(members, lines, plain, self.lattice.unit, self.tolerance) or plain
         return self.side_anchors[fid]
-
-    def lines_known(self):
-        """How far about features lines are looked at: four times the longest limit."""
-        limits = [self.own_limit(fid) for fid in self.place if fid not in self.skipped and fid not in self.fixed]
-        return math.inf if None in limits else 4 * max(limits, default=0.0)
 
     def demand_side(self, key, corners, feature, anchor):
         """A segment of a line of the barrier, if the side anchor lies on no line; or an edge of an area, with the area
