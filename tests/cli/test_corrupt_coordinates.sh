@@ -1,5 +1,5 @@
 # shellcheck shell=bash disable=SC1091
-# One corrupt vertex, from 1e10 to the greatest double. A feature that can only be moved by multiples of its last place
+# One corrupt vertex, from 1.4e8 (more than 2^27, beyond the Earth) to the greatest double. A feature that can only be moved by multiples of its last place
 # is first tried as fixed, so that its valid neighbours move no farther than beside a fixed one. A warning names
 # features that move very far.
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1

@@ -46,6 +46,9 @@ static int last_place(const double box[4])
     return exponent - 53;
 }
 
+/* Does the last place belong to a coordinate beyond any on the Earth? */
+static bool is_beyond(int place) { return place > BEYOND_EXPONENT - 53; }
+
 /* ---- Holding ----------------------------------------------------------------------------------------------------- */
 
 /* The length of moves that the body may need: its size plus the gap. */
@@ -84,11 +87,12 @@ static void hold_beside(sunder_i_solver *solver, uint32_t b, uint32_t neighbour)
     if ((body->fixed && !body->held) || (other->fixed && !other->held)) return;
     home_box(&solver->model, body, box);
     home_box(&solver->model, other, beside);
-    if (last_place(box) < last_place(beside) + COARSE_BITS) return;
+    const int coarser = last_place(box) - last_place(beside);
     const double stretch = stretch_of(solver, beside);
-    const bool coarse = ldexp(COARSE_PLACES, last_place(box)) > stretch,
-               beyond = last_place(box) > BEYOND_EXPONENT - 53;
-    if (!body->held && (coarse || beyond || body->far) && is_free_to_hold(solver, b)) {
+    const bool coarse = coarser >= COARSE_BITS && ldexp(COARSE_PLACES, last_place(box)) > stretch,
+               beyond = coarser >= BEYOND_BITS && is_beyond(last_place(box)),
+               far = coarser >= COARSE_BITS && body->far;
+    if (!body->held && (coarse || beyond || far) && is_free_to_hold(solver, b)) {
         fix_body(solver, body, stretch);
         sunder_i_body_event(&solver->states, b, SUNDER_I_IS_HELD);
     }
@@ -107,7 +111,7 @@ static void hold_coarse_bodies(sunder_i_solver *solver, const sunder_i_relations
     }
 }
 
-/* Do the last places of two bodies that are not fixed differ by COARSE_BITS or more? */
+/* Do the last places of two bodies that are not fixed differ so much that one may be held beside the other? */
 static bool may_hold(const sunder_i_model *model)
 {
     int finest = INT_MAX, coarsest = INT_MIN;
@@ -119,7 +123,7 @@ static bool may_hold(const sunder_i_model *model)
         finest = place < finest ? place : finest;
         coarsest = place > coarsest ? place : coarsest;
     }
-    return finest < coarsest && coarsest - finest >= COARSE_BITS;
+    return finest < coarsest && coarsest - finest >= (is_beyond(coarsest) ? BEYOND_BITS : COARSE_BITS);
 }
 
 sunder_status sunder_i_solver_begin_holding(sunder_i_solver *solver, sunder_error *err)

@@ -6,7 +6,7 @@
 
 /* SUNDER_I_CLUSTERS_TUNING_VERSION is the version of the values below. It is raised with each change of a value, so
  * that a record can name the values by their version (tests/house/TUNING). */
-#define SUNDER_I_CLUSTERS_TUNING_VERSION 5
+#define SUNDER_I_CLUSTERS_TUNING_VERSION 6
 
 /* ---- Rounds (settle.c, clusters.c) ------------------------------------------------------------------------------- */
 
@@ -21,14 +21,16 @@
 
 /* ---- Coarse moves (coarse_bodies.c, held_or_free.c) -------------------------------------------------------------- */
 
-/* A body is held beside a neighbour if its last place is coarser than the neighbour's by at least COARSE_BITS bits, and
- * if COARSE_PLACES of its last places exceed the neighbour's size and gap, or if it has a coordinate beyond
- * 2^BEYOND_EXPONENT. COARSE_PLACES last places are too many for a house of 10 m beside a vertex at 1e16, and not at
- * 1e15. In metres and feet no place on the Earth has a coordinate beyond 2^27. Without that rule, chains of houses
- * beside a vertex at 1e12 cost up to 360 times what they cost beside the same body declared fixed. */
+/* A body is held beside a neighbour if its last place is coarser than the neighbour's by at least COARSE_BITS bits and
+ * COARSE_PLACES of its last places exceed the neighbour's size and gap, or by at least BEYOND_BITS bits and it has a
+ * coordinate beyond 2^BEYOND_EXPONENT. Projected coordinates in metres are below 2^25, so a coordinate beyond 2^27 is
+ * coarser by BEYOND_BITS or more. COARSE_PLACES last places are too many for a house of 10 m beside a vertex at 1e16,
+ * and not at 1e15. In metres and feet no place on the Earth has a coordinate beyond 2^27. Without that rule, chains of
+ * houses beside a vertex at 1e12 cost up to 360 times what they cost beside the same body declared fixed. */
 #define COARSE_BITS 10
 #define COARSE_PLACES 64
 #define BEYOND_EXPONENT 27
+#define BEYOND_BITS 3
 /* A body counts as thrown if it moves farther than it does beside a held neighbour, by more than THROWN times its size
  * and the gap. */
 #define THROWN 16
