@@ -1,9 +1,10 @@
 """The blocks of a layer, computed from the layer and the options alone: all pairs of features that join.
 
-Two features join by an equal value of --block-field; by a touch, which is no overlap and a distance whose nearest double
-is no more than the tolerance; or if one lies in the other up to the tolerance and --contained is `block`. They also join
-by a thin overlap: some translation no longer than the tolerance separates the two, or no disc of that diameter
-(inside-disc:, 16 corners) fits into the overlap. Doubles only propose places; every decision is made in fractions.
+Two features join if they have an equal value of --block-field; if they touch, that is, do not overlap and have a
+distance whose nearest double is no more than the tolerance; or if one lies in the other up to the tolerance and
+--contained is `block`. They also join by a thin overlap: some translation no longer than the tolerance separates the
+two, or no disc of that diameter (inside-disc:, 16 corners) fits into the overlap. Doubles only propose places; every
+decision is made in fractions.
 """
 import math
 from fractions import Fraction
@@ -15,16 +16,16 @@ from geopackage import value_of
 from nearly_in import lies_in_grown
 
 TOO_MANY = 60_000
-MANY_PLACES = 1500  # of a disc in an overlap: from there on those without room are left out before
-HALVINGS = 5        # of such places, lines of them, to tell where there is room
+MANY_PLACES = 1500  # number of places of a disc in an overlap above which impossible ones are removed in advance
+HALVINGS = 5        # how often a line of such places is halved to find those that are possible
 
 
 class Blocks:
-    """problem: with things, lattice, tolerance (a double), options, attributes, skipped."""
+    """problem: an object with things, lattice, tolerance (a double), options, attributes, skipped."""
 
     def __init__(self, problem):
         self.problem, self.of, self.known, options = problem, {}, {}, problem.options
-        # Symbols join by touch only where a tolerance is given.
+        # Symbols join by touch only if a tolerance is given.
         self.touches_join = not options.no_blocks and (not options.points or options.touch_tolerance is not None)
         self.containment_joins = not options.no_blocks and options.contained == "block"
         disc = discs.inside(problem.tolerance / 2, 16) if problem.tolerance / 2 > 0 else []
@@ -37,7 +38,7 @@ class Blocks:
         return self.of.get(fid, (fid,))
 
     def find(self):
-        """All blocks of several, by their members in the order of the input."""
+        """All blocks with several members, sorted by their members in the order of the input."""
         parent = {}
 
         def root(fid):
@@ -56,7 +57,7 @@ class Blocks:
                 self.of.update(dict.fromkeys(members, tuple(members)))
 
     def demand_all(self, told):
-        """The file has the blocks that there are, and no others."""
+        """Demands that the file has exactly these blocks."""
         own = set(self.of.values())
         for fids in map(tuple, told):
             demand(fids in own, "no block, or not all of one:", *fids)
@@ -66,7 +67,7 @@ class Blocks:
     # ---- Which pairs may join
 
     def candidates(self):
-        """Pairs of features that stand within the tolerance by their boxes, or have equal values."""
+        """Pairs of features whose boxes are within the tolerance of each other, or which have equal values."""
         problem, seen = self.problem, set()
         field, values = problem.options.block_field, {}
         fids = [f for f in problem.place if f not in problem.skipped]
@@ -121,7 +122,7 @@ class Blocks:
         if tolerance == 0:
             return plane.boxes_near(p.box, q.box) and any(plane.edges_meet(e, f) for e, f in near_edges(p, q, 0))
         middle = (Fraction(tolerance) + Fraction(math.nextafter(tolerance, math.inf))) / 2 * unit
-        even = math.frexp(tolerance)[0] * 2 ** 53 % 2 == 0  # a tie goes to the even one of two doubles
+        even = math.frexp(tolerance)[0] * 2 ** 53 % 2 == 0  # in a tie the even one of two doubles is the nearest
         square, reach = middle * middle, math.ceil(middle)
         for e, f in near_edges(p, q, reach):
             found = plane.edges_square(e, f)
@@ -130,8 +131,9 @@ class Blocks:
         return False
 
     def parted_within(self, p, q, most):
-        """Does some translation of q no longer than that part the interiors? The nearest place of the closed set of such
-        translations is the foot of the origin on a contact segment, or a crossing of two."""
+        """Is there a translation of q no longer than that which separates the interiors? The nearest place of the
+        closed set of such translations is the foot of the perpendicular from the origin on a contact segment, or a
+        crossing of two."""
         square, reach = most * most, math.ceil(most)
         segments = contacts(p, q, reach)
         places = set()
@@ -151,7 +153,7 @@ class Blocks:
         return any(plane.parts_them(p, q, x, y) for _, x, y in sorted(places))
 
     def disc_fits(self, p, q, a, b):
-        """Is there room for the disc in the intersection?"""
+        """Does the disc fit into the intersection?"""
         lattice = self.problem.lattice
         disc = [tuple(map(lattice, v)) for v in self.disc_told]
         box = [f(x, y) for f, x, y in zip((max, max, min, min), p.box, q.box)]
@@ -164,8 +166,8 @@ class Blocks:
         return self.disc_fits_at_a_corner(disc, p, q, near, a, b)
 
     def disc_fits_at_a_corner(self, disc, p, q, near, a, b):
-        """If the disc fits anywhere, it fits at a crossing or an end of contact segments: the remaining set is closed
-        and bounded, and its extreme points are of this kind."""
+        """If the disc fits anywhere, it fits at a crossing or an end of contact segments: the set of its possible
+        positions is closed and bounded, and its extreme points are of this kind."""
         sides = list(zip(disc, disc[1:] + disc[:1]))
         segments, ends = set(), set()
         for e in {e for edges in near for e in edges}:
@@ -175,7 +177,7 @@ class Blocks:
         least = min(min(Fraction(*plane.square_to_edge((0, 0), s)) for s in sides), Fraction(disc[0][0] ** 2 + disc[0][1] ** 2))
 
         def has_room(x, y):
-            """A quick test with a disc inside the disc."""
+            """A quick test, with a smaller disc inside the disc."""
             return all(near_square((x, y), e) >= least for e in edges)
         edges = sorted({e for own in near for e in own})
         segments = sorted(segments)
@@ -196,8 +198,8 @@ class Blocks:
 
 
 def with_room(segment, p, q, edges, least, halvings):
-    """The pieces of a segment of disc positions that a quick test keeps: they lie inside p and q, and not all of a
-    piece is nearer to one edge than the root of `least`. edges: all edges of p and q within the intersection."""
+    """The parts of a segment of disc positions that a quick test keeps: they lie inside p and q, and no edge is
+    nearer than the root of `least` to all of the part. edges: all edges of p and q within the intersection."""
     if any(all(near_square(end, e) < least for end in segment) for e in edges):
         return
     if not halvings or all(plane.edges_square(segment, e) >= least for e in edges):
@@ -218,7 +220,7 @@ def near_square(p, e):
 
 
 def near_edges(p, q, reach):
-    """Pairs of edges whose boxes are within reach of each other."""
+    """Pairs of edges whose boxes are within `reach` of each other."""
     eq = [(f, plane.edge_box(f)) for f in plane.near_edges(q, p.box, reach)]
     for e in plane.near_edges(p, q.box, reach):
         box = plane.edge_box(e)
@@ -248,7 +250,8 @@ def fits(disc, at, p, q):
 
 
 def proposed(p, q, near, box):
-    """Places of what the two share that are far from all edges: by a grid, and from there uphill. In doubles."""
+    """Places of the intersection that are far from all edges, in doubles: from the points of a grid, each improved
+    step by step."""
     ox, oy = (box[0] + box[2]) // 2, (box[1] + box[3]) // 2
     edges = [[(e[0][0] - ox, e[0][1] - oy, e[1][0] - ox, e[1][1] - oy) for e in own] for own in near]
     edges = [[tuple(map(float, e)) for e in own] for own in edges]

@@ -1,11 +1,11 @@
-"""The premises of a line of the lower bound: its bodies, their weights there, and their shifts."""
+"""The premises of a line of the lower bound: its bodies, their weights in this line, and their shifts."""
 from collections import namedtuple
 from fractions import Fraction
 
 from form import demand
 
 
-# The data that are kept of a tree, or of prices, that hold.
+# The data that are kept of a tree, or of prices, after it was verified.
 Proved = namedtuple("Proved", "group bound bodies weights shifts own_weight nodes cuts")
 
 
@@ -15,7 +15,8 @@ class Bodies:
         self.group, self.bound = told["group"], Fraction(told["bound"])
         self.own_weight = {}
         self.bodies = [self.read_body(b) for b in told["bodies"]]
-        features = [b for b, t in zip(self.bodies, told["bodies"]) if "features" in t]  # a barrier may be there for each of its parts
+        # a barrier may occur once for each of its parts
+        features = [b for b, t in zip(self.bodies, told["bodies"]) if "features" in t]
         demand(len(set(features)) == len(features), "a body is there twice")
         self.weights = [self.read_weight(b, k) for k, b in enumerate(told["bodies"])]
         self.shifts = [tuple(map(Fraction, b["shift"])) for b in told["bodies"]]
@@ -33,7 +34,7 @@ class Bodies:
         return fids
 
     def read_weight(self, told, k):
-        """None: it does not move."""
+        """The weight; None: the body does not move."""
         if "barrier" in told:
             demand(told["weight"] is None, "a barrier has a weight")
             return None

@@ -2,9 +2,9 @@
 
     python3 check_proof.py PROOF INPUT [--layer NAME] [options of sunder separate]
 
-It shares no code with the program. docs/PROOF.md says what is checked, and why the bound and the verdicts follow. Status 0:
-everything holds, and a line says what was checked. Status 1: something does not hold, and a line says what. Status 2: the file
-cannot be checked.
+It shares no code with the program. docs/PROOF.md says what is checked, and why the bound and the verdicts follow.
+Status 0: all claims are valid, and a line says what was checked. Status 1: a claim is not valid, and a line says
+which. Status 2: the file cannot be checked.
 """
 import argparse
 import os
@@ -68,7 +68,7 @@ class Checker:
         self.result = Result(self.problem, options.result) if options.result else None
 
     def check(self, lines):
-        """lines: an iterable of JSON objects, read twice. Returns what holds, in words."""
+        """lines: an iterable of JSON objects, read twice. Returns a description of what was verified."""
         proof, problem = form.Proof(lines, self.known), self.problem
         check_header(proof.head, problem.options, problem.name)
         problem.blocks.demand_all(proof.blocks)
@@ -87,7 +87,8 @@ class Checker:
         return said + (self.result.check(proof.conflicts, total) if self.result else "the list of conflicts is the file's own")
 
     def keep(self, lines):
-        """These lines, which stay as they are, are not read again; nor, beside the same conflicts, asked about again if they held."""
+        """Later calls do not read these lines again, which stay unchanged; and if they were verified beside the same
+        list of conflicts, they are not verified again."""
         self.known = dict(zip(map(id, lines), [found for _, found in form.Proof(lines, {}).entries()]))
         self.kept = {id(line) for line in self.known.values()}
 
@@ -110,19 +111,20 @@ class Checker:
 
 
 def answer(checker, lines):
-    """(status, what is said)"""
+    """Returns (status, message)."""
     try:
         return 0, checker.check(lines())
     except Refused as why:
         return 1, f"refused: {why}"
     except (NotRead, OSError) as why:
         return 2, f"not asked about: {why}"
-    except (KeyError, TypeError, ValueError, IndexError, ArithmeticError, RecursionError) as why:  # of which form.py leaves none
+    # form.py leaves none of these
+    except (KeyError, TypeError, ValueError, IndexError, ArithmeticError, RecursionError) as why:
         return 1, f"refused: not in the form of a proof: {type(why).__name__}: {why}"
 
 
 def printable(said):
-    """The text as one line, for all names that the file contains."""
+    """The text on one line, whatever names the file contains."""
     return "".join(c if c.isprintable() else ascii(c)[1:-1] for c in said)
 
 

@@ -1,12 +1,14 @@
-"""Is each of the checker's own tests needed? They are switched off, one at a time, and the files that the test refused are checked again:
+"""Is each of the checker's own tests needed? They are switched off, one at a time, and the files that the test
+refused are checked again:
 
     python3 checks_off.py RUNS DIRECTORY [--seed S] [--tries N] [--only WORDS]
 
-A test is a call of demand() in a file of MODULES. RUNS as in forgeries.py; of each kind of change of each member one is drawn. DIRECTORY
-gets the layers of false_proofs.py. A file that the test refused is then refused by other tests, or accepted. A false proof that is
-accepted shows that the test is needed. So does an accepted forgery in which the judge finds a false statement, or an exception. Tests
-whose forgeries are accepted without such a finding, and tests that no file reaches, are listed in UNSEEN with the reason. Any other test
-for which no need is shown fails.
+A test is a call of demand() in a file of MODULES. RUNS as in forgeries.py; one change of each kind of each member is
+drawn. DIRECTORY receives the layers of false_proofs.py. A file that the test refused is then refused by other tests,
+or accepted. A false proof that is accepted shows that the test is needed. So does an accepted forgery in which the
+judge finds a false statement, and so does an exception. Tests whose forgeries are accepted without such a finding,
+and tests that no file reaches, are listed in UNSEEN with the reason. It is a failure if any other test cannot be
+shown to be needed.
 """
 import argparse
 import ast
@@ -28,7 +30,7 @@ import trees
 import verdicts
 
 MODULES = {m.__name__ + ".py": m for m in (trees, bodies, prices, verdicts, decided, problem)}
-ENDLESS = {"a node has two parents:"}  # without which the search does not end
+ENDLESS = {"a node has two parents:"}  # without this test the search would not end
 UNSEEN = {
     "a side, where there is no limit": "of two anchors that lines shut in, but for a narrow way far away: no case is made",
 }

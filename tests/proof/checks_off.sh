@@ -1,5 +1,6 @@
 # shellcheck shell=bash disable=SC1091
-# What does the judge of forgeries see of a checker that lacks one of its tests (checks_off.py)? On the generated runs of test_forgeries.sh.
+# For each test of the checker: would a forgery be noticed if the checker did not have this test (checks_off.py)? On the
+# generated runs of test_forgeries.sh.
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 command -v python3 >/dev/null || { echo "skipped: no python3"; exit 77; }
 . "$SUNDER_SOURCE/tests/proof/forged_runs.sh"

@@ -1,8 +1,9 @@
 """Convex regions of relative moves, and what is forbidden in them, in integers.
 
-A region is a polygon whose corners are where its lines cross: homogeneous integers (X, Y, W), W > 0, so nothing is ever
-rounded. A line (a, b, c) keeps a X + b Y >= c. To ask whether a corner is in a piece it is first rounded to a lattice
-2^16 times as fine as the layer's, and what is asked is more by that rounding; so a yes is always true.
+A region is a polygon whose corners are crossings of its lines: homogeneous integers (X, Y, W), W > 0, so nothing is
+ever rounded. A line (a, b, c) keeps a X + b Y >= c. To decide whether a corner is in a piece, it is first rounded to
+a lattice 2^16 times as fine as the layer's, and the test is stricter by that rounding; so the answer yes is always
+true.
 """
 import math
 
@@ -32,7 +33,7 @@ def square(x0, y0, x1, y1):
 
 
 def clip(region, line):
-    """The part of a region behind the line; corners with the lines of the sides that begin there."""
+    """The part of a region behind the line: its corners, each with the line of the side that begins there."""
     a, b, c = line
     side = [a * x + b * y - c * w for (x, y, w), _ in region]
     if not side or min(side) >= 0:
@@ -50,7 +51,7 @@ def clip(region, line):
 
 
 def hull(points):
-    """Counter-clockwise, without corners on sides."""
+    """The convex hull, counter-clockwise, without corners on sides."""
     points = sorted(set(points))
     if len(points) < 3:
         return points
@@ -69,8 +70,8 @@ def hull(points):
 
 
 class Piece:
-    """The convex polygon A - B grown by an open disc of radius `owed`; with 0 its interior; with a negative value the
-    points farther than that from its outside. A shadow: the points behind it, as seen from the origin."""
+    """The convex polygon A - B dilated by an open disc of radius `owed`; with 0 its interior; with a negative value
+    the points farther than that from its outside. A shadow: the points behind it, as seen from the origin."""
 
     def __init__(self, a, b, owed, shadow):
         self.corners = hull([(p[0] - q[0], p[1] - q[1]) for p in a for q in b])
@@ -86,7 +87,7 @@ class Piece:
         self.inside = 2 if owed == 0 else (math.ceil(-FINE * owed) + 2) ** 2
 
     def holds(self, fine, corner):
-        """Is the corner in it, for any rounding?"""
+        """Is the corner in it, whatever the rounding?"""
         if self.shadow:
             return self.is_shaded(corner)
         x, y = fine
@@ -114,11 +115,11 @@ class Piece:
         return False
 
     def is_shaded(self, corner):
-        """Does the segment from the origin meet the polygon? Exactly: s V on the left of each side, 0 <= s <= 1."""
+        """Does the segment from the origin meet the polygon? Exact: s V is on the left of each side, 0 <= s <= 1."""
         x, y, w = corner
         if len(self.corners) < 3:
             return meets_segment(self.corners, x, y, w)
-        low, high = (0, 1), (1, w)  # of s / w
+        low, high = (0, 1), (1, w)  # the interval of s / w
         for px, py, ex, ey, _ in self.edges:
             slope = FINE * (ex * y - ey * x)
             level = ex * py - ey * px
@@ -134,8 +135,8 @@ class Piece:
 
 
 def meets_segment(ends, x, y, w):
-    """Is s (x, y) on the segment for some 0 <= s <= 1 / w? w None: however great s is. One that looks at the origin
-    endways is not told."""
+    """Is s (x, y) on the segment for some 0 <= s <= 1 / w? w None: for any s. For a segment on a line through the
+    origin the answer is no."""
     if len(ends) < 2:
         return False
     (px, py), (qx, qy) = ends
@@ -145,7 +146,7 @@ def meets_segment(ends, x, y, w):
         slope, level = -slope, -level
     if slope == 0 or level <= 0 or (w is not None and level * w > slope):
         return False
-    # The place is level / slope times (x, y): its share of the way from p to q.
+    # The place is level / slope times (x, y); its position between p and q.
     along = (level * x - px * slope) * ex + (level * y - py * slope) * ey
     return 0 <= along <= slope * (ex * ex + ey * ey)
 
@@ -156,7 +157,7 @@ def fine_of(corner):
 
 
 def halves(places):
-    """A line across the longest extent of these places, in the middle."""
+    """A line that halves the longest extent of these places."""
     n = len(places)
     best, along = -1, (1, 0)
     for i in range(n):
@@ -203,7 +204,7 @@ def root_above(n, d):
 
 
 def is_nowhere(lines):
-    """Is there no place with a X + b Y < c for all of these (at most three) lines? Exactly, by Farkas."""
+    """Is there no place with a X + b Y < c for all of these (at most three) lines? Exact, by the lemma of Farkas."""
     from itertools import combinations
     for p, q in combinations(lines, 2):
         if p[0] * q[1] == p[1] * q[0] and p[0] * q[0] + p[1] * q[1] < 0:

@@ -1,7 +1,8 @@
-"""Verdicts that need no proof of the file's: decided here, from the layer, the barriers and the options alone.
+"""Verdicts for which the file needs no proof: decided here, from the layer, the barriers and the options alone.
 
-`fixed`, `same_block` and `kept` are looked up. That a pair alone cannot keep the gap within its limits, or not without a jump, is
-shown by covering all relative moves that the limits leave with what is forbidden: convex pieces, as in trees (cover.py).
+`fixed`, `same_block` and `kept` are looked up. That a pair alone cannot keep the gap within its limits, or not
+without a jump, is shown by covering all relative moves within the limits with forbidden sets: convex pieces, as in
+trees (cover.py).
 """
 from fractions import Fraction
 
@@ -35,7 +36,7 @@ def check(problem, told):
 
 
 def is_too_near(problem, a, b):
-    """For the places at the start."""
+    """Does the pair have the conflict, at the original places?"""
     p, q = (problem.whole(k) for k in ((a, b) if problem.whole(a).area else (b, a)))
     owed = problem.required(a, b)
     return plane.interiors_meet(p, q) or (owed > 0 and plane.nearer(p, q, owed))
@@ -54,7 +55,8 @@ def is_kept(problem, a, b):
 
 
 def is_shut(problem, a, b, jumps):
-    """Is every relative move within the limits forbidden to the two; with jumps, too, whichever members jump?"""
+    """Is every relative move within the limits forbidden to the two? With `jumps` also by the rule against jumps, for
+    any of their members."""
     limits = [limit_of(problem, k) for k in (a, b)]
     reach = None if None in limits else sum(map(Fraction, limits)) * problem.lattice.unit
     if reach is None and not jumps:
@@ -70,8 +72,8 @@ def is_shut(problem, a, b, jumps):
 
 
 def farthest_near(problem, a, b):
-    """No relative move that is longer along x or y leaves the two too near; of longer ones shadows forbid all that they do at
-    this length."""
+    """A length such that no relative move that is longer along x or y leaves the two too near. A longer move is in a
+    shadow if the move of this length in the same direction is."""
     p, q, owed = problem.whole(a).box, problem.whole(b).box, problem.required(a, b)
     return max(max(abs(p[x + 2] - q[x]), abs(p[x] - q[x + 2])) for x in (0, 1)) + owed + 1
 
@@ -131,7 +133,7 @@ def covers(region, reach, pieces):
 
 
 def is_free(middle, far, pieces):
-    """Is that place, in FINE parts of the lattice, one that the limits leave, and in no piece?"""
+    """Is that place, in FINE parts of the lattice, within the limits, and in no piece?"""
     if far is not None and middle[0] ** 2 + middle[1] ** 2 > far * FINE * FINE:
         return False
     return not any(p.holds(middle, (*middle, FINE)) for p in pieces)

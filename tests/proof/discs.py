@@ -1,9 +1,9 @@
-"""The corners of the program's discs, from how they are documented (src/shape/standard.c), and asked of the circle.
+"""The corners of the program's discs, as documented in src/shape/standard.c, and compared with the circle.
 
-Corner i of n lies at i / n of a turn, the first on the x axis, rounded to a multiple of 2^-26 of the power of two above
-the radius. Corners of an inside disc lie in the disc, and on the axes at exactly the radius; a corner outside moves
-inwards by a growing share of the radius until it lies in the disc. For the other kind the lines of edges lie outside
-the disc, and all corners move outwards together.
+Corner i of n lies at i / n of a turn, the first on the x axis, rounded to a multiple of 2^-26 of the power of two
+above the radius. Corners of an inside disc lie in the disc, and on the axes at exactly the radius; a corner outside
+moves inwards by a growing share of the radius until it lies in the disc. For the other kind the lines of edges lie
+outside the disc, and all corners move outwards together.
 """
 import math
 from fractions import Fraction
@@ -21,7 +21,7 @@ def unit_corner(i, n):
 
 
 def away(value):
-    """To the nearest whole number, halves away from 0."""
+    """To the nearest integer, halves away from 0."""
     whole = math.floor(abs(value) + 0.5) if abs(value) < 2 ** 52 else abs(value)
     return math.copysign(whole, value)
 
@@ -36,7 +36,7 @@ def corner_at(i, n, radius, factor, unit):
 
 
 def shares(n):
-    """How much is given, in 2^-52: a try after the other."""
+    """The successive shares by which corners are moved, in units of 2^-52."""
     give = 0.0
     while give < 2.0 ** 40:
         yield give * 2.0 ** -52
@@ -44,7 +44,7 @@ def shares(n):
 
 
 def inside(radius, n):
-    """Doubles."""
+    """The corners of an inside disc, as doubles."""
     def corner(i):
         if 0 in unit_corner(i, n):
             return tuple(radius * v + 0.0 for v in unit_corner(i, n))
@@ -54,7 +54,7 @@ def inside(radius, n):
 
 
 def outside(radius, n):
-    """No edge's line is nearer to the centre than the radius."""
+    """Is no edge's line nearer to the centre than the radius?"""
     ideal = 1 / math.cos(math.pi / n)
     tries = ([corner_at(i, n, radius, ideal * (1 + give), unit_of(radius, n)) for i in range(n)] for give in shares(n))
     return next(corners for corners in tries if is_outside([tuple(map(Fraction, p)) for p in corners], Fraction(radius) ** 2))
@@ -68,12 +68,13 @@ def is_outside(corners, square):
     return True
 
 
-COSINES = (1.0, 0.9238, 0.7071, 0.3826, 0.0)  # of multiples of pi / 8, not above them
+COSINES = (1.0, 0.9238, 0.7071, 0.3826, 0.0)  # sines of multiples of pi / 8, rounded down
 
 
 def within(tolerance):
-    """The polygon by which a feature is grown that another lies in up to the tolerance (src/displacement/layer/grown_shape.c): corners
-    are multiples of a 64th of the power of two above the tolerance, cut towards the middle."""
+    """The polygon by which a feature is dilated to test whether another lies in it up to the tolerance
+    (src/displacement/layer/grown_shape.c): its corners are multiples of a 64th of the power of two above the
+    tolerance, rounded towards the centre."""
     unit = math.ldexp(1.0, math.frexp(tolerance)[1] - 6)
     steps = [math.floor(tolerance / unit * c) * unit for c in COSINES]
     quarter = list(zip(steps, steps[::-1]))[:4]

@@ -1,4 +1,5 @@
-"""What the cases of false_proofs.py are made of: layers of few features, written without GDAL, and the lines of a proof about them.
+"""Building blocks for the cases of false_proofs.py: layers of few features, written without GDAL, and the lines of a
+proof about them.
 
 A layer is {FID: feature}; a feature has `polygons` (lists of rings), perhaps `lines`, and attributes.
 """
@@ -72,7 +73,7 @@ def conflict(a, b, reason="unresolved", kind="overlap", blocked_by=(), **more):
 
 
 def body(problem, key, **more):
-    """A block, given by one of its members, or a barrier."""
+    """A body: the block of one of its members, or a barrier."""
     if isinstance(key, str):
         return {"barrier": key, "weight": None, "shift": [0, 0], **more}
     members = problem.block(key)
@@ -121,7 +122,7 @@ def leaf(*forces, **more):
 
 def chain(questions, last, on=0):
     """A verdict's nodes. Way `on` of each question leads to the next one, and that of the last question to the leaf
-    `last`. Each other way leads to a leaf by itself, or to the one that is given with it: (n, d, leaf)."""
+    `last`. Each other way leads to a leaf of its own, or to the one that is given with it: (n, d, leaf)."""
     nodes, leaves, first_leaf = [], [last], len(questions)
     for k, told in enumerate(questions):
         ways = []
@@ -144,5 +145,5 @@ def ways_out(left, bottom, right, top):
 
 
 def first(ways, k):
-    """With way k before the others."""
+    """The same ways, with way k first."""
     return [ways[k], *ways[:k], *ways[k + 1:]]

@@ -1,4 +1,4 @@
-"""False bounds for false_proofs.py: trees and prices, each with one thing that does not follow."""
+"""False bounds for false_proofs.py: trees and prices, each with one step that does not follow."""
 from drafts import body, box, conflict, cut, empty, line, node, part, piece, proof, tree
 from false_proofs import STUMBLES, Case
 
@@ -25,7 +25,8 @@ case("piece-of-others", "another pair", SQUARES, lambda problem: proof(problem, 
     problem, [3, 1, 2], 0.9, [piece(1, 2, 1, 2, part(SQUARES[1]), part(SQUARES[2]))], empty([0]))]), APART,
     "--no-blocks --weight-field w")
 
-# A single child that covers half of its parent's moves; a cut beyond a limit; a distance owed by more than two.
+# A single child that covers half of its parent's moves; a cut beyond a limit; a distance required of more than two
+# bodies.
 HALF = [node(None), node(0, [cut("cone", [1, 0], 1000)], [[0, 1]])]
 case("cone-of-an-only-child", "no child's first cut", SQUARES, lambda problem: proof(problem, trees=[tree(problem, [1, 2], 100, [], HALF)]),
      APART)
@@ -107,7 +108,7 @@ case("shadow-without-anchor", "without the anchor", {1: WALL, 2: HOUSE}, lambda 
 # ---- Prices: two houses that overlap by 4, so that each has to move by 2
 
 PAYERS = {1: box(-8, 0, 2, 10), 2: box(-2, 0, 8, 10)}
-ROW = [0, 0, 140, 280, 420, 280, 140]  # from the fourth column on, these prove 5.8
+ROW = [0, 0, 140, 280, 420, 280, 140]  # from the fourth column on, these prices prove 5.8
 PRICES = {"side": 1, "unit": 2 ** -10, "x": -3, "y": -2, "columns": 7, "rows": [[]] * 2 + [ROW] * 11 + [[]] * 2}
 
 
@@ -135,7 +136,8 @@ case("prices-paid-twice", "there twice", {1: box(-2, 0, 2, 10)}, lambda problem:
 
 
 def against_each_other(problem):
-    """Prices of half the weight, shifted as the houses go; and a tree of the other half, shifted against that."""
+    """Prices with half of the weight, shifted in the direction of the moves; and a tree with the other half, shifted
+    in the opposite direction."""
     def halves(shift):
         return [body(problem, 1, weight=0.5, shift=[-shift, 0]), body(problem, 2, weight=0.5, shift=[shift, 0])]
     pieces = [piece(0, 1, 1, 2, part(PAYERS[1]), part(PAYERS[2]))]

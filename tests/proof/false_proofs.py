@@ -1,11 +1,13 @@
-"""False proofs, made from scratch with knowledge of the checker. Each has to be refused, with a message about its defect.
+"""False proofs, made from scratch with knowledge of the checker. Each has to be refused, with a message about its
+defect.
 
     python3 false_proofs.py DIRECTORY [NAME ...]
 
-Unlike forgeries.py this does not change valid files: each case has a layer, options and lines of its own, and breaks one rule only. That
-the proof is false is shown as well. Either there are moves that keep all demands of the claim and cost less than the bound, or solve a
-conflict that is claimed to have no solution (judge_places.py decides that); or the claimed fact is looked up. In some cases only the
-form is wrong, and a checker without the test in question would end in an exception of Python. DIRECTORY gets the layers.
+Unlike forgeries.py this does not change valid files: each case has a layer, options and lines of its own, and
+violates one rule only. That the proof is false is shown as well. Either there are moves that keep all requirements of
+the claim and cost less than the bound, or resolve a conflict that is claimed to have no solution (judge_places.py
+decides that); or the claimed fact is looked up. In some cases only the form is wrong, and a checker without the test
+in question would end in an exception of Python. DIRECTORY receives the layers.
 """
 import os
 import sys
@@ -20,9 +22,9 @@ STUMBLES = "the form"
 
 
 class Case:
-    """name; words of the refusal; layer (FID: feature); barriers (name: features); options, as the command has them; lines(problem); moves
-    (FID: move) that contradict the claim, a function of the problem that looks it up, or STUMBLES; the number of the false conflict, None
-    if the bound is false."""
+    """name; words of the refusal; layer (FID: feature); barriers (name: features); options, as of the command;
+    lines(problem); moves (FID: move) that contradict the claim, or a function of the problem that looks it up, or
+    STUMBLES; the number of the false conflict, None if the bound is false."""
 
     def __init__(self, name, refusal, layer, lines, moves, options="", barriers=None, conflict=None):
         self.name, self.refusal, self.layer, self.lines_of, self.moves = name, refusal, layer, lines, moves
@@ -56,7 +58,7 @@ class Case:
         return self.allows(told, moves) and (told is not None or cost < Fraction(self.lines[0]["lower_bound"]))
 
     def allows(self, told, moves):
-        """Do these moves keep all that the bound, or the verdict, is about?"""
+        """Do these moves satisfy all requirements that the bound, or the verdict, is about?"""
         problem, places = self.problem, Places(self.problem)
         places.list_conflicts([line for line in self.lines if "conflict" in line and line is not told])
         bodies = list(dict.fromkeys(problem.block(k) for k in problem.place if k not in problem.skipped))
@@ -74,8 +76,8 @@ class Case:
                      for v, w in zip(moves.get(q[0], (0, 0)), moves.get(p[0], (0, 0))))
 
     def pair_allows(self, told, places, p, q, u):
-        """The moves that the reason allows: for the pair alone, with sides, without jumps, or with all unlisted pairs.
-        """
+        """Are the moves allowed by the question that the reason answers: for the pair alone, with sides, without
+        jumps, or with all unlisted pairs?"""
         if told is None or told["reason"] == "no_room":
             return places.bodies_may(p, q, u)
         a, b = told["a"], told["b"]

@@ -1,4 +1,4 @@
-"""False verdicts for false_proofs.py: each says of a pair that has a solution that it has none."""
+"""False verdicts for false_proofs.py: each claims that a pair has no solution although it has one."""
 import math
 
 from drafts import (asked, box, chain, conflict, first, leaf, line, part, proof, question, ring, ways_out)
@@ -54,12 +54,12 @@ case("force-of-another-case", "another case", OVERLAPPING, [conflict(1, 2, "max_
     leaf((0, 0), (0, 1))))], OUT)
 case("way-that-is-left-out", "leave a direction out", OVERLAPPING, [conflict(1, 2, "max_shift", proof=chain(
     [asked(1, 2, part(OVERLAPPING[1]), part(OVERLAPPING[2]), BOTH_WAYS[1:], clearance=0)], leaf((0, 0))))], OUT)
-ASIDE = {3: box(100, 0, 110, 10), 4: box(101, 0, 111, 10)}  # which have all the room that they want
+ASIDE = {3: box(100, 0, 110, 10), 4: box(101, 0, 111, 10)}  # which have enough room
 AWAY = {4: (9, 0)}
 
 
 def aside(name, refusal, layer, questions, last, listed=(), **more):
-    """A pair that another feature is claimed to block."""
+    """A pair that another feature is falsely claimed to block."""
     blamed = sorted({k for q in questions for k in (q["a"], q["b"])})
     case(name, refusal, {**layer, **ASIDE}, [conflict(3, 4, "no_room", blocked_by=blamed, proof=chain(questions, last)), *listed], AWAY,
          **more)
@@ -81,7 +81,7 @@ THERE, BACK = ways_out(-12, -10, 8, 10), ways_out(-8, -10, 12, 10)
 
 
 def there_and_back():
-    """The second question names the two the other way round; then the opposite slack takes them apart."""
+    """The second question names the two in the other order; then the opposite slack separates them."""
     nodes = [None] * 5
     for k, (n, d) in enumerate(THERE):
         ways = []
@@ -125,12 +125,13 @@ RING = {"polygons": [[[(3, 1), (11, 1), (11, 9), (3, 9)], [(4, 2), (10, 2), (10,
 
 
 def shut_in():
-    """A house that is to leave the first one by 8 to the right or 10 up or down, out of a ring about its anchor."""
+    """A house that has to move away from the first one by 8 to the right or 10 up or down, out of a ring around its
+    anchor."""
     layer = {1: box(0, 0, 10, 10, m=0), 2: box(2, 0, 12, 10, m=11), 3: RING}
     sides = [(part(box(10, 1, 11, 9)), (1, 0), 8), (part(box(3, 8, 11, 9)), (0, 1), 10), (part(box(3, 1, 11, 2)), (0, -1), 10)]
     ways = [(n, d, 1 + k) for k, (_, n, d) in enumerate(sides)] + [((-1, 0), 12, 4)]
     nodes = [question(1, 2, part(layer[1]), part(layer[2]), ways, clearance=0), None, None, None, leaf((0, 3))]
-    for k, (wall, (x, y), _) in enumerate(sides):  # beyond the wall, between two lines of slope 4/3 to its normal
+    for k, (wall, (x, y), _) in enumerate(sides):  # beyond the wall, between two lines at a slope of 4/3 to its normal
         ways = [((-x, -y), -3), ((-4 * x - 3 * y, -4 * y + 3 * x), 0), ((-4 * x + 3 * y, -4 * y - 3 * x), 0)]
         nodes[1 + k] = question(3, 2, wall, [[7, 5]], [(n, d, len(nodes) + m) for m, (n, d) in enumerate(ways)], shadow=True)
         nodes += [leaf((0, k), (1 + k, 0)), *(leaf((0, k, 5), (1 + k, m)) for m in (1, 2))]
@@ -142,7 +143,8 @@ case("way-of-a-bystander", "a bystander", LAYER, [conflict(1, 2, "jump", blocked
 
 
 def past_a_wall(name, refusal, reason, wall, ways, moves):
-    """A house that has to go 4 to the right, past a wall that is of the same feature as what is on its left."""
+    """A house that has to move by 4 to the right, past a wall that belongs to the same feature as what is on its
+    left."""
     layer = {1: {"polygons": [box(-20, -50, 4, 60)["polygons"][0], wall["polygons"][0]], "m": 0}, 2: box(0, 0, 10, 10, m=12)}
     about = [(n, 0, leaf((0, 0, -n[0]), (1, 1 + k))) for k, n in enumerate(ways)]
     nodes = [asked(1, 2, part(layer[1]), part(layer[2]), ways_out(-30, -50, 4, 50), clearance=0),
@@ -219,7 +221,7 @@ def chord(name, refusal, corners, at, moves):
 chord("chord-before-the-corner", "before the corner", [(6, 66), (40, 5), (6, -56)], 8, {2: (8, 0)})
 chord("chord-beyond-the-sides", "no side shadows", [(10, 5.125), (10, 5), (10, 4.875)], 11, {2: (8, 1)})
 
-# Two sides with ends on one ray from the anchor, one above the ray and one below it, far out. The chord meets the ray
+# Two sides with ends on one ray from the anchor, one above the ray and one below it, far away. The chord meets the ray
 # between the two ends: just below the ray the house passes the end of the first side, and no side is behind it.
 LAYER = {1: box(-20, -50, 12, 60, m=0), 2: box(4, 4, 6, 6, m=9)}
 case("chord-between-two-ends", "before the corner", LAYER, [conflict(1, 2, "no_room", blocked_by=["bow:1", "bow:2"], proof=chain(

@@ -1,12 +1,12 @@
 # shellcheck shell=bash disable=SC1091
-# Runs whose files of --proof are to be forged, on layers of at most ten features; together they have every member of the form. Sourced after
-# tests/cli/lib.sh.
+# Runs whose files of --proof are forged, on layers of at most ten features; together they have every member of the
+# format. Sourced after tests/cli/lib.sh.
 export PYTHONDONTWRITEBYTECODE=1
 here=$SUNDER_SOURCE/tests/proof
 . "$here/layers.sh"
 runs=()
 
-# forged NAME SOURCE OPTIONS...: one more run whose file of --proof is to be forged.
+# forged NAME SOURCE OPTIONS...: adds a run whose file of --proof will be forged.
 forged() {
     local name=$1 source=$2
     shift 2
@@ -16,7 +16,7 @@ forged() {
         "${only:-}" "$name.jsonl" "$source" --layer buildings --result "$name.o.gpkg" "$@")")
 }
 
-# write_runs FILE: those that were added since the last time.
+# write_runs FILE: writes the runs that were added since the last call.
 write_runs() {
     (IFS=,; echo "[${runs[*]}]") >"$1"
     runs=()

@@ -1,14 +1,15 @@
-"""Whatever a forger changes in a file of --proof is refused in a sentence, or claims no more than is true:
+"""Is every change of a file of --proof refused with a message, or harmless, that is, are all claims still true?
 
     python3 forgeries.py RUNS [--draw N] [--seed S] [--need-all] [--own-alone]
 
-RUNS: a JSON list of runs, each with `proof` and the `words` of check_proof.py (--result among them), perhaps `only`: words of the
-lines that are forged. In each file every number is changed: up and down, by a little and by much, to zero, negative,
-subnormal, huge, infinite, no number. Every line, member and element is dropped, doubled, swapped with the next,
-emptied, or replaced by one of another type. Indices become -1 and the count. N of all of these are drawn by the seed, or
-all are tried. The file is checked against another layer, and with other options; lines of another run on the same layer
-are put into it. What is accepted is judged: the conflicts that are claimed, the blocks and the sum of the bounds here,
-what each line says by judge.py. With --need-all the runs together have to use every member and every kind of cut that the form has.
+RUNS: a JSON list of runs, each with `proof` and the `words` of check_proof.py (including --result), perhaps `only`:
+words of the lines that are forged. In each file every number is changed: up and down, by a little and by much, to
+zero, negative, subnormal, huge, infinite, not a number. Every line, member and element is removed, doubled, swapped
+with the next, emptied, or replaced by one of another type. Indices become -1 and the count. N of all of these are
+drawn by the seed, or all are tried. The file is checked against another layer, and with other options; lines of
+another run on the same layer are put into it. What is accepted is judged: this script judges the claimed conflicts,
+the blocks and the sum of the bounds, judge.py judges each line. With --need-all the runs together have to use every
+member and every kind of cut of the format.
 """
 import argparse
 import json
@@ -21,7 +22,7 @@ import check_proof
 import form
 from judge import Judge
 
-MARK = "\1"  # stands where what JSON cannot say is written, or what it would not write
+MARK = "\1"  # marks places at which text is written that JSON does not allow, or would not write that way
 WORDS = {"NaN": "NaN", "Infinity": "Infinity", "-Infinity": "-Infinity", "1e999": "1e999", "-1e400": "-1e400",
          "many digits": "9" * 5000}
 
@@ -62,7 +63,7 @@ class Run:
                 yield k, (), name
 
     def make(self, k, path, name):
-        """The lines, as JSON has them or, where they are changed, as text."""
+        """The lines as JSON or, if they are changed, as text."""
         lines = list(self.lines)
         if name == "more than the result":
             lines[k] = with_place(lines[k], path, math.nextafter(float(self.cost_of(lines[k])), math.inf))
@@ -86,8 +87,8 @@ class Run:
         return self.judge.cost_of(line) if "bodies" in line else self.cost
 
     def wrong_with(self, lines):
-        """Returns (None if the lines are refused or claim no more than is true, otherwise what is wrong; whether they
-        are accepted)."""
+        """Returns (None if the lines are refused or all claims are true, otherwise what is wrong; whether they are
+        accepted)."""
         status, said = check_proof.answer(self.checker, lambda: read_lines(lines))
         if status:
             in_words = said.startswith("refused: ") and "not in the form of a proof" not in said
@@ -122,7 +123,8 @@ def key(conflict):
 
 
 def counted(lines, claim):
-    """With numbers of conflicts and trees that are those of the lines; claim: and with the sum of their bounds."""
+    """The head after its numbers of conflicts and trees were adapted to the lines; claim: also the sum of their
+    bounds."""
     told = json.loads(json.dumps(lines))
     if told and "sunder_proof" in told[0]:
         told[0]["conflicts"] = sum("conflict" in t for t in told[1:])
@@ -150,7 +152,7 @@ def nodes_of(value, path=()):
 
 
 def changes_of(value, sizes):
-    """Names of changes. A change after which the value is the same is no forgery, and is skipped when it is made."""
+    """Names of changes. A change that leaves the value the same is skipped when it is made."""
     if type(value) in (int, float):
         found = ["up", "down", "more", "less", "twice", "half", "minus", "zero", "least", "least below", "most", "most below",
                  "true", "text", "null", "list", *WORDS]
@@ -198,7 +200,7 @@ def changed(line, path, name):
 
 
 def with_place(line, path, value):
-    """A copy along the path."""
+    """A copy of the objects along the path."""
     if not path:
         return value
     found = line.copy()
@@ -209,12 +211,12 @@ def with_place(line, path, value):
 # ---- Other layers, other options
 
 def other_options(words):
-    """Words of a run that is another."""
+    """Options for another run."""
     words = list(words)
     for extra in (["--gap", "0.75"], ["--gap", "2.5"], ["--max-shift", "0.25"], ["--max-shift", "1000"], ["--fixed-where", "fid = 1"],
                   ["--ignore-where", "fid = 1"], ["--no-blocks"], ["--allow-jumps"], ["--contained", "ignore"], ["--weight", "area"],
                   ["--touch-tolerance", "0.01"], ["--layer", "nowhere"]):
-        yield words + extra  # the last of an option counts
+        yield words + extra  # if an option is given twice, the last one counts
     for k, word in enumerate(words):
         if word == "--barrier":
             yield words[:k] + words[k + 2:]
@@ -266,8 +268,8 @@ def wrong_with_options(run, words):
 
 
 def asks_no_less(run, own, other):
-    """Do the other options allow no more than its own, at no lower cost? Then a statement that holds for the own
-    options holds for these."""
+    """Do the other options allow no more moves than the original ones, at no lower cost? Then a statement that is
+    true for the original options is true for these."""
     def most(limit):
         return math.inf if limit is None else limit
     text = "".join(run.text)
@@ -279,7 +281,7 @@ def asks_no_less(run, own, other):
 
 
 def members_of(runs):
-    """Every member of every kind of object, without places in lists."""
+    """Every member of every kind of object, without positions in lists."""
     return {".".join(str(s) for s in path if not isinstance(s, int)) for run in runs for line in run.lines
             for path, _ in nodes_of(line) if path}
 

@@ -1,8 +1,9 @@
-"""The form of a file of --proof (docs/PROOF.md, section 2): its lines, the members of each, and what kind of value each is.
+"""The format of a file of --proof (docs/PROOF.md, section 2): its lines, the members of each, and the type of each
+value.
 
-The result has numbers as doubles, indices and FIDs as whole numbers, and no unknown members. So the checks of claims
-need not test again whether a member is there, or whether `true` was written for a number. Indices are
-no less than 0; whether they are in range is asked where they are used (index()).
+The result has numbers as doubles, indices and FIDs as integers, and no unknown members. So the checks of claims need
+not test again whether a member exists, or whether `true` was written for a number. Indices are not negative; whether
+they are in range is checked where they are used (index()).
 """
 import json
 import math
@@ -14,11 +15,11 @@ LEAST_FID, MOST_FID = -1 << 63, (1 << 63) - 1
 
 
 class Refused(Exception):
-    """Something in the proof does not hold."""
+    """A claim of the proof is not valid."""
 
 
 class NotRead(Exception):
-    """The layer, the barriers or the options are beyond this checker."""
+    """This checker cannot handle the layer, the barriers or the options."""
 
 
 def demand(condition, *words):
@@ -27,7 +28,7 @@ def demand(condition, *words):
 
 
 def shown(value):
-    """A fraction in a sentence."""
+    """A fraction as text for messages."""
     try:
         return float(value)
     except OverflowError:
@@ -126,7 +127,7 @@ def pair_of(first, second):
 
 
 def members(needed, optional=()):
-    """An object that has all of the first, perhaps some of the second, and nothing else."""
+    """An object that has all members of the first set, perhaps some of the second, and no others."""
     optional = dict(optional)
 
     def kind(value, where):
@@ -140,7 +141,7 @@ def members(needed, optional=()):
 
 
 def either(key, this, that):
-    """The one form where the object has that key, else the other."""
+    """The first form if the object has that key, otherwise the second."""
     return lambda value, where: (this if type(value) is dict and key in value else that)(value, where)
 
 
@@ -211,9 +212,9 @@ def read_line(text):
 
 
 class Proof:
-    """The content of a file: head; blocks (lists of FIDs); conflicts as the lines have them, without their proofs.
-    Verdicts and trees are read one at a time, since files may be larger than memory. lines: an iterable of JSON
-    objects, read twice. known: the content of lines that were read before, by id()."""
+    """The content of a file: head; blocks (lists of FIDs); conflicts as in the lines, without their proofs. Verdicts
+    and trees are read one at a time, since files may be larger than memory. lines: an iterable of JSON objects, read
+    twice. known: the content of lines that were read before, by id()."""
 
     def __init__(self, lines, known):
         self.lines, self.known, self.head = lines, known, None
@@ -260,7 +261,7 @@ def without_proof(conflict):
 
 
 class File:
-    """The lines of a file, as JSON has them; they are read whenever they are gone through."""
+    """The lines of a file, as JSON objects; the file is read again in each iteration."""
 
     def __init__(self, path):
         self.path = path

@@ -1,4 +1,4 @@
-"""Features of a GeoPackage, by its SQLite tables and well-known binary; nothing but Python's own library is needed."""
+"""Features of a GeoPackage, from its SQLite tables and well-known binary, with Python's standard library only."""
 import re
 import sqlite3
 import struct
@@ -7,11 +7,11 @@ from form import NotRead
 
 
 def read_geometry(blob, at=0):
-    """(polygons, lines, end): polygons as lists of open rings; lines, and points as lines of one place."""
+    """(polygons, lines, end): polygons as lists of open rings; lines, and points as lines of one vertex."""
     order = "<" if blob[at] else ">"
     kind, = struct.unpack_from(order + "I", blob, at + 1)
     at += 5
-    if kind & 0x20000000:  # an SRID of its own
+    if kind & 0x20000000:  # the geometry has its own SRID
         at += 4
     size = 2 + bool(kind & 0x80000000) + bool(kind & 0x40000000)
     kind &= 0x0FFFFFFF
@@ -88,7 +88,7 @@ class Crs:
         self.name = f"{organization.upper()}:{code}"
 
     def is_same(self, other):
-        """Or taken for the same, where one is not known."""
+        """Are the two the same? Also true if one of them is unknown."""
         return not (self.known and other.known) or self.name == other.name or self.definition == other.definition
 
     def is_geographic(self):

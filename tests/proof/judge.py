@@ -1,14 +1,15 @@
-"""Is what an accepted line says true? Each statement is put to a search for what contradicts it.
+"""Is what an accepted line claims true? For each statement it searches for a contradiction.
 
-check_proof.py decides by proofs; here places are tried. Doubles propose a place, integers and fractions decide whether it
-contradicts a statement, so what is found is a contradiction, whatever was rounded. What is not found proves nothing. No code is
-shared with what checks trees, prices and verdicts; the layer and the list of conflicts are those of the checker's problem.
+check_proof.py verifies proofs; this file tries places. Doubles propose a place, integers and fractions decide whether
+it contradicts a statement, so a contradiction that is found is real, whatever was rounded. If none is found, nothing
+is proved. It shares no code with the verification of trees, prices and verdicts; the layer and the list of conflicts
+are those of the checker's problem.
 
 - A tree, or prices: the written result is one of the placements that its bound is about.
-- A group: no more than its bodies cost in the result.
-- A member of a body: what the program said of it. A piece: places that it forbids are forbidden.
-- A hull or an empty node: no allowed place is taken away. A disc, a leaf: no moves within the cuts above cost less (judge_moves.py).
-- A question of a verdict: no allowed place is behind all ways. A leaf: no moves within the limits keep the ways that lead to it.
+- A group: its bound is no more than the cost of its bodies in the result.
+- A member of a body: compared with what the program said about it. A piece: places that it forbids are forbidden.
+- A hull or an empty node: it excludes no allowed place. A disc, a leaf: no moves within the cuts above cost less (judge_moves.py).
+- A question of a verdict: no allowed place is behind all ways. A leaf: no moves within the limits satisfy the ways that lead to it.
 """
 import math
 import random
@@ -18,8 +19,8 @@ from form import shown
 from judge_moves import cheapest, meeting
 from judge_places import Places, polygon_between
 
-TRIES = 10       # places that are drawn, for a statement
-MOST_NODES = 10  # nodes that are asked about, of those that a change shakes
+TRIES = 10       # random places tried for a statement
+MOST_NODES = 10  # nodes tested, of those that a change affects
 
 
 class Judge:
@@ -65,7 +66,7 @@ class Judge:
         if any(shares[body] > w for body, w in own.items()):
             return "shares of a body that are more than its weight"
         if any(b["shift"] != [0, 0] for t in trees for b in t["bodies"]):
-            return None  # what such trees prove together is asked of the sum
+            return None  # what such trees prove together is tested for the sum
         cost = sum(w * square(self.move(body)) for body, w in own.items())
         bound = sum(Fraction(t["bound"]) for t in trees)
         return f"a group of at least {shown(bound)}, which costs {shown(cost)}" if bound > cost else None
@@ -90,7 +91,7 @@ class Judge:
         return self.wrong_with_nodes(tree, before) if "nodes" in line and before and "nodes" in before else None
 
     def cost_of(self, line):
-        """In the result, by the weights and shifts that the line has."""
+        """The bound compared with the cost in the result, by the weights and shifts of the line."""
         tree, total = TreeOf(line), Fraction(0)
         for body, w, a in zip(tree.keys, tree.weights, tree.shifts):
             if w is not None:
@@ -110,7 +111,7 @@ class Judge:
             if shaken or k >= len(before["pieces"]) or piece != before["pieces"][k]:
                 if self.contradicts_piece(tree, piece):
                     return f"piece {k} forbids what is allowed"
-        own, changed, cut = [], set(), set()  # nodes that are others; that say something else; of which regions are others
+        own, changed, cut = [], set(), set()  # nodes that are new; that claim something else; whose regions differ
         for k, node in enumerate(line["nodes"]):
             old = before["nodes"][k] if k < len(before["nodes"]) and not shaken else {}
             if node["parent"] in cut or any(node[key] != old.get(key) for key in ("parent", "cuts")):
@@ -172,7 +173,7 @@ class Judge:
         return -nx * t[0] - ny * t[1] < Fraction(cut["d"])
 
     def leaves_out(self, cones):
-        """Places, of each pair that is named, that miss a side of each."""
+        """Relative places of each named pair that violate a side of each."""
         drawn = random.Random(1)
         sides = [[((c["i"], c.get("j")), *map(Fraction, c["n"]), Fraction(c["d"])) for c in own] for own in cones]
         largest = min(max([abs(d) for own in sides for *_, d in own] + [1]), 10 ** 100)
@@ -184,7 +185,8 @@ class Judge:
         return False
 
     def finds_place(self, tree, i, j, earlier, cut):
-        """A place that two bodies may have to each other, within the cuts on them, so cheap, and beyond the one cut."""
+        """A relative place that two bodies may have within the cuts on them, at a cost below the bound, and beyond
+        that one cut."""
         own = [(*turned(c, i, j), c["d"]) for c in earlier if {c["i"], c.get("j")} == {i, j}]
         beyond = [] if cut is None else [(-cut["n"][0], -cut["n"][1], -cut["d"])]
         centre, reach = tree.reach(i, j)
@@ -197,7 +199,7 @@ class Judge:
         return False
 
     def contradicts_piece(self, tree, piece):
-        """A place that the piece forbids and its bodies may have."""
+        """A place that the piece forbids although its bodies may have it."""
         i, j = piece["i"], piece["j"]
         if piece["a"] not in tree.keys[i] or piece["b"] not in tree.keys[j]:
             return True
@@ -242,7 +244,7 @@ class Judge:
         return None
 
     def finds_way_out(self, verdict, node):
-        """A place that the two of a question may have, and that no way leads to."""
+        """A place that the two bodies of a question may have, and that no way leads to."""
         ways = [(*w["n"], w["d"]) for w in verdict.ways(node)]
         if not verdict.asks_no_more(node):
             return True
@@ -269,7 +271,7 @@ class TreeOf:
         return [float(b - a) for a, b in zip(self.shifts[i], self.shifts[j])], self.bound * mass
 
     def finds_moves(self, cuts, beyond):
-        """Moves that keep the cuts, are beyond the last, and cost less than the bound."""
+        """Moves that satisfy the cuts, except for the last one, and cost less than the bound."""
         sides = [side_of(c) for c in cuts]
         if beyond is not None:
             terms, d = side_of(beyond)
@@ -278,7 +280,7 @@ class TreeOf:
 
 
 class VerdictOf:
-    """The kinds of questions that a conflict's words allow."""
+    """The kinds of questions that the reason of a conflict allows."""
 
     def __init__(self, line, places):
         self.line, self.nodes, self.places = line, line["proof"], places
@@ -299,7 +301,7 @@ class VerdictOf:
         return not node.get("slack") or depth <= Fraction(node["clearance"]) ** 2 * self.places.unit ** 2
 
     def is_near_beyond(self, within):
-        """Are the two too near each other somewhere, moved by more than that?"""
+        """Is there a place, moved by more than that, where the two are too near each other?"""
         a, b = self.line["a"], self.line["b"]
         steps = [(x, y) for x in range(-4, 5) for y in range(-4, 5) if max(abs(x), abs(y)) == 4]
         moves = [[int(within * self.places.unit * v / Fraction(math.hypot(*step))) for v in step] for step in steps]
@@ -341,7 +343,7 @@ class VerdictOf:
                     todo.append([*path[:-1], (path[-1][0], k), (way["next"], None)])
 
     def finds_moves(self, path):
-        """Searches for moves within the limits that keep the ways of a path, and none of the earlier ways."""
+        """Searches for moves within the limits that satisfy the ways of a path, and none of the earlier ways."""
         sides, resting = [], self.resting(path)
         for at, taken in path[:-1]:
             node = self.nodes[at]
@@ -351,7 +353,7 @@ class VerdictOf:
                 x, y = (sign * v for v in way["n"])
                 terms = [(body, s * x, s * y) for body, s in ((self.places.body(node["a"]), -1), (self.places.body(node["b"]), 1))
                          if not self.places.is_barrier(body[0]) and body != resting]
-                if node.get("slack"):  # if the two are named the other way round, it is the opposite
+                if node.get("slack"):  # if the two are named in the other order, the sign is opposite
                     turned_round = str(node["a"]) > str(node["b"])
                     slack = "slack", frozenset((node["a"], node["b"])), node["clearance"]
                     terms.append((slack, -x, -y) if turned_round else (slack, x, y))
@@ -359,7 +361,7 @@ class VerdictOf:
         return meeting(sides, self.limit)
 
     def resting(self, path):
-        """The body that two opposite lines hold where it stood."""
+        """The body that two opposite lines keep at its original place."""
         leaf, taken = self.nodes[path[-1][0]], dict(path[:-1])
         if "still" not in leaf or any(n not in taken or taken[n] != w for n, w in leaf["still"]):
             return None
@@ -409,7 +411,7 @@ def keeps(side, u):
 
 
 def side_of(cut):
-    """Terms (body, x, y) of a sum that is at least d."""
+    """The terms (body, x, y) of a sum, and d, which the sum has to reach at least."""
     (x, y), j = cut["n"], cut.get("j")
     return [(cut["i"], -x, -y)] + ([] if j is None else [(j, x, y)]), cut["d"]
 
@@ -422,7 +424,7 @@ def inner(drawn, corners):
 
 
 def tried(corners):
-    """Places of a convex polygon: near its corners, and any."""
+    """Places of a convex polygon: near its corners, and random ones."""
     drawn = random.Random(1)
     n = len(corners)
     if n < 3 or not all(math.isfinite(v) for c in corners for v in c):

@@ -1,6 +1,6 @@
-"""Moves of several bodies that keep linear sides: proposed in doubles by projections, decided in fractions.
+"""Moves of several bodies that satisfy linear constraints: proposed in doubles by projections, decided in fractions.
 
-A side is (terms, d): the sum of x t_x + y t_y over its terms (body, x, y) is at least d.
+A constraint (a side) is (terms, d): the sum of x t_x + y t_y over its terms (body, x, y) is at least d.
 """
 import math
 from fractions import Fraction
@@ -9,8 +9,8 @@ SWEEPS, ROUNDS, HAIR = 40, 8, 1e-9
 
 
 def cheapest(weights, shifts, sides, bound):
-    """Are there moves that keep all sides and cost less than bound, the sum of w |t - a|^2? A body without a weight is
-    fixed."""
+    """Are there moves that satisfy all constraints and cost less than `bound`, where the cost is the sum of w |t -
+    a|^2? A body without a weight is fixed."""
     floats = [([(k, float(x), float(y)) for k, x, y in terms if weights[k] is not None], float(d)) for terms, d in sides]
     w = [0.0 if v is None else float(v) for v in weights]
     a = [[float(v) for v in s] for s in shifts]
@@ -39,13 +39,13 @@ def cheapest(weights, shifts, sides, bound):
 
 
 def missing(side, t):
-    """How much more than the double of d it lacks, with a hair."""
+    """The amount that is missing to the double of d, plus a small margin."""
     terms, d = side
     return d + HAIR * (abs(d) + 1e-3) - sum(x * t[b][0] + y * t[b][1] for b, x, y in terms)
 
 
 def meeting(sides, limit):
-    """Are there moves within the limits (by body; None: none) that keep all sides?"""
+    """Are there moves within the limits (by body; None: unlimited) that satisfy all constraints?"""
     t = {body: [0.0, 0.0] for terms, _ in sides for body, _, _ in terms}
     floats = [([(b, float(x), float(y)) for b, x, y in terms], float(d)) for terms, d in sides]
     most = {body: limit(body) for body in t}

@@ -1,4 +1,5 @@
-"""Which places things may have to each other, by docs/PROOF.md, section 1, asked of one place at a time, in integers of the lattice."""
+"""Which relative places features and barriers may have, by docs/PROOF.md, section 1; decided for one place at a time,
+in integers of the lattice."""
 import math
 
 from exact import plane
@@ -43,7 +44,7 @@ class Places:
         return p.area and plane.interiors_meet(p, q)
 
     def stood(self, a, b):
-        """Returns (the square of the distance, or -1; the square of the least translation; whether one lay in the
+        """Returns (the square of the distance, or -1; the square of the least translation; whether one was inside the
         other)."""
         if (a, b) not in self.start:
             p, q = self.moved(a, b, (0, 0))
@@ -58,7 +59,7 @@ class Places:
         return math.inf if found is None else found
 
     def pair_may(self, a, b, u, kind):
-        """May b stand moved by u, beside a as it stood?"""
+        """May b be at its original place plus u, relative to a at its original place?"""
         p, q = self.moved(a, b, u)
         parted = not (p.area and plane.interiors_meet(p, q))
         if kind is None:
@@ -80,7 +81,7 @@ class Places:
     # ---- Ways
 
     def may_go(self, a, b, u):
-        """Is a relative move of b by u no jump, and no side crossed, for any members of their blocks?"""
+        """Is the relative move of b by u no jump, and does it cross no side, for any members of their blocks?"""
         if self.is_barrier(a) or self.is_barrier(b):
             feature, barrier, t = (b, a, u) if self.is_barrier(a) else (a, b, (-u[0], -u[1]))
             return barrier not in self.problem.sides or all(self.keeps_side(k, barrier, t) for k in self.body(feature))
@@ -111,15 +112,15 @@ class Places:
         return True
 
     def bodies_may(self, one, other, u):
-        """May two bodies stand so: every pair of their members, and without a jump?"""
+        """Are these relative places allowed to two bodies: for every pair of their members, and without a jump?"""
         pairs = [(a, b) for a in one for b in other if not {a, b} & self.problem.skipped]
-        listed = [p for p in pairs if self.kind(*p)]  # how deep these lie in each other takes longest
+        listed = [p for p in pairs if self.kind(*p)]  # computing the depths of overlaps takes longest
         return (all(self.pair_may(a, b, u, None) for a, b in pairs if not self.kind(a, b)) and
                 self.may_go(one[0], other[0], u) and all(self.pair_may(a, b, u, self.kind(a, b)) for a, b in listed))
 
 
 def polygon_between(centre, reach, sides):
-    """The part of a square in which x X + y Y >= d holds for all sides (x, y, d): its corners, in doubles."""
+    """The part of a square that satisfies x X + y Y >= d for all constraints (x, y, d): its corners, in doubles."""
     reach = min(float(reach), 1e12)
     corners = [(centre[0] + sx * reach, centre[1] + sy * reach) for sx, sy in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
     for x, y, d in ((float(a), float(b), float(c)) for a, b, c in sides):

@@ -1,5 +1,5 @@
 # shellcheck shell=bash
-# Layers of few features, each for one kind of line in a file of --proof; layer() is of tests/cli/lib.sh.
+# Layers of few features, each for one kind of line in a file of --proof; layer() is in tests/cli/lib.sh.
 
 make_side() {
     printf 'WKT,w\n"LINESTRING(9.5 -3,9.5 13)",1\n' | layer side.gpkg side LINESTRING
@@ -57,7 +57,7 @@ for k in range(columns * rows):
     print(f"\"POLYGON(({x} {y},{x + 10} {y},{x + 10} {y + 10},{x} {y + 10}))\",1")' "$@" | layer squares.gpkg buildings POLYGON
 }
 
-# HOW MANY points, nearly on one place; by how much they scatter, 2 unless told.
+# NUMBER of points, nearly at one place; the extent of their random offsets, 2 by default.
 make_pile() {
     python3 -c '
 import sys
@@ -68,7 +68,7 @@ for k in range(int(sys.argv[1])):
     print(f"\"POINT({500000 + r.gauss(0, wide):.3f} {5000000 + r.gauss(0, wide):.3f})\",1")' "$1" "${2:-2}" | layer pile.gpkg buildings POINT
 }
 
-# HOW MANY buildings that lie on each other, some with a corner cut out, three of them one block by k.
+# NUMBER of buildings that overlap each other, some with a corner cut out, three of them one block by k.
 make_lying() {
     python3 -c '
 import sys
@@ -83,8 +83,8 @@ for k in range(int(sys.argv[1])):
     print(f"\"POLYGON(({ring}))\",{1 if k in (2, 3, 7) else 100 + k}")' "$1" | layer lying.gpkg buildings POLYGON
 }
 
-# Ten houses: one in another, which --contained ignore allows; two fixed ones that overlap (w = 3); two of one block by
-# k that overlap; one that its limit m keeps in another; three in a row that make room.
+# Ten houses: one inside another, which --contained ignore allows; two fixed ones that overlap (w = 3); two of one block
+# by k that overlap; one that stays inside another because of its limit m; three in a row that make room.
 make_mixed() {
     printf '%s\n' WKT,w,k,m '"POLYGON((0 0,9 0,9 9,0 9))",1,,9' '"POLYGON((2 2,5 2,5 5,2 5))",1,,9' \
         '"POLYGON((30 0,36 0,36 6,30 6))",3,,9' '"POLYGON((34 3,40 3,40 9,34 9))",3,,9' \
@@ -102,8 +102,8 @@ make_through() {
     printf 'WKT,w\n"LINESTRING(-30 3,40 3)",1\n' | layer through.gpkg through LINESTRING
 }
 
-# PLACE: pairs in which one lies in the other except for one corner. That corner is `at` a corner of the other grown by
-# the tolerance (0.3), with the nearest doubles as coordinates, or `beyond` it by one unit in the last place.
+# PLACE: pairs in which one lies in the other except for one corner. That corner is at a corner of the other one dilated
+# by the tolerance (0.3), rounded to the nearest doubles (`at`), or `beyond` it by one unit in the last place.
 make_hanging() {
     PYTHONPATH=$here python3 -c '
 import sys
@@ -125,8 +125,8 @@ for k in range(6):
     put([at] + [(x + 0.6 * (u - x), y + 0.6 * (v - y)) for u, v in (big[(k + 1) % 4], big[k % 4 - 1])])' "$1" | layer "$1.gpkg" buildings POLYGON
 }
 
-# HOW MANY MEMBERS FILE: buildings of at most MEMBERS members, which overlap each other or share walls; half of the
-# buildings are turned.
+# NUMBER MEMBERS FILE: buildings of at most MEMBERS members, which overlap each other or share walls; half of the
+# buildings are rotated.
 make_members() {
     python3 -c '
 import sys
@@ -144,14 +144,14 @@ for k in range(int(sys.argv[1])):
         layer "$3.gpkg" buildings MULTIPOLYGON
 }
 
-# The barriers in their way: a road, and an area of two members that overlap.
+# The barriers near them: a road, and an area of two members that overlap.
 make_among_members() {
     printf 'WKT,w\n"LINESTRING(599990 5000019,600060 5000021)",1\n' | layer street.gpkg street LINESTRING
     printf 'WKT,w\n"MULTIPOLYGON(((600051 4999990,600060 4999990,600060 5000010,600051 5000010,600051 4999990)),((600053 5000005,600070 5000005,600070 5000040,600053 5000040,600053 5000005)))",1\n' |
         layer woods.gpkg woods MULTIPOLYGON
 }
 
-# Houses beside a street that has degrees for coordinates, another that has those of the houses, and the houses' coordinates as US feet.
+# Houses beside a street in a CRS of degrees, the same street in the CRS of the houses, and the houses in US feet.
 make_abroad() {
     printf 'WKT,w\n"%s",1\n"%s",2\n"%s",1\n' "POLYGON((600000 5400000,600010 5400000,600010 5400010,600000 5400010))" \
         "POLYGON((600011 5400001,600021 5400001,600021 5400009,600011 5400009))" \
@@ -162,7 +162,7 @@ make_abroad() {
     ogr2ogr far.gpkg near.gpkg -t_srs EPSG:4326 2>/dev/null || fail "ogr2ogr: near.gpkg"
 }
 
-# Points with a symbol of their own (s), or none, and a factor of its size (f); one feature is two points, one is a
+# Points with a symbol of their own (s), or none, and a factor of its size (f); one feature has two points, one is a
 # line.
 make_symbols() {
     printf '%s\n' WKT,s,f,k '"POINT(0 0)",square:4,,1' '"POINT(3 1)",disc:2m,1.3,2' '"POINT(1.5 3.1)",,0.7,3' '"MULTIPOINT(40 0,42 1)",,2,4' \
@@ -180,19 +180,20 @@ print("\"LINESTRING(" + ",".join(f"{x} {y}" for x, y in road) + ")\",1")' | laye
     printf 'WKT,w\n"POLYGON((0 0,10 0,10 6,0 6))",1\n"POLYGON((2 5.5,12 5.5,12 11.5,2 11.5))",1\n' | layer between.gpkg buildings POLYGON
 }
 
-# NAME OUTER_TOP INNER_TOP OUTER_BOTTOM INNER_BOTTOM: a house in the narrow place between two lines that bend there, by their heights.
+# NAME OUTER_TOP INNER_TOP OUTER_BOTTOM INNER_BOTTOM: a house in the narrow passage between two lines with a bend, given
+# by their heights.
 make_wedge() {
     printf 'WKT,w\n"LINESTRING(%s)",1\n"LINESTRING(%s)",1\n' "940 $2,1001.1 $3,1060 $2" "940 $4,1001.1 $5,1060 $4" |
         layer "$1.gpkg" "$1" LINESTRING
     [ -f wedged.gpkg ] || make_rings wedged.gpkg '1000.1 2000.2,1002.3 2000.4,1002.1 2002.6,999.9 2002.4'
 }
 
-# Two houses; one moves as far as its limit.
+# Two houses; one moves by exactly its limit.
 make_short() {
     printf 'WKT,m\n"POLYGON((0 0,10 0,10 10,0 10))",0.1\n"POLYGON((3 10.5,9 10.5,6 20))",9\n' | layer short.gpkg buildings POLYGON
 }
 
-# A triangle that has no room in the hole of another, and leaves it only by a jump.
+# A triangle that has no room in the hole of another, and can leave it only by a jump.
 make_well() {
     printf 'WKT,w\n"POLYGON((0 40,-34.64 -20,34.64 -20),(0 8,-6.93 -4,6.93 -4))",1\n"POLYGON((0 -12,10.39 6,-10.39 6))",1\n' |
         layer well.gpkg buildings POLYGON
@@ -213,13 +214,13 @@ make_crowd() {
         '599995.9 4999998.4,600004.4 5000001.6,599997.3 5000007.3' '599995.5 5000005.2,599995.2 4999993.3,600005.7 4999999'
 }
 
-# Three triangles that lie on each other.
+# Three triangles that overlap each other.
 make_three() {
     make_rings three.gpkg '600001.8 5000002.9,600007.3 4999996.5,600010.1 5000004.5' \
         '600000.1 5000005.6,600001.1 4999994.4,600010.3 5000000.8' '599999.5 4999988.9,600005.3 4999998.2,599994.3 4999998.5'
 }
 
-# Five houses beside a street, two of them with rings that cross; in three formats.
+# Five houses beside a street, two of them with rings that cross themselves; in three formats.
 make_formats() {
     printf 'WKT,w\n"%s",1\n"%s",2\n"%s",1\n"%s",4\n"%s",5\n' "POLYGON((600000 5400000,600010 5400000,600010 5400010,600000 5400010))" \
         "POLYGON((600011 5400001,600021 5400001,600021 5400009,600011 5400009))" \

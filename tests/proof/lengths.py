@@ -1,17 +1,19 @@
-"""Lengths as the command takes them, in units of a layer: 3, 3m, 10us-ft, 0.2mm (on the sheet, with --scale), as one or two operations of
-doubles (src of the rule: gis/base/length.c); and the unit of a CRS from its definition in a GeoPackage."""
+"""Lengths as the command accepts them, in units of a layer: 3, 3m, 10us-ft, 0.2mm (on paper, with --scale), computed
+by one or two operations of doubles (by the rule of gis/base/length.c); and the unit of a CRS from its definition in a
+GeoPackage."""
 import math
 import re
 
 from form import NotRead
 
 NUMBER = r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?"
-UNITS = {"m": (1.0, 1.0), "km": (1000.0, 1.0), "ft": (3048.0, 10000.0), "us-ft": (1200.0, 3937.0), "mm": (1.0, 1000.0)}  # metres
+# in metres
+UNITS = {"m": (1.0, 1.0), "km": (1000.0, 1.0), "ft": (3048.0, 10000.0), "us-ft": (1200.0, 3937.0), "mm": (1.0, 1000.0)}
 SAME_UNIT = 1e-9
 
 
 class Units:
-    """Converts lengths. crs: geopackage.Crs; scale: that of the sheet, text or None."""
+    """Converts lengths. crs: geopackage.Crs; scale: that of the map, text or None."""
 
     def __init__(self, crs, scale):
         self.crs = crs

@@ -1,9 +1,10 @@
-"""Can check_proof.py fail? In a valid file of --proof each kind of claim is made slightly false, one at a time:
+"""Does check_proof.py detect false claims? In a valid file of --proof each kind of claim is made slightly false, one
+at a time:
 
     python3 mutations.py PROOF INPUT.gpkg [options as of check_proof.py] [--need KIND ...]
 
-Each changed file has to be refused, with a message about the change. For each kind the smallest tree, or conflict, with such a claim is
-checked by itself. Kinds that do not occur in the file are skipped, unless --need names them.
+Each changed file has to be refused, with a message about the change. For each kind the smallest tree, or conflict,
+with such a claim is checked by itself. Kinds that do not occur in the file are skipped, unless --need names them.
 """
 import copy
 import json
@@ -23,7 +24,7 @@ def with_kind(tree, kind):
 
 
 def drop_node(tree, k):
-    """Without a leaf: nodes and cuts behind it are renumbered."""
+    """Removes a leaf: later nodes and cuts are renumbered."""
     before = sum(len(n["cuts"]) for n in tree["nodes"][:k])
     gone = len(tree["nodes"][k]["cuts"])
     del tree["nodes"][k]
@@ -62,7 +63,7 @@ def pull(tree):
 
 
 def force_from_elsewhere(tree):
-    """Uses a force on a cut of a sister node."""
+    """Uses a force on a cut of a sibling node."""
     first = [0]
     for node in tree["nodes"]:
         first.append(first[-1] + len(node["cuts"]))
@@ -162,8 +163,8 @@ def leave_feature(tree):
 
 
 def fill_shadow(tree):
-    """Claims that only a jump forbids something, presented as if the gap forbade it: an anchor is no part of a feature.
-    """
+    """Presents a place that only the rule against jumps forbids as if the gap forbade it: an anchor is not part of a
+    feature."""
     for piece in tree["pieces"]:
         if piece.get("shadow") and not is_side(piece):
             del piece["shadow"]
@@ -172,7 +173,7 @@ def fill_shadow(tree):
 
 
 def hold_farther(tree):
-    """A pair that is left in conflict, held to more than it had."""
+    """A pair that is left in conflict, for which a greater distance is required than it had."""
     for piece in tree["pieces"]:
         if "clearance" in piece:
             piece["clearance"] += 0.001
@@ -181,7 +182,7 @@ def hold_farther(tree):
 
 
 def hold_higher(tree):
-    """One that is in another, held to a little less depth than it had."""
+    """A feature inside another, for which a slightly smaller depth is required than it had."""
     for piece in tree["pieces"]:
         if piece.get("clearance", 0) < 0:
             piece["clearance"] *= 0.99
@@ -190,7 +191,7 @@ def hold_higher(tree):
 
 
 def part(tree):
-    """One that is in another still, held to be in it no more."""
+    """A feature that is still inside another, required to be outside."""
     for piece in tree["pieces"]:
         if piece.get("clearance", 0) < 0:
             piece["clearance"] = 0
@@ -269,7 +270,7 @@ def chords(told):
 
 
 def pull_chord(told):
-    """A chord that passes the way through the corner before the corner."""
+    """A chord that passes the ray through the corner before the corner."""
     for node in chords(told):
         at = node["A"][0]
         node["B"] = [[a + 0.9 * (x - a) for x, a in zip(p, at)] for p in node["B"]]
@@ -286,7 +287,7 @@ def halve_chord(told):
 
 
 def part_sides(told):
-    """A side that ends elsewhere."""
+    """A side that ends at another place."""
     for node in chords(told):
         shared = next((p for p in node["side_b"] if p in node["side_c"]), None)
         if not shared:
@@ -341,7 +342,7 @@ def leaves_still(told):
 
 
 def let_go(told):
-    """A block between two lines, which counts as still no more."""
+    """A block between two lines that is no longer said to be unable to move."""
     found = leaves_still(told)
     for leaf in found:
         del leaf["still"]
@@ -349,7 +350,7 @@ def let_go(told):
 
 
 def one_line(told):
-    """One line, twice."""
+    """The same line for both."""
     for leaf in leaves_still(told):
         leaf["still"][1] = leaf["still"][0]
         return ("not opposite",)
@@ -366,8 +367,8 @@ def push_line(told):
 
 
 def turn_lines(told):
-    """Turns both lines by the least that doubles can express: then they are no longer edges of the shapes that touch
-    there."""
+    """Turns both lines by the smallest angle that doubles can express: then they are no longer edges of the shapes
+    that touch there."""
     for leaf in leaves_still(told):
         for node, way in leaf["still"]:
             n = told["proof"][node]["ways"][way]["n"]
@@ -385,7 +386,7 @@ def hold_roughly(told):
 
 
 def reach_line(told):
-    """A line that a slack may well reach, for one that it does not."""
+    """A line that a slack can reach, in place of one that it cannot."""
     for leaf in leaves_still(told):
         node, way = leaf["still"][0]
         ways = told["proof"][node]["ways"]
@@ -397,7 +398,7 @@ def reach_line(told):
 
 
 def hold_own(told):
-    """The conflict itself, held to its former distance."""
+    """The pair of the conflict itself, required to keep its former distance."""
     for node in told["proof"]:
         if "clearance" in node and {node["a"], node["b"]} == {told["a"], told["b"]}:
             node["held"] = True
@@ -418,7 +419,7 @@ def shorten_within(told):
 
 
 def other_reason(told):
-    """Facts that the ways forbid, attributed to the limits; facts that neighbours forbid, attributed to the pair."""
+    """Attributes to the limits what the ways forbid, and to the pair what neighbours forbid."""
     own = {told["a"], told["b"]}
     shadow = any(n.get("shadow") for n in told["proof"])
     stranger = any(not n.get("shadow") and {n["a"], n["b"]} != own for n in told["proof"] if "ways" in n)
@@ -429,7 +430,7 @@ def other_reason(told):
 
 
 def crowd_without_room(told):
-    """A claim that a few pairs have no joint solution, presented as if the others were only held to their former
+    """A claim that a few pairs have no joint solution, presented as if the others only had to keep their former
     distance."""
     if not told.get("crowded") or len(told["blocked_by"]) < 3:
         return False
@@ -469,7 +470,7 @@ def raise_bound(lines):
 
 
 def list_pair(lines):
-    """A pair that is taken to owe the gap: of a piece, or of two that pay for their area."""
+    """A pair that is falsely said to require the gap: of a piece, or of two bodies that pay for their area."""
     if "prices" in lines[-1]:
         a, b = (body["features"][-1]["fid"] for body in lines[-1]["bodies"][:2])
     else:
@@ -491,7 +492,7 @@ def other_gap(lines):
 
 
 def list_overlap(lines):
-    """Pairs that the list says to be parted, and which are held to that, listed as overlapping."""
+    """Pairs that the list says to be separate, and which have to stay so, listed as overlapping."""
     of = {}
     for piece in lines[-1].get("pieces", []):
         if piece.get("clearance") == 0:
@@ -515,7 +516,7 @@ class Asker:
         head = dict(self.lines[0], trees=0, lower_bound=max(0, tree["bound"]) if tree else 0)
         lines = [head] + [t for t in self.lines[1:] if "block" in t]
         listed = [dict(t) for t in self.lines[1:] if "conflict" in t]
-        for t in listed:  # verdicts of others are not asked for again
+        for t in listed:  # verdicts of other conflicts are not verified again
             if conflict is None or t["conflict"] != conflict["conflict"]:
                 if t.pop("proof", None):
                     t.pop("crowded", None)

@@ -1,7 +1,7 @@
-"""Does one set lie in another up to a tolerance? This means: in the other grown by a polygon of 16 corners within the
-disc of that radius (discs.within()), with the corners of the sum rounded to the nearest doubles. First distances of
-edges are compared with a disc inside this polygon and with the whole disc. Only if they lie between the two is the
-sum computed. All arithmetic is in integers and fractions."""
+"""Does one set lie in another up to a tolerance? This means: in the other one dilated by a polygon of 16 corners
+within the disc of that radius (discs.within()), with the corners of the sum rounded to the nearest doubles. First
+distances of edges are compared with a disc inside this polygon and with the whole disc. Only if they lie between the
+two is the sum computed. All arithmetic is in integers and fractions."""
 from fractions import Fraction
 
 import discs
@@ -10,7 +10,7 @@ from exact import plane
 from repair import repaired
 from unions import union_outline, union_polygons
 
-SURE = Fraction(93, 100)  # of the radius: a disc of that lies in the polygon
+SURE = Fraction(93, 100)  # share of the radius: a disc of that radius lies in the polygon
 HALVINGS = 6
 
 
@@ -23,7 +23,7 @@ def lies_in_grown(a, b, d, tolerance, unit):
 
 
 def grown(b, tolerance, unit):
-    """The sum of b and the polygon, as doubles and by the even-odd rule where that breaks it."""
+    """The sum of b and the polygon, in doubles, and by the even-odd rule if rounding makes it invalid."""
     disc = [tuple(Fraction(v) * unit for v in corner) for corner in discs.within(tolerance)]
     around = [plane.Outline([hull([(p[0] + x, p[1] + y) for p in e for x, y in disc])]) for e in b.edges]
     outlines = []
@@ -34,7 +34,7 @@ def grown(b, tolerance, unit):
 
 
 def nearly_in(a, b, d, hair):
-    """True, False, or None where it is not told. hair: more than rounding moves a corner."""
+    """True, False, or None if it cannot be decided. hair: more than rounding moves a corner."""
     if plane.lies_in(a, b):
         return True
     if not plane.corners_lie_in(a, b, d + hair):
@@ -49,15 +49,15 @@ def nearly_in(a, b, d, hair):
 
 
 def no_room_inside(a, b):
-    """No hole of b is within a's box: so a part of a outside b crosses a's edges."""
+    """No hole of b is within a's box: so if a part of a is outside b, it crosses an edge of b."""
     boxes = [plane.box_of(ring) for ring in b.rings]
     return not any(box != b.box and a.box[0] <= box[0] and a.box[1] <= box[1] and box[2] <= a.box[2] and box[3] <= a.box[3]
                    for box in boxes)
 
 
 def edge_is_near(p, q, b, most, d, halvings):
-    """By the middle of the edge: no other place of it is farther away by more than half its length. most: an edge
-    farther than this is out."""
+    """Tests the midpoint of the edge: no other place of it is farther away by more than half its length. most: an
+    edge farther than this is out."""
     middle = Fraction(p[0] + q[0], 2), Fraction(p[1] + q[1], 2)
     square = Fraction(0)
     if plane.locate(b, middle) < 0:

@@ -1,10 +1,11 @@
-"""The area that a body occupies on a grid, in integers: the integrals of the nodes' hats (1 at the node, 0 at all
-others, bilinear between). The integrals are over the union of its members, grown by a polygon of 32 corners in the disc
-of half the gap.
+"""The area that a body occupies on a grid, in integers: the integrals of the nodes' hat functions (1 at the node, 0
+at all others, bilinear between) over the union of its members, dilated by a polygon of 32 corners in the disc of half
+the gap.
 
-The squares are swept column by column. Between two neighbouring places where anything ends or crosses no edge crosses
-another, or a row: there the union is trapezoids. Such places and the corners of trapezoids are rounded to the lattice of
-integers, so that the trapezoids lie within the union; what that loses is counted, and demanded to be less than a mass.
+The squares are swept column by column. In an interval of x without ends and crossings of edges, and without crossings
+of edges with rows, the union consists of trapezoids. The borders of these intervals and the corners of trapezoids are
+rounded to the lattice of integers, so that the trapezoids lie within the union; the loss is counted, and has to be
+less than one mass.
 """
 import math
 from collections import defaultdict
@@ -14,9 +15,9 @@ from exact import plane
 from cover import hull
 from form import demand
 
-MASS = 20         # masses are whole numbers of 2^-20 squares
-FINE = 40         # a square's side is 2^40 units, at least
-MOST_SPAN = 4096  # what spans more squares is not asked about, and pays nothing
+MASS = 20         # masses are integers in units of 2^-20 squares
+FINE = 40         # the side of a square has at least 2^40 units
+MOST_SPAN = 4096  # a body that spans more squares is not computed, and pays nothing
 
 
 class Lattice:
@@ -35,7 +36,7 @@ class Lattice:
 
 
 def polygon_in_disc(radius):
-    """32 corners, none farther from the middle than the radius; or none, of 0."""
+    """32 corners, none farther from the centre than the radius; no corners if it is 0."""
     found = []
     for k in range(32 if radius else 0):
         turn = math.pi * k / 16
@@ -71,7 +72,7 @@ def parts_of(polygons, lattice):
 def in_squares(polygons, lattice):
     """Returns {(column, row): 24 times the integrals of 1, x, y, x y over the occupied part of the square, with (x, y)
     relative to it}, or None if the squares span too much."""
-    edges = []  # from left to right, with the number of their part
+    edges = []  # edges from left to right, with the number of their part
     for k, part in enumerate(parts_of(polygons, lattice)):
         edges += [(*min(p, q), *max(p, q), k) for p, q in part if p[0] != q[0]]
     found, side = defaultdict(lambda: [0, 0, 0, 0]), lattice.side
@@ -98,8 +99,8 @@ def height(edge, x):
 
 
 def places_between(edges, left, side):
-    """The x between which, and from left to left + side, no edge ends, meets a row, or crosses another. A place that is
-    no integer is between two consecutive ones."""
+    """The values of x between which, and from left to left + side, no edge ends, meets a row, or crosses another. A
+    value that is not an integer is replaced by the integers below and above."""
     right, spans = left + side, []
     cuts = {left, right} | {x for e in edges for x in (e[0], e[2]) if left < x < right}
 
@@ -175,8 +176,8 @@ def under(a, b, p, q):
 
 
 def masses(squares, lattice):
-    """Two tables, as lists of rows with (column, row) of the first: for nodes the integrals of their hats, for squares
-    the occupied area; both in masses. The first are rounded down, the second up."""
+    """Two tables, as lists of rows with (column, row) of the first: for nodes the integrals of their hat functions,
+    for squares the occupied area; both in masses. The first are rounded down, the second up."""
     side = lattice.side
     columns, rows = ([key[c] for key in squares] for c in (0, 1))
     corner = min(columns), min(rows)

@@ -1,12 +1,12 @@
-"""Convex pieces of polygonal sets, and whether one lies in a union. Whole numbers or fractions; nothing is rounded."""
+"""Convex pieces of polygonal sets, and whether one lies in a union. Integers or fractions; nothing is rounded."""
 from fractions import Fraction
 
 from exact import plane
 
 
 def in_polygon(corners, outline):
-    """Does a convex polygon with area lie in a polygon? It does if no edge crosses it, and one of its places is inside.
-    """
+    """Does a convex polygon with area lie in a polygon? It does if no edge crosses it, and one of its points is
+    inside."""
     box = plane.box_of(corners)
     sides = list(zip(corners, corners[1:] + corners[:1]))
     for edge in plane.near_edges(outline, box):
@@ -18,7 +18,8 @@ def in_polygon(corners, outline):
 
 
 def in_union(corners, outlines):
-    """A convex polygon with area within the union of polygons: cut along an edge that goes through it, until none does."""
+    """Does a convex polygon with area lie in the union of polygons? It is cut along edges that cross it, until none
+    does."""
     box, sides = plane.box_of(corners), list(zip(corners, corners[1:] + corners[:1]))
     outlines = [o for o in outlines if o.box and plane.boxes_near(o.box, box)]
     if any(in_polygon(corners, o) for o in outlines):
@@ -62,7 +63,8 @@ def goes_through(edge, sides):
 
 
 def trapezoids(outline):
-    """Convex polygons, counter-clockwise, whose union is the set that the outline's rings enclose: by slabs between corners."""
+    """Convex polygons, counter-clockwise, whose union is the set that the outline's rings enclose: by slabs between
+    corners."""
     levels = sorted({p[1] for e in outline.edges for p in e} | {at[1] for at in crossings(outline.edges)})
     for low, high in zip(levels, levels[1:]):
         across = [e if e[0][1] < e[1][1] else e[::-1] for e in outline.edges

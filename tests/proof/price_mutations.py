@@ -1,12 +1,12 @@
-"""The changes that mutations.py makes to a line with prices. Each function returns False if the line has nothing of its
-kind, otherwise the words of the expected refusal."""
+"""The changes that mutations.py makes to a line with prices. Each function returns False if the line has no value of
+its kind, otherwise the words of the expected refusal."""
 import copy
 
 FALLS_SHORT = "the prices prove"
 
 
 def raise_node(line):
-    """A price so high that no body moves there, so that the bound loses its value."""
+    """A price so high that no body would be there, so that the bound is useless."""
     row = max(line["prices"]["rows"], key=lambda r: max(r[1:], default=0))
     at = max(range(1, len(row)), key=row.__getitem__)
     row[at] *= 1000
@@ -50,7 +50,7 @@ def pay_twice(line):
 
 
 def leave_out(line):
-    """A third of the bodies, while the bound stays."""
+    """Removes every third body, while the bound stays."""
     del line["bodies"][::3]
     return (FALLS_SHORT,)
 
@@ -61,7 +61,7 @@ def shift_body(line):
 
 
 def part_block(line):
-    """Members of a block that pay by themselves."""
+    """Members of a block that pay separately."""
     for body in line["bodies"]:
         if len(body["features"]) > 1:
             other = copy.deepcopy(body)

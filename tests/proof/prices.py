@@ -1,4 +1,4 @@
-"""The lower bound by prices of area: docs/PROOF.md, section 5, in whole numbers."""
+"""The lower bound by prices of area: docs/PROOF.md, section 5, in integers."""
 from array import array
 from fractions import Fraction
 from functools import lru_cache
@@ -8,10 +8,10 @@ from bodies import Bodies
 from occupied import MASS, Lattice, in_squares, masses
 from form import demand, shown
 
-PARTS = 8      # squares of moves are divided in so many, either way
+PARTS = 8      # each square of moves is divided into PARTS x PARTS parts
 MOST_NODES = 1 << 26
-BORDER = 2     # so many nodes around the grid have a price of 0, like all beyond
-FIRST_LOOK = 8  # moves are looked at so many squares far, and farther where that does not tell
+BORDER = 2     # width of the border of the grid, in nodes, where prices are 0, as they are beyond
+FIRST_LOOK = 8  # range of moves that is examined first, in squares; a greater one if that does not suffice
 
 
 def is_power_of_two(value):
@@ -19,7 +19,7 @@ def is_power_of_two(value):
 
 
 class Prices(Bodies):
-    """With the interface that a tree has."""
+    """Has the interface of a tree."""
     nodes, cuts = (), ()
 
     def __init__(self, problem, told):
@@ -46,8 +46,8 @@ class Prices(Bodies):
         return Payer(self.grid, *found, weight, limit).least()
 
     def masses_of(self, body):
-        """The area that a body occupies, by squares of the grid's side; kept for further lines. None: it occupies no
-        square."""
+        """The area that a body occupies, by squares with the side of the grid's; cached for further lines. None: it
+        occupies no square."""
         problem, side = self.problem, self.grid.side
         if (body, side) not in problem.occupied:
             lattice = Lattice(problem, side)
@@ -58,7 +58,8 @@ class Prices(Bodies):
     # ---- Which bodies owe the gap to each other
 
     def demand_strangers(self):
-        """Every feature owes the gap to the features of all other bodies; two fixed bodies owe each other nothing."""
+        """Every feature has to keep the gap to the features of all other bodies; between two fixed bodies there is no
+        requirement."""
         problem, of = self.problem, {}
         demand(sum(problem.body_limit(body) == 0 for body in self.bodies) < 2, "two who pay prices stand still")
         demand(problem.options.contained != "ignore", "features may lie in each other, and owe nothing then")
@@ -73,7 +74,7 @@ class Prices(Bodies):
 
 
 class Grid:
-    """Prices at nodes, and by how much they turn up in squares."""
+    """Prices at nodes, and their convexity in squares."""
 
     def __init__(self, told):
         self.side, self.unit = Fraction(told["side"]), Fraction(told["unit"])
@@ -94,8 +95,8 @@ class Grid:
 
 
 def find_kinks(price):
-    """For each square, by its lower left node: the greatest convex bend of the prices along x and along y, over three
-    neighbouring nodes. It is 0 at the border and beyond."""
+    """For each square, by its lower left node: the greatest convex second difference of the prices along x and along
+    y, over three neighbouring nodes. It is 0 at the border and beyond."""
     along = [[max(0, a - 2 * b + c) for a, b, c in zip(r, r[1:], r[2:])] for r in price]
     up = [[max(0, a - 2 * b + c) for a, b, c in zip(p, q, r)] for p, q, r in zip(price, price[1:], price[2:])]
     return [[max(x) + max(y) for x, y in zip(zip(p, q, r), zip(u, u[1:], u[2:]))]
@@ -114,12 +115,12 @@ class Payer:
         self.grid, self.hats, self.areas = grid, hats, areas
         self.at = corner[0] - grid.x, corner[1] - grid.y
         self.weight = weight
-        # (squares)^2 that a move may be long
+        # greatest length of a move, in squares, squared
         self.limit = None if limit is None else (Fraction(limit) / grid.side) ** 2
 
     def sums(self, rows, own, reach):
-        """[dy][dx]: the sum of own[j][i] times what is in `rows` there, (i, j) moved by (dx, dy), from -reach to reach. A row
-        times a row is a product of two numbers, whose digits are the rows'."""
+        """[dy][dx]: the sum of own[j][i] times the entry of `rows` at (i, j) moved by (dx, dy), from -reach to reach.
+        The product of two rows is computed as a product of two integers, whose digits are the entries of the rows."""
         width, (x, y) = len(own[0]), self.at
         top = max(map(max, own)) * max((max(r, default=0) for r in rows), default=0)
         size = 1 if top * width * len(own) < 1 << 63 else 2  # of a digit, in units of 64 bits
@@ -140,7 +141,7 @@ class Payer:
         return self.limit is None or square <= self.limit
 
     def least(self):
-        """A lower bound of the body's cost over all its moves, in parts of a mass's price."""
+        """A lower bound of the body's cost over all its moves, in units of a mass times a price unit."""
         weight, reach = self.weight, FIRST_LOOK
         while True:
             price = self.sums(self.grid.price_rows, self.hats, reach)
@@ -182,7 +183,7 @@ class Payer:
 
 @lru_cache(1 << 16)
 def least_of_parts(x, y, corners, weight):
-    """The least at corners of the parts of a square."""
+    """The minimum over the corners of the parts of a square."""
     a, b, c, d = corners
     found = []
     for v in range(PARTS + 1):
@@ -192,14 +193,14 @@ def least_of_parts(x, y, corners, weight):
 
 
 def cut_out(row, start, n):
-    """n from there, 0 where the row has none."""
+    """n entries from there on, 0 where the row has none."""
     before = min(max(0, -start), n)
     own = row[max(start, 0):max(start + n, 0)]
     return array("Q", bytes(8 * before)) + own + array("Q", bytes(8 * (n - before - len(own))))
 
 
 def number(digits, size):
-    """The number with these digits of `size` times 64 bits each."""
+    """The integer with these digits, each of `size` times 64 bits."""
     if size == 2:
         wide = array("Q", bytes(16 * len(digits)))
         wide[::2] = digits

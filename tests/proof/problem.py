@@ -1,6 +1,6 @@
-"""The premises of a proof, from the input: things on one lattice of integers, the distances they owe, which of them
-move, how far, and with what weight. Only anchors, and blocks by touches and overlaps that are not computed here, are
-taken from the proof; see docs/PROOF.md."""
+"""The premises of a proof, from the input: features and barriers on one lattice of integers, the distances required
+of them, which of them move, how far, and with what weight. Only anchors, and blocks by touches and overlaps that are
+not computed here, are taken from the proof; see docs/PROOF.md."""
 import argparse
 import math
 from fractions import Fraction
@@ -21,7 +21,7 @@ from unions import union_outline
 
 
 def split_spec(spec):
-    """The argument of --barrier; `where=` takes the rest, and a comma within a name is written \\, ."""
+    """Parses the argument of --barrier; `where=` takes the rest, and a comma within a name is written \\, ."""
     spec, _, where = spec.partition(",where=")
     words = [w.replace("\0", ",") for w in spec.replace("\\,", "\0").split(",")]
     return {"path": words[0], "where": where or None, **dict(w.split("=", 1) for w in words[1:])}
@@ -44,14 +44,14 @@ class Thing:
         return plane.Outline([r for p in self.polygons for r in p], self.lines)
 
     def edges_near(self, box, reach):
-        """Of its members and lines."""
+        """The edges of its members and lines."""
         return [e for o in (*self.outlines, plane.Outline(lines=self.lines)) for e in plane.near_edges(o, box, reach)]
 
     def holds_place(self, p):
         return any(o.box and plane.locate(o, p) >= 0 for o in self.outlines)
 
     def has_part(self, part):
-        """Does the convex hull of these corners lie in the thing?"""
+        """Does the convex hull of these corners lie in the feature or barrier?"""
         if part not in self.parts:
             corners = hull(part)
             self.parts[part] = (any(in_polygon(corners, o) for o in self.outlines if o.box) if len(corners) > 2 else
@@ -64,7 +64,8 @@ class Thing:
 
 
 class Lattice:
-    """All numbers of the input as integers in units of 2^-k; so fine that anchors are, too, unless they are next to 0."""
+    """All numbers of the input as integers in units of 2^-k; k is so large that anchors are integers, too, unless
+    they are very close to 0."""
 
     def __init__(self):
         self.k = 60
@@ -86,7 +87,7 @@ class Lattice:
 
 
 def have_common_walls(one, other):
-    """Or more in common than that: all but corners that touch."""
+    """Do the two have more in common than corners that touch?"""
     return plane.boxes_near(one.box, other.box) and (plane.interiors_meet(one, other) or any(
         plane.side(*e, f[0]) == plane.side(*e, f[1]) == 0 and plane.edges_meet(e, f)
         for e in plane.near_edges(one, other.box) for f in plane.near_edges(other, one.box)))
@@ -106,7 +107,7 @@ class Problem:
         self.points = Symbols(options, self.units).place(layer) if options.points else {}
         self.tolerance = options.touch_tolerance if options.touch_tolerance is not None else options.gap / 10
         self.given, self.areas, self.median = {fid: f[1] for fid, f in layer.features.items()}, {}, None
-        for fid, (attributes, polygons, _) in layer.features.items():  # lines of a collection are no part of a feature
+        for fid, (attributes, polygons, _) in layer.features.items():  # lines of a collection are not part of a feature
             layer.features[fid] = attributes, [repaired(p) for p in polygons], []
         self.standing = {fid: f[1] for fid, f in layer.features.items()}
         fixed = source.fids(options.fixed_where)
@@ -186,7 +187,7 @@ class Problem:
         return self.lattice(self.options.gap)
 
     def own_limit(self, fid):
-        """A double, or None for no limit. Fixed things have one, too."""
+        """The limit as a double, or None for no limit. Fixed features have one, too."""
         options, found = self.options, self.options.max_shift
         field = geopackage.number_of(self.attributes[fid], options.max_shift_field)
         if field is not None:
@@ -239,7 +240,7 @@ class Problem:
     # ---- Pairs
 
     def demand_owed(self, a, b):
-        """Do the two owe each other the gap, in every placement that the bound is about?"""
+        """Are the two required to keep the gap, in every placement that the bound is about?"""
         demand(a in self.things and b in self.things, "there is no", a, "or", b)
         demand(self.may_move(a) or self.may_move(b), "neither", a, "nor", b, "moves")
         demand(b not in self.block(a), a, "and", b, "are of one block")
@@ -249,9 +250,9 @@ class Problem:
         return not self.is_barrier(key) and self.body_limit(self.block(key)) != 0
 
     def clearance(self, a, b, told):
-        """The clearance of the two, in units of the lattice. A listed pair has at most the distance at the start. If
-        its interiors met, the clearance is 0 if the list says that they no longer do, otherwise minus at least their
-        depth."""
+        """The clearance of the two, in units of the lattice. For a listed pair it is at most the distance at the
+        start. If its interiors met, the clearance is 0 if the list says that they no longer do, otherwise minus at
+        least their depth."""
         required, pair = self.required(a, b), tuple(sorted((str(a), str(b))))
         if told is None:
             demand(pair not in self.listed, a, "and", b, "are listed")
@@ -271,8 +272,8 @@ class Problem:
         return clearance
 
     def how_it_stood(self, a, b):
-        """The square of the distance, or -1; then that of the least translation, None where it is not known, and whether a feature of
-        the two lay in the other, and may go deeper."""
+        """The square of the distance, or -1; then that of the least translation, None if it is not known; and whether
+        one of the two was inside the other, and may go deeper."""
         pair = tuple(sorted((str(a), str(b))))
         if pair not in self.stood:
             p, q = (self.whole(k) for k in (a, b))
@@ -283,14 +284,14 @@ class Problem:
         return self.stood[pair]
 
     def demand_part(self, key, corners):
-        """Fails unless the corners, on the lattice, are those of a part of the thing."""
+        """Fails unless the corners, on the lattice, are those of a part of the feature or barrier."""
         part = tuple(self.lattice.point(p) for p in corners)
         demand(self.things[key].has_part(part), "a part does not lie in", key)
         return part
 
     def demand_passed(self, key, corners, other, anchor):
-        """A part of what the anchor of another feature may not pass: of a feature, or of members of its block, which moves as
-        one, that do not hold the anchor either."""
+        """A part of what the anchor of another feature may not pass: of a feature, or of the members of its block
+        (which move together) that do not contain the anchor, either."""
         part = tuple(self.lattice.point(p) for p in corners)
         if len(hull(part)) < 3 or self.things[key].has_part(part):
             return self.demand_part(key, corners)
@@ -328,7 +329,7 @@ class Problem:
         demand(bool(told.get("inside_block")) == (b in self.block(a)), a, "and", b, "are of one block, or are not")
 
     def demand_shadow(self, a, told_a, b, told_b):
-        """Checks the two parts of a shadow: an anchor, and a part of a thing that may not be passed."""
+        """Checks the two parts of a shadow: an anchor, and a part of a feature or barrier that may not be passed."""
         if self.is_barrier(a) or self.is_barrier(b):
             if self.is_barrier(a):
                 return self.demand_side(a, told_a, b, told_b), self.demand_side_anchor(b, told_b)
@@ -406,7 +407,7 @@ class Problem:
         return None
 
     def demand_feature(self, told):
-        """A member of a body: what the file says about it equals what the layer and the options give."""
+        """Checks a member of a body: what the file says about it has to be what the layer and the options give."""
         fid, limit = told["fid"], told["max_shift"]
         demand(fid in self.things and not self.is_barrier(fid) and fid not in self.skipped, "there is no feature", fid)
         demand(limit == self.own_limit(fid), "the limit of", fid, "is", self.own_limit(fid), "and not", limit)
@@ -418,7 +419,7 @@ class Problem:
         demand(tuple(told) == self.anchor(fid), "that is not the anchor of", fid)
 
     def anchor(self, fid):
-        """The anchor as doubles, of the set that the rings enclose before its corners are rounded."""
+        """The anchor, in doubles, of the set that the rings enclose before its corners are rounded."""
         if fid not in self.anchors:
             members = [[(ring[k - 1], p) for ring in members_of(rings) for k, p in enumerate(ring)]
                        for rings in self.given[fid]]
@@ -426,7 +427,8 @@ class Problem:
         return self.anchors[fid]
 
     def ways_inside(self, a, b):
-        """How far along x and along y one has to move, at least, to lie in the other up to the tolerance; by their boxes."""
+        """Lower bounds, by the boxes, of the move along x and along y that brings one into the other up to the
+        tolerance."""
         p, q, t = self.whole(a).box, self.whole(b).box, self.lattice(self.tolerance)
         for x, y in ((p, q), (q, p)):
             low, high = [y[c] - t - x[c] for c in (0, 1)], [y[c + 2] + t - x[c + 2] for c in (0, 1)]
@@ -445,12 +447,12 @@ class Problem:
 
 
 def turn(p, q, u):
-    """Greater than 0 where it turns left at q."""
+    """Positive if the path turns left at q."""
     return (q[0] - p[0]) * (u[1] - p[1]) - (q[1] - p[1]) * (u[0] - p[0])
 
 
 def root_above(value):
-    """A fraction no less than the root, by a share of 2^-100 at most."""
+    """An upper bound of the root, as a fraction, exact to a share of 2^-100."""
     value = Fraction(value)
     shift = max(0, 102 - (value.numerator.bit_length() - value.denominator.bit_length()) // 2)
     return Fraction(math.isqrt(-(-(value.numerator << 2 * shift) // value.denominator)) + 1, 1 << shift)

@@ -1,8 +1,9 @@
 """Invalid polygons by the even-odd rule, in fractions; corners are rounded to the nearest doubles at the end.
 
-Edges are cut where they meet. Of several pieces on the same place an odd number is boundary, since the inside changes across it. From
-these pieces rings are followed with the inside on their left. At a place where several pieces meet a ring continues with the next edge
-of the same inside. Corners in straight sides are left out. A polygon whose edges neither cross nor overlap keeps its rings.
+Edges are cut at their intersections. Of coincident pieces an odd number is boundary, since the inside changes across
+it. From these pieces rings are followed with the inside on their left. At a point where several pieces meet, a ring
+continues with the next edge of the same inside. Straight corners are left out. A polygon whose edges neither cross
+nor overlap keeps its rings.
 """
 from fractions import Fraction
 
@@ -13,7 +14,7 @@ def side(a, b, c):
 
 
 def is_between(p, q, at):
-    """On the segment, if it is on its line."""
+    """Is the point, which is on the line of the segment, on the segment?"""
     return min(p[0], q[0]) <= at[0] <= max(p[0], q[0]) and min(p[1], q[1]) <= at[1] <= max(p[1], q[1])
 
 
@@ -31,7 +32,8 @@ def meetings(e, f):
 
 
 def cut(edges):
-    """(the pieces of each, whether any cross or share a length); edges by ascending least x are looked at in a sweep."""
+    """(the pieces of each edge, whether any edges cross or share a length); a sweep over the edges by their least
+    x."""
     cuts, open_now, crossing = [{p, q} for p, q in edges], [], False
     for k in sorted(range(len(edges)), key=lambda k: min(edges[k][0][0], edges[k][1][0])):
         e = edges[k]
@@ -54,7 +56,7 @@ def cut(edges):
 
 
 def is_inside_on_left(boundary, p, q):
-    """Is the inside on the left of the piece? By a ray from its middle, perpendicular to it."""
+    """Is the inside on the left of the piece? By a ray from its midpoint, perpendicular to it."""
     x, y = (p[0] + q[0]) / 2, (p[1] + q[1]) / 2
     wx, wy = p[1] - q[1], q[0] - p[0]
     inside = False
@@ -79,7 +81,8 @@ def directed(boundary):
 
 
 def follow(pieces, outside=False):
-    """Rings of directed pieces: where several meet, on to the next edge of the same inside, or of the same outside."""
+    """Rings of directed pieces: where several meet, a ring continues with the next edge of the same inside, or of the
+    same outside."""
     leaving = {}
     for p, q in pieces:
         leaving.setdefault(p, []).append(q)
@@ -106,7 +109,7 @@ def without_straight(ring):
 
 
 def exact_rings(rings):
-    """The rings of a polygon in fractions, by the even-odd rule; None if these are its own rings."""
+    """The rings of a polygon in fractions, by the even-odd rule; None if they are its own rings."""
     exact = [[(Fraction(x), Fraction(y)) for x, y in ring] for ring in rings]
     edges = [(ring[k - 1], p) for ring in exact for k, p in enumerate(ring) if ring[k - 1] != p]
     pieces, crossing = cut(edges)

@@ -4,7 +4,8 @@ from sources import converted
 
 
 def in_crs_of(crs, layer, source):
-    """The features of the layer, with coordinates of the CRS. Nothing else changes: not the rings, nor how many corners they have."""
+    """The features of the layer, with coordinates in the CRS. The rings and their numbers of corners may not
+    change."""
     there = converted(["-t_srs", target(crs), source.path, layer.name], layer.name).features
     for fid, (attributes, *chains) in layer.features.items():
         moved = there[fid][1:]
@@ -18,6 +19,6 @@ def target(crs):
 
 
 def shape_of(chains):
-    """How many corners each ring and each line has."""
+    """The number of corners of each ring and each line."""
     polygons, lines = chains
     return [[len(ring) for ring in rings] for rings in polygons], [len(line) for line in lines]

@@ -15,7 +15,7 @@ class Result:
         self.moves = {fid: tuple(row[c] or 0.0 for c in ("sunder_dx", "sunder_dy")) for fid, (row, _, _) in self.main.items()}
 
     def check(self, conflicts, total):
-        """What it costs, in words."""
+        """The cost of the result, in words."""
         demand(set(self.problem.place) <= set(self.moves), "the result has other features")
         compared = 0 if self.problem.options.points else self.check_anchors()
         self.check_moves()
@@ -31,7 +31,8 @@ class Result:
         return sum(Fraction(v) ** 2 for v in self.moves[fid])
 
     def check_anchors(self):
-        """The anchors of what moved are the first points of its lines, and the lines are as long as its move."""
+        """The anchors of moved features are the first points of their lines, and the lines are as long as the
+        moves."""
         compared, lines_of = 0, {}
         for row, _, lines in self.lines:
             lines_of[row["fid"]] = lines
@@ -52,8 +53,8 @@ class Result:
             demand(self.moves[fid] == self.moves[members[0]], "the result moves", fid, "and not the block of", members[0])
 
     def check_place(self, fid):
-        """Every corner is the double nearest to the sum of the original corner and the move; repaired features are not
-        checked."""
+        """Demands that every corner is the double nearest to the sum of the original corner and the move; repaired
+        features are not checked."""
         (dx, dy) = self.moves[fid]
         if self.problem.options.points:
             now = sorted(line[0] for line in self.main[fid][2])

@@ -18,7 +18,7 @@ def is_geopackage(path):
 
 
 def converted(words, name):
-    """The only layer of the GeoPackage that ogr2ogr makes of these words; under that name."""
+    """The only layer of the GeoPackage that ogr2ogr makes with these arguments; under that name."""
     with tempfile.TemporaryDirectory() as directory:
         to = os.path.join(directory, "there.gpkg")
         words = ["ogr2ogr", "-q", "-f", "GPKG", "-preserve_fid", "-dim", "XY", *(["-nln", name] if name else []), to, *words]
@@ -51,7 +51,7 @@ class Source:
         return converted(words + ([self.name] if self.name and not self.sql else []), self.name_of_result())
 
     def name_of_result(self):
-        """The layer name of a statement's result: the dataset's name without directory and ending."""
+        """The layer name of a statement's result: the name of the dataset without directory and extension."""
         return os.path.splitext(os.path.basename(self.path))[0] if self.sql else self.name
 
     def fids(self, where):

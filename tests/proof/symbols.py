@@ -1,4 +1,5 @@
-"""Symbols of points: a SHAPE as text becomes polygons of doubles, the symbol stands at each point of its feature, to the nearest doubles."""
+"""Symbols of points: a SHAPE as text becomes polygons of doubles, and the symbol is placed at each point of its
+feature, rounded to the nearest doubles."""
 import ast
 import re
 from fractions import Fraction
@@ -11,8 +12,8 @@ from repair import repaired, side
 
 
 def read(text, units):
-    """Polygons, as lists of open rings: square:SIDE, rectangle:WIDTHxHEIGHT, disc:RADIUS[:SEGMENTS], inside-disc:, @FILE with a WKT, or that
-    itself."""
+    """Polygons, as lists of open rings, from square:SIDE, rectangle:WIDTHxHEIGHT, disc:RADIUS[:SEGMENTS],
+    inside-disc:, @FILE with a WKT, or a WKT itself."""
     kind, _, size = text.partition(":")
     what = f"the symbol {text}:"
     if kind in ("disc", "inside-disc"):
@@ -42,7 +43,7 @@ def open_ring(ring):
 
 
 def enlarged(polygons, factor):
-    """Corners that are none are left out before."""
+    """The polygons scaled by the factor. Straight corners are removed before that."""
     return [[[(x * factor, y * factor) for x, y in corners_of(ring)] for ring in repaired(rings)] for rings in polygons]
 
 
@@ -70,7 +71,8 @@ class Symbols:
         return self.known[text, factor]
 
     def place(self, layer):
-        """At each point of a feature its symbol, to the nearest doubles; the points of each feature, sorted."""
+        """The symbol at each point of a feature, rounded to the nearest doubles; the points of each feature,
+        sorted."""
         points = {}
         for fid, (attributes, polygons, lines) in layer.features.items():
             placed = []

@@ -1,7 +1,7 @@
 # shellcheck shell=bash disable=SC1091
-# Are proofs refused that were made from scratch to deceive the checker, each with one step that does not follow
-# (false_proofs.py)? For each of them its claim is shown to be false, too. A message is always one line, for all names
-# that the file contains.
+# Are proofs refused that were made to deceive the checker, each with one step that does not follow (false_proofs.py)?
+# For each of them the test shows that its claim is false, too. A message is always one line, whatever names the file
+# contains.
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 command -v python3 >/dev/null || { echo "skipped: no python3"; exit 77; }
 export PYTHONDONTWRITEBYTECODE=1
@@ -9,7 +9,7 @@ here=$SUNDER_SOURCE/tests/proof
 python3 "$here/false_proofs.py" . >said 2>&1 || fail "$(cat said)"
 tail -1 said
 
-# told STATUS WORDS FILE: one line with these words, and no traceback
+# told STATUS WORDS FILE: the checker ends with this status and prints one line with these words, and no traceback
 told() {
     python3 "$here/check_proof.py" "$3" fixed-and-apart.gpkg >said 2>err
     [ $? = "$1" ] && [ ! -s err ] && [ "$(wc -l <said)" = 1 ] && grep -qF "$2" said || fail "$3: $(cat said)"

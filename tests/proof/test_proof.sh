@@ -1,7 +1,7 @@
 # shellcheck shell=bash disable=SC1091
-# --proof: its output is valid, by a checker that shares no code with the program (check_proof.py), on towns with
-# barriers, sides, limits, fixed features and jumps, and on maps if they are beside the repository. Every false
-# statement is refused (mutations.py). SUNDER_LAWS=all asks about more towns.
+# --proof: a checker that shares no code with the program (check_proof.py) verifies the file, on towns with barriers,
+# sides, limits, fixed features and jumps, and on maps if they are beside the repository. Every false statement is
+# refused (mutations.py). SUNDER_LAWS=all tests more towns.
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 command -v python3 >/dev/null || { echo "skipped: no python3"; exit 77; }
 export PYTHONDONTWRITEBYTECODE=1
@@ -9,7 +9,7 @@ here=$SUNDER_SOURCE/tests/proof
 python=$(command -v python3)
 . "$here/layers.sh"
 
-# of NAME OPTIONS...: the words for that layer, unless a statement gives it
+# of NAME OPTIONS...: sets the options that select the layer, unless --sql selects it
 of() {
     named=(--layer "$1")
     [[ " $* " != *" --sql "* ]] || named=()
@@ -26,7 +26,7 @@ proved() {
     echo "$name $*: $(tail -1 said)"
 }
 
-# refuted NAME SOURCE [--need KIND ...] OPTIONS...
+# refuted NAME SOURCE [--need KIND ...] OPTIONS...: each changed proof is refused
 refuted() {
     local name=$1 source=$2
     shift 2
@@ -34,7 +34,7 @@ refuted() {
     cat kinds
 }
 
-# strange NAME SOURCE OPTIONS...: the proof is of another layer, or of other options, and is refused
+# strange NAME SOURCE OPTIONS...: the proof of another layer, or for other options, is refused
 strange() {
     local name=$1 source=$2
     shift 2
@@ -64,8 +64,8 @@ refuted tight "$town" --gap 3 --no-blocks --max-shift 2 --fixed-where "$monument
     --need clearance --need blamed
 proved jumps "$town" --gap 2 --allow-jumps --contained separate
 
-# A grid of squares that lack a metre each, with limits of three metres for two together. No single pair is infeasible,
-# but the pairs of a few cannot all be solved.
+# A grid of squares that lack a metre each, with limits that are together three metres for two squares. No single pair
+# is infeasible, but the pairs of a few cannot all be solved.
 make_squares 8 8
 crowd=(--gap 3 --no-blocks --max-shift 1.5)
 proved squares squares.gpkg "${crowd[@]}"
@@ -74,7 +74,7 @@ refuted squares squares.gpkg "${crowd[@]}" --need leaf --need way --need clearan
     --need crowd
 proved width "$town" --gap 1 --max-shift 4 --barrier "$town,layer=roads,width-field=width,gap=0"
 
-# Without effort, or if conflicts remain, pairs alone may prove more than groups: then the trees are those of pairs.
+# Without effort, or if conflicts remain, pairs alone may prove more than groups: then the file has trees of pairs.
 "$SUNDER" separate "$town" o.gpkg --overwrite -q -l buildings --gap 3 --effort 0 --allow-conflicts --proof pairs.jsonl || fail "effort 0"
 python3 "$here/check_proof.py" pairs.jsonl "$town" --layer buildings --gap 3 --result o.gpkg >said || fail "effort 0: $(cat said)"
 grep -q ' [1-9][0-9]* trees' said || fail "effort 0: $(cat said)"
@@ -103,22 +103,23 @@ printf 'WKT,w\n"POLYGON((0 0,4 0,4 4,0 4))",1\n"POLYGON((3 0,7 0,7 4,3 4))",1\n'
 same_bound pair pair.gpkg --no-blocks
 printf 'WKT,w\n"POLYGON((0 0,4 0,4 4,0 4))",1\n"POLYGON((3 0,9 0,9 2,3 2))",1\n"POLYGON((0 5,3 5,3 8,0 8))",1\n' | layer ignored.gpkg buildings POLYGON
 same_bound ignored ignored.gpkg --no-blocks --contained ignore --gap 2
-# A line with sides through the very anchor of a house that a neighbour shuts in: trees that heed the side stay at 0.
+# A line with sides through the anchor itself of a house that is shut in by a neighbour: the bound of trees that take
+# the side into account stays at 0.
 printf 'WKT,w\n"LINESTRING(10 3,6 5)",1\n"LINESTRING(20 -5,2 -7)",1\n' | layer across.gpkg across LINESTRING
 printf 'WKT,w\n"POLYGON((0 0,5 0,5 9,0 9))",1\n"POLYGON((6 2,10 2,10 6,6 6))",1\n"POLYGON((-7 0,-2 0,-2 9,-7 9))",1\n' | layer through_anchor.gpkg buildings POLYGON
 for effort in 0 1; do
     same_bound through_anchor through_anchor.gpkg --gap 2 --no-blocks --max-shift 3 --barrier across.gpkg,width=1 --allow-jumps --effort $effort
 done
 
-# A road runs through a house and comes back beneath it. The pair is listed, so the house does not owe a distance to the
-# lower part of the road either when the house above needs room.
+# A road runs through a house and comes back below it. The pair is listed, so the house need not keep a distance from
+# the lower part of the road, even if the house above needs room.
 printf 'WKT,w\n"LINESTRING(%s)",1\n' "-30 5,40 5,44 4,40 3,44 2,40 1,44 0,40 -1,44 -2,40 -3,44 -4,40 -5,44 -6,40 -1.1,-10 -1.1" | layer road.gpkg road LINESTRING
 make_houses
 proved back houses.gpkg --gap 1 --max-shift 1 --no-blocks --barrier road.gpkg
 grep -q 'bound 0.12' said || fail "a listed road owes: $(cat said)"
 
-# A road through a house, 3 from its lower edge. The upper house may not push it deeper into the road, so it makes the
-# whole move itself.
+# A road through a house, 3 above its lower edge. The upper house may not push it deeper into the road, so the upper
+# house makes the whole move itself.
 make_through
 through=(--gap 1 --max-shift 1 --no-blocks --barrier through.gpkg)
 proved through houses.gpkg "${through[@]}"
@@ -127,12 +128,13 @@ refuted through houses.gpkg "${through[@]}" --need depth --need "in it"
 proved parted "$town" --gap 3 --max-shift 1 --barrier "$roads"
 refuted parted "$town" --gap 3 --max-shift 1 --barrier "$roads" --need kind --need held
 
-# Invalid polygons, whose edges cross and share a length, at places that no double is: corners are the nearest ones.
+# Invalid polygons, whose edges cross and share a length, at points that are not doubles: corners are the nearest
+# doubles.
 printf 'WKT,w\n"POLYGON((0 0,10 3,10 0.5,0.3 10.1,0 0))",1\n"POLYGON((9 0,20 0,20 10,13 -1,9.5 10,9 0))",1\n"POLYGON((8 9,15 8,15 12,11 8.2,9 12,8 9),(14 10,18 10,18 13,14 13,18 13,14 10))",1\n' |
     layer crossed.gpkg buildings POLYGON
 proved crossed crossed.gpkg --gap 0.7 --no-blocks
 
-# A group that is too large to be proved as one: its parts have trees, and the file contains those of all parts.
+# A group that is too large to be proved as a whole: its parts have trees, and the file contains all of them.
 {
     echo "WKT,w"
     for i in {0..195}; do
@@ -145,15 +147,15 @@ proved crossed crossed.gpkg --gap 0.7 --no-blocks
 python3 "$here/check_proof.py" crowd.jsonl crowd.gpkg --layer buildings --gap 30 --result o.gpkg >said || fail "a crowd: $(cat said)"
 grep -Eq 'bound [1-9].* [1-9][0-9]* trees' said || fail "a group in parts: $(cat said)"
 
-# A house between a fixed wall and a line that it overlaps: the nearest way would be through the line, but it has to
-# stay on its side.
+# A house between a fixed wall and a line that it overlaps: the shortest way out would lead across the line, but the
+# house has to stay on its side.
 make_side
 proved side wall.gpkg --no-blocks --fixed-where 'w = 1 AND fid = 2' --barrier side.gpkg
 grep -q 'bound 16[89]' said || fail "through the line: $(cat said)"
 refuted side wall.gpkg --no-blocks --fixed-where 'w = 1 AND fid = 2' --barrier side.gpkg --need side --need "side anchor"
 
-# A house between two walls that need all the room between them. Each wall has two lines, or one, with a corner where
-# the house would have to pass. No line of either side excludes that; a chord across both does.
+# A house between two walls that need all the room between them. Each wall has two lines, or one line with a bend where
+# the house would have to pass. No single line of either wall excludes that; a chord across both does.
 corners() { # NAME FILE
     proved "$1" held.gpkg --gap 3 --max-shift 10 --barrier "$2"
     grep -q '"reason": "no_room".*"side_c"' "$1.jsonl" || fail "a corner of $2 has no chord: $(cat "$1.jsonl")"
@@ -165,7 +167,7 @@ corners corners corners.gpkg
 corners bends bends.gpkg
 
 # A house on the bend of a road, beside an edge that pushes it east. Each leg of the road by itself allows the move, but
-# no single translation as long as the first least one separates it from both.
+# no translation as short as the first least one separates it from both.
 make_bend
 bend=(--gap 1 --max-shift 1 --barrier bend.gpkg,side=no --barrier edge.gpkg,side=no)
 proved bend bent.gpkg "${bend[@]}"
@@ -173,22 +175,21 @@ grep -q '"reason": "no_room"' bend.jsonl || fail "a house on a bend has no proof
 refuted bend bent.gpkg "${bend[@]}" --need slack --need "claimed slack" --need "short slack"
 
 # A block on both sides of a road, and a house that is too near to it at one end. In real numbers the block could slide
-# along the road, on the lattice of its coordinates it cannot.
+# along the road, but not with the coordinates that doubles allow.
 make_lane
 lane=(--gap 3 --max-shift 2 --no-blocks --block-field k --fixed-where 'w = 2' --allow-jumps --barrier lane.gpkg,width=5,gap=0,side=no)
 proved lane lanes.gpkg "${lane[@]}"
 grep -q '"still": ' lane.jsonl || fail "a block beside a road has no lattice: $(cat lane.jsonl)"
 refuted lane lanes.gpkg "${lane[@]}" --need "let go" --need "one line" --need "pushed line" --need "turned lines" \
     --need "held roughly" --need "held itself"
-# The same for houses that the road runs through, at the narrow part of one: no part of it is as deep in the road as the
-# whole.
+# The same for houses that the road cuts, at the narrow part of one: no part of it is as deep in the road as the whole.
 make_pierced
 proved pierced pierced.gpkg "${lane[@]}"
 grep -q '"slack": true, "held": true' pierced.jsonl || fail "a block that a road runs through: $(cat pierced.jsonl)"
 refuted pierced pierced.gpkg "${lane[@]}" --need "let go" --need "one line" --need "pushed line" --need "turned lines" \
     --need "held roughly" --need "reached line"
 
-# A house too wide for its yard: without a limit it would have to jump; and a limit may be short by itself.
+# A house too wide for its courtyard: without a limit it would have to jump; and a limit may be too short by itself.
 make_yard
 yard=(--gap 3 --no-blocks --contained separate)
 proved yard yard.gpkg "${yard[@]}"
@@ -198,10 +199,9 @@ proved short yard.gpkg "${yard[@]}" --max-shift 0.5
 grep -q '"reason": "max_shift".*"proof": ' short.jsonl || fail "a limit by itself: $(cat short.jsonl)"
 refuted short yard.gpkg "${yard[@]}" --max-shift 0.5 --need leaf
 
-# A house whose anchor is in a yard, near the way out; another house blocks the way further in. Along the wall between
-# the two halves of the yard the anchor could pass between the shadows of both, for less than half of the true cost.
-# What covers
-# that wall lies in both halves and in neither.
+# A house whose anchor is in a courtyard, near the way out; another house blocks the way further in. Along the common
+# wall of the two halves of the courtyard the anchor could pass between the shadows of both halves, for less than half
+# of the true cost. The pieces that cover that wall lie in the union of both halves, but in neither of them.
 make_halves
 proved halves halves.gpkg --gap 1 --max-shift 25
 grep -q 'bound 172.7' said || fail "along a shared wall: $(cat said)"
@@ -210,12 +210,12 @@ PYTHONPATH=$here python3 - <<'END' || fail "what lies in what"
 from problem import in_union, plane
 def boxes(*sides): return [plane.Outline([[(a, b), (c, b), (c, d), (a, d)]]) for a, b, c, d in sides]
 part = [(0, 0), (8, 2), (10, 10), (2, 8)]
-assert in_union(part, boxes((0, 0, 5, 10), (5, 0, 10, 10)))  # a wall in common
-assert in_union(part, boxes((0, 0, 7, 10), (3, 0, 10, 10)))  # in each other
+assert in_union(part, boxes((0, 0, 5, 10), (5, 0, 10, 10)))  # with a common wall
+assert in_union(part, boxes((0, 0, 7, 10), (3, 0, 10, 10)))  # overlapping
 assert in_union(part, boxes((0, 0, 5, 5), (5, 0, 10, 5), (0, 5, 5, 10), (5, 5, 10, 10)))
 assert not in_union(part, boxes((0, 0, 5, 10)))
 assert not in_union(part, boxes((0, 0, 5, 10), (5, 0, 10, 9)))
-assert not in_union(part, boxes((0, 0, 4, 10), (5, 0, 10, 10)))  # a slit
+assert not in_union(part, boxes((0, 0, 4, 10), (5, 0, 10, 10)))  # with a slit between
 assert not in_union(part, boxes((0, 0, 5, 5), (5, 0, 10, 5), (0, 5, 5, 10)))
 yard = plane.Outline([[(0, 0), (10, 0), (10, 10), (0, 10)], [(4, 4), (4, 6), (6, 6), (6, 4)]])
 assert not in_union(part, [yard])
@@ -223,18 +223,19 @@ assert in_union(part, [yard] + boxes((4, 4, 6, 6)))
 
 from nearly_in import lies_in_grown
 wide, = boxes((0, 0, 1000, 1000))
-dent = plane.Outline([[(0, 0), (1000, 0), (1000, 1000), (600, 1000), (500, 700), (400, 1000), (0, 1000)]])  # 94.9 at most from its sides
+# its points are up to 94.9 away from the sides
+dent = plane.Outline([[(0, 0), (1000, 0), (1000, 1000), (600, 1000), (500, 700), (400, 1000), (0, 1000)]])
 assert [lies_in_grown(wide, dent, d, d, 1) for d in (97, 96, 95, 94, 40)] == [True, True, False, False, False]
 assert lies_in_grown(dent, wide, 0, 0.0, 1)
 from unions import union_polygons
 def corners_of(*sides): return [[len(ring) for ring in rings] for rings in union_polygons(boxes(*sides))]
 assert corners_of((0, 0, 3, 3), (2, 2, 5, 5)) == [[8]]
-assert corners_of((0, 0, 3, 3), (3, 0, 5, 3)) == [[4]]  # a wall in common
-assert corners_of((0, 0, 3, 3), (3, 3, 5, 5)) == [[4], [4]]  # a corner
-assert corners_of((0, 0, 3, 1), (0, 0, 1, 3), (2, 0, 3, 3), (0, 2, 3, 3)) == [[4, 4]]  # a yard
+assert corners_of((0, 0, 3, 3), (3, 0, 5, 3)) == [[4]]  # with a common wall
+assert corners_of((0, 0, 3, 3), (3, 3, 5, 5)) == [[4], [4]]  # with a common corner
+assert corners_of((0, 0, 3, 1), (0, 0, 1, 3), (2, 0, 3, 3), (0, 2, 3, 3)) == [[4, 4]]  # around a courtyard
 END
 
-# Whether an overlap is thin: the same if places of the disc that have no room are left out before.
+# The decision whether an overlap is thin is the same if impossible positions of the disc are removed in advance.
 PYTHONPATH=$here python3 - <<'END' || fail "thin overlaps"
 from math import cos, sin
 from random import Random
@@ -255,8 +256,8 @@ for k in range(12):
 assert told == {False, True}
 END
 
-# Containment up to the tolerance that depends on the last digit of a corner of the grown polygon: on it, and one unit
-# beyond.
+# Containment up to the tolerance that depends on the last digit of a corner of the dilated polygon: at that corner, and
+# one unit beyond.
 make_hanging at
 make_hanging beyond
 proved beyond beyond.gpkg --gap 3
@@ -265,7 +266,7 @@ proved at at.gpkg --gap 3
 strange at beyond.gpkg --gap 3
 strange beyond at.gpkg --gap 3
 
-# Buildings whose members overlap or share walls are their union; so are areas of a barrier.
+# Buildings whose members overlap or share walls count as their union; so do areas of a barrier.
 make_members 12 3 members
 make_among_members
 members=(--gap 2 --no-blocks --max-shift 3 --barrier street.gpkg,width=2 --barrier woods.gpkg)
@@ -276,7 +277,7 @@ strange members members.gpkg --gap 2 --no-blocks --max-shift 3 --barrier street.
 proved apart members.gpkg --gap 1.5 --max-shift 3 --no-blocks --weight area
 refuted apart members.gpkg --gap 1.5 --max-shift 3 --no-blocks --weight area --need part --need hull --need disc --need heavier
 
-# Symbols of points: five within each other's reach, one of them too far in for its limit.
+# Symbols of points: five within each other's reach, one of which is too deep in another for its limit.
 printf 'WKT,w\n"POINT(0 0)",1\n"POINT(3 1)",1\n"POINT(1.5 3.1)",1\n"POINT(40 0)",1\n"POINT(40.25 0.5)",1\n' |
     layer points.gpkg buildings POINT
 for symbol in square:4 rectangle:5x3 disc:2.3 inside-disc:2.5:24 'POLYGON ((-2 -1,2 -2,1 3,-2 -1))'; do
@@ -285,7 +286,7 @@ for symbol in square:4 rectangle:5x3 disc:2.3 inside-disc:2.5:24 'POLYGON ((-2 -
     grep -q '"reason": "max_shift".*"proof": ' points.jsonl || fail "symbols: $(cat points.jsonl)"
 done
 
-# Symbols of each point's own, by fields: in units, of several polygons, with a hole, at several points of one feature.
+# Symbols of single points, from fields: with units, of several polygons, with a hole, at several points of one feature.
 make_symbols
 own=(--gap 0.5 --symbol square:3 --symbol-field s --symbol-size-field F)
 proved symbols symbols.gpkg "${own[@]}"
@@ -307,7 +308,7 @@ python3 "$here/check_proof.py" abroad.jsonl abroad.gpkg --layer buildings "${abr
 strange abroad abroad.gpkg "${abroad[@]}" near.gpkg,width=3
 PATH=$here not_asked 'ogr2ogr, which does not run' abroad abroad.gpkg "${abroad[@]}" far.gpkg,width=3
 
-# Lengths with units: of the ground, of the sheet, on a layer in feet.
+# Lengths with units: on the ground, on paper, for a layer in feet.
 proved units abroad.gpkg --gap 2.1m --max-shift 0.004km --no-blocks --barrier near.gpkg,width=0.12mm,gap=3ft --scale 1:25000
 strange units abroad.gpkg --gap 2.1m --max-shift 0.004km --no-blocks --barrier near.gpkg,width=0.12mm,gap=3ft --scale 1:20000
 strange units abroad.gpkg --gap 2.1ft --max-shift 0.004km --no-blocks --barrier near.gpkg,width=0.12mm,gap=3ft --scale 1:25000
@@ -367,10 +368,12 @@ def total(gap, *polygons):
     return round(least, 3)
 def box(a, b, c, d): return ring((a, b), (c, b), (c, d), (a, d))
 assert total(0, box("0.3", "0.2", "3.8", "2.1")) == 6.65
-assert total(0, box(0, 0, 3, 3), box(2, 2, 5, 5), box("2.5", "0.5", "3.5", "2.5")) == 17.75  # what members share counts once
+# the common area of members counts once
+assert total(0, box(0, 0, 3, 3), box(2, 2, 5, 5), box("2.5", "0.5", "3.5", "2.5")) == 17.75
 assert total(0, box(0, 0, 9, 9) + box(2, 2, 5, 4)) == 75  # a hole
 assert total(0, ring((0, 0), (4, 1), (1, 3)), ring((0, 3), (3, 0), (4, 2))) == 7.158  # edges that cross
-assert total(2, box(0, 0, 4, 4)) == 35.121  # 4 by 4, a border of 1, and 16 sin(pi / 16) at its corners
+# a square of 4 by 4, a border of width 1, and 16 sin(pi / 16) for the corners
+assert total(2, box(0, 0, 4, 4)) == 35.121
 _, hats, _ = occupied.masses(occupied.in_squares([box(0, 0, 1, 1)], Own(0)), Own(0))
 assert hats == [[1 << 18] * 2] * 2
 class Rows(prices.Payer):

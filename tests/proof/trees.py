@@ -7,7 +7,7 @@ from cover import Piece, clip, is_covered, is_nowhere, line_of, square
 from form import demand, index, shown
 
 
-FINE = 1 << 60  # places that discs are about are rounded to this share of the lattice, and more is asked by that
+FINE = 1 << 60  # places of discs are rounded to this share of the lattice, and the test is stricter by that
 
 
 class Tree(Bodies):
@@ -15,9 +15,9 @@ class Tree(Bodies):
         super().__init__(problem, told)
         self.pieces_told, self.pieces = told["pieces"], {}
         self.nodes = told["nodes"]
-        self.cuts = []   # as they are told
-        self.owner = []  # the node of each
-        self.exact = {}  # (i, j, n, d) of cuts that have been asked for; j None: the ground
+        self.cuts = []   # as in the file
+        self.owner = []  # for each cut its node
+        self.exact = {}  # (i, j, n, d) of cuts that have been verified; j None: fixed ground
         self.reach = {}
 
     def mass(self, i, j):
@@ -26,7 +26,7 @@ class Tree(Bodies):
     # ---- What forces prove
 
     def read_forces(self, told, node):
-        """Reads [(cut, force)], all on the path to the node."""
+        """Reads [(cut, force)]; all cuts have to be on the path to the node."""
         forces = []
         for cut, force in told:
             index(cut, len(self.cuts), "cut")
@@ -112,7 +112,7 @@ class Tree(Bodies):
     # ---- Nodes
 
     def check(self):
-        """Checks the tree; returns the bound that it proves."""
+        """Verifies the tree; returns the bound that it proves."""
         children = [[] for _ in self.nodes]
         for k, node in enumerate(self.nodes):
             parent = node["parent"]
@@ -185,7 +185,7 @@ class Tree(Bodies):
         return self.push(self.read_forces(told, parent))
 
     def demand_cones(self, cuts):
-        """Three cones of one pair that cover the plane: no place misses a side of each."""
+        """Three cones of one pair that cover the plane: no place violates a side of each."""
         lines = []
         for own in cuts:
             demand(len(own) >= 2 and own[0]["kind"] == own[1]["kind"] == "cone", "a child without its cone")
@@ -198,8 +198,8 @@ class Tree(Bodies):
 
 
 class Discs:
-    """The relative moves that forces proving `value` leave at a node: a disc for each pair, with its centre rounded and
-    the square of its radius rounded up."""
+    """The relative moves that are possible at a node if forces prove `value`: a disc for each pair, with its centre
+    rounded and the square of its radius rounded up."""
 
     def __init__(self, tree, value, net):
         self.tree, self.value, self.net, self.found = tree, value, net, {}
@@ -214,14 +214,14 @@ class Discs:
         return self.found[i, j]
 
     def demand_beyond(self, i, j, line):
-        """All that the line takes away is outside of the disc."""
+        """Demands that everything the line excludes is outside the disc."""
         (a, b, c), (x, y, left) = line, self.disc(i, j)
         beyond = a * x + b * y - c * FINE - abs(a) - abs(b)
         demand(beyond >= 0 and beyond * beyond >= left * (a * a + b * b), "a disc's cut takes away what may be cheap")
 
 
 def add_up(trees):
-    """The bound that trees prove together, by groups that share no body that may move."""
+    """The bound that trees prove together, by groups that share no movable body."""
     group_of, total = {}, Fraction(0)
     by_group = {}
     for tree in trees:

@@ -1,7 +1,8 @@
 """The union of polygonal sets, exactly: its polygons in fractions.
 
-Edges are cut where they meet; a piece is boundary if the union lies on one side of it alone. The boundary is followed with the inside
-on the left. A polygon is one connected component of the interior, and has one ring for each component of its outside.
+Edges are cut at their intersections; a piece is boundary if the union lies on exactly one side of it. The boundary is
+followed with the inside on the left. A polygon is one connected component of the interior, and has one ring for each
+component of its outside.
 """
 from fractions import Fraction
 
@@ -10,14 +11,14 @@ from repair import cut, follow, twice_area, without_straight
 
 
 def union_outline(outlines, lines=()):
-    """One outline, with whole numbers where its corners have them."""
+    """One outline, with integers for the corners that have them."""
     rings = [ring for rings in union_polygons(outlines) for ring in rings]
     return plane.Outline([[tuple(int(v) if v.denominator == 1 else v for v in p) for p in ring] for ring in rings], lines)
 
 
 def union_polygons(outlines):
-    """Lists of rings, of each polygon the outer one first."""
-    rings = list(follow(boundary(outlines)))  # each of one component
+    """Lists of rings, for each polygon the outer one first."""
+    rings = list(follow(boundary(outlines)))  # each list is of one component
     outer = [ring for ring in rings if twice_area(ring) > 0]
     of = {id(ring): [ring] for ring in outer}
     for ring in rings:
@@ -29,7 +30,7 @@ def union_polygons(outlines):
 
 
 def along_the_outside(rings):
-    """The boundary of one component; corners on straight ways are left out."""
+    """The boundary of one component, without straight corners."""
     edges = [(ring[k - 1], p) for ring in rings for k, p in enumerate(ring)]
     return sorted(map(without_straight, follow(edges, outside=True)), key=twice_area, reverse=True)
 

@@ -1,5 +1,5 @@
 """The features that --invalid skip leaves out: those with a polygon whose rings cross, share a length, or have holes
-elsewhere than in the first ring, and those with a coordinate that is not finite."""
+outside the first ring, and those with a coordinate that is not finite."""
 import math
 from fractions import Fraction
 

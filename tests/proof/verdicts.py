@@ -68,7 +68,7 @@ class Verdict:
         clearance = Fraction(node["clearance"]) * self.unit
         self.check_clearance(a, b, clearance)
         demand(not node.get("slack") or clearance < 0, "slack, where nothing is held to an overlap")
-        if node.get("held"):  # the first way is exactly where the parts let go of each other
+        if node.get("held"):  # the first way is exactly where the two parts just touch
             h = farthest(difference(*parts), ways[0])
             demand(ways[0][2] <= h, "a line beyond where the parts let go of each other")
             ways[0] = (*ways[0][:2], h)
@@ -94,8 +94,8 @@ class Verdict:
             demand(self.problem.is_barrier(k) or self.body_of(k) in own, "the way of a bystander:", k)
 
     def check_within(self):
-        """Apart by more than they owe, however far beyond: the two, a feature and a barrier with a side, all of two blocks, or
-        all of a block and the barriers that are named."""
+        """Fails unless moves longer than `within` leave these pairs farther apart than required: the two, a feature and
+        a barrier with a side, all members of two blocks, or all members of a block and the barriers that are named."""
         a, b = self.told["a"], self.told["b"]
         sided = self.told["reason"] == "side" and self.problem.is_barrier(b)
         joint = self.told["reason"] == "no_room" or self.crowded
@@ -118,11 +118,12 @@ class Verdict:
             demand(within * within >= reach[0] ** 2 + reach[1] ** 2, "farther out the two could still be too near:", k, l)
 
     def is_listed(self, a, b):
-        """In a crowd all pairs owe their distance, listed or not."""
+        """In a crowd all pairs have to keep their distance, whether listed or not."""
         return not self.crowded and self.key(a, b) in self.kinds and self.key(a, b) != self.own
 
     def check_clearance(self, a, b, clearance):
-        """No more than the pair owes, or than it had at the start where it is another listed one."""
+        """No more than the distance required of the pair or, for another listed pair, than its distance at the
+        start."""
         if not self.is_listed(a, b):
             demand(clearance <= self.problem.required(a, b), "more is asked of", a, b, "than they owe")
             return
@@ -149,7 +150,7 @@ class Verdict:
 
     def check_ways(self, polygon, ways, inside, square):
         """The set behind all ways is bounded, and each of its corners is in conflict: its squared distance from the
-        polygon is at most `square`, or, with `inside`, a disc of that size about it lies inside the polygon."""
+        polygon is at most `square`, or, with `inside`, a disc of that size around it lies inside the polygon."""
         for w in ways:
             for along in ((w[1], -w[0]), (-w[1], w[0])):
                 demand(any(m[0] * along[0] + m[1] * along[1] > 0 for m in ways), "the ways leave a direction out")
@@ -179,7 +180,8 @@ class Verdict:
         demand(self.wins(leaf), "a leaf is no contradiction")
 
     def check_still(self, lines, taken):
-        """The body that is between the lines of two ways, and has no place there but its own; see docs/PROOF.md."""
+        """The body that is between the lines of two ways, and has no place there but its original one; see
+        docs/PROOF.md."""
         found = []
         for node, way in lines:
             demand(node in taken and way == taken[node], "a line that is not on the way")
@@ -197,7 +199,8 @@ class Verdict:
         (body, px, py), (other, qx, qy) = found
         demand(body == other, "two lines of two bodies")
         demand(px * qy == py * qx and px * qx + py * qy < 0, "lines that are not opposite to each other")
-        limit = self.problem.body_limit(body)  # `within` is none: of longer moves not all are multiples of a shorter one
+        # `within` is None: some of the longer moves are not multiples of a shorter one
+        limit = self.problem.body_limit(body)
         demand(limit is not None, "a lattice without a limit")
         unit = [self.unit_of(body, x, Fraction(limit)) for x in (0, 1)]
         # p i + q j = 0 for integers i and j of units: they are multiples of q and -p, divided by their greatest common
@@ -211,7 +214,8 @@ class Verdict:
         return body
 
     def demand_far(self, node, way):
-        """Fails unless the line is so far that no slack alone can reach it, so the two may come no nearer to it."""
+        """Fails unless the line is so far away that no slack alone can reach it, so that the two may not come nearer
+        to it."""
         demand(node.get("held") and way is node["ways"][0], "a line that is not told exactly")
         a, b = node["a"], node["b"]
         inside, square = self.stood(a, b)
@@ -226,7 +230,7 @@ class Verdict:
         double."""
         things = [self.problem.things[k] for k in body]
         at = [Fraction(p[x], self.unit) for t in things for o in [*t.polygons] for ring in o for p in ring]
-        low = min(map(abs, at)) - limit  # no coordinate is nearer to 0, if that is greater than 0
+        low = min(map(abs, at)) - limit  # no coordinate is nearer to 0, if this is positive
         unit = Fraction(1, 1 << 1074)
         if low > 0:
             unit = max(unit, Fraction(2) ** (low.numerator.bit_length() - low.denominator.bit_length() - 54))
@@ -245,7 +249,7 @@ class Verdict:
             won += sign * d
             a, b = node["a"], node["b"]
             sides = [(self.body_of(a), -sign), (self.body_of(b), sign)]
-            if node.get("slack"):  # if a node names the two the other way round, its slack is the opposite
+            if node.get("slack"):  # if a node names the two in the other order, its slack has the opposite sign
                 pair = self.key(a, b)
                 sides.append((("slack", pair, node["clearance"]), sign if str(a) == pair[0] else -sign))
             for body, side in sides:
@@ -280,7 +284,7 @@ def difference(a, b):
 
 
 def farthest(polygon, line):
-    """How far it goes along the normal of a line."""
+    """The maximum of the polygon along the normal of a line."""
     return max(line[0] * x + line[1] * y for x, y in polygon)
 
 
@@ -299,7 +303,7 @@ def sides(polygon, w):
 
 
 def is_near(polygon, corner, most):
-    """A place no farther from a convex polygon, which may be a segment or a point; most: the square."""
+    """Is the place at most the root of `most` from a convex polygon, which may be a segment or a point?"""
     x, y, w = corner
     edges = sides(polygon, w)
     if len(polygon) > 2 and all(plane.side(p, q, (x, y)) >= 0 for p, q in edges):
@@ -310,7 +314,7 @@ def is_near(polygon, corner, most):
 
 
 def holds_disc(polygon, corner, square):
-    """The disc about the place within the polygon; square: of its radius."""
+    """Is the disc around the place within the polygon? square: of its radius."""
     x, y, w = corner
     square = Fraction(square) * w * w
     n, d = square.numerator, square.denominator
@@ -323,7 +327,7 @@ def holds_disc(polygon, corner, square):
 
 
 def is_shaded(polygon, v, far):
-    """Is s v in the polygon for some 0 <= s, no more than 1 unless far? v: a homogeneous place, or a direction."""
+    """Is s v in the polygon for some s >= 0, with s <= 1 unless `far`? v: a homogeneous place, or a direction."""
     x, y, w = v if len(v) == 3 else (*v, 1)
     if len(polygon) < 3:
         return meets_segment(polygon, x, y, None if far else w)
@@ -342,7 +346,7 @@ def is_shaded(polygon, v, far):
 
 
 def check(problem, told):
-    """By its proof, if it has one."""
+    """Verifies the conflict by its proof, if it has one."""
     demand(not told.get("crowded") or told["reason"] == "unresolved", "crowded, of another reason:", told["reason"])
     demand((told["reason"] == "same_block") == bool(told.get("inside_block")), "the reason", told["reason"], "of", told["a"],
            "and", told["b"])
