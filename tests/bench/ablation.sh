@@ -1,14 +1,14 @@
 #!/usr/bin/env bash
 # What is each stage, and each constant, of the separation worth? Clusters of real layers are separated with a stage
-# switched off, or with the constants of a stage halved or doubled; one line of CSV for each variation. ablation/README.md
-# tells how to read it.
+# switched off, or with the constants of a stage halved or doubled; one line of CSV for each variation.
+# ablation/README.md explains the columns.
 #
 #   bash tests/bench/ablation.sh [--corpus FILE] [--csv FILE] [WHAT ...]
 #
 # WHAT   stages, groups, singles (constants one by one, of the groups that matter); or variations in the words of
-#        ablation/tuning.h, such as off:cluster/descend or search.SOFT*2. Nothing: stages, groups and singles.
-# --corpus FILE  made if it is not there, of the layers in ../shared/data beside the repository, else of synthetic ones.
-# --csv FILE     variations that it has are not run again.
+#        ablation/tuning.h, such as off:cluster/descend or search.SOFT*2. Default: stages, groups and singles.
+# --corpus FILE  made if it does not exist, from the layers in ../shared/data beside the repository, otherwise from synthetic ones.
+# --csv FILE     variations that are in it already are not run again.
 # SUNDER_BUILD   the build; build/release if not set.
 set -eu
 source=$(cd "$(dirname "$0")/../.." && pwd)
@@ -55,7 +55,7 @@ draw_town() { # NAME INPUT LAYER
     draw "$1_soon" 4 "$2" "$3" --gap 3 --effort 0 "${roads[@]}"
     draw "$1_soon_free" 3 "$2" "$3" --gap 5 --effort 0
 }
-draw_rules() { # NAME INPUT LAYER: with other rules
+draw_rules() { # NAME INPUT LAYER: the same with other rules
     draw "$1_jumps" 4 "$2" "$3" --gap 3 --max-shift 20 --allow-jumps --barrier "$2,layer=roads,width=5"
     draw "$1_contained" 4 "$2" "$3" --gap 2 --contained separate --no-blocks
     draw "$1_effort" 4 "$2" "$3" --gap 4 --max-shift 3 --effort 3
@@ -85,7 +85,7 @@ draw_synthetic() {
 
 make_corpus() {
     if [ -d "$data" ]; then draw_real; else draw_synthetic; fi
-    # Those that end within the steps have eight columns.
+    # Items that end within the limit of steps have eight columns.
     nice "$build/run_corpus" "$work/drawn" --most "$light" | awk -F'\t' 'NF == 8 && n++ < 300 { print $1 }' >"$work/names"
     awk 'NR == FNR { keep[$1] = 1; next } $1 == "cluster" { on = $2 in keep } on' "$work/names" "$work/drawn" >"$corpus.part"
     mv "$corpus.part" "$corpus"
@@ -119,7 +119,8 @@ record() { # VARIATION [CHANGES]
 }
 
 begin() {
-    nice "$build/run_corpus" "$corpus" --list >"$work/listed" # also: which stages are asked for, which constants there are
+    # also finds out which stages are asked for, and which constants exist
+    nice "$build/run_corpus" "$corpus" --list >"$work/listed"
     awk -F'\t' 'NF == 8' "$work/listed" >"$work/plain"
     [ -s "$csv" ] || {
         echo "# $(tail -1 "$work/listed"); corpus $(sha256sum <"$corpus" | cut -c1-16); commit $(git -C "$source" describe --always --dirty 2>/dev/null)"

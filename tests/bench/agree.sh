@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
-# Sums beside CGAL's, exactly: the area of every golden case, of the cases and small families in ../shared where they are, and
-# of the families as sunder-families draws them, by CGAL's reduced convolution, and by every road of ours.
+# Compares sums with CGAL's, exactly: the area of every golden case, of the cases and small families in ../shared if
+# they are there, and of the families made by sunder-families, by CGAL's reduced convolution, and by all of our
+# algorithms.
 #
 #   agree.sh            needs a build with cgal_sum, sunder, sunder-families and test_golden: SUNDER_BUILD (build/release)
 #
-# Degenerate holes have no area, and CGAL drops them; what differs in area is decided by the oracle of tests/support, which
-# shares no code with either. Ends with 1 where the oracle is not on our side, with 77 where CGAL is not there.
+# Degenerate holes have no area, and CGAL drops them. If areas differ, the oracle of tests/support decides, which shares
+# no code with either library. Ends with 1 if the oracle contradicts our result, with 77 if CGAL is not installed.
 set -euo pipefail
 source=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd -P)
 build=${SUNDER_BUILD:-$source/build/release}

@@ -1,8 +1,8 @@
-/* bench_buffer each|dissolve|close|open SHAPE FILE: seconds of growing the polygons of a file, one a line, by
+/* bench_buffer each|dissolve|close|open SHAPE FILE: seconds to dilate the polygons of a file, one per line, by
  * disc:RADIUS:SEGMENTS, inside-disc:RADIUS:SEGMENTS or square:SIDE, from doubles in memory to the vertices of the exact
- * results as nearest doubles; median of several runs. `each` grows line by line, `dissolve` everything into one set;
- * `close` and `open` do what they say to everything as one set.
- * Prints features, vertices in and out, the area of the written rings, seconds. Public interface only. */
+ * results as nearest doubles; median of several runs. `each` dilates line by line, `dissolve` all polygons as one set;
+ * `close` and `open` are these operations on all polygons as one set. Prints features, vertices of input and output,
+ * the area of the written rings, seconds. Public interface only. */
 #include "buffer_input.h"
 #include "sunder.h"
 
@@ -22,7 +22,7 @@ static sunder_status make_shape(const char *text, sunder_shape **out, sunder_err
     return sunder_shape_disc(s.size, s.segments, s.inside, out, err);
 }
 
-/* The rings of a sum as a writer needs them. */
+/* The rings of a sum in the form that a writer needs. */
 static sunder_status take_rings(const sunder_sum *sum, output *o, sunder_error *err)
 {
     sunder_sum_size size;

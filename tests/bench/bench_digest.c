@@ -1,5 +1,5 @@
-/* bench_digest FILE...: the sum's rings, degenerate segments and points with their exact coordinates, as one number a
- * file: FNV-1a of the texts. What two builds print alike they hold alike. Public interface only. */
+/* bench_digest FILE...: the sum's rings, degenerate segments and points with their exact coordinates, as one number per
+ * file: FNV-1a of the texts. If two builds print the same number, their results are equal. Public interface only. */
 #include "sunder.h"
 #include "wkt_input.h"
 

@@ -1,18 +1,19 @@
-/* Layers on which the cost of separating them should grow with their size, and with nothing else.
+/* Layers for which the cost of separation should be proportional to their size.
  *
  *   bench_layer FAMILY N [THREADS]
  *
  *   pairs      N pairs of overlapping squares, far from each other
- *   far        ... and one pair more, a mile off, that has to move 800 m
+ *   far        ... and another pair, a mile away, that has to move 800 m
  *   outline    one fixed ring of walls, 4 N corners, and N houses that overlap it
- *   inside     one outline that N houses lie in, some of them in each other's way (contained features ignored)
+ *   inside     one outline that contains N houses, some of them in conflict with each other (contained features are
+ *              ignored)
  *   hub        one movable feature that N houses overlap
  *   chain      N squares, each of which overlaps the next
  *   lanes      N houses in lanes that are too narrow for them, and may move 1 m
- *   grid       N squares of 10 m in a grid, with 1 m between them where 3 m are wanted: one cluster of all
- *   rounds     N pairs, and a row of N / 100 houses, each of which is run into when the one before it is moved
+ *   grid       N squares of 10 m in a grid, with 1 m between them where 3 m are required: one cluster of all
+ *   rounds     N pairs, and a row of N / 100 houses, each of which runs into the next one when it is moved
  *
- * One line: family, N, features, conflicts before and after, cost, bound, longest move, processor seconds of the
+ * Prints one line: family, N, features, conflicts before and after, cost, bound, longest move, processor seconds of the
  * separation. */
 #include "sunder.h"
 
@@ -77,7 +78,7 @@ static void add_pairs(layout *l, size_t n)
     }
 }
 
-/* A regular ring of 4 n corners, as wide as n houses are long; half of its houses on each side. */
+/* A regular ring of 4 n corners, as long as n houses side by side; half of its houses on each side. */
 static void add_outline(layout *l, size_t n)
 {
     const size_t corners = 2 * n < 8 ? 8 : 2 * n;
@@ -123,7 +124,7 @@ static void add_chain(layout *l, size_t n)
     for (size_t k = 0; k < n; k++) add_box(l, 400000 + 9.5 * (double)k, 5000000 + random_unit(l), 10, 10);
 }
 
-/* Lanes of 9 m with houses of 10 m, in rows that hang together. */
+/* Lanes of width 9 m with houses of 10 m, in connected rows. */
 static void add_lanes(layout *l, size_t n)
 {
     for (size_t k = 0; k < n; k++) {
@@ -134,7 +135,7 @@ static void add_lanes(layout *l, size_t n)
     for (size_t k = 0; k + 1 < n; k++) add_box(l, 400000 + 19.5 * (double)k + 4, 5000000 + 9.5, 20, 6)->max_shift = 1;
 }
 
-/* Places are uneven by a decimetre, so that no two rows are alike. */
+/* Positions vary by a decimetre, so that all rows differ. */
 static void add_grid(layout *l, size_t n)
 {
     const size_t columns = (size_t)ceil(sqrt((double)n));
@@ -155,7 +156,7 @@ static void add_rounds(layout *l, size_t n)
     for (size_t k = 0; k < n / 100; k++) add_box(l, x += 10.75, y, 10, 400);
 }
 
-/* Pairs, and far from them two that lie in each other. */
+/* Pairs, and far from them two features that overlap deeply. */
 static void add_far(layout *l, size_t n)
 {
     add_pairs(l, n);

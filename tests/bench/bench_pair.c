@@ -1,6 +1,7 @@
-/* bench_pair FILE [COUNT [reflect]]: microseconds a pair for the least translation of Q off P, from doubles in memory,
- * for the first COUNT pairs of a file with P and Q on alternating lines (0: all), or with P and -Q (reflect). Prints
- * pairs, microseconds (median of three passes), and the sum of the lengths, by which two programs can be compared. */
+/* bench_pair FILE [COUNT [reflect]]: microseconds per pair for the least translation of Q off P, from doubles in
+ * memory, for the first COUNT pairs of a file with P and Q on alternating lines (0: all), or with P and -Q (reflect).
+ * Prints pairs, microseconds (median of three passes), and the sum of the lengths, by which two programs can be
+ * compared. */
 #include "sunder.h"
 #include "wkt_input.h"
 

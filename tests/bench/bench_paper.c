@@ -1,11 +1,11 @@
-/* bench_paper FILE pieces: what each convex decomposition makes of P and Q. One CSV line a decomposition: its name, the
- * one used, pieces of P and of Q, subsums, sides of all subsums, seconds to decompose and to form the subsums.
+/* bench_paper FILE pieces: the convex decompositions of P and Q. One CSV line per decomposition: its name, the one
+ * used, pieces of P and of Q, subsums, sides of all subsums, seconds to decompose and to form the subsums.
  *
- * bench_paper FILE orders: the incremental union in random order, as given, and by each measure of fatness. One CSV
- * line an order: its name, subsums, edges of the union, comparisons, orientation tests, crossings, seconds.
+ * bench_paper FILE orders: the incremental union in random order, in the given order, and by each measure of fatness.
+ * One CSV line per order: its name, subsums, edges of the union, comparisons, orientation tests, crossings, seconds.
  *
- * Seconds are medians for pieces, of one run for orders. Uses the library's inner headers: pieces and measures are no
- * part of the public interface. */
+ * Seconds are medians for pieces, of one run for orders. Uses the library's internal headers, since pieces and measures
+ * are not part of the public interface. */
 #include "convex/convex_sum.h"
 #include "unions/unions.h"
 #include "wkt_input.h"

@@ -1,7 +1,7 @@
-/* bench_sum [ALGORITHM DECOMPOSITION ORDER] FILE...: seconds of P + Q by the default or by that road (the words of
- * sunder_algorithm_string() and its like), from the operands as doubles in memory to the finished canonical sum with
- * its degenerate holes, median of several runs. One line a file: path, vertices of P and Q, vertices and holes of the
- * sum, degenerate segments and points, seconds. Public interface only. */
+/* bench_sum [ALGORITHM DECOMPOSITION ORDER] FILE...: seconds of P + Q by the default or by that algorithm (the words of
+ * sunder_algorithm_string() and similar functions), from the operands as doubles in memory to the finished canonical
+ * sum with its degenerate holes, median of several runs. One line per file: path, vertices of P and Q, vertices and
+ * holes of the sum, degenerate segments and points, seconds. Public interface only. */
 #include "sunder.h"
 #include "wkt_input.h"
 
@@ -26,7 +26,7 @@ static __attribute__((noinline)) sunder_status bench_once(const bench_set *p, co
     return status;
 }
 
-/* Whether the three words name a road. */
+/* Are the three words the names of an algorithm, a decomposition and an order? */
 static bool read_road(char **word)
 {
     int a = SUNDER_ALGORITHM_AUTO, d = SUNDER_DECOMPOSITION_AUTO, o = SUNDER_ORDER_RANDOM;

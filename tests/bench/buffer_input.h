@@ -1,5 +1,5 @@
-/* Layers for the benchmark of buffers: a file of polygons, one WKT a line, and the shape to grow by. One header for the
- * C programs and for CGAL's, so that all measure on the same numbers. */
+/* Layers for the benchmark of buffers: a file of polygons, one WKT per line, and the shape by which they are dilated.
+ * One header for the C programs and for CGAL's, so that all use the same numbers. */
 #ifndef SUNDER_BENCH_BUFFER_INPUT_H
 #define SUNDER_BENCH_BUFFER_INPUT_H
 
@@ -12,7 +12,7 @@ typedef struct bench_layer {
 
 typedef struct bench_shape {
     double size;       /* the disc's radius, the square's side */
-    unsigned segments; /* of a disc; 0: a square */
+    unsigned segments; /* segments of a disc; 0: a square */
     int inside;
 } bench_shape;
 
@@ -60,7 +60,7 @@ static inline size_t bench_layer_vertices(const bench_layer *layer)
     return n;
 }
 
-/* All features as one, their polygons side by side. */
+/* All features as one feature with all their polygons. */
 static inline void bench_layer_join(bench_layer *layer)
 {
     bench_set all;
@@ -87,7 +87,7 @@ static inline void bench_layer_join(bench_layer *layer)
     layer->n = 1;
 }
 
-/* Signed, from the first vertex on, so that large coordinates cost no digits. */
+/* Signed area, relative to the first vertex, so that large coordinates cost no digits. */
 static inline double bench_ring_area(const double *xy, size_t n)
 {
     double area = 0;
@@ -103,7 +103,7 @@ static inline int bench_is_one_of(const char *word, const char *const *words, si
     return 0;
 }
 
-/* each|dissolve|close|open SHAPE FILE; ends the process where they are not that. */
+/* Parses each|dissolve|close|open SHAPE FILE; ends the process if the arguments do not have this form. */
 static inline void bench_buffer_arguments(int argc, char **argv, bench_layer *layer)
 {
     static const char *const words[] = {"each", "dissolve", "close", "open"};

@@ -1,20 +1,20 @@
 #!/usr/bin/env bash
-# Buffers beside their peers in the same run: GEOS (buffer with 8 quadrant segments beside our 32-gon, mitred beside the
-# square; unary union) and CGAL (the best of its Minkowski sums; join), compute only. Then huts closed and opened by
-# discs of 8 to 128 segments, whole programs, and opening and closing of a large outline.
+# Buffers compared with other libraries in the same run: GEOS (buffer with 8 quadrant segments compared with our 32-gon,
+# mitred buffers with the square; unary union) and CGAL (the best of its Minkowski sums; join), computation only. Then
+# houses closed and opened by discs of 8 to 128 segments, whole programs, and opening and closing of a large outline.
 #
 #   buffers.sh [each] [dissolve] [huts] [programs] [coast]     all unless some are named
 #
-# Prints Markdown; BUFFERS.md sums up the record in buffers/, which is made by
+# Prints Markdown; BUFFERS.md summarises the record in buffers/, which is made by
 #
 #   buffers.sh | python3 tests/bench/record.py tests/bench/buffers buffers huts programs coast
 #
-# `cmake --build BUILD --target bench` builds what is needed. CPU seconds of one thread, medians, from doubles in memory to the
-# result as doubles, except for the programs (time on the wall and in both files). Sunder is measured before and after its
-# peer and the worse of the two counts.
+# `cmake --build BUILD --target bench` builds what is needed. Times are CPU seconds of one thread, medians, from doubles
+# in memory to the result as doubles, except for the programs (wall-clock time, from file to file). Sunder is measured
+# before and after the other library, and the slower of the two counts.
 #
 #   SUNDER_BUILD           build directory (./build/release)
-#   SUNDER_BENCH_DATA      folder of the layers (../shared/data beside the repository); where it is missing, copies of the
+#   SUNDER_BENCH_DATA      folder of the layers (../shared/data beside the repository); if it is missing, copies of the
 #                          small town in datasets-synthetic
 #   SUNDER_BENCH_INPUT     folder of the families (../shared/families), for the coast
 #   SUNDER_BENCH_SECONDS   seconds to spend on repetitions of one figure (1)
@@ -52,7 +52,7 @@ head_of() { # COLUMN...: the head of a table
   printf '|\n'
 }
 
-# Valid features alone: a peer that repairs does something else.
+# Valid features only, since libraries that repair invalid ones compute something else.
 tiles() { # SOURCE LAYER COPIES STEP OUT: copies of a layer side by side, as a GeoPackage and as lines of WKT
   local geometry=geom
   rm -f "$5.gpkg"
@@ -75,7 +75,7 @@ prepare() {
     large=town_x358 medium=town_dense dense=town_dense
   fi
   local name
-  for name in $medium $dense; do # what CGAL can do: it fails on some polygons with holes, and takes long
+  for name in $medium $dense; do # only what CGAL can do: it fails on some polygons with holes, and is slow
     awk 'index($0, "),(") == 0 && n++ < 2000' "$scratch/$name.txt" >"$scratch/${name}_2000.txt"
   done
 }
@@ -130,7 +130,7 @@ huts() {
   done
 }
 
-wall() { # seconds of a command, on the wall
+wall() { # wall-clock seconds of a command
   local start=$EPOCHREALTIME
   "$@" >/dev/null 2>"$scratch/err" || { echo failed; return; }
   awk -v a="$start" -v b="$EPOCHREALTIME" 'BEGIN { printf "%.2f", b - a }'

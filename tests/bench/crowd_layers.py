@@ -1,7 +1,7 @@
 """Layers in which nearly all features are in conflict: crowds for DISPLACEMENT.md.
 
-    /usr/bin/python3 crowd_layers.py terraces OUT.gpkg N    N houses back to back in blocks of 2 x 16, that share walls
-    /usr/bin/python3 crowd_layers.py grid OUT.gpkg N        N squares of 10 m, 12 m, and up to 0.3 either way, from middle to middle
+    /usr/bin/python3 crowd_layers.py terraces OUT.gpkg N    N houses back to back in blocks of 2 x 16, which share walls
+    /usr/bin/python3 crowd_layers.py grid OUT.gpkg N        N squares of 10 m at distances of 12 m, and up to 0.3 m more or less
     /usr/bin/python3 crowd_layers.py row OUT.gpkg N         one row of these
 
 The layer has the kind's name, in EPSG:25832; the same number gives the same features.
@@ -17,7 +17,7 @@ WEST, SOUTH = 400000, 5500000
 
 
 def terraces(draw, n):
-    """x, y, width, depth of houses: blocks beside each other by streets, row behind row."""
+    """x, y, width, depth of houses: blocks separated by streets, in several rows."""
     across = int((n / (2 * HOUSES)) ** 0.5 * 0.45) + 1
     block = 0
     while True:

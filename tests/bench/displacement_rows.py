@@ -24,7 +24,7 @@ CITIES = os.environ.get("SUNDER_BENCH_CITIES")
 KINDS = ("'motorway','trunk','primary','secondary','tertiary','unclassified','residential','living_street','service',"
          "'road','motorway_link','trunk_link','primary_link','secondary_link','tertiary_link'")
 DRIVABLE = f"highway IN ({KINDS}) AND (other_tags IS NULL OR other_tags NOT LIKE '%\"tunnel\"=>%')"
-DRIVABLE_JAKARTA = f"TYPE IN ({KINDS})"  # says nothing of tunnels
+DRIVABLE_JAKARTA = f"TYPE IN ({KINDS})"  # this source has no attribute for tunnels
 
 
 def town(name):
@@ -50,7 +50,7 @@ class Failed(Exception):
 
 
 def timed(words, **more):
-    """Runs it; (status, CPU seconds, text)."""
+    """Runs a command; (status, CPU seconds, text)."""
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     done = subprocess.run(words, capture_output=True, text=True, check=False,
                           preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, (LIMIT, LIMIT)), **more)
@@ -78,12 +78,12 @@ def column(path, layer, *names):
 
 
 def units_of(layer="l"):
-    """The units that move as one: FID -> block, or the feature itself."""
+    """The bodies, which move as one: FID -> block, or the feature itself."""
     return {fid: ("block", block) if block is not None else fid for fid, block in column("o.gpkg", layer, "sunder_blk")}
 
 
 def units_before(source, layer, unit, words):
-    """Units in violation, and the conflicts, as the layer was."""
+    """Bodies in conflict, and the conflicts, in the input layer."""
     status, _, done = timed([SUNDER, "check", source, "c.gpkg", "--overwrite", "-q", "--input-layer", layer,
                              "--output-layer", "l", *words])
     if status not in (0, 3):
@@ -101,7 +101,7 @@ REASONS = ("fixed", "max_shift", "side", "jump", "no_room", "unresolved")
 
 
 def units_after(unit):
-    """Unit -> the first of the reasons of its conflicts, in the order of REASONS; conflicts by reason."""
+    """Body -> the first of the reasons of its conflicts, in the order of REASONS; conflicts by reason."""
     reason, count = {}, Counter()
     for _, a, b, word in column("o.gpkg", "l_conflicts", "fid_a", "fid_b", "reason"):
         if word in ("same_block", "kept"):
@@ -142,7 +142,7 @@ def optimality(d):
 
 
 def roads():
-    """All roads, 5 m wide; drivable ones without a gap to them; and no gap at all."""
+    """All roads, 5 m wide; drivable roads without a gap to them; and without any gap."""
     head("layer", "run", "conflicts before", "units in violation", "solved", *(f"left: {r}" for r in REASONS),
          "unresolved of conflicts before", "moved", "longest m", "cost m2", "bound m2", "gap to the bound", "s", "MB",
          "rules")
@@ -238,7 +238,7 @@ def points():
 
 
 def network():
-    """A town of 250 buildings, and three places far apart, in a network that is mostly elsewhere."""
+    """A town of 250 buildings, and three places far apart, in a network that is mostly far from them."""
     subprocess.run([os.path.join(os.environ["SUNDER_BUILD"], "sunder-town"), "--buildings", "250", "--seed", "2",
                     "--trouble", "0.5", "town.gpkg"], check=True, capture_output=True)
     source = ogr.Open("town.gpkg")
@@ -266,11 +266,11 @@ def network():
 
 # ---- Peers
 
-POINTS = 100.0  # of neato's points a metre; it prints two decimals of them
+POINTS = 100.0  # points of neato per metre; it prints two decimals of a point
 
 
 def neato(boxes, overlap):
-    """Moves of boxes by Graphviz: (x0, y0, x1, y1) each; seconds."""
+    """Moves of boxes (x0, y0, x1, y1) by Graphviz; seconds."""
     lines = [f'graph {{ graph [overlap={overlap}, sep="+0", overlap_scaling=0, notranslate=true, splines=false]; '
              'node [shape=box, fixedsize=true, label=""];']
     ox, oy = boxes[0][0], boxes[0][1]
@@ -296,7 +296,7 @@ def neato(boxes, overlap):
 
 
 def moved_layer(features, unit, moves):
-    """The features as moved, for rules.py."""
+    """The features after their moves, for rules.py."""
     if os.path.exists("p.gpkg"):
         os.remove("p.gpkg")
     source = ogr.GetDriverByName("GPKG").CreateDataSource("p.gpkg")
@@ -325,8 +325,8 @@ def rings_of(geometry):
 
 
 def peers():
-    """Runs the peers on the boxes of Sunder's blocks, grown by half the gap; conflicts are counted among the buildings
-    themselves."""
+    """Runs the other programs on the boxes of Sunder's blocks, enlarged by half the gap; conflicts are counted for
+    the buildings themselves."""
     head("layer", "system", "conflicts left", "sum of lengths m", "cost m2", "longest m", "s")
     gap = 3
     for name in CHOSEN:

@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
-# What exactness costs: instructions of a sum (callgrind), and those of the same library built to trust all doubles
-# (naive/number/trust.h). Two Markdown tables; EXACTNESS.md sums up the record in exactness/, which is made by
+# The cost of exactness: instructions of a sum (callgrind), and those of the same library built to trust all doubles
+# (naive/number/trust.h). Two Markdown tables; EXACTNESS.md summarises the record in exactness/, which is made by
 #
 #   exactness.sh | python3 tests/bench/record.py tests/bench/exactness small_integers map_coordinates
 #
-#   small integers       where doubles decide rightly: instructions of both, and whether both make the same sum
-#   map coordinates      where they do not: the share of instructions in predicates beyond their filters (exact_*), and what becomes
-#                        of the other library, which is stopped after ten seconds
+#   small integers       for which doubles decide correctly: instructions of both, and whether both compute the same sum
+#   map coordinates      for which they do not: the share of instructions in predicates beyond their filters (exact_*), and the
+#                        outcome of the other library, which is stopped after ten seconds
 #
 #   exactness.sh [FAMILY ...]     all families unless some are named
 #
@@ -26,7 +26,7 @@ done
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 
-instructions() { # PROGRAM: of one sum; leaves the profile
+instructions() { # PROGRAM: the instructions of one sum; leaves the profile
   SUNDER_BENCH_RUNS=1 valgrind --tool=callgrind --toggle-collect='*bench_once*' --callgrind-out-file="$scratch/profile" \
     "$build/$1" "$scratch/input" 2>&1 >/dev/null | sed -n 's/.*Collected : //p'
 }
@@ -36,7 +36,7 @@ digest() { # PROGRAM
   line=$(timeout 10 "$build/$1" "$scratch/input" 2>/dev/null) && echo "${line##* }"
 }
 
-# The functions beyond the filters do not call each other, so their inclusive counts add up.
+# The functions beyond the filters do not call each other, so their inclusive counts can be added.
 beyond() {
   callgrind_annotate --inclusive=yes --threshold=100 "$scratch/profile" |
     awk '/:exact_[a-z_]+ / { gsub(",", "", $1); n += $1 } END { print n + 0 }'

@@ -1,11 +1,11 @@
-/* geos_buffer each|dissolve|close|open SHAPE FILE: what bench_buffer does, by GEOS: round buffers of N / 4 quadrant
- * segments for disc:R:N (GEOS's polygons lie in the round buffer, ours around it), mitred ones of half the side for
- * square:SIDE. `dissolve` is the buffer of each feature, then the unary union of all, `close` then the buffer back;
- * `open` is the union of all and two buffers. */
+/* geos_buffer each|dissolve|close|open SHAPE FILE: the operations of bench_buffer, by GEOS: round buffers of N / 4
+ * quadrant segments for disc:R:N (GEOS's polygons lie in the round buffer, ours around it), mitred ones of half the
+ * side for square:SIDE. `dissolve` is the buffer of each feature, then the unary union of all; `close` is the same,
+ * then the buffer inwards; `open` is the union of all and two buffers. */
 #include "buffer_input.h"
 #include "geos_input.h"
 
-/* Takes g; sign -1 shrinks it. */
+/* Takes ownership of g; sign -1 erodes it. */
 static GEOSGeometry *buffer(GEOSGeometry *g, const bench_shape *by, int sign)
 {
     GEOSGeometry *grown;
@@ -17,7 +17,7 @@ static GEOSGeometry *buffer(GEOSGeometry *g, const bench_shape *by, int sign)
     return geos_must(grown);
 }
 
-/* Takes all of them. */
+/* Takes ownership of all of them. */
 static GEOSGeometry *unite(GEOSGeometry **all, size_t n)
 {
     GEOSGeometry *many = geos_must(GEOSGeom_createCollection_r(geos, GEOS_GEOMETRYCOLLECTION, all, (unsigned)n));
@@ -46,7 +46,7 @@ static double once(const bench_layer *layer, const bench_shape *by, const char *
         all[i] = geos_geometry(&layer->set[i]);
         if (!open) all[i] = buffer(all[i], by, 1);
         if (each) {
-            measure(all[i], vertices, area); /* as cheap as ours, which is timed too */
+            measure(all[i], vertices, area); /* as cheap as our conversion to vertices, which is timed, too */
             GEOSGeom_destroy_r(geos, all[i]);
         }
     }

@@ -1,17 +1,16 @@
 /* geos_sum METHOD FILE: seconds of P + Q by GEOS, in doubles, not exact; median of several runs. Prints vertices and
  * holes of the result and the seconds. METHOD:
  *
- *   union    the unary union of all subsums of convex pieces (subsums.h); timed: the union alone, of geometries that
- *            are there
- *   buffer   for a Q that is a regular polygon: the round buffer of P with as many segments; timed: the buffer alone.
- *            Not the same sum, but what a user of GEOS would take. P's members stand side by side, as in the file. */
+ *   union    the unary union of all subsums of convex pieces (subsums.h); timed: only the union of existing geometries
+ *   buffer   for a Q that is a regular polygon: the round buffer of P with as many segments; timed: only the buffer.
+ *            Not the same sum, but what a user of GEOS would use. The members of P are taken as in the file. */
 #include "geos_input.h"
 #include "subsums.h"
 
 typedef struct question {
     const GEOSGeometry *g;
     double radius; /* 0: a union */
-    int quarter;   /* segments of a quarter of the circle */
+    int quarter;   /* number of segments of a quarter circle */
 } question;
 
 static __attribute__((noinline)) GEOSGeometry *bench_once(const question *ask)

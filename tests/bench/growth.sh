@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# How instructions and memory of a sum grow with n, the vertices that go in and come out: a Markdown table, and for each family
-# the exponents of n fitted by least squares over all sizes. Instructions are counted by callgrind, memory by massif. The
-# record in PAPER.md is made by
+# How instructions and memory of a sum grow with n, the number of input plus output vertices: a Markdown table, and for
+# each family the exponents of n fitted by least squares over all sizes. Instructions are counted by callgrind, memory
+# by massif. The record in PAPER.md is made by
 #
 #   growth.sh | python3 tests/bench/record.py tests/bench/paper growth -
 #

@@ -1,17 +1,17 @@
 #!/usr/bin/env bash
-# Everyday inputs that make geometry code slow, at three sizes each: seconds, peak memory and growth.
+# Common inputs on which geometry code is slow, at three sizes each: seconds, peak memory and growth.
 #
 #   hard.sh [--instructions] [ROW ...]     all rows unless some are named, as in the first column
 #
 # Seconds are processor time (user and system) of the whole command. With --instructions it prints millions of
 # instructions instead, counted by callgrind, minus those of a command that has nothing to do: they are the same on
-# every machine, loaded or not. Growth is the exponent in the size between a row and
-# the one above it. `times` is the ratio to the row's plain twin: the same shapes without the defect, the same layer without
-# the feature that must go far. hard_inputs.py draws the inputs and says what is hard about them.
+# every machine, loaded or not. Growth is the exponent in the size between a row and the one above it. `times` is the
+# ratio to the row's plain twin: the same shapes without the defect, or the same layer without the feature that has to
+# move far. hard_inputs.py makes the inputs and says what is hard about them.
 #
 #   SUNDER_BUILD             build directory (./build/release)
 #   SUNDER_BENCH_LIMIT       seconds that a command may take (60; under callgrind 900)
-#   SUNDER_BENCH_TIMES       by what all sizes are multiplied (1)
+#   SUNDER_BENCH_TIMES       factor of all sizes (1)
 #   SUNDER_BENCH_HARD        a folder of further inputs, NAME.wkt with P and Q in two lines (../shared/hard beside the repository,
 #                            if it is there): rows `file`
 set -euo pipefail
@@ -58,7 +58,7 @@ count() {
   awk -v idle="${idle:-0}" -v note="$note" '/Collected/ { n = $NF } END { printf "%.1f - %s\n", n / 1e6 - idle, note }' "$scratch/counted"
 }
 
-# What is measured: P and Q in files, or a layer in $scratch/in.gpkg.
+# The input of a measurement: P and Q in files, or a layer in $scratch/in.gpkg.
 prepare() {
   local kind=$1 size=$2
   rm -rf "$scratch"/in.* "$scratch"/[pq].wkt "$scratch"/out.*

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Inputs that maps do contain and that make geometry code slow.
+"""Inputs that occur in maps and on which geometry code is slow.
 
     hard_inputs.py KIND SIZE [SEED]     P and Q, a line of WKT each, or, for a layer, a CSV of WKT with a field "fixed"
 
@@ -7,32 +7,32 @@ Coordinates are printed so that they read back as the same doubles. Kinds, and w
 
 pairs   arcs, bows     two round outlines that overlap deeply; bows: the same, two neighbouring vertices swapped in each; bows4: at four places
         scribble       a ring through random places: about SIZE^2 / 6 crossings; Q a small square
-        track          a walk that wanders and is closed at last: about SIZE crossings; Q a small square
-        versions       SIZE copies of one outline, every corner off by up to a millimetre; Q a disc's polygon
+        track          a random walk that is closed at the end: about SIZE crossings; Q a small square
+        versions       SIZE copies of one outline, every corner displaced by up to a millimetre; Q a disc's polygon
         slivers        SIZE long rectangles, shifted by up to a micrometre; Q an L
         pile           SIZE nearly coincident rectangles as one set; Q an L
-        stairs         a blob as it is traced along pixels, and the same beside it
+        stairs         an outline traced along pixels, and the same next to it
         copies         a coast, and the same coast digitised again
         ragged         a star of long thin spikes, and another a little aside
         rough          the same with spikes of two thirds of the radius
-        even           two stars whose spikes are all of one length
-        round          a star of spikes, and a round outline as large
-        even-round     the same with spikes of one length
-        coast          a star of spikes, and a coast as large
-        hollow         a plate with a star cut out, and a star in it that does not quite fit
-        combs          two combs, one on its head in the other
-        spikes-box     a star, and a small square on its middle
-        detail         SIZE vertices on a small outline, far from a large plain one; Q a triangle
+        even           two stars with spikes of equal length
+        round          a star of spikes, and a round outline of the same size
+        even-round     the same with spikes of equal length
+        coast          a star of spikes, and a coast of the same size
+        hollow         a plate with a star-shaped hole, and a star that does not quite fit into it
+        combs          two combs, one upside down in the other
+        spikes-box     a star, and a small square at its centre
+        detail         SIZE vertices on a small outline, far from a large simple one; Q a triangle
 layers  pairs          SIZE pairs of squares that overlap, far from each other
-        pairs-far      the same, and one pair more whose squares lie deep in each other
-        outline        SIZE houses, every third too near its neighbour, round and on the rim of one fixed outline
+        pairs-far      the same, and another pair whose squares overlap deeply
+        outline        SIZE houses, every third too near its neighbour, along the inside and on the boundary of one fixed outline
         versions-layer the features of versions, one by one
         heap           SIZE nearly coincident rectangles
         houses         SIZE detached houses on a grid
         houses-bows    the same, 40 of them with a tiny crossing
-        crowd          SIZE houses that stand too near each other, hundreds in one crowd, and in two walled yards among them
-                       two houses each, one in the gate
-        crowd-full     the same with four houses in each yard, for which there is no room
+        crowd          SIZE houses that are too near each other, hundreds in one crowd, and among them two walled courtyards
+                       with two houses each, one of them in the gate
+        crowd-full     the same with four houses in each courtyard, for which there is no room
 """
 import math
 import random
@@ -64,7 +64,7 @@ def disc(radius, corners=32):
 
 
 def swapped(points, places):
-    """Neighbouring vertices change places, so that the ring crosses itself there."""
+    """Swaps neighbouring vertices, so that the ring crosses itself there."""
     points = list(points)
     for k in range(places):
         i = (2 * k + 1) * len(points) // (2 * places) % (len(points) - 1)
@@ -73,7 +73,7 @@ def swapped(points, places):
 
 
 def stadium(n, x, y):
-    """A line of 80 m grown by 60 m, finely flattened, to the micrometre."""
+    """A line of 80 m dilated by 60 m, finely flattened, rounded to the micrometre."""
     half = n // 2
     turn = [math.pi * (i / (half - 1) - 0.5) for i in range(half)]
     right = [(x + 80 + 60 * math.cos(a), y + 60 * math.sin(a)) for a in turn]

@@ -1,5 +1,5 @@
-"""Huts of an informal settlement, one WKT a line: rectangles at all angles that overlap and come near each other, corners on a
-grid of 1/16. By half of their area together they cover the square that they stand in.
+"""Houses of an informal settlement, one WKT per line: rectangles at all angles that overlap and are near each other,
+with corners on a grid of 1/16. Half of their total area is the area of the square in which they stand.
 
   huts.py COUNT [SEED]"""
 import math

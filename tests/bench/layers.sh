@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Separates real layers at two gaps and prints a table; then checks each written layer and compares the counts. Seconds are
-# CPU seconds of one thread, reading and writing included. LAYERS.md sums up the record in layers/, which is made by
+# Separates real layers at two gaps and prints a table; then checks each written layer and compares the counts. Seconds
+# are CPU seconds of one thread, reading and writing included. LAYERS.md summarises the record in layers/, which is made
+# by
 #
 #   layers.sh | python3 tests/bench/record.py tests/bench/layers layers
 #

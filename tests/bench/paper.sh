@@ -1,22 +1,22 @@
 #!/usr/bin/env bash
-# The experiments on planar Minkowski sums, in one command: every road to a sum, every convex decomposition and both orders
-# of insertion, on the families of datasets-synthetic.
+# The experiments on planar Minkowski sums, in one command: every algorithm for a sum, every convex decomposition and
+# both orders of insertion, on the families of datasets-synthetic.
 #
 #   paper.sh [FAMILY ...]     all families unless some are named
-#   paper.sh pictures         figures 1 to 4 and 7 alone
+#   paper.sh pictures         only figures 1 to 4 and 7
 #
 # Installs what is missing and builds (not if SUNDER_BUILD names a build), runs, and writes to the output folder
 #
 #   paper.csv                 a line a run: sizes, seconds by phase, counts by phase, memory, hash of the exact result
-#   pieces.csv                what each convex decomposition makes of each input: pieces, subsums and their sides, seconds
-#   orders.csv                the incremental union in random order, as given and by three measures of fatness
+#   pieces.csv                for each convex decomposition of each input: pieces, subsums and their sides, seconds
+#   orders.csv                the incremental union in random order, in the given order and by three measures of fatness
 #   run.txt                   machine, compiler, commit, seed, limits
 #   tables.md                 exponents in n fitted over the sizes; phases; orders; decompositions
-#   roads.md                  the default in parts of the best other road, family by family and size by size (roads.sh)
+#   roads.md                  the default as a ratio to the best other algorithm, for each family and size (roads.sh)
 #   figure-5.svg ... -7.svg   bar charts; figure-1.svg ... -4.svg and figure-7-*.svg are pictures of inputs and sums
 #
-# A run that takes longer than the limit or more memory than allowed is recorded as such, and larger sizes of the same kind are not
-# tried. PAPER.md says what was found.
+# A run that takes longer than the limit or more memory than allowed is recorded as such, and larger sizes of the same
+# kind are not tried. PAPER.md describes the findings.
 #
 #   SUNDER_PAPER_OUT            output folder (build/paper)
 #   SUNDER_PAPER_SIZES          sizes of both operands (10 20 50 100)
@@ -27,7 +27,7 @@
 #   SUNDER_PAPER_DECOMPOSED     largest size on which all decompositions are compared (50)
 #   SUNDER_PAPER_ALL            largest size on which every order is tried with every decomposition (10)
 #   SUNDER_PAPER_COMPARED       largest size on which the exact results of all runs are compared (50)
-#   SUNDER_PAPER_BASE           decomposition of the comparison of roads (angle-bisector)
+#   SUNDER_PAPER_BASE           decomposition for the comparison of algorithms (angle-bisector)
 #   SUNDER_PAPER_REPEAT         number of runs whose median counts, if they are short (3)
 set -euo pipefail
 source=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd -P)
@@ -66,7 +66,7 @@ mkdir -p "$out/inputs"
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 
-# The choices of an option, from the program's own help; empty if there is no such option.
+# The values of an option, from the program's own help; empty if there is no such option.
 choices() { "$sunder" sum --help | sed -n "s/.*$1 \([a-z-]*|[a-z|-]*\).*/\1/p" | tr '|' ' '; }
 algorithms=$(choices --algorithm) decompositions=$(choices --decomposition) orders=$(choices --order)
 
@@ -78,7 +78,8 @@ columns+=",seconds,seconds_decompose,seconds_subsums,seconds_union,peak_rss_byte
 for count in $counts; do columns+=",$count"; done
 for phase in $phases; do for count in $counts; do columns+=",${phase}_$count"; done; done
 columns+=",result"
-# The runs are kept as lines of JSON, [[family, size, ...], status, summary or null, result], and made a table at the end.
+# The runs are stored as lines of JSON, [[family, size, ...], status, summary or null, result], and made into a table at
+# the end.
 # shellcheck disable=SC2016 # jq's variables
 row='def counts: [.comparisons, .orientation_tests, .segment_intersections, .exact_fallbacks];
      .[0] as $kind | .[2] as $s | ($s.result // {}) as $r | ($s.seconds // {}) as $t |
@@ -117,7 +118,7 @@ number() { # NAME FILE: the first number of that name in a summary
   [[ $text =~ \"$1\":\ ([0-9.e+-]+) ]] && echo "${BASH_REMATCH[1]}"
 }
 
-# Runs once or, where that is short, several times; the summary of the median in $scratch/stats. Sets status.
+# Runs once or, if the run is short, several times; the summary of the median in $scratch/stats. Sets status.
 measure() {
   local i code=0 times=() seconds median
   for ((i = 0; i < repeat; i++)); do
@@ -138,7 +139,7 @@ measure() {
   mv "$scratch/stats.$median" "$scratch/stats"
 }
 
-# Checksum of the exact result, on sizes where results are compared.
+# Checksum of the exact result, for sizes at which results are compared.
 result() {
   if ((size > compared)); then return; fi
   limited --exact "$@" >"$scratch/exact" && sed '1,/"seconds"/d' "$scratch/exact" | cksum | tr ' ' '-' || echo failed
@@ -233,7 +234,7 @@ pictures() {
   picture figure-7-fat-cover "Fat cover: bars, one over the other, on blocks" fat-cover --size 48
 }
 
-# Different exact results for one input are an error of ours.
+# If exact results for one input differ, it is our error.
 agreement() {
   awk -F, 'NR > 1 && $NF != "" { k = $1 " " $2; n[k]++; if ((k in h) && h[k] != $NF) bad[k] = 1; h[k] = $NF }
            END { for (k in n) { inputs++; runs += n[k] }; for (k in bad) { print "results differ: " k; wrong = 1 }

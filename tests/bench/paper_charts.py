@@ -17,12 +17,12 @@ def read(file):
 
 
 def pick(runs, **wanted):
-    """The runs that ended well and have these values."""
+    """The runs that succeeded and have these values."""
     return [r for r in runs if r["status"] == "ok" and all(r[k] == v for k, v in wanted.items())]
 
 
 def counted_in(run, column):
-    """A figure of a run. Operations are those of the union if the algorithm has phases, otherwise all."""
+    """A number of a run. Operations are those of the union if the algorithm has phases, otherwise all."""
     text = run.get("union_" + column) or run[column]
     return float(text) if text else None
 
@@ -43,7 +43,8 @@ def kind(algorithm, order, decomposition=BASE):
 
 
 def bars(folder, name, title, what, families, series):
-    """A group of bars a family, a bar a series; `series` is a list of (label, function from family to number or None)."""
+    """A group of bars per family, a bar per series; `series` is a list of (label, function from family to number or
+    None)."""
     series = [(label, f) for label, f in series if any(f(family) for family in families)]
     families = [f for f in families if any(of(f) for _, of in series)]
     if not series or not families:

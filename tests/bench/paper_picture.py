@@ -1,7 +1,8 @@
-"""paper_picture.py TITLE P Q SUM [FACES]: P, Q and their sum side by side and to one scale, as SVG.
+"""paper_picture.py TITLE P Q SUM [FACES]: P, Q and their sum side by side at the same scale, as SVG.
 
-P, Q: files of one WKT each, without holes. SUM: the JSON of `sunder sum`. FACES: the layer sum_faces of `--planar-map` as GeoJSON; the sum's cells are
-then shaded by how many subsums cover them. Degenerate segments and points are drawn in red, of a width that does not scale.
+P, Q: files of one WKT each, without holes. SUM: the JSON of `sunder sum`. FACES: the layer sum_faces of
+`--planar-map` as GeoJSON; the cells of the sum are then shaded by the number of subsums that cover them. Degenerate
+segments and points are drawn in red, with a width that does not scale.
 """
 import json
 import re
@@ -39,7 +40,7 @@ def width(rings):
 
 
 class Panel:
-    """A square of the picture, with the middle of the rings in its middle."""
+    """A square of the picture, centred on the rings."""
 
     def __init__(self, number, rings, scale):
         x0, y0, x1, y1 = extent(rings)
@@ -57,7 +58,8 @@ class Panel:
 
 
 def faces(panel, file):
-    """Cells by covering: opaque by the root of the count, so that few and many both show."""
+    """Cells by the number of covering subsums: the opacity grows with the root of the number, so that small and large
+    numbers can both be distinguished."""
     features = json.load(open(file))["features"]
     most = max((f["properties"]["covered_by"] or 0 for f in features), default=1)
     for feature in features:

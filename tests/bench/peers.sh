@@ -1,27 +1,29 @@
 #!/usr/bin/env bash
-# Sunder beside its peers in one run, as Markdown: Minkowski sums and least separations (CGAL exactly; GEOS and Clipper in doubles
-# and integers), and a million buildings beside a copy by ogr2ogr. RESULTS.md sums up the record in results/, which is made by
+# Sunder compared with other libraries in one run, as Markdown: Minkowski sums and least separations (CGAL exactly; GEOS
+# and Clipper in doubles and integers), and a million buildings compared with a copy by ogr2ogr. RESULTS.md summarises
+# the record in results/, which is made by
 #
 #   peers.sh | python3 tests/bench/record.py tests/bench/results sums instructions pairs towns
 #
 #   peers.sh [--instructions] [ROW ...]     all rows unless some are named: FAMILY_N, sums, pairs, million
 #
-# Installs what is missing and builds (not if SUNDER_BUILD names a build). Sums and pairs are CPU seconds of one thread, medians of
-# several runs. Sunder is measured before and after its peers and the worse of the two counts. A peer's method that is stopped
-# could not have been the best: it may take as long as three runs at the speed of the best so far, and three seconds. One that was
-# stopped, or took ten times the best, is not tried on the next size of the same family. Rows under a millisecond that the peers
-# do in three seconds are also counted in instructions, by callgrind; with --instructions rows of all lengths.
+# Installs what is missing and builds (not if SUNDER_BUILD names a build). Sums and pairs are CPU seconds of one thread,
+# medians of several runs. Sunder is measured before and after the others and the slower of the two counts. A method of
+# another library is stopped when it cannot be the best any more: it may take as long as three runs at the speed of the
+# best so far, and three seconds. One that was stopped, or took ten times the best, is not tried on the next size of the
+# same family. Rows under a millisecond that the others do in three seconds are also counted in instructions, by
+# callgrind; with --instructions rows of all lengths.
 #
-# Operands are in memory before the clock starts, results in memory when it stops. CGAL has its own decompositions and they count;
-# GEOS and Clipper are given the convex subsums and only unite them, see subsums.h.
+# Operands are in memory before the clock starts, results in memory when it stops. CGAL computes its own decompositions,
+# and they are part of its time; GEOS and Clipper are given the convex subsums and only unite them, see subsums.h.
 #
 #   SUNDER_BUILD             build directory; unset: build/release, after installing and building
-#   SUNDER_BENCH_INPUT       folder of the inputs (../shared/families beside the repository); those that are not there are drawn
+#   SUNDER_BENCH_INPUT       folder of the inputs (../shared/families beside the repository); those that are missing are made
 #                            by sunder-families
-#   SUNDER_BENCH_METHODS     CGAL's methods (rc ssab hm first; vert tri full greene where the best of these takes under a second)
+#   SUNDER_BENCH_METHODS     CGAL's methods (rc ssab hm first; vert tri full greene if the best of these takes under a second)
 #   SUNDER_BENCH_SECONDS     seconds to spend on repetitions of one figure (1)
-#   SUNDER_BENCH_LIMIT       CPU seconds that the first peer of a row may take (200)
-#   SUNDER_BENCH_MEMORY      KiB of address space that a peer may take (half of what is free)
+#   SUNDER_BENCH_LIMIT       CPU seconds that the first library of a row may take (200)
+#   SUNDER_BENCH_MEMORY      KiB of address space that another library may take (half of what is free)
 #   SUNDER_BENCH_PAIRS       pairs for the comparison with CGAL (2000)
 #   SUNDER_BENCH_BUILDINGS   sizes of the towns (10000 100000 1000000)
 #   SUNDER_BENCH_TOWN        folder for the towns (build/bench; 700 MB for a million)
@@ -132,7 +134,7 @@ find_pairs() { # NAME; sets file
 
 # ---- Sums ----
 
-methods_of() { # FAMILY: CGAL's, the likely best first
+methods_of() { # FAMILY: CGAL's methods, the likely best first
   if [[ -n ${SUNDER_BENCH_METHODS:-} ]]; then echo "$SUNDER_BENCH_METHODS"; return; fi
   case $1 in
     comb | robot | bldg32 | coast32) echo rc ssab hm ;;
@@ -143,7 +145,7 @@ methods_of() { # FAMILY: CGAL's, the likely best first
 
 declare -A hopeless=() # family, program, method
 
-# Tries PROGRAM METHOD on the file; sets best, best_method and best_program where it is better than those.
+# Tries PROGRAM METHOD on the file; sets best, best_method and best_program if it is better than those.
 try() {
   local most=$limit line status=0 kind="${name%_*} $1 $2"
   if [[ ! -x $build/$1 || -n ${hopeless[$kind]:-} ]]; then return 0; fi
@@ -216,7 +218,7 @@ count_rows() {
   done <"$scratch/to_count"
 }
 
-peer() { # PROGRAM METHOD: in words
+peer() { # PROGRAM METHOD: their names in words
   case $1 in
     geos_sum) echo "GEOS $2" ;;
     clipper_sum) echo "Clipper $2" ;;
@@ -228,8 +230,8 @@ million() { awk -v a="$1" 'BEGIN { printf "%.3f", a / 1e6 }'; }
 
 # ---- Least separations ----
 
-# The second lines of pairs_fit in ../shared hold the mover turned by half a turn: reflected, the pieces overlap their plates, and the
-# exact fits are the nearest places for many of them. So it is with `tight`.
+# The second lines of pairs_fit in ../shared contain the moving polygon turned by half a turn: reflected, the pieces
+# overlap their plates, and for many of them the nearest free places are exact fits. The same is true of `tight`.
 pair_rows() {
   local row name turn line ours theirs again
   printf '\n## Least separating translations\n\nMicroseconds a pair; %s pairs, and Sunder alone on every pair of the file. CGAL loses exact fits: its lengths are larger where\nthey are the nearest places.\n\n' "$pairs"
@@ -252,7 +254,8 @@ pair_rows() {
 
 # ---- Towns ----
 
-timed() { # LABEL COMMAND...: appends CPU seconds, seconds on the wall and MB; status 3, conflicts left or found, is a result
+# LABEL COMMAND...: appends CPU seconds, wall-clock seconds and MB; status 3 (conflicts are left or found) is a success
+timed() {
   local label=$1 status=0
   shift
   /usr/bin/time -q -f '%U %S %e %M' -o "$scratch/time" "$@" >/dev/null 2>"$scratch/err" || status=$?

@@ -2,8 +2,8 @@
 
     bash tests/bench/peers.sh | python3 tests/bench/record.py tests/bench/results sums instructions pairs towns
 
-The input is passed on to stdout. A name `-` leaves its table out. Commas that divide thousands are left out of numbers. A
-last column is added with the commit that is checked out."""
+The input is passed on to stdout. A table with the name `-` is left out. Thousands separators are removed from
+numbers. A last column is added with the commit that is checked out."""
 import csv
 import os
 import re

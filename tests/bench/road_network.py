@@ -5,13 +5,13 @@ import random
 
 from osgeo import gdal, ogr
 
-STEP = 20.0  # metres from corner to corner
+STEP = 20.0  # metres between two vertices
 WIDTHS = (3.0, 5.0, 7.5)
 
 
 def write(path, around, polylines, extent, corners=12, index=True, step=STEP, seed=1):
-    """Polylines that begin anywhere in a square of that extent about the middle of the layer `around`, which gives the
-    CRS, and bend a little at each corner; layer roads, field width."""
+    """Polylines that begin at random places in a square of that extent around the centre of the layer `around`, which
+    gives the CRS, and bend a little at each vertex; layer roads, field width."""
     rng = random.Random(seed)
     x0, x1, y0, y1 = around.GetExtent()
     if os.path.exists(path):
@@ -39,7 +39,7 @@ def write(path, around, polylines, extent, corners=12, index=True, step=STEP, se
 
 
 def write_places(path, around, away):
-    """The layer, and its first thirty features twice more, so far to either side."""
+    """The layer, and two copies of its first thirty features, shifted by `away` to either side."""
     if os.path.exists(path):
         os.remove(path)
     source = ogr.GetDriverByName("GPKG").CreateDataSource(path)

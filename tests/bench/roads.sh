@@ -1,12 +1,13 @@
 #!/usr/bin/env bash
-# Is the default ever slower than the best of our own roads? A line of Markdown a family and size: what the default takes in parts
-# of what the best other road takes, its decomposition included.
+# Is the default ever slower than the best of our other algorithms? A line of Markdown per family and size: the time of
+# the default as a ratio to that of the best other algorithm, its decomposition included.
 #
 #   roads.sh [FAMILY ...]     all families unless some are named; needs a build with bench_sum and sunder-families
 #
-# Every road, both orders and four decompositions (of sizes above SUNDER_ROADS_DECOMPOSED the angle bisector alone) are run once,
-# each stopped where it takes three times as long as the best and a second. The three best and the default are then compared: by
-# callgrind's instructions, or, above a second or without valgrind, by medians of five runs in turn. Seed 1.
+# Every algorithm with both orders and four decompositions (for sizes above SUNDER_ROADS_DECOMPOSED only the angle
+# bisector) runs once, and is stopped when it has taken three times as long as the best, and a second. The three best
+# and the default are then compared: by callgrind's instructions, or, above a second or without valgrind, by medians of
+# five runs in turn. Seed 1.
 #
 #   SUNDER_BUILD               build directory (build/release)
 #   SUNDER_ROADS_SIZES         (10 20 50 100 200 500)
@@ -27,7 +28,7 @@ trap 'rm -rf "$scratch"' EXIT
 
 less() { awk -v a="$1" -v b="$2" 'BEGIN { exit !(a + 0 < b + 0) }'; }
 
-seconds() { # LIMIT ROAD...: of one run; nothing where it was stopped
+seconds() { # LIMIT ROAD...: seconds of one run; prints nothing if it was stopped
   local line
   line=$(ulimit -t "$1"; SUNDER_BENCH_RUNS=1 exec "$build/bench_sum" "${@:2}" "$scratch/input" 2>/dev/null) && echo "${line##* }"
 }
@@ -47,7 +48,7 @@ roads() { # SIZE
   done
 }
 
-# The three best roads and the default, in the file `compared`: figure and road; sets unit.
+# The three best algorithms and the default, in the file `compared`: number and algorithm; sets unit.
 compare() {
   local road words run
   : >"$scratch/compared"

@@ -1,4 +1,4 @@
-/* Convex subsums in doubles (subsums.h). Uses the library's inner headers: pieces are no part of the public
+/* Convex subsums in doubles (subsums.h). Uses the library's internal headers, since pieces are not part of the public
  * interface. */
 #include "subsums.h"
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Does the ablation harness measure what it claims? On a few clusters of a synthetic town: without a variation no result
-# differs, also not from the ordinary program; a switched-off stage and a changed constant have an effect; an
+# Does the ablation harness measure what it claims? On a few clusters of a synthetic town: without a variation all
+# results equal those of the ordinary program; a switched-off stage and a changed constant have an effect; an
 # interrupted run is continued.
 set -euo pipefail
 build=${SUNDER_BUILD:?}

@@ -1,5 +1,5 @@
-/* Reading the benchmark inputs: POLYGON and MULTIPOLYGON texts into plain arrays. One header for the C programs and, so
- * that both measure on the same numbers, for the C++ ones. */
+/* Reads the benchmark inputs: POLYGON and MULTIPOLYGON texts into plain arrays. One header for the C programs and for
+ * the C++ ones, so that both use the same numbers. */
 #ifndef SUNDER_BENCH_WKT_INPUT_H
 #define SUNDER_BENCH_WKT_INPUT_H
 
@@ -29,7 +29,7 @@ static inline void bench_set_free(bench_set *s)
     memset(s, 0, sizeof *s);
 }
 
-/* Room for all numbers of the text is taken at once: there are no more of anything than commas and brackets. */
+/* Memory for all numbers of the text is allocated at once: counts are bounded by those of commas and brackets. */
 static inline int bench_set_read(bench_set *s, const char *text)
 {
     size_t commas = 2;
@@ -80,7 +80,7 @@ static inline int bench_set_read(bench_set *s, const char *text)
     return depth == 0;
 }
 
-/* The next line of a file without its end, NULL after the last; freed by the caller. */
+/* The next line of a file without its line end, NULL after the last; freed by the caller. */
 static inline char *bench_line(FILE *f)
 {
     size_t n = 0, room = 4096;
@@ -99,7 +99,7 @@ static inline char *bench_line(FILE *f)
     return NULL;
 }
 
-/* Two sets from the two lines of a file of a family. */
+/* Reads two sets from the two lines of a file of a family. */
 static inline int bench_pair_read(const char *path, bench_set *p, bench_set *q)
 {
     FILE *f = fopen(path, "r");
@@ -112,8 +112,8 @@ static inline int bench_pair_read(const char *path, bench_set *p, bench_set *q)
     return ok;
 }
 
-/* CPU time of the one thread: on a shared machine steadier than the clock on the wall. Not that of the process, which
- * Linux counts in ticks as soon as the process has a limit of CPU time. */
+/* CPU time of the thread: on a shared machine it varies less than wall-clock time. Not that of the process, which Linux
+ * counts in ticks as soon as the process has a limit of CPU time. */
 static inline double bench_now(void)
 {
     struct timespec t;
@@ -140,8 +140,8 @@ static inline double bench_setting(const char *name, double otherwise)
     return s && *s ? atof(s) : otherwise;
 }
 
-/* Runs enough for a median: another one after n runs that took `spent` seconds in all? A program that is already known
- * to be slower than the best by far (SUNDER_BENCH_BEST, seconds) runs once. SUNDER_BENCH_RUNS says how many, for
+/* Is another run needed for a median, after n runs that took `spent` seconds in all? A program that is already known to
+ * be far slower than the best (SUNDER_BENCH_BEST, seconds) runs once. SUNDER_BENCH_RUNS sets the number of runs, for
  * counting. */
 static inline int bench_again(size_t n, double spent)
 {

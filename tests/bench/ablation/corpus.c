@@ -1,4 +1,4 @@
-/* The text of a corpus: written, and read back. */
+/* Writes a corpus as text, and reads it. */
 #include "corpus.h"
 
 #include <stdlib.h>

@@ -1,5 +1,5 @@
-/* A corpus: small layers, each a cluster of conflicts of a real layer with what stands around it, as a text from which
- * the library reads exactly the same input again. Numbers are hexadecimal doubles.
+/* A corpus: small layers, each a cluster of conflicts of a real layer with its surroundings, as a text from which the
+ * library reads exactly the same input again. Numbers are hexadecimal doubles.
  *
  *     cluster NAME
  *     options GAP TOLERANCE NO_BLOCKS NO_TOUCH THIN LIST_INSIDE CONTAINED JUMPS EFFORT SEED BARRIER_REACH
@@ -21,15 +21,15 @@ typedef struct corpus_item {
     sunder_layer_options options;
     sunder_feature *feature;
     size_t features;
-    double *side_anchor; /* [2 * features] not finite where the rule gives it */
+    double *side_anchor; /* [2 * features] not finite if the rule determines the side anchor */
     sunder_barrier *barrier;
     size_t barriers;
 } corpus_item;
 
-/* Appends an item. A failure to write is seen when the file is closed. */
+/* Appends an item. A write error is reported when the file is closed. */
 void corpus_write(FILE *to, const corpus_item *item);
 
-/* Reads the next item; false at the end of the file. What is not of the form ends the program. */
+/* Reads the next item; false at the end of the file. A text that does not have this form ends the program. */
 bool corpus_read(FILE *from, corpus_item *item);
 void corpus_item_free(corpus_item *item);
 

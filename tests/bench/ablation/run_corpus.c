@@ -1,12 +1,12 @@
-/* run_corpus CORPUS [--most STEPS] [--list]: each item of a corpus separated, one line each, by a library whose
- * constants and stages are as the environment's SUNDER_TUNING says (tuning.h).
+/* run_corpus CORPUS [--most STEPS] [--list]: separates each item of a corpus, and prints one line each; with a library
+ * whose constants and stages are set by the environment variable SUNDER_TUNING (tuning.h).
  *
  *   NAME, features, conflicts left, cost, lower bound, steps, allocations, digest    with tabs between them
  *
- * Steps are those of the library's watch (base/watch.h): an allocation, a node of a search, a side against a side. The
- * digest is of all that the report says of moves and conflicts. An item that fails has its status in place of the
- * numbers; so has one that takes more than STEPS. --list: after all items the constants, and the stages that were asked
- * for (tuning_list()). */
+ * Steps are those of the library's watch (base/watch.h): an allocation, a node of a search, a comparison of two sides.
+ * The digest covers all moves and conflicts of the report. An item that fails has its status in place of the numbers;
+ * so has one that takes more than STEPS. --list: after all items the constants, and the stages that were asked for
+ * (tuning_list()). */
 #include "corpus.h"
 #include "tuning.h"
 
@@ -48,8 +48,8 @@ static void add_bytes(uint64_t *hash, const void *bytes, size_t n)
 
 static void add_number(uint64_t *hash, double value)
 {
-    value = value == 0 ? 0 : value; /* one zero */
-    if (value != value) value = -1; /* one NAN; distances are not negative */
+    value = value == 0 ? 0 : value; /* maps both zeros to one */
+    if (value != value) value = -1; /* maps every NAN to one; distances are not negative */
     add_bytes(hash, &value, sizeof value);
 }
 

@@ -1,10 +1,11 @@
-# Makes constants changeable (tuning.h tells what for):
+# Turns constants into variables (tuning.h describes the purpose):
 #
 #   cmake -D SOURCE=src -D "ROOMS=outline;separation/squares" -D OUTPUT=folder -P tunable.cmake
 #
-# For each room folder/<room>/tuning.h, which is included in place of the source's, and folder/<room>/tuning_struct.h;
-# folder/constants.c with all of them. A constant stays one if its value is no plain number (an expression of other
-# constants follows these), or if its line says "fixed": an error bound, or the size of an array.
+# For each room it writes folder/<room>/tuning.h, which is included in place of the source's, and
+# folder/<room>/tuning_struct.h; folder/constants.c lists all of them. A constant stays one if its value is not a plain
+# number (an expression of other constants follows these), or if its line says "fixed", as for an error bound or the
+# size of an array.
 cmake_minimum_required(VERSION 3.20)
 
 set(integer "[0-9]+u?")
@@ -25,7 +26,7 @@ foreach(room IN LISTS ROOMS)
     message(FATAL_ERROR "${header} has no version")
   endif()
   string(APPEND versions "    {\"${name}\", ${CMAKE_MATCH_1}},\n")
-  # Headings and constants, in their order; without what CMake would take for the syntax of a list.
+  # Headings and constants, in their order; without characters that are part of the syntax of CMake's lists.
   string(REGEX REPLACE "[][;\\]" " " text "${text}")
   string(REGEX MATCHALL "\n/[*] ---- [^\n]*|\n#define [A-Z_0-9]+ [^\n]+" lines "${text}")
   set(group "")

@@ -1,4 +1,4 @@
-/* The words of SUNDER_TUNING, applied to constants and stages. */
+/* Applies the words of SUNDER_TUNING to constants and stages. */
 #include "tuning.h"
 
 #include "base/stage_switch.h"
@@ -52,7 +52,7 @@ static bool look_up(const char *table, const char *stage)
     return !has(&off, name);
 }
 
-/* Memos call this millions of times, so answers are cached by the addresses of the two constant strings. */
+/* Caches call this millions of times, so answers are stored by the addresses of the two constant strings. */
 bool sunder_i_stage_is_on(const char *table, const char *stage)
 {
     static _Thread_local struct {

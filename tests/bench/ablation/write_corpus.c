@@ -1,12 +1,13 @@
-/* The program `sunder`, whose `separate` writes clusters of its layer into a corpus and ends there.
+/* The program `sunder` with another command `separate`, which writes clusters of its layer into a corpus and ends
+ * there.
  *
  *   SUNDER_CORPUS=FILE SUNDER_CORPUS_NAME=krems SUNDER_CORPUS_ITEMS=20 sunder_ablation separate ...
  *
- * A cluster is a connected set of the conflicts of the layer as it stands, blocks included: so the corpus does not
- * depend on how a layer is separated. With it goes everything near, for a cluster runs into others. Clusters are drawn
- * by their size, more of the large ones, without chance.
+ * A cluster is a connected set of conflicts in the input layer, blocks included: so the corpus does not depend on how a
+ * layer is separated. Everything near is written with it, since the bodies of a cluster run into others. Clusters are
+ * selected by size, more of the large ones, without random numbers.
  *
- * Without SUNDER_CORPUS it is the program, with constants and stages as SUNDER_TUNING says (tuning.h). */
+ * Without SUNDER_CORPUS it is the program, with constants and stages as set by SUNDER_TUNING (tuning.h). */
 #include "corpus.h"
 #include "tuning.h"
 
@@ -24,7 +25,7 @@ int sunder_main(int argc, char **argv); /* main() of gis/main.c, which is compil
 sunder_status ablation_layer_separate(const sunder_layer *layer, const sunder_layer_options *options,
                                       sunder_report **out, sunder_error *err);
 
-/* Larger neighbourhoods are left out: all items together are to be run in seconds. */
+/* Larger neighbourhoods are left out, so that all items together run in seconds. */
 #define MOST_FEATURES 120
 #define MOST_VERTICES 3000
 
@@ -54,7 +55,7 @@ static bool is_there(const sunder_layer *layer, size_t f)
     return sunder_i_is_present(&feature);
 }
 
-/* The sets of features that conflicts and blocks join; *in_conflict: those that have a conflict. */
+/* The connected sets of features, by conflicts and blocks; *in_conflict: those that have a conflict. */
 static uint32_t *find_sets(const sunder_layer *layer, const sunder_report *report, bool *in_conflict)
 {
     uint32_t *parent = allocate(layer->n, sizeof *parent);
@@ -72,7 +73,7 @@ static uint32_t *find_sets(const sunder_layer *layer, const sunder_report *repor
     return parent;
 }
 
-/* The larger first, of equal ones the one whose first feature comes first. */
+/* Larger clusters first; of equal ones the one whose first feature comes first. */
 static int compare(const void *p, const void *q)
 {
     const cluster *a = p, *b = q;
@@ -141,7 +142,7 @@ static bool meet(const box *a, const box *b)
 
 static double extent(const box *b) { return sunder_i_max(b->max[0] - b->min[0], b->max[1] - b->min[1]); }
 
-/* The part of a barrier near a place: its shape, and the lines that come near. False if there is none. */
+/* The part of a barrier near a place: its shape, and the lines that come near. False if there is no such part. */
 static bool barrier_near(const sunder_barrier *barrier, const box *place, sunder_barrier *out)
 {
     const sunder_obstacle *g = &barrier->geometry;
@@ -165,7 +166,8 @@ static bool barrier_near(const sunder_barrier *barrier, const box *place, sunder
     return false;
 }
 
-/* How far from a cluster others may matter: they may be run into, and move themselves. */
+/* The distance from a cluster within which others may matter: its bodies may run into them, and these move
+ * themselves. */
 static double reach_of(const sunder_layer *layer, uint32_t *parent, const cluster *c, double gap, box *place)
 {
     double sum = 0, limit = 0;
@@ -181,7 +183,7 @@ static double reach_of(const sunder_layer *layer, uint32_t *parent, const cluste
     return 2 * gap + 2 * limit + 2 * sum / (double)c->features;
 }
 
-/* The features near a place. False if they are too many. */
+/* The features near a place. False if there are too many. */
 static bool add_features(const sunder_layer *layer, const box *place, corpus_item *item, double *side_reach)
 {
     size_t vertices = 0;
@@ -246,7 +248,7 @@ static size_t rank(size_t k, size_t items, size_t n)
     return (size_t)((double)(n - 1) * share * share);
 }
 
-/* How many were written. One that is too large gives way to the next smaller. */
+/* Returns the number of items written. A cluster that is too large is replaced by the next smaller one. */
 static size_t write_clusters(FILE *to, const sunder_layer *layer, const sunder_layer_options *options,
                              const sunder_report *report, const char *name, size_t items)
 {
