@@ -137,7 +137,7 @@ static void test_largest(void **state)
         fewer += by_shapes < by_boxes;
         gis_spool_close(spool);
     }
-    print_message("%zu cells; in %zu layers less hangs together than their boxes do\n", cells, fewer);
+    print_message("%zu cells; in %zu layers the groups by shapes are smaller than those by boxes\n", cells, fewer);
     assert_true(cells > 6 && fewer > 0);
 }
 

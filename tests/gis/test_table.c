@@ -270,7 +270,7 @@ static void test_not_plain(void **state)
         char name[32];
         snprintf(name, sizeof name, "odd%zu.gpkg", k);
         make_layer(name, statement[k]);
-        if (is_read_past_gdal(name)) fail_msg("read past GDAL after %s", statement[k]);
+        if (is_read_past_gdal(name)) fail_msg("read without GDAL after %s", statement[k]);
         assert_read_alike(name);
     }
 }
@@ -334,7 +334,8 @@ static void test_halves(void **state)
         snprintf(name, sizeof name, "halves%zu.gpkg", k);
         make_by(name, statements);
         assert_true(is_read_past_gdal(name));
-        if (is_read_in_halves(name) != cases[k].halves) fail_msg("read otherwise after %s", cases[k].statement);
+        if (is_read_in_halves(name) != cases[k].halves)
+            fail_msg("the features read differ after %s", cases[k].statement);
         assert_read_alike(name);
     }
 }

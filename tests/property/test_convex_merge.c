@@ -182,8 +182,8 @@ static const char *try_case(rng *r, bool wide)
     if (!wrong) wrong = sunder_i_convex_pieces_check(&s);
     if (!wrong && sum.n != (int)s.corners) wrong = "a corner is no sum of corners";
     if (!wrong && (strict != corners || memcmp(got, want, (size_t)corners * sizeof *got))) wrong = "not the hull";
-    if (!wrong && !directions_agree(&l, &s)) wrong = "a rank is of another direction";
-    if (!wrong && !candidates_agree(&sum, &p, &q)) wrong = "a candidate is none, or the other way round";
+    if (!wrong && !directions_agree(&l, &s)) wrong = "a rank belongs to another direction";
+    if (!wrong && !candidates_agree(&sum, &p, &q)) wrong = "a side is wrongly a candidate, or wrongly not";
     sunder_i_convex_pieces_free(&a);
     sunder_i_convex_pieces_free(&b);
     sunder_i_convex_pieces_free(&s);

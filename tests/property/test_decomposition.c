@@ -180,7 +180,7 @@ static const char *prove_piece(subject *s, uint32_t i)
     centroid(s, i, &middle);
     const bool inside = in_piece(s, i, &middle) == 1 && in_member(s, member, &middle) == 1;
     qpoint_clear(&middle);
-    if (!inside) return "its middle lies outside";
+    if (!inside) return "its centroid lies outside";
     const uint32_t ring_lo = member ? shape->form->cleaned.poly_end[member - 1] : 0,
                    ring_hi = shape->form->cleaned.poly_end[member];
     for (uint32_t v = ring_lo ? shape->form->cleaned.ring_end[ring_lo - 1] : 0;
@@ -408,7 +408,8 @@ static char *try_shape(const polyset *raw, sunder_shape *shape, rng *r, bool wid
             sunder_i_decompose_pair(&s.placed.lattice, shape, s.placed.p, shape, s.placed.q, kind, &s.d, &other, NULL),
             SUNDER_OK);
         const char *wrong = examine(&s, kind, r, prove, best);
-        if (!wrong && s.d.used != kind && !s.d.fallbacks) wrong = "another way was taken without a reason";
+        if (!wrong && s.d.used != kind && !s.d.fallbacks)
+            wrong = "another decomposition was used, and no fallback is counted";
         if (!wrong) wrong = sunder_i_decomposition_check(&s.placed.lattice, shape, s.placed.q, &other);
         if (wrong) message = test_format("%s%s: %s", sunder_decomposition_string(kind), wide ? ", wide" : "", wrong);
         sunder_i_decomposition_clear(&s.d);

@@ -452,16 +452,17 @@ static void compare(const scene *s, const sunder_report *report)
         const stance now = stand(s, k, square);
         const sunder_conflict *c = find(report, 1 + k);
         const char *wrong = NULL;
-        if (!c != (now == FREE)) wrong = c ? "listed, and free" : "not listed";
+        if (!c != (now == FREE)) wrong = c ? "listed, although not in conflict" : "not listed";
         if (c && !wrong && c->kind != kind_of[now]) wrong = "of the wrong kind";
         seen[now]++;
         if (c && !wrong && now != MET) {
             const double d = sqrt(mpq_get_d(square)); /* correct to a few ulps of the far coordinates, 2^-20 */
-            if (!(fabs(c->distance - d) <= 1e-9 * (d + 1))) wrong = "at another distance";
+            if (!(fabs(c->distance - d) <= 1e-9 * (d + 1))) wrong = "the reported distance is wrong";
         }
         if (c && !wrong && c->missing != fmax(0, c->required - c->distance) + c->depth)
-            wrong = "said to lack another length";
-        if (c && !wrong && now == MET && !(c->depth > 0 && c->distance == 0)) wrong = "of no depth";
+            wrong = "the reported missing length is wrong";
+        if (c && !wrong && now == MET && !(c->depth > 0 && c->distance == 0))
+            wrong = "the reported depth is not positive";
         if (wrong)
             fail_msg("SUNDER_SEED=%llu, case %llu: barrier %zu is %s", (unsigned long long)test_seed(),
                      (unsigned long long)current, k, wrong);

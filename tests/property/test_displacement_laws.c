@@ -246,8 +246,8 @@ static void compare(tally *sum, size_t i, const town *t, double gap, const outco
         sum->dearer += dearer;
         sum->traded += !more && p[k].conflicts > q[k].conflicts;
         if ((more || dearer) && getenv("SUNDER_LAWS_SHOW"))
-            printf("%s, case %zu: %zu conflicts, %zu overlaps, cost %.9g; asked for more %zu, %zu, %.9g\n", sum->law, i,
-                   p[k].conflicts, p[k].overlaps, p[k].cost, q[k].conflicts, q[k].overlaps, q[k].cost);
+            printf("%s, case %zu: %zu conflicts, %zu overlaps, cost %.9g; with stronger demands %zu, %zu, %.9g\n",
+                   sum->law, i, p[k].conflicts, p[k].overlaps, p[k].cost, q[k].conflicts, q[k].overlaps, q[k].cost);
     }
 }
 
@@ -255,8 +255,8 @@ static void compare(tally *sum, size_t i, const town *t, double gap, const outco
 static void judge(const tally *t)
 {
     const size_t breaches = t->more_conflicts + t->dearer;
-    printf("%s: %zu groups, %zu with more conflicts, %zu dearer; %zu with more pairs but fewer overlaps\n", t->law,
-           t->groups, t->more_conflicts, t->dearer, t->traded);
+    printf("%s: %zu groups, %zu with more conflicts, %zu of greater cost; %zu with more pairs but fewer overlaps\n",
+           t->law, t->groups, t->more_conflicts, t->dearer, t->traded);
     assert_true(breaches <= 2 || 100 * breaches < t->groups);
 }
 
@@ -367,7 +367,8 @@ static void test_scale(void **state)
         separate(&u, run + 1);
         for (size_t c = 0; c < 2 * MOST; c++) run->move[c] = ldexp(run->move[c], k);
         if (memcmp(run->move, run[1].move, sizeof run->move) || run->conflicts != run[1].conflicts)
-            fail_msg("seed %llu, case %zu: scaled by 2^%d it is another layer", (unsigned long long)test_seed(), i, k);
+            fail_msg("seed %llu, case %zu: scaled by 2^%d, the result is not the scaled one",
+                     (unsigned long long)test_seed(), i, k);
     }
     free(run);
 }
@@ -518,7 +519,8 @@ static void test_place(void **state)
         }
         separate(&u, run + 1);
         if (near && (memcmp(run->move, run[1].move, sizeof run->move) || run->conflicts != run[1].conflicts))
-            fail_msg("seed %llu, case %zu: shifted it is another layer", (unsigned long long)test_seed(), i);
+            fail_msg("seed %llu, case %zu: the result for the shifted layer differs", (unsigned long long)test_seed(),
+                     i);
         agree(&sum, i, &t, run, run + 1);
         agree_as_proved(&sum, i, &t, run, run + 1);
     }

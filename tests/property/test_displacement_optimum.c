@@ -150,8 +150,8 @@ static void ask(size_t count, size_t fewest, size_t most, int kinds, uint64_t st
         hamlet_found(&r, &t, (size_t)rng_int(&r, (int64_t)fewest, (int64_t)most), kinds);
         judge(&t, i, &sum);
     }
-    printf("%zu layers, %zu not settled, %zu said to be at the optimum; %zu solved, %zu of them at the optimum, "
-           "%zu dearer, at worst off by %.3g; %zu verdicts; %zu unresolved, %zu of them not in need\n",
+    printf("%zu layers, %zu undecided, %zu reported as optimal; %zu solved, %zu of them at the optimum, "
+           "%zu of greater cost, by %.3g at most; %zu verdicts; %zu unresolved, %zu of them with a solution\n",
            sum.layers, sum.open, sum.claimed, sum.solved, sum.optimal, sum.dearer, sum.worst, sum.proved,
            sum.unresolved, sum.resolvable);
     assert_true(10 * sum.open <= sum.layers);

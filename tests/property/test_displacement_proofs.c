@@ -99,7 +99,7 @@ static void check_exact_fits(void **state)
         const sunder_conflict *c = sunder_report_conflicts(report, &n);
         for (size_t k = 0; k < n; k++)
             if (c[k].reason != SUNDER_REASON_UNRESOLVED)
-                fail_msg("trial %zu: %zu and %zu are listed as %s, but all fits", trial, c[k].a, c[k].b,
+                fail_msg("trial %zu: %zu and %zu are listed as %s, but there is a solution", trial, c[k].a, c[k].b,
                          sunder_reason_string(c[k].reason));
         left += n;
         sunder_report_free(report);

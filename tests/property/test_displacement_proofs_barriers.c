@@ -96,7 +96,8 @@ static void check_refused(const proof_town *t, const sunder_report *report, size
             way[w].d += ldexp(1, -10);
         }
         const char *wrong = proof_check(t->plain, t->n, t->n + t->barriers, t->gap, report, k);
-        if (!wrong) fail_msg("trial %zu: the proof of conflict %zu holds for more than the side takes away", trial, k);
+        if (!wrong)
+            fail_msg("trial %zu: the proof of conflict %zu is accepted although its regions were enlarged", trial, k);
         for (size_t w = 0; w < p->node[m].ways && w < 64; w++) way[w].d = was[w];
     }
 }
@@ -159,7 +160,7 @@ static void check_chord_refused(const proof_town *t, const sunder_report *report
             if (untruth == 1) memcpy(side + 4, side, 4 * sizeof *side);
             if (untruth == 2) memcpy(chord + 2, chord, 2 * sizeof *chord);
             if (!proof_check(t->plain, t->n, t->n + t->barriers, t->gap, report, k))
-                fail_msg("trial %zu: untruth %d about a chord of conflict %zu holds", trial, untruth, k);
+                fail_msg("trial %zu: false statement %d about a chord of conflict %zu is accepted", trial, untruth, k);
             memcpy(chord, was, 4 * sizeof *was);
             memcpy(side, was + 4, 8 * sizeof *was);
         }

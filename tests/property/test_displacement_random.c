@@ -275,7 +275,7 @@ static void check_pairs(const town *t, const sunder_report *report, const house 
     /* Each listed conflict exists. */
     for (size_t k = 0; k < n; k++)
         if (o->gap > 0 && !conflict(&now[c[k].a], &now[c[k].b], o->gap))
-            fail_msg("%zu and %zu are listed for nothing", c[k].a, c[k].b);
+            fail_msg("%zu and %zu are listed, but not in conflict", c[k].a, c[k].b);
 }
 
 static void check_moves(const town *t, const sunder_report *report, house *now)

@@ -230,7 +230,7 @@ static void look_at_each(const country *c, const order *all, const sunder_report
                          (unsigned long long)test_seed(), number, k, c->towns, f, together.number[f],
                          by_itself.number[f]);
         if (together.n != by_itself.n)
-            fail_msg("seed %llu, country %zu, town %zu: more is said of it with others about, or less",
+            fail_msg("seed %llu, country %zu, town %zu: its results have another length if there are other towns",
                      (unsigned long long)test_seed(), number, k);
         sunder_report_free(own);
     }

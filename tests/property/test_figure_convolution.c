@@ -218,7 +218,7 @@ static void test_work_grows_with_segments_as_dilation_does(void **state)
     const sunder_operation operation[] = {SUNDER_OPERATION_CLOSE, SUNDER_OPERATION_OPEN};
     for (int i = 0; i < 2; i++) {
         const size_t few = looks_of(p, operation[i], 16), many = looks_of(p, operation[i], 128);
-        print_message("%s: %zu looks by 16 segments, %zu by 128\n", sunder_operation_string(operation[i]), few, many);
+        print_message("%s: %zu polls for 16 segments, %zu for 128\n", sunder_operation_string(operation[i]), few, many);
         assert_true(many <= 8 * few);
     }
     sunder_shape_free(p);

@@ -56,12 +56,12 @@ static bool same(char *got, const char *want)
 /* Returns NULL, or the name of the algorithm that disagrees. */
 static const char *roads_differ(const nearly_case *c, const char *sum, bool all, bool shown)
 {
-    if (!same(library_sum_text(&c->q, &c->p), sum)) return "Q + P is another sum";
-    if (!same(library_sum_text_wide(&c->p, &c->q), sum)) return "big integers make another sum";
+    if (!same(library_sum_text(&c->q, &c->p), sum)) return "Q + P is not P + Q";
+    if (!same(library_sum_text_wide(&c->p, &c->q), sum)) return "the sum on big integers differs";
     for (size_t a = 0; a < (all ? ROAD_ALGORITHMS : 1); a++) {
         const size_t road = all ? c->i * ROAD_ALGORITHMS + a : c->i * ROAD_ALGORITHMS + 1 + c->i % 2;
         const sunder_sum_options how = road_options(road, c->seed + c->i);
-        if (!road_agrees(&c->p, &c->q, &how, c->i % 7 == 0, sum, shown)) return "another road, another sum";
+        if (!road_agrees(&c->p, &c->q, &how, c->i % 7 == 0, sum, shown)) return "the sum depends on the algorithm";
     }
     return NULL;
 }
@@ -92,9 +92,10 @@ static bool agree(nearly_kind kind, uint64_t seed, size_t i, bool with_oracle, b
     const char *what = NULL;
     char *sum = library_sum_text(&c.p, &c.q);
     if (!sum) what = "no sum";
-    if (!what && with_oracle && !same(oracle_sum_text(&c.p, &c.q, false), sum)) what = "the oracle says otherwise";
+    if (!what && with_oracle && !same(oracle_sum_text(&c.p, &c.q, false), sum))
+        what = "the sum differs from the oracle's";
     if (!what) what = roads_differ(&c, sum, with_oracle, shown);
-    if (!what && with_oracle && !union_has_area(&c.p)) what = "the union has another area";
+    if (!what && with_oracle && !union_has_area(&c.p)) what = "the area of the union differs";
     if (what && shown) show(&c, what);
     free(sum);
     close_case(&c);

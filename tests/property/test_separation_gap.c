@@ -309,7 +309,7 @@ static void check_pair(const polyset *p, const polyset *q, double gap, bool wide
         t->isolated += !s.attained;
         t->contact[s.contact]++;
     } else if (s.distance != 0)
-        complain("moved for nothing", p, q, gap, &s, truth);
+        complain("a translation although the gap is kept already", p, q, gap, &s, truth);
     bool apart;
     assert_int_equal(sunder_pair_apart(a, b, gap, &apart, NULL), SUNDER_OK);
     mpq_set_ui(x, 0, 1);

@@ -234,13 +234,13 @@ static const char *judge(const polyset *p, const polyset *q, double gap, const s
         const gap_verdict verdict = gap_oracle_judge(p, q, gap, square, s->lower_bound, truth);
         if (verdict == GAP_BOUND_HIGH) wrong = "the bound is above the least";
         if (verdict == GAP_TOO_LONG) wrong = "not the least";
-        if (!s->attained) wrong = "attained, and not said";
+        if (!s->attained) wrong = "the minimum is attained, but not reported as attained";
         if (*truth == INFINITY) wrong = "the oracle finds nothing";
         if (s->lower_bound > s->distance || s->distance > s->lower_bound * (1 + 1e-9))
             wrong = "bound and length do not agree";
         t->moved++;
     } else if (s->distance != 0)
-        wrong = "moved for nothing";
+        wrong = "a translation although the gap is kept already";
     if (!wrong && s->rounded_is_free) {
         mpq_set_d(x, s->dx);
         mpq_set_d(y, s->dy);

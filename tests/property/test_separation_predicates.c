@@ -78,13 +78,13 @@ static void check_meeting(const polyset *p, const polyset *q, const sunder_shape
             bool apart;
             if (gap > 0 && tolerance >= gap) continue;
             assert_int_equal(sunder_i_meet(a, t, b, t, gap, tolerance, &m, NULL), SUNDER_OK);
-            if (m.overlap != meet) complain("overlap, asked at once", p, q);
+            if (m.overlap != meet) complain("overlap, from the combined question", p, q);
             if (meet) continue;
             assert_int_equal(sunder_pair_apart(a, b, gap, &apart, NULL), SUNDER_OK);
-            if (m.apart != apart) complain("apart, asked at once", p, q);
+            if (m.apart != apart) complain("apart, from the combined question", p, q);
             if (m.touch && d > tolerance) complain("no touch", p, q);
             if (gap > 0 && apart ? m.touch : !m.may_touch && d <= tolerance) complain("a touch", p, q);
-            if (tolerance == 0 && m.may_touch != m.touch) complain("a touch in doubt", p, q);
+            if (tolerance == 0 && m.may_touch != m.touch) complain("an exact touch is reported as uncertain", p, q);
         }
 }
 
@@ -104,7 +104,7 @@ static void check_pair(const polyset *p, const polyset *q, rng *r, tally *t)
     assert_int_equal(sunder_pair_overlap(b, a, &answer, NULL), SUNDER_OK);
     if (answer != meet) complain("overlap, exchanged", p, q);
     assert_int_equal(sunder_pair_apart(a, b, 0, &answer, NULL), SUNDER_OK);
-    if (answer == meet) complain("apart by nothing", p, q);
+    if (answer == meet) complain("sets that touch are reported as separate", p, q);
     assert_int_equal(sunder_i_contained(a, NULL, b, NULL, &answer, NULL), SUNDER_OK);
     if (answer != in) complain("contained", p, q);
     check_distance(p, q, a, b, meet);

@@ -98,7 +98,7 @@ static void check_worse(void **state)
             polyset_free(&q[e]);
         }
     }
-    print_message("%zu ties, %zu of %zu questions said worse\n", ties, worse_n, 2 * trials);
+    print_message("%zu ties, %zu of %zu pairs are worse\n", ties, worse_n, 2 * trials);
     assert_true(ties > trials / 10 && worse_n > trials / 4);
 }
 
@@ -158,7 +158,7 @@ static void check_worse_since(void **state)
         polyset_free(&p);
         polyset_free(&q);
     }
-    print_message("%zu of %zu questions said worse\n", worse_n, asked);
+    print_message("%zu of %zu pairs are worse\n", worse_n, asked);
     assert_true(worse_n > asked / 10 && worse_n < asked * 9 / 10);
 }
 

@@ -180,9 +180,14 @@ int main(void)
 {
     static law laws[] = {commutes,   translates,    translates_far, scales,
                          adds_hulls, measures_area, ignores_dress,  reflects};
-    static const char *const names[] = {
-        "P + Q = Q + P", "translation", "translation far out",         "scaling by powers of two",
-        "hulls add",     "area",        "the same set said otherwise", "reflection"};
+    static const char *const names[] = {"P + Q = Q + P",
+                                        "translation",
+                                        "translation far out",
+                                        "scaling by powers of two",
+                                        "hulls add",
+                                        "area",
+                                        "the same set written in another way",
+                                        "reflection"};
     struct CMUnitTest tests[8];
     for (int i = 0; i < 8; i++) tests[i] = (struct CMUnitTest){names[i], test_law, NULL, NULL, &laws[i]};
     return cmocka_run_group_tests_name("laws of sums", tests, NULL, NULL);

@@ -90,10 +90,10 @@ static void test_sums(void **state)
         const sunder_sum_options road = {.size = sizeof road,
                                          .algorithm = (sunder_algorithm)(SUNDER_ALGORITHM_ARRANGEMENT + i % 3),
                                          .decomposition = (sunder_decomposition)(i % (SUNDER_DECOMPOSITION_MIXED + 1))};
-        expect_same(&p, plain, sum_of(p.shape[0], p.shape[1], true, NULL), "another rung, another sum");
+        expect_same(&p, plain, sum_of(p.shape[0], p.shape[1], true, NULL), "the sum depends on the kind of numbers");
         expect_same(&p, plain, sum_of(p.shape[1], p.shape[0], false, NULL), "P + Q and Q + P differ");
         if (sunder_shape_vertices(p.shape[0]) < 40)
-            expect_same(&p, plain, sum_of(p.shape[0], p.shape[1], false, &road), "another road, another sum");
+            expect_same(&p, plain, sum_of(p.shape[0], p.shape[1], false, &road), "the sum depends on the algorithm");
         free(plain);
         close_pair(&p);
     }
@@ -120,10 +120,10 @@ static void test_least(void **state)
             least_of(&p, true, &b);
             if (strcmp(a.dx_text, b.dx_text) || strcmp(a.dy_text, b.dy_text) ||
                 strcmp(a.distance_squared_text, b.distance_squared_text))
-                differ(&p, "another rung, another translation");
+                differ(&p, "the translation depends on the kind of numbers");
             /* A bound is rounded down; short numbers may lose another ulp. */
             if (!(fabs(a.lower_bound - b.lower_bound) <= 0x1p-52 * b.lower_bound))
-                differ(&p, "another rung, another bound");
+                differ(&p, "the bound depends on the kind of numbers");
             sunder_separation_clear(&a);
             sunder_separation_clear(&b);
         }
@@ -150,10 +150,10 @@ static void test_moves(void **state)
             assert_int_equal(sunder_shape_reflect(turned, &again, NULL), SUNDER_OK);
             if (sunder_shape_area(there) != sunder_shape_area(p.shape[0]) ||
                 sunder_shape_area(turned) != sunder_shape_area(p.shape[0]))
-                differ(&p, "moved or turned it has another area");
+                differ(&p, "the area changes after a translation or reflection");
             char *plain = sum_of(p.shape[0], p.shape[1], false, NULL);
-            expect_same(&p, plain, sum_of(back, p.shape[1], false, NULL), "there and back is another set");
-            expect_same(&p, plain, sum_of(again, p.shape[1], false, NULL), "turned twice is another set");
+            expect_same(&p, plain, sum_of(back, p.shape[1], false, NULL), "translating there and back changes the set");
+            expect_same(&p, plain, sum_of(again, p.shape[1], false, NULL), "reflecting twice changes the set");
             free(plain);
         }
         sunder_shape_free(there);

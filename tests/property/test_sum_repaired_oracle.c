@@ -68,7 +68,7 @@ static const char *ask_sum(const repaired *c, size_t i)
     free(got);
     free(want);
     sunder_sum_free(sum);
-    return same ? NULL : "another sum than the oracle's";
+    return same ? NULL : "the sum differs from the oracle's";
 }
 
 /* ---- Without a gap ---- */
@@ -156,7 +156,7 @@ static const char *ask_least(const repaired *c, size_t i)
     } else if (overlap) {
         what = "the interiors do not meet";
     }
-    if (!what && !mpq_equal(least, ours)) what = "another length";
+    if (!what && !mpq_equal(least, ours)) what = "the length differs";
     oracle_free(o);
     polyset_free(&back);
     mpq_clears(least, ours, NULL);
@@ -183,7 +183,7 @@ static const char *judge(const polyset *p, const polyset *q, double gap, double 
     if (!gap_oracle_keeps(p, q, gap * times, x, y))
         what = "the gap is not kept";
     else if (gap_oracle_judge(p, q, gap * times, square, s->lower_bound * times * (1 - 0x1p-52), &length) != GAP_FINE)
-        what = "something free is nearer";
+        what = "a free place is nearer";
     mpq_clears(x, y, square, k, NULL);
     return what;
 }
@@ -250,7 +250,7 @@ static const char *judge_route(const sunder_route *route, const oracle *o, const
     char *got = sum_text(sunder_route_obstacles(route));
     const bool same = got && strcmp(got, want) == 0;
     free(got);
-    if (!same) return "other obstacles than the oracle's";
+    if (!same) return "the obstacles differ from the oracle's";
     for (size_t leg = 0; leg + 1 < n; leg++)
         for (unsigned long eighth = 0; eighth <= 8; eighth++)
             if (!leg_is_free(o, route, leg, eighth)) return "the route is not free";

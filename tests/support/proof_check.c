@@ -67,10 +67,10 @@ static bool are_contained(const checking *c, const sunder_proof_node *node)
 static const char *check_held(const checking *c, const sunder_proof_node *node, bool *inside, mpq_t square)
 {
     const sunder_conflict *listed = find_listed(c, node->a, node->b);
-    if (!listed || listed == &c->listed[c->conflict]) return "held, and no other of the list";
-    if (are_contained(c, node)) return "what is contained may stay so";
+    if (!listed || listed == &c->listed[c->conflict]) return "a held pair that is not another pair of the list";
+    if (are_contained(c, node)) return "a requirement on a contained pair, which may stay as it is";
     if (!proof_find_standing(&c->feature[node->a], &c->feature[node->b], inside, square))
-        return "held to what is not known";
+        return "held to an unknown distance";
     const double owed = node->b >= c->n ? c->feature[node->b].owed : c->gap;
     mpq_t most;
     mpq_init(most);
@@ -78,7 +78,7 @@ static const char *check_held(const checking *c, const sunder_proof_node *node, 
     mpq_mul(most, most, most);
     const bool more = !*inside && mpq_cmp(square, most) > 0;
     mpq_clear(most);
-    return more ? "a listed pair is held to more than it owes" : NULL;
+    return more ? "a clearance of a listed pair is greater than the required distance" : NULL;
 }
 
 static const char *check_clearance(const checking *c, const sunder_proof_node *node, bool *inside, mpq_t square)
@@ -88,14 +88,16 @@ static const char *check_clearance(const checking *c, const sunder_proof_node *n
     const double owed = node->b >= c->n ? b->owed : c->gap;
     if (node->held && !node->slack) return check_held(c, node, inside, square);
     if (node->slack && (!listed || listed == own || node->clearance >= 0))
-        return "slack, where nothing is held to less";
+        return "slack of a pair without a reduced requirement";
     *inside = !node->slack && node->clearance < 0;
     mpq_set_d(square, node->slack ? 0 : node->clearance); /* with its slack the pair is disjoint */
     mpq_mul(square, square, square);
-    if (!listed || listed == own) return node->clearance <= owed ? NULL : "more than is owed is asked for";
-    if (node->clearance > owed) return "a listed pair is held to more than it owes";
-    if (are_contained(c, node)) return "what is contained may stay so";
-    return stood_so(a, b, node->clearance) ? NULL : "a listed pair is held to more than it had";
+    if (!listed || listed == own)
+        return node->clearance <= owed ? NULL : "a clearance is greater than the required distance";
+    if (node->clearance > owed) return "a clearance of a listed pair is greater than the required distance";
+    if (are_contained(c, node)) return "a requirement on a contained pair, which may stay as it is";
+    return stood_so(a, b, node->clearance) ? NULL
+                                           : "a clearance of a listed pair is greater than its distance at the start";
 }
 
 /* ---- The tree ---- */
@@ -110,11 +112,11 @@ static bool is_part(const checking *c, size_t thing, const double *part, size_t 
 static const char *check_question(const checking *c, const sunder_proof_node *node)
 {
     const double *a = c->proof->corner + 2 * node->part_a, *b = c->proof->corner + 2 * node->part_b;
-    if (proof_same_block(c, node->a, node->b)) return "a node is about one block";
-    if (node->a >= c->n) return "a barrier comes first";
+    if (proof_same_block(c, node->a, node->b)) return "a node is about two members of one block";
+    if (node->a >= c->n) return "the first member of a node is a barrier";
     if (node->shadow) return proof_check_shadow(c, node);
     if (!is_part(c, node->a, a, node->corners_a) || !is_part(c, node->b, b, node->corners_b))
-        return "a part is not convex, or not of its feature";
+        return "a part is not convex, or not inside its feature";
     bool inside = false;
     mpq_t most;
     mpq_init(most);
@@ -158,7 +160,7 @@ static const char *check_blockers(const checking *c)
             n++;
         }
     free(used);
-    return same && n == own->n_blocked_by ? NULL : "blocked_by is not what the proof is about";
+    return same && n == own->n_blocked_by ? NULL : "blocked_by does not name the features of the proof";
 }
 
 const char *proof_check(const proof_feature *thing, size_t n, size_t things, double gap, const sunder_report *report,

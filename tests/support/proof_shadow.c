@@ -98,7 +98,7 @@ static const char *check_ways(const checking *c, const sunder_proof_node *node, 
         for (size_t j = i + 1; j < node->ways && !wrong; j++)
             if (proof_crossing(&way[i], NULL, &way[j], &v) && proof_is_behind_all(way, NULL, node->ways, &v) &&
                 !is_shaded(k, &v, false))
-                wrong = "a move that jumps over nothing has no way";
+                wrong = "no way leads to a move without a jump";
     }
     vec_clear(&v);
     return wrong;
@@ -120,8 +120,8 @@ static const char *check_anchor(const proof_feature *of, const proof_feature *ot
     oracle_boundary_close(&b);
     sunder_shape_free(shape);
     polyset_free(&p), polyset_free(&q);
-    if (at[0] != anchor[0] || at[1] != anchor[1]) return "an anchor is not its feature's";
-    return held ? "an anchor is held by what it may not jump over" : NULL;
+    if (at[0] != anchor[0] || at[1] != anchor[1]) return "an anchor differs from that of its feature";
+    return held ? "an anchor is inside the feature that it may not jump over" : NULL;
 }
 
 /* A side anchor: the checker accepts any point in the feature's box, but only one for each feature. */
@@ -227,9 +227,9 @@ static bool are_on_one_ray(const vec *anchor, const vec *p, const vec *q)
 static const char *find_chord_fault(const vec *anchor, const vec *const end[2][2], const vec chord[2])
 {
     if (vec_side(anchor, end[0][0], end[0][1]) != -vec_side(anchor, end[1][0], end[1][1]))
-        return "two sides on one side of the way through their corner";
+        return "two sides on the same side of the ray through their corner";
     for (size_t k = 0; k < 2; k++)
-        if (!is_shaded_end(anchor, end[k][0], end[k][1], &chord[k])) return "an end of a chord that no side shadows";
+        if (!is_shaded_end(anchor, end[k][0], end[k][1], &chord[k])) return "an end of a chord is in no side's shadow";
     for (size_t k = 0; k < 2; k++)
         if (!is_passed_beyond(chord, anchor, end[k][0])) return "a chord before the corner";
     return NULL;
@@ -275,7 +275,8 @@ static const char *check_jump(const checking *c, const sunder_proof_node *node)
     const proof_feature *f = &c->feature[of_a ? node->a : node->b], *g = &c->feature[of_a ? node->b : node->a];
     const double *part = of_a ? b : a;
     const size_t n = of_a ? node->corners_b : node->corners_a;
-    if (!is_convex_part(part, n) || !is_part_of(part, n, g)) return "what casts a shadow is not of its feature";
+    if (!is_convex_part(part, n) || !is_part_of(part, n, g))
+        return "the part that casts a shadow is not inside its feature";
     return check_anchor(f, g, of_a ? a : b);
 }
 

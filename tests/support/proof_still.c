@@ -37,14 +37,14 @@ static const char *take_line(const checking *c, const sunder_proof_node *leaf, s
 {
     size_t level = 0;
     while (level < depth && c->path_node[level] != leaf->line_node[k]) level++;
-    if (level == depth || c->path_way[level] != leaf->line_way[k]) return "a line is not on the way";
+    if (level == depth || c->path_way[level] != leaf->line_way[k]) return "a line is not on the path to the leaf";
     const sunder_proof_node *node = &c->proof->node[leaf->line_node[k]];
     const sunder_proof_way *way = &c->proof->way[leaf->line_way[k]];
     if (node->slack ? !is_far_line(c, node, leaf->line_way[k]) : way->d != 0)
-        return "a line does not pass where the two stood";
+        return "a line does not pass through the original places of the two";
     const bool a = node->a < c->n && proof_limit_of(c, node->a) > 0,
                b = node->b < c->n && proof_limit_of(c, node->b) > 0;
-    if (a == b) return "a line between two that move, or stand";
+    if (a == b) return "a line between two movable or two fixed blocks";
     const double n[2] = {a ? -way->n[0] : way->n[0], a ? -way->n[1] : way->n[1]};
     out->feature = a ? node->a : node->b;
     vec_set_d(&out->n, n);

@@ -91,7 +91,7 @@ const char *proof_check_ways(const checking *c, const sunder_proof_node *node, b
 {
     const sunder_proof *p = c->proof;
     const sunder_proof_way *way = p->way + node->way;
-    if (is_open(way, node->ways)) return "the ways leave a direction out";
+    if (is_open(way, node->ways)) return "the ways do not cover all directions";
     const double *a = p->corner + 2 * node->part_a, *b = p->corner + 2 * node->part_b;
     hull k = hull_difference(a, node->corners_a, b, node->corners_b);
     const char *wrong = NULL;
@@ -108,11 +108,11 @@ const char *proof_check_ways(const checking *c, const sunder_proof_node *node, b
                 !proof_is_behind_all(way, first, node->ways, &v))
                 continue;
             if (inside) {
-                if (!hull_holds_disc(&k, &v, most)) wrong = "a move that is no worse has no way";
+                if (!hull_holds_disc(&k, &v, most)) wrong = "no way leads to a move that makes the pair no worse";
                 continue;
             }
             hull_square_from(d, &k, &v);
-            if (mpq_cmp(d, most) > 0) wrong = "a move that keeps the clearance has no way";
+            if (mpq_cmp(d, most) > 0) wrong = "no way leads to a move that keeps the clearance";
         }
     vec_clear(&v), mpq_clears(d, h, NULL);
     hull_free(&k);

@@ -306,7 +306,7 @@ const char *standing_rule(const polyset *a_was, const polyset *b_was, const poly
     if (stands_apart(&was, gap))
         wrong = "were no conflict";
     else if (stands_worse(&is, &was))
-        wrong = "stand worse than they stood";
+        wrong = "are worse than at the start";
     standing_clear(&was);
     standing_clear(&is);
     return wrong;

@@ -238,9 +238,9 @@ static void check_wide(const polyset *set, const sunder_shape *s, uint64_t i)
     if (fault) explain(set, i, fault);
     if (t->vertices != s->vertices || t->form->cleaned.rings != s->form->cleaned.rings ||
         t->form->cleaned.polygons != s->form->cleaned.polygons || sunder_shape_area(t) != sunder_shape_area(s))
-        explain(set, i, "a wide lattice gives another set");
+        explain(set, i, "on a wide lattice the set differs");
     for (size_t k = 0; k < 2 * (size_t)s->vertices; k++)
-        if (t->xy[k] != s->xy[k] * (k & 1 ? 0x1p100 : 0x1p-100)) explain(set, i, "a wide lattice gives another corner");
+        if (t->xy[k] != s->xy[k] * (k & 1 ? 0x1p100 : 0x1p-100)) explain(set, i, "on a wide lattice a corner differs");
     sunder_shape_free(t);
     polyset_free(&thin);
 }
@@ -262,7 +262,7 @@ static void check_case(const polyset *set, rng *g, uint64_t i, size_t *strict)
         explain(set, i, "strict and even-odd do not agree on validity");
     if (status == SUNDER_OK) {
         ++*strict;
-        if (!looks_sound(set, g)) explain(set, i, "an unsound polygon was accepted");
+        if (!looks_sound(set, g)) explain(set, i, "an invalid polygon was accepted");
         fault = sunder_i_shape_check(t);
         if (fault) explain(set, i, fault);
         if (sunder_shape_area(s) != sunder_shape_area(t)) explain(set, i, "strict and even-odd differ in area");

@@ -46,7 +46,7 @@ static void test_valid_sets(void **state)
         random_dress(&p, &g);
         sunder_shape *t = build(&p, i);
         if (sunder_shape_area(s) != sunder_shape_area(t))
-            explain(&p, i, "another way to write the set has another area");
+            explain(&p, i, "the area depends on the way of writing the set");
         sunder_shape_free(s);
         sunder_shape_free(t);
         sunder_shape_free(build(&q, i));
@@ -157,8 +157,8 @@ static void check_operand(sunder_i_lattice *l, const sunder_shape *s, const sund
             value_of(got, l, n[k], origin[k]);
             truth(want, s, 2 * (size_t)v + k, shift, negate);
             if (mpq_cmp(got, want) != 0)
-                fail_msg("SUNDER_SEED=%llu, case %llu: vertex %u stands elsewhere", (unsigned long long)test_seed(),
-                         (unsigned long long)i, v);
+                fail_msg("SUNDER_SEED=%llu, case %llu: vertex %u has other coordinates",
+                         (unsigned long long)test_seed(), (unsigned long long)i, v);
             if (l->narrow) assert_true(n[k] < (int64_t)1 << 60 && n[k] > -((int64_t)1 << 60));
         }
     }

@@ -139,7 +139,7 @@ static void test_against_the_general_way(void **state)
             const char *fault = sunder_i_shape_check(s);
             if (fault || (taken && !same(s, t)))
                 fail_msg("SUNDER_SEED=%llu, case %llu: %s", (unsigned long long)test_seed(), (unsigned long long)i,
-                         fault ? fault : "not the shape of the general way");
+                         fault ? fault : "the shape differs from that of the general algorithm");
             assert_memory_equal(s->raw_xy, d.xy, 2 * d.n * sizeof *d.xy);
         }
         sunder_shape_free(by_itself);

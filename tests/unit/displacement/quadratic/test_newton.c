@@ -67,8 +67,9 @@ static void check_optimal(const program *p, size_t trial, double softness, doubl
         const sunder_i_constraint *c = &p->constraint[k];
         const double left = c->d - sunder_i_stretch(c, p->t) - softness * mass_of(p, c) * c->force;
         if (!(c->force >= 0)) fail_msg("trial %zu: a force of %g", trial, c->force);
-        if (!(left <= tolerance)) fail_msg("trial %zu: %g is missed", trial, left);
-        if (c->force > 0 && !(left >= -tolerance)) fail_msg("trial %zu: what acts is kept by %g more", trial, -left);
+        if (!(left <= tolerance)) fail_msg("trial %zu: a violation of %g", trial, left);
+        if (c->force > 0 && !(left >= -tolerance))
+            fail_msg("trial %zu: an active constraint is satisfied with a slack of %g", trial, -left);
     }
 }
 
@@ -87,7 +88,7 @@ static void check_solutions(void **state)
         /* Started from its own forces it finishes at once. */
         const uint64_t work = p.q.work;
         if (done) assert_true(sunder_i_quadratic_newton(&p.q, softness, tolerance, &done) && done);
-        if (done && p.q.work - work > work) fail_msg("trial %zu: once more takes longer", trial);
+        if (done && p.q.work - work > work) fail_msg("trial %zu: started from its own forces it takes longer", trial);
         solved += done;
     }
     printf("%zu of %zu solved\n", solved, trials);

@@ -78,10 +78,10 @@ static void check_programs(void **state)
             if (!isfinite(p.t[k])) fail_msg("trial %zu: body %zu is moved by %g", trial, k / 2, p.t[k]);
         for (size_t k = 0; k < p.q.n; k++)
             if (!isfinite(p.constraint[k].force)) fail_msg("trial %zu: a force of %g", trial, p.constraint[k].force);
-        if (!(v >= 0)) fail_msg("trial %zu: %g is missed", trial, v);
+        if (!(v >= 0)) fail_msg("trial %zu: a violation of %g", trial, v);
         const double truly = missed(&p);
         if (v != INFINITY && !(fabs(truly - v) <= 1e-9 * (1 + v)))
-            fail_msg("trial %zu: %.17g is missed and not %.17g", trial, truly, v);
+            fail_msg("trial %zu: the violation is %.17g and not %.17g", trial, truly, v);
         solved += v <= tolerance;
         beyond += v > tolerance;
     }
@@ -113,7 +113,7 @@ static void check_found(const program *p, size_t trial, double size)
     sum_forces(p, net);
     for (size_t k = 0; k < p->q.n; k++) all += p->constraint[k].force;
     for (size_t k = 0; k < 2 * BODIES; k++) far = fmax(far, fabs(p->t[k]));
-    if (missed(p) > 1e-12 * size) fail_msg("trial %zu: %g is missed", trial, missed(p));
+    if (missed(p) > 1e-12 * size) fail_msg("trial %zu: a violation of %g", trial, missed(p));
     for (size_t k = 0; k < 2 * BODIES && far <= 100 * size; k++)
         if (!(fabs(net[k] - p->t[k]) <= 1e-10 * all))
             fail_msg("trial %zu: pushed by %g, moved by %g", trial, net[k], p->t[k]);
@@ -121,7 +121,8 @@ static void check_found(const program *p, size_t trial, double size)
         const sunder_i_constraint *c = &p->constraint[k];
         if (c->force < 0) fail_msg("trial %zu: a force of %g", trial, c->force);
         if (c->force > 0 && !(fabs(c->d - sunder_i_stretch(c, p->t)) <= 1e-11 * far))
-            fail_msg("trial %zu: what acts is kept by %g more", trial, sunder_i_stretch(c, p->t) - c->d);
+            fail_msg("trial %zu: an active constraint is satisfied with a slack of %g", trial,
+                     sunder_i_stretch(c, p->t) - c->d);
     }
 }
 
@@ -131,7 +132,8 @@ static void check_none(const program *p, size_t trial, double limit)
     double net[2 * BODIES], lost = 0;
     const double won = sum_forces(p, net);
     for (size_t b = 0; b < BODIES; b++) lost += limit * hypot(net[2 * b], net[2 * b + 1]);
-    if (!(won > lost * (1 - 1e-9))) fail_msg("trial %zu: %g is demanded, and %g can be given", trial, won, lost);
+    if (!(won > lost * (1 - 1e-9)))
+        fail_msg("trial %zu: the constraints require %g, and the limits allow %g", trial, won, lost);
 }
 
 static void check_nearest(void **state)
@@ -161,7 +163,7 @@ static void check_nearest(void **state)
         outcomes[outcome]++;
     }
     sunder_i_nearest_free(&nearest);
-    printf("%zu found, %zu proved to be none, %zu not sure\n", outcomes[0], outcomes[1], outcomes[2]);
+    printf("%zu with a solution, %zu proved to have none, %zu undecided\n", outcomes[0], outcomes[1], outcomes[2]);
     assert_true(outcomes[0] > 0 && outcomes[1] > 0 && outcomes[2] <= test_count(4000) / 100);
 }
 
@@ -297,12 +299,12 @@ static void check_dear(void **state)
         draw(&r, &q);
         q.q.most_cost = 1.01 * cost;
         const double v = sunder_i_quadratic_solve(&q.q, 0, 1e-9, 1000);
-        if (solved && memcmp(p.t, q.t, sizeof p.t)) fail_msg("trial %zu: another solution", trial);
-        if (!solved && v <= 1e-9) fail_msg("trial %zu: %g is missed where there is no solution", trial, v);
+        if (solved && memcmp(p.t, q.t, sizeof p.t)) fail_msg("trial %zu: the solution differs", trial);
+        if (!solved && v <= 1e-9) fail_msg("trial %zu: a violation of %g although there is no solution", trial, v);
         found += solved;
         dear += v == INFINITY;
     }
-    printf("%zu found, %zu too dear\n", found, dear);
+    printf("%zu found, %zu too expensive\n", found, dear);
     assert_true(found > 0 && dear > 0);
 }
 
@@ -348,7 +350,7 @@ static void check_springs(void **state)
             const sunder_i_constraint *c = &constraint[k];
             const double missing = fmax(0, c->d - sunder_i_stretch(c, t));
             if (c->give == 0 && missing > 1e-6)
-                fail_msg("trial %zu: constraint %zu is missed by %g", trial, k, missing);
+                fail_msg("trial %zu: constraint %zu is violated by %g", trial, k, missing);
             if (c->give > 0) cost += missing * missing / (2 * c->give);
             least += c->force * (c->d - c->give * c->force / 2);
             stretched += c->give > 0 && c->force > 1e-5;

@@ -294,7 +294,9 @@ static void seek_cheaper(rng *g, const market *m, long double least)
             memcpy(at, to, sizeof at);
         }
     }
-    if (paid < least) fail_msg("by (%g, %g) squares %.17Lg is paid, and not %.17Lg", at[0], at[1], paid, least);
+    if (paid < least)
+        fail_msg("after a move by (%g, %g) squares the cost is %.17Lg, less than the bound %.17Lg", at[0], at[1], paid,
+                 least);
 }
 
 /* As many equal payers as make the value of the whole area small beside their payments. */

@@ -287,7 +287,7 @@ static void check_terraces(void **state)
     options.progress_user = &looks;
     sunder_report *report = run_separate(feature, TOWN, &options);
     sunder_report_conflicts(report, &n);
-    printf("%zu left, %zu looks\n", n, looks);
+    printf("%zu left, %zu polls\n", n, looks);
     assert_true(n <= 98 && looks < 66000);
     sunder_report_free(report);
     for (size_t k = 0; k < TOWN; k++) sunder_shape_free((sunder_shape *)feature[k].shape);
