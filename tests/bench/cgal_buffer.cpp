@@ -1,8 +1,8 @@
-// cgal_buffer METHOD each|dissolve SHAPE FILE: what bench_buffer does, by CGAL with exact constructions: minkowski_sum_2 of
-// every polygon with the disc or square, and for `dissolve` the join of all sums in one aggregated operation, which is what
-// its package of set operations offers. METHOD as of cgal_sum: rc, full, ssab, hm, greene, optimal, vert, tri. From polygons of its own
-// kernel to the exact result with its coordinates as doubles. Methods that take no holes leave those polygons to the
-// vertical decomposition.
+// cgal_buffer METHOD each|dissolve SHAPE FILE: the operations of bench_buffer, by CGAL with exact constructions:
+// minkowski_sum_2 of every polygon with the disc or square, and for `dissolve` the join of all sums in one
+// aggregated operation, which is what its package of set operations offers. METHOD as of cgal_sum: rc, full, ssab,
+// hm, greene, optimal, vert, tri. Timed from polygons of its own kernel to the exact result with its coordinates as
+// doubles. Methods that do not accept holes leave those polygons to the vertical decomposition.
 #include "buffer_input.h"
 
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
@@ -43,7 +43,7 @@ static void build(const bench_set &s, std::vector<Holed> &out)
     }
 }
 
-// Near enough to the polygon that the library grows by: the cost does not hang on the last digits.
+// Approximately the polygon by which the library dilates: the cost does not depend on the last digits.
 static Polygon shape(const bench_shape &s)
 {
     std::vector<double> xy;

@@ -1,7 +1,8 @@
-// cgal_pair FILE [COUNT [reflect]]: microseconds a pair for the least translation of Q off P by CGAL with exact constructions: reduced
-// convolution of P and -Q, both already built, then the boundary point nearest to the origin, exactly. The first COUNT pairs of a file with
-// P and Q on alternating lines (0: all), or with P and -Q (reflect). Prints pairs, microseconds (median of three passes), the sum of the lengths, and
-// how many pairs CGAL could not do. Degenerate holes are lost on the way: where they matter the lengths are too large.
+// cgal_pair FILE [COUNT [reflect]]: microseconds per pair for the least translation of Q off P by CGAL with exact
+// constructions: reduced convolution of P and -Q, both already built, then the boundary point nearest to the origin,
+// exactly. The first COUNT pairs of a file with P and Q on alternating lines (0: all), or with P and -Q (reflect).
+// Prints pairs, microseconds (median of three passes), the sum of the lengths, and the number of pairs for which
+// CGAL failed. CGAL drops degenerate holes: if the nearest place is in one, its length is too large.
 #include "wkt_input.h"
 
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>

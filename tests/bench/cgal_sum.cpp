@@ -1,8 +1,9 @@
-// cgal_sum METHOD FILE [area]: seconds of the Minkowski sum by CGAL with exact constructions, polygons already built; median of
-// several runs. Prints vertices and holes of the result and the seconds. METHOD: rc (reduced convolution), full (full convolution), ssab
-// (small-side angle bisector), vert (vertical), tri (triangulation), hm (Hertel-Mehlhorn), greene, optimal.
-// Operands with several members: the sums of all pairs of members, united in one aggregated operation, which is what the
-// package offers. Methods that take no holes end with status 3. With "area", prints the exact area of the result instead.
+// cgal_sum METHOD FILE [area]: seconds of the Minkowski sum by CGAL with exact constructions, polygons already
+// built; median of several runs. Prints vertices and holes of the result and the seconds. METHOD: rc (reduced
+// convolution), full (full convolution), ssab (small-side angle bisector), vert (vertical), tri (triangulation), hm
+// (Hertel-Mehlhorn), greene, optimal. Operands with several members: the sums of all pairs of members, united in one
+// aggregated operation, which is what the package offers. Methods that do not accept holes end with status 3. With
+// "area", prints the exact area of the result instead.
 #include "wkt_input.h"
 
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
@@ -102,7 +103,7 @@ static std::vector<Holed> sum_of_sets(const std::string &method, const std::vect
     return out;
 }
 
-// A name by which instructions can be counted from here on.
+// A function of its own, so that callgrind can count its instructions.
 __attribute__((noinline)) static std::vector<Holed> bench_once(const std::string &method, const std::vector<Holed> &p,
                                                                const std::vector<Holed> &q)
 {

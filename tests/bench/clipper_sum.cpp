@@ -1,11 +1,12 @@
-// clipper_sum METHOD FILE: seconds of P + Q by Clipper 6 (Debian's libpolyclipping-dev; Clipper2 is not in Debian 12), on integers,
-// crossings rounded to them; median of several runs. Prints vertices and holes of the result and the seconds. METHOD:
+// clipper_sum METHOD FILE: seconds of P + Q by Clipper 6 (Debian's libpolyclipping-dev; Clipper2 is not in Debian 12), on
+// integers, with crossings rounded to integers; median of several runs. Prints vertices and holes of the result and the
+// seconds. METHOD:
 //
-//   union    the union of all subsums of convex pieces (subsums.h); timed: from paths that are there to the paths of the union
-//   offset   for a Q that is a regular polygon: the offset of P with round joins of as many segments; timed likewise. Not the same
-//            sum, but what a user of Clipper would take
+//   union    the union of all subsums of convex pieces (subsums.h); timed: from existing paths to the paths of the union
+//   offset   for a Q that is a regular polygon: the offset of P with round joins of as many segments; timed in the same
+//            way. Not the same sum, but what a user of Clipper would use
 //
-// Coordinates that are no integers are taken in thousandths.
+// Coordinates that are not integers are rounded to thousandths.
 #include "subsums.h"
 
 #include <polyclipping/clipper.hpp>
@@ -19,7 +20,7 @@ namespace {
 struct Question {
     ClipperLib::Paths paths;
     double radius = 0; // 0: a union
-    double arc = 0;    // how far a round join may be from round
+    double arc = 0;    // largest distance of a round join from the true arc
 };
 
 double scale_of(const bench_set &p, const bench_set &q)

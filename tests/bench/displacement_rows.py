@@ -264,7 +264,7 @@ def network():
         row(layer, what, number(stats["cpu"], 2), stats["peak_rss_bytes"] // 1000000, number(seconds, 2))
 
 
-# ---- Peers
+# ---- Other programs
 
 POINTS = 100.0  # points of neato per metre; it prints two decimals of a point
 

@@ -40,13 +40,13 @@ awk -v b="$(column off:group/grow_tree 6)" 'BEGIN { exit !(b < 1) }' || fail "wi
 (($(column off:memo/measures 2) == 0)) || fail "a memo changes a result: $(row off:memo/measures)"
 [[ $(column quadratic.SWEEPS=1 7) != "$(column 'as it is' 7)" ]] || fail "a changed constant is not seen"
 
-# ---- Continued: what is there is not run again ----
+# ---- Continued runs: existing results are not computed again ----
 lines=$(wc -l <"$work/out.csv")
 vary off:cluster/descend 'search.SOFT*2' >/dev/null
 (($(wc -l <"$work/out.csv") == lines + 1)) || fail "$lines lines became $(wc -l <"$work/out.csv")"
 if SUNDER_TUNING='search.NONE*2' "$build/run_corpus" "$work/corpus.txt" >/dev/null 2>&1; then fail "a constant that does not exist is accepted"; fi
 
-# ---- The library with variables gives what the one with constants gives ----
+# ---- The library with variables and the one with constants give the same results ----
 "$SUNDER" separate "$town" "$work/a.geojson" -q --input-layer buildings "${roads[@]}" || (($? == 3))
 "$build/sunder_ablation" separate "$town" "$work/b.geojson" -q --input-layer buildings "${roads[@]}" || (($? == 3))
 cmp "$work/a.geojson" "$work/b.geojson" || fail "the two programs differ"

@@ -130,7 +130,7 @@ static void test_areas(void **state)
     layers_conclude(&t);
 }
 
-/* ---- What is written is valid ---- */
+/* ---- Written geometries are valid ---- */
 
 /* The number of written geometries that GEOS finds invalid; -1 if they cannot be read. */
 static long count_invalid(const char *output, size_t *polygons)

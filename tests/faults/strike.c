@@ -101,7 +101,7 @@ static void set_registers(pid_t pid, const registers *r)
     ptrace(PTRACE_SETREGSET, pid, (void *)NT_PRSTATUS, &all);
 }
 
-/* ---- What is struck, and where -------------------------------------------------------------------------------- */
+/* ---- The selected call, and its place ------------------------------------------------------------------------- */
 
 static enum way { LIST, KILL, FAIL, SHORT, FULL, SIGNAL, SIGNALS, CALLS } way;
 static int reason, sent = SIGTERM;
@@ -232,7 +232,7 @@ static call call_at(pid_t pid, const registers *r)
     }
 }
 
-/* ---- Striking ------------------------------------------------------------------------------------------------- */
+/* ---- Causing the fault ---------------------------------------------------------------------------------------- */
 
 static void replace(thread *it, registers *r, long result, const char *name)
 {

@@ -188,7 +188,7 @@ static gis_spool *spool_of(const town *t, unsigned shards)
     return spool;
 }
 
-/* ---- Comparing --------------------------------------------------------------------------------------------------- */
+/* ---- Comparison -------------------------------------------------------------------------------------------------- */
 
 static void demand_same_features(const town *t, const sunder_report *whole, gis_joined *j)
 {

@@ -125,7 +125,7 @@ static void write_board(const board *b, const double *around, unsigned parts, gi
     assert_true(put_board(b, around, parts, settle, &error));
 }
 
-/* ---- What is read ------------------------------------------------------------------------------------------------ */
+/* ---- Reading ----------------------------------------------------------------------------------------------------- */
 
 static void same_shape(const sunder_shape *a, const sunder_shape *b)
 {
@@ -240,7 +240,7 @@ static void test_what_was_put_in(void **state)
     }
 }
 
-/* ---- Settling ---------------------------------------------------------------------------------------------------- */
+/* ---- Settling features when the spool is finished -------------------------------------------------------------- */
 
 static bool settle(void *user, gis_spool_feature *feature, gis_error *error)
 {
@@ -406,7 +406,7 @@ static void test_poor_frames(void **state)
     free_board(b);
 }
 
-/* ---- Harm -------------------------------------------------------------------------------------------------------- */
+/* ---- Damaged files ----------------------------------------------------------------------------------------------- */
 
 static long size_of(const char *path)
 {

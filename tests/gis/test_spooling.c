@@ -106,7 +106,7 @@ static void make_union(const char *file)
     fclose(out);
 }
 
-/* ---- Beside a layer read whole ----------------------------------------------------------------------------------- */
+/* ---- Comparison with a layer that is read as a whole ------------------------------------------------------------- */
 
 typedef struct comparing {
     const gis_layer_input *whole;

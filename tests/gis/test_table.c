@@ -284,7 +284,7 @@ static void test_other_fields(void **state)
     assert_read_alike("date.gpkg");
 }
 
-/* ---- In halves --------------------------------------------------------------------------------------------------- */
+/* ---- Reading in halves ------------------------------------------------------------------------------------------- */
 
 #define LAYER "\"a \"\"layer\"\"\""
 /* Inserts 6000 more rows, copies of existing ones, whose keys are given by an SQL expression in i, which is 1 to

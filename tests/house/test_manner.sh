@@ -3,7 +3,7 @@
 # each file, lines of at most 120 columns.
 . "$SUNDER_SOURCE/tests/house/lib.sh" || exit 1
 
-# ---- No two types share a name across headers, and none of a source file has the name of a header's ----
+# ---- No two headers have types of the same name, and no source file has a type with the name of one in a header ----
 for tree in src gis; do
     defined=$(cd "$root/$tree" && sources $tree | xargs awk '
         /^typedef (struct|enum|union) [a-z_0-9]+ \{/ { print $3, FILENAME }

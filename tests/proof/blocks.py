@@ -64,7 +64,7 @@ class Blocks:
             own.discard(fids)
         demand(not own, "a block is missing:", *next(iter(own), ()))
 
-    # ---- Which pairs may join
+    # ---- Pairs that may join
 
     def candidates(self):
         """Pairs of features whose boxes are within the tolerance of each other, or which have equal values."""
@@ -92,7 +92,7 @@ class Blocks:
                     yield pair
             open_ones.append(box)
 
-    # ---- Whether they do
+    # ---- Decisions
 
     def joins(self, a, b):
         field = self.problem.options.block_field

@@ -72,7 +72,7 @@ case("lattice-without-limit", "without a limit", LAYER, [
     leaf((0, 3), still=[[0, 3], [1, 3]]), STUMBLES, on=3, within=1000)
 
 
-# ---- With a listed pair that is held to its depth
+# ---- With a listed pair that has to keep its depth
 
 # A floor that the house overlaps by 2. Its slanted way claims less than the line on which the two parts just touch.
 N = 0.6012345678901234, 0.7990123456789012

@@ -156,7 +156,7 @@ past_a_wall("ways-that-limits-heed", "no ways are heeded", "max_shift", box(7, -
 past_a_wall("past-the-end-of-a-wall", "leave a direction out", "jump", box(7, 4, 7.5, 30), [(-25, 2)], {2: (8, -7)})
 
 
-# ---- What a listed pair is held to: a house that has to go 1 to the right, deeper into another
+# ---- Requirements on listed pairs: a house that has to move by 1 to the right, deeper into another
 
 def pushed(name, refusal, other, ways, kind="overlap", **more):
     layer = {1: box(0, 0, 10, 10, m=2), 2: other, 3: box(-10, 0, 1, 10, m=0)}
@@ -205,7 +205,7 @@ case("held-to-a-depth-unknown", "not known", {1: {**STAR, "m": 1}, 2: {**ROUND, 
          [asked(2, 1, part(ROUND)[::40], part(STAR)[::40], ways_out(-1, -1, 1, 1), held=True)], leaf((0, 0)))), conflict(1, 2)], STUMBLES)
 
 
-# ---- Chords: a small house goes 8 to the right, and its anchor past the corner of a line with sides
+# ---- Chords: a small house moves by 8 to the right, and its anchor past the corner of a line with sides
 
 def chord(name, refusal, corners, at, moves):
     layer = {1: box(-20, -50, 12, 60, m=0), 2: box(4, 4, 6, 6, m=9)}

@@ -40,7 +40,7 @@ def index(value, n, what):
     return value
 
 
-# ---- Kinds of values. Each function takes a JSON value and its place in the file, and returns the value.
+# ---- Types of values. Each function takes a JSON value and its place in the file, and returns the value.
 
 def number(value, where):
     demand(type(value) in (int, float), "no number:", where)

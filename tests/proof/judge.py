@@ -381,7 +381,7 @@ class VerdictOf:
         return self.line.get("within") if limit is None else limit
 
 
-# ---- Small things
+# ---- Helpers
 
 def fids(body):
     return (body["barrier"],) if "barrier" in body else tuple(f["fid"] for f in body["features"])

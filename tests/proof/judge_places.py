@@ -78,7 +78,7 @@ class Places:
         least = plane.least_square(p, q)
         return depth is not None and least is not None and least <= depth
 
-    # ---- Ways
+    # ---- Paths
 
     def may_go(self, a, b, u):
         """Is the relative move of b by u no jump, and does it cross no side, for any members of their blocks?"""

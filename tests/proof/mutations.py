@@ -448,7 +448,7 @@ VERDICTS = {"way": drop_way, "leaf": weaken_leaves, "clearance": ask_more, "slac
             "crowd": crowd_without_room}
 
 
-# ---- Mutations of the whole
+# ---- Mutations of a whole file
 
 def twice(lines):
     other = copy.deepcopy(lines[-1])

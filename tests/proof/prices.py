@@ -55,7 +55,7 @@ class Prices(Bodies):
             problem.occupied[body, side] = masses(squares, lattice) if squares else None
         return problem.occupied[body, side]
 
-    # ---- Which bodies owe the gap to each other
+    # ---- Pairs of bodies that have to keep the gap
 
     def demand_strangers(self):
         """Every feature has to keep the gap to the features of all other bodies; between two fixed bodies there is no

@@ -23,7 +23,7 @@ class Tree(Bodies):
     def mass(self, i, j):
         return sum(1 / self.weights[k] for k in (i, j) if self.weights[k] is not None)
 
-    # ---- What forces prove
+    # ---- Bounds by forces
 
     def read_forces(self, told, node):
         """Reads [(cut, force)]; all cuts have to be on the path to the node."""

@@ -45,7 +45,7 @@ class Verdict:
         blamed = self.told["blocked_by"]
         demand(named == set(blamed) and len(named) == len(blamed), "blocked_by is not what the proof is about")
 
-    # ---- What a node asks
+    # ---- The requirement of a node
 
     def check_question(self, node):
         problem, a, b = self.problem, node["a"], node["b"]

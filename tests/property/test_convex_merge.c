@@ -98,7 +98,7 @@ static void read_sum(sunder_i_lattice *l, const sunder_i_convex_pieces *sum, con
         }
 }
 
-/* ---- What must hold ---- */
+/* ---- Properties -------- */
 
 /* Corners that are not straight, from the smallest on. */
 static int strict_corners(const piece *p, place *out)

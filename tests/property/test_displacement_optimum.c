@@ -44,7 +44,7 @@ typedef struct tally {
         fail_msg(__VA_ARGS__);                                                                                         \
     } while (0)
 
-/* ---- What is asked */
+/* ---- Questions */
 
 /* The problem that has no solution according to a verdict. */
 static bool pose_verdict(const hamlet *t, const sunder_conflict *c, size_t n, const sunder_conflict *own,

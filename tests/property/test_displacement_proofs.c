@@ -189,7 +189,7 @@ static void check_held(void **state)
     assert_true(proved * 2 > trials);
 }
 
-/* ---- What stops it --------------------------------------------------------------------------------------------- */
+/* ---- The features that block ----------------------------------------------------------------------------------- */
 
 /* No feature of blocked_by can be left out: the pair and all of them except one have a solution. */
 static void check_irreducible(void **state)

@@ -124,7 +124,7 @@ static sunder_report *run(const country *c, const order *o)
     return run_separate(feature, o->n, &c->options);
 }
 
-/* ---- What is said of one town ------------------------------------------------------------------------------------ */
+/* ---- The results for one town ------------------------------------------------------------------------------------ */
 
 /* Prints a line of numbers for each fact in the report's order, with features given by their indices in the town. */
 typedef struct facts {
@@ -294,7 +294,7 @@ static void test_many_towns(void **state)
     assert_true(moved > countries && conflicts > 0);
 }
 
-/* ---- Towns that were found by looking for such ------------------------------------------------------------------- */
+/* ---- Towns found by a search ------------------------------------------------------------------------------------- */
 
 typedef struct house {
     double at[8], weight;

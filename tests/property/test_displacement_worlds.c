@@ -142,7 +142,7 @@ static bool meets(const double a[4], const double b[4])
     return a[0] <= b[2] && b[0] <= a[2] && a[1] <= b[3] && b[1] <= a[3];
 }
 
-/* ---- What is told of a world ------------------------------------------------------------------------------------- */
+/* ---- The report about a world ------------------------------------------------------------------------------------ */
 
 static void demand_same_counts(const sunder_conflict_counts *a, const sunder_conflict_counts *b)
 {
@@ -370,7 +370,7 @@ static size_t look_at_parts(const field *f, rng *r, const sunder_report *whole, 
     return same;
 }
 
-/* ---- What they add up to ----------------------------------------------------------------------------------------- */
+/* ---- Sums over worlds -------------------------------------------------------------------------------------------- */
 
 /* The rows of a report are those that its pairs of neighbours form. */
 static void demand_same_rows(const sunder_report *report, const sunder_layer_options *options)

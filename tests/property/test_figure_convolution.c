@@ -82,7 +82,7 @@ static sunder_shape *draw_element(rng *r, scene_kind kind)
     return shape;
 }
 
-/* ---- One stage, along both roads ---- */
+/* ---- One stage, by both algorithms ---- */
 
 typedef struct tally {
     size_t stages, by_curve, wrong;
@@ -182,7 +182,7 @@ static void test_openings_agree(void **state)
     compare_scenes(true, ROOFS, 0.5);
 }
 
-/* ---- How the work grows ---- */
+/* ---- Growth of the work ---- */
 
 static bool count_look(double fraction, void *user)
 {

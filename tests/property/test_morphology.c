@@ -31,7 +31,7 @@ static bool contains(const integer_set *s, const double *at)
     return false;
 }
 
-/* ---- Asking the oracle ---- */
+/* ---- Comparison with the oracle ---- */
 
 typedef struct probing {
     const integer_set *set;

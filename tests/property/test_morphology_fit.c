@@ -239,7 +239,7 @@ static void test_members(void **state)
     assert_true(cases < 100 || (fitted > cases / 50 && fitted < cases));
 }
 
-/* ---- The layer's question ---------------------------------------------------------------------------------------- */
+/* ---- Thin overlaps, as in a layer -------------------------------------------------------------------------------- */
 
 /* A bar in a slot that is too narrow by w on both sides. A translation that separates them is as long as they are, and
  * the overlap consists of two strips of width w. They are two bodies exactly if a disc of the tolerance fits into the

@@ -16,7 +16,7 @@
 #define MOST_POLYGONS 12
 #define MOST_POINTS 4000
 
-/* ---- The world by itself: polygons with integer corners over a common denominator ---- */
+/* ---- The polygons by themselves: integer corners over a common denominator ----------- */
 
 typedef struct polygon {
     int n;
@@ -237,7 +237,7 @@ static void close_world(world *w)
     sunder_i_arena_free(&w->arena);
 }
 
-/* ---- The same in the map's numbers ---- */
+/* ---- The same polygons in the map's numbers ---- */
 
 static void corners_of(world *w, const polygon *p, sunder_i_rational_point *out)
 {

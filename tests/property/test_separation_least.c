@@ -149,7 +149,7 @@ static void print_shape(const polyset *s)
     free(text);
 }
 
-/* ---- How it touches, by looking around the point ---- */
+/* ---- The kind of contact, by testing around the point ---- */
 
 typedef struct ray {
     long x, y;

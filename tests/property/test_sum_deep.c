@@ -99,7 +99,7 @@ static void test_other_roads(void **state)
     assert_int_equal(bad, 0);
 }
 
-/* ---- What it takes ---- */
+/* ---- Memory ----------- */
 
 static size_t held, most_held;
 

@@ -169,7 +169,7 @@ bool locate(mpf_t x, mpf_t y, const place *p, int level, numbers *w)
     return p->u->circle ? line_circle(x, y, p->t, p->u, p->root, level, w) : line_line(x, y, p->t, p->u, level, w);
 }
 
-/* ---- All of them ---- */
+/* ---- All candidates ---- */
 
 size_t add_tracks(const figure *f, track *t)
 {

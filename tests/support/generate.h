@@ -52,7 +52,7 @@ void random_convex(polyset *set, rng *r, int n, double size);
 /* An L, U, T or rectangle, turned by a random angle, at map-like coordinates in doubles. */
 void random_building(polyset *set, rng *r);
 
-/* ---- Pairs of operands, by kind of trouble ---- */
+/* ---- Pairs of operands, by kind of degeneracy ---- */
 
 typedef enum pair_kind {
     PAIR_SQUARES,   /* parts of a unit grid: every direction is repeated, exact fits occur by chance */
@@ -80,7 +80,7 @@ void random_pair(polyset *p, polyset *q, rng *r, pair_kind kind);
 /* Moves q onto p, up to a few units. */
 void bring_together(const polyset *p, polyset *q, rng *r);
 
-/* ---- Larger pairs, in the manner of the literature's families ---- */
+/* ---- Larger pairs, similar to the families of the literature ----- */
 
 typedef enum family_kind {
     FAMILY_STAR,
@@ -98,7 +98,7 @@ typedef enum family_kind {
 const char *family_kind_string(family_kind kind);
 /* Operands of about `low` to `high` vertices. */
 void random_family(polyset *p, polyset *q, rng *r, family_kind kind, int low, int high);
-/* ---- Sets that are not valid, and taken by the even-odd rule ---- */
+/* ---- Invalid sets, which the even-odd rule defines -------------- */
 
 typedef enum invalid_kind {
     INVALID_SCRIBBLE, /* a ring through random points of a small grid: it crosses itself, overlaps, touches */

@@ -144,7 +144,7 @@ void hamlet_found(rng *r, hamlet *t, size_t n, int kinds)
     }
 }
 
-/* ---- As layers ---- */
+/* ---- Conversion to layers ---- */
 
 static sunder_shape *shape_of(const double *xy, const size_t *ring_end, size_t rings)
 {
@@ -199,7 +199,7 @@ sunder_report *hamlet_separate(const hamlet *t, double effort)
     return report;
 }
 
-/* ---- As problems ---- */
+/* ---- Conversion to problems ---- */
 
 typedef struct posing {
     const hamlet *t;

@@ -88,7 +88,7 @@ static void add_sector(search *s, const optimum_piece *p, const choice *c)
     add_row(s, p->a, p->b, m[0], m[1], down(chord, (size + r) * (of_d + of_e)));
 }
 
-/* ---- What a place misses ---- */
+/* ---- Violations by a place ---- */
 
 /* The depth of u in the open piece; negative outside. */
 static double depth_in_piece(const optimum_piece *p, const double u[2])

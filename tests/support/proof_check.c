@@ -6,7 +6,7 @@
 
 #include <stdlib.h>
 
-/* ---- What is owed ---- */
+/* ---- Requirements ---- */
 
 /* The listed conflict of the two, for which less than the full distance is required; for a crowded pair the full
  * distance is. */

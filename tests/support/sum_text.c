@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- From the library ---- */
+/* ---- Text of the library ---- */
 
 /* Is d a double nearest to the rational r? Infinite from the midpoint of the greatest double and 2^1024 on. */
 static bool is_nearest(double d, const mpq_t r)

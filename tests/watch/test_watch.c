@@ -42,7 +42,7 @@ static bool go_on(void *user)
 
 void __sanitizer_cov_trace_pc(void) { steps++; }
 
-/* ---- What is done with a pair of operands ---- */
+/* ---- The calls with a pair of operands ------- */
 
 typedef struct operands {
     polyset p, q;

@@ -91,7 +91,7 @@ static void test_named(void **state)
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) expect_meeting(cases[i].p, cases[i].want);
 }
 
-/* ---- GMP's answers ---- */
+/* ---- Results by GMP ---- */
 
 static void product(mpz_t r, spot a, spot b, spot c, spot d, bool dot)
 {

@@ -321,7 +321,7 @@ static void test_fatness(void **state)
     }
 }
 
-/* ---- What can go wrong ---- */
+/* ---- Failures ------------- */
 
 static void test_options(void **state)
 {

@@ -75,7 +75,7 @@ enum {
     PROOFS_IN_VAIN_AT_FIRST = 1024
 };
 
-/* ---- What would free it? ----------------------------------------------------------------------------------------- */
+/* ---- Changes that would resolve a pair --------------------------------------------------------------------------- */
 
 /* Numbers of questions for the field and for the far pair: about limits, about gaps, and for proofs. */
 static size_t asked_limit[2], asked_gap[2], asked_proof[2];
@@ -161,7 +161,7 @@ static void test_needs_of_crowd(void **state)
     end(&c);
 }
 
-/* ---- Is there a proof? ------------------------------------------------------------------------------------------- */
+/* ---- Proofs ------------------------------------------------------------------------------------------------------ */
 
 /* Numbers of questions at the first effort and at greater ones, for the field and for the far pair. told: the number of
  * the field's questions at the second effort that count as decided; all others fail. */
@@ -229,7 +229,7 @@ static void test_proofs_of_few(void **state)
     assert_true(asked_again[1] >= 3);
 }
 
-/* ---- Has it a solution? ------------------------------------------------------------------------------------------ */
+/* ---- Solutions --------------------------------------------------------------------------------------------------- */
 
 /* All pairs are given up at their present places. Each has a solution, which needs half of the field. */
 static void test_one_by_one(void **state)

@@ -67,7 +67,7 @@ static void draw_body(rng *g, double size, double far, double step, body *b)
     }
 }
 
-/* ---- Integrals of hats, another way: under each edge, by pieces that lie in one square each ---------------------- */
+/* ---- Integrals of hat functions, computed in another way: under each edge, by pieces within one square ----------- */
 
 typedef struct table {
     int64_t x, y; /* the node of at[0], in the grid of the whole plane */
@@ -187,7 +187,7 @@ static void test_masses(void **state)
     }
 }
 
-/* ---- What prices prove ------------------------------------------------------------------------------------------- */
+/* ---- Bounds by prices -------------------------------------------------------------------------------------------- */
 
 typedef struct market {
     body body;

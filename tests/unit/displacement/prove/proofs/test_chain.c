@@ -150,7 +150,7 @@ static void test_room(void **state)
     end(&r);
 }
 
-/* ---- One line for several ways ----------------------------------------------------------------------------------- */
+/* ---- One line for several ways out ------------------------------------------------------------------------------- */
 
 static sunder_i_half_plane way_of(double angle, double d)
 {
