@@ -248,7 +248,7 @@ def any_of(answers):
 
 
 def tried(question, *arguments):
-    """The judgement of two houses; None: undecided."""
+    """The answer to the question; None: undecided."""
     try:
         return question(*arguments)
     except Undecided:

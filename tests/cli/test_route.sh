@@ -94,7 +94,7 @@ same "$(ogrinfo -q -ro o.gpkg -dialect sqlite -sql 'SELECT count(*) AS n FROM ro
 expect 0 route in.gpkg o2.gpkg --robot square:2 --from 0,0 --to 6,0 --where 'id <> 8' --quiet
 same "$(ogrinfo -q -ro o2.gpkg | wc -l)" 2
 expect 0 route 'POLYGON ((0 0, 1e308 0, 1e308 1e308, 0 1e308))' huge.gpkg --robot square:1e307 --from=-1e308,5e307 --to=1.7e308,5e307 --free-space
-same "$(count huge.gpkg route) $(count huge.gpkg route_free_space)" '3 1' # the frame ends at the limit of doubles
+same "$(count huge.gpkg route) $(count huge.gpkg route_free_space)" '3 1' # a frame around the obstacles, limited by the greatest double
 expect 3 route in.gpkg o3.gpkg --robot square:2 --from 0,0 --to 3,0
 same "$(count o3.gpkg route)" 0
 expect 0 route in.gpkg --robot square:1m --from 0,0 --to 6,0 --gap 1ft

@@ -87,8 +87,8 @@ for case in "$p1|$q1" "$p2|$q2"; do
     # The layer is also accepted as a source without repair, and has the area of the exact sum.
     expect 0 sum v.gpkg 'POLYGON EMPTY' --invalid fail
     area=$(ogrinfo -q v.gpkg -dialect sqlite -sql 'SELECT sum(ST_Area(geom)) AS area FROM sum' 2>/dev/null | sed -n 's/.*area.* = //p')
-    # The exact area has hundreds of digits: both numbers lose as many digits at the end as leave thirty digits of the
-    # denominator.
+    # The exact area has hundreds of digits: numerator and denominator are cut by the same number of digits, so that the
+    # denominator keeps thirty.
     exact=$(jq -r .result.area v.json | tr / ' ' | awk '{ k = length($2) - 30; if (k < 0) k = 0
         printf "%.17g", substr($1, 1, length($1) - k) / substr($2, 1, length($2) - k) }')
     [ -z "$area" ] || near "$area" "$exact" || fail "the layer has the area $area, the sum $exact"

@@ -55,7 +55,7 @@ vertices=$(count map.gpkg sum_vertices) edges=$(count map.gpkg sum_edges) faces=
 area() { ogrinfo -ro -q -dialect sqlite -sql "SELECT sum(ST_Area(geom)) AS a FROM $1 ${2:+WHERE $2}" map.gpkg | sed -n 's/.* = //p'; }
 if [ -n "$(area sum)" ]; then same "$(area sum_faces 'covered_by > 0')" "$(area sum)" "area of covered faces"; fi
 
-# The map of the other algorithms has one covered region, their union.
+# With the other algorithms the map has one covered region, the union of all subsums.
 for algorithm in incremental divide; do
     expect 0 sum "$rooms" $robot $algorithm.gpkg --planar-map --algorithm $algorithm
     same "$(count $algorithm.gpkg sum_faces 'covered_by > 1')" 0

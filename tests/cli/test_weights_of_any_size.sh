@@ -6,7 +6,7 @@ command -v python3 >/dev/null || { echo "skipped: python3 is not installed"; exi
 export SUNDER
 python3 "$SUNDER_SOURCE/tests/cli/weights.py" || fail "see above"
 
-# The smallest weight for which an earlier version reported "out of memory".
+# The smallest layer for which an earlier version reported "out of memory".
 cat >four.csv <<'X'
 w,WKT
 1e-300,"POLYGON ((0 0,4 0,4 4,0 4,0 0))"

@@ -63,7 +63,7 @@ layer = layer or only_layer(source)
 written = written or layer
 was, now = shapes(source, layer), shapes(output, written)
 within = {"contained", "duplicate"}
-lines = [line.rstrip("\n").split("\t") for line in open(checked)]  # fid_a, id_a, fid_b, id_b, barrier, barr_fid, kind, ...
+lines = [line.rstrip("\n").split("\t") for line in open(checked)]  # columns fid_a, id_a, fid_b, id_b, barrier, barr_fid, kind, ...
 contained = {(int(v[0]), int(v[2])) for v in lines if len(v) > 6 and v[6] in within}
 query = f'SELECT fid_a, fid_b, kind, reason FROM "{written}_conflicts"'
 for a, b, kind, reason in sqlite3.connect(output).execute(query):

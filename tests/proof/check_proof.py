@@ -118,7 +118,7 @@ def answer(checker, lines):
         return 1, f"refused: {why}"
     except (NotRead, OSError) as why:
         return 2, f"not asked about: {why}"
-    # form.py leaves none of these
+    # cannot happen if form.py checked all members and types
     except (KeyError, TypeError, ValueError, IndexError, ArithmeticError, RecursionError) as why:
         return 1, f"refused: not in the form of a proof: {type(why).__name__}: {why}"
 

@@ -133,7 +133,7 @@ def places_between(edges, left, side):
 
 
 def take_slab(edges, a, b, column, side, found):
-    """Adds the part of the union between a and b, where edges do not cross. Rounding may lose some widths of a unit."""
+    """Adds the part of the union between a and b, where edges do not cross. Rounding may lose strips a unit wide."""
     active = [e for e in edges if e[0] <= a and e[2] >= b]
     active.sort(key=lambda e: Fraction(*height((2 * e[0], 2 * e[1], 2 * e[2], 2 * e[3]), a + b)))
     inside, below, lost = set(), None, 0

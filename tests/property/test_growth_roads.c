@@ -61,9 +61,9 @@ static size_t logarithm(size_t n)
     return l;
 }
 
-/* I + k log k: the questions are few per edge of the arrangement and, to find the first corner of each subsum, few per
- * level of the history. The number of edges is I up to a constant factor. That factor grew slowly over the sizes tried,
- * and less than the logarithm of the size of the map. */
+/* The number of questions is in O(I + k log k) for k subsums with I crossings: few per edge of the arrangement and, to
+ * find the first corner of each subsum, few per level of the history. The number of edges is I up to a constant factor.
+ * That factor grew slowly over the sizes tried, and less than the logarithm of the size of the map. */
 static void test_arrangement(void **state)
 {
     for (size_t n = 16; n <= 96; n *= 2) {

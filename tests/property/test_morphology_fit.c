@@ -277,8 +277,9 @@ static bool join(double w, double tolerance)
 static void test_slot(void **state)
 {
     for (double any = 0x1p-20; any < 4; any *= 1.75) {
-        const double hair = 0x1p-47;                                /* exact in 20 + w, */
-        const double tolerance = ldexp(floor(ldexp(any, 45)), -45); /* and in the disc's corners on the axes */
+        const double hair = 0x1p-47; /* 20 + w is exact */
+        const double tolerance =
+            ldexp(floor(ldexp(any, 45)), -45); /* so that the disc's corners on the axes are exact */
         sunder_shape *disc;
         double box[4];
         assert_int_equal(sunder_shape_disc(tolerance / 2, 16, true, &disc, NULL), SUNDER_OK);

@@ -117,7 +117,8 @@ static void test_lent(void **state)
     }
 }
 
-/* Many boxes that move far make the tree worn; a single one does not, nor do all of them if they move a little. */
+/* If many boxes move far, the tree reports that it should be rebuilt; it does not if a single one does, or if all move
+ * a little. */
 static void test_wears_by_many(void **state)
 {
     (void)state;

@@ -121,7 +121,7 @@ static void test_terraces(void **state)
         add_box(&c, x, y, 6, 10, 4);
     }
     const double longest = longest_need(&c, 50);
-    /* stretched about the centre of 324 m by 52 m: by 1/2 (3 m per 6 m), and by 3/10 */
+    /* Houses of 6 by 10 need 3 more each way: the layout, 324 by 52, is stretched about its centre by 3/6 and 3/10. */
     assert_true(longest > 75 && longest < 0.5 * 162 + 0.3 * 26 + 1);
     end(&c);
 }

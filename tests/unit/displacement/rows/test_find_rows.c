@@ -137,7 +137,7 @@ static void check_corner(void **state)
 
 enum { HOUSES = 40 };
 
-/* Houses around a circular square. */
+/* Houses around a round plaza. */
 static void add_ring(scene *s)
 {
     for (int k = 0; k < HOUSES; k++) {
@@ -155,7 +155,7 @@ static void add_ring(scene *s)
     }
 }
 
-/* A row of houses around a circular square is a ring. */
+/* A row of houses around a round plaza is a ring. */
 static void check_ring(void **state)
 {
     (void)state;

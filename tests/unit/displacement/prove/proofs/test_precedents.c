@@ -137,8 +137,8 @@ static void begin_yard(crowd *c)
     scene_model_related(&c->of, &c->scene);
 }
 
-/* A question that only fine lines prove infeasible uses only fine lines when a feature is left out; the outcome is the
- * same. */
+/* If only fine lines prove a question infeasible, the question with a feature left out is tried with fine lines only;
+ * the outcome is the same. */
 static void test_fine_planes(void **state)
 {
     crowd c;
