@@ -17,8 +17,8 @@ typedef struct scene_model {
     bool placed;
 } scene_model;
 
-/* Begins a model with the scene's options; the scene keeps its features. Pairs are not related: blocks come from the
- * features' numbers, and searches examine all features. */
+/* Begins a model with the scene's options; the scene keeps its features. The relations of pairs are not
+ * computed: blocks come from the features' numbers only, and searches examine all features. */
 void scene_model_begin(scene_model *m, const scene *s);
 /* The same, placed and related as at the start of a run, with its seams. */
 void scene_model_related(scene_model *m, const scene *s);

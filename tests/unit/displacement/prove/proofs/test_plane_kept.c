@@ -24,7 +24,7 @@ typedef struct layer {
 
 static int64_t draw_block(rng *r) { return rng_once_in(r, 3) ? -1 : rng_int(r, 0, 1); }
 
-/* A box with an obtuse gable, which coarse lines cannot represent. */
+/* A box with an obtuse gable: coarse lines, each of which replaces several, cut its tip off. */
 static sunder_feature *add_house(rng *r, scene *s)
 {
     char wkt[200];
