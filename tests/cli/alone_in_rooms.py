@@ -22,8 +22,9 @@ such a candidate do not include it, the minimum is not attained, and the program
 If a symbol has no free place, some of its conflicts remain, and each of them needs a proof: that no place resolves it
 without making another conflict of the symbol worse, or (`crowded`) that there is no free place.
 
-With small integers a free place may be a single point, which doubles may not represent, or an open segment; so in these
-worlds a symbol that has such a place may stay in conflict."""
+With small integers all free places near the nearest one may lie on a line that bounds the forbidden set. Then doubles
+may not represent them, or the nearest one is not attained; such a symbol may stay in conflict. And such places may all be
+on the border of a shadow, which forbids them only since it is closed; then a conflict may stay without a proof."""
 import json
 import itertools
 import os
@@ -107,13 +108,18 @@ def segment_meets_open(convex, p, q):
     return low < high or (low == high and not strict_low and not strict_high)
 
 
+def segments_cross(a, b, c, d):
+    """Do two open segments cross in one point?"""
+    return cross(a, b, c) * cross(a, b, d) < 0 and cross(c, d, a) * cross(c, d, b) < 0
+
+
 def segments_meet(a, b, c, d):
     """Do two closed segments have a point in common?"""
     def within(p, q, r):
         return cross(p, q, r) == 0 and dot(sub(p, r), sub(q, r)) <= 0
     if within(a, b, c) or within(a, b, d) or within(c, d, a) or within(c, d, b):
         return True
-    return cross(a, b, c) * cross(a, b, d) < 0 and cross(c, d, a) * cross(c, d, b) < 0
+    return segments_cross(a, b, c, d)
 
 
 class World:
@@ -121,7 +127,7 @@ class World:
     'boundary'."""
 
     def __init__(self, anchor, symbol, barriers, gap):
-        self.anchor, self.barriers, self.gap = anchor, barriers, gap
+        self.anchor, self.barriers, self.gap, self.closed = anchor, barriers, gap, True
         self.body = [add(anchor, p) for p in symbol]
         self.pieces = []  # segments whose neighbourhood is forbidden
         self.walls = []   # segments that the path of the anchor may not meet
@@ -154,8 +160,8 @@ class World:
             return False
         if t == (0, 0):
             return True
-        end = add(self.anchor, t)
-        return not any(segments_meet(self.anchor, end, p, q) for p, q in self.walls)
+        meet = segments_meet if self.closed else segments_cross
+        return not any(meet(self.anchor, add(self.anchor, t), p, q) for p, q in self.walls)
 
     def lines(self):
         """The segments (p, d, bounded) that bound the forbidden set."""
@@ -240,10 +246,19 @@ class World:
         if self.gap:
             return alone_with_gap.nearest(rings, walls, self.gap, self.is_free)
         found = self.nearest_in_rationals(rings, walls)
+        self.exact = found is not None and self.is_free(found[1]) and all(F(float(x)) == x for x in found[1])
         return None if found is None else float(found[0]) ** 0.5
 
+    def nearest_if_open(self):
+        """As nearest(), if the shadows of lines were open."""
+        self.closed = False
+        found = self.nearest()
+        self.closed = True
+        return found
+
     def nearest_in_rationals(self, rings, walls):
-        """Returns the square of the distance of the nearest free place, and whether it is attained; None if there is none."""
+        """Returns the square of the distance of the nearest free place, and that place, beside which there are free ones if
+        it is not free itself; None if there is none."""
         lines, found = self.lines(), None
         walls = [(p, q, 1 if side((0, 0), p, q) > 0 else -1) for p, q in walls]
         last = (INFINITE, 0)
@@ -254,7 +269,7 @@ class World:
                 continue
             last, t = (x, y), exactly()
             if (found is None or dot(t, t) < found[0]) and self.is_near_free(t, lines):
-                found = dot(t, t), self.is_free(t)
+                found = dot(t, t), t
         return found
 
 
@@ -449,9 +464,9 @@ def check(name):
         off = float(F(dx) ** 2 + F(dy) ** 2) ** 0.5
         is_free = status != "blocked" and world.is_free((F(dx), F(dy)))
         if found is None and not (world.gap and is_free):
-            right = status == "blocked" and proved[k]
+            right = status == "blocked" and (proved[k] or (round_numbers and world.nearest_if_open() is not None))
         elif status == "blocked":
-            right = round_numbers
+            right = round_numbers and not world.exact
         elif world.gap:
             right = is_free and (found is None or off <= found * (1 + 1e-6))
         else:
