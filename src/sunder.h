@@ -558,6 +558,11 @@ typedef struct sunder_layer_options {
     /* With rows: the stiffness K of springs between neighbours in a row, across it and along it. With u the move of one
      * relative to the other, and w the lesser of their weights, a spring costs w K (u.n)^2. The default: 3 and 0.3. */
     double row_stiffness[2];
+    /* 0 (the default), or pairs that remain in conflict are eased: what a pair lacks of its distance, s, costs
+     * w (4 R s + ease s^2), and the cost is least with that. w is the lesser weight of the bodies of the pair that may
+     * move, R the lesser max_shift above 0 of the two, or the distance that the pair has to keep. No pair is given up,
+     * and no other one made worse, for it. Not with keep_worlds, nor with keep_trees. */
+    double ease;
 } sunder_layer_options;
 
 /* Returns the distance from the box (xmin, ymin, xmax, ymax) of a feature within which barriers can decide on which
@@ -741,7 +746,13 @@ typedef struct sunder_layer_summary {
      * pairs with a kink above options.kink. */
     size_t rows, row_features, row_pairs;
     double kink_mean, kink_p95, kink_share;
-    double cost_moves, cost_rows; /* the parts of cost: moves, and springs of rows */
+    double cost_moves, cost_rows; /* the parts of cost: moves, and springs of rows ... */
+    double cost_shortfall; /* ... and the prices of pairs that remain in conflict */
+    double cost_alone;     /* the part of these that each pair has to pay wherever the others go; part of lower_bound */
+    /* With options.ease: the pairs of bodies, or of a body and a barrier, that remain in conflict though one of the two
+     * may move; and the sum of what they lack, the most of the conflicts of each. */
+    size_t short_pairs;
+    double shortfall;
 } sunder_layer_summary;
 
 /* Lists the conflicts of a layer as it stands, exactly. The caller frees the report with sunder_report_free().

@@ -130,6 +130,17 @@ static bool resolve_stiffness(const gis_options *options, double stiffness[2], g
                           text);
 }
 
+static bool resolve_ease(const gis_options *options, double *ease, gis_error *error)
+{
+    const char *text = options->text[OPT_EASE];
+    if (!text || strcmp(text, "no") == 0) return true;
+    if (!gis_length_parse_number(text, strlen(text), ease) || !(*ease > 0))
+        return gis_fail_usage(error, "--ease %s: neither a number above 0 nor \"no\"", text);
+    if (options->given[OPT_PROOF])
+        return gis_fail_usage(error, "--proof: a proof cannot name what pairs lack; leave out --ease");
+    return true;
+}
+
 static bool resolve_rules(const gis_options *options, gis_layer_rules *out, gis_error *error)
 {
     unsigned weighting;
@@ -155,7 +166,7 @@ static bool resolve_rules(const gis_options *options, gis_layer_rules *out, gis_
     out->weighting = (gis_weighting)weighting;
     return resolve_rows(options, &out->core.rows, error) &&
            resolve_stiffness(options, out->core.row_stiffness, error) &&
-           resolve_contained(options, &out->core.contained, error);
+           resolve_ease(options, &out->core.ease, error) && resolve_contained(options, &out->core.contained, error);
 }
 
 /* Refuses a file of --stats, --report, --proof or --trace that is a file of a barrier's dataset. The reading of

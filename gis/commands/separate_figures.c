@@ -21,7 +21,8 @@ static GIntBig longest_fid(const gis_separate_run *run)
 double gis_separate_optimality_gap(const sunder_layer_summary *summary)
 {
     if (isinf(summary->cost)) return 1;
-    return summary->cost > 0 ? (summary->cost - summary->lower_bound) / summary->cost : 0;
+    const double cost = summary->cost - summary->cost_alone;
+    return cost > 0 ? (summary->cost - summary->lower_bound) / cost : 0;
 }
 
 static void json_displacement(gis_json *out, const gis_separate_run *run)
@@ -38,12 +39,25 @@ static void json_displacement(gis_json *out, const gis_separate_run *run)
     else
         gis_json_null(out);
     gis_json_put_double(out, "cost", summary->cost);
-    if (run->request.rules.core.rows) {
-        gis_json_put_double(out, "cost_moves", summary->cost_moves);
-        gis_json_put_double(out, "cost_rows", summary->cost_rows);
+    const sunder_layer_options *rules = &run->request.rules.core;
+    if (rules->rows || rules->ease > 0) gis_json_put_double(out, "cost_moves", summary->cost_moves);
+    if (rules->rows) gis_json_put_double(out, "cost_rows", summary->cost_rows);
+    if (rules->ease > 0) {
+        gis_json_put_double(out, "cost_shortfall", summary->cost_shortfall);
+        gis_json_put_double(out, "cost_alone", summary->cost_alone);
     }
     gis_json_put_double(out, "lower_bound", summary->lower_bound);
     gis_json_put_double(out, "optimality_gap", gis_separate_optimality_gap(summary));
+    gis_json_close(out, '}');
+}
+
+static void json_shortfall(gis_json *out, const sunder_layer_summary *summary)
+{
+    gis_json_key(out, "shortfall");
+    gis_json_open(out, '{');
+    gis_json_put_size(out, "pairs", summary->short_pairs);
+    gis_json_put_double(out, "sum", summary->shortfall);
+    gis_json_put_size(out, "tight", 0);
     gis_json_close(out, '}');
 }
 
@@ -110,6 +124,10 @@ void gis_separate_stats(gis_json *out, const gis_separate_run *run)
     gis_json_line(out);
     if (run->request.rules.core.rows) {
         json_rows(out, summary);
+        gis_json_line(out);
+    }
+    if (run->request.rules.core.ease > 0) {
+        json_shortfall(out, summary);
         gis_json_line(out);
     }
     gis_json_put_bool(out, "verified", run->verified);
@@ -182,6 +200,14 @@ static void print_rows(const gis_separate_run *run)
            100 * summary->kink_share);
 }
 
+static void print_shortfall(const gis_separate_run *run)
+{
+    const sunder_layer_summary *summary = &run->summary;
+    if (!(run->request.rules.core.ease > 0)) return;
+    printf("pairs that lack a part of their distance %zu, which is %.6g in sum (%s)\n", summary->short_pairs,
+           summary->shortfall, gis_separate_unit(run));
+}
+
 bool gis_separate_print(const void *separated, gis_error *error)
 {
     const gis_separate_run *run = separated;
@@ -201,6 +227,7 @@ bool gis_separate_print(const void *separated, gis_error *error)
     printf("\ncost %.6g, at least %.6g is needed (optimality gap %.3g)\n", summary->cost, summary->lower_bound,
            gis_separate_optimality_gap(summary));
     print_rows(run);
+    print_shortfall(run);
     if (gis_any_conflict(&summary->after) && (run->chosen & GIS_SEPARATE_CONFLICTS))
         printf("the remaining conflicts are listed with their reasons in %s_conflicts\n",
                gis_resolve_sink(run->options, NULL, gis_source_name(run->input.source)).main_layer);

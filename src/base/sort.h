@@ -22,7 +22,7 @@ bool sunder_i_sort_keys(uint64_t *key, size_t n);
 /* Shorter lists are sorted by insertion: the vertices of most features, the bodies of most clusters. */
 #define SUNDER_I_FEW_TO_SORT 25
 /* The largest size of an item, in bytes. */
-#define SUNDER_I_MOST_ITEM 56
+#define SUNDER_I_MOST_ITEM 64
 
 /* Sorts n items like qsort(). The comparison is inlined; items that it calls equal must be interchangeable. */
 static inline void sunder_i_sort_few(void *list, size_t n, size_t size, int (*compare)(const void *, const void *))

@@ -199,6 +199,7 @@ static sunder_status explain_result(sunder_i_solver *s, const sunder_layer_optio
     sunder_i_count_relations(&s->model, &s->now, &report->summary.after);
     sunder_status status = sunder_i_report_cover_diagonals(s, err);
     if (!status) status = sunder_i_report_conflicts(report, &s->model, &s->placement, &s->now, true, err);
+    if (!status) status = sunder_i_report_eased(report, &s->model, err);
     if (!status) status = sunder_i_report_bound(report, s, err);
     if (!status) status = sunder_i_report_optimality(report, s, err);
     if (!status) status = sunder_i_report_pushes(report, s, err);

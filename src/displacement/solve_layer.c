@@ -42,6 +42,8 @@ static bool has_held(sunder_i_solver *s) { return sunder_i_solver_any_held(s); }
 
 static bool has_let_go(sunder_i_solver *s) { return s->any_let_go; }
 
+static bool has_price(sunder_i_solver *s) { return s->model.rules.ease > 0; }
+
 static bool has_no_effort(sunder_i_solver *s) { return !(s->model.rules.effort > 0); }
 
 /* ---- Stages of one search ---------------------------------------------------------------------------------------- */
@@ -176,6 +178,7 @@ static const sunder_i_layer_stage passes[] = {
     {"uphold", NULL, sunder_i_solver_uphold, 1, 0, 0},
     {"place lone bodies", NULL, sunder_i_solver_place_lone_bodies, 1, 0, 0},
     {"prove all", NULL, prove_all, 1, 0, 0},
+    {"ease", has_price, sunder_i_solver_ease, 1, 0, 0},
     {"gather groups", has_no_effort, sunder_i_solver_gather_groups, 1, 0, 0},
     {"gather", NULL, sunder_i_solver_gather, 1, 0, 0},
 };

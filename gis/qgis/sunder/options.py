@@ -106,6 +106,8 @@ OPTIONS = (
            1, ("auto", "no"), ("Yes: rows are found in the layer", "No")),
     Option("--row-stiffness", TEXT, ("separate",), "Stiffness of rows against kinks, and against uneven spacing",
            "Two factors of the cost of a move. 3,0.3: as usual; 10,1: stiff.", ""),
+    Option("--ease", TEXT, ("separate",), "Price of what pairs that remain in conflict lack",
+           "A number above 0: they come as near to their distance as it pays for; 30 is usual.", ""),
     # ---- Symbols ----
     Option("--symbol", TEXT, LAYERS, "Points: the symbol at each point",
            "disc:4m, square:5m, rectangle:8x3, or WKT of a polygon relative to the point."),
@@ -163,6 +165,7 @@ NOUNS = {
     "--no-blocks": "checkbox to form no blocks", "--contained": "treatment of contained features",
     "--allow-jumps": "checkbox to allow jumps", "--list-inside": "checkbox to list conflicts inside blocks",
     "--rows": "choice whether rows keep their line", "--row-stiffness": "stiffness of rows",
+    "--ease": "price of what pairs lack",
     "--symbol": "symbol", "--symbol-field": "field of the symbols",
     "--symbol-size-field": "field of the symbols' sizes",
     "--dissolve-field": "field to dissolve by", "--explode": "checkbox for single polygons", "--align": "checkbox to turn the shape",

@@ -77,6 +77,7 @@ typedef struct sunder_i_rules {
     sunder_rows rows;
     double row_stiffness[2]; /* across rows and along them, >= 0; 0 without rows */
     double kink;             /* the least kink that is counted, >= 0 */
+    double ease;             /* the price of what pairs in conflict lack, for each squared metre; 0: it has none */
 } sunder_i_rules;
 
 /* Checks the options and makes the rules from them. Fails if an option is out of its range. */

@@ -43,6 +43,17 @@ static sunder_status check_rows(const sunder_layer_options *options, sunder_erro
     return SUNDER_OK;
 }
 
+static sunder_status check_ease(const sunder_layer_options *options, sunder_error *err)
+{
+    if (!(options->ease >= 0) || !isfinite(options->ease))
+        return sunder_i_fail(err, SUNDER_EARG, "the price of easing, %g, is negative or not finite", options->ease);
+    if (options->ease > 0 && options->keep_worlds)
+        return sunder_i_fail(err, SUNDER_EARG, "no pair is eased in a layer whose worlds are kept");
+    if (options->ease > 0 && options->keep_trees)
+        return sunder_i_fail(err, SUNDER_EARG, "no trees are kept for a layer whose pairs are eased");
+    return SUNDER_OK;
+}
+
 sunder_status sunder_i_rules_of(const sunder_layer_options *options, sunder_i_rules *rules, sunder_error *err)
 {
     if (!(options->gap >= 0) || !isfinite(options->gap))
@@ -63,7 +74,8 @@ sunder_status sunder_i_rules_of(const sunder_layer_options *options, sunder_i_ru
     if (!(options->barrier_reach >= 0))
         return sunder_i_fail(err, SUNDER_EARG, "the reach of barriers, %g, is negative or not a number",
                              options->barrier_reach);
-    const sunder_status status = check_rows(options, err);
+    sunder_status status = check_rows(options, err);
+    if (!status) status = check_ease(options, err);
     if (status) return status;
     rules->gap = options->gap;
     rules->tolerance = tolerance;
@@ -88,6 +100,7 @@ sunder_status sunder_i_rules_of(const sunder_layer_options *options, sunder_i_ru
     rules->trace_user = options->trace_user;
     rules->rows = options->rows;
     for (int k = 0; k < 2; k++) rules->row_stiffness[k] = options->rows ? options->row_stiffness[k] : 0;
+    rules->ease = options->ease;
     rules->kink = options->kink < 0 ? options->gap / 10 : options->kink;
     return SUNDER_OK;
 }

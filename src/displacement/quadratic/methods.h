@@ -43,6 +43,11 @@ void sunder_i_quadratic_sweep(sunder_i_quadratic *program, double softness);
  * memory is out. */
 bool sunder_i_quadratic_is_beyond(const sunder_i_quadratic *program, double softness);
 
+/* ---- quadratic.c ------------------------------------------------------------------------------------------------- */
+
+/* As sunder_i_quadratic_solve(), for a program without prices. */
+double sunder_i_quadratic_solve_once(sunder_i_quadratic *program, double softness, double tolerance, double scale);
+
 /* ---- conjugate_gradients.c --------------------------------------------------------------------------------------- */
 
 /* Conjugate gradients on the forces, which stay non-negative: at most `steps` steps, until no constraint is violated by

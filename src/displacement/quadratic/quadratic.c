@@ -153,7 +153,7 @@ static double give_up(sunder_i_quadratic *p)
     return INFINITY;
 }
 
-double sunder_i_quadratic_solve(sunder_i_quadratic *program, double softness, double tolerance, double scale)
+double sunder_i_quadratic_solve_once(sunder_i_quadratic *program, double softness, double tolerance, double scale)
 {
     bool solved = false;
     if (uses_method("newton") && program->most_cost > 0 && program->n > FEWEST_NEWTON && program->n <= MOST_QUICK &&

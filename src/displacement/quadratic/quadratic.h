@@ -11,12 +11,14 @@
 
 /* The constraint n.(t_j - t_i) >= d. i or j may be SUNDER_I_GROUND, whose move is zero. With give > 0 it may be
  * violated by v at the cost v^2 / (2 give), and is then violated by give times its force: two such constraints, with
- * opposite normals and distances, are a spring. */
+ * opposite normals and distances, are a spring. With price > 0 the violation costs price v besides, and there is none
+ * as long as the force is at most the price (priced.c). */
 typedef struct sunder_i_constraint {
     uint32_t i, j;
     double n[2], d;
     double force; /* its Lagrange multiplier */
     double give;  /* >= 0 */
+    double price; /* >= 0; above 0 only if give > 0 */
     uint64_t key; /* identifies the constraint, so that it is found again in the next round */
 } sunder_i_constraint;
 

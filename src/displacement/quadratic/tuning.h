@@ -5,7 +5,7 @@
 
 /* SUNDER_I_QUADRATIC_TUNING_VERSION is the version of the values below. It is raised with each change of a value, so
  * that a record can name the values by their version (tests/house/TUNING). */
-#define SUNDER_I_QUADRATIC_TUNING_VERSION 1
+#define SUNDER_I_QUADRATIC_TUNING_VERSION 2
 
 /* ---- Which method (quadratic.c) ---------------------------------------------------------------------------------- */
 
@@ -26,6 +26,13 @@
 /* A program is given up if its forces prove that its cost exceeds most_cost by more than the share BEYOND
  * (sunder_i_quadratic_is_beyond()). */
 #define BEYOND 1e-6
+
+/* ---- Prices (priced.c) ------------------------------------------------------------------------------------------- */
+
+/* A program with prices is solved at most MOST_STATES times more; two or three suffice for most. A force within the
+ * share PRICE_HAIR of the price changes no state. */
+#define MOST_STATES 12
+#define PRICE_HAIR 1e-9
 
 /* ---- Conjugate gradients (conjugate_gradients.c) ----------------------------------------------------------------- */
 

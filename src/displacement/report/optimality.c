@@ -55,21 +55,22 @@ static double cost_of_springs(const sunder_i_model *model, const sunder_i_group 
     return cost;
 }
 
-/* Returns the cost of the group in the result, rounded upwards. */
-static double cost_of(const sunder_i_model *model, const sunder_i_group *g)
+/* Returns the cost of the group in the result, rounded upwards, less the prices that its pairs have to pay anyway. */
+static double cost_of(const sunder_i_model *model, const sunder_i_group *g, const double *overpaid)
 {
     double cost = 0;
     for (size_t k = 0; k < g->n; k++) {
         const double *t = model->move + 2 * (size_t)g->body[k];
         cost += model->body[g->body[k]].weight * (t[0] * t[0] + t[1] * t[1]);
+        if (overpaid) cost += overpaid[g->body[k]];
     }
     if (model->row_sides) cost += cost_of_springs(model, g);
     return cost * (1 + ((double)g->n + 8) * 0x1p-50);
 }
 
 /* Sets the bound of each group to 0 if it does not hold for the result (claim_bodies(), void_bounds()). Computes the
- * cost of each group, and counts in summary->clusters_optimal the groups that are optimal. */
-static sunder_status count_groups(sunder_layer_summary *summary, sunder_i_solver *s, sunder_error *err)
+ * cost of each group, and counts in summary.clusters_optimal the groups that are optimal. */
+static sunder_status count_groups(sunder_report *report, sunder_i_solver *s, sunder_error *err)
 {
     uint32_t *owner = sunder_i_alloc(s->model.bodies, sizeof *owner);
     bool *listed = sunder_i_calloc(s->model.bodies, sizeof *listed);
@@ -81,8 +82,8 @@ static sunder_status count_groups(sunder_layer_summary *summary, sunder_i_solver
     sunder_i_free_all(owner, listed);
     for (size_t k = 0; k < s->groups.n && ok; k++) {
         sunder_i_group *g = &s->groups.group[k];
-        g->cost = cost_of(&s->model, g);
-        summary->clusters_optimal += sunder_i_group_is_optimal(g);
+        g->cost = cost_of(&s->model, g, report->overpaid);
+        report->summary.clusters_optimal += sunder_i_group_is_optimal(g);
     }
     return ok ? SUNDER_OK : sunder_i_failure_cause(err);
 }
@@ -130,7 +131,8 @@ static sunder_status prove_parts(sunder_report *report, sunder_i_solver *s, sund
     return status;
 }
 
-/* Adds up the bounds. The sums are exact until they are rounded once, so they do not depend on the order. */
+/* Adds up the bounds: of the moves, and of the prices. The sums are exact until they are rounded once, so they do not
+ * depend on the order. */
 static void add_up(sunder_layer_summary *summary, const double *proved, const double *by_pairs, size_t bodies)
 {
     sunder_total all = {0}, pairs = {0};
@@ -139,6 +141,7 @@ static void add_up(sunder_layer_summary *summary, const double *proved, const do
         sunder_total_add(&pairs, by_pairs[b]);
     }
     summary->pair_bound = sunder_total_below(&pairs);
+    sunder_total_add(&all, summary->cost_alone);
     summary->lower_bound = sunder_total_below(&all);
 }
 
@@ -156,11 +159,12 @@ sunder_status sunder_i_report_optimality(sunder_report *report, sunder_i_solver 
     sunder_layer_summary *summary = &report->summary;
     const bool any = solver->groups.n && solver->model.rules.effort > 0;
     summary->clusters = solver->groups.n;
+    summary->lower_bound = summary->cost_alone;
     if (!any && !report->bound_pairs) return SUNDER_OK;
     sunder_i_independent_parts parts = {0};
     double *proved = sunder_i_alloc(solver->model.bodies, sizeof *proved);
     sunder_status status = proved ? SUNDER_OK : sunder_i_failure_cause(err);
-    if (!status && any) status = count_groups(summary, solver, err);
+    if (!status && any) status = count_groups(report, solver, err);
     if (!status) status = sunder_i_independent_parts_find(&parts, report, solver, err);
     if (!status) status = sunder_i_report_area_bounds(solver, &parts, err);
     if (!status) status = prove_parts(report, solver, &parts, proved, err);

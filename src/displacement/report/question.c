@@ -207,6 +207,7 @@ static sunder_layer_options options_for(const sunder_i_questions *g, double gap)
     options.no_blocks = true; /* blocks are given by numbers */
     options.threads = 1;
     options.effort = 0;
+    options.ease = 0;
     options.progress = NULL;
     return options;
 }

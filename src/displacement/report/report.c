@@ -96,7 +96,7 @@ void sunder_i_report_moves(sunder_report *report, const sunder_i_model *model)
     }
     s->total = sunder_total_nearest(&total);
     s->cost_moves = sunder_total_nearest(&cost);
-    s->cost = s->cost_moves; /* and that of rows: sunder_i_report_number_rows() */
+    s->cost = s->cost_moves + s->cost_shortfall; /* and that of rows: sunder_i_report_number_rows() */
     report_blocked(report, model);
     count_statuses(report, model);
 }
@@ -111,7 +111,7 @@ void sunder_report_free(sunder_report *report)
     sunder_row_list_free(&report->row_list);
     sunder_i_free_all(report->bound_tree, report->push, report->row_pair, report->row_reach, report->world,
                       report->world_of, report->stands, report->inside, report->inexact, report->footprint,
-                      report->world_bound, report->thin, report->proved, report->by_pairs, report);
+                      report->world_bound, report->thin, report->proved, report->by_pairs, report->overpaid, report);
 }
 
 void sunder_i_count(sunder_conflict_counts *counts, const sunder_conflict *conflict)

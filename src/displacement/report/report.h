@@ -53,6 +53,8 @@ struct sunder_report {
                                 * `thin` */
     double *proved, *by_pairs; /* [bodies] what is proved of each part, at the part's root, in all and by pairs;
                                 * by_pairs is NULL if all is by pairs */
+    double *overpaid; /* [bodies] if pairs are eased: the prices that the pairs of the body pay beyond the least; of two
+                       * bodies one has the pair */
     sunder_layer_summary summary;
 };
 
@@ -88,6 +90,11 @@ bool sunder_i_next_conflict(const sunder_i_model *model, const sunder_i_relation
 /* Counts the conflicts among the relations by their kinds, without listing them. */
 void sunder_i_count_relations(const sunder_i_model *model, const sunder_i_relations *relations,
                               sunder_conflict_counts *counts);
+
+/* ---- eased_pairs.c ----------------------------------------------------------------------------------------------- */
+
+/* If pairs are eased: computes what the conflicts lack, the prices of that, and the least prices. */
+sunder_status sunder_i_report_eased(sunder_report *report, const sunder_i_model *model, sunder_error *err);
 
 /* ---- cover_diagonals.c ------------------------------------------------------------------------------------------- */
 

@@ -166,6 +166,12 @@ sunder_status sunder_i_solver_improve(sunder_i_solver *solver, sunder_error *err
  * alone, until none of its conflicts has a solution that keeps the others no worse. */
 sunder_status sunder_i_solver_place_lone_bodies(sunder_i_solver *solver, sunder_error *err);
 
+/* ---- ease.c ------------------------------------------------------------------------------------------------------ */
+
+/* If the rules have a price for what pairs left in conflict lack: moves bodies to where that costs least, and leaves no
+ * conflict worse. */
+sunder_status sunder_i_solver_ease(sunder_i_solver *solver, sunder_error *err);
+
 /* ---- in_contact.c ------------------------------------------------------------------------------------------------ */
 
 /* After contact groups were gathered: moves wanted groups that have moved to places in contact without a margin, if
@@ -177,6 +183,8 @@ sunder_status sunder_i_solver_put_in_contact(sunder_i_solver *solver, sunder_err
 /* Finds the contact groups of the present layout. A group that has not changed keeps its proof. */
 sunder_status sunder_i_solver_gather_groups(sunder_i_solver *solver, sunder_error *err);
 void sunder_i_groups_free(sunder_i_groups *groups);
+/* From now on the two bodies are in one group. Returns false if memory is out. (optimise.c) */
+bool sunder_i_groups_join(sunder_i_groups *groups, uint32_t one, uint32_t other);
 
 /* ---- optimise.c -------------------------------------------------------------------------------------------------- */
 

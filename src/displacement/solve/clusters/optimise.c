@@ -233,7 +233,7 @@ static void put_back_either(taking *t, uint32_t a, uint32_t b, bool known, bool 
 }
 
 /* Notes two groups, by bodies of theirs, that one proof has to treat together. False if memory is out. */
-static bool note_joined(sunder_i_groups *groups, uint32_t one, uint32_t other)
+bool sunder_i_groups_join(sunder_i_groups *groups, uint32_t one, uint32_t other)
 {
     if (!sunder_i_reserve(&groups->joined, &groups->capacity, groups->joins + 1, sizeof *groups->joined)) return false;
     groups->joined[groups->joins++] = (sunder_i_id_pair){one, other};
@@ -256,7 +256,7 @@ static bool put_back_jump(taking *t, uint32_t a, uint32_t b, bool *any)
     groups->with_diagonals = true;
     put_back_either(t, a, b, known, any);
     return group[0] == group[1] || group[0] == SUNDER_I_NOBODY || group[1] == SUNDER_I_NOBODY ||
-           note_joined(groups, group[0], group[1]);
+           sunder_i_groups_join(groups, group[0], group[1]);
 }
 
 static bool has_moved(const taking *t, uint32_t thing)
@@ -379,7 +379,7 @@ static sunder_status join_groups(sunder_i_solver *s, sunder_error *err)
                 host[b] = g->number;
                 continue;
             }
-            ok = note_joined(groups, g->number, host[b]);
+            ok = sunder_i_groups_join(groups, g->number, host[b]);
             groups->unproved = joined = true;
         }
         /* A body in no group does not make the proof incomplete. */

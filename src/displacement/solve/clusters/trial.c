@@ -56,6 +56,7 @@ static sunder_status check_pair(void *context, const sunder_i_relation *r, bool 
     bool breaks = (!t->from_start && !was_in_conflict(t, r)) || is_to_be_parted(t, r);
     const sunder_status status = breaks ? SUNDER_OK : sunder_i_solver_breaks_rule(t->solver, r, &breaks, err);
     t->well = *on = !breaks;
+    if (breaks) t->broken = (sunder_i_id_pair){r->a, r->b};
     return status;
 }
 

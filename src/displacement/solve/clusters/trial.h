@@ -20,6 +20,7 @@ typedef struct sunder_i_trial {
                                 * NULL */
     bool from_start;
     sunder_i_list near, about; /* scratch; neighbours of the bodies before the trial */
+    sunder_i_id_pair broken;   /* if a pair of things made the trial fail: this pair; at first two equal numbers */
     bool well;                 /* the trial has succeeded, as far as it was checked */
 } sunder_i_trial;
 

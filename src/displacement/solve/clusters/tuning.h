@@ -6,7 +6,7 @@
 
 /* SUNDER_I_CLUSTERS_TUNING_VERSION is the version of the values below. It is raised with each change of a value, so
  * that a record can name the values by their version (tests/house/TUNING). */
-#define SUNDER_I_CLUSTERS_TUNING_VERSION 6
+#define SUNDER_I_CLUSTERS_TUNING_VERSION 7
 
 /* ---- Rounds (settle.c, clusters.c) ------------------------------------------------------------------------------- */
 
@@ -166,5 +166,13 @@
 /* A spring whose ends moved by vectors that differ by at most this share of the gap connects no contact groups; the
  * cost of such springs is not part of a bound. */
 #define SLACK_SPRING 2e-4
+
+/* ---- Easing (ease.c) --------------------------------------------------------------------------------------------- */
+
+/* A cluster that the exact check refuses is eased at most MOST_PINNINGS times more, each time with one pair more left
+ * as it is. */
+#define MOST_PINNINGS 8
+/* Bodies in the way join clusters in at most MOST_JOININGS - 1 rounds. */
+#define MOST_JOININGS 6
 
 #endif

@@ -90,6 +90,14 @@ sunder_status sunder_i_cluster_improve(const sunder_i_model *model, sunder_i_clu
 sunder_status sunder_i_cluster_descend(const sunder_i_model *model, const sunder_i_cluster *cluster, double cost,
                                        double *move, bool *found, sunder_error *err);
 
+/* ---- ease_cluster.c ---------------------------------------------------------------------------------------------- */
+
+/* Eases the pairs of the cluster that are left in conflict, from a layout without clashes. Bodies outside the cluster
+ * keep their places; those that are in the way are added to cluster->guest. *done if that costs less; the moves are
+ * rounded then. */
+sunder_status sunder_i_cluster_ease(const sunder_i_model *model, sunder_i_cluster *cluster, double *move, bool *done,
+                                    sunder_error *err);
+
 /* ---- pair_margin.c ----------------------------------------------------------------------------------------------- */
 
 /* For a pair of things a and b that is left in conflict and that rounding has made slightly worse than at the start:

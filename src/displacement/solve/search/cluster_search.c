@@ -82,7 +82,8 @@ void sunder_i_search_free(sunder_i_search *search)
     sunder_i_relaxations_free(&search->relaxations);
     sunder_i_free(search->restored);
     sunder_i_rtree_free(&search->visited);
-    sunder_i_free_all(search->visited_at, search->about.item, search->scratch.xy);
+    sunder_i_free_all(search->visited_at, search->about.item, search->scratch.xy, search->shortfall,
+                      search->creditor.item);
     sunder_i_grown_cache_free(&search->grown);
     sunder_i_obstacle_cache_free(&search->cache);
     sunder_i_measures_free(&search->measures);
@@ -128,18 +129,6 @@ void sunder_i_search_end_copy(sunder_i_search *search, double *copy, bool back)
 {
     if (copy && back) memcpy(search->t, copy, 2 * search->n * sizeof *copy);
     sunder_i_free(copy);
-}
-
-double sunder_i_search_cost(const sunder_i_search *search, const double *t)
-{
-    double cost = 0;
-    for (size_t k = 0; k < search->n; k++)
-        if (search->mass[k] > 0) cost += (t[2 * k] * t[2 * k] + t[2 * k + 1] * t[2 * k + 1]) / (2 * search->mass[k]);
-    sunder_i_row_link link;
-    for (sunder_i_row_walk walk = {0}; sunder_i_search_next_row(search, &walk, &link);)
-        cost += sunder_i_spring_cost(search->model, link.side, t + 2 * link.i,
-                                     link.j == SUNDER_I_GROUND ? link.still : t + 2 * link.j);
-    return cost;
 }
 
 size_t sunder_i_search_movers(const sunder_i_search *search)

@@ -8,6 +8,7 @@
 #include "displacement/geometry/obstacle_cache.h"
 #include "displacement/geometry/obstacle_shadow.h"
 #include "displacement/layer/inclusion.h"
+#include "displacement/layer/prices.h"
 #include "displacement/quadratic/quadratic.h"
 #include "displacement/solve/search/cluster.h"
 #include "displacement/solve/search/measures.h"
@@ -17,6 +18,16 @@ typedef struct sunder_i_clash {
     uint32_t i, j;
     double violation; /* the shortfall of their distance */
 } sunder_i_clash;
+
+/* What a pair that is left in conflict still lacks: the distance of body i from its nearest place at which it keeps the
+ * full distance from the others, which are one body, or the parts of one barrier. */
+typedef struct sunder_i_shortfall {
+    uint32_t i, other, others; /* indices in the search: i may move, and search->creditor[other ...] */
+    sunder_i_price price;
+    double at[2], from[2];    /* if `known`: the moves of i and of the others for which the rest was computed */
+    double place[2], missing; /* the nearest such move of i; INFINITY: none was found */
+    bool known;
+} sunder_i_shortfall;
 
 typedef struct sunder_i_search {
     const sunder_i_model *model;
@@ -45,6 +56,9 @@ typedef struct sunder_i_search {
     sunder_i_relaxations relaxations; /* of pairs that this search gave up; they precede those of the model */
     sunder_i_restored *restored;      /* [restored_n] relaxations of the model that do not count here; sorted */
     size_t restored_n, restored_capacity;
+    sunder_i_shortfall *shortfall; /* [shortfalls] of the pairs that are eased; none unless sunder_i_search_ease() */
+    size_t shortfalls, shortfall_capacity;
+    sunder_i_list creditor;                       /* the other bodies of these pairs */
     double cap;                                   /* an upper bound of all moves, besides limits; INFINITY: none */
     struct sunder_i_neighbourhood *neighbourhood; /* changes are tried with these bodies alone; NULL: with all; lent */
     sunder_i_rtree visited;   /* boxes of the paths from home, of a large cluster (visited_boxes.c) */
@@ -95,8 +109,6 @@ void sunder_i_search_path_box(const sunder_i_search *search, const double *t, ui
 double *sunder_i_search_copy_moves(sunder_i_search *search);
 /* Frees the copy (or NULL); back: the present moves become those of the copy again. */
 void sunder_i_search_end_copy(sunder_i_search *search, double *copy, bool back);
-/* The cost of the moves t: the sum of weight times squared move, and of the springs of rows. */
-double sunder_i_search_cost(const sunder_i_search *search, const double *t);
 
 /* A body of the search and a neighbour in a row, one of which may move. j: SUNDER_I_GROUND, if the neighbour is not in
  * the search and keeps its present move. */
@@ -132,6 +144,22 @@ void sunder_i_search_visit_near(sunder_i_search *search, const double *t, double
  * place instead of its box. */
 void sunder_i_search_visit_near_or_home(sunder_i_search *search, double reach, sunder_i_visit_pair visit,
                                         void *context);
+
+/* ---- shortfall.c: what pairs left in conflict lack --------------------------------------------------------------- */
+
+/* From now on pairs that are left in conflict are eased: the cost includes the price of what they lack, and programs
+ * have a constraint for each. False if memory is out. */
+bool sunder_i_search_ease(sunder_i_search *search);
+/* The price of what pairs lack at the moves t; 0 if no pairs are eased. */
+double sunder_i_search_shortfall_price(sunder_i_search *search, const double *t);
+/* Adds a priced constraint to the program for each pair that lacks something at the present moves. */
+void sunder_i_search_constrain_shortfalls(sunder_i_search *search);
+
+/* ---- layout_cost.c ----------------------------------------------------------------------------------------------- */
+
+/* The cost of the moves t: the sum of weight times squared move, of the springs of rows, and of the prices of pairs
+ * that are eased. */
+double sunder_i_search_cost(sunder_i_search *search, const double *t);
 
 /* ---- visited_boxes.c: where bodies have been --------------------------------------------------------------------- */
 

@@ -192,6 +192,7 @@ bool sunder_i_search_constrain(sunder_i_search *search, double reach, bool as_it
         if (sunder_i_is_tangent(&search->old[k]) && search->old[k].force > 0)
             sunder_i_search_add_constraint(search, p->n, &search->old[k]);
     add_springs(search);
+    sunder_i_search_constrain_shortfalls(search);
     sort_constraints(search);
     memcpy(search->next, search->t,
            2 * search->n * sizeof *search->t); /* if the patience has ended, the search stays in its present place */

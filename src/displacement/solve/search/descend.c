@@ -310,6 +310,20 @@ static void take_step(descent *d, bool is_free, double left, double cost)
 
 typedef enum outcome { ON, SETTLED_DOWN, IN_VAIN } outcome;
 
+/* The price of what pairs lack is known to a program to first order only. So if the end of the step clashes or is no
+ * cheaper, the step is halved, at most MOST_HALVINGS times. left, cost: those of s->next. */
+static void shorten_step(const descent *d, double *left, double *cost)
+{
+    sunder_i_search *s = d->s;
+    for (int k = 0; k < MOST_HALVINGS && s->shortfalls && d->is_free && !s->failed; k++) {
+        if (*left <= s->tolerance && *cost < d->cost) return;
+        for (size_t c = 0; c < 2 * s->n; c++) s->next[c] = (s->t[c] + s->next[c]) / 2;
+        s->ended = false;
+        *left = look_at_end(s);
+        *cost = sunder_i_search_cost(s, s->next);
+    }
+}
+
 static outcome run_round(descent *d)
 {
     sunder_i_search *s = d->s;
@@ -320,7 +334,8 @@ static outcome run_round(descent *d)
     if (s->failed) return IN_VAIN;
     const double v = solve_round(d, clashing);
     if (s->failed) return IN_VAIN;
-    const double left = look_at_end(s), cost = sunder_i_search_cost(s, s->next);
+    double left = look_at_end(s), cost = sunder_i_search_cost(s, s->next);
+    shorten_step(d, &left, &cost);
     const bool is_free = left <= s->tolerance, settled = !is_free || cost >= d->cost - s->settled * d->cost;
     if (s->back && is_free && is_back(s)) {
         s->steps += sunder_i_search_work(s) - before; /* the work of the next round, which would repeat known results */
@@ -349,6 +364,10 @@ static bool descend_by_rounds(sunder_i_search *s)
 {
     descent d;
     if (!descent_init(&d, s)) s->failed = true;
+    /* A pair is eased from a layout without clashes, and a program that knows its price only to first order may end
+     * dearer. */
+    d.is_free = s->shortfalls > 0;
+    if (d.is_free) d.cost = sunder_i_search_cost(s, s->t);
     outcome last = ON;
     for (int round = 0; round < MOST_ROUNDS && last == ON && !is_out_of_patience(s) && !s->failed; round++)
         last = run_round(&d);
@@ -361,7 +380,7 @@ static bool descend_by_rounds(sunder_i_search *s)
 bool sunder_i_search_descend(sunder_i_search *search)
 {
     const double tolerance = search->tolerance, settled = search->settled;
-    search->program.most_cost = most_cost(search);
+    search->program.most_cost = search->shortfalls ? 0 : most_cost(search);
     if (!descends_coarsely(search)) return descend_by_rounds(search);
     search->tolerance = sunder_i_max(tolerance, ROUGHLY * search->extent);
     search->settled = sunder_i_max(settled, ROUGHLY_SETTLED);

@@ -182,7 +182,7 @@ static rank *rank_contacts(const sunder_i_quadratic *program, size_t *n)
 /* Is a descent from s->t useless? Two bodies were moved to the p-th of their other positions there. If s->t costs less
  * than the best solution, which costs `cost`, it clashes, and usually ends more expensive. If many bodies move, the
  * clash is a small part of the cost, and the answer is no. With proofs all positions are tried. */
-static bool is_too_cheap(const sunder_i_search *s, size_t p, double cost)
+static bool is_too_cheap(sunder_i_search *s, size_t p, double cost)
 {
     if (sunder_i_search_movers(s) > MOST_FORESEEN || s->model->rules.effort > 0) return false;
     return sunder_i_search_cost(s, s->t) < (p == 0 ? 1 : CHEAP_OTHER) * cost;

@@ -22,16 +22,18 @@ static bool have_moved(const sunder_i_search *s, uint32_t i, uint32_t j)
     return fabs(s->t[2 * i] - s->t[2 * j]) > margin || fabs(s->t[2 * i + 1] - s->t[2 * j + 1]) > margin;
 }
 
-/* Adds the margin to the relaxations of the pair (a, b), and of all pairs that have moved. False if memory is out. */
+/* Adds the margin to the relaxations of the pair (a, b), and of all pairs that have moved; a: SUNDER_I_NOBODY for all
+ * pairs. False if memory is out. */
 static bool ask_margins(sunder_i_search *s, uint32_t a, uint32_t b)
 {
     const sunder_i_model *model = s->model;
+    const bool all = a == SUNDER_I_NOBODY;
     bool ok = true;
     for (size_t k = 0; k < model->relaxations.n && ok; k++) {
         sunder_i_relaxation t = model->relaxations.item[k];
         const uint32_t i = sunder_i_search_place_of(s, model->body_of[t.a]),
                        j = sunder_i_search_place_of(s, model->body_of[t.b]);
-        const bool is_asked = t.a == a && sunder_i_whole_of(model, t.b) == sunder_i_whole_of(model, b);
+        const bool is_asked = all || (t.a == a && sunder_i_whole_of(model, t.b) == sunder_i_whole_of(model, b));
         if (i == SUNDER_I_NOBODY || j == SUNDER_I_NOBODY || (!is_asked && !have_moved(s, i, j))) continue;
         t.gap += s->gap - model->rules.gap;
         ok = sunder_i_relaxations_add(&s->relaxations, &t);
@@ -69,6 +71,20 @@ static void spare_others(sunder_i_search *s, uint32_t i, uint32_t j)
     s->relaxations.n = kept;
     if (!sunder_i_relaxations_index(&s->relaxations, s->model)) s->failed = true;
     sunder_i_free(clash);
+}
+
+bool sunder_i_search_keep_margins(sunder_i_search *search)
+{
+    double *stood = sunder_i_search_copy_moves(search);
+    bool done = stood && ask_margins(search, SUNDER_I_NOBODY, SUNDER_I_NOBODY) && sunder_i_search_repair(search);
+    if (stood && !done && !search->failed) {
+        memcpy(search->t, stood, 2 * search->n * sizeof *stood);
+        search->program.n = 0;
+        spare_others(search, SUNDER_I_NOBODY, SUNDER_I_NOBODY);
+        done = !search->failed && sunder_i_search_repair(search);
+    }
+    sunder_i_search_end_copy(search, stood, !done);
+    return done;
 }
 
 static bool make_good(sunder_i_search *s, uint32_t i, uint32_t j)

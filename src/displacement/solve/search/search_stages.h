@@ -144,6 +144,12 @@ bool sunder_i_search_mend_few(sunder_i_search *search);
 bool sunder_i_search_push_from_home(sunder_i_search *search, const double *start, const sunder_i_clash *at_home,
                                     size_t n, double share);
 
+/* ---- pair_margin.c ----------------------------------------------------------------------------------------------- */
+
+/* Demands the margin of pairs left in conflict as well: of all, or if there is no such place nearby, of those that keep
+ * it already. True if search->t is a place without clashes then; otherwise it has not changed. */
+bool sunder_i_search_keep_margins(sunder_i_search *search);
+
 /* ---- lone_pair.c ------------------------------------------------------------------------------------------------- */
 
 /* If the cluster is two features that no other feature affects: separates them at the least cost, and sets *done.

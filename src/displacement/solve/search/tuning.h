@@ -8,7 +8,7 @@
 
 /* SUNDER_I_SEARCH_TUNING_VERSION is the version of the values below. It is raised with each change of a value, so that
  * a record can name the values by their version (tests/house/TUNING). */
-#define SUNDER_I_SEARCH_TUNING_VERSION 4
+#define SUNDER_I_SEARCH_TUNING_VERSION 5
 
 /* ---- One descent (descend.c, constrain.c, limits.c) -------------------------------------------------------------- */
 
@@ -95,6 +95,10 @@
 #define SETTLED 1e-3
 #define SETTLED_BETTER 1e-5
 #define SETTLED_BEST 1e-9
+/* The same for pairs that are eased: what the worst of them cost is far more than a round may gain for another. */
+#define EASED 1e-7
+/* A step of a descent that eases pairs is halved at most MOST_HALVINGS times. */
+#define MOST_HALVINGS 6
 /* A descent that tries other sides is given up when all bodies return to within the share BACK of a body's extent from
  * the best layout. */
 #define BACK 1e-8

@@ -368,6 +368,49 @@ static void check_springs(void **state)
     }
 }
 
+/* Programs some of whose constraints have a price. Conditions of optimality, which prove it as the cost is convex: the
+ * forces equal the moves times the masses; a violated constraint pushes with its price and what its violation adds; one
+ * that holds pushes with no more than its price, and only if it is just kept. */
+static void check_prices(void **state)
+{
+    (void)state;
+    size_t solved = 0, violated = 0, spare = 0;
+    for (size_t trial = 0; trial < test_count(2000); trial++) {
+        rng r = rng_start(test_seed(), trial);
+        program p;
+        double net[2 * BODIES];
+        memset(&p, 0, sizeof p);
+        p.q = (sunder_i_quadratic){.bodies = BODIES, .mass = p.mass, .t = p.t, .constraint = p.constraint};
+        for (size_t k = 0; k < BODIES; k++) p.mass[k] = 0.5 / (0.2 + 3 * rng_unit(&r));
+        const int n = (int)rng_int(&r, 1, MOST / 2);
+        for (int k = 0; k < n; k++) {
+            const uint32_t i = rng_once_in(&r, 3) ? SUNDER_I_GROUND : (uint32_t)rng_int(&r, 0, BODIES - 1);
+            const double angle = 6.3 * rng_unit(&r), u[2] = {cos(angle), sin(angle)};
+            demand(&p, i, (uint32_t)rng_int(&r, 0, BODIES - 1), u, 10 * rng_unit(&r));
+        }
+        for (size_t k = 0; k < p.q.n; k++) {
+            p.constraint[k].give = 0.5 / (0.5 + 60 * rng_unit(&r));
+            p.constraint[k].price = rng_once_in(&r, 4) ? 0 : 60 * rng_unit(&r);
+        }
+        assert_true(sunder_i_quadratic_solve(&p.q, 0, 1e-10, 10) <= 1e-8);
+        sum_forces(&p, net);
+        for (size_t k = 0; k < 2 * BODIES; k++)
+            if (fabs(p.mass[k / 2] * net[k] - p.t[k]) > 1e-7) fail_msg("trial %zu: moved by %g", trial, p.t[k]);
+        for (size_t k = 0; k < p.q.n; k++) {
+            const sunder_i_constraint *c = &p.constraint[k];
+            const double lacks = c->d - sunder_i_stretch(c, p.t), most = c->price + fmax(0, lacks) / c->give;
+            if (!(c->force <= most + 1e-5) || (c->force < most - 1e-5 && lacks > 1e-7) ||
+                (c->force > 1e-5 && lacks < -1e-7))
+                fail_msg("trial %zu: lacks %g, pushes with %g of %g", trial, lacks, c->force, most);
+            violated += lacks > 1e-5;
+            solved += fabs(lacks) < 1e-7 && c->price > 0;
+            spare += lacks < -1e-5;
+        }
+    }
+    printf("%zu violated, %zu just kept, %zu kept with room\n", violated, solved, spare);
+    assert_true(violated > 0 && solved > 0 && spare > 0);
+}
+
 /* Distances up to the greatest double, and light and heavy bodies: the forces overflow, and no multiplier is negative.
  * The active set is left as it is. */
 static void check_forces_beyond_doubles(void **state)
@@ -394,6 +437,6 @@ int main(void)
     const struct CMUnitTest tests[] = {cmocka_unit_test(check_programs), cmocka_unit_test(check_nearest),
                                        cmocka_unit_test(check_crowd),    cmocka_unit_test(check_mended),
                                        cmocka_unit_test(check_dear),     cmocka_unit_test(check_forces_beyond_doubles),
-                                       cmocka_unit_test(check_springs)};
+                                       cmocka_unit_test(check_springs),  cmocka_unit_test(check_prices)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

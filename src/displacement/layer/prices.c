@@ -1,0 +1,21 @@
+/* The price of the distance s that a pair left in conflict still lacks: w (4 R s + ease s^2).
+ *
+ * w is the lesser weight of those of its bodies that may move, and R the lesser limit; in place of a limit counts the
+ * distance that the pair has to keep. A move of length r costs w r^2, so its last metre costs at most w 2 R. So a body
+ * that reaches its place within the limit goes there, even if it has to push another as far. */
+#include "displacement/layer/prices.h"
+
+static double limit_above_0(const sunder_i_body *body)
+{
+    const double limit = sunder_i_limit_of(body);
+    return limit > 0 ? limit : INFINITY;
+}
+
+sunder_i_price sunder_i_price_of(const sunder_i_model *model, const sunder_i_body *p, const sunder_i_body *q)
+{
+    const double limit = sunder_i_min(limit_above_0(p), limit_above_0(q));
+    const double weight = p->fixed ? q->weight : q->fixed ? p->weight : sunder_i_min(p->weight, q->weight);
+    const double far =
+        limit < INFINITY ? limit : sunder_i_owed_above(model, model->member[p->member], model->member[q->member]);
+    return (sunder_i_price){weight * 4 * far, weight * model->rules.ease};
+}

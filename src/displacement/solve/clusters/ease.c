@@ -1,0 +1,176 @@
+/* Eases the pairs that are left in conflict, after all other stages: each cluster moves to where the sum of moves,
+ * springs and prices (layer/prices.h) is least. An exact check decides on the moves of each cluster: no pair comes into
+ * conflict, no conflict becomes an overlap, and none stands worse than at the start.
+ *
+ * There are two remedies if the check refuses a pair. If it is a pair of two clusters, these become one. If it is one
+ * within the cluster, rounding made it a little worse: its bodies are pinned where they stand, and the cluster is eased
+ * again. Bodies that are in the way of a cluster join it, too. */
+#include "base/extremes.h"
+#include "displacement/solve/clusters/cluster_stages.h"
+#include "displacement/solve/clusters/trial.h"
+#include "displacement/solve/clusters/tuning.h"
+
+/* Joins the bodies of each conflict of which one may move. */
+static sunder_status join_conflicts(sunder_i_solver *s, sunder_error *err)
+{
+    const sunder_i_model *model = &s->model;
+    for (size_t k = 0; k < s->now.n; k++) {
+        const sunder_i_relation *r = &s->now.pair[k];
+        const uint32_t i = model->body_of[r->a], j = model->body_of[r->b];
+        if (!sunder_i_is_conflict_of_bodies(model, r)) continue;
+        if (!sunder_i_may_move(&model->body[i]) && !sunder_i_may_move(&model->body[j])) continue;
+        if (!sunder_i_solver_add_edge(s, i, j)) return sunder_i_failure_cause(err);
+    }
+    return sunder_i_solver_gather(s, err);
+}
+
+/* How far bodies of the cluster may go: as far as their limits, or about their size, let them. */
+static double farthest_of(const sunder_i_model *model, const sunder_i_cluster *c)
+{
+    double far = 0;
+    for (size_t k = 0; k < c->n; k++) {
+        const sunder_i_body *b = &model->body[c->body[k]];
+        const double size = sunder_i_max(b->box[2] - b->box[0], b->box[3] - b->box[1]) + model->rules.gap;
+        if (sunder_i_may_move(b)) far = sunder_i_max(far, sunder_i_min(b->limit, size));
+    }
+    return far;
+}
+
+static sunder_status ease_cluster(const sunder_i_solver *s, sunder_i_cluster *c, double *move, void *context,
+                                  sunder_error *err)
+{
+    bool done;
+    (void)context;
+    c->about = farthest_of(&s->model, c);
+    const sunder_status status = sunder_i_cluster_ease(&s->model, c, move, &done, err);
+    if (done) c->outcome = SUNDER_I_WORKED_ON;
+    return status;
+}
+
+/* A cluster with pinned bodies is to be eased again. */
+static bool has_pinned(const sunder_i_solver *s, const sunder_i_cluster *c)
+{
+    for (size_t k = 0; k < c->n; k++)
+        if (s->model.body[c->body[k]].pinned) return true;
+    return false;
+}
+
+static void unpin(sunder_i_solver *s, const sunder_i_cluster *c)
+{
+    for (size_t k = 0; k < c->n; k++) s->model.body[c->body[k]].pinned = false;
+}
+
+/* Pins the bodies of a pair of the cluster that the exact check refused, so that the next attempt leaves it as it is.
+ * Returns whether one of them was not pinned yet. */
+static bool pin_pair(sunder_i_solver *s, uint32_t i, uint32_t j)
+{
+    bool any = false;
+    for (int e = 0; e < 2; e++) {
+        sunder_i_body *b = &s->model.body[e ? j : i];
+        any = any || sunder_i_may_move(b);
+        b->pinned = !b->fixed;
+    }
+    return any;
+}
+
+/* Is the body one of another cluster? */
+static bool is_foreign(const sunder_i_solver *s, const sunder_i_cluster *c, uint32_t body)
+{
+    return !s->model.body[body].fixed && !sunder_i_set_has(c->body, c->n, body);
+}
+
+/* The exact check refused a pair: if it is one of two clusters, these will be one; otherwise the pair is pinned.
+ * *again: there is another attempt for the cluster. */
+static sunder_status refuse_pair(sunder_i_solver *s, sunder_i_cluster *c, const sunder_i_id_pair *pair, bool *again,
+                                 sunder_error *err)
+{
+    const uint32_t i = s->model.body_of[pair->a], j = s->model.body_of[pair->b];
+    if (i != j && (is_foreign(s, c, i) || is_foreign(s, c, j))) {
+        if (!sunder_i_reserve(&c->guest, &c->guest_capacity, c->guests + 1, sizeof *c->guest))
+            return sunder_i_failure_cause(err);
+        c->guest[c->guests++] = (sunder_i_id_pair){i, j};
+    } else if (i != j && pin_pair(s, i, j)) {
+        *again = true;
+        return SUNDER_OK;
+    }
+    unpin(s, c);
+    return SUNDER_OK;
+}
+
+/* Moves the bodies of a cluster to where they are eased, if the exact check lets them stay there. */
+static sunder_status try_moves(sunder_i_solver *s, sunder_i_cluster *c, bool *again, sunder_error *err)
+{
+    const double none[2] = {0, 0};
+    sunder_i_trial t = {.solver = s};
+    sunder_status status = sunder_i_trial_take_moved(&t, c, s->move + 2 * (size_t)(c->body - s->body))
+                               ? SUNDER_OK
+                               : sunder_i_failure_cause(err);
+    if (!status && t.n) status = sunder_i_trial_place(&t, none, err);
+    if (t.well || t.n == 0)
+        unpin(s, c);
+    else if (!status)
+        status = refuse_pair(s, c, &t.broken, again, err);
+    sunder_i_trial_free(&t);
+    return status;
+}
+
+static sunder_status ease_clusters(sunder_i_solver *s, sunder_i_cluster_test test, bool *again, sunder_error *err)
+{
+    for (size_t k = 0; k < s->clusters; k++) s->cluster[k].outcome = SUNDER_I_UNTOUCHED;
+    sunder_status status = sunder_i_solver_for_clusters(s, test, ease_cluster, NULL, err);
+    sunder_i_pieces_forget(&s->model, SUNDER_I_PIECES_HELD);
+    *again = false;
+    for (size_t k = 0; k < s->clusters && !status; k++) {
+        sunder_i_cluster *c = &s->cluster[k];
+        if (c->outcome == SUNDER_I_UNTOUCHED)
+            unpin(s, c);
+        else
+            status = try_moves(s, c, again, err);
+    }
+    return status;
+}
+
+/* Has the bodies that were in the way of a cluster solved together with it from now on. *any: there were some. */
+static sunder_status join_guests(sunder_i_solver *s, bool *any, sunder_error *err)
+{
+    *any = false;
+    for (size_t k = 0; k < s->clusters; k++)
+        for (size_t g = 0; g < s->cluster[k].guests; g++) {
+            const sunder_i_id_pair *pair = &s->cluster[k].guest[g];
+            *any = true;
+            if (!sunder_i_solver_add_edge(s, pair->a, pair->b)) return sunder_i_failure_cause(err);
+        }
+    return *any ? sunder_i_solver_gather(s, err) : SUNDER_OK;
+}
+
+/* Makes the contact groups of the present layout. What was proved of the bodies of a former group holds wherever they
+ * stand, so they stay in one group. */
+static sunder_status gather_groups(sunder_i_solver *s, sunder_error *err)
+{
+    sunder_i_groups *groups = &s->groups;
+    bool ok = true;
+    for (size_t k = 0; k < groups->n && ok; k++) {
+        const sunder_i_group *g = &groups->group[k];
+        for (size_t m = 0; m < g->n + g->guests.n && ok; m++) {
+            const uint32_t b = m < g->n ? g->body[m] : g->guests.item[m - g->n];
+            ok = s->model.body[b].fixed || b == g->number || sunder_i_groups_join(groups, g->number, b);
+        }
+    }
+    return ok ? sunder_i_solver_gather_groups(s, err) : sunder_i_failure_cause(err);
+}
+
+sunder_status sunder_i_solver_ease(sunder_i_solver *solver, sunder_error *err)
+{
+    bool more = true;
+    sunder_status status = join_conflicts(solver, err);
+    for (int round = 0; round < MOST_JOININGS && more && !status; round++) {
+        bool again;
+        status = sunder_i_solver_unite_blocks(solver, err);
+        if (!status) status = ease_clusters(solver, NULL, &again, err);
+        for (int k = 0; k < MOST_PINNINGS && again && !status; k++)
+            status = ease_clusters(solver, has_pinned, &again, err);
+        for (size_t b = 0; b < solver->model.bodies; b++) solver->model.body[b].pinned = false;
+        if (!status) status = join_guests(solver, &more, err);
+    }
+    return status || !solver->groups.n ? status : gather_groups(solver, err);
+}

@@ -1,0 +1,46 @@
+# shellcheck shell=bash disable=SC1091
+# --ease: what the statistics say of a house that lacks little, and which calls are refused.
+. "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
+command -v jq >/dev/null || { echo "skipped: no jq"; exit 77; }
+
+# A road 10 m wide, and houses that have to be 15 m from its line. The first two stand 2 m from it and may move 12.8 m:
+# they lack 0.2 m. The third may not move, the fourth reaches the gap.
+{
+    echo "WKT,most"
+    echo '"POLYGON((0 2,20 2,20 40,0 40,0 2))",12.8'
+    echo '"POLYGON((100 2,120 2,120 40,100 40,100 2))",12.8'
+    echo '"POLYGON((200 2,220 2,220 40,200 40,200 2))",0'
+    echo '"POLYGON((300 3,320 3,320 40,300 40,300 3))",12.8'
+} | layer houses.gpkg houses POLYGON
+{ echo "WKT,w"; echo '"LINESTRING(-200 0,600 0)",10'; } | layer road.gpkg road LINESTRING
+words=(separate houses.gpkg o.gpkg --overwrite --gap 10 --max-shift-field most --barrier road.gpkg,width-field=w)
+
+expect 3 "${words[@]}" --stats plain.json
+[ "$(jq -c '[.conflicts.after.barrier_drawn, .displacement.cost_shortfall, .shortfall]' plain.json)" = '[3,null,null]' ] ||
+    fail "without the option: $(cat plain.json)"
+cp o.gpkg plain.gpkg
+expect 3 "${words[@]}" --ease no
+ogr2ogr -q -f CSV eased.csv o.gpkg houses -lco GEOMETRY=AS_WKT && ogr2ogr -q -f CSV plain.csv plain.gpkg houses -lco GEOMETRY=AS_WKT
+cmp plain.csv eased.csv || fail "--ease no differs from no option"
+
+# Each of the two goes as far as it may, for the price of 0.2 m. Both have to pay that in any case, so the result is
+# proved to be the best.
+expect 3 "${words[@]}" --ease 30 --stats eased.json
+grep -q '^pairs that lack a part of their distance 2, which is 0.4 in sum' out || fail "the summary: $(cat out)"
+jq -e '(.displacement | (.cost_moves - 2 * 12.8 * 12.8 - 144 | fabs) < 1e-6 and
+    (.cost_shortfall - 2 * (4 * 12.8 * 0.2 + 30 * 0.04) | fabs) < 1e-6 and
+    (.cost - .cost_moves - .cost_shortfall | fabs) < 1e-6 and (.cost_alone - .cost_shortfall | fabs) < 1e-6) and
+    .conflicts.after.barrier_near == 2 and .conflicts.after.barrier_drawn == 1 and
+    .shortfall.pairs == 2 and (.shortfall.sum - 0.4 | fabs) < 1e-6 and .shortfall.tight == 0 and .verified' eased.json \
+    >/dev/null || fail "eased: $(cat eased.json)"
+
+# Refused: no price, and what is not built.
+for kappa in 0 -1 x nan inf 3, ''; do
+    expect 2 "${words[@]}" --ease="$kappa"
+done
+expect 2 "${words[@]}" --ease 30 --proof p.jsonl
+grep -q -e '--ease' err || fail "the message does not name the option: $(cat err)"
+expect 2 "${words[@]}" --ease 30 --max-memory 1GB
+expect 2 plan houses.gpkg plan --shards 2 --ease 30
+expect 2 check houses.gpkg --ease 30
+finish
