@@ -1,8 +1,13 @@
-/* What the pairs that remain in conflict lack, what that costs, and what each has to pay at least by itself.
+/* What the pairs that remain in conflict lack, what that costs, and what they have to pay at least.
  *
  * A pair is two bodies, or a body and a barrier, of which one may move. It lacks the most that a conflict between its
  * members lacks. Let a conflict lack s at home. After a relative move of length r it lacks at least s - r, and r is at
- * most the sum of the limits. The price of the rest is what the pair has to pay wherever it goes. */
+ * most the sum of the limits. The price of the rest is what the pair has to pay wherever it goes.
+ *
+ * A body whose pairs are with barriers or fixed bodies pays for its own move besides: if it moves by r, w r^2 and the
+ * prices of s - r for all of these pairs. The least of that over r is a bound of what the body costs. It is a convex
+ * function of r, so the minimum lies between two places that are found by bisection, and is at least what the slope at
+ * the first of them leaves possible. */
 #include "displacement/layer/barrier_pairs.h"
 #include "displacement/layer/prices.h"
 #include "displacement/report/report.h"
@@ -15,10 +20,12 @@
 
 /* A share by which sums and products of a few doubles are rounded at most. */
 #define ROUNDED 0x1p-48
+/* The bisections of an interval, after which its ends are neighbouring doubles, or nearly. */
+enum { BISECTIONS = 60 };
 
 typedef struct lacking {
-    uint32_t i, j;         /* the bodies; for a barrier, that of its first part */
-    double missing, alone; /* at the present place; at least, wherever it goes */
+    uint32_t i, j;        /* the bodies; the first may move; a barrier has that of its first part */
+    double missing, home; /* at the present place; at home, rounded down */
 } lacking;
 
 static int by_bodies(const void *a, const void *b)
@@ -56,27 +63,79 @@ static sunder_status measure_conflict(const sunder_i_model *model, const sunder_
                                       sunder_error *err)
 {
     const uint32_t i = model->body_of[c->a], j = model->body_of[c->b];
-    const double reach = sunder_i_limit_of(&model->body[i]) + sunder_i_limit_of(&model->body[j]);
-    *out = (lacking){i, j, c->missing, 0};
-    if (reach == INFINITY) return SUNDER_OK;
-    const sunder_status status = missing_at_home(model, c, &out->alone, err);
-    out->alone = sunder_i_max(0, out->alone - reach * (1 + ROUNDED));
-    return status;
+    const bool swap = !sunder_i_may_move(&model->body[i]);
+    *out = (lacking){swap ? j : i, swap ? i : j, c->missing, 0};
+    return missing_at_home(model, c, &out->home, err);
 }
 
-/* Adds the price of a pair, given by its worst conflicts, to the summary, and what it exceeds the least price by to the
- * body that pays it. */
+/* Adds a pair, given by its worst conflicts, to the sums, and to what its first body pays. */
 static void add_pair(sunder_report *report, const sunder_i_model *model, const lacking *pair, sunder_total total[3])
 {
     const sunder_i_body *p = &model->body[pair->i], *q = &model->body[pair->j];
     const sunder_i_price price = sunder_i_price_of(model, p, q);
+    const double rest = pair->home - (sunder_i_limit_of(p) + sunder_i_limit_of(q)) * (1 + ROUNDED);
     const double pays = sunder_i_price_at(&price, pair->missing),
-                 alone = sunder_i_price_at(&price, pair->alone) * (1 - ROUNDED);
+                 alone = rest > 0 ? sunder_i_price_at(&price, rest) * (1 - ROUNDED) : 0;
     report->summary.short_pairs++;
     sunder_total_add(&total[0], pair->missing);
     sunder_total_add(&total[1], pays);
     sunder_total_add(&total[2], alone);
-    report->overpaid[sunder_i_may_move(p) ? pair->i : pair->j] += pays - alone;
+    sunder_i_paying *paying = &report->paying[pair->i];
+    paying->pays += pays;
+    paying->alone += alone;
+    if (!q->fixed) paying->own += alone;
+}
+
+/* The cost of the first body of n pairs with fixed bodies if it moves by r, and the slope there. */
+static double cost_after(const sunder_i_model *model, const lacking *pair, size_t n, double r, double *slope)
+{
+    const sunder_i_body *body = &model->body[pair->i];
+    double cost = body->weight * r * r;
+    *slope = 2 * body->weight * r;
+    for (size_t k = 0; k < n; k++) {
+        const sunder_i_price price = sunder_i_price_of(model, body, &model->body[pair[k].j]);
+        const double rest = pair[k].home - r;
+        if (!model->body[pair[k].j].fixed || !(rest > 0)) continue;
+        cost += sunder_i_price_at(&price, rest);
+        *slope -= price.linear + 2 * price.square * rest;
+    }
+    return cost;
+}
+
+/* A lower bound of that for any r within the body's limit. */
+static double least_after(const sunder_i_model *model, const lacking *pair, size_t n)
+{
+    double low = 0, farthest = 0, slope;
+    for (size_t k = 0; k < n; k++) farthest = sunder_i_max(farthest, pair[k].home);
+    double high = sunder_i_min(farthest, sunder_i_limit_of(&model->body[pair->i]));
+    for (int k = 0; k < BISECTIONS; k++) {
+        const double middle = low + (high - low) / 2;
+        cost_after(model, pair, n, middle, &slope);
+        *(slope < 0 ? &low : &high) = middle;
+    }
+    const double cost = cost_after(model, pair, n, low, &slope);
+    return (cost + sunder_i_min(0, slope) * (high - low)) * (1 - ROUNDED * (double)(n + 8));
+}
+
+/* Sets *own to the greatest bound that is known of what the body costs, with its n pairs. */
+static bool bound_body(const sunder_i_model *model, const lacking *pair, size_t n, double *own)
+{
+    const sunder_i_body *body = &model->body[pair->i];
+    const double *t = model->move + 2 * (size_t)pair->i;
+    sunder_i_priced_barrier *priced = sunder_i_alloc(n, sizeof *priced);
+    double enough = body->weight * (t[0] * t[0] + t[1] * t[1]), bound = 0;
+    size_t barriers = 0;
+    for (size_t k = 0; k < n && priced; k++) {
+        const sunder_i_body *other = &model->body[pair[k].j];
+        if (!sunder_i_is_barrier_body(model, other)) continue;
+        priced[barriers] =
+            (sunder_i_priced_barrier){model->member[other->member], sunder_i_price_of(model, body, other)};
+        enough += sunder_i_price_at(&priced[barriers++].price, pair[k].missing);
+    }
+    const bool ok = priced && (!barriers || sunder_i_body_bound(model, pair->i, priced, barriers, enough, &bound));
+    *own = sunder_i_max(bound * (1 - ROUNDED * (double)(n + 8)), least_after(model, pair, n));
+    sunder_i_free(priced);
+    return ok;
 }
 
 static bool is_priced(const sunder_i_model *model, const sunder_conflict *c)
@@ -85,28 +144,46 @@ static bool is_priced(const sunder_i_model *model, const sunder_conflict *c)
                                   sunder_i_may_move(&model->body[model->body_of[c->b]]));
 }
 
+/* Merges the conflicts of each pair, sorted by pairs, into one. Returns the number of pairs. */
+static size_t merge_conflicts(lacking *list, size_t n)
+{
+    size_t out = 0;
+    for (size_t k = 0; k < n; k++) {
+        if (k == 0 || by_bodies(&list[out - 1], &list[k])) list[out++] = list[k];
+        list[out - 1].missing = sunder_i_max(list[out - 1].missing, list[k].missing);
+        list[out - 1].home = sunder_i_max(list[out - 1].home, list[k].home);
+    }
+    return out;
+}
+
+static bool add_pairs(sunder_report *report, const sunder_i_model *model, const lacking *list, size_t n)
+{
+    sunder_total total[3] = {{{0}, 0}};
+    bool ok = true;
+    for (size_t k = 0, next; k < n && ok; k = next) {
+        for (next = k; next < n && list[next].i == list[k].i; next++) add_pair(report, model, &list[next], total);
+        double own;
+        ok = bound_body(model, list + k, next - k, &own);
+        report->paying[list[k].i].own += own;
+    }
+    report->summary.shortfall = sunder_total_nearest(&total[0]);
+    report->summary.cost_shortfall = sunder_total_nearest(&total[1]);
+    report->summary.cost_alone = sunder_total_below(&total[2]);
+    return ok;
+}
+
 sunder_status sunder_i_report_eased(sunder_report *report, const sunder_i_model *model, sunder_error *err)
 {
     if (!(model->rules.ease > 0)) return SUNDER_OK;
     lacking *list = sunder_i_alloc(report->conflicts, sizeof *list);
-    report->overpaid = sunder_i_calloc(model->bodies, sizeof *report->overpaid);
-    sunder_status status = list && report->overpaid ? SUNDER_OK : sunder_i_failure_cause(err);
-    sunder_total total[3] = {{{0}, 0}};
+    report->paying = sunder_i_calloc(model->bodies, sizeof *report->paying);
+    sunder_status status = list && report->paying ? SUNDER_OK : sunder_i_failure_cause(err);
     size_t n = 0;
     for (size_t k = 0; k < report->conflicts && !status; k++)
         if (is_priced(model, &report->conflict[k]))
             status = measure_conflict(model, &report->conflict[k], &list[n++], err);
     if (!status && n) qsort(list, n, sizeof *list, by_bodies);
-    for (size_t k = 0, next; k < n && !status; k = next) {
-        for (next = k + 1; next < n && by_bodies(&list[k], &list[next]) == 0; next++) {
-            list[k].missing = sunder_i_max(list[k].missing, list[next].missing);
-            list[k].alone = sunder_i_max(list[k].alone, list[next].alone);
-        }
-        add_pair(report, model, &list[k], total);
-    }
-    report->summary.shortfall = sunder_total_nearest(&total[0]);
-    report->summary.cost_shortfall = sunder_total_nearest(&total[1]);
-    report->summary.cost_alone = sunder_total_below(&total[2]);
+    if (!status && !add_pairs(report, model, list, merge_conflicts(list, n))) status = sunder_i_failure_cause(err);
     sunder_i_free(list);
     return status;
 }

@@ -9,6 +9,8 @@
 #include "displacement/layer/resolution.h"
 #include "displacement/report/report.h"
 
+#include "base/extremes.h"
+
 /* Makes the group the owner of its movable bodies, guests included. Returns false if another group owned one of
  * them. */
 static bool claim_bodies(const sunder_i_model *model, const sunder_i_group *g, uint32_t *owner)
@@ -55,17 +57,29 @@ static double cost_of_springs(const sunder_i_model *model, const sunder_i_group 
     return cost;
 }
 
-/* Returns the cost of the group in the result, rounded upwards, less the prices that its pairs have to pay anyway. */
-static double cost_of(const sunder_i_model *model, const sunder_i_group *g, const double *overpaid)
+/* Returns the cost of the group in the result, prices included, rounded upwards. */
+static double cost_of(const sunder_i_model *model, const sunder_i_group *g, const sunder_i_paying *paying)
 {
     double cost = 0;
     for (size_t k = 0; k < g->n; k++) {
         const double *t = model->move + 2 * (size_t)g->body[k];
         cost += model->body[g->body[k]].weight * (t[0] * t[0] + t[1] * t[1]);
-        if (overpaid) cost += overpaid[g->body[k]];
+        if (paying) cost += paying[g->body[k]].pays;
     }
     if (model->row_sides) cost += cost_of_springs(model, g);
     return cost * (1 + ((double)g->n + 8) * 0x1p-50);
+}
+
+/* Adds the least prices to the bound of the group's moves; or its bodies' own bounds take its place, if they are
+ * greater. */
+static void bound_prices(sunder_i_group *g, const sunder_i_paying *paying)
+{
+    double alone = 0, own = 0;
+    for (size_t k = 0; k < g->n; k++) {
+        alone += paying[g->body[k]].alone;
+        own += paying[g->body[k]].own;
+    }
+    if (alone > 0 || own > 0) g->bound = sunder_i_max(g->bound + alone, own) * (1 - ((double)g->n + 8) * 0x1p-50);
 }
 
 /* Sets the bound of each group to 0 if it does not hold for the result (claim_bodies(), void_bounds()). Computes the
@@ -82,8 +96,9 @@ static sunder_status count_groups(sunder_report *report, sunder_i_solver *s, sun
     sunder_i_free_all(owner, listed);
     for (size_t k = 0; k < s->groups.n && ok; k++) {
         sunder_i_group *g = &s->groups.group[k];
-        g->cost = cost_of(&s->model, g, report->overpaid);
-        report->summary.clusters_optimal += sunder_i_group_is_optimal(g);
+        g->cost = cost_of(&s->model, g, report->paying);
+        if (report->paying) bound_prices(g, report->paying);
+        report->summary.clusters_optimal += s->model.rules.effort > 0 && sunder_i_group_is_optimal(g);
     }
     return ok ? SUNDER_OK : sunder_i_failure_cause(err);
 }
@@ -131,8 +146,7 @@ static sunder_status prove_parts(sunder_report *report, sunder_i_solver *s, sund
     return status;
 }
 
-/* Adds up the bounds: of the moves, and of the prices. The sums are exact until they are rounded once, so they do not
- * depend on the order. */
+/* Adds up the bounds. The sums are exact until they are rounded once, so they do not depend on the order. */
 static void add_up(sunder_layer_summary *summary, const double *proved, const double *by_pairs, size_t bodies)
 {
     sunder_total all = {0}, pairs = {0};
@@ -141,7 +155,6 @@ static void add_up(sunder_layer_summary *summary, const double *proved, const do
         sunder_total_add(&pairs, by_pairs[b]);
     }
     summary->pair_bound = sunder_total_below(&pairs);
-    sunder_total_add(&all, summary->cost_alone);
     summary->lower_bound = sunder_total_below(&all);
 }
 
@@ -157,9 +170,8 @@ static void keep_proved(sunder_report *report, double **proved, sunder_i_indepen
 sunder_status sunder_i_report_optimality(sunder_report *report, sunder_i_solver *solver, sunder_error *err)
 {
     sunder_layer_summary *summary = &report->summary;
-    const bool any = solver->groups.n && solver->model.rules.effort > 0;
+    const bool any = solver->groups.n && (solver->model.rules.effort > 0 || report->paying);
     summary->clusters = solver->groups.n;
-    summary->lower_bound = summary->cost_alone;
     if (!any && !report->bound_pairs) return SUNDER_OK;
     sunder_i_independent_parts parts = {0};
     double *proved = sunder_i_alloc(solver->model.bodies, sizeof *proved);

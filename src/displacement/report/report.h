@@ -2,6 +2,7 @@
 #ifndef SUNDER_I_REPORT_H
 #define SUNDER_I_REPORT_H
 
+#include "displacement/layer/prices.h"
 #include "displacement/prove/areas/areas.h"
 #include "displacement/rows/rows.h"
 #include "displacement/solve/clusters/solver.h"
@@ -14,6 +15,12 @@
 typedef struct sunder_i_row_figures {
     double kink, stiffness[2];
 } sunder_i_row_figures;
+
+/* The prices of the pairs of a body; of two bodies that may both move one has the pair. */
+typedef struct sunder_i_paying {
+    double pays, alone; /* at the present place; at least, whatever place each pair has */
+    double own;         /* a lower bound of these prices together with the cost of the body's move */
+} sunder_i_paying;
 
 struct sunder_report {
     size_t n;
@@ -53,8 +60,7 @@ struct sunder_report {
                                 * `thin` */
     double *proved, *by_pairs; /* [bodies] what is proved of each part, at the part's root, in all and by pairs;
                                 * by_pairs is NULL if all is by pairs */
-    double *overpaid; /* [bodies] if pairs are eased: the prices that the pairs of the body pay beyond the least; of two
-                       * bodies one has the pair */
+    sunder_i_paying *paying; /* [bodies] if pairs are eased; else NULL */
     sunder_layer_summary summary;
 };
 
@@ -95,6 +101,20 @@ void sunder_i_count_relations(const sunder_i_model *model, const sunder_i_relati
 
 /* If pairs are eased: computes what the conflicts lack, the prices of that, and the least prices. */
 sunder_status sunder_i_report_eased(sunder_report *report, const sunder_i_model *model, sunder_error *err);
+
+/* ---- body_bound.c ------------------------------------------------------------------------------------------------ */
+
+/* A barrier that a body is in conflict with, by its first part. */
+typedef struct sunder_i_priced_barrier {
+    uint32_t whole;
+    sunder_i_price price;
+} sunder_i_priced_barrier;
+
+/* Sets *bound to a lower bound of what the body costs with the prices of these n pairs, while it keeps clear of all
+ * other barriers. The search for it ends at `enough`, which it is known to cost. 0: nothing is known. Returns false if
+ * memory is out. */
+bool sunder_i_body_bound(const sunder_i_model *model, uint32_t body, const sunder_i_priced_barrier *priced, size_t n,
+                         double enough, double *bound);
 
 /* ---- cover_diagonals.c ------------------------------------------------------------------------------------------- */
 

@@ -6,7 +6,7 @@
 
 /* SUNDER_I_REPORT_TUNING_VERSION is the version of the values below. It is raised with each change of a value, so that
  * a record can name the values by their version (tests/house/TUNING). */
-#define SUNDER_I_REPORT_TUNING_VERSION 3
+#define SUNDER_I_REPORT_TUNING_VERSION 4
 
 /* ---- Proofs that there is no room (no_room.c) -------------------------------------------------------------------- */
 
@@ -166,5 +166,11 @@
 /* A feature still rests against another one if their distance exceeds the gap by at most the share RESTING of the gap
  * or of the feature's size, whichever is greater. */
 #define RESTING 0x1p-20
+
+/* ---- Bounds of prices (body_bound.c) ----------------------------------------------------------------------------- */
+
+/* At most MOST_SQUARES squares for a body; fewer if the bound comes within the share NEARLY_ENOUGH of what it costs. */
+#define MOST_SQUARES 1500
+#define NEARLY_ENOUGH 1e-3
 
 #endif
