@@ -464,7 +464,8 @@ static size_t find_free_places(sunder_i_search *s, uint32_t i, double limit, dou
         sunder_i_free(about.foreign.item);
         if (!sunder_i_look()) s->failed = true;
         if (found || s->failed) return s->failed ? 0 : found;
-        if (reach >= limit || reach > all || !(reach > 0)) return 0;
+        if (reach >= limit || reach > all || !(reach > 0) || (clear && sunder_i_search_is_enclosed(s, i, reach)))
+            return 0;
     }
 }
 

@@ -26,6 +26,11 @@ size_t sunder_i_search_free_body_anywhere(sunder_i_search *s, uint32_t i, double
 bool sunder_i_search_is_confined(const sunder_i_search *search, uint32_t i, uint32_t j, const double u[2],
                                  double *farthest);
 
+/* ---- enclosed.c: bodies enclosed by sides of barriers ------------------------------------------------------------ */
+
+/* Do sides that are no farther than `reach` enclose body i? Then no position farther away is free. */
+bool sunder_i_search_is_enclosed(sunder_i_search *search, uint32_t i, double reach);
+
 /* ---- limits.c: how far bodies may go ----------------------------------------------------------------------------- */
 
 /* Is the constraint a tangent of a limit? Its key tells. */

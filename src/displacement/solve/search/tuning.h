@@ -8,7 +8,7 @@
 
 /* SUNDER_I_SEARCH_TUNING_VERSION is the version of the values below. It is raised with each change of a value, so that
  * a record can name the values by their version (tests/house/TUNING). */
-#define SUNDER_I_SEARCH_TUNING_VERSION 5
+#define SUNDER_I_SEARCH_TUNING_VERSION 6
 
 /* ---- One descent (descend.c, constrain.c, limits.c) -------------------------------------------------------------- */
 
@@ -233,6 +233,8 @@
 #define FARTHEST_LEAP 8
 /* A lone body leaves a solution for a free place that is nearer to its start by the share NO_NEARER or more. */
 #define NO_NEARER 0x1p-30
+/* Two directions count as one if their angles differ by at most SAME_DIRECTION, which covers rounding (enclosed.c). */
+#define SAME_DIRECTION 0x1p-40
 /* It descends from at most LONE_PLACES free positions, which are at least the share ROUND_SHARE of the gap apart: about
  * as much as the polygons of round corners are beyond these. */
 #define LONE_PLACES 8 /* fixed: the size of an array */
