@@ -553,7 +553,7 @@ typedef struct sunder_layer_options {
     double barrier_reach;
     sunder_trace trace; /* NULL for none */
     void *trace_user;
-    sunder_rows rows; /* neighbours in a row keep their order; not with keep_trees */
+    sunder_rows rows; /* neighbours in a row keep their order */
     double kink;      /* a kink greater than this counts in summary.kink_share; negative (the default): gap / 10 */
     /* With rows: the stiffness K of springs between neighbours in a row, across it and along it. With u the move of one
      * relative to the other, and w the lesser of their weights, a spring costs w K (u.n)^2. The default: 3 and 0.3. */
@@ -668,10 +668,12 @@ typedef enum sunder_reason {
                                * listed pairs no worse than at the start */
     SUNDER_REASON_SAME_BLOCK, /* the two are in one block, and move as one */
     SUNDER_REASON_KEPT,       /* the two may overlap, since one lies in the other: SUNDER_CONTAINMENT_IGNORE */
-    SUNDER_REASON_UNRESOLVED  /* neither a solution nor one of these proofs was found; see also `crowded` */
+    SUNDER_REASON_UNRESOLVED, /* neither a solution nor one of these proofs was found; see also `crowded` */
+    SUNDER_REASON_ROW         /* proved: every solution of the pair and its two blocks alone crosses a side, jumps, or
+                               * breaks the rule of rows for the two */
 } sunder_reason;
 
-/* "", "max_shift", "fixed", "side", "jump", "no_room", "same_block", "kept", "unresolved". */
+/* "", "max_shift", "fixed", "side", "jump", "no_room", "same_block", "kept", "unresolved", "row". */
 SUNDER_API const char *sunder_reason_string(sunder_reason reason);
 
 /* A pair in conflict: in the result of a run, or in the layer as it stands in a check. */
@@ -706,6 +708,7 @@ typedef struct sunder_conflict {
      * cannot all keep their distances from one another, even if every other pair is left in conflict. So at least one
      * pair among them stays in conflict, though not necessarily this one. */
     bool crowded;
+    bool by_row; /* true only with SUNDER_REASON_NO_ROOM: the proof uses the rule of rows, and none was found without */
 } sunder_conflict;
 
 /* The number of conflicts of each kind between blocks, and the number of all conflicts inside blocks. */

@@ -91,12 +91,18 @@ SUNDER_EXPERIMENTAL bool sunder_report_rounded(const sunder_report *report, size
 /* Two neighbours in a row: the features of two different blocks that are nearest to each other, ascending. A feature
  * that stands alone counts as a block. A block has four sides, with at most one neighbour on each: sides 0 and 2 are
  * opposite to each other, and so are sides 1 and 3. A row leaves a block on the side that is opposite to the one it
- * arrives at. */
+ * arrives at.
+ *
+ * Let v be the move of the second block minus that of the first one. If `apart` > 0, the two have to keep the rule of
+ * rows: v.along >= gap - apart if some members of the two are in conflict at the start and none remain so, otherwise
+ * v.along >= min(0, gap - apart). With K and K' of sunder_layer_options.row_stiffness, and m = (-along[1], along[0]),
+ * they have springs that cost weight (K (v.m)^2 + K' (v.along)^2). */
 typedef struct sunder_row_pair {
     size_t feature[2];
     size_t block[2];   /* the first feature of the block of each */
     size_t side[2];    /* the sides of the two blocks that face each other */
     double along[2];   /* the direction of the row, from the first to the second: a unit vector */
+    double apart;      /* at the start, the separation of the two blocks along it; negative: they overlap there */
     double offset;     /* at the start, by how much the second is to the left of the first, seen along the row */
     double weight;     /* the lesser of the weights of the two blocks */
     double move[2][2]; /* the moves of the two */

@@ -35,8 +35,9 @@ SUNDER_EXPERIMENTAL const sunder_bound_pair *sunder_report_bound_pairs(const sun
  * claims, and why the bound follows.
  *
  * A body is a block, a feature in no block, or a barrier; t_i is the move of body i. A tree proves a lower bound of the
- * sum, over its bodies, of weight |t - shift|^2. A cut is a condition n.(t_j - t_i) >= d. A node has the cuts of its
- * parent and cuts of its own. Its forces are multipliers of some of these cuts, which prove a value by weak duality. */
+ * sum, over its bodies, of weight |t - shift|^2, plus what its springs cost (SUNDER_BOUND_CUT_SPRING). A cut is a
+ * condition n.(t_j - t_i) >= d. A node has the cuts of its parent and cuts of its own. Its forces are multipliers of
+ * some of these cuts, or of springs, which prove a value by weak duality. */
 typedef struct sunder_bound_body {
     size_t thing;    /* a member of the block, or the feature; or the number of features + k for barrier k */
     double weight;   /* the part of the body's weight that this tree uses; INFINITY if the body does not move */
@@ -44,13 +45,15 @@ typedef struct sunder_bound_body {
 } sunder_bound_body;
 
 /* A condition on the relative move u = t_j - t_i of bodies i and j: a convex part of j, moved by u, may not come nearer
- * to a convex part of i than `clearance`. */
+ * to a convex part of i than `clearance`. With `row` it is the rule of rows for these two bodies instead
+ * (sunder_row_pair in sunder_parts.h); then a and b are any features of the two, and there are no parts. */
 typedef struct sunder_bound_piece {
     size_t i, j;                 /* indices in sunder_bound_tree.body */
     size_t a, b;                 /* the features, or barriers, that contain the two parts */
     size_t part_a, part_b;       /* the first corner of each part in sunder_bound_tree.corner, at its original place */
     size_t corners_a, corners_b; /* the number of corners of each part */
     bool shadow;                 /* one part is an anchor, which may not jump over the other part: see sunder_proof */
+    bool row;
     /* NAN for a pair that has to keep its full distance. The other pairs are in conflict in the result. If the
      * interiors of such a pair did not meet at the start, the clearance is at most its distance then. If they met, and
      * by the kind of the conflict no longer meet, the clearance is 0. If they still meet, the clearance is -D: some
@@ -64,14 +67,16 @@ typedef enum sunder_bound_cut_kind {
     SUNDER_BOUND_CUT_CONE,  /* a branch: the cones of a node's three children cover the plane */
     SUNDER_BOUND_CUT_DISC,  /* moves that violate the cut cost at least the tree's bound, by the forces `by` of the node
                              * or, if it has none, by the forces of its parent */
-    SUNDER_BOUND_CUT_HULL   /* moves that violate the cut are forbidden by the pieces that it names, or cost at least
+    SUNDER_BOUND_CUT_HULL,  /* moves that violate the cut are forbidden by the pieces that it names, or cost at least
                              * the tree's bound */
+    SUNDER_BOUND_CUT_SPRING /* one sign of a spring of a row: moves that violate the cut by v cost stiff * v^2 for it */
 } sunder_bound_cut_kind;
 
 typedef struct sunder_bound_cut {
     sunder_bound_cut_kind kind;
     size_t i, j;         /* indices in sunder_bound_tree.body */
     double n[2], d;      /* the cut is n.(t_j - t_i) >= d; a limit is -n.t_i >= d */
+    double stiff;        /* only of a spring, for which d = 0 */
     size_t named, names; /* the first entry in sunder_bound_tree.named, and the number of pieces that the cut names */
 } sunder_bound_cut;
 
@@ -116,6 +121,7 @@ typedef struct sunder_bound_tree {
     const size_t *named;  /* indices in `piece` */
     const double *corner; /* [2 * corners] x and y of the corners of all parts */
     size_t bodies, pieces, cuts, forces, nodes, names, corners;
+    size_t springs;             /* the first cuts are springs, which belong to no node; the others follow */
     sunder_bound_prices prices; /* if the tree has prices, these prove its bound, and it has no nodes */
 } sunder_bound_tree;
 
@@ -158,6 +164,10 @@ SUNDER_EXPERIMENTAL const sunder_bound_tree *sunder_report_bound_trees(const sun
  * longer than minus the clearance, makes the interiors of all parts of the pair disjoint. The same v is used at all
  * nodes of the pair with `slack`. The ways of these nodes are about u = t_B + v - t_A, and any u at which the interiors
  * of the two parts are disjoint has n.u >= d for at least one way.
+ *
+ * If `row` is set, the node is about the rule of rows for blocks A and B (sunder_row_pair in sunder_parts.h), of
+ * which a and b are any members. There are no parts, and one way: any u that keeps the rule has n.u >= d. It is the
+ * weaker rule if a pair of members of the two blocks is listed, besides the conflict itself.
  *
  * A leaf (ways == 0) has positive forces. Each is on a way of a node above the leaf: on the way that leads to the leaf
  * (let m = n and h = d), or, with `behind`, on a way before that one (let m = -n and h = -d). In the case of the leaf
@@ -202,6 +212,7 @@ typedef struct sunder_proof_node {
     size_t force, forces;             /* of a leaf: the first force in sunder_proof.force, and their number */
     bool still;                       /* of a leaf: a block between the lines of two ways cannot move: see above */
     size_t line_node[2], line_way[2]; /* if `still`: two nodes, and one way of each, as an index in sunder_proof.way */
+    bool row;                         /* the node is about the rule of rows: see above */
     bool chord;                       /* the second part is a chord across the common end of two sides: see above */
     /* If `chord`: c is the barrier that has the second side, numbered as b. sides is the index of the first of four
      * corners in sunder_proof.corner, the two ends of the side of b and the two ends of the side of c. */
@@ -224,6 +235,8 @@ typedef struct sunder_proof {
  *     The features and barriers of the nodes, except the two in conflict, are the conflict's blocked_by.
  * SUNDER_REASON_SIDE, and most conflicts with SUNDER_REASON_JUMP
  *     The nodes are about the pair, and about shadows of members of its two blocks.
+ * SUNDER_REASON_ROW
+ *     The same, and nodes about the rule of rows for the two blocks.
  * SUNDER_REASON_MAX_SHIFT, if keep_trees was set and a proof was found
  *     The nodes are about the pair only.
  *

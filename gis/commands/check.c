@@ -60,8 +60,8 @@ static bool write_layer(check_run *run, gis_error *error)
     gis_sink_result result;
     gis_sink_layer *layer;
     if (!run->sink) return true;
-    return gis_conflicts_begin(run->sink, "", gis_id_type(&run->input), gis_source_crs(run->input.source), &layer,
-                               error) &&
+    return gis_conflicts_begin(run->sink, "", gis_id_type(&run->input), gis_source_crs(run->input.source), false,
+                               &layer, error) &&
            gis_write_report_conflicts(layer, &run->input, run->report, error) &&
            gis_write_moves(layer, &run->moves, error) && gis_sink_finish(run->sink, &result, error);
 }
@@ -102,7 +102,7 @@ static void print_value(const gis_value *value)
 
 static void print_row(const gis_value values[N_CONFLICT_COLUMNS])
 {
-    for (int column = 0; column < N_CONFLICT_COLUMNS; column++) {
+    for (int column = 0; column < COLUMN_BY_ROW; column++) {
         if (column) putchar('\t');
         print_value(&values[column]);
     }

@@ -111,8 +111,6 @@ static bool resolve_rows(const gis_options *options, sunder_rows *out, gis_error
 {
     const bool wanted = options->text[OPT_ROWS] && strcmp(options->text[OPT_ROWS], "auto") == 0;
     *out = wanted ? SUNDER_ROWS_FOUND : SUNDER_ROWS_NONE;
-    if (wanted && options->given[OPT_PROOF])
-        return gis_fail_usage(error, "--proof: a proof cannot name rows; leave out --rows");
     if (!wanted || !(options->given[OPT_SYMBOL] || options->given[OPT_SYMBOL_FIELD])) return true;
     return gis_fail_usage(error, "--rows: rows are found among polygons, and the symbols of points have none");
 }

@@ -145,6 +145,7 @@ bool gis_things_conflict(const gis_things *things, const sunder_conflict *confli
     values[COLUMN_MISSING] = length_value(conflict->missing);
     values[COLUMN_NEED_SHIFT] = length_value(conflict->need_shift);
     values[COLUMN_NEED_GAP] = length_value(conflict->need_gap);
+    values[COLUMN_BY_ROW] = (gis_value){GIS_INTEGER, {.integer = conflict->by_row}};
     return things->id(things->of, conflict->a, &scratch->id[0], &values[COLUMN_ID_A], error) &&
            (barrier || alone || things->id(things->of, conflict->b, &scratch->id[1], &values[COLUMN_ID_B], error)) &&
            things_value(things, &conflict->need_gone, conflict->need_gone != SIZE_MAX, &scratch->need_gone,
@@ -169,7 +170,7 @@ void gis_conflict_texts_clear(gis_conflict_texts *scratch)
     *scratch = (gis_conflict_texts){0};
 }
 
-bool gis_conflicts_begin(gis_sink *sink, const char *suffix, OGRFieldType id, OGRSpatialReferenceH crs,
+bool gis_conflicts_begin(gis_sink *sink, const char *suffix, OGRFieldType id, OGRSpatialReferenceH crs, bool by_row,
                          gis_sink_layer **layer, gis_error *error)
 {
     const gis_field fields[N_CONFLICT_COLUMNS] = {
@@ -190,12 +191,13 @@ bool gis_conflicts_begin(gis_sink *sink, const char *suffix, OGRFieldType id, OG
         [COLUMN_NEED_SHIFT] = {"need_shift", OFTReal, 0},
         [COLUMN_NEED_GAP] = {"need_gap", OFTReal, 0},
         [COLUMN_NEED_GONE] = {"need_gone", OFTString, 0},
+        [COLUMN_BY_ROW] = {"by_row", OFTInteger, 0},
     };
     const gis_sink_layer_request request = {.suffix = suffix,
                                             .type = wkbLineString,
                                             .crs = crs,
                                             .fields = fields,
-                                            .n_fields = N_CONFLICT_COLUMNS,
+                                            .n_fields = by_row ? N_CONFLICT_COLUMNS : COLUMN_BY_ROW,
                                             .style = GIS_STYLE_CONFLICTS};
     return gis_sink_add(sink, &request, layer, error);
 }

@@ -100,10 +100,8 @@ void gis_proof_lines_clear(gis_proof_lines *lines)
 
 /* ---- Conflicts --------------------------------------------------------------------------------------------------- */
 
-static void put_ways(gis_proof_lines *w, const sunder_proof *proof, const sunder_proof_node *node)
+static void put_parts(gis_proof_lines *w, const sunder_proof *proof, const sunder_proof_node *node)
 {
-    put_thing(w, "a", node->a);
-    put_thing(w, "b", node->b);
     put_corners(w, "A", proof->corner + 2 * node->part_a, node->corners_a);
     put_corners(w, "B", proof->corner + 2 * node->part_b, node->corners_b);
     if (node->chord) {
@@ -117,6 +115,16 @@ static void put_ways(gis_proof_lines *w, const sunder_proof *proof, const sunder
         gis_json_put_bool(&w->json, "shadow", true);
     else
         gis_json_put_double(&w->json, "clearance", node->clearance);
+}
+
+static void put_ways(gis_proof_lines *w, const sunder_proof *proof, const sunder_proof_node *node)
+{
+    put_thing(w, "a", node->a);
+    put_thing(w, "b", node->b);
+    if (node->row)
+        gis_json_put_bool(&w->json, "row", true);
+    else
+        put_parts(w, proof, node);
     gis_json_key(&w->json, "ways");
     gis_json_open(&w->json, '[');
     for (size_t k = node->way; k < node->way + node->ways; k++) {
@@ -189,6 +197,14 @@ void gis_proof_conflict(gis_proof_lines *lines, size_t k)
     if (proof) put_proof(lines, proof);
 }
 
+void gis_proof_row_pair(gis_proof_lines *lines, const sunder_row_pair *pair)
+{
+    put_thing(lines, "a", pair->feature[0]);
+    put_thing(lines, "b", pair->feature[1]);
+    put_place(lines, "along", pair->along[0], pair->along[1]);
+    gis_json_put_double(&lines->json, "apart", pair->apart);
+}
+
 /* ---- Trees ------------------------------------------------------------------------------------------------------- */
 
 static void put_members(gis_proof_lines *w, size_t thing)
@@ -232,6 +248,11 @@ static void put_piece(gis_proof_lines *w, const sunder_bound_tree *tree, const s
     gis_json_put_size(&w->json, "j", piece->j);
     put_thing(w, "a", piece->a);
     put_thing(w, "b", piece->b);
+    if (piece->row) {
+        gis_json_put_bool(&w->json, "row", true);
+        gis_json_close(&w->json, '}');
+        return;
+    }
     if (piece->shadow) gis_json_put_bool(&w->json, "shadow", true);
     if (!isnan(piece->clearance)) gis_json_put_double(&w->json, "clearance", piece->clearance);
     put_corners(w, "A", tree->corner + 2 * piece->part_a, piece->corners_a);
@@ -253,6 +274,22 @@ static void put_cut(gis_proof_lines *w, const sunder_bound_tree *tree, const sun
     gis_json_put_double(&w->json, "d", cut->d);
     if (cut->kind == SUNDER_BOUND_CUT_HULL) put_sizes(w, "pieces", tree->named + cut->named, cut->names);
     gis_json_close(&w->json, '}');
+}
+
+static void put_springs(gis_proof_lines *w, const sunder_bound_tree *tree)
+{
+    gis_json_key(&w->json, "springs");
+    gis_json_open(&w->json, '[');
+    for (size_t k = 0; k < tree->springs; k++) {
+        const sunder_bound_cut *spring = &tree->cut[k];
+        gis_json_open(&w->json, '{');
+        gis_json_put_size(&w->json, "i", spring->i);
+        gis_json_put_size(&w->json, "j", spring->j);
+        put_place(w, "n", spring->n[0], spring->n[1]);
+        gis_json_put_double(&w->json, "stiff", spring->stiff);
+        gis_json_close(&w->json, '}');
+    }
+    gis_json_close(&w->json, ']');
 }
 
 static void put_forces(gis_proof_lines *w, const char *key, const sunder_bound_force *force, size_t n)
@@ -350,6 +387,7 @@ bool gis_proof_tree(gis_proof_lines *lines, const sunder_bound_tree *tree, gis_e
     gis_json_open(&lines->json, '[');
     for (size_t k = 0; k < tree->pieces; k++) put_piece(lines, tree, &tree->piece[k]);
     gis_json_close(&lines->json, ']');
+    if (tree->springs) put_springs(lines, tree);
     gis_json_key(&lines->json, "nodes");
     gis_json_open(&lines->json, '[');
     for (size_t k = 0; k < tree->nodes; k++) {
@@ -387,6 +425,12 @@ void gis_proof_head_line(gis_json *json, const gis_proof_head *head)
     gis_json_put_double(json, "max_shift", head->max_shift);
     gis_json_put_string(json, "contained", sunder_containment_string(head->how.contained));
     gis_json_put_bool(json, "allow_jumps", head->how.allow_jumps);
+    if (head->how.rows) {
+        gis_json_key(json, "row_stiffness");
+        gis_json_open(json, '[');
+        for (size_t k = 0; k < 2; k++) gis_json_double(json, head->how.row_stiffness[k]);
+        gis_json_close(json, ']');
+    }
     gis_json_put_double(json, "lower_bound", head->summary->lower_bound);
     gis_json_put_size(json, "conflicts", head->conflicts);
     gis_json_put_size(json, "trees", head->trees);

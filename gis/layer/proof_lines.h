@@ -9,6 +9,7 @@
 
 #include "base/gis_error.h"
 #include "base/json.h"
+#include "sunder_parts.h"
 #include "sunder_proof.h"
 
 #include <stdio.h>
@@ -39,7 +40,8 @@ void gis_proof_lines_clear(gis_proof_lines *lines);
 /* The number that identifies the feature's block: its first feature, or the feature itself if it is in no block. */
 size_t gis_proof_block(const gis_proof_lines *lines, size_t feature);
 
-/* Make the text that follows the number of conflict k, or of a tree's group. */
+/* Make the text that follows the number of two neighbours in a row, of conflict k, or of a tree's group. */
+void gis_proof_row_pair(gis_proof_lines *lines, const sunder_row_pair *pair);
 void gis_proof_conflict(gis_proof_lines *lines, size_t k);
 bool gis_proof_tree(gis_proof_lines *lines, const sunder_bound_tree *tree, gis_error *error);
 

@@ -52,8 +52,9 @@ static bool write_displacement(const gis_result *r, gis_sink *sink, gis_error *e
 static bool write_conflicts(const gis_result *r, gis_sink *sink, gis_error *error)
 {
     conflict_writer w = {0};
+    const bool rows = gis_layer_core_options(r->input).rows != SUNDER_ROWS_NONE;
     const bool done = gis_conflicts_begin(sink, "conflicts", r->kind->id_type(r), gis_source_crs(r->input->source),
-                                          &w.layer, error) &&
+                                          rows, &w.layer, error) &&
                       r->kind->conflicts(r, write_conflict, &w, error);
     gis_conflict_texts_clear(&w.scratch);
     return done;

@@ -71,6 +71,7 @@ enum {
     COLUMN_NEED_SHIFT,
     COLUMN_NEED_GAP,
     COLUMN_NEED_GONE,
+    COLUMN_BY_ROW, /* only in the result of a run with rows */
     N_CONFLICT_COLUMNS
 };
 
@@ -89,8 +90,8 @@ void gis_conflict_texts_clear(gis_conflict_texts *scratch);
 enum { N_PUSH_COLUMNS = 7 };
 void gis_things_push(const gis_things *things, const sunder_push *push, gis_value values[N_PUSH_COLUMNS]);
 
-/* Adds the layer MAIN_suffix, or MAIN if suffix is "". */
-bool gis_conflicts_begin(gis_sink *sink, const char *suffix, OGRFieldType id, OGRSpatialReferenceH crs,
+/* Adds the layer MAIN_suffix, or MAIN if suffix is "". by_row: with the column of that name. */
+bool gis_conflicts_begin(gis_sink *sink, const char *suffix, OGRFieldType id, OGRSpatialReferenceH crs, bool by_row,
                          gis_sink_layer **layer, gis_error *error);
 bool gis_pushes_begin(gis_sink *sink, OGRSpatialReferenceH crs, gis_sink_layer **layer, gis_error *error);
 /* Writes a row with a line as geometry. */

@@ -20,7 +20,7 @@ const char *gis_page_kind(sunder_conflict_kind kind)
 }
 
 /* The reason of a crowded conflict; it is distinguished only in texts for readers. */
-enum { CROWDED = SUNDER_REASON_UNRESOLVED + 1 };
+enum { CROWDED = SUNDER_REASON_ROW + 1 };
 
 static const struct {
     const char *word, *explanation;
@@ -42,6 +42,8 @@ static const struct {
     [SUNDER_REASON_SAME_BLOCK] = {"same block", "the two move as one", true},
     [SUNDER_REASON_KEPT] = {"kept", "the two are allowed to overlap", true},
     [SUNDER_REASON_UNRESOLVED] = {"unresolved", "neither a solution was found, nor a proof that there is none", false},
+    [SUNDER_REASON_ROW] = {"row", "proved: the two alone cannot be separated unless they break the order of their row",
+                           true},
     [CROWDED] = {"crowded",
                  "proved: some pair among these two and the features that block them has to stay in conflict; none of "
                  "these features can be left out of the proof",

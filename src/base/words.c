@@ -46,8 +46,8 @@ WORDS(sunder_conflict_kind_string, sunder_conflict_kind, SUNDER_CONFLICT_ROW, ""
       "barrier", "barrier_drawn", "barrier_near", "contained", "duplicate", "worse", "limit", "side", "jump",
       "not_a_translate", "row")
 
-WORDS(sunder_reason_string, sunder_reason, SUNDER_REASON_UNRESOLVED, "", "", "max_shift", "fixed", "side", "jump",
-      "no_room", "same_block", "kept", "unresolved")
+WORDS(sunder_reason_string, sunder_reason, SUNDER_REASON_ROW, "", "", "max_shift", "fixed", "side", "jump",
+      "no_room", "same_block", "kept", "unresolved", "row")
 
 WORDS(sunder_route_status_string, sunder_route_status, SUNDER_ROUTE_DISCONNECTED, "", "found", "start_in_collision",
       "goal_in_collision", "disconnected")

@@ -111,7 +111,8 @@ static sunder_status prepare_for_proofs(sunder_i_solver *s, const sunder_i_spare
 {
     sunder_status status = sunder_i_inclusions_note_nested(&s->model, &s->start, err);
     if (!status) status = sunder_i_solver_spare(s, list, err);
-    return status ? status : prepare_search(s, err);
+    if (!status) status = prepare_search(s, err);
+    return status ? status : sunder_i_rows_take_rule(list->row, list->rows, s->layer.number, &s->model, err);
 }
 
 static sunder_status look_for_proof(sunder_i_solver *s, const sunder_i_spared *list, sunder_i_proof_found *found,
@@ -147,6 +148,7 @@ static sunder_status answer_question(const sunder_layer *layer, const sunder_lay
     if (s->hopeless) return SUNDER_OK;
     status = sunder_i_solver_spare(s, spared, err);
     if (!status) status = prepare_search(s, err);
+    if (!status) status = sunder_i_rows_take_rule(spared->row, spared->rows, s->layer.number, &s->model, err);
     /* Preparation may find that the two are shut in. */
     s->hopeless = s->brief && sunder_i_solver_is_beyond_limits(s, spared);
     if (!status && s->brief && !s->hopeless && *proof == SUNDER_I_PROOF_WANTED)

@@ -123,6 +123,7 @@ printf 'WKT,w\n"POINT(0 0)",1\n' | layer points.gpkg points POINT
 expect 2 separate points.gpkg p.gpkg --symbol square:1 --rows auto
 expect 2 separate street.gpkg p.gpkg --gap 3 --rows auto --max-memory 1G
 expect 2 separate street.gpkg p.gpkg --gap 3 --layers rows
-expect 2 separate street.gpkg p.gpkg --gap 3 --rows auto --proof p.jsonl
+expect 0 separate street.gpkg proved.gpkg --gap 3 --rows auto --proof p.jsonl
+[ "$(grep -c '^{"row":' p.jsonl)" = 4 ] || fail "the proof does not name the four pairs of neighbours"
 [ ! -e p.gpkg ] || fail "an output of a refused run"
 finish

@@ -20,7 +20,8 @@ import verdicts  # noqa: E402
 from form import NotRead, Refused, demand, shown  # noqa: E402
 from prices import Prices  # noqa: E402
 from problem import Problem  # noqa: E402
-from result import Result  # noqa: E402
+from result import Result
+from rows import Rows  # noqa: E402
 
 
 def read_options(words):
@@ -40,6 +41,8 @@ def read_options(words):
     parser.add_argument("--contained")
     parser.add_argument("--invalid", default="repair")
     parser.add_argument("--weight", default="1")
+    parser.add_argument("--rows", choices=("auto", "no"), default="no")
+    parser.add_argument("--row-stiffness", default="3,0.3")
     parser.add_argument("--no-blocks", action="store_true")
     parser.add_argument("--allow-jumps", action="store_true")
     for name in ("effort", "seed", "id-field", "threads"):
@@ -47,6 +50,8 @@ def read_options(words):
     options = parser.parse_args(words)
     options.points = bool(options.symbol or options.symbol_field)  # symbols may always jump
     options.allow_jumps = options.allow_jumps or options.points
+    stiffness = list(map(float, options.row_stiffness.split(",")))
+    options.row_stiffness = (stiffness + [0.3])[:2] if options.rows == "auto" else None
     options.contained = options.contained or ("separate" if options.points else "block")
     return options
 
@@ -55,7 +60,8 @@ def check_header(head, options, layer):
     for name, told, given in (("layer", head["layer"], layer), ("gap", head["gap"], options.gap),
                               ("max_shift", head["max_shift"], options.max_shift),
                               ("contained", head["contained"], options.contained),
-                              ("allow_jumps", head["allow_jumps"], options.allow_jumps)):
+                              ("allow_jumps", head["allow_jumps"], options.allow_jumps),
+                              ("row_stiffness", head.get("row_stiffness"), options.row_stiffness)):
         demand(told == given, f"the proof is of another problem: {name} is {told}, and not {given}")
 
 
@@ -64,6 +70,8 @@ class Checker:
 
     def __init__(self, options):
         self.problem = Problem(options.input, options)
+        if options.row_stiffness:
+            self.problem.rows = Rows(self.problem, options.row_stiffness)
         self.known, self.kept, self.held = {}, set(), {}
         self.result = Result(self.problem, options.result) if options.result else None
 
@@ -73,7 +81,10 @@ class Checker:
         check_header(proof.head, problem.options, problem.name)
         problem.blocks.demand_all(proof.blocks)
         problem.list_conflicts(proof.conflicts)
-        listed = repr(sorted(problem.listed.items()))
+        demand(problem.rows or not proof.rows, "rows, where none are looked for")
+        if problem.rows:
+            problem.rows.demand_all(proof.rows)
+        listed = repr((sorted(problem.listed.items()), proof.rows))
         found, proved = [], 0
         for key, told in proof.verdicts_and_trees():
             if key == "group":

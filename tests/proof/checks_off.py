@@ -26,13 +26,15 @@ import form
 import prices
 import problem
 import result
+import rows
 import trees
 import verdicts
 
-MODULES = {m.__name__ + ".py": m for m in (trees, bodies, prices, verdicts, decided, problem)}
+MODULES = {m.__name__ + ".py": m for m in (trees, bodies, prices, verdicts, decided, problem, rows)}
 ENDLESS = {"a node has two parents:"}  # without this test the search would not end
 UNSEEN = {
     "a side, where there is no limit": "of two anchors that lines shut in, but for a narrow way far away: no case is made",
+    "there is no rule for those that do not stand apart:": "no run has neighbours that overlap along their row",
 }
 
 
@@ -90,7 +92,7 @@ def places_of():
             calls = [n for n in ast.walk(ast.parse(file.read())) if isinstance(n, ast.Call) and getattr(n.func, "id", "") == "demand"]
         for call in sorted(calls, key=lambda c: c.lineno):
             words = [a.value for a in call.args[1:] if isinstance(a, ast.Constant)]
-            found[name, call.lineno] = max(words, key=len)
+            found[name, call.lineno] = max(words, key=len, default="")
     return found
 
 

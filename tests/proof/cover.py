@@ -134,6 +134,17 @@ class Piece:
         return bool(self.edges) and low[0] * high[1] <= high[0] * low[1]
 
 
+class Beyond:
+    """All places with n.u < d, which the rule of rows forbids; the line as line_of() makes it."""
+
+    def __init__(self, line):
+        self.line = line
+
+    def holds(self, fine, corner):
+        (a, b, c), (x, y, w) = self.line, corner
+        return a * x + b * y < c * w
+
+
 def meets_segment(ends, x, y, w):
     """Is s (x, y) on the segment for some 0 <= s <= 1 / w? w None: for any s. For a segment on a line through the
     origin the answer is no."""

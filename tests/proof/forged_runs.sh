@@ -39,6 +39,8 @@ forge_generated() {
     make_houses
     make_through
     make_short
+    make_row
+    make_bays
     forged through houses.gpkg --gap 1 --max-shift 1 --no-blocks --barrier through.gpkg
     forged free houses.gpkg --gap 2 --no-blocks
     forged side wall.gpkg --no-blocks --fixed-where 'w = 1 AND fid = 2' --barrier side.gpkg
@@ -57,5 +59,8 @@ forge_generated() {
     forged mixed mixed.gpkg --gap 1 --max-shift-field m --fixed-where 'w = 3' --weight sqrt-area --weight-field w --block-field k --contained ignore
     forged apart mixed.gpkg --gap 1 --max-shift-field m --fixed-where 'w = 3' --block-field k --contained separate
     forged short short.gpkg --gap 1 --no-blocks --max-shift-field m
+    forged row row.gpkg --gap 3 --rows auto --fixed-where 'w = 3' --weight-field w
+    forged bays bays.gpkg --gap 5 --max-shift 1 --rows auto
+    forged squeezed squeezed.gpkg --gap 5 --max-shift 20 --fixed-where 'w = 3' --rows auto
     forged shares squares.gpkg --gap 3 --effort 0
 }

@@ -41,6 +41,7 @@ class Run:
         self.judge = Judge(self.checker.problem, self.checker.result, self.lines)
         result, problem = self.checker.result, self.checker.problem
         self.cost = sum((Fraction(problem.weight(f)) * result.square(f) for f in result.moved()), Fraction(0))
+        self.cost += problem.rows.cost(result.moves.get) if problem.rows else 0
 
     def forgeries(self):
         """Yields (number of the line, path in it, name of the change)."""
@@ -102,6 +103,9 @@ class Run:
         for key in ("blocks", "conflicts"):
             if found[key] != self.claims[key]:
                 return f"other {key}"
+        for pair, numbers in found["rows"].items():
+            if not all(abs(v - w) <= 1e-9 * (1 + abs(w)) for v, w in zip(numbers, self.claims["rows"].get(pair, [math.inf]))):
+                return f"other neighbours in a row: {pair}"
         more = found["crowded"] - self.claims["crowded"]
         return f"crowded: {more}" if more else None
 
@@ -114,6 +118,7 @@ def claims_of(lines):
     conflicts = [line for line in lines if "conflict" in line]
     pairs = sorted((key(c), c["kind"], c["reason"], sorted(map(str, c["blocked_by"])), "inside_block" in c) for c in conflicts)
     return {"bound": Fraction(lines[0]["lower_bound"]), "conflicts": pairs,
+            "rows": {(line["a"], line["b"]): [*line["along"], line["apart"]] for line in lines if "row" in line},
             "crowded": {key(c) for c in conflicts if c.get("crowded")},
             "blocks": sorted(tuple(line["block"]) for line in lines if "block" in line)}
 
@@ -215,7 +220,8 @@ def other_options(words):
     words = list(words)
     for extra in (["--gap", "0.75"], ["--gap", "2.5"], ["--max-shift", "0.25"], ["--max-shift", "1000"], ["--fixed-where", "fid = 1"],
                   ["--ignore-where", "fid = 1"], ["--no-blocks"], ["--allow-jumps"], ["--contained", "ignore"], ["--weight", "area"],
-                  ["--touch-tolerance", "0.01"], ["--layer", "nowhere"]):
+                  ["--touch-tolerance", "0.01"], ["--layer", "nowhere"], ["--rows", "auto"], ["--rows", "no"],
+                  ["--row-stiffness", "2,0.2"]):
         yield words + extra  # if an option is given twice, the last one counts
     for k, word in enumerate(words):
         if word == "--barrier":
@@ -289,10 +295,10 @@ def members_of(runs):
 MEMBERS = """sunder_proof layer gap max_shift contained allow_jumps lower_bound conflicts trees block conflict a b kind reason blocked_by
 inside_block within proof proof.a proof.b proof.A proof.B proof.ways proof.ways.n proof.ways.d proof.ways.next proof.forces
 proof.forces.node proof.forces.way proof.forces.behind proof.forces.force proof.slack proof.held proof.shadow proof.clearance proof.c
-proof.side_b proof.side_c proof.still group bound bodies bodies.features bodies.features.fid bodies.features.weight
+proof.side_b proof.side_c proof.still proof.row group bound bodies bodies.features bodies.features.fid bodies.features.weight
 bodies.features.max_shift bodies.features.anchor bodies.barrier bodies.weight bodies.shift pieces pieces.i pieces.j pieces.a pieces.b
 pieces.A pieces.B pieces.shadow pieces.clearance nodes nodes.parent nodes.cuts nodes.cuts.kind nodes.cuts.i nodes.cuts.j nodes.cuts.n
-nodes.cuts.d nodes.cuts.pieces nodes.forces nodes.by nodes.empty nodes.empty.i nodes.empty.j nodes.empty.pieces prices prices.side
+nodes.cuts.d nodes.cuts.pieces row_stiffness row along apart pieces.row springs springs.i springs.j springs.n springs.stiff nodes.forces nodes.by nodes.empty nodes.empty.i nodes.empty.j nodes.empty.pieces prices prices.side
 prices.unit prices.x prices.y prices.columns prices.rows crowded""".split()
 
 

@@ -10,7 +10,7 @@ import math
 
 VERSION = 2
 KINDS = ("overlap", "too_close", "barrier", "barrier_drawn", "barrier_near", "contained", "duplicate")
-REASONS = ("same_block", "kept", "fixed", "max_shift", "side", "jump", "no_room", "unresolved")
+REASONS = ("same_block", "kept", "fixed", "max_shift", "side", "jump", "no_room", "unresolved", "row")
 LEAST_FID, MOST_FID = -1 << 63, (1 << 63) - 1
 
 
@@ -156,6 +156,8 @@ question = members({"a": thing, "b": thing, "A": corners, "B": corners, "ways": 
                     "forces": all_of(way_force, 0, 0)},
                    {"slack": true, "held": true, "shadow": true, "clearance": number, "c": thing,
                     "side_b": all_of(place, 2, 2), "side_c": all_of(place, 2, 2)})
+question = either("row", members({"a": thing, "b": thing, "row": true, "ways": all_of(way, 1, 1), "forces": all_of(way_force, 0, 0)}),
+                  question)
 leaf = members({"forces": all_of(way_force, 1)}, {"still": all_of(pair_of(whole, whole), 2, 2)})
 conflict = members({"conflict": whole, "a": thing, "b": thing, "kind": one_of(KINDS), "reason": one_of(REASONS),
                     "blocked_by": all_of(thing)},
@@ -165,8 +167,10 @@ conflict = members({"conflict": whole, "a": thing, "b": thing, "kind": one_of(KI
 feature = members({"fid": integer, "weight": positive, "max_shift": or_null(not_negative)}, {"anchor": place})
 shared = {"weight": or_null(positive), "shift": place}
 body = either("barrier", members({"barrier": barrier, **shared}), members({"features": all_of(feature, 1), **shared}))
-piece = members({"i": whole, "j": whole, "a": thing, "b": thing, "A": corners, "B": corners},
-                {"shadow": true, "clearance": number})
+piece = either("row", members({"i": whole, "j": whole, "a": thing, "b": thing, "row": true}),
+               members({"i": whole, "j": whole, "a": thing, "b": thing, "A": corners, "B": corners},
+                       {"shadow": true, "clearance": number}))
+spring = members({"i": whole, "j": whole, "n": place, "stiff": positive})
 named = all_of(whole)
 side = {"i": whole, "n": place, "d": number}
 CUTS = {"limit": members({"kind": name, **side}), "cone": members({"kind": name, "j": whole, **side}),
@@ -186,12 +190,14 @@ prices = members({"side": positive, "unit": positive, "x": integer, "y": integer
                   "rows": all_of(all_of(integer), 1)})
 tree = {"group": whole, "bound": number, "bodies": all_of(body, 1)}
 group = either("prices", members({**tree, "prices": prices}),
-               members({**tree, "pieces": all_of(piece), "nodes": all_of(node, 1)}))
+               members({**tree, "pieces": all_of(piece), "nodes": all_of(node, 1)}, {"springs": all_of(spring, 1)}))
+row = members({"row": whole, "a": integer, "b": integer, "along": place, "apart": number})
 head = members({"sunder_proof": whole, "layer": name, "gap": not_negative, "max_shift": or_null(not_negative),
                 "contained": one_of(("block", "ignore", "separate")), "allow_jumps": boolean,
-                "lower_bound": not_negative, "conflicts": whole, "trees": whole})
+                "lower_bound": not_negative, "conflicts": whole, "trees": whole},
+               {"row_stiffness": all_of(not_negative, 2, 2)})
 block = members({"block": all_of(integer, 2)})
-LINES = {"block": block, "conflict": conflict, "group": group}
+LINES = {"block": block, "row": row, "conflict": conflict, "group": group}
 
 
 def once(pairs):
@@ -212,18 +218,20 @@ def read_line(text):
 
 
 class Proof:
-    """The content of a file: head; blocks (lists of FIDs); conflicts as in the lines, without their proofs. Verdicts
-    and trees are read one at a time, since files may be larger than memory. lines: an iterable of JSON objects, read
-    twice. known: the content of lines that were read before, by id()."""
+    """The content of a file: head; blocks (lists of FIDs); rows (lines about neighbours); conflicts as in the lines,
+    without their proofs. Verdicts and trees are read one at a time, since files may be larger than memory. lines: an
+    iterable of JSON objects, read twice. known: the content of lines that were read before, by id()."""
 
     def __init__(self, lines, known):
         self.lines, self.known, self.head = lines, known, None
-        self.blocks, self.conflicts = [], []
+        self.blocks, self.rows, self.conflicts = [], [], []
         for key, found in self.entries():
             if key == "head":
                 self.head = found
             elif key == "block":
                 self.blocks.append(found["block"])
+            elif key == "row":
+                self.rows.append(found)
             elif key == "conflict":
                 self.conflicts.append(without_proof(found))
             else:
@@ -239,7 +247,7 @@ class Proof:
             demand(type(line) is dict and (k > 1 or line.get("sunder_proof") == VERSION), "no proof of this version")
             key = "head" if k == 1 else next((w for w in LINES if w in line), None)
             demand(key, "line", k, "is of no kind")
-            demand(order.index(key) >= at, "line", k, "comes too late: blocks, conflicts, groups")
+            demand(order.index(key) >= at, "line", k, "comes too late: blocks, rows, conflicts, groups")
             at = order.index(key)
             yield key, self.known.get(id(line)) or {"head": head, **LINES}[key](line, f"line {k}")
 

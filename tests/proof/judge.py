@@ -34,6 +34,7 @@ class Judge:
         """Returns a statement of the first line that is false, or None."""
         old = {id(line) for line in self.lines}
         self.places.list_conflicts([line for line in lines if "conflict" in line])
+        self.places.list_rows([line for line in lines if "row" in line])
         by_group = {}
         for line in lines:
             if "group" in line:
@@ -67,9 +68,35 @@ class Judge:
             return "shares of a body that are more than its weight"
         if any(b["shift"] != [0, 0] for t in trees for b in t["bodies"]):
             return None  # what such trees prove together is tested for the sum
+        if self.shares_springs_twice(trees, own):
+            return "shares of a spring that are more than its stiffness"
         cost = sum(w * square(self.move(body)) for body, w in own.items())
+        cost += sum(self.cost_of_springs(TreeOf(t)) for t in trees)
         bound = sum(Fraction(t["bound"]) for t in trees)
         return f"a group of at least {shown(bound)}, which costs {shown(cost)}" if bound > cost else None
+
+    def shares_springs_twice(self, trees, own):
+        used = {}
+        for t in map(TreeOf, trees):
+            for s in t.line.get("springs", ()):
+                key = t.keys[s["i"]], t.keys[s["j"]], tuple(s["n"])
+                key = key if key[0] < key[1] else (key[1], key[0], (-key[2][0], -key[2][1]))
+                used[key] = used.get(key, 0) + Fraction(s["stiff"])
+        for (one, other, n), stiff in used.items():
+            if frozenset((one, other)) not in self.places.rows:
+                return True
+            first, along, _ = self.places.rows[frozenset((one, other))]
+            across = abs(along[0] * Fraction(n[0]) + along[1] * Fraction(n[1])) < Fraction(1, 2)
+            w = min(own.get(k, math.inf) for k in (one, other))  # the weight of a body that stands still is not known here
+            if stiff > w * Fraction(self.problem.options.row_stiffness[0 if across else 1]):
+                return True
+        return False
+
+    def cost_of_springs(self, tree):
+        """In the result."""
+        moves = {k: self.move(body) for k, body in enumerate(tree.keys)}
+        return sum(Fraction(stiff) * min(Fraction(0), sum(x * moves[k][0] + y * moves[k][1] for k, x, y in terms)) ** 2
+                   for terms, stiff in tree.springs)
 
     def wrong_with_tree(self, line, before):
         for body in line["bodies"]:
@@ -97,7 +124,7 @@ class Judge:
             if w is not None:
                 x, y = self.move(body)
                 total += w * square((x - a[0], y - a[1]))
-        return total
+        return total + self.cost_of_springs(tree)
 
     def move(self, body):
         return tuple(map(Fraction, self.result.moves.get(body[0], (0, 0))))
@@ -106,7 +133,7 @@ class Judge:
 
     def wrong_with_nodes(self, tree, before):
         line = tree.line
-        shaken = line["bound"] > before["bound"] or line["bodies"] != before["bodies"]
+        shaken = line["bound"] > before["bound"] or any(line.get(key) != before.get(key) for key in ("bodies", "springs"))
         for k, piece in enumerate(line["pieces"]):
             if shaken or k >= len(before["pieces"]) or piece != before["pieces"][k]:
                 if self.contradicts_piece(tree, piece):
@@ -120,10 +147,11 @@ class Judge:
                 own.append(k)
             if k in cut or node != old or (node["parent"] in changed and "by" not in node):
                 changed.add(k)
-        first = [0]
+        springs = line.get("springs", [])
+        first = [len(springs)]
         for node in line["nodes"]:
             first.append(first[-1] + len(node["cuts"]))
-        cuts = [c for node in line["nodes"] for c in node["cuts"]]
+        cuts = springs + [c for node in line["nodes"] for c in node["cuts"]]
         parents = {node["parent"] for node in line["nodes"]}
         below = sorted(changed - set(own))
         for k in own[:MOST_NODES] + random.Random(1).sample(below, min(len(below), MOST_NODES)):
@@ -203,6 +231,8 @@ class Judge:
         i, j = piece["i"], piece["j"]
         if piece["a"] not in tree.keys[i] or piece["b"] not in tree.keys[j]:
             return True
+        if piece.get("row"):
+            return frozenset((tree.keys[i], tree.keys[j])) not in self.places.rows
         drawn = random.Random(1)
         owed = float(Fraction(self.places.required(piece["a"], piece["b"])) / self.unit) if "clearance" not in piece else piece["clearance"]
         for k in range(2 * TRIES):
@@ -264,6 +294,8 @@ class TreeOf:
         self.keys = [fids(b) for b in line["bodies"]]
         self.weights = [None if b["weight"] is None else Fraction(b["weight"]) for b in line["bodies"]]
         self.shifts = [tuple(map(Fraction, b["shift"])) for b in line["bodies"]]
+        self.springs = [([(s["i"], *(-Fraction(v) for v in s["n"])), (s["j"], *map(Fraction, s["n"]))], Fraction(s["stiff"]))
+                        for s in line.get("springs", ())]
 
     def reach(self, i, j):
         """The range of the relative move at a cost below the bound: a centre, and the square of a radius."""
@@ -276,7 +308,7 @@ class TreeOf:
         if beyond is not None:
             terms, d = side_of(beyond)
             sides.append(([(k, -x, -y) for k, x, y in terms], -d))
-        return cheapest(self.weights, self.shifts, sides, self.bound)
+        return cheapest(self.weights, self.shifts, sides, self.bound, self.springs)
 
 
 class VerdictOf:
@@ -290,6 +322,8 @@ class VerdictOf:
 
     def asks_no_more(self, node):
         """Is the question within the subject of the reason?"""
+        if node.get("row"):
+            return not self.crowded and self.reason in ("row", "no_room")
         if self.alone and not node.get("shadow") and {node["a"], node["b"]} != self.own:
             return False
         if self.alone and node.get("shadow") and self.reason == "max_shift":
@@ -322,6 +356,8 @@ class VerdictOf:
 
     def may(self, node, u):
         a, b = node["a"], node["b"]
+        if node.get("row"):
+            return self.places.keeps_row(self.places.body(a), self.places.body(b), u, self.own)
         if node.get("shadow"):
             others = [b] if "c" not in node else [b, node["c"]]
             return all(self.places.may_go(a, other, u) for other in others)

@@ -8,13 +8,16 @@ from fractions import Fraction
 SWEEPS, ROUNDS, HAIR = 40, 8, 1e-9
 
 
-def cheapest(weights, shifts, sides, bound):
-    """Are there moves that satisfy all constraints and cost less than `bound`, where the cost is the sum of w |t -
-    a|^2? A body without a weight is fixed."""
-    floats = [([(k, float(x), float(y)) for k, x, y in terms if weights[k] is not None], float(d)) for terms, d in sides]
+def cheapest(weights, shifts, sides, bound, springs=()):
+    """Are there moves that satisfy all constraints and cost less than `bound`? The cost is the sum of w |t - a|^2, and of
+    stiff v^2 over springs (terms, stiff), where v is what the sum over the terms is less than 0. A body without a weight
+    is fixed."""
+    every = [*sides, *((terms, 0) for terms, _ in springs)]
+    floats = [([(k, float(x), float(y)) for k, x, y in terms if weights[k] is not None], float(d)) for terms, d in every]
+    give = [0.0] * len(sides) + [0.5 / float(stiff) if stiff > 1e-300 else 1e300 for _, stiff in springs]
     w = [0.0 if v is None else float(v) for v in weights]
     a = [[float(v) for v in s] for s in shifts]
-    active, forces = [], []
+    active, forces = list(range(len(sides), len(every))), [0.0] * len(springs)
     t = [list(s) for s in a]
     for _ in range(ROUNDS + len(sides)):
         worst = max(range(len(sides)), key=lambda k: missing(floats[k], t), default=None)
@@ -25,8 +28,8 @@ def cheapest(weights, shifts, sides, bound):
         for _ in range(SWEEPS):
             for m, k in enumerate(active):
                 terms, d = floats[k]
-                ease = sum((x * x + y * y) / (2 * w[b]) for b, x, y in terms)
-                step = max(missing(floats[k], t) / ease if ease else 0.0, -forces[m])
+                ease = sum((x * x + y * y) / (2 * w[b]) for b, x, y in terms) + give[k]
+                step = max((missing(floats[k], t) - forces[m] * give[k]) / ease if ease else 0.0, -forces[m])
                 forces[m] += step
                 for b, x, y in terms:
                     t[b][0] += step * x / (2 * w[b])
@@ -35,6 +38,8 @@ def cheapest(weights, shifts, sides, bound):
         return False
     exact = [tuple(map(Fraction, p)) for p in t]
     cost = sum(v * ((p[0] - s[0]) ** 2 + (p[1] - s[1]) ** 2) for v, p, s in zip(weights, exact, shifts) if v is not None)
+    cost += sum(Fraction(stiff) * min(Fraction(0), sum(Fraction(x) * exact[b][0] + Fraction(y) * exact[b][1] for b, x, y in terms)) ** 2
+                for terms, stiff in springs)
     return cost < bound and keep_all(sides, dict(enumerate(exact)))
 
 

@@ -1,6 +1,7 @@
 """Which relative places features and barriers may have, by docs/PROOF.md, section 1; decided for one place at a time,
 in integers of the lattice."""
 import math
+from fractions import Fraction
 
 from exact import plane
 
@@ -10,10 +11,32 @@ APART = ("too_close", "barrier_drawn", "barrier_near")
 class Places:
     def __init__(self, problem):
         self.problem, self.unit = problem, problem.lattice.unit
-        self.start, self.kinds = {}, {}
+        self.start, self.kinds, self.rows = {}, {}, {}
 
     def list_conflicts(self, conflicts):
         self.kinds = {frozenset((c["a"], c["b"])): c["kind"] for c in conflicts if not c.get("inside_block")}
+
+    def list_rows(self, lines):
+        """What the lines say of neighbours in rows: of two bodies, the first one, the direction from it, and the separation."""
+        self.rows = {}
+        for line in lines:
+            one, other = self.body(line["a"]), self.body(line["b"])
+            self.rows[frozenset((one, other))] = one, tuple(map(Fraction, line["along"])), Fraction(line["apart"])
+
+    def keeps_row(self, one, other, u, asked=None):
+        """Does the relative move of two bodies keep the rule of rows, if they are neighbours? asked: a listed pair, if any, that is to be
+        solved."""
+        if frozenset((one, other)) not in self.rows:
+            return True
+        first, along, apart = self.rows[frozenset((one, other))]
+        if apart <= 0:
+            return True
+        gap = Fraction(self.problem.options.gap)
+        pairs = [(a, b) for a in one for b in other]
+        pushed = not any(self.kind(*p) for p in pairs if set(p) != asked) and not all(self.pair_may(a, b, (0, 0), None) for a, b in pairs)
+        least = gap - apart if pushed else min(0, gap - apart)
+        sign = 1 if first == one else -1
+        return sign * (along[0] * u[0] + along[1] * u[1]) >= least * self.unit
 
     def kind(self, a, b):
         return self.kinds.get(frozenset((a, b)))
@@ -115,7 +138,7 @@ class Places:
         """Are these relative places allowed to two bodies: for every pair of their members, and without a jump?"""
         pairs = [(a, b) for a in one for b in other if not {a, b} & self.problem.skipped]
         listed = [p for p in pairs if self.kind(*p)]  # computing the depths of overlaps takes longest
-        return (all(self.pair_may(a, b, u, None) for a, b in pairs if not self.kind(a, b)) and
+        return (self.keeps_row(one, other, u) and all(self.pair_may(a, b, u, None) for a, b in pairs if not self.kind(a, b)) and
                 self.may_go(one[0], other[0], u) and all(self.pair_may(a, b, u, self.kind(a, b)) for a, b in listed))
 
 

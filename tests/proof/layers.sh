@@ -98,6 +98,20 @@ make_houses() {
         layer houses.gpkg buildings POLYGON
 }
 
+# Five houses in a row, the last two turned a little; and one that never moves (w = 3) and pushes the third out of the row.
+make_row() {
+    printf 'WKT,w\n"%s",1\n"%s",2\n"%s",1\n"%s",1\n"%s",1\n"%s",3\n' "POLYGON((0 0,10 0,10 10,0 10))" "POLYGON((11 0,21 0,21 9.5,11 9.5))" \
+        "POLYGON((23 0,33 0,33 10,23 10))" "POLYGON((36.5 0.2,46.5 0.5,46.2 10.5,36.2 10.2))" "POLYGON((48 0.6,58 0.9,57.7 10.9,47.7 10.6))" \
+        "POLYGON((26 11,31 11,31 20,26 20))" | layer row.gpkg buildings POLYGON
+}
+
+# Two houses whose bays do not face each other, and a third one; and a house between two that never move (w = 3).
+make_bays() {
+    make_rings bays.gpkg '0 0,10 0,10 8,12 8,12 10,0 10' '14 0,26 0,26 10,16 10,16 2,14 2' '33 0,43 0,43 10,33 10'
+    printf 'WKT,w\n"POLYGON((0 0,10 0,10 10,0 10))",3\n"POLYGON((12 0,22 0,22 10,12 10))",2\n"POLYGON((24 0,34 0,34 10,24 10))",3\n' |
+        layer squeezed.gpkg buildings POLYGON
+}
+
 make_through() {
     printf 'WKT,w\n"LINESTRING(-30 3,40 3)",1\n' | layer through.gpkg through LINESTRING
 }

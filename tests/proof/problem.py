@@ -142,6 +142,7 @@ class Problem:
             if side:
                 self.sides.add(key)
         self.anchors, self.side_anchors = {}, {}
+        self.rows = None  # see rows.py
         self.blocks = Blocks(self)
         self.blocks.find()
 
@@ -320,6 +321,9 @@ class Problem:
             self.pairs.add(pair)
             if not told.get("inside_block"):
                 self.listed[pair] = told["kind"]
+
+    def is_listed(self, a, b):
+        return tuple(sorted((str(a), str(b)))) in self.listed
 
     def demand_listed(self, told):
         a, b = told["a"], told["b"]

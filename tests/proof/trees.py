@@ -3,7 +3,7 @@ from fractions import Fraction
 from math import isqrt
 
 from bodies import Bodies
-from cover import Piece, clip, is_covered, is_nowhere, line_of, square
+from cover import Beyond, Piece, clip, is_covered, is_nowhere, line_of, square
 from form import demand, index, shown
 
 
@@ -15,13 +15,22 @@ class Tree(Bodies):
         super().__init__(problem, told)
         self.pieces_told, self.pieces = told["pieces"], {}
         self.nodes = told["nodes"]
-        self.cuts = []   # as in the file
-        self.owner = []  # for each cut its node
-        self.exact = {}  # (i, j, n, d) of cuts that have been verified; j None: fixed ground
+        self.cuts = [{**spring, "d": 0} for spring in told.get("springs", [])]  # as in the file; springs come first
+        self.owner = [0] * len(self.cuts)  # for each cut its node
+        self.springs = [self.read_spring(spring) for spring in self.cuts]
+        self.exact = {}  # (i, j, n, d, stiffness) of cuts that have been verified; stiffness 0: no spring; j None: fixed ground
         self.reach = {}
 
     def mass(self, i, j):
         return sum(1 / self.weights[k] for k in (i, j) if self.weights[k] is not None)
+
+    def read_spring(self, told):
+        i, j = (index(told[c], len(self.bodies), "body") for c in "ij")
+        demand(self.problem.rows and i != j, "a spring without a row")
+        return self.problem.rows.spring(self.bodies[i], self.bodies[j], tuple(map(Fraction, told["n"])), Fraction(told["stiff"]))
+
+    def proved(self):
+        return super().proved()._replace(springs=self.springs)
 
     # ---- Bounds by forces
 
@@ -40,14 +49,15 @@ class Tree(Bodies):
     def cut(self, k):
         if k not in self.exact:
             told = self.cuts[k]
-            self.exact[k] = told["i"], told.get("j"), tuple(map(Fraction, told["n"])), Fraction(told["d"])
+            self.exact[k] = (told["i"], told.get("j"), tuple(map(Fraction, told["n"])), Fraction(told["d"]),
+                             Fraction(told.get("stiff", 0)))
         return self.exact[k]
 
     def push(self, forces):
         """Returns (value, the net force on each body)."""
         value, net = Fraction(0), {}
-        for (i, j, n, d), f in forces:
-            own = d
+        for (i, j, n, d, stiff), f in forces:
+            own = d - f / (4 * stiff) if stiff else d
             for k, sign in ((i, -1), (j, 1)):
                 if k is None:
                     continue
@@ -95,6 +105,9 @@ class Tree(Bodies):
         index(j, len(self.bodies), "body")
         demand(i != j and a in self.bodies[i] and b in self.bodies[j], "a piece is not of its bodies")
         problem.demand_owed(a, b)
+        if told.get("row"):
+            demand(problem.rows, "a rule without a row")
+            return (i, j), Beyond(line_of(*problem.rows.rule(self.bodies[i], self.bodies[j]), self.unit))
         shadow = told.get("shadow", False)
         if shadow:
             parts = problem.demand_shadow(a, told["A"], b, told["B"])
@@ -171,7 +184,7 @@ class Tree(Bodies):
             value = max(value, self.push(self.read_forces(node["forces"], k))[0])
         return value, regions, False
 
-    def check_limit(self, i, j, n, d):
+    def check_limit(self, i, j, n, d, _):
         """Fails unless -n.t_i >= d excludes no move with |t_i| <= L."""
         limit = self.problem.body_limit(self.bodies[i])
         demand(j is None and limit is not None and d <= 0 and d * d >= (n[0] ** 2 + n[1] ** 2) * Fraction(limit) ** 2,
@@ -223,8 +236,11 @@ class Discs:
 def add_up(trees):
     """The bound that trees prove together, by groups that share no movable body."""
     group_of, total = {}, Fraction(0)
-    by_group = {}
+    by_group, stiff = {}, {}
     for tree in trees:
+        for key, share, most in tree.springs:
+            stiff[key] = stiff.get(key, 0) + share
+            demand(stiff[key] <= most, "the shares of a spring are more than its stiffness")
         by_group.setdefault(tree.group, []).append(tree)
         for body, weight in zip(tree.bodies, tree.weights):
             if weight is not None:

@@ -50,6 +50,9 @@ class Verdict:
     def check_question(self, node):
         problem, a, b = self.problem, node["a"], node["b"]
         problem.demand_owed(a, b)
+        if node.get("row"):
+            self.check_row(node)
+            return
         ways = [line_of(w["n"], w["d"], self.unit) for w in node["ways"]]
         if self.alone:
             self.check_alone(node)
@@ -74,6 +77,17 @@ class Verdict:
             ways[0] = (*ways[0][:2], h)
         self.check_ways(difference(*parts), ways, *((False, 0) if node.get("slack") else (clearance < 0, clearance ** 2)))
 
+    def check_row(self, node):
+        """The rule of rows for the bodies of the two, as one way."""
+        a, b, way = node["a"], node["b"], node["ways"][0]
+        bodies = self.body_of(a), self.body_of(b)
+        demand(self.problem.rows and not self.crowded, "a rule without a row")
+        demand(self.told["reason"] == "no_room" or (self.told["reason"] == "row" and set(bodies) == set(map(self.body_of, (
+            self.told["a"], self.told["b"])))), "a row that the reason does not heed:", a, b)
+        demand(None not in map(self.problem.body_limit, bodies), "a row without a limit:", a, b)
+        n, d = self.problem.rows.rule(*bodies, {self.told["a"], self.told["b"]})
+        demand(tuple(map(Fraction, way["n"])) == n and Fraction(way["d"]) <= d, "a way that is not the rule of the row of", a, b)
+
     def demand_outside(self, a, b):
         """With --contained ignore: no move within the limits brings one of two features into the other."""
         limits = [self.limit_of(self.body_of(k)) for k in (a, b)]
@@ -88,7 +102,7 @@ class Verdict:
             return
         own = {self.body_of(k) for k in (self.told["a"], self.told["b"]) if not self.problem.is_barrier(k)}
         barrier = self.problem.is_barrier(a) or self.problem.is_barrier(b)
-        demand(reason == "jump" or (reason == "side" and barrier), "no ways are heeded by the reason", reason)
+        demand(reason in ("jump", "row") or (reason == "side" and barrier), "no ways are heeded by the reason", reason)
         demand(not barrier or self.within is None or reason == "side", "a side, where there is no limit")
         for k in (a, b):
             demand(self.problem.is_barrier(k) or self.body_of(k) in own, "the way of a bystander:", k)
@@ -353,7 +367,7 @@ def check(problem, told):
     if "proof" not in told:
         decided.check(problem, told)
         return 0
-    demand(told["reason"] in ("no_room", "side", "jump", "max_shift") or told.get("crowded"),
+    demand(told["reason"] in ("no_room", "side", "jump", "max_shift", "row") or told.get("crowded"),
            "a proof that nothing is claimed of, with the reason", told["reason"])
     Verdict(problem, told).check()
     return 1

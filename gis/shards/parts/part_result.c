@@ -13,7 +13,7 @@
 static const gis_padding holes_of_world[] = {GIS_PADDING_BETWEEN(gis_part_world, loose, run)};
 static const gis_padding holes_of_row[] = {GIS_PADDING_BEHIND(gis_part_row, rounded)};
 static const gis_padding holes_of_conflict[] = {GIS_PADDING_BETWEEN(gis_part_conflict, is.inside_block, is.need_shift),
-                                                GIS_PADDING_BETWEEN(gis_part_conflict, is.crowded, blocker),
+                                                GIS_PADDING_BETWEEN(gis_part_conflict, is.by_row, blocker),
                                                 GIS_PADDING_BEHIND(gis_part_conflict, loose)};
 static const gis_padding holes_of_still[] = {GIS_PADDING_BEHIND(gis_part_still, status)};
 

@@ -65,9 +65,8 @@ static bool is_conflict(const gis_part_result *r, const gis_part_conflict *c, ui
 {
     const sunder_conflict *is = &c->is;
     bool sound = is_place(is->a, places) && is_place(is->b, places) && is_flag(&is->inside_block) &&
-                 is_flag(&is->crowded) && is_flag(&c->loose) && is_line(r, &c->line) &&
-                 (unsigned)is->kind <= SUNDER_CONFLICT_NOT_A_TRANSLATE &&
-                 (unsigned)is->reason <= SUNDER_REASON_UNRESOLVED &&
+                 is_flag(&is->crowded) && is_flag(&is->by_row) && is_flag(&c->loose) && is_line(r, &c->line) &&
+                 (unsigned)is->kind <= SUNDER_CONFLICT_NOT_A_TRANSLATE && (unsigned)is->reason <= SUNDER_REASON_ROW &&
                  range_is_within(c->blocker, is->n_blocked_by, r->blockers) &&
                  range_is_within(c->name, c->names, r->names) && conflict_names(r, c, is->a) &&
                  conflict_names(r, c, is->b) && (is->need_gone == SIZE_MAX || conflict_names(r, c, is->need_gone));

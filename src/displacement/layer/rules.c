@@ -33,8 +33,6 @@ static sunder_status check_rows(const sunder_layer_options *options, sunder_erro
 {
     if ((int)options->rows < SUNDER_ROWS_NONE || (int)options->rows > SUNDER_ROWS_FOUND)
         return sunder_i_fail(err, SUNDER_EARG, "no such choice of rows: %d", (int)options->rows);
-    if (options->rows && options->keep_trees)
-        return sunder_i_fail(err, SUNDER_EARG, "no trees are kept for a layer with rows");
     for (int k = 0; k < 2; k++)
         if (!(options->row_stiffness[k] >= 0) || !isfinite(options->row_stiffness[k]))
             return sunder_i_fail(err, SUNDER_EARG, "the stiffness of rows, %g, is negative or not finite",

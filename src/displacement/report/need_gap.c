@@ -27,7 +27,12 @@ static bool is_about_gap(const sunder_i_solver *s, const sunder_conflict *c)
 static double gap_of(const sunder_i_solver *s, const sunder_conflict *c)
 {
     if (c->depth > 0 || !is_about_gap(s, c)) return -1;
-    if (c->kind == SUNDER_CONFLICT_TOO_CLOSE) return sunder_i_max(0, nextafter(c->distance, -INFINITY));
+    if (c->kind == SUNDER_CONFLICT_TOO_CLOSE) {
+        /* Neighbours in a row are moved apart along it unless they kept the gap at the start. */
+        const sunder_i_body *body = &s->model.body[s->model.body_of[c->a]];
+        const bool in_row = body->has->row_sides && sunder_i_row_side_of(&s->model, body, s->model.body_of[c->b]);
+        return sunder_i_max(0, nextafter(in_row ? sunder_i_min(c->distance, c->before) : c->distance, -INFINITY));
+    }
     if (c->kind != SUNDER_CONFLICT_BARRIER_NEAR) return -1;
     const double gap = s->model.rules.gap, width = c->required - gap;
     /* The last term covers three roundings, and those of c->distance and c->required. */

@@ -171,6 +171,8 @@ static sunder_status keep_proof(const asking *g, const matter *m, const sunder_i
     if (!*proof) return SUNDER_OK;
     const sunder_status status = *budget ? reduce_proof(&q, g->decide, budget, proof, err) : SUNDER_OK;
     if (status) return status;
+    for (size_t k = 0; k < (*proof)->nodes && reason == SUNDER_REASON_NO_ROOM; k++)
+        if ((*proof)->node[k].row) g->report->conflict[m->conflict].by_row = true;
     if (g->solver->model.rules.drop_proofs) sunder_i_proof_strip(*proof);
     g->report->conflict[m->conflict].reason = reason;
     return SUNDER_OK;
@@ -469,6 +471,22 @@ static sunder_status ask_cluster(const asking *g, matter *first, const matter *l
     return status;
 }
 
+/* Asks about the conflicts of a cluster once more, if bodies are in rows: these have to keep their order, too. So the
+ * rule of rows is in a proof only if none was found without. */
+static sunder_status ask_in_rows(const asking *g, matter *first, const matter *last, sunder_i_subproblem *q,
+                                 sunder_error *err)
+{
+    if (q->model->row_sides == 0) return SUNDER_OK;
+    q->rows = true;
+    for (matter *m = first; m < last; m++)
+        *m = (matter){.root = m->root,
+                      .conflict = m->conflict,
+                      .open = g->report->conflict[m->conflict].reason == SUNDER_REASON_UNRESOLVED};
+    const sunder_status status = ask_cluster(g, first, last, q, err);
+    q->rows = false;
+    return status;
+}
+
 /* Questions about positions in doubles (`still`) are asked after real arithmetic has given all its answers, with an
  * effort of their own: they are large and often unanswered, and must not use up the effort for other conflicts of the
  * cluster. */
@@ -494,6 +512,7 @@ static sunder_status ask_clusters(void *context, size_t begin, size_t end, sunde
         if (!status) status = ask_cluster(g, first, last, &q, err);
         for (matter *m = first; m < last; m++) m->open = m->still;
         if (!status) status = ask_cluster(g, first, last, &q, err);
+        if (!status) status = ask_in_rows(g, first, last, &q, err);
         if (!status) status = ask_crowded(g, first, last, &q, err);
         sunder_i_reads_end(&reading);
         sunder_i_planes_clear(&planes);

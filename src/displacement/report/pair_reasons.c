@@ -28,13 +28,14 @@ static double limit_of(const sunder_i_model *model, size_t f)
 
 /* What questions about the same two bodies share. */
 typedef struct common {
+    bool many; /* several pairs of the two are listed */
     sunder_i_planes planes;
     sunder_i_precedents precedents;
 } common;
 
-/* The rules about relative moves that a question takes into account: none, the sides of barriers, or these and the rule
- * against jumps. */
-typedef enum path_rules { NO_PATH_RULES, SIDES, SIDES_AND_JUMPS } path_rules;
+/* The rules about relative moves that a question takes into account: none, the sides of barriers, these and the rule
+ * against jumps, or these and the rule of rows. */
+typedef enum path_rules { NO_PATH_RULES, SIDES, SIDES_AND_JUMPS, ALL_AND_ROW } path_rules;
 
 /* Sets *proof to a proof that the pair by itself has no solution under these rules, or to NULL if none is found. The
  * other members of the two blocks move with them. instead: the limit that is assumed for bodies that have none. */
@@ -52,7 +53,9 @@ static sunder_status prove_alone(const sunder_i_model *model, const sunder_confl
                                        .feature = feature,
                                        .features = 2,
                                        .every_side = instead == 0 || bodies == 1,
-                                       .any_jump = rules != SIDES_AND_JUMPS,
+                                       .any_jump = rules < SIDES_AND_JUMPS,
+                                       .rows = rules == ALL_AND_ROW,
+                                       .row_listed = both->many,
                                        .ignore_paths = rules == NO_PATH_RULES,
                                        .heed_paths = true,
                                        .instead = instead,
@@ -106,6 +109,19 @@ static sunder_status reason_of_paths(const sunder_i_model *model, sunder_conflic
     return status;
 }
 
+/* Finds out whether the rule of rows is the reason, if limits, sides and jumps leave a solution. */
+static sunder_status reason_of_row(const sunder_i_model *model, sunder_conflict *c, common *both, sunder_proof **proof,
+                                   sunder_error *err)
+{
+    const sunder_i_body *body = &model->body[model->body_of[c->a]];
+    if (c->b >= model->features || body->has->row_sides == 0 ||
+        !sunder_i_row_side_of(model, body, model->body_of[c->b]))
+        return SUNDER_OK;
+    const sunder_status status = prove_alone(model, c, ALL_AND_ROW, 0, both, proof, err);
+    if (*proof) c->reason = SUNDER_REASON_ROW;
+    return status;
+}
+
 /* Returns whether no proof has to be searched for, for two features that are shut in: only the names of the features of
  * a proof are kept, and neither feature has a block, so a proof would name these two alone. */
 static bool needs_no_proof(const sunder_i_model *model, const sunder_conflict *c)
@@ -133,7 +149,11 @@ static sunder_status find_reason(const sunder_i_model *model, sunder_conflict *c
     sunder_i_resolution resolution;
     const sunder_status status = sunder_i_resolve_within(model, c->a, c->b, limit, &resolution, err);
     if (status) return status;
-    if (!resolution.beyond) return reason_of_paths(model, c, both, proof, err);
+    if (!resolution.beyond) {
+        const sunder_status paths = reason_of_paths(model, c, both, proof, err);
+        return paths || *proof || c->reason != SUNDER_REASON_UNRESOLVED ? paths
+                                                                        : reason_of_row(model, c, both, proof, err);
+    }
     c->reason = SUNDER_REASON_MAX_SHIFT;
     return model->rules.keep_trees ? prove_alone(model, c, NO_PATH_RULES, 0, both, proof, err) : SUNDER_OK;
 }
@@ -160,7 +180,7 @@ static sunder_status find_reasons(void *context, size_t begin, size_t end, sunde
     const asking *g = context;
     sunder_status status = SUNDER_OK;
     for (size_t k = begin; k < end && !status; k++) {
-        common both = {0};
+        common both = {.many = g->first[k + 1] - g->first[k] > 1};
         for (size_t m = g->first[k]; m < g->first[k + 1] && !status; m++) {
             const uint32_t at = g->matter[m].conflict;
             sunder_conflict *c = &g->report->conflict[at];

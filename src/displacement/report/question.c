@@ -208,6 +208,7 @@ static sunder_layer_options options_for(const sunder_i_questions *g, double gap)
     options.threads = 1;
     options.effort = 0;
     options.ease = 0;
+    options.row_stiffness[0] = options.row_stiffness[1] = 0;
     options.progress = NULL;
     return options;
 }
@@ -227,17 +228,20 @@ static sunder_status ask_sparing(const sunder_i_questions *g, const sunder_i_sur
     *answer = (sunder_i_answer){.refuted = what->gap};
     sunder_status status = name ? sunder_i_surroundings_layer(a, g->solver, what->limit, what->gone, &layer, err)
                                 : sunder_i_failure_cause(err);
-    const sunder_i_spared list = {spared, n, g->memo, name, NULL};
+    sunder_i_row_demand *row = NULL;
+    size_t rows = 0;
+    if (!status) status = sunder_i_question_rows(g, a, what, &row, &rows, err);
+    const sunder_i_spared list = {.pair = spared, .n = n, .memo = g->memo, .name = name, .row = row, .rows = rows};
     if (!status) {
         status = g->solve(layer, &options, &list, &found, &x, err);
         if (!status) status = is_solved(g, a, c, &x, what, &answer->yes, &answer->longest, err);
         if (!status && answer->yes) status = find_jump(g, a, &x, what->gone, &jumps, err);
-        answer->yes = answer->yes && !jumps;
+        answer->yes = answer->yes && !jumps && !sunder_i_question_leaves_row(g, a, &x, what);
         if (x.hopeless) answer->refuted = x.refuted;
         sunder_i_solver_free(&x);
     }
     sunder_layer_free(layer);
-    sunder_i_free(name);
+    sunder_i_free_all(name, row);
     /* A question with a solution does not count as a failed attempt to prove that there is none. */
     if (found == SUNDER_I_PROOF_FOUND || (found == SUNDER_I_PROOF_IN_VAIN && !answer->yes))
         sunder_i_patience_note(proof, found == SUNDER_I_PROOF_FOUND);
@@ -293,7 +297,8 @@ sunder_status sunder_i_foresight_init(sunder_i_foresight *foresight, const sunde
         f->name ? sunder_i_surroundings_layer(surroundings, questions->solver, limit, SUNDER_I_NOBODY, &f->layer, err)
                 : sunder_i_failure_cause(err);
     if (!status) status = find_held(questions, surroundings, f->spared, f->n, &f->held, err);
-    const sunder_i_spared spared = {f->spared, f->n, questions->memo, f->name, f->held};
+    if (!status) status = sunder_i_question_rows(questions, surroundings, &what, &f->row, &f->rows, err);
+    const sunder_i_spared spared = {f->spared, f->n, questions->memo, f->name, f->held, f->row, f->rows};
     if (!status) status = questions->solve(f->layer, &options, &spared, &later, &f->solver, err);
     if (status) return status;
     f->hopeless = sunder_i_solver_is_beyond_limits(&f->solver, &spared);
@@ -308,8 +313,8 @@ void sunder_i_foresight_clear(sunder_i_foresight *foresight)
     sunder_i_planes_clear(&foresight->planes);
     sunder_i_solver_free(&foresight->solver);
     sunder_layer_free(foresight->layer);
-    sunder_i_free_all(foresight->spared, foresight->name, foresight->held, foresight->move, foresight->next,
-                      foresight->at);
+    sunder_i_free_all(foresight->spared, foresight->name, foresight->row, foresight->held, foresight->move,
+                      foresight->next, foresight->at);
 }
 
 /* Sets the limits of the features that move, in a solver of the small layer. */
@@ -333,7 +338,7 @@ void sunder_i_foresight_limit(sunder_i_foresight *foresight, double limit)
 static sunder_i_spared spared_for(const sunder_i_foresight *f, const sunder_i_supposition *what, bool search)
 {
     const size_t n = what->all && f->n <= NEED_ALL ? 0 : f->n;
-    return (sunder_i_spared){f->spared, n, f->questions->memo, f->name, search ? NULL : f->held};
+    return (sunder_i_spared){f->spared, n, f->questions->memo, f->name, search ? NULL : f->held, f->row, f->rows};
 }
 
 /* Lists in `heeded` all features and barriers of the small layer except `gone`. Returns false if memory is out. */
@@ -413,7 +418,7 @@ sunder_status sunder_i_foresight_holds(const sunder_i_foresight *foresight, cons
     if (!status) status = sunder_i_solver_place_all(&x, move, yes, err);
     if (!status && *yes) status = is_solved(g, f->about, conflict, &x, what, yes, &longest, err);
     if (!status && *yes) status = find_jump(g, f->about, &x, SUNDER_I_NOBODY, &jumps, err);
-    *yes = *yes && !jumps;
+    *yes = *yes && !jumps && !sunder_i_question_leaves_row(g, f->about, &x, what);
     sunder_i_free(move);
     sunder_i_solver_free(&x);
     return status;

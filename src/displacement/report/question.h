@@ -51,6 +51,16 @@ sunder_status sunder_i_ask(const sunder_i_questions *questions, const sunder_i_s
                            const sunder_conflict *conflict, const sunder_i_supposition *what, sunder_i_patience *proof,
                            sunder_i_answer *answer, sunder_error *err);
 
+/* ---- question_rows.c --------------------------------------------------------------------------------------------- */
+
+/* Sets *list to what the rule of rows demands in the small layer, *n of them; the caller frees it. */
+sunder_status sunder_i_question_rows(const sunder_i_questions *questions, const sunder_i_surroundings *surroundings,
+                                     const sunder_i_supposition *what, sunder_i_row_demand **list, size_t *n,
+                                     sunder_error *err);
+/* Does the small layer as solved break the rule of rows, with the neighbours that it does not have, too? */
+bool sunder_i_question_leaves_row(const sunder_i_questions *questions, const sunder_i_surroundings *surroundings,
+                                  const sunder_i_solver *small, const sunder_i_supposition *what);
+
 /* ---- Proofs about smaller gaps ----------------------------------------------------------------------------------- */
 
 /* A small layer about one conflict that is prepared once, with the layer's gap, and not solved. It is used for proofs
@@ -62,9 +72,11 @@ typedef struct sunder_i_foresight {
     sunder_i_id_pair *spared; /* [n] all other listed pairs, sorted */
     size_t n;
     uint32_t *name; /* the numbers in the whole layer of this layer's features and barrier parts, for questions->memo */
-    double *held;   /* [n] the clearance that proofs hold each spared pair to; NAN: how it stood at the start of this
+    sunder_i_row_demand *row; /* [rows] what the rule of rows demands in this layer */
+    size_t rows;
+    double *held;  /* [n] the clearance that proofs hold each spared pair to; NAN: how it stood at the start of this
                      * layer */
-    bool hopeless;  /* a pair that has to be solved is proved to have no solution within the limits of init */
+    bool hopeless; /* a pair that has to be solved is proved to have no solution within the limits of init */
     const sunder_i_questions *questions;
     const sunder_i_surroundings *about;
     double *move; /* [2 * bodies] the moves of the last solution in real numbers */

@@ -214,6 +214,7 @@ sunder_status sunder_i_report_row_pairs(sunder_report *report, const sunder_i_mo
             (sunder_row_pair){.feature = {edge->f, edge->g},
                               .side = {edge->side[0], edge->side[1]},
                               .along = {edge->along[0], edge->along[1]},
+                              .apart = edge->apart,
                               .offset = edge->offset,
                               .weight = sunder_i_min(sunder_i_weight_below(model, &model->body[edge->i]),
                                                      sunder_i_weight_below(model, &model->body[edge->j])),
@@ -229,6 +230,7 @@ static sunder_row_pair turned(const sunder_row_pair *p)
                              .block = {p->block[1], p->block[0]},
                              .side = {p->side[1], p->side[0]},
                              .along = {-p->along[0], -p->along[1]},
+                             .apart = p->apart,
                              .offset = p->offset,
                              .weight = p->weight,
                              .move = {{p->move[1][0], p->move[1][1]}, {p->move[0][0], p->move[0][1]}}};

@@ -40,6 +40,16 @@ static int by_body(const void *x, const void *y)
     return p->side.other < q->side.other ? -1 : p->side.other > q->side.other;
 }
 
+/* Appends the rule of body i, and the same as seen from the other body. */
+static void add_halves(uint32_t i, const sunder_i_row_side *there, half *out, size_t *n)
+{
+    sunder_i_row_side back = *there;
+    back.other = i;
+    for (int c = 0; c < 2; c++) back.along[c] = -there->along[c];
+    out[(*n)++] = (half){i, *there};
+    out[(*n)++] = (half){there->other, back};
+}
+
 /* Appends the rule of an edge, from both of its bodies. */
 static void add_edge(const sunder_i_model *model, const sunder_i_row_edge *e, bool in_conflict, half *out, size_t *n)
 {
@@ -51,16 +61,14 @@ static void add_edge(const sunder_i_model *model, const sunder_i_row_edge *e, bo
                                      listed,
                                      sunder_i_min(sunder_i_weight_below(model, &model->body[e->i]),
                                                   sunder_i_weight_below(model, &model->body[e->j]))};
-    sunder_i_row_side back = there;
-    back.other = e->i;
-    for (int c = 0; c < 2; c++) back.along[c] = -there.along[c];
-    out[(*n)++] = (half){e->i, there};
-    out[(*n)++] = (half){e->j, back};
+    add_halves(e->i, &there, out, n);
 }
 
-/* Stores n halves, sorted by their bodies, in the model. Returns false if memory is out. */
-static bool keep_rule(sunder_i_model *model, const half *all, size_t n)
+/* Sorts n halves by their bodies, and stores them in the model. Returns false if memory is out. */
+static bool keep_rule(sunder_i_model *model, half *all, size_t n)
 {
+    if (n == 0) return true;
+    qsort(all, n, sizeof *all, by_body);
     model->row_side = sunder_i_alloc(n, sizeof *model->row_side);
     if (!model->row_side) return false;
     for (size_t k = 0, end; k < n; k = end) {
@@ -89,8 +97,26 @@ sunder_status sunder_i_rows_make_rule(const sunder_i_rows *rows, const sunder_i_
         const bool in_conflict = at < conflicts && sunder_i_by_id_pair(&conflict[at], &pair) == 0;
         if (!(model->body[e->i].fixed && model->body[e->j].fixed)) add_edge(model, e, in_conflict, all, &n);
     }
-    if (ok && n) qsort(all, n, sizeof *all, by_body);
-    if (ok && n) ok = keep_rule(model, all, n);
+    ok = ok && keep_rule(model, all, n);
     sunder_i_free_all(all, conflict);
+    return ok ? SUNDER_OK : sunder_i_failure_cause(err);
+}
+
+sunder_status sunder_i_rows_take_rule(const sunder_i_row_demand *demand, size_t n, const uint32_t *number,
+                                      sunder_i_model *model, sunder_error *err)
+{
+    size_t halves = 0;
+    if (n == 0) return SUNDER_OK;
+    half *all = sunder_i_alloc(2 * n, sizeof *all);
+    uint32_t *body = sunder_i_alloc(model->features, sizeof *body);
+    bool ok = all && body;
+    for (size_t k = 0; k < model->features && ok; k++) body[number[k]] = model->body_of[k];
+    for (size_t k = 0; k < n && ok; k++) {
+        const sunder_i_row_demand *d = &demand[k];
+        const sunder_i_row_side there = {body[d->b], {d->along[0], d->along[1]}, d->least, d->least_listed, 0};
+        if (body[d->a] != body[d->b]) add_halves(body[d->a], &there, all, &halves);
+    }
+    ok = ok && keep_rule(model, all, halves);
+    sunder_i_free_all(all, body);
     return ok ? SUNDER_OK : sunder_i_failure_cause(err);
 }

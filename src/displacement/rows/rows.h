@@ -39,4 +39,15 @@ void sunder_i_rows_free(sunder_i_rows *rows);
 sunder_status sunder_i_rows_make_rule(const sunder_i_rows *rows, const sunder_i_relations *start, sunder_i_model *model,
                                       sunder_error *err);
 
+/* The rule of rows for two features a and b of different bodies, as sunder_i_row_side has it for their bodies. */
+typedef struct sunder_i_row_demand {
+    uint32_t a, b;
+    double along[2], least, least_listed;
+} sunder_i_row_demand;
+
+/* Gives a layer without rows this rule, without springs. number[k] is the caller's number of feature k, by which a and
+ * b are named. To be called once. Fails with SUNDER_ENOMEM. */
+sunder_status sunder_i_rows_take_rule(const sunder_i_row_demand *demand, size_t n, const uint32_t *number,
+                                      sunder_i_model *model, sunder_error *err);
+
 #endif

@@ -386,6 +386,7 @@ static bool add_row(listing *l)
                                       .a = l->of_p->piece,
                                       .b = l->of_q->piece,
                                       .shadow = true,
+                                      .row = true,
                                       .clearance = NAN,
                                       .vague = 0x1p-48 * (4 * l->reach + fabs(least))};
     if (!sunder_i_reserve(&f->piece, &f->piece_capacity, f->pieces + 1, sizeof *f->piece) ||

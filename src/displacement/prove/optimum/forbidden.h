@@ -12,7 +12,8 @@ typedef struct sunder_i_forbidden_piece {
     uint32_t edge, edges;             /* the edges of K, in sunder_i_forbidden.edge */
     const sunder_i_body_piece *a, *b; /* the pieces of the two bodies from which K is made; for a shadow one of them is
                                        * an anchor */
-    bool shadow; /* also true for the half-plane of the rule of rows, for which a and b are any pieces of the two */
+    bool shadow;                      /* true for a `row`, too */
+    bool row;                         /* it is the half-plane of the rule of rows; a and b are any pieces of the two */
     double clearance; /* NAN: the full distance is required; else the clearance to which the pair is held instead
                        * (layer/requirement.h) */
     double radius, vague;

@@ -92,10 +92,12 @@ static bool name_piece(recording *r, uint32_t pair, uint32_t piece, size_t *numb
         out->piece = r->piece;
         if (!ok) return false;
         sunder_bound_piece *to = &r->piece[out->pieces];
-        *to = (sunder_bound_piece){
-            .i = p->i, .j = p->j, .a = from->a->feature, .b = from->b->feature, .shadow = from->shadow};
+        *to =
+            (sunder_bound_piece){.i = p->i, .j = p->j, .a = from->a->feature, .b = from->b->feature, .row = from->row};
+        to->shadow = from->shadow && !from->row;
         to->clearance = from->clearance;
-        if (!add_part(r, from->a, &to->part_a, &to->corners_a) || !add_part(r, from->b, &to->part_b, &to->corners_b))
+        if (!from->row &&
+            !(add_part(r, from->a, &to->part_a, &to->corners_a) && add_part(r, from->b, &to->part_b, &to->corners_b)))
             return false;
         *as = out->pieces++;
     }
@@ -115,7 +117,8 @@ static bool record_cuts(recording *r)
     static const sunder_bound_cut_kind kinds[] = {[SUNDER_I_CUT_LIMIT] = SUNDER_BOUND_CUT_LIMIT,
                                                   [SUNDER_I_CUT_CONE] = SUNDER_BOUND_CUT_CONE,
                                                   [SUNDER_I_CUT_HULL] = SUNDER_BOUND_CUT_HULL,
-                                                  [SUNDER_I_CUT_DISC] = SUNDER_BOUND_CUT_DISC};
+                                                  [SUNDER_I_CUT_DISC] = SUNDER_BOUND_CUT_DISC,
+                                                  [SUNDER_I_CUT_SPRING] = SUNDER_BOUND_CUT_SPRING};
     const sunder_i_tree *t = r->tree;
     for (size_t k = 0; k < t->cuts; k++) {
         const sunder_i_move_cut *c = &t->cut[k];
@@ -125,6 +128,7 @@ static bool record_cuts(recording *r)
                                        .j = c->j == SUNDER_I_GROUND ? SIZE_MAX : c->j,
                                        .n = {c->n[0], c->n[1]},
                                        .d = c->d,
+                                       .stiff = c->give > 0 ? 1 / (2 * c->give) : 0,
                                        .named = note->named,
                                        .names = note->names};
         if (note->kind == SUNDER_I_CUT_HULL && !name_all(r, note->pair, note->named, note->names)) return false;
@@ -176,6 +180,7 @@ bool sunder_i_tree_record(const sunder_i_tree *tree, sunder_bound_tree *out)
     }
     out->bodies = tree->task.n;
     out->cuts = tree->cuts;
+    out->springs = tree->springs;
     out->forces = tree->forces;
     out->nodes = tree->nodes;
     out->names = tree->named.n;

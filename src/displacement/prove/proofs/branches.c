@@ -161,6 +161,7 @@ bool sunder_i_branching_add_branch(sunder_i_branching *branching, const sunder_i
     node->shadow = violation->shadow;
     node->slack = violation->slack != NULL;
     node->held = violation->held;
+    node->row = violation->row;
     node->half_planes = half_planes;
     memcpy(branching->half_plane + branching->half_planes, branching->scratch,
            half_planes * sizeof *branching->half_plane);

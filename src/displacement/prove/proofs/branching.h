@@ -72,6 +72,7 @@ typedef struct sunder_i_node {
     bool shadow; /* one part is an anchor, which may not pass the other */
     bool slack;  /* the half-planes are for the second part moved by the pair's slack */
     bool held;   /* the clearance is exactly the distance of the pair at the start */
+    bool row;    /* it is about the rule of rows; the parts are any of the two bodies */
     size_t half_plane, half_planes, force, forces;
     bool still; /* a leaf in which a body between the lines of two half-planes stays where it is */
     size_t line_node[2], line_way[2];
@@ -204,6 +205,7 @@ typedef struct sunder_i_violation {
     bool known;                        /* it adds no participant: both take part already, or one of them never moves */
     bool closely;                      /* as in sunder_i_branching */
     bool held;                         /* it is a wall */
+    bool row;                          /* it breaks the rule of rows; a and b are any pieces of the two */
     const sunder_i_chord *chord;       /* NULL, or the chord that replaces b */
 } sunder_i_violation;
 
@@ -244,6 +246,15 @@ bool sunder_i_branching_add_branch(sunder_i_branching *branching, const sunder_i
                                    size_t half_planes, size_t *root);
 bool sunder_i_branching_push(sunder_i_branching *branching, uint32_t i, uint32_t j, size_t node, size_t half_plane,
                              bool behind, unsigned level);
+
+/* ---- row_half_planes.c ------------------------------------------------------------------------------------------- */
+
+/* Does the relative move u of bodies p and q break the rule of rows, as far as the subproblem heeds it, by more than
+ * twice a hair? If so, sets *violation. */
+bool sunder_i_branching_misses_row(sunder_i_branching *branching, uint32_t p, uint32_t q, const double u[2],
+                                   sunder_i_violation *violation);
+/* Sets branching->scratch to the half-plane that the rule demands of these two. Returns 1; 0 if memory is out. */
+size_t sunder_i_branching_row_half_plane(sunder_i_branching *branching, uint32_t p, uint32_t q);
 
 /* ---- corner_chord.c ---------------------------------------------------------------------------------------------- */
 

@@ -68,6 +68,8 @@ typedef struct sunder_i_subproblem {
     bool any_jump;           /* features may jump over each other */
     bool ignore_paths;       /* features may cross sides, too: no relative move is forbidden */
     bool heed_paths;         /* the rules on paths of all members of `body` count, even if `feature` lacks them */
+    bool rows;               /* the rule of rows counts */
+    bool row_listed;         /* for the two in question it is that of a listed pair */
     double instead;          /* > 0: a limit for bodies that have none; else the question is not examined */
     bool no_plane;           /* the plane of one relative move was examined before, without an answer */
     bool fine_plane;         /* coarse half-planes give no answer there: they are skipped */

@@ -30,12 +30,12 @@ static double owed_distance(const shrinking *g, const sunder_proof_node *node)
     return sunder_i_branching_owed(g->subproblem, (uint32_t)node->a, (uint32_t)node->b);
 }
 
-/* Does the node's pair have to keep the layer's gap? Reduced requirements of listed pairs, and gaps of barriers of
- * their own, do not change. */
+/* Does the node's pair have to keep the layer's gap, or at most that much less in its row? Reduced requirements of
+ * listed pairs, and gaps of barriers of their own, do not change. */
 static bool owes_gap(const shrinking *g, const sunder_proof_node *node)
 {
-    return !node->shadow && node->clearance >= owed_distance(g, node) &&
-           sunder_i_owe_gap(g->model, (uint32_t)node->a, (uint32_t)node->b);
+    return node->row || (!node->shadow && node->clearance >= owed_distance(g, node) &&
+                         sunder_i_owe_gap(g->model, (uint32_t)node->a, (uint32_t)node->b));
 }
 
 static double limit_of(const shrinking *g, uint32_t body)
@@ -97,7 +97,7 @@ sunder_status sunder_i_proof_least_gap(const sunder_i_subproblem *subproblem, co
     double less = of;
     for (size_t k = 0; k < proof->nodes; k++) {
         const sunder_proof_node *node = &proof->node[k];
-        if (node->ways && !node->shadow) less = sunder_i_min(less, shrink_owed(&g, node));
+        if (node->ways && !node->shadow && !node->row) less = sunder_i_min(less, shrink_owed(&g, node));
         if (node->slack || node->still)
             less = 0;
         else if (node->ways == 0)

@@ -177,6 +177,22 @@ typedef struct divider {
     place below;
 } divider;
 
+/* Is the place forbidden by the rule of rows, for the two bodies or, with one moving body, for it and one that does not
+ * move? If so, sets *missed, and the half-plane is in c->scratch. */
+static bool find_row(sunder_i_plane *g, const double u[2], sunder_i_violation *missed)
+{
+    sunder_i_branching *c = g->c;
+    const sunder_i_extras *has = c->model->body[g->p].has;
+    bool found = false;
+    for (uint32_t k = has->row_side; k < has->row_side + has->row_sides && c->subproblem->rows && !found; k++) {
+        const uint32_t other = c->model->row_side[k].other;
+        if (g->q == SUNDER_I_GROUND ? sunder_i_limit_of(&c->model->body[other]) > 0 : other != g->q) continue;
+        found = sunder_i_branching_misses_row(c, g->p, other, u, missed) &&
+                sunder_i_branching_row_half_plane(c, g->p, other);
+    }
+    return found;
+}
+
 static bool find_divider(sunder_i_plane *g, const sunder_i_plane_region *r, place at, const double middle[2],
                          divider *by)
 {
@@ -213,16 +229,22 @@ static sunder_status divide_region(sunder_i_plane *g, const sunder_i_plane_regio
     }
     sunder_i_plane_middle(r, nearest, g->reach, middle);
     divider d;
+    sunder_i_violation v;
     size_t node;
     if (!find_divider(g, r, at, middle, &d)) return sunder_i_failure_cause(err);
-    if (!d.obstacle && !g->thin) { /* a sliver is forbidden, up to rounding */
+    const sunder_i_plane_obstacle *o = d.obstacle;
+    if (o) {
+        v = (sunder_i_violation){
+            .a = o->a, .b = o->b, .clearance = o->clearance, .shadow = o->shadow, .chord = d.across ? &d.chord : NULL};
+    } else if (find_row(g, middle, &v)) {
+        d.half_planes = 1;
+    } else {
+        if (c->failed) return sunder_i_failure_cause(err);
+        if (g->thin) return SUNDER_OK; /* a sliver is forbidden, up to rounding */
         *verdict = SUNDER_I_FEASIBLE;
         memcpy(g->free, middle, sizeof middle);
+        return SUNDER_OK;
     }
-    if (!d.obstacle) return SUNDER_OK;
-    const sunder_i_plane_obstacle *o = d.obstacle;
-    const sunder_i_violation v = {
-        .a = o->a, .b = o->b, .clearance = o->clearance, .shadow = o->shadow, .chord = d.across ? &d.chord : NULL};
     if (!sunder_i_branching_add_branch(c, &v, d.half_planes, &node)) return sunder_i_failure_cause(err);
     return divide_all(g, r, node, d.below, level, verdict, levels, root, err);
 }
@@ -318,7 +340,8 @@ sunder_status sunder_i_branching_plane_try(sunder_i_branching *branching, const 
     if (!n || !find_bodies(branching, &g)) return SUNDER_OK;
     const bool ok = begin_plane(branching, &g, &own);
     for (size_t k = 0; k < n && ok && !branching->failed && answer->verdict == SUNDER_I_UNKNOWN; k++) {
-        if (!sunder_i_plane_is_free(&g, at[k])) continue;
+        sunder_i_violation missed;
+        if (!sunder_i_plane_is_free(&g, at[k]) || find_row(&g, at[k], &missed)) continue;
         answer->verdict = SUNDER_I_FEASIBLE;
         memcpy(g.free, at[k], sizeof g.free);
     }

@@ -18,7 +18,7 @@ static void count_subtree(const sunder_i_branching *c, size_t at, size_t depth, 
     if (depth > *deepest) *deepest = depth;
     sum->ways += node->half_planes;
     sum->forces += node->forces;
-    if (node->half_planes)
+    if (node->half_planes && !node->row)
         sum->corners +=
             sunder_i_corners_as_given(c->model, node->part_a) + sunder_i_corners_as_given(c->model, node->part_b);
     if (node->chord != SIZE_MAX) sum->corners += CHORD_CORNERS;
@@ -73,6 +73,21 @@ static size_t copy_of(const copying *g, size_t node)
     return g->path_copy[level];
 }
 
+/* Copies the two parts of a node, and what a chord has besides. */
+static void copy_parts(copying *g, const sunder_i_node *from, sunder_proof_node *to)
+{
+    const sunder_i_branching *c = g->branching;
+    to->corners_a = sunder_i_corners_as_given(c->model, from->part_a);
+    to->corners_b = sunder_i_corners_as_given(c->model, from->part_b);
+    to->part_a = copy_part(g, from->part_a);
+    to->part_b = from->chord == SIZE_MAX ? copy_part(g, from->part_b) : copy_chord(g, &c->chord[from->chord]);
+    if (from->chord != SIZE_MAX) {
+        to->chord = true;
+        to->c = c->chord[from->chord].side[1]->piece.feature;
+        to->sides = copy_sides(g, &c->chord[from->chord]);
+    }
+}
+
 static size_t copy_subtree(copying *g, size_t at, size_t depth)
 {
     const sunder_i_branching *c = g->branching;
@@ -102,17 +117,10 @@ static size_t copy_subtree(copying *g, size_t at, size_t depth)
     to->shadow = from->shadow;
     to->slack = from->slack;
     to->held = from->held;
-    to->corners_a = sunder_i_corners_as_given(c->model, from->part_a);
-    to->corners_b = sunder_i_corners_as_given(c->model, from->part_b);
-    to->part_a = copy_part(g, from->part_a);
-    to->part_b = from->chord == SIZE_MAX ? copy_part(g, from->part_b) : copy_chord(g, &c->chord[from->chord]);
-    if (from->chord != SIZE_MAX) {
-        to->chord = true;
-        to->c = c->chord[from->chord].side[1]->piece.feature;
-        to->sides = copy_sides(g, &c->chord[from->chord]);
-    }
+    to->row = from->row;
     g->path[depth] = at;
     g->path_copy[depth] = number;
+    if (!from->row) copy_parts(g, from, to);
     for (size_t k = 0; k < from->half_planes; k++) {
         const sunder_i_half_plane *w = &c->half_plane[from->half_plane + k];
         g->way[to->way + k] = (sunder_proof_way){{w->n[0], w->n[1]}, w->d, copy_subtree(g, w->next, depth + 1)};

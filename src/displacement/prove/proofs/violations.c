@@ -94,8 +94,8 @@ static void look_at(sunder_i_branching *c, const standing *s, const standing *r,
             const double depth = c->closely ? find_depth_closely(c, p, a, q, b, clearance, u)
                                             : find_depth(c, p, a, q, b, clearance, false, u);
             if (depth > worst->depth)
-                *worst = (sunder_i_violation){s->number, r->number, a,     b,          clearance, depth,
-                                              NULL,      false,     false, c->closely, false,     NULL};
+                *worst = (sunder_i_violation){s->number, r->number, a,          b,     clearance, depth, NULL,
+                                              false,     false,     c->closely, false, false,     NULL};
         }
     }
 }
@@ -108,7 +108,8 @@ static void look_at_shadow(sunder_i_branching *c, const standing *s, const stand
     const sunder_i_body_piece *a = swapped ? piece : anchor, *b = swapped ? anchor : piece;
     const double depth = find_depth(c, s->body, a, r->body, b, 0, true, u);
     if (depth > worst->depth)
-        *worst = (sunder_i_violation){s->number, r->number, a, b, 0, depth, NULL, true, false, false, false, NULL};
+        *worst =
+            (sunder_i_violation){s->number, r->number, a, b, 0, depth, NULL, true, false, false, false, false, NULL};
 }
 
 /* Sets u to the move of the barrier, relative to the feature's body, that has to separate the two. */
@@ -296,6 +297,26 @@ static size_t look_at_slacks(sunder_i_branching *c, const standing *s, sunder_i_
     return n;
 }
 
+/* Tests the rule of rows of a body and its neighbours, for two participants once, and returns the new number of
+ * violations. */
+static size_t look_along_row(sunder_i_branching *c, const standing *s, uint32_t place,
+                             sunder_i_violation deepest[SUNDER_I_CHOICES], size_t n)
+{
+    const sunder_i_extras *has = s->body->has;
+    for (uint32_t k = has->row_side; k < has->row_side + has->row_sides && c->subproblem->rows; k++) {
+        const uint32_t other = c->model->row_side[k].other, at = sunder_i_branching_place(c, other);
+        if (at != SUNDER_I_GROUND && at < place) continue;
+        const standing r = standing_of(c, other);
+        const double u[2] = {r.t[0] - s->t[0], r.t[1] - s->t[1]};
+        sunder_i_violation o;
+        c->looked++;
+        if (!sunder_i_branching_misses_row(c, s->number, other, u, &o)) continue;
+        o.known = at != SUNDER_I_GROUND || !(sunder_i_limit_of(r.body) > 0);
+        n = insert_violation(deepest, n, &o);
+    }
+    return n;
+}
+
 size_t sunder_i_branching_violations(sunder_i_branching *branching, sunder_i_violation deepest[SUNDER_I_CHOICES])
 {
     size_t n = 0;
@@ -303,6 +324,7 @@ size_t sunder_i_branching_violations(sunder_i_branching *branching, sunder_i_vio
         if (branching->body[i] == SUNDER_I_NOBODY) continue;
         const standing s = standing_of(branching, branching->body[i]);
         n = look_at_slacks(branching, &s, deepest, n);
+        n = look_along_row(branching, &s, i, deepest, n);
         for (uint32_t j = i + 1; j < branching->bodies; j++) {
             if (branching->body[j] == SUNDER_I_NOBODY) continue;
             sunder_i_violation o = {.depth = 2 * branching->hair};
@@ -350,7 +372,9 @@ size_t sunder_i_branching_half_planes(sunder_i_branching *branching, const sunde
     if (violation->slack) move_of_slack(branching, violation->slack, s.t, u);
     const double clearance = violation->slack ? 0 : violation->clearance;
     size_t n;
-    if (violation->chord)
+    if (violation->row)
+        n = sunder_i_branching_row_half_plane(branching, violation->p, violation->q);
+    else if (violation->chord)
         n = sunder_i_branching_chord_half_planes(branching, s.body, violation->a, r.body, violation->chord->at);
     else if (violation->closely)
         n = sunder_i_branching_fill_half_planes(branching, s.body, violation->a, r.body, violation->b, clearance,

@@ -16,6 +16,8 @@ typedef struct sunder_i_spared {
     const uint32_t *name;
     /* NULL, or [n] the clearances that proofs hold the pairs to, as in sunder_i_requirement; NAN: as in this layer. */
     const double *held;
+    const sunder_i_row_demand *row; /* [rows] what the rule of rows demands, by numbers of the caller */
+    size_t rows;
 } sunder_i_spared;
 
 /* Relaxations of features beside barriers, found by the names of the feature and the barrier (sunder_i_spared). The

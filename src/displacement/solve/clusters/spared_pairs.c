@@ -264,6 +264,7 @@ sunder_status sunder_i_solver_prove(const sunder_i_solver *solver, const sunder_
                                     .planes = how->planes,
                                     .precedents = how->precedents,
                                     .held_margin = how->held_margin,
+                                    .rows = true,
                                     .most = MOST_BODIES},
                      .left = how->effort ? how->effort : EFFORT_BRIEFLY,
                      .gap = gap};

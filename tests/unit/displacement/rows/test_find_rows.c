@@ -267,9 +267,6 @@ static void check_refusals(void **state)
     sunder_layer *layer;
     sunder_report *report;
     assert_int_equal(sunder_layer_new(s.feature, s.n, &layer, NULL), SUNDER_OK);
-    s.options.keep_trees = true;
-    assert_int_equal(sunder_layer_separate(layer, &s.options, &report, NULL), SUNDER_EARG);
-    s.options.keep_trees = false;
     s.options.rows = (sunder_rows)7;
     assert_int_equal(sunder_layer_separate(layer, &s.options, &report, NULL), SUNDER_EARG);
     s.options.rows = SUNDER_ROWS_FOUND;
