@@ -4,13 +4,15 @@
 without a jump, is shown by covering all relative moves within the limits with forbidden sets: convex pieces, as in
 trees (cover.py).
 """
+import math
 from fractions import Fraction
 
-from cover import FINE, Piece, clip, fine_of, halves, square
+from cover import FINE, Piece, clip, fine_of, halves, hull, square
 from exact import plane
 from form import demand
-from nearly_in import lies_in_grown
+from nearly_in import hair_of, lies_in_grown
 from pieces import trapezoids
+from problem import root_above
 
 MOST_STEPS = 20_000
 
@@ -61,14 +63,43 @@ def is_shut(problem, a, b, jumps):
     reach = None if None in limits else sum(map(Fraction, limits)) * problem.lattice.unit
     if reach is None and not jumps:
         return False
-    problem.demand_outside(a, b, reach, None if reach is None else reach * reach)
     near = farthest_near(problem, a, b)
+    demand_not_inside(problem, a, b, reach)
     pieces = pieces_between(problem, a, b)
     if jumps:
         demand(not problem.options.allow_jumps, "jumps are allowed")
         pieces += shadows_between(problem, a, b)
     size = near if reach is None else min(-(-reach.numerator // reach.denominator), near if jumps else 1 << 4096)
     return covers(square(-size, -size, size, size), reach, pieces)
+
+
+def demand_not_inside(problem, a, b, reach):
+    """With --contained ignore: fails unless no relative move up to `reach` (None: of any length) takes one of the two features
+    into the other."""
+    if problem.options.contained == "ignore" and not problem.is_barrier(a) and not problem.is_barrier(b):
+        for inner, outer in ((a, b), (b, a)):
+            demand(is_never_inside(problem, inner, outer, reach), a, "and", b, "may come to lie in each other")
+
+
+def is_never_inside(problem, inner, outer, reach):
+    """Is there no move up to `reach` after which each side of the outer thing's convex hull, moved outwards by the tolerance,
+    has all of the inner thing on its left?"""
+    p, q = problem.whole(inner), problem.whole(outer)
+    fixed, moved = (hull([corner for edge in outline.edges for corner in edge]) for outline in (q, p))
+    beyond = problem.lattice(problem.tolerance) + hair_of(p, q)
+    size = farthest_near(problem, inner, outer)
+    size = int(size if reach is None else min(size, reach)) + 1
+    region = square(-size, -size, size, size)
+    for v, w in zip(fixed, fixed[1:] + fixed[:1]):
+        x, y = v[1] - w[1], w[0] - v[0]  # to the left
+        least = x * v[0] + y * v[1] - root_above(x * x + y * y) * beyond - min(x * c[0] + y * c[1] for c in moved)
+        region = clip(region, whole_numbers(x, y, least))
+    return not region or (reach is not None and is_beyond(region, reach * reach))
+
+
+def whole_numbers(*line):
+    common = math.lcm(*(Fraction(v).denominator for v in line))
+    return tuple(int(v * common) for v in line)
 
 
 def farthest_near(problem, a, b):

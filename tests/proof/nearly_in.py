@@ -18,8 +18,13 @@ def lies_in_grown(a, b, d, tolerance, unit):
     """d: the tolerance in units of the lattice."""
     if not d:
         return plane.lies_in(a, b)
-    told = nearly_in(a, b, d, Fraction(max(map(abs, a.box + b.box)), 1 << 50))
+    told = nearly_in(a, b, d, hair_of(a, b))
     return plane.lies_in(a, grown(b, tolerance, unit)) if told is None else told
+
+
+def hair_of(a, b):
+    """More than rounding moves a corner."""
+    return Fraction(max(map(abs, a.box + b.box)), 1 << 50)
 
 
 def grown(b, tolerance, unit):
@@ -34,7 +39,7 @@ def grown(b, tolerance, unit):
 
 
 def nearly_in(a, b, d, hair):
-    """True, False, or None if it cannot be decided. hair: more than rounding moves a corner."""
+    """True, False, or None if it cannot be decided. hair: see hair_of()."""
     if plane.lies_in(a, b):
         return True
     if not plane.corners_lie_in(a, b, d + hair):

@@ -12,6 +12,7 @@ from blocks import Blocks
 from form import NotRead, demand
 from lengths import Units
 from pieces import in_polygon, in_union
+from nearly_in import hair_of
 from repair import area_of, members_of, repaired
 from reprojected import in_crs_of
 from sources import Source
@@ -433,8 +434,9 @@ class Problem:
     def ways_inside(self, a, b):
         """Lower bounds, by the boxes, of the move along x and along y that brings one into the other up to the
         tolerance."""
-        p, q, t = self.whole(a).box, self.whole(b).box, self.lattice(self.tolerance)
-        for x, y in ((p, q), (q, p)):
+        p, q = self.whole(a), self.whole(b)
+        t = self.lattice(self.tolerance) + hair_of(p, q)
+        for x, y in ((p.box, q.box), (q.box, p.box)):
             low, high = [y[c] - t - x[c] for c in (0, 1)], [y[c + 2] + t - x[c + 2] for c in (0, 1)]
             if low[0] <= high[0] and low[1] <= high[1]:
                 yield [max(low[c], -high[c], 0) for c in (0, 1)]

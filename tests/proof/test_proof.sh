@@ -339,6 +339,17 @@ strange repaired formats.gpkg "${formats[@]}" --invalid skip
 not_asked 'arcs become polygons' skip arc.gpkg
 not_asked 'No such file' skip nowhere.shp
 
+# With --contained ignore a pair is decided by itself only if neither feature fits into the other within the limits. Here one nearly does,
+# by the two boxes; the sides of the larger one leave no room.
+make_rings askew.gpkg '1.8 0.4,3.2 -5.4,10 -3.8,8.5 2' '4.2 2.5,0.3 -0.9,7.5 -5.2'
+proved askew askew.gpkg --gap 2 --max-shift 1 --contained ignore
+grep -q '"max_shift", "blocked_by"' askew.jsonl || fail "a verdict that --max-shift decides is missing"
+proved askew askew.gpkg --gap 2 --max-shift 1 --contained separate
+make_rings enters.gpkg '0 0,10 0,10 10,0 10' '-0.5 4,1.5 4,1.5 6,-0.5 6'
+proved enters enters.gpkg --gap 2 --max-shift 1 --contained ignore
+sed -i 's/"unresolved"/"max_shift"/' enters.jsonl
+strange enters enters.gpkg --gap 2 --max-shift 1 --contained ignore
+
 # A crowd at one place, for which prices of area prove more than trees do: symbols; and buildings on top of each other,
 # some with a corner cut out, three of them one block, some pairs given up.
 make_pile 14
