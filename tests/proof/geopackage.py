@@ -5,9 +5,12 @@ import struct
 
 from form import NotRead
 
+CIRCULAR, CURVES = 8, range(9, 13)  # circular string; compound curve, curve polygon, multicurve, multisurface
 
-def read_geometry(blob, at=0):
-    """(polygons, lines, end): polygons as lists of open rings; lines, and points as lines of one vertex."""
+
+def read_geometry(blob, at, curves):
+    """(polygons, lines, end): polygons as lists of open rings; lines, and points as lines of one vertex. Each curve
+    appends the list of its arcs, each of three points, to `curves`. Its rings and lines are not complete here: arcs.py reads them."""
     order = "<" if blob[at] else ">"
     kind, = struct.unpack_from(order + "I", blob, at + 1)
     at += 5
@@ -40,22 +43,27 @@ def read_geometry(blob, at=0):
             if points:
                 rings.append(points)
         return [rings] if rings else [], [], at
-    if kind in (4, 5, 6, 7):
+    if kind == CIRCULAR:
+        points, at = chain(at, n)
+        curves.append([points[k:k + 3] for k in range(0, n - 2, 2)])
+        return [], [], at
+    if kind in (4, 5, 6, 7, *CURVES):
         polygons, lines = [], []
+        curves += [[]] if kind in CURVES else []
         for _ in range(n):
-            more, others, at = read_geometry(blob, at)
+            more, others, at = read_geometry(blob, at, curves)
             polygons += more
             lines += others
         return polygons, lines, at
-    why = ": arcs become polygons in ways that are rounded" if 8 <= kind <= 12 else ""
-    raise NotRead(f"geometries of type {kind} are not read{why}")
+    raise NotRead(f"geometries of type {kind} are not read")
 
 
 def read_blob(blob):
+    """(polygons, lines, curves)"""
     if blob is None or blob[3] & 16:
-        return [], []
-    envelope = (0, 32, 48, 48, 64)[blob[3] >> 1 & 7]
-    return read_geometry(blob, 8 + envelope)[:2]
+        return [], [], []
+    envelope, curves = (0, 32, 48, 48, 64)[blob[3] >> 1 & 7], []
+    return *read_geometry(blob, 8 + envelope, curves)[:2], curves
 
 
 def quoted(name):
@@ -112,7 +120,8 @@ class Crs:
 
 
 class Layer:
-    """A table of features: its name, and {FID: (attributes, polygons, lines)}."""
+    """A table of features: its name and {FID: (attributes, polygons, lines)}; for features with curves also {FID: arcs} and, set by
+    arcs.py, {FID: deviation}."""
 
     def __init__(self, path, name=None, where=None):
         base = sqlite3.connect(f"file:{path}?mode=ro", uri=True)
@@ -127,13 +136,15 @@ class Layer:
         keys = [row[1] for row in base.execute(f"PRAGMA table_info({quoted(self.name)})") if row[5]]
         key = keys[0] if keys else "rowid"
         self.select = f"SELECT * FROM {quoted(self.name)}"
-        self.features = {}
+        self.features, self.arcs, self.deviation = {}, {}, {}
         rows = base.execute(self.select + (f" WHERE {where}" if where else ""))
         names = [d[0] for d in rows.description]
         for row in rows:
             attributes = dict(zip(names, row))
-            polygons, lines = read_blob(attributes.pop(column))
+            polygons, lines, curves = read_blob(attributes.pop(column))
             self.features[attributes[key]] = (attributes, polygons, lines)
+            if curves:
+                self.arcs[attributes[key]] = sum(curves, [])
         base.close()
 
     def demand_field(self, name):

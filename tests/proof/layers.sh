@@ -245,5 +245,16 @@ make_formats() {
     printf 'WKT,w\n"LINESTRING(599980 5399998.9,600015 5399998.7,600040 5399999.5)",1\n' | layer alley.gpkg alley LINESTRING
     ogr2ogr buildings.shp formats.gpkg 2>/dev/null && ogr2ogr -f GeoJSON buildings.geojson formats.gpkg 2>/dev/null &&
         ogr2ogr -f FlatGeobuf alley.fgb alley.gpkg 2>/dev/null || fail "ogr2ogr: formats.gpkg"
-    printf 'WKT,w\n"CURVEPOLYGON(CIRCULARSTRING(0 0,5 5,10 0,5 -5,0 0))",1\n' | layer arc.gpkg buildings CURVEPOLYGON
+}
+
+# Buildings and a street with arcs: of a ring, of a part of a ring, of a member; one curve polygon has none. The street is once with
+# the arc, once with the chords that it is taken as.
+make_arcs() {
+    printf '%s\n' WKT,w '"CURVEPOLYGON(COMPOUNDCURVE(CIRCULARSTRING(0 0,1.5 3.5,5 5),(5 5,5 -5,0 0)))",1' '"POLYGON((4 -3,11 -3,11 3,4 3))",2' \
+        '"CURVEPOLYGON(COMPOUNDCURVE((10.5 -3,17 -3),CIRCULARSTRING(17 -3,20 0,17 3),(17 3,10.5 3,10.5 -3)))",1' \
+        '"CURVEPOLYGON((25 0,29 0,29 4,25 4,25 0))",1' '"CURVEPOLYGON(CIRCULARSTRING(5 -12,5 -8,5 -12))",1' \
+        '"MULTISURFACE(CURVEPOLYGON(COMPOUNDCURVE(CIRCULARSTRING(28 -3,29 -1,31 0),(31 0,31 -3,28 -3))),((28 6,30 6,30 8,28 8,28 6)))",1' |
+        layer arcs.gpkg buildings GEOMETRY
+    printf 'WKT,w\n"COMPOUNDCURVE((-10 4,0 4),CIRCULARSTRING(0 4,10 7,20 4))",1\n' | layer bow_street.gpkg street GEOMETRY
+    ogr2ogr chords.gpkg bow_street.gpkg -nlt CONVERT_TO_LINEAR 2>/dev/null || fail "ogr2ogr: bow_street.gpkg"
 }

@@ -7,6 +7,7 @@ from fractions import Fraction
 import discs
 from cover import hull
 from exact import plane
+from pieces import in_polygon
 from repair import repaired
 from unions import union_outline, union_polygons
 
@@ -28,14 +29,28 @@ def hair_of(a, b):
 
 
 def grown(b, tolerance, unit):
-    """The sum of b and the polygon, in doubles, and by the even-odd rule if rounding makes it invalid."""
-    disc = [tuple(Fraction(v) * unit for v in corner) for corner in discs.within(tolerance)]
-    around = [plane.Outline([hull([(p[0] + x, p[1] + y) for p in e for x, y in disc])]) for e in b.edges]
-    outlines = []
-    for rings in union_polygons([b, *around]):
-        rounded = repaired([[tuple(float(v / unit) for v in p) for p in ring] for ring in rings])
-        outlines.append(plane.Outline([[tuple(Fraction(v) * unit for v in p) for p in ring] for ring in rounded]))
+    """The sum of b and the polygon, one outline on the lattice."""
+    outlines = [plane.Outline([[tuple(Fraction(v) * unit for v in p) for p in ring] for ring in rings])
+                for rings in grown_polygons(b, discs.within(tolerance), unit)]
     return union_outline([o for o in outlines if o.box])
+
+
+def grown_polygons(b, corners, unit):
+    """The polygons of the sum of b and a convex polygon, in doubles, and by the even-odd rule if rounding makes one invalid."""
+    disc = [tuple(Fraction(v) * unit for v in corner) for corner in corners]
+    around = [plane.Outline([hull([(p[0] + x, p[1] + y) for p in run for x, y in disc])])
+              for ring in b.rings for run in runs_within(ring + ring[:1], b)]
+    return [repaired([[tuple(float(v / unit) for v in p) for p in ring] for ring in rings]) for rings in union_polygons([b, *around])]
+
+
+def runs_within(places, b):
+    """Splits a part of a ring of b into edges and longer runs, so that the convex hull of each longer run lies in b. The sum of b and a
+    polygon is then the union of b and the sums of these hulls."""
+    corners = hull(places)
+    if len(places) == 2 or len(corners) > 2 and in_polygon(corners, b):
+        return [corners]
+    middle = len(places) // 2
+    return runs_within(places[:middle + 1], b) + runs_within(places[middle:], b)
 
 
 def nearly_in(a, b, d, hair):

@@ -5,14 +5,15 @@ import argparse
 import math
 from fractions import Fraction
 
+import arcs
 from exact import anchor, plane, side_anchor
 import geopackage
 from cover import hull
 from blocks import Blocks
 from form import NotRead, demand
 from lengths import Units
-from pieces import in_polygon, in_union
 from nearly_in import hair_of
+from pieces import in_polygon, in_union
 from repair import area_of, members_of, repaired
 from reprojected import in_crs_of
 from sources import Source
@@ -105,8 +106,10 @@ class Problem:
             layer.demand_field(name)
         if not options.points:
             leave_out_broken(layer, options.invalid)
+            arcs.enlarge(layer)
         self.points = Symbols(options, self.units).place(layer) if options.points else {}
         self.tolerance = options.touch_tolerance if options.touch_tolerance is not None else options.gap / 10
+        self.arcs = layer.arcs
         self.given, self.areas, self.median = {fid: f[1] for fid, f in layer.features.items()}, {}, None
         for fid, (attributes, polygons, _) in layer.features.items():  # lines of a collection are not part of a feature
             layer.features[fid] = attributes, [repaired(p) for p in polygons], []

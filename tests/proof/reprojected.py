@@ -6,6 +6,8 @@ from sources import converted
 def in_crs_of(crs, layer, source):
     """The features of the layer, with coordinates in the CRS. The rings and their numbers of corners may not
     change."""
+    if layer.arcs:
+        raise NotRead(f"arcs of {layer.name} in another CRS")
     there = converted(["-t_srs", target(crs), source.path, layer.name], layer.name).features
     for fid, (attributes, *chains) in layer.features.items():
         moved = there[fid][1:]

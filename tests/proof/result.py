@@ -9,7 +9,8 @@ from sources import Source
 class Result:
     def __init__(self, problem, path):
         self.problem = problem
-        self.main = Source(path, problem.name).layer().features
+        layer = Source(path, problem.name).layer()
+        self.main, self.arcs = layer.features, layer.arcs
         self.lines = Source(path, problem.name + "_displacement").layer().features.values()
         self.listed = Source(path, problem.name + "_conflicts").layer().features.values()
         self.moves = {fid: tuple(row[c] or 0.0 for c in ("sunder_dx", "sunder_dy")) for fid, (row, _, _) in self.main.items()}
@@ -54,12 +55,16 @@ class Result:
             demand(self.moves[fid] == self.moves[members[0]], "the result moves", fid, "and not the block of", members[0])
 
     def check_place(self, fid):
-        """Demands that every corner is the double nearest to the sum of the original corner and the move; repaired
-        features are not checked."""
+        """Demands that every corner is the double nearest to the sum of the original corner and the move. Repaired
+        features are not checked; of features with curves the points of arcs are."""
         (dx, dy) = self.moves[fid]
         if self.problem.options.points:
             now = sorted(line[0] for line in self.main[fid][2])
             demand(now == sorted((x + dx, y + dy) for x, y in self.problem.points[fid]), "the result has", fid, "elsewhere")
+            return
+        if fid in self.problem.arcs:
+            arcs = [[(x + dx, y + dy) for x, y in arc] for arc in self.problem.arcs[fid]]
+            demand(arcs == self.arcs.get(fid), "the result has an arc of", fid, "elsewhere")
             return
         given, now = self.problem.given[fid], self.main[fid][1]
         if any(a is not b for a, b in zip(given, self.problem.standing[fid])):

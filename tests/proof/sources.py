@@ -5,6 +5,7 @@ import os
 import subprocess
 import tempfile
 
+import arcs
 import geopackage
 from form import NotRead
 
@@ -28,7 +29,15 @@ def converted(words, name):
             raise NotRead(f"this is read by ogr2ogr, which does not run: {why}") from None
         if done.returncode:
             raise NotRead(f"ogr2ogr does not read {words[-1]}: {done.stderr.strip()}")
-        return geopackage.Layer(to, name)
+        return table(to, name)
+
+
+def table(path, name, where=None):
+    """A layer of a GeoPackage, whose curves ogr2ogr makes polylines."""
+    layer = geopackage.Layer(path, name, where)
+    if layer.arcs:
+        arcs.straighten(layer, converted(["-nlt", "CONVERT_TO_LINEAR", path, layer.name], layer.name), converted)
+    return layer
 
 
 class Source:
@@ -41,7 +50,7 @@ class Source:
 
     def layer(self, where=None):
         if self.is_table:
-            return geopackage.Layer(self.path, self.name, where)
+            return table(self.path, self.name, where)
         if not os.path.exists(self.path) and not self.path.startswith("/vsi"):
             raise NotRead(f"No such file: {self.path}")
         words = [self.path]
