@@ -12,7 +12,6 @@ shown to be needed.
 """
 import argparse
 import ast
-import json
 import os
 import random
 import sys
@@ -143,8 +142,7 @@ def main(words):
     options = parser.parse_args(words)
     for module in (*MODULES.values(), result):
         module.demand = Switch()
-    with open(options.runs, encoding="utf-8") as file:
-        runs = [forgeries.Run(told) for told in json.load(file)]
+    runs = forgeries.read_runs(options.runs)
     found, wrong = refused_by(runs, one_of_each(runs, options.seed)), 0
     false = cases_refused_by(false_proofs.prepared(options.directory))
     for place, words in places_of().items():

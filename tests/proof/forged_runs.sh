@@ -1,19 +1,31 @@
 # shellcheck shell=bash disable=SC1091
 # Runs whose files of --proof are forged, on layers of at most ten features; together they have every member of the
-# format. Sourced after tests/cli/lib.sh.
+# format and make every kind of statement (statements.py). Sourced after tests/cli/lib.sh.
 export PYTHONDONTWRITEBYTECODE=1
 here=$SUNDER_SOURCE/tests/proof
 . "$here/layers.sh"
 runs=()
 
-# forged NAME SOURCE OPTIONS...: adds a run whose file of --proof will be forged.
+# forged NAME SOURCE OPTIONS...: adds a run whose file of --proof will be forged. only=TEXT: the lines with this text are
+# forged; small=yes: lines are chosen by forgeries.py.
 forged() {
     local name=$1 source=$2
     shift 2
     "$SUNDER" separate "$source" "$name.o.gpkg" --overwrite -q -l buildings --layers main,displacement,conflicts --proof "$name.jsonl" "$@" 2>err
     case $? in 0 | 3) ;; *) fail "$name: status $?" ;; esac
-    runs+=("$(python3 -c 'import json, sys; print(json.dumps({"only": sys.argv[1], "proof": sys.argv[2], "words": sys.argv[3:]}))' \
-        "${only:-}" "$name.jsonl" "$source" --layer buildings --result "$name.o.gpkg" "$@")")
+    runs+=("$(python3 -c 'import json, sys; print(json.dumps({"only": sys.argv[1], "small": sys.argv[2], "proof": sys.argv[3], "words": sys.argv[4:]}))' \
+        "${only:-}" "${small:-}" "$name.jsonl" "$source" --layer buildings --result "$name.o.gpkg" "$@")")
+}
+
+# small_worlds SEED...: runs of small_worlds.py.
+small_worlds() {
+    local seed
+    local -a words
+    for seed in "$@"; do
+        mapfile -t words < <(python3 "$here/small_worlds.py" "$seed")
+        layer "world$seed.gpkg" buildings POLYGON <"$seed.csv"
+        small=yes forged "world$seed" "world$seed.gpkg" "${words[@]}"
+    done
 }
 
 # write_runs FILE: writes the runs that were added since the last call.
@@ -63,4 +75,5 @@ forge_generated() {
     forged bays bays.gpkg --gap 5 --max-shift 1 --rows auto
     forged squeezed squeezed.gpkg --gap 5 --max-shift 20 --fixed-where 'w = 3' --rows auto
     forged shares squares.gpkg --gap 3 --effort 0
+    small_worlds 30 41 55 156 200 226 261 386 518 549 618 634 652 655 663 673 692 705 755 980 1047 1129 1136 1171 1228 1466
 }

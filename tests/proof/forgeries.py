@@ -3,13 +3,14 @@
     python3 forgeries.py RUNS [--draw N] [--seed S] [--need-all] [--own-alone]
 
 RUNS: a JSON list of runs, each with `proof` and the `words` of check_proof.py (including --result), perhaps `only`:
-words of the lines that are forged. In each file every number is changed: up and down, by a little and by much, to
-zero, negative, subnormal, huge, infinite, not a number. Every line, member and element is removed, doubled, swapped
-with the next, emptied, or replaced by one of another type. Indices become -1 and the count. N of all of these are
-drawn by the seed, or all are tried. The file is checked against another layer, and with other options; lines of
-another run on the same layer are put into it. What is accepted is judged: this script judges the claimed conflicts,
-the blocks and the sum of the bounds, judge.py judges each line. With --need-all the runs together have to use every
-member and every kind of cut of the format.
+words of the lines that are forged. If a run has `small`, a line of it is forged only if it is the shortest one that
+makes a kind of statement which the other runs do not make. In each file every number is changed: up and down, by a
+little and by much, to zero, negative, subnormal, huge, infinite, not a number. Every line, member and element is
+removed, doubled, swapped with the next, emptied, or replaced by one of another type. Indices become -1 and the count.
+N of all of these are drawn by the seed, or all are tried. The file is checked against another layer, and with other
+options; lines of another run on the same layer are put into it. What is accepted is judged: this script judges the
+claimed conflicts, the blocks and the sum of the bounds, judge.py judges each line. With --need-all the forged lines
+together have to use every member of the format and to make every kind of statement that statements.py lists.
 """
 import argparse
 import json
@@ -21,6 +22,7 @@ from fractions import Fraction
 import check_proof
 import form
 from judge import Judge
+from statements import NEEDED, statements_of
 
 MARK = "\1"  # marks places at which text is written that JSON does not allow, or would not write that way
 WORDS = {"NaN": "NaN", "Infinity": "Infinity", "-Infinity": "-Infinity", "1e999": "1e999", "-1e400": "-1e400",
@@ -34,7 +36,8 @@ class Run:
         self.lines = form.read(self.path)
         self.text = [json.dumps(line) for line in self.lines]
         self.checker.keep(self.lines)
-        self.only = told.get("only", "")
+        self.is_small = bool(told.get("small"))
+        self.forged = [k for k, text in enumerate(self.text) if told.get("only", "") in text and not self.is_small]
         status, self.said = check_proof.answer(self.checker, lambda: self.lines)
         assert status == 0, f"{self.path}: what is true is {self.said}"
         self.claims = claims_of(self.lines)
@@ -46,9 +49,8 @@ class Run:
     def forgeries(self):
         """Yields (number of the line, path in it, name of the change)."""
         yield from self.of_lines()
-        for k, line in enumerate(self.lines):
-            if self.only not in self.text[k]:
-                continue
+        for k in self.forged:
+            line = self.lines[k]
             sizes = sorted({len(v) for _, v in nodes_of(line) if isinstance(v, list)} | {len(self.lines)})
             for path, value in nodes_of(line):
                 for name in changes_of(value, sizes) if path else ():
@@ -283,13 +285,42 @@ def asks_no_less(run, own, other):
             all(most(other.limit(f)) <= most(own.limit(f)) for f in own.place) and
             (run.claims["bound"] == 0 or all(other.weight(f) >= own.weight(f) for f in own.place)) and
             all(other.owed.get(k, -1) >= v for k, v in own.owed.items() if k in text) and
-            ('"shadow"' not in text or own.sides <= other.sides))
+            sides_in(run.lines) & own.sides <= other.sides)
+
+
+def sides_in(lines):
+    """The barriers that a shadow is about."""
+    shadows = [v for line in lines for _, v in nodes_of(line) if isinstance(v, dict) and "shadow" in v]
+    return {v.get(key) for v in shadows for key in "abc" if isinstance(v.get(key), str)}
 
 
 def members_of(runs):
     """Every member of every kind of object, without positions in lists."""
-    return {".".join(str(s) for s in path if not isinstance(s, int)) for run in runs for line in run.lines
-            for path, _ in nodes_of(line) if path}
+    return {".".join(str(s) for s in path if not isinstance(s, int)) for run in runs for k in run.forged
+            for path, _ in nodes_of(run.lines[k]) if path}
+
+
+def read_runs(path):
+    with open(path, encoding="utf-8") as file:
+        runs = [Run(told) for told in json.load(file)]
+    choose_lines(runs)
+    return runs
+
+
+def choose_lines(runs):
+    """Chooses the lines of small runs that are forged."""
+    made = made_by(runs)
+    lines = sorted(((len(run.text[k]), n, k) for n, run in enumerate(runs) if run.is_small for k in range(len(run.lines))))
+    for _, n, k in lines:
+        own = set(statements_of(runs[n].lines[k])) & set(NEEDED)
+        if not own <= made:
+            runs[n].forged.append(k)
+            made |= own
+
+
+def made_by(runs):
+    """All statements of the lines that are forged."""
+    return {what for run in runs for k in run.forged for what in statements_of(run.lines[k])}
 
 
 MEMBERS = """sunder_proof layer gap max_shift contained allow_jumps lower_bound conflicts trees block conflict a b kind reason blocked_by
@@ -310,13 +341,11 @@ def main(words):
     parser.add_argument("--need-all", action="store_true")
     parser.add_argument("--own-alone", action="store_true", help="not for other layers, nor with other options")
     options = parser.parse_args(words)
-    with open(options.runs, encoding="utf-8") as file:
-        runs = [Run(told) for told in json.load(file)]
-    wrong = []
+    runs, wrong = read_runs(options.runs), []
     if options.need_all:
+        made = made_by(runs)
         wrong += [f"no run has {name}" for name in MEMBERS if name not in members_of(runs)]
-        text = "".join(t for run in runs for t in run.text)
-        wrong += [f"no run has {kind}" for kind in form.CUTS if f'"kind": "{kind}"' not in text]
+        wrong += [f"no line that is forged makes the statement: {what}" for what in NEEDED if what not in made]
     drawn = [(k, what) for k, run in enumerate(runs) for what in run.forgeries()]
     every = len(drawn)
     if options.draw:

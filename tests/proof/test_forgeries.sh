@@ -1,7 +1,8 @@
 # shellcheck shell=bash disable=SC1091
 # A forged file of --proof is refused, or all its claims are still true (forgeries.py). Runs on layers of at most ten
-# features use together every kind of line and member; 2,000 forgeries of these are drawn by seed (SUNDER_SEED), all of
-# them with SUNDER_LAWS=all. A thousand are of three maps, if these are beside the repository.
+# features use together every kind of line and member, and make every kind of statement (statements.py); 2,000 forgeries
+# of these are drawn by seed (SUNDER_SEED), all of them with SUNDER_LAWS=all, in about 20 minutes. A thousand are of
+# three maps, if these are beside the repository.
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 command -v python3 >/dev/null || { echo "skipped: no python3"; exit 77; }
 . "$SUNDER_SOURCE/tests/proof/forged_runs.sh"
