@@ -113,9 +113,12 @@ WIDE = {1: box(0, 0, 10, 10, m=0), 2: box(5, 0, 15, 10), 3: box(-500, -500, 500,
 case("bystander-farther-out", "a bystander", WIDE, [conflict(1, 2, "no_room", blocked_by=[3], within=30, proof=chain(
     [asked(3, 2, part(WIDE[3]), part(WIDE[2]), ways_out(-515, -510, 495, 500), clearance=0)], leaf((0, 0))))], {2: (600, 0)},
     LIMITS + " --allow-jumps")
-case("crowd-farther-out", "a length for those without", WIDE, [conflict(
+case("crowd-farther-out", "a bystander", WIDE, [conflict(
     1, 2, "unresolved", blocked_by=[3], crowded=True, within=30, proof=chain(
         [asked(3, 2, part(WIDE[3]), part(WIDE[2]), ways_out(-515, -510, 495, 500), clearance=0)], leaf((0, 0))))], {2: (600, 0)},
+    LIMITS + " --allow-jumps")
+case("alone-farther-out", "a length for those without", {1: WIDE[1], 2: WIDE[2]}, [conflict(1, 2, "max_shift", within=1, proof=chain(
+    [asked(1, 2, part(WIDE[1]), part(WIDE[2]), ways_out(-15, -10, 5, 10), clearance=0)], leaf((0, 0))))], {2: (20, 0)},
     LIMITS + " --allow-jumps")
 case("barrier-farther-out", "farther out", {1: {**WIDE[2], "m": None}}, [conflict(
     1, "wall:1", "no_room", blocked_by=["wall:2"], within=30, proof=chain(
