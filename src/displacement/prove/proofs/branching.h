@@ -212,6 +212,8 @@ typedef struct sunder_i_violation {
 /* Finds the deepest violations of the candidate: at most one for each pair of bodies, and one for each feature that may
  * keep an overlap with a barrier. Those that add no participant come first, then deeper ones. Returns their number. */
 size_t sunder_i_branching_violations(sunder_i_branching *branching, sunder_i_violation deepest[SUNDER_I_CHOICES]);
+/* Frees a cache of half-planes, and sets *kept to NULL. */
+void sunder_i_half_planes_forget(struct sunder_i_half_planes_kept **kept);
 /* Computes the half-planes in which two pieces of bodies p and q are separated, in branching->scratch. at: NULL, or a
  * relative move for which they are made (half_planes.h). Returns their number. */
 size_t sunder_i_branching_fill_half_planes(sunder_i_branching *branching, const sunder_i_body *p,
@@ -224,7 +226,10 @@ const sunder_i_half_plane *sunder_i_branching_kept_half_planes(sunder_i_branchin
                                                                const sunder_i_body_piece *a, const sunder_i_body *q,
                                                                const sunder_i_body_piece *b, double clearance,
                                                                bool shadow, size_t *n);
-void sunder_i_branching_forget_half_planes(sunder_i_branching *branching);
+/* Copies them into branching->scratch, and returns their number. */
+size_t sunder_i_branching_take_half_planes(sunder_i_branching *branching, const sunder_i_body *p,
+                                           const sunder_i_body_piece *a, const sunder_i_body *q,
+                                           const sunder_i_body_piece *b, double clearance, bool shadow);
 /* Returns the depth of relative move u behind all half-planes in branching->scratch, of which there are `half_planes`,
  * and sets `at` of each; -INFINITY if there are none. */
 double sunder_i_branching_depth(const sunder_i_branching *branching, size_t half_planes, const double u[2]);

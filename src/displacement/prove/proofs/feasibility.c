@@ -20,7 +20,7 @@ static void clear_branching(sunder_i_branching *c)
     sunder_i_free_all(c->slack, c->limit, c->shift, c->net, c->weight, c->claim, c->program.constraint);
     sunder_i_nearest_free(&c->nearest);
     sunder_i_free_all(c->node, c->half_plane, c->chord, c->force, c->scratch);
-    sunder_i_branching_forget_half_planes(c);
+    sunder_i_half_planes_forget(&c->kept);
     sunder_i_free(c->near.item);
 }
 

@@ -17,8 +17,10 @@ typedef enum sunder_i_verdict {
  * model, which does not change (plane_kept.c). Zeroed: none. */
 #define SUNDER_I_PLANES_KEPT 4
 struct sunder_i_plane_kept;
+struct sunder_i_half_planes_kept;
 typedef struct sunder_i_planes {
     struct sunder_i_plane_kept *plane[SUNDER_I_PLANES_KEPT];
+    struct sunder_i_half_planes_kept *half_planes; /* those between pieces (half_planes_kept.c) */
 } sunder_i_planes;
 
 void sunder_i_planes_clear(sunder_i_planes *planes);

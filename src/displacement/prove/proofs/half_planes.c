@@ -68,12 +68,13 @@ typedef struct walk {
 
 static double dot_product(const double p[2], const double q[2]) { return p[0] * q[0] + p[1] * q[1]; }
 
-/* Adds the half-plane n.u >= base - slack + off. */
-static void add_half_plane(walk *w, const double n[2], double base, double off)
+/* Adds the half-plane n.u >= base - slack + by * clearance. */
+static void add_half_plane(walk *w, const double n[2], double base, double by)
 {
     const double d = base - w->slack;
     if (!(dot_product(n, w->inner) < d - w->slack)) w->holds = false;
-    w->half_plane[w->n++] = (sunder_i_half_plane){.n = {n[0], n[1]}, .d = d + off};
+    w->half_plane[w->n++] =
+        (sunder_i_half_plane){.n = {n[0], n[1]}, .d = d + by * w->parting->clearance, .base = d, .by = by};
 }
 
 /* A run: consecutive edges of K that share one line, that of their chord. */
@@ -112,7 +113,7 @@ static void join_runs(run *r, const run *next)
  * along any normal of the run. These normals agree with the line's up to a share of the square of their turn. */
 static void add_run(walk *w, const run *r)
 {
-    const double g = w->parting->clearance, *p = r->corner, *q = r->corner + 2 * r->edges;
+    const double *p = r->corner, *q = r->corner + 2 * r->edges;
     const double length = hypot(q[0] - p[0], q[1] - p[1]);
     side s = r->first;
     if (r->edges > 1) {
@@ -122,8 +123,8 @@ static void add_run(walk *w, const run *r)
     }
     double base = INFINITY;
     for (size_t k = 0; k <= r->edges; k++) base = sunder_i_min(base, dot_product(s.n, r->corner + 2 * k));
-    const double off = g >= 0 ? g * sunder_i_max(0, 1 - 2 * UNIT - s.tilt * s.tilt) : g * (1 + 2 * UNIT);
-    add_half_plane(w, s.n, base, off);
+    const bool outside = w->parting->clearance >= 0;
+    add_half_plane(w, s.n, base, outside ? sunder_i_max(0, 1 - 2 * UNIT - s.tilt * s.tilt) : 1 + 2 * UNIT);
 }
 
 static void bisect_normals(const double n1[2], const double n2[2], double out[2])
@@ -147,7 +148,7 @@ static void add_arc(walk *w, const double q[2], const double n1[2], const double
         return;
     }
     const double c = sunder_i_min(dot_product(n, n1), dot_product(n, n2)) - 2 * UNIT - tilt;
-    add_half_plane(w, n, dot_product(n, q), w->parting->clearance * sunder_i_max(0, c));
+    add_half_plane(w, n, dot_product(n, q), sunder_i_max(0, c));
 }
 
 static double cross_product(const double p[2], const double q[2]) { return p[0] * q[1] - p[1] * q[0]; }

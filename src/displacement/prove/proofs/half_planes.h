@@ -21,9 +21,13 @@ typedef struct sunder_i_parting {
 /* A half-plane of relative moves u of B. Moves in any one of the half-planes of a pair separate the two. */
 typedef struct sunder_i_half_plane {
     double n[2], d; /* the half-plane is n.u >= d; n has length 1 within 2^-51 */
+    double base, by; /* d is base + by * clearance, for all clearances of one sign, if coarse and at are the same */
     double at;      /* n.u - d at the given relative move */
     size_t next;    /* in a proof: the node for this case */
 } sunder_i_half_plane;
+
+/* At a corner the lines that are not made for a given place demand less than the clearance, by up to this share. */
+#define SUNDER_I_CORNER_LOSS (1.0 / 12)
 
 #define SUNDER_I_HALF_PLANES_A_CORNER 5
 #define SUNDER_I_HALF_PLANES_MORE 8

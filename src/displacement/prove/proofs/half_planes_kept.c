@@ -1,12 +1,14 @@
 /* A cache of the half-planes between two pieces that are not made for a particular place. They are the same for every
- * candidate of a tree, and are needed in hundreds of thousands of its nodes. Two pairs that hash to one slot evict each
- * other. The cache only saves time: the half-planes are the same, and their cost is counted the same. */
+ * candidate of a tree, and are needed in hundreds of thousands of its nodes. Consecutive questions about one model
+ * share them, also if their gaps differ. Two pairs that hash to one slot evict each other. The cache only saves time:
+ * the half-planes are the same, and their cost is counted the same. */
 #include "displacement/prove/proofs/branching.h"
 #include "displacement/prove/proofs/tuning.h"
 
 #include "base/extremes.h"
 #include "base/stage_switch.h"
 
+#include <math.h>
 #include <string.h>
 
 /* Are the corners of feature f known only as rounded doubles, or moved because they are far? */
@@ -15,14 +17,19 @@ static bool is_vague(const sunder_i_model *model, uint32_t f)
     return sunder_i_thing_shape(model, f)->rational || model->body[model->body_of[f]].far;
 }
 
+/* Returns the distance by which half-planes between pieces of these bodies may demand less. */
+static double coarse_for(const sunder_i_branching *c, const sunder_i_body *p, const sunder_i_body *q)
+{
+    const double reach = sunder_i_branching_limit(c, p) + sunder_i_branching_limit(c, q);
+    return isfinite(reach) ? c->subproblem->coarse * reach : 0;
+}
+
 size_t sunder_i_branching_fill_half_planes(sunder_i_branching *branching, const sunder_i_body *p,
                                            const sunder_i_body_piece *a, const sunder_i_body *q,
                                            const sunder_i_body_piece *b, double clearance, bool shadow,
                                            const double *at)
 {
     const sunder_i_model *model = branching->model;
-    const double reach = sunder_i_branching_limit(branching, p) + sunder_i_branching_limit(branching, q),
-                 coarse = isfinite(reach) ? branching->subproblem->coarse * reach : 0;
     sunder_i_parting parting = {.a = a->corner,
                                 .b = b->corner,
                                 .na = a->corners,
@@ -30,7 +37,7 @@ size_t sunder_i_branching_fill_half_planes(sunder_i_branching *branching, const 
                                 .offset = {q->origin[0] - p->origin[0], q->origin[1] - p->origin[1]},
                                 .clearance = clearance,
                                 .at = at,
-                                .coarse = coarse};
+                                .coarse = coarse_for(branching, p, q)};
     for (int x = 0; x < 4; x++) {
         if (is_vague(model, a->feature)) parting.vague += fabs(p->origin[x & 1]) + fabs(a->box[x]);
         if (is_vague(model, b->feature)) parting.vague += fabs(q->origin[x & 1]) + fabs(b->box[x]);
@@ -47,7 +54,7 @@ size_t sunder_i_branching_fill_half_planes(sunder_i_branching *branching, const 
 
 struct sunder_i_half_planes_kept {
     const sunder_i_body_piece *a, *b; /* NULL: the slot is empty */
-    double clearance;
+    double clearance, coarse;
     bool shadow;
     sunder_i_half_plane *half_plane;
     size_t n, capacity;
@@ -68,12 +75,11 @@ static size_t place_of(const sunder_i_body_piece *a, const sunder_i_body_piece *
     return (size_t)((mixed * UINT64_C(0xd1342543de82ef95)) >> (64 - WAYS_KEPT_BITS));
 }
 
-void sunder_i_branching_forget_half_planes(sunder_i_branching *branching)
+void sunder_i_half_planes_forget(struct sunder_i_half_planes_kept **kept)
 {
-    for (size_t k = 0; k < (size_t)1 << WAYS_KEPT_BITS && branching->kept; k++)
-        sunder_i_free(branching->kept[k].half_plane);
-    sunder_i_free(branching->kept);
-    branching->kept = NULL;
+    for (size_t k = 0; k < (size_t)1 << WAYS_KEPT_BITS && *kept; k++) sunder_i_free((*kept)[k].half_plane);
+    sunder_i_free(*kept);
+    *kept = NULL;
 }
 
 /* Computes the half-planes and stores them in this slot. Returns false if memory is out. */
@@ -88,8 +94,25 @@ static bool keep_half_planes(sunder_i_branching *c, struct sunder_i_half_planes_
     here->a = asked->a;
     here->b = asked->b;
     here->clearance = asked->clearance;
+    here->coarse = asked->coarse;
     here->shadow = asked->shadow;
     return true;
+}
+
+/* Are the half-planes in this slot those that are asked for, apart from the amount of the clearance? */
+static bool is_kept(const struct sunder_i_half_planes_kept *here, const struct sunder_i_half_planes_kept *asked)
+{
+    return here->a == asked->a && here->b == asked->b && here->shadow == asked->shadow &&
+           here->coarse == asked->coarse && (here->clearance > 0) == (asked->clearance > 0) &&
+           (here->clearance < 0) == (asked->clearance < 0) && sunder_i_stage_is_on("memo", "half planes");
+}
+
+static void set_clearance(struct sunder_i_half_planes_kept *here, double clearance)
+{
+    if (here->clearance == clearance) return;
+    for (size_t k = 0; k < here->n; k++)
+        here->half_plane[k].d = here->half_plane[k].base + here->half_plane[k].by * clearance;
+    here->clearance = clearance;
 }
 
 const sunder_i_half_plane *sunder_i_branching_kept_half_planes(sunder_i_branching *branching, const sunder_i_body *p,
@@ -97,19 +120,34 @@ const sunder_i_half_plane *sunder_i_branching_kept_half_planes(sunder_i_branchin
                                                                const sunder_i_body_piece *b, double clearance,
                                                                bool shadow, size_t *n)
 {
-    const struct sunder_i_half_planes_kept asked = {.a = a, .b = b, .clearance = clearance, .shadow = shadow};
+    const sunder_i_subproblem *subproblem = branching->subproblem;
+    struct sunder_i_half_planes_kept **kept = subproblem->planes ? &subproblem->planes->half_planes : &branching->kept;
+    const struct sunder_i_half_planes_kept asked = {
+        .a = a, .b = b, .clearance = clearance, .coarse = coarse_for(branching, p, q), .shadow = shadow};
     *n = 0;
-    if (!branching->kept) branching->kept = sunder_i_calloc((size_t)1 << WAYS_KEPT_BITS, sizeof *branching->kept);
-    struct sunder_i_half_planes_kept *here = branching->kept ? &branching->kept[place_of(a, b)] : NULL;
-    if (here && here->a == a && here->b == b && here->clearance == clearance && here->shadow == shadow &&
-        sunder_i_stage_is_on("memo", "half planes")) {
+    if (!*kept) *kept = sunder_i_calloc((size_t)1 << WAYS_KEPT_BITS, sizeof **kept);
+    struct sunder_i_half_planes_kept *here = *kept ? &(*kept)[place_of(a, b)] : NULL;
+    if (here && is_kept(here, &asked)) {
         branching->looked += a->corners + b->corners;
+        set_clearance(here, clearance);
     } else if (!here || !keep_half_planes(branching, here, p, q, &asked)) {
         branching->failed = true;
         return NULL;
     }
     *n = here->n;
     return here->half_plane;
+}
+
+size_t sunder_i_branching_take_half_planes(sunder_i_branching *branching, const sunder_i_body *p,
+                                           const sunder_i_body_piece *a, const sunder_i_body *q,
+                                           const sunder_i_body_piece *b, double clearance, bool shadow)
+{
+    sunder_i_branching *c = branching;
+    size_t n;
+    const sunder_i_half_plane *half_plane = sunder_i_branching_kept_half_planes(c, p, a, q, b, clearance, shadow, &n);
+    if (n && !sunder_i_reserve(&c->scratch, &c->scratch_capacity, n, sizeof *c->scratch)) c->failed = true;
+    if (n && !c->failed) memcpy(c->scratch, half_plane, n * sizeof *half_plane);
+    return c->failed ? 0 : n;
 }
 
 double sunder_i_branching_depth(const sunder_i_branching *branching, size_t half_planes, const double u[2])

@@ -19,6 +19,7 @@ static void free_kept(struct sunder_i_plane_kept *kept)
 void sunder_i_planes_clear(sunder_i_planes *planes)
 {
     for (size_t k = 0; k < SUNDER_I_PLANES_KEPT; k++) free_kept(planes->plane[k]);
+    sunder_i_half_planes_forget(&planes->half_planes);
     memset(planes, 0, sizeof *planes);
 }
 

@@ -264,8 +264,8 @@ bool sunder_i_plane_make_half_planes(sunder_i_plane *plane, size_t at)
     sunder_i_plane_obstacle *o = &kept->obstacle[at];
     const uint64_t looked = plane->c->looked;
     double box[4];
-    const size_t half_planes = sunder_i_branching_fill_half_planes(
-        plane->c, &model->body[plane->p], o->a, &model->body[o->q], o->b, o->clearance, o->shadow, NULL);
+    const size_t half_planes = sunder_i_branching_take_half_planes(
+        plane->c, &model->body[plane->p], o->a, &model->body[o->q], o->b, o->clearance, o->shadow);
     plane->c->looked = looked; /* this work was counted when the obstacle was listed */
     o->made = true;
     o->half_planes = 0;

@@ -36,11 +36,16 @@ static double find_depth(sunder_i_branching *c, const sunder_i_body *p, const su
 }
 
 /* Returns how deep the pieces of two bodies are in each other at the relative move u, by half-planes that are made for
- * u. */
+ * u. These differ from others only at corners that are nearer than the clearance; so pieces that are apart by more than
+ * others lose there are apart by these, too. */
 static double find_depth_closely(sunder_i_branching *c, const sunder_i_body *p, const sunder_i_body_piece *a,
                                  const sunder_i_body *q, const sunder_i_body_piece *b, double clearance,
                                  const double u[2])
 {
+    const uint64_t looked = c->looked;
+    const double depth = find_depth(c, p, a, q, b, clearance, false, u);
+    if (depth < -SUNDER_I_CORNER_LOSS * sunder_i_max(0, clearance)) return depth;
+    c->looked = looked;
     return sunder_i_branching_depth(c, sunder_i_branching_fill_half_planes(c, p, a, q, b, clearance, false, u), u);
 }
 
@@ -354,17 +359,6 @@ static int by_nearness(const void *a, const void *b)
     return p->n[0] != q->n[0] ? (p->n[0] < q->n[0] ? 1 : -1) : (p->n[1] < q->n[1]) - (p->n[1] > q->n[1]);
 }
 
-/* Copies the cached half-planes into c->scratch, and returns their number. */
-static size_t take_kept_half_planes(sunder_i_branching *c, const sunder_i_body *p, const sunder_i_body_piece *a,
-                                    const sunder_i_body *q, const sunder_i_body_piece *b, double clearance, bool shadow)
-{
-    size_t n;
-    const sunder_i_half_plane *half_plane = sunder_i_branching_kept_half_planes(c, p, a, q, b, clearance, shadow, &n);
-    if (n && !sunder_i_reserve(&c->scratch, &c->scratch_capacity, n, sizeof *c->scratch)) c->failed = true;
-    if (n && !c->failed) memcpy(c->scratch, half_plane, n * sizeof *half_plane);
-    return c->failed ? 0 : n;
-}
-
 size_t sunder_i_branching_half_planes(sunder_i_branching *branching, const sunder_i_violation *violation)
 {
     const standing s = standing_of(branching, violation->p), r = standing_of(branching, violation->q);
@@ -380,7 +374,8 @@ size_t sunder_i_branching_half_planes(sunder_i_branching *branching, const sunde
         n = sunder_i_branching_fill_half_planes(branching, s.body, violation->a, r.body, violation->b, clearance,
                                                 violation->shadow, u);
     else
-        n = take_kept_half_planes(branching, s.body, violation->a, r.body, violation->b, clearance, violation->shadow);
+        n = sunder_i_branching_take_half_planes(branching, s.body, violation->a, r.body, violation->b, clearance,
+                                                violation->shadow);
     sunder_i_branching_depth(branching, n, u);
     if (n) qsort(branching->scratch, n, sizeof *branching->scratch, by_nearness);
     return n;
