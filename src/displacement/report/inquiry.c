@@ -46,7 +46,7 @@ sunder_status sunder_i_inquiry_search(sunder_i_inquiry *inquiry, const sunder_i_
     const sunder_i_foresight *f = q->foresight;
     sunder_i_verdict verdict = SUNDER_I_UNKNOWN;
     double refuted;
-    *answer = (sunder_i_answer){.refuted = what->gap};
+    *answer = (sunder_i_answer){.refuted = what->gap, .layout = answer->layout};
     sunder_status status =
         f ? sunder_i_foresee(q->foresight, what, SUNDER_I_FORESEE_SEARCH, &verdict, &refuted, err) : SUNDER_OK;
     if (!status && verdict == SUNDER_I_INFEASIBLE) {

@@ -3,7 +3,9 @@
  * The largest gap is enclosed. The lower end is the gap of a layout of the small layer about the conflict that was
  * checked exactly (question.c). The upper end is proved: a branch and bound that finds no solution for a gap also
  * refutes some smaller gaps (prove/proofs/least_gap.c). Proofs take much less time than searches, so the interval is
- * first narrowed to 1 / NEED_GAP_PARTS of the layer's gap by proofs alone, and one layout confirms its lower end. */
+ * first narrowed to 1 / NEED_GAP_PARTS of the layer's gap by proofs alone, and one layout confirms its lower end. If it
+ * does not, other gaps are tried. Each solution that holds is the layout near which the next one is looked for: for a
+ * slightly larger gap, the features mostly stand to the same sides of each other. */
 #include "displacement/report/need_gap.h"
 #include "displacement/layer/barrier_pairs.h"
 #include "displacement/layer/resolution.h"
@@ -170,13 +172,17 @@ static void refute(gap_search *g, double from)
 static bool is_narrow(const gap_search *g) { return g->high - g->conflict->need_gap <= g->step; }
 
 /* Asks whether a search finds a solution with this gap, and stores the answer: need_gap if there is one, otherwise the
- * upper end `high`. */
-static sunder_status try_gap(gap_search *g, double gap, bool *yes, sunder_error *err)
+ * upper end `high`. With `proofs`, a proof that the search would fail is looked for first. */
+static sunder_status try_gap(gap_search *g, double gap, bool proofs, bool *yes, sunder_error *err)
 {
     const sunder_i_supposition what = suppose(g, gap);
-    sunder_i_answer answer;
-    const sunder_status status = sunder_i_inquiry_search(g->inquiry, &what, &answer, err);
+    sunder_i_answer answer = {.layout = sunder_i_calloc(2 * g->inquiry->about->feature.n, sizeof *answer.layout)};
+    sunder_status status = answer.layout ? SUNDER_OK : sunder_i_failure_cause(err);
+    if (!status && proofs) status = sunder_i_inquiry_search(g->inquiry, &what, &answer, err);
+    if (!status && !proofs) status = sunder_i_inquiry_ask(g->inquiry, &what, false, &answer, err);
     *yes = !status && answer.yes;
+    if (*yes && g->inquiry->foresight) sunder_i_foresight_note(g->inquiry->foresight, answer.layout);
+    sunder_i_free(answer.layout);
     if (status) return status;
     if (answer.yes)
         g->conflict->need_gap = gap;
@@ -185,18 +191,14 @@ static sunder_status try_gap(gap_search *g, double gap, bool *yes, sunder_error 
     return SUNDER_OK;
 }
 
-/* Asks whether proofs refute this gap, or find a solution in real numbers. After a solution in real numbers that did
- * not hold in doubles, one with room for rounding is asked for. */
-static sunder_status foresee(gap_search *g, double gap, bool in_plane, sunder_i_verdict *verdict, sunder_error *err)
+/* Asks whether proofs refute this gap, or find a solution in real numbers. */
+static sunder_status foresee(gap_search *g, double gap, sunder_i_foresight_mode mode, sunder_i_verdict *verdict,
+                             sunder_error *err)
 {
     const sunder_i_supposition what = suppose(g, gap);
-    const sunder_i_foresight_mode mode = in_plane ? SUNDER_I_FORESEE_IN_PLANE : SUNDER_I_FORESEE;
-    sunder_i_foresight *f = g->inquiry->foresight;
     double refuted;
-    sunder_status status = sunder_i_foresee(f, &what, mode, verdict, &refuted, err);
+    const sunder_status status = sunder_i_foresee(g->inquiry->foresight, &what, mode, verdict, &refuted, err);
     if (!status && *verdict == SUNDER_I_INFEASIBLE) refute(g, refuted);
-    if (!status && *verdict == SUNDER_I_FEASIBLE && g->tight)
-        status = sunder_i_foresee(f, &what, SUNDER_I_FORESEE_WITH_ROOM, verdict, &refuted, err);
     return status;
 }
 
@@ -209,7 +211,9 @@ static sunder_status narrow_gap(gap_search *g, bool in_plane, double *low, doubl
     while (!status && high > 0 && high - *low > g->step * NEED_GAP_AIM) {
         const double next = *low < 0 ? 0 : *low + NEED_GAP_AT * (high - *low);
         sunder_i_verdict verdict;
-        status = foresee(g, next, in_plane, &verdict, err);
+        status = foresee(g, next, in_plane ? SUNDER_I_FORESEE_IN_PLANE : SUNDER_I_FORESEE, &verdict, err);
+        if (!status && verdict == SUNDER_I_FEASIBLE && g->tight)
+            status = foresee(g, next, SUNDER_I_FORESEE_WITH_ROOM, &verdict, err);
         if (verdict == SUNDER_I_FEASIBLE || (in_plane && verdict == SUNDER_I_UNKNOWN))
             *low = next;
         else
@@ -229,24 +233,23 @@ static sunder_status try_foreseen(gap_search *g, double seen, bool *yes, sunder_
 }
 
 /* Asks the proofs about this gap. If they find a solution in real numbers, tests whether it holds in doubles (*yes); if
- * it does not, asks for one with room for rounding, and tests that. */
+ * it does not, asks for one that demands more, and tests that. */
 static sunder_status confirm(gap_search *g, double gap, sunder_i_verdict *verdict, bool *yes, sunder_error *err)
 {
-    const sunder_i_supposition what = suppose(g, gap);
-    double refuted;
-    *yes = g->tight = false;
-    sunder_status status = foresee(g, gap, false, verdict, err);
+    sunder_i_verdict closely = SUNDER_I_UNKNOWN;
+    *yes = false;
+    sunder_status status = foresee(g, gap, SUNDER_I_FORESEE, verdict, err);
     if (!status && *verdict == SUNDER_I_FEASIBLE) status = try_foreseen(g, gap, yes, err);
-    if (status || *yes || *verdict != SUNDER_I_FEASIBLE) return status;
-    g->tight = true;
-    status = sunder_i_foresee(g->inquiry->foresight, &what, SUNDER_I_FORESEE_WITH_ROOM, verdict, &refuted, err);
-    if (!status && *verdict == SUNDER_I_FEASIBLE) status = try_foreseen(g, gap, yes, err);
+    g->tight = !status && *verdict == SUNDER_I_FEASIBLE && !*yes;
+    if (g->tight) status = foresee(g, gap, SUNDER_I_FORESEE_WITH_ROOM, &closely, err);
+    if (!status && closely == SUNDER_I_FEASIBLE) status = try_foreseen(g, gap, yes, err);
     return status;
 }
 
 /* Sets *yes to whether a solution is found with this gap, or with one that is smaller by the share NEED_LESS: by proofs
- * or, unless these find one or refute the gap, by a search. With `careful`, if no solution with any gap is known yet, a
- * search for one without a gap comes first, and *yes is false if it fails. */
+ * or, if these have no answer, by a search. If a solution in real numbers does not hold in doubles, a search is not
+ * made: one in 30 of such searches succeeded. With `careful`, if no solution with any gap is known yet, a search for
+ * one without a gap comes first, and *yes is false if it fails. */
 static sunder_status settle_gap(gap_search *g, double gap, bool careful, bool *yes, sunder_error *err)
 {
     sunder_i_verdict verdict = SUNDER_I_UNKNOWN;
@@ -255,10 +258,13 @@ static sunder_status settle_gap(gap_search *g, double gap, bool careful, bool *y
     if (status || *yes || verdict == SUNDER_I_INFEASIBLE) return status;
     if (careful && isnan(g->conflict->need_gap) && gap > 0) {
         bool any;
-        status = try_gap(g, 0, &any, err);
+        status = try_gap(g, 0, true, &any, err);
         if (status || !any) return status;
     }
-    return try_gap(g, gap * (1 - NEED_LESS), yes, err);
+    if (verdict == SUNDER_I_UNKNOWN || (careful && gap == 0))
+        return try_gap(g, gap * (1 - NEED_LESS), !g->inquiry->foresight, yes, err);
+    g->high = sunder_i_min(g->high, gap);
+    return SUNDER_OK;
 }
 
 /* ---- The search -------------------------------------------------------------------------------------------------- */
@@ -276,8 +282,8 @@ static sunder_status try_gap_of_pair(gap_search *g, sunder_error *err)
     if (status) return status;
     refute(g, sunder_i_max(above, 0));
     if (!(does > 0) || c->need_gap >= does) return SUNDER_OK;
-    status = try_gap(g, does * (1 - 0x1p-20), &yes, err);
-    if (!status && !yes && does > g->step / 2) status = try_gap(g, does - g->step / 2, &yes, err);
+    status = try_gap(g, does * (1 - 0x1p-20), true, &yes, err);
+    if (!status && !yes && does > g->step / 2) status = try_gap(g, does - g->step / 2, true, &yes, err);
     return status;
 }
 
@@ -289,7 +295,7 @@ static sunder_status try_no_gap_of_all(gap_search *g, sunder_error *err)
     const sunder_i_inquiry *q = g->inquiry;
     bool few, yes = false;
     sunder_status status = sunder_i_few_are_listed(q->questions, q->about, g->conflict, &few, err);
-    if (!status && few) status = try_gap(g, 0, &yes, err);
+    if (!status && few) status = try_gap(g, 0, true, &yes, err);
     if (status || yes) return status;
     *g = before; /* the answer was about a solution of all */
     g->all = false;
@@ -374,7 +380,7 @@ sunder_status sunder_i_find_need_gap(sunder_i_inquiry *inquiry, sunder_error *er
     if (are_alone(&q->solver->model, inquiry->about, c)) status = try_gap_of_pair(&g, err);
     if (!status && isnan(c->need_gap)) status = try_no_gap_of_all(&g, err);
     if (!status) status = enclose(&g, err);
-    if (!status && isnan(c->need_gap) && g.high > 0) status = try_gap(&g, 0, &yes, err);
+    if (!status && isnan(c->need_gap) && g.high > 0) status = try_gap(&g, 0, true, &yes, err);
     if (!status && isnan(c->need_gap)) sunder_i_inquiry_note_in_vain(inquiry);
     if (!status && !isnan(c->need_gap)) status = halve(&g, err);
     const bool asks = inquiry->foresight && (known || sunder_i_patience_asks(&inquiry->left->gap));

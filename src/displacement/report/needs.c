@@ -48,7 +48,7 @@ static sunder_status need_shift(sunder_i_inquiry *q, sunder_error *err)
     sunder_i_supposition what = {
         .limit = sunder_i_min(a->farthest, c->need_shift), .gap = q->questions->options->gap, .gone = SUNDER_I_NOBODY};
     double low = INFINITY;
-    sunder_i_answer answer;
+    sunder_i_answer answer = {.layout = NULL};
     for (size_t k = 0; k < a->moving; k++) low = sunder_i_min(low, a->as[k].max_shift);
     if (!(low < what.limit) || !sunder_i_patience_asks(&q->left->shift)) return SUNDER_OK;
     for (int k = 0; k <= q->questions->halvings; k++) {

@@ -213,6 +213,14 @@ static sunder_layer_options options_for(const sunder_i_questions *g, double gap)
     return options;
 }
 
+/* Copies the moves of all features to layout[], by their numbers in the small layer. */
+static void take_layout(const sunder_i_solver *x, double *layout)
+{
+    for (size_t k = 0; k < x->model.features; k++)
+        memcpy(layout + 2 * (size_t)x->layer.number[k], x->model.move + 2 * (size_t)x->model.body_of[k],
+               2 * sizeof *layout);
+}
+
 /* Answers the question if the n pairs of spared[], sorted, may remain in conflict. */
 static sunder_status ask_sparing(const sunder_i_questions *g, const sunder_i_surroundings *a, const sunder_conflict *c,
                                  const sunder_i_supposition *what, const sunder_i_id_pair *spared, size_t n,
@@ -225,7 +233,7 @@ static sunder_status ask_sparing(const sunder_i_questions *g, const sunder_i_sur
     sunder_layer *layer = NULL;
     bool jumps = false;
     uint32_t *name = sunder_i_surroundings_names(a, &g->solver->model, what->gone);
-    *answer = (sunder_i_answer){.refuted = what->gap};
+    *answer = (sunder_i_answer){.refuted = what->gap, .layout = answer->layout};
     sunder_status status = name ? sunder_i_surroundings_layer(a, g->solver, what->limit, what->gone, &layer, err)
                                 : sunder_i_failure_cause(err);
     sunder_i_row_demand *row = NULL;
@@ -237,6 +245,7 @@ static sunder_status ask_sparing(const sunder_i_questions *g, const sunder_i_sur
         if (!status) status = is_solved(g, a, c, &x, what, &answer->yes, &answer->longest, err);
         if (!status && answer->yes) status = find_jump(g, a, &x, what->gone, &jumps, err);
         answer->yes = answer->yes && !jumps && !sunder_i_question_leaves_row(g, a, &x, what);
+        if (answer->yes && answer->layout) take_layout(&x, answer->layout);
         if (x.hopeless) answer->refuted = x.refuted;
         sunder_i_solver_free(&x);
     }
@@ -267,7 +276,7 @@ sunder_status sunder_i_ask(const sunder_i_questions *questions, const sunder_i_s
 {
     sunder_i_id_pair *spared = NULL;
     size_t n = 0;
-    *answer = (sunder_i_answer){.refuted = what->gap};
+    *answer = (sunder_i_answer){.refuted = what->gap, .layout = answer->layout};
     sunder_status status = list_spared(questions, surroundings, conflict, what->gone, &spared, &n)
                                ? SUNDER_OK
                                : sunder_i_failure_cause(err);
@@ -304,8 +313,9 @@ sunder_status sunder_i_foresight_init(sunder_i_foresight *foresight, const sunde
     f->hopeless = sunder_i_solver_is_beyond_limits(&f->solver, &spared);
     f->move = sunder_i_calloc(2 * f->solver.model.bodies, sizeof *f->move);
     f->next = sunder_i_calloc(2 * f->solver.model.bodies, sizeof *f->next);
+    f->best = sunder_i_calloc(2 * f->solver.model.bodies, sizeof *f->best);
     f->at = sunder_i_calloc(2 * surroundings->feature.n, sizeof *f->at);
-    return f->move && f->next && f->at ? SUNDER_OK : sunder_i_failure_cause(err);
+    return f->move && f->next && f->best && f->at ? SUNDER_OK : sunder_i_failure_cause(err);
 }
 
 void sunder_i_foresight_clear(sunder_i_foresight *foresight)
@@ -314,7 +324,7 @@ void sunder_i_foresight_clear(sunder_i_foresight *foresight)
     sunder_i_solver_free(&foresight->solver);
     sunder_layer_free(foresight->layer);
     sunder_i_free_all(foresight->spared, foresight->name, foresight->row, foresight->held, foresight->move,
-                      foresight->next, foresight->at);
+                      foresight->next, foresight->best, foresight->at);
 }
 
 /* Sets the limits of the features that move, in a solver of the small layer. */
@@ -361,7 +371,7 @@ sunder_status sunder_i_foresee(sunder_i_foresight *foresight, const sunder_i_sup
     sunder_i_foresight *f = foresight;
     const sunder_i_spared spared = spared_for(f, what, mode == SUNDER_I_FORESEE_SEARCH),
                           relaxed = {.pair = f->spared, .n = f->n};
-    const bool nobody = what->gone == SUNDER_I_NOBODY;
+    const bool nobody = what->gone == SUNDER_I_NOBODY, room = mode == SUNDER_I_FORESEE_WITH_ROOM;
     sunder_i_list heeded = {0};
     *refuted = what->gap;
     sunder_status status = nobody || list_others(f, what->gone, &heeded) ? SUNDER_OK : sunder_i_failure_cause(err);
@@ -373,16 +383,27 @@ sunder_status sunder_i_foresee(sunder_i_foresight *foresight, const sunder_i_sup
                                   .precedents = &f->precedents,
                                   .in_plane = mode == SUNDER_I_FORESEE_IN_PLANE,
                                   .effort = NEED_PROOF_EFFORT,
-                                  .held_margin = mode == SUNDER_I_FORESEE_WITH_ROOM ? NEED_ROOM * what->gap : 0,
+                                  .seeks = room,
+                                  .near = room ? f->move : f->known ? f->best : NULL,
+                                  .held_margin = room ? NEED_ROOM * f->questions->options->gap : 0,
                                   .move = f->next};
     if (!status) status = sunder_i_solver_prove(&f->solver, &how, verdict, refuted, err);
-    if (*verdict == SUNDER_I_INFEASIBLE && mode == SUNDER_I_FORESEE_WITH_ROOM) *verdict = SUNDER_I_UNKNOWN;
+    if (*verdict == SUNDER_I_INFEASIBLE && room) *verdict = SUNDER_I_UNKNOWN;
     sunder_i_free(heeded.item);
     if (status || *verdict != SUNDER_I_FEASIBLE) return status;
     double *solution = f->next;
     f->next = f->move;
     f->move = solution;
     return SUNDER_OK;
+}
+
+void sunder_i_foresight_note(sunder_i_foresight *foresight, const double *move)
+{
+    const sunder_i_solver *s = &foresight->solver;
+    for (size_t k = 0; k < s->model.features; k++)
+        memcpy(foresight->best + 2 * (size_t)s->model.body_of[k], move + 2 * (size_t)s->layer.number[k],
+               2 * sizeof *move);
+    foresight->known = true;
 }
 
 /* Copies the moves of the last solution in real numbers to `move`, in the numbers of another solver `x` of the same
@@ -398,10 +419,10 @@ static void carry_over(const sunder_i_foresight *f, const sunder_i_solver *x, do
             move[2 * (size_t)x->model.body_of[k] + e] = of[2 * (size_t)x->layer.number[k] + e] * (1 - NEED_SHORTER);
 }
 
-sunder_status sunder_i_foresight_holds(const sunder_i_foresight *foresight, const sunder_conflict *conflict,
+sunder_status sunder_i_foresight_holds(sunder_i_foresight *foresight, const sunder_conflict *conflict,
                                        const sunder_i_supposition *what, bool *yes, sunder_error *err)
 {
-    const sunder_i_foresight *f = foresight;
+    sunder_i_foresight *f = foresight;
     const sunder_i_questions *g = f->questions;
     const sunder_layer_options options = options_for(g, what->gap);
     const sunder_i_spared spared = spared_for(f, what, false);
@@ -419,6 +440,8 @@ sunder_status sunder_i_foresight_holds(const sunder_i_foresight *foresight, cons
     if (!status && *yes) status = is_solved(g, f->about, conflict, &x, what, yes, &longest, err);
     if (!status && *yes) status = find_jump(g, f->about, &x, SUNDER_I_NOBODY, &jumps, err);
     *yes = *yes && !jumps && !sunder_i_question_leaves_row(g, f->about, &x, what);
+    if (*yes) memcpy(f->best, f->move, 2 * f->solver.model.bodies * sizeof *f->best);
+    f->known = f->known || *yes;
     sunder_i_free(move);
     sunder_i_solver_free(&x);
     return status;

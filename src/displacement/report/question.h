@@ -39,6 +39,7 @@ typedef struct sunder_i_answer {
     double longest; /* the longest move of the solution, if yes */
     bool foreseen;  /* if not yes: whether a proof told so and no search was made */
     double refuted; /* if not yes: about the least gap for which a search is known to fail */
+    double *layout; /* NULL, or [2 * features of the small layer]: if yes, receives the moves of the solution */
 } sunder_i_answer;
 
 /* Sets *few to whether the small layer contains other listed pairs, and at most NEED_ALL of them, so that they can be
@@ -80,6 +81,8 @@ typedef struct sunder_i_foresight {
     const sunder_i_questions *questions;
     const sunder_i_surroundings *about;
     double *move; /* [2 * bodies] the moves of the last solution in real numbers */
+    double *best; /* [2 * bodies] the moves of the last solution that holds in doubles */
+    bool known;   /* there is one */
     double *next; /* [2 * bodies] scratch */
     double *at;   /* [2 * features] scratch, by features of the small layer */
     sunder_i_planes planes;
@@ -90,8 +93,10 @@ typedef enum sunder_i_foresight_mode {
     SUNDER_I_FORESEE,          /* branch and bound, within NEED_PROOF_EFFORT */
     SUNDER_I_FORESEE_IN_PLANE, /* only the plane of the pair's relative moves, which takes part of the time and can only
                                 * prove that there is no solution */
-    /* Pairs that may remain in conflict have to stand better than at the start by NEED_ROOM, so that rounding makes
-     * none of them worse. This finds solutions, and proves nothing. */
+    /* What a layout in doubles has to keep: one translation separates a feature from all parts of a barrier with which
+     * it may keep an overlap; and pairs that may remain in conflict, unless both bodies had the same move in the last
+     * solution, stand better than at the start by NEED_ROOM, so that rounding makes none of them worse. This finds
+     * solutions, and proves nothing. */
     SUNDER_I_FORESEE_WITH_ROOM,
     /* Whether a search of the small layer can succeed. Such a search demands more than a solution has to fulfil: pairs
      * that may remain in conflict stand no worse than at the start of the small layer, in which some features stand
@@ -113,9 +118,11 @@ void sunder_i_foresight_limit(sunder_i_foresight *foresight, double limit);
 sunder_status sunder_i_foresee(sunder_i_foresight *foresight, const sunder_i_supposition *what,
                                sunder_i_foresight_mode mode, sunder_i_verdict *verdict, double *refuted,
                                sunder_error *err);
+/* Stores a solution, move[2 * features of the small layer]; solutions near it are looked for first. */
+void sunder_i_foresight_note(sunder_i_foresight *foresight, const double *move);
 /* Sets *yes to whether the last solution in real numbers is a solution in doubles that meets all conditions of a
  * question. what->gap is slightly smaller than the gap of that solution. */
-sunder_status sunder_i_foresight_holds(const sunder_i_foresight *foresight, const sunder_conflict *conflict,
+sunder_status sunder_i_foresight_holds(sunder_i_foresight *foresight, const sunder_conflict *conflict,
                                        const sunder_i_supposition *what, bool *yes, sunder_error *err);
 
 #endif

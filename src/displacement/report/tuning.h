@@ -112,9 +112,9 @@
  * NEED_GAP_PARTS. With neighbours, proofs narrow the interval to the share NEED_GAP_AIM of that width, which leaves
  * room for NEED_LESS. If a solution in real numbers is not confirmed, halve() follows with at most NEED_GAP_HALVINGS
  * halvings for each unit of effort, and then try_gaps_between(), in which at most NEED_GAP_IN_VAIN tries for each unit
- * of effort may give no answer: with 3 of these the layer of Krems beside its roads takes 1.04 times as long as with
- * none, and 323 gaps are proved; with 12, 327 are. When searches alone narrowed the interval to that width, the 505
- * conflicts of Krems beside its roads took 1.6 times the time that the layer took before. */
+ * of effort may give no answer: with 3 of these 325 of the 331 gaps of Krems beside its roads are proved. When searches
+ * alone narrowed the interval to that width, the 505 conflicts of Krems beside its roads took 1.6 times the time that
+ * the layer took before. */
 #define NEED_GAP_PARTS 100
 #define NEED_GAP_AIM (1 - 0x1p-8)
 #define NEED_GAP_HALVINGS 2
@@ -124,8 +124,8 @@
 #define NEED_GAP_AT 0.6
 /* A solution in real numbers keeps limits and lines up to a hair (../prove/proofs/participants.c). It is tried in
  * doubles with a gap that is smaller by the share NEED_LESS, and with moves that are shorter by the share NEED_SHORTER.
- * If it does not hold in doubles, another solution is looked for, in which pairs that may remain in conflict stand
- * better than at the start by the share NEED_ROOM of the gap. */
+ * If it does not hold in doubles, another solution is looked for, in which pairs that may remain in conflict, and
+ * whose bodies do not move alike, stand better than at the start by the share NEED_ROOM of the layer's gap. */
 #define NEED_LESS 0x1p-16
 #define NEED_ROOM 0x1p-20
 #define NEED_SHORTER 0x1p-32

@@ -233,8 +233,8 @@ size_t sunder_i_branching_take_half_planes(sunder_i_branching *branching, const 
 /* Returns the depth of relative move u behind all half-planes in branching->scratch, of which there are `half_planes`,
  * and sets `at` of each; -INFINITY if there are none. */
 double sunder_i_branching_depth(const sunder_i_branching *branching, size_t half_planes, const double u[2]);
-/* Computes the half-planes of a violation, nearest to the candidate first, in branching->scratch. Returns their
- * number. */
+/* Computes the half-planes of a violation, nearest to the candidate first, or to subproblem->near if that is given, in
+ * branching->scratch. Returns their number. */
 size_t sunder_i_branching_half_planes(sunder_i_branching *branching, const sunder_i_violation *violation);
 
 /* ---- branches.c -------------------------------------------------------------------------------------------------- */

@@ -65,6 +65,7 @@ typedef struct sunder_i_subproblem {
     /* A feature that may keep an overlap with a barrier has one translation that separates it from all parts, not one
      * for each two parts: proofs are larger, and some are found only like this. */
     bool slack;
+    const double *near;      /* NULL, or [2 * bodies of the model]: solutions near this layout are looked for first */
     bool still;              /* only if a body between two lines has no place there except its own: corridor.c */
     bool every_side;         /* sides of barriers count even if the barriers are not in `feature` */
     bool any_jump;           /* features may jump over each other */

@@ -376,6 +376,10 @@ size_t sunder_i_branching_half_planes(sunder_i_branching *branching, const sunde
     else
         n = sunder_i_branching_take_half_planes(branching, s.body, violation->a, r.body, violation->b, clearance,
                                                 violation->shadow);
+    if (branching->subproblem->near && !violation->slack)
+        for (size_t x = 0; x < 2; x++)
+            u[x] = branching->subproblem->near[2 * (size_t)violation->q + x] -
+                   branching->subproblem->near[2 * (size_t)violation->p + x];
     sunder_i_branching_depth(branching, n, u);
     if (n) qsort(branching->scratch, n, sizeof *branching->scratch, by_nearness);
     return n;

@@ -212,8 +212,10 @@ typedef struct sunder_i_proving {
     sunder_i_precedents *precedents; /* earlier proofs of this solver; or NULL */
     bool in_plane;                   /* use the plane of relative moves of two bodies alone, which is quicker and
                                       * proves less */
-    double held_margin;              /* spared pairs have to stand better by this length; if it is not 0, the verdict
-                                      * infeasible is no proof */
+    bool seeks;                      /* a layout in doubles is sought: more is demanded, subproblem.slack; the verdict
+                                      * feasible is then about all conflicts together, and infeasible is no proof */
+    double held_margin;              /* if seeks: spared pairs that move apart in `near` stand better by this length */
+    const double *near;              /* [2 * bodies] solutions near this layout are looked for first; or NULL */
     uint64_t effort;                 /* for all conflicts together, in constraints examined; 0: EFFORT_BRIEFLY */
     double *move;                    /* [2 * bodies] receives the solutions found; or NULL */
 } sunder_i_proving;

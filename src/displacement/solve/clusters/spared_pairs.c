@@ -161,6 +161,18 @@ static bool are_heeded(const sunder_i_subproblem *q, const sunder_i_relation *r)
            sunder_i_set_has(q->feature, q->features, sunder_i_whole_of(q->model, r->b));
 }
 
+/* Raises the requirements of pairs that do not move alike in the layout how->near by the margin. A pair that does may
+ * stay exactly as it is, which needs no room for rounding. */
+static void add_margins(const sunder_i_model *model, const sunder_i_proving *how, sunder_i_requirement *required,
+                        size_t n)
+{
+    for (size_t k = 0; k < n && how->held_margin > 0; k++) {
+        const double *p = how->near + 2 * (size_t)model->body_of[required[k].a],
+                     *q = how->near + 2 * (size_t)model->body_of[required[k].b];
+        if (p[0] != q[0] || p[1] != q[1]) required[k].clearance += how->held_margin;
+    }
+}
+
 /* Is r a conflict that is to be solved? A spared one is not. A pair of how->relaxed is, although the model has relaxed
  * it. */
 static bool is_to_be_solved(const sunder_i_solver *s, const sunder_i_proving *how, const sunder_i_relation *r)
@@ -240,7 +252,7 @@ static sunder_status prove_together(questioning *g, sunder_error *err)
     sunder_i_verdict verdict;
     g->asked.n = sunder_i_set_make(g->asked.item, g->asked.n);
     const sunder_status status = ask_about(g, g->asked.item, g->asked.n, &verdict, err);
-    if (verdict == SUNDER_I_INFEASIBLE) g->verdict = verdict;
+    if (verdict == SUNDER_I_INFEASIBLE || g->how->seeks) g->verdict = verdict;
     return status;
 }
 
@@ -251,6 +263,7 @@ sunder_status sunder_i_solver_prove(const sunder_i_solver *solver, const sunder_
     size_t n = 0;
     sunder_status status =
         required ? find_requirements(solver, how->spared, required, &n, err) : sunder_i_failure_cause(err);
+    if (!status) add_margins(&solver->model, how, required, n);
     questioning g = {.solver = solver,
                      .how = how,
                      .subproblem = {.model = &solver->model,
@@ -263,11 +276,12 @@ sunder_status sunder_i_solver_prove(const sunder_i_solver *solver, const sunder_
                                     .features = how->heeded ? how->heeded->n : 0,
                                     .planes = how->planes,
                                     .precedents = how->precedents,
-                                    .held_margin = how->held_margin,
                                     .rows = true,
+                                    .near = how->near,
                                     .most = MOST_BODIES},
                      .left = how->effort ? how->effort : EFFORT_BRIEFLY,
                      .gap = gap};
+    g.subproblem.slack = how->seeks && sunder_i_may_have_slack(&g.subproblem);
     if (!status) status = prove_each(&g, err);
     const bool together = how->move && !how->in_plane && g.questions > 1;
     if (!status && together && g.verdict == SUNDER_I_FEASIBLE) status = prove_together(&g, err);
