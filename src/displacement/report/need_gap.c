@@ -156,6 +156,7 @@ typedef struct gap_search {
     double proved; /* larger gaps are proved to have no solution; INFINITY if nothing is proved */
     bool all;      /* answers also have to solve the other listed pairs in the small layer, if these are few */
     bool tight;    /* a solution in real numbers did not hold in doubles */
+    bool cramped;  /* no gap at all has a solution with room for rounding */
 } gap_search;
 
 static sunder_i_supposition suppose(const gap_search *g, double gap)
@@ -199,6 +200,7 @@ static sunder_status foresee(gap_search *g, double gap, sunder_i_foresight_mode 
     double refuted;
     const sunder_status status = sunder_i_foresee(g->inquiry->foresight, &what, mode, verdict, &refuted, err);
     if (!status && *verdict == SUNDER_I_INFEASIBLE) refute(g, refuted);
+    if (mode == SUNDER_I_FORESEE_WITH_ROOM && refuted < gap * NEED_ROOM) g->cramped = true;
     return status;
 }
 
@@ -249,13 +251,18 @@ static sunder_status confirm(gap_search *g, double gap, sunder_i_verdict *verdic
 /* Sets *yes to whether a solution is found with this gap, or with one that is smaller by the share NEED_LESS: by proofs
  * or, if these have no answer, by a search. If a solution in real numbers does not hold in doubles, a search is not
  * made: one in 30 of such searches succeeded. With `careful`, if no solution with any gap is known yet, a search for
- * one without a gap comes first, and *yes is false if it fails. */
+ * one without a gap comes first, and *yes is false if it fails; also if no gap leaves room for rounding, when all such
+ * searches failed. */
 static sunder_status settle_gap(gap_search *g, double gap, bool careful, bool *yes, sunder_error *err)
 {
     sunder_i_verdict verdict = SUNDER_I_UNKNOWN;
     *yes = false;
     sunder_status status = g->inquiry->foresight ? confirm(g, gap, &verdict, yes, err) : SUNDER_OK;
     if (status || *yes || verdict == SUNDER_I_INFEASIBLE) return status;
+    if (g->cramped && isnan(g->conflict->need_gap)) {
+        g->high = 0;
+        return SUNDER_OK;
+    }
     if (careful && isnan(g->conflict->need_gap) && gap > 0) {
         bool any;
         status = try_gap(g, 0, true, &any, err);
@@ -357,7 +364,7 @@ static sunder_status try_gaps_between(gap_search *g, sunder_error *err)
         const double low = sunder_i_max(0, g->conflict->need_gap), proved = g->proved,
                      high = sunder_i_min(proved, q->options->gap), gap = low + share_of(share) * (high - low);
         bool yes;
-        if (high - low <= g->step) break;
+        if (high - low <= g->step || (g->cramped && isnan(g->conflict->need_gap))) break;
         status = settle_gap(g, gap, false, &yes, err);
         const bool answered = yes || g->proved < proved;
         share = answered ? 1 : share + 1;
@@ -373,7 +380,7 @@ sunder_status sunder_i_find_need_gap(sunder_i_inquiry *inquiry, sunder_error *er
     const sunder_i_questions *q = inquiry->questions;
     const double before = c->need_gap;
     const bool known = !isnan(before);
-    gap_search g = {inquiry, c, q->options->gap / NEED_GAP_PARTS, q->options->gap, INFINITY, true, false};
+    gap_search g = {inquiry, c, q->options->gap / NEED_GAP_PARTS, q->options->gap, INFINITY, true, false, false};
     bool yes;
     sunder_status status = SUNDER_OK;
     if (!(g.step > 0) || (known && !sunder_i_patience_asks(&inquiry->left->gap))) return SUNDER_OK;
