@@ -503,8 +503,9 @@ SUNDER_API const char *sunder_containment_string(sunder_containment containment)
 
 /* Which features count as rows: neighbours that stand side by side along a line, such as the houses of a street. */
 typedef enum sunder_rows {
-    SUNDER_ROWS_NONE, /* no rows are looked for */
-    SUNDER_ROWS_FOUND /* rows are found in the layer as it is given; src/displacement/rows/README has the rules */
+    SUNDER_ROWS_NONE,  /* no rows are looked for */
+    SUNDER_ROWS_FOUND, /* rows are found in the layer as it is given; src/displacement/rows/README has the rules */
+    SUNDER_ROWS_GIVEN  /* rows are those that sunder_layer_set_rows() has set */
 } sunder_rows;
 
 /* What one stage of sunder_layer_separate() did, for developers. Experimental: the words for passes, stages, steps and
@@ -624,6 +625,14 @@ SUNDER_API sunder_status sunder_layer_set_barriers(sunder_layer *layer, const su
  * Fails   SUNDER_ENOMEM */
 SUNDER_EXPERIMENTAL sunder_status sunder_layer_set_side_anchors(sunder_layer *layer, const double *xy,
                                                                 sunder_error *err);
+
+/* Gives the layer rows, for options.rows == SUNDER_ROWS_GIVEN: features with equal non-negative values are one row, in
+ * the order of a path that joins the nearest ones first. A block counts once.
+ * row     A value for each feature, -1 for none; copied. NULL: there are no rows.
+ *
+ * If features of one block have different rows, functions that use them fail with SUNDER_EINVALID, and err->polygon is
+ * the number of one of these features. */
+SUNDER_EXPERIMENTAL sunder_status sunder_layer_set_rows(sunder_layer *layer, const int64_t *row, sunder_error *err);
 
 typedef enum sunder_feature_status {
     SUNDER_FEATURE_UNMOVED,

@@ -106,11 +106,23 @@ static bool resolve_contained(const gis_options *options, sunder_containment *ou
     return true;
 }
 
-/* Rows are found among polygons: the layers of points are those with a symbol. */
-static bool resolve_rows(const gis_options *options, sunder_rows *out, gis_error *error)
+/* The field of --rows; NULL if it is auto or no. */
+static const char *rows_field_of(const gis_options *options)
 {
-    const bool wanted = options->text[OPT_ROWS] && strcmp(options->text[OPT_ROWS], "auto") == 0;
-    *out = wanted ? SUNDER_ROWS_FOUND : SUNDER_ROWS_NONE;
+    const char *text = options->text[OPT_ROWS];
+    return text && strcmp(text, "auto") != 0 && strcmp(text, "no") != 0 ? text : NULL;
+}
+
+/* Rows are of polygons: the layers of points are those with a symbol. The command check takes rows from the original
+ * layer alone (gis_resolve_original()). */
+static bool resolve_rows(const gis_options *options, gis_layer_rules *out, gis_error *error)
+{
+    const char *text = options->text[OPT_ROWS], *field = rows_field_of(options);
+    const bool wanted = field || (text && strcmp(text, "auto") == 0);
+    out->core.rows = field ? SUNDER_ROWS_GIVEN : wanted ? SUNDER_ROWS_FOUND : SUNDER_ROWS_NONE;
+    out->rows_field = options->command->bit == GIS_CHECK ? NULL : field;
+    if (field && options->given[OPT_PROOF])
+        return gis_fail_usage(error, "--proof: the checker of a proof finds rows by itself; use --rows auto or no");
     if (!wanted || !(options->given[OPT_SYMBOL] || options->given[OPT_SYMBOL_FIELD])) return true;
     return gis_fail_usage(error, "--rows: rows are found among polygons, and the symbols of points have none");
 }
@@ -162,7 +174,7 @@ static bool resolve_rules(const gis_options *options, gis_layer_rules *out, gis_
     out->core.threads = thread_count(options);
     if (!resolve_choice(options, OPT_WEIGHT, weighting_word, &weighting, error)) return false;
     out->weighting = (gis_weighting)weighting;
-    return resolve_rows(options, &out->core.rows, error) &&
+    return resolve_rows(options, out, error) &&
            resolve_stiffness(options, out->core.row_stiffness, error) &&
            resolve_ease(options, &out->core.ease, error) && resolve_contained(options, &out->core.contained, error);
 }
@@ -206,6 +218,7 @@ void gis_resolve_original(const gis_options *options, const gis_layer_input_requ
                                        .layer_like = name};
     out->output = NULL;
     out->rules.block_field = NULL;
+    out->rules.rows_field = rows_field_of(options);
 }
 
 /* Checks the options of the command check that depend on --before: some apply to moves only, and some select features

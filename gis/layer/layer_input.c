@@ -117,6 +117,8 @@ static bool make_layer(gis_layer_input *input, gis_error *error)
         return gis_core_failed(error, gis_source_name(input->source), &why);
     if (sunder_layer_set_barriers(input->layer, input->barriers.barrier, input->barriers.n, &why) != SUNDER_OK)
         return gis_core_failed(error, "--barrier", &why);
+    if (sunder_layer_set_rows(input->layer, input->row, &why) != SUNDER_OK)
+        return gis_core_failed(error, "--rows", &why);
     return set_sides(input, error);
 }
 
@@ -208,6 +210,7 @@ bool gis_layer_begin(const gis_layer_input_request *request, bool packed, gis_la
     *out = (gis_layer_input){.request = request,
                              .id_field = -1,
                              .block_field = -1,
+                             .rows_field = -1,
                              .limit_field = -1,
                              .weight_field = -1,
                              .max_shift = INFINITY,
@@ -232,6 +235,8 @@ void gis_layer_drop_features(gis_layer_input *input)
     for (size_t i = 0; input->shape && i < input->n; i++) sunder_shape_free(input->shape[i]);
     free(input->shape);
     free(input->feature);
+    free(input->row);
+    input->row = NULL;
     input->shape = NULL;
     input->feature = NULL;
     input->n = 0;
@@ -272,7 +277,8 @@ bool gis_layer_input_read(const gis_layer_input_request *request, gis_layer_inpu
     gis_layer_warn_of_crs(out);
     gis_layer_warn_of_others(out, gis_source_content_count(out->source, GIS_POINTS) > 0);
     return gis_layer_marks(out, error) && gis_layer_blocks(out, error) && gis_layer_weights(out, error) &&
-           gis_layer_limits(out, error) && read_barriers(out, error) && make_layer(out, error);
+           gis_layer_limits(out, error) && gis_layer_rows(out, error) && read_barriers(out, error) &&
+           make_layer(out, error);
 }
 
 void gis_layer_forget_demands(gis_layer_input *input)

@@ -50,7 +50,8 @@ typedef struct gis_layer_input {
     double barrier_reach; /* barriers are known within this distance of each feature */
     sunder_layer *layer;
     gis_layer_shaping *shaping;
-    int id_field, block_field, limit_field, weight_field; /* index of each field; -1: not given */
+    int64_t *row;            /* [n] the row of each feature by --rows FIELD, -1 for none; NULL: none are given */
+    int id_field, block_field, limit_field, weight_field, rows_field; /* index of each field; -1: not given */
     size_t invalid, null; /* number of features with an invalid geometry; with none, or an empty one */
     size_t other;         /* number of features with another kind of geometry */
 } gis_layer_input;
@@ -98,6 +99,7 @@ bool gis_layer_marks(gis_layer_input *input, gis_error *error);   /* layer_rules
 bool gis_layer_blocks(gis_layer_input *input, gis_error *error);
 bool gis_layer_weights(gis_layer_input *input, gis_error *error);
 bool gis_layer_limits(gis_layer_input *input, gis_error *error);
+bool gis_layer_rows(gis_layer_input *input, gis_error *error);
 
 /* Numbers blocks in the order of first appearance; they are ranked when all keys are known. */
 bool gis_layer_number_blocks(gis_layer_input *input, gis_block_keys *keys, gis_error *error);
@@ -127,8 +129,9 @@ struct gis_trace;
  * trace events (trace_file.h), or NULL. */
 bool gis_layer_run(const gis_layer_input *input, gis_layer_work *work, gis_progress *progress, struct gis_trace *trace,
                    sunder_report **report, sunder_layer_summary *summary, gis_error *error);
-/* Has the core find the rules that were broken between two layers, by the rules of `input`. */
+/* Has the core find the rules that were broken between two layers, by the rules of `input`. number: the index in
+ * `input` of each feature of the layers. */
 bool gis_layer_run_moves(const gis_layer_input *input, const sunder_layer *before, const sunder_layer *after,
-                         gis_progress *progress, sunder_report **report, gis_error *error);
+                         const size_t *number, gis_progress *progress, sunder_report **report, gis_error *error);
 
 #endif

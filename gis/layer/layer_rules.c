@@ -25,6 +25,7 @@ bool gis_layer_fields(gis_layer_input *input, gis_error *error)
     const gis_layer_rules *rules = &input->request->rules;
     return gis_field_find(source, "--id-field", input->request->id_field, &input->id_field, error) &&
            gis_field_find(source, "--block-field", rules->block_field, &input->block_field, error) &&
+           gis_field_find(source, "--rows", rules->rows_field, &input->rows_field, error) &&
            gis_field_find_numbers(source, "--max-shift-field", rules->max_shift_field, &input->limit_field, error) &&
            gis_field_find_numbers(source, "--weight-field", rules->weight_field, &input->weight_field, error);
 }
@@ -83,6 +84,24 @@ bool gis_layer_blocks(gis_layer_input *input, gis_error *error)
         if (input->feature[i].block >= 0) input->feature[i].block = keys.rank[input->feature[i].block];
     gis_block_keys_clear(&keys);
     return done;
+}
+
+bool gis_layer_rows(gis_layer_input *input, gis_error *error)
+{
+    const int field = input->rows_field;
+    gis_block_keys keys = {0};
+    if (field < 0) return true;
+    input->row = malloc((input->n + 1) * sizeof *input->row);
+    bool ok = input->row != NULL || gis_no_memory(error);
+    for (size_t i = 0; ok && i < input->n; i++) {
+        OGRFeatureH feature = gis_source_feature(input->source, i);
+        input->row[i] = -1;
+        if (gis_field_is_blank(feature, field)) continue;
+        char *key = gis_field_key(feature, field);
+        ok = key ? gis_block_keys_add(&keys, key, &input->row[i], error) : gis_no_memory(error);
+    }
+    gis_block_keys_clear(&keys);
+    return ok;
 }
 
 bool gis_layer_wrong_number(const gis_layer_input *input, size_t i, int field, const char *what, const char *needed,

@@ -14,7 +14,7 @@ const char *gis_weighting_string(gis_weighting weighting);
 typedef struct gis_layer_rules {
     gis_optional_length gap, max_shift, touch_tolerance;
     const char *ignore_where, *fixed_where; /* SQL */
-    const char *block_field, *weight_field, *max_shift_field;
+    const char *block_field, *weight_field, *max_shift_field, *rows_field;
     gis_weighting weighting;
     bool count_thin; /* if the tolerance is 0: report how many overlaps a tolerance of a hundredth of a metre would
                       * join */

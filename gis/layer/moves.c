@@ -130,6 +130,18 @@ static bool set_sides(gis_moves *m, gis_error *error)
     return ok;
 }
 
+/* Gives the layer before the rows of the original, if --rows names a field. */
+static bool set_rows(gis_moves *m, gis_error *error)
+{
+    sunder_error why;
+    if (!m->original.row) return true;
+    int64_t *row = malloc((m->n + 1) * sizeof *row);
+    for (size_t k = 0; row && k < m->n; k++) row[k] = m->original.row[m->matched[k]];
+    const bool ok = row && sunder_layer_set_rows(m->before, row, &why) == SUNDER_OK;
+    free(row);
+    return ok || gis_no_memory(error);
+}
+
 static bool make_layers(pairing *p, gis_error *error)
 {
     gis_moves *m = p->moves;
@@ -140,7 +152,7 @@ static bool make_layers(pairing *p, gis_error *error)
         sunder_layer_set_barriers(m->before, barriers->barrier, barriers->n, &why) != SUNDER_OK ||
         sunder_layer_set_barriers(m->after, barriers->barrier, barriers->n, &why) != SUNDER_OK)
         return gis_core_failed(error, "--before", &why);
-    return set_sides(m, error);
+    return set_rows(m, error) && set_sides(m, error);
 }
 
 /* ---- All of it --------------------------------------------------------------------------------------------------- */
@@ -158,7 +170,7 @@ bool gis_moves_check(const gis_layer_input_request *request, const gis_layer_inp
     p.after = calloc(room, sizeof *p.after);
     bool ok = (out->matched && out->lost && p.before && p.after) || gis_no_memory(error);
     ok = ok && match_features(&p, error) && make_layers(&p, error) &&
-         gis_layer_run_moves(&out->original, out->before, out->after, progress, &out->report, error);
+         gis_layer_run_moves(&out->original, out->before, out->after, out->matched, progress, &out->report, error);
     free(p.before);
     free(p.after);
     return ok;

@@ -66,9 +66,16 @@ static sunder_layer_options watched_options(const gis_layer_input *input, watche
     return how;
 }
 
-static bool check_status(const gis_layer_input *input, sunder_status status, const sunder_error *why, gis_error *error)
+/* number: NULL, or the index in `input` of each feature that the core knows. */
+static bool check_status(const gis_layer_input *input, const size_t *number, sunder_status status,
+                         const sunder_error *why, gis_error *error)
 {
+    char who[GIS_WHO_SIZE];
     if (status == SUNDER_EARG) return gis_fail_usage(error, "%s", why->message);
+    if (status == SUNDER_EINVALID && why->polygon != SIZE_MAX) { /* a feature is in two rows */
+        gis_feature_name(input, number ? number[why->polygon] : why->polygon, who, sizeof who);
+        return gis_fail(error, "%s: --rows: %s", who, why->message);
+    }
     if (status != SUNDER_OK) return gis_fail(error, "layer %s: %s", gis_source_name(input->source), why->message);
     return true;
 }
@@ -81,16 +88,16 @@ bool gis_layer_run(const gis_layer_input *input, gis_layer_work *work, gis_progr
     how.trace = trace ? gis_trace_event : NULL;
     how.trace_user = trace;
     sunder_error why;
-    if (!check_status(input, work(input->layer, &how, report, &why), &why, error)) return false;
+    if (!check_status(input, NULL, work(input->layer, &how, report, &why), &why, error)) return false;
     sunder_report_summary(*report, summary);
     return true;
 }
 
 bool gis_layer_run_moves(const gis_layer_input *input, const sunder_layer *before, const sunder_layer *after,
-                         gis_progress *progress, sunder_report **report, gis_error *error)
+                         const size_t *number, gis_progress *progress, sunder_report **report, gis_error *error)
 {
     watcher w = {progress, STRETCH};
     sunder_layer_options how = watched_options(input, &w);
     sunder_error why;
-    return check_status(input, sunder_layer_check_moves(before, after, &how, report, &why), &why, error);
+    return check_status(input, number, sunder_layer_check_moves(before, after, &how, report, &why), &why, error);
 }

@@ -96,21 +96,35 @@ sunder_status sunder_layer_set_barriers(sunder_layer *layer, const sunder_barrie
     return SUNDER_OK;
 }
 
+/* Sets *copy to a copy of n items, or to NULL if there are none. Returns false if memory is out. */
+static bool copy_items(const void *item, size_t n, size_t size, void **copy)
+{
+    *copy = item ? sunder_i_alloc(n, size) : NULL;
+    if (*copy && n) memcpy(*copy, item, n * size);
+    return *copy || !item;
+}
+
 sunder_status sunder_layer_set_side_anchors(sunder_layer *layer, const double *xy, sunder_error *err)
 {
-    double *copy = NULL;
-    if (xy) {
-        copy = sunder_i_alloc(2 * layer->n, sizeof *copy);
-        if (!copy) return sunder_i_failure_cause(err);
-        if (layer->n) memcpy(copy, xy, 2 * layer->n * sizeof *copy);
-    }
+    void *copy;
+    if (!copy_items(xy, 2 * layer->n, sizeof *xy, &copy)) return sunder_i_failure_cause(err);
     sunder_i_free(layer->side_anchor);
     layer->side_anchor = copy;
+    return SUNDER_OK;
+}
+
+sunder_status sunder_layer_set_rows(sunder_layer *layer, const int64_t *row, sunder_error *err)
+{
+    void *copy;
+    if (!copy_items(row, layer->n, sizeof *row, &copy)) return sunder_i_failure_cause(err);
+    sunder_i_free(layer->row);
+    layer->row = copy;
     return SUNDER_OK;
 }
 
 void sunder_layer_free(sunder_layer *layer)
 {
     if (!layer) return;
-    sunder_i_free_all((void *)layer->shape, layer->demand, layer->demands, layer->barrier, layer->side_anchor, layer);
+    sunder_i_free_all((void *)layer->shape, layer->demand, layer->demands, layer->barrier, layer->side_anchor,
+                      layer->row, layer);
 }

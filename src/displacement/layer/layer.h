@@ -20,6 +20,7 @@ struct sunder_layer {
     size_t barriers;
     double *side_anchor; /* [2 n] side anchors from the caller, not finite where the rule has to find one; NULL: none
                           * are given */
+    int64_t *row;        /* [n] the row of each feature, -1 for none, as the caller gives them; NULL: none are given */
     /* A layer in processing order (feature_order.c) stores no features of its own but has the next three; otherwise
      * they are NULL: */
     const sunder_layer *given; /* the layer in the caller's order */

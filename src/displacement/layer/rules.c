@@ -31,7 +31,7 @@ static unsigned count_processors(void)
 
 static sunder_status check_rows(const sunder_layer_options *options, sunder_error *err)
 {
-    if ((int)options->rows < SUNDER_ROWS_NONE || (int)options->rows > SUNDER_ROWS_FOUND)
+    if ((int)options->rows < SUNDER_ROWS_NONE || (int)options->rows > SUNDER_ROWS_GIVEN)
         return sunder_i_fail(err, SUNDER_EARG, "no such choice of rows: %d", (int)options->rows);
     for (int k = 0; k < 2; k++)
         if (!(options->row_stiffness[k] >= 0) || !isfinite(options->row_stiffness[k]))

@@ -27,17 +27,8 @@ typedef struct row_search {
 
 /* ---- Edges ------------------------------------------------------------------------------------------------------- */
 
-/* Returns false if the work is to stop, as the other functions that return a bool do, also if memory is out. */
-static bool measure_walls(row_search *s)
-{
-    for (size_t f = 0; f < s->model->features; f++) {
-        if (!sunder_i_step()) return false;
-        if (s->model->present[f]) sunder_i_walls_add(sunder_i_thing_shape(s->model, f), &s->walls[f]);
-    }
-    return true;
-}
-
-/* Lists the pairs that stand side by side, with no line of a barrier between them. */
+/* Lists the pairs that stand side by side, with no line of a barrier between them. Returns false if the work is to
+ * stop, as the other functions that return a bool do, also if memory is out. */
 static bool list_edges(row_search *s)
 {
     sunder_i_list near = {0};
@@ -192,14 +183,14 @@ static bool find_reach(const row_search *s, sunder_i_rows *rows)
     return rows->reach != NULL;
 }
 
-sunder_status sunder_i_rows_find(const sunder_i_model *model, sunder_i_rows *rows, sunder_error *err)
+static sunder_status find_rows(const sunder_i_model *model, sunder_i_rows *rows, sunder_error *err)
 {
+    const sunder_i_rows_wanted wanted = {.reach = ROW_REACH * model->rules.gap};
     row_search s = {.model = model};
-    *rows = (sunder_i_rows){0};
     s.walls = sunder_i_calloc(model->features, sizeof *s.walls);
     s.side = sunder_i_alloc(model->bodies, sizeof *s.side);
-    const bool begun = s.walls && s.side && measure_walls(&s);
-    sunder_status status = begun ? sunder_i_row_pairs_find(model, &s.pairs, err) : sunder_i_failure_cause(err);
+    const bool begun = s.walls && s.side && sunder_i_rows_measure_walls(model, s.walls);
+    sunder_status status = begun ? sunder_i_row_pairs_find(model, &wanted, &s.pairs, err) : sunder_i_failure_cause(err);
     bool ok = !status && (!model->read || find_surroundings(&s)) &&
               sunder_i_row_pairs_thin_out(&s.pairs, model->bodies) && list_edges(&s) && choose_edges(&s) &&
               find_reach(&s, rows);
@@ -207,6 +198,13 @@ sunder_status sunder_i_rows_find(const sunder_i_model *model, sunder_i_rows *row
     if (!status && !(ok && list_rows(&s, rows))) status = sunder_i_failure_cause(err);
     sunder_i_free_all(s.walls, s.pairs.pair, s.edge, s.distance, s.side, s.about);
     return status;
+}
+
+sunder_status sunder_i_rows_find(const sunder_i_model *model, sunder_i_rows *rows, sunder_error *err)
+{
+    *rows = (sunder_i_rows){0};
+    return model->rules.rows == SUNDER_ROWS_GIVEN ? sunder_i_rows_take_given(model, rows, err)
+                                                  : find_rows(model, rows, err);
 }
 
 void sunder_i_rows_free(sunder_i_rows *rows)

@@ -3,7 +3,6 @@
  * set, Pattern Recognition 12, 1980). */
 #include "displacement/rows/row_pairs.h"
 #include "displacement/layer/reads.h"
-#include "displacement/rows/row_limits.h"
 
 #include "base/parallel.h"
 #include "base/sort.h"
@@ -24,9 +23,22 @@ typedef struct found {
 
 typedef struct near_search {
     const sunder_i_model *model;
+    const sunder_i_rows_wanted *wanted;
     double reach;
     found *found; /* [(features - 1) / SUNDER_I_GRAIN_TESTS + 1] */
 } near_search;
+
+/* May the body be in a pair that is looked for? */
+static bool is_wanted(const sunder_i_rows_wanted *w, uint32_t body)
+{
+    return !w->row || (w->row[body] >= 0 && w->joined[body] < 2);
+}
+
+/* May the two, which may be in pairs, be in one? */
+static bool are_wanted(const sunder_i_rows_wanted *w, uint32_t i, uint32_t j)
+{
+    return i != j && (!w->row || (w->row[i] == w->row[j] && w->path[i] != w->path[j]));
+}
 
 /* Adds the pair of features f and g of different bodies if they are within reach. */
 static sunder_status add_if_near(const near_search *s, uint32_t f, uint32_t g, found *to, sunder_error *err)
@@ -54,13 +66,15 @@ static sunder_status find_near(void *context, size_t begin, size_t end, sunder_e
     sunder_status status = SUNDER_OK;
     for (size_t f = begin; f < end && !status; f++) {
         double box[4];
-        if (!model->present[f]) continue;
+        if (!model->present[f] || !is_wanted(s->wanted, model->body_of[f])) continue;
         near.n = 0;
         sunder_i_box_grow(sunder_i_thing_shape(model, f)->box, s->reach, box);
         if (!sunder_i_look_about(model, &model->tree, box, &near)) status = sunder_i_failure_cause(err);
         for (size_t k = 0; k < near.n && !status; k++) {
             const uint32_t g = near.item[k];
-            if (g <= f || sunder_i_is_barrier(model, g) || model->body_of[f] == model->body_of[g]) continue;
+            if (g <= f || sunder_i_is_barrier(model, g) || !is_wanted(s->wanted, model->body_of[g]) ||
+                !are_wanted(s->wanted, model->body_of[f], model->body_of[g]))
+                continue;
             status = add_if_near(s, (uint32_t)f, g, &s->found[begin / SUNDER_I_GRAIN_TESTS], err);
         }
     }
@@ -68,21 +82,26 @@ static sunder_status find_near(void *context, size_t begin, size_t end, sunder_e
     return status;
 }
 
+int sunder_i_row_pair_compare(const sunder_i_row_pair *p, const sunder_i_row_pair *q)
+{
+    const double values[4][2] = {{p->distance, q->distance},
+                                 {p->from[0] + p->to[0], q->from[0] + q->to[0]},
+                                 {p->from[1] + p->to[1], q->from[1] + q->to[1]},
+                                 {fabs(p->from[0] - p->to[0]), fabs(q->from[0] - q->to[0])}};
+    for (int k = 0; k < 4; k++)
+        if (values[k][0] != values[k][1]) return values[k][0] < values[k][1] ? -1 : 1;
+    return 0;
+}
+
 /* Orders pairs by their bodies, those of the same bodies by distance. Pairs at one distance are ordered by the ends of
  * their links, so that numbers of features do not matter. */
 static int by_bodies(const void *x, const void *y)
 {
     const sunder_i_row_pair *p = x, *q = y;
-    const int order = sunder_i_by_id_pair(p, q);
+    int order = sunder_i_by_id_pair(p, q);
+    if (!order) order = sunder_i_row_pair_compare(p, q);
     if (order) return order;
-    const double values[5][2] = {{p->distance, q->distance},
-                                 {p->from[0] + p->to[0], q->from[0] + q->to[0]},
-                                 {p->from[1] + p->to[1], q->from[1] + q->to[1]},
-                                 {fabs(p->from[0] - p->to[0]), fabs(q->from[0] - q->to[0])},
-                                 {(double)p->f, (double)q->f}};
-    for (int k = 0; k < 5; k++)
-        if (values[k][0] != values[k][1]) return values[k][0] < values[k][1] ? -1 : 1;
-    return p->g < q->g ? -1 : p->g > q->g;
+    return p->f != q->f ? (p->f < q->f ? -1 : 1) : p->g < q->g ? -1 : p->g > q->g;
 }
 
 /* Appends the nearest features of each pair of bodies to `pairs`, which is empty. */
@@ -101,10 +120,11 @@ static bool keep_nearest(found *part, size_t parts, sunder_i_row_pairs *pairs)
     return true;
 }
 
-sunder_status sunder_i_row_pairs_find(const sunder_i_model *model, sunder_i_row_pairs *pairs, sunder_error *err)
+sunder_status sunder_i_row_pairs_find(const sunder_i_model *model, const sunder_i_rows_wanted *wanted,
+                                      sunder_i_row_pairs *pairs, sunder_error *err)
 {
     const size_t parts = (model->features + SUNDER_I_GRAIN_TESTS - 1) / SUNDER_I_GRAIN_TESTS;
-    near_search s = {model, ROW_REACH * model->rules.gap, sunder_i_calloc(parts, sizeof *s.found)};
+    near_search s = {model, wanted, wanted->reach, sunder_i_calloc(parts, sizeof *s.found)};
     sunder_status status = s.found ? SUNDER_OK : sunder_i_failure_cause(err);
     *pairs = (sunder_i_row_pairs){0};
     if (!status)

@@ -14,6 +14,8 @@ typedef struct sunder_i_walls {
 
 /* Adds the walls of a shape. */
 void sunder_i_walls_add(const sunder_shape *shape, sunder_i_walls *walls);
+/* Adds the walls of all features. walls: [features] Returns false if the work is to stop. */
+bool sunder_i_rows_measure_walls(const sunder_i_model *model, sunder_i_walls *walls);
 /* Sets `along` to a unit vector along the walls, at most 45 degrees from the x-axis; the others are at right angles to
  * it. `walls` must not have the length 0. */
 void sunder_i_walls_axis(const sunder_i_walls *walls, double along[2]);
@@ -36,8 +38,20 @@ typedef struct sunder_i_row_pairs {
     size_t n;
 } sunder_i_row_pairs;
 
-/* Finds all pairs. The caller frees pairs->pair, also after a failure. */
-sunder_status sunder_i_row_pairs_find(const sunder_i_model *model, sunder_i_row_pairs *pairs, sunder_error *err);
+/* Which pairs are looked for: those within reach or, if rows are given, those of them that are ends of two different
+ * paths of one row (given_rows.c). */
+typedef struct sunder_i_rows_wanted {
+    double reach;
+    int64_t *row;          /* [bodies] the row of each; -1: it is in none; NULL: no rows are given */
+    uint32_t *path;        /* [bodies] the path that each is in */
+    unsigned char *joined; /* [bodies] the number of its neighbours in the path */
+} sunder_i_rows_wanted;
+
+/* Finds these pairs of bodies. The caller frees pairs->pair, also after a failure. */
+sunder_status sunder_i_row_pairs_find(const sunder_i_model *model, const sunder_i_rows_wanted *wanted,
+                                      sunder_i_row_pairs *pairs, sunder_error *err);
+/* Compares two pairs by distance, and those at one distance by their links, as qsort() does. */
+int sunder_i_row_pair_compare(const sunder_i_row_pair *p, const sunder_i_row_pair *q);
 /* Removes the pairs that are no neighbours in the relative neighbourhood graph: those with a third body that is nearer
  * to both than they are to each other. Returns false if memory is out or the work is to stop. */
 bool sunder_i_row_pairs_thin_out(sunder_i_row_pairs *pairs, size_t bodies);
@@ -47,6 +61,10 @@ bool sunder_i_row_pairs_thin_out(sunder_i_row_pairs *pairs, size_t bodies);
 /* Returns whether the two stand side by side, as neighbours in a row do, and if so sets *edge. walls: [features] */
 bool sunder_i_row_side_by_side(const sunder_i_model *model, const sunder_i_walls *walls, const sunder_i_row_pair *pair,
                                sunder_i_row_edge *edge);
+/* Sets *edge to the edge of two bodies that are in a row anyway. If their walls have no common direction, that of the
+ * link is taken. */
+void sunder_i_row_join(const sunder_i_model *model, const sunder_i_walls *walls, const sunder_i_row_pair *pair,
+                       sunder_i_row_edge *edge);
 
 /* ---- row_links.c ------------------------------------------------------------------------------------------------- */
 

@@ -5,6 +5,7 @@
 #include "displacement/rows/row_limits.h"
 #include "displacement/rows/row_pairs.h"
 
+#include "base/watch.h"
 #include "shape/shape.h"
 
 #include <math.h>
@@ -24,6 +25,15 @@ void sunder_i_walls_add(const sunder_shape *shape, sunder_i_walls *walls)
         walls->direction[1] += length * (2 * cosine * sine);
         walls->length += length;
     }
+}
+
+bool sunder_i_rows_measure_walls(const sunder_i_model *model, sunder_i_walls *walls)
+{
+    for (size_t f = 0; f < model->features; f++) {
+        if (!sunder_i_step()) return false;
+        if (model->present[f]) sunder_i_walls_add(sunder_i_thing_shape(model, f), &walls[f]);
+    }
+    return true;
 }
 
 /* Replaces a unit vector by the one at half its angle, between -90 and 90 degrees. */

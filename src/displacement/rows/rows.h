@@ -22,14 +22,21 @@ typedef struct sunder_i_rows {
     size_t edges;
     /* [bodies] The edges of a body are decided by what meets this box, if blocks are known as a whole: by all that is
      * within ROW_REACH gaps of the body, of the neighbours that it has chosen on its sides, and of those that these
-     * have chosen. NULL unless the model records reads. */
+     * have chosen; of given rows, by the row. NULL unless the model records reads. */
     double (*reach)[4];
 } sunder_i_rows;
 
-/* Finds the rows among the bodies of the model, at their original positions. The caller frees them with
- * sunder_i_rows_free(), also after a failure. Fails with SUNDER_ENOMEM. */
+/* Finds the rows among the bodies of the model, at their original positions, or takes those that the layer gives. The
+ * caller frees them with sunder_i_rows_free(), also after a failure. Fails with SUNDER_ENOMEM, and as
+ * sunder_i_rows_take_given() does. */
 sunder_status sunder_i_rows_find(const sunder_i_model *model, sunder_i_rows *rows, sunder_error *err);
 void sunder_i_rows_free(sunder_i_rows *rows);
+
+/* ---- given_rows.c ------------------------------------------------------------------------------------------------ */
+
+/* Orders the rows that sunder_layer_set_rows() gave. Fails with SUNDER_ENOMEM, and with SUNDER_EINVALID, and the
+ * caller's number of the feature in err->polygon, if two features of one block are in different rows. */
+sunder_status sunder_i_rows_take_given(const sunder_i_model *model, sunder_i_rows *rows, sunder_error *err);
 
 /* ---- row_rule.c -------------------------------------------------------------------------------------------------- */
 

@@ -84,24 +84,56 @@ static void choose_axis(const sunder_shape *const shape[2], const double origin[
     for (int k = 0; k < 2; k++) s[k] = stand_of(shape[k], along, origin);
 }
 
-bool sunder_i_row_side_by_side(const sunder_i_model *model, const sunder_i_walls *walls, const sunder_i_row_pair *pair,
-                               sunder_i_row_edge *edge)
+/* Sets the edge along the axis edge->along, which it turns, and the extents of f and g. */
+static void measure_edge(const sunder_i_model *model, const sunder_i_row_pair *pair, sunder_i_row_edge *edge,
+                         stand s[2])
 {
     const sunder_shape *shape[2] = {sunder_i_thing_shape(model, pair->f), sunder_i_thing_shape(model, pair->g)};
     const double *origin = shape[0]->box;
-    sunder_i_walls mean;
-    stand s[2];
-    *edge = (sunder_i_row_edge){.i = pair->i, .j = pair->j, .f = pair->f, .g = pair->g};
-    if (!sunder_i_walls_mean(&walls[pair->f], &walls[pair->g], &mean)) return false;
-    sunder_i_walls_axis(&mean, edge->along);
     choose_axis(shape, origin, edge->along, s);
     edge->offset = offset_of(&s[0].across, &s[1].across);
-    if (!(apart_by_length(&s[0].along, &s[1].along) >= -ROW_SHARED) ||
-        !(apart_by_length(&s[0].across, &s[1].across) <= -ROW_SHARED) ||
-        !are_of_one_depth(&s[0].across, &s[1].across) || !(fabs(edge->offset) <= model->rules.gap))
-        return false;
     const extent i = extent_of_body(model, pair->i, edge->along, origin),
                  j = extent_of_body(model, pair->j, edge->along, origin);
     edge->apart = j.from - i.to;
-    return true;
+}
+
+static sunder_i_row_edge edge_of_pair(const sunder_i_row_pair *pair)
+{
+    return (sunder_i_row_edge){.i = pair->i, .j = pair->j, .f = pair->f, .g = pair->g};
+}
+
+bool sunder_i_row_side_by_side(const sunder_i_model *model, const sunder_i_walls *walls, const sunder_i_row_pair *pair,
+                               sunder_i_row_edge *edge)
+{
+    sunder_i_walls mean;
+    stand s[2];
+    *edge = edge_of_pair(pair);
+    if (!sunder_i_walls_mean(&walls[pair->f], &walls[pair->g], &mean)) return false;
+    sunder_i_walls_axis(&mean, edge->along);
+    measure_edge(model, pair, edge, s);
+    return apart_by_length(&s[0].along, &s[1].along) >= -ROW_SHARED &&
+           apart_by_length(&s[0].across, &s[1].across) <= -ROW_SHARED &&
+           are_of_one_depth(&s[0].across, &s[1].across) && fabs(edge->offset) <= model->rules.gap;
+}
+
+/* Sets the axis to the direction of the link, or to the x-axis if the two touch. */
+static void take_link(const sunder_i_row_pair *pair, double along[2])
+{
+    const double x = pair->to[0] - pair->from[0], y = pair->to[1] - pair->from[1], length = sqrt(x * x + y * y);
+    along[0] = length > 0 ? x / length : 1;
+    along[1] = length > 0 ? y / length : 0;
+}
+
+void sunder_i_row_join(const sunder_i_model *model, const sunder_i_walls *walls, const sunder_i_row_pair *pair,
+                       sunder_i_row_edge *edge)
+{
+    sunder_i_walls mean = {{0, 0}, 0};
+    stand s[2];
+    *edge = edge_of_pair(pair);
+    sunder_i_walls_mean(&walls[pair->f], &walls[pair->g], &mean);
+    if (fabs(mean.direction[0]) + fabs(mean.direction[1]) > ROW_STRAIGHT)
+        sunder_i_walls_axis(&mean, edge->along);
+    else
+        take_link(pair, edge->along);
+    measure_edge(model, pair, edge, s);
 }
