@@ -101,9 +101,9 @@ OPTIONS = (
     Option("--list-inside", FLAG, LAYERS, "List conflicts inside blocks, too",
            "Members of one block need no gap; with this option their conflicts are listed nevertheless.", False),
     # ---- Rows ----
-    Option("--rows", CHOICE, LAYERS, "Rows of houses keep their line",
-           "Neighbours in a row keep their order, and stay in line as far as the stiffness outweighs the moves.",
-           1, ("auto", "no"), ("Yes: rows are found in the layer", "No")),
+    Option("--rows", TEXT, LAYERS, "Rows of houses keep their line",
+           "Neighbours in a row keep their order, and stay in line as far as the stiffness outweighs the moves. auto: rows "
+           "are found in the layer; a field: equal values, not null, are one row; empty: no rows.", ""),
     Option("--row-stiffness", TEXT, ("separate",), "Stiffness of rows against kinks, and against uneven spacing",
            "Two factors of the cost of a move. 3,0.3: as usual; 10,1: stiff.", ""),
     Option("--ease", TEXT, ("separate",), "Price of what pairs that remain in conflict lack",
@@ -164,7 +164,7 @@ NOUNS = {
     "--touch-tolerance": "distance up to which features are one block", "--block-field": "field of the blocks",
     "--no-blocks": "checkbox to form no blocks", "--contained": "treatment of contained features",
     "--allow-jumps": "checkbox to allow jumps", "--list-inside": "checkbox to list conflicts inside blocks",
-    "--rows": "choice whether rows keep their line", "--row-stiffness": "stiffness of rows",
+    "--rows": "choice of rows", "--row-stiffness": "stiffness of rows",
     "--ease": "price of what pairs lack",
     "--symbol": "symbol", "--symbol-field": "field of the symbols",
     "--symbol-size-field": "field of the symbols' sizes",
