@@ -33,6 +33,9 @@ MODULES = {m.__name__ + ".py": m for m in (trees, bodies, prices, verdicts, deci
 ENDLESS = {"a node has two parents:"}  # without this test the search would not end
 UNSEEN = {
     "a side, where there is no limit": "of two anchors that lines shut in, but for a narrow way far away: no case is made",
+    "a rule without a row": "a run without --rows has no words for rows in its file",
+    "a row without a limit:": "no run has neighbours of which one has a limit and a verdict needs their row",
+    "these are no neighbours in a row:": "a line that no statement uses makes none false; rows_proofs.py changes lines that are used",
     "there is no rule for those that do not stand apart:": "no run has neighbours that overlap along their row",
 }
 

@@ -170,7 +170,7 @@
 /* ---- Bounds of prices (body_bound.c) ----------------------------------------------------------------------------- */
 
 /* At most MOST_SQUARES squares for a body; fewer if the bound comes within the share NEARLY_ENOUGH of what it costs. */
-#define MOST_SQUARES 1500
+#define MOST_SQUARES 1500 /* fixed: the size of an array */
 #define NEARLY_ENOUGH 1e-3
 
 #endif
