@@ -113,14 +113,18 @@ def lost(town, fid):
 
 
 def not_a_translate(town, fid):
-    """Moves one vertex, not the first one of its ring, by one unit in the last place."""
-    geometry, seen = town.geometry(fid), [0]
+    """Moves one vertex, not the first one of its ring, by one unit in the last place. This is no breach if a move by half a
+    unit rounds all vertices to their new places, as a tie: to even."""
+    geometry, seen, now = town.geometry(fid), [], []
 
     def nudge(x, y):
-        seen[0] += 1
-        return (math.nextafter(x, math.inf), y) if seen[0] == 2 else (x, y)
+        seen.append(x)
+        now.append(math.nextafter(x, math.inf) if len(seen) == 2 else x)
+        return now[-1], y
     walk(geometry, nudge)
-    yield (fid,), {fid: geometry}
+    half = (Fraction(now[1]) - Fraction(seen[1])) / 2
+    if any(float(Fraction(x) + half) != at for x, at in zip(seen, now)):
+        yield (fid,), {fid: geometry}
 
 
 def limit(town, fid):
