@@ -30,7 +30,7 @@ const gis_command gis_commands[] = {
      "--operation close --shape square:6m --dissolve houses.gpkg blocks.gpkg", gis_command_buffer},
     {GIS_ROUTE, "route", "OBSTACLES [OUTPUT]", 1, 2, "Shortest path of a robot among obstacles; contact is allowed",
      "\"POLYGON ((2 -9, 4 -9, 4 3, 2 3))\" --robot square:2 --from 0,0 --to 6,0", gis_command_route},
-    {GIS_PLAN, "plan", "INPUT PLAN", 2, 2, "Cuts a layer into shards, for many machines",
+    {GIS_PLAN, "plan", "INPUT PLAN", 2, 2, "Cuts a layer into N shards, for many machines; --shards N is required",
      "--gap 3m --shards 16 houses.gpkg houses.plan", gis_command_plan},
     {GIS_MERGE, "merge", "PLAN OUTPUT", 2, 2, "Joins the shards of a plan, and writes what separate writes",
      "houses.plan separated.gpkg", gis_command_merge},

@@ -37,7 +37,7 @@ typedef struct gis_result_kind {
     bool (*conflicts)(const gis_result *result, gis_conflict_visit *visit, void *user, gis_error *error);
     /* Call it once only. */
     bool (*pushes)(const gis_result *result, gis_push_visit *visit, void *user, gis_error *error);
-    /* Visits the rows of neighbours; NULL: the implementation has none. */
+    /* Visits the rows of neighbours. */
     bool (*rows)(const gis_result *result, gis_house_row_visit *visit, void *user, gis_error *error);
     /* Adds the layer of symbols to the sink and writes it. */
     bool (*symbols)(const gis_result *result, gis_sink *sink, gis_error *error);

@@ -74,8 +74,23 @@ def clusters():
     return rings
 
 
+def streets():
+    """Rows of houses from one end of the layer to the other in both directions, with pairs in them that are too near,
+    houses that touch, and one long building between two of the streets."""
+    dice = random.Random(13)
+    rings = []
+    for street in range(8):
+        at = 0
+        for _ in range(45):
+            width, gap = 8 + dice.randrange(16) / 8, dice.choice((0, 1, 2.5, 3, 4, 5, 6, 7))
+            side, shift = 60 * street, dice.randrange(12) / 8
+            rings.append(box(at, side + shift, width, 9) if street < 5 else box(side - 300 + shift, 260 + at, 9, width))
+            at += width + gap
+    return rings + [box(100, 192, 300, 8)]
+
+
 def main():
-    for make in (chain, block, one_place, few, duplicates, great, clusters):
+    for make in (chain, block, one_place, few, duplicates, great, clusters, streets):
         features = []
         for number, ring in enumerate(make()):
             # Block 1: its members are far from each other.

@@ -13,17 +13,17 @@ ogr2ogr -q numbered.gpkg town.gpkg -nln buildings -dialect SQLite \
     mv numbered.gpkg town.gpkg || fail "blocks are not numbered"
 
 # alike OUTPUT MEMORY ARGS: compares runs with and without --max-memory
-page=()
+page=() proof=(--proof at/proof.jsonl)
 alike() {
     local output=$1 memory=$2 first second
     shift 2
     rm -rf whole parts at
     mkdir at
-    run separate town.gpkg "at/$output" -l buildings "$@" --stats whole.json -q --proof at/proof.jsonl "${page[@]}"
+    run separate town.gpkg "at/$output" -l buildings "$@" --stats whole.json -q "${proof[@]}" "${page[@]}"
     first=$status
     mv at whole
     mkdir at
-    run separate town.gpkg "at/$output" -l buildings "$@" --stats parts.json -q --proof at/proof.jsonl \
+    run separate town.gpkg "at/$output" -l buildings "$@" --stats parts.json -q "${proof[@]}" \
         "${page[@]}" --max-memory "$memory"
     second=$status
     mv at parts
@@ -50,6 +50,13 @@ alike o.shp 99M --gap 3 --effort 0
 alike o.gpkg 98.5M --gap 3 --effort 0 --block-field blk
 alike o.geojson 99M --gap 3 --effort 0 --layers main,conflicts
 drawn o.fgb 2G --gap 3 --effort 0
+
+# Rows of houses: in parts there is no proof of them.
+proof=()
+alike o.gpkg 99M --gap 3 --effort 0.05 --rows auto
+drawn o.gpkg 103M --gap 2 --effort 0 --rows auto --row-stiffness 10,1 --block-field blk --max-shift 3 --id-field id
+jq -e '.rows.rows > 50 and .displacement.cost_rows > 1' whole.json >/dev/null || fail "few rows: $(jq -c .rows whole.json)"
+proof=(--proof at/proof.jsonl)
 
 # Barriers: roads through the whole layer with different widths, meadows, one that is near a feature only at one end,
 # and one that is near none.
@@ -82,6 +89,9 @@ done
 alike o.gpkg 99M --gap 3 --effort 0 --max-shift 4 --barrier roads.gpkg,width-field=w
 drawn o.gpkg 103M --gap 3 --effort 0 --max-shift 4 --barrier roads.gpkg,width=5,gap=0,side=no \
     --barrier meadows.gpkg,gap=1 --barrier "roads.gpkg,where=w > 3" --id-field id
+proof=()
+alike o.gpkg 99M --gap 3 --effort 0 --rows auto --max-shift 4 --barrier roads.gpkg,width-field=w --barrier meadows.gpkg
+proof=(--proof at/proof.jsonl)
 alike o.gpkg 99M --gap 1 --effort 0 --max-shift 2 --barrier meadows.gpkg,as=boundary,gap=0 --touch-tolerance 0.01
 alike o.gpkg 99M --gap 1 --effort 0 --max-shift 2 --barrier "roads.gpkg,where=w > 60"
 

@@ -118,10 +118,9 @@ expect 2 check free.gpkg --gap 5 --rows auto
 expect 3 separate tight.gpkg t.gpkg --gap 5 --max-shift-field most --rows auto --stats tight.json
 [ "$(jq .conflicts.after.too_close tight.json)" -ge 1 ] || fail "a tight row: $(cat out)"
 
-# Refused: points, parts on disk, the layer without the option.
+# Refused: points, the layer of rows without the option, proofs.
 printf 'WKT,w\n"POINT(0 0)",1\n' | layer points.gpkg points POINT
 expect 2 separate points.gpkg p.gpkg --symbol square:1 --rows auto
-expect 2 separate street.gpkg p.gpkg --gap 3 --rows auto --max-memory 1G
 expect 2 separate street.gpkg p.gpkg --gap 3 --layers rows
 expect 0 separate street.gpkg proved.gpkg --gap 3 --rows auto --proof p.jsonl
 [ "$(grep -c '^{"row":' p.jsonl)" = 4 ] || fail "the proof does not name the four pairs of neighbours"

@@ -42,7 +42,7 @@ static const sunder_shape *box_at(rng *r, double x, double y, double w, double h
     return shape;
 }
 
-static void lay_out(town *t, rng *r, size_t n)
+static void draw_options(town *t, rng *r)
 {
     sunder_layer_options_init(&t->how);
     t->how.gap = rng_once_in(r, 4) ? 0 : 1 + rng_unit(r);
@@ -52,6 +52,45 @@ static void lay_out(town *t, rng *r, size_t n)
     t->how.keep_pushes = true;
     t->how.drop_proofs = true;
     t->how.threads = (unsigned)rng_int(r, 1, 2);
+}
+
+/* Puts the features in an order that is drawn. */
+static void shuffle(town *t, rng *r)
+{
+    for (size_t k = t->n; k-- > 1;) {
+        const size_t other = (size_t)rng_int(r, 0, (int64_t)k);
+        const sunder_feature swap = t->feature[k];
+        t->feature[k] = t->feature[other];
+        t->feature[other] = swap;
+    }
+}
+
+/* Streets of houses side by side, which are rows: some houses touch, some are nearer than the gap, and the others are
+ * up to four gaps apart. */
+static void lay_streets(town *t, rng *r, size_t n)
+{
+    draw_options(t, r);
+    t->how.gap = 1 + rng_unit(r);
+    t->how.rows = SUNDER_ROWS_FOUND;
+    const bool limited = rng_once_in(r, 2);
+    const size_t length = 20 + (size_t)rng_int(r, 0, 40);
+    double x = 0;
+    for (t->n = 0; t->n < n; t->n++) {
+        const double w = 4 + 4 * rng_unit(r), y = 9000 + 14 * (double)(t->n / length) + 0.4 * rng_unit(r);
+        if (t->n % length == 0) x = 4000.25 + 10 * rng_unit(r);
+        t->feature[t->n] = (sunder_feature){.shape = box_at(r, x, y, w, 6 + rng_unit(r), false),
+                                            .weight = rng_once_in(r, 3) ? 1 + 3 * rng_unit(r) : 1,
+                                            .max_shift = limited ? 4 * rng_unit(r) : INFINITY,
+                                            .fixed = rng_once_in(r, 40),
+                                            .block = rng_once_in(r, 200) ? rng_int(r, 0, 9) : -1};
+        x += w + (rng_once_in(r, 15) ? 0 : t->how.gap * (rng_once_in(r, 12) ? rng_unit(r) : 1.2 + 2.8 * rng_unit(r)));
+    }
+    shuffle(t, r);
+}
+
+static void lay_out(town *t, rng *r, size_t n)
+{
+    draw_options(t, r);
     const bool limited = rng_once_in(r, 2), numbered = rng_once_in(r, 2);
     const double pitch = 15 + 4 * rng_unit(r), crowded = 0.01 + 0.02 * rng_unit(r);
     const size_t row = 40 + (size_t)rng_int(r, 0, 60);
@@ -66,12 +105,7 @@ static void lay_out(town *t, rng *r, size_t n)
                                             .fixed = street ? t->n % row == 0 : rng_once_in(r, 40),
                                             .block = numbered && rng_once_in(r, 200) ? rng_int(r, 0, 9) : -1};
     }
-    for (size_t k = t->n; k-- > 1;) {
-        const size_t other = (size_t)rng_int(r, 0, (int64_t)k);
-        const sunder_feature swap = t->feature[k];
-        t->feature[k] = t->feature[other];
-        t->feature[other] = swap;
-    }
+    shuffle(t, r);
 }
 
 /* ---- Barriers ---------------------------------------------------------------------------------------------------- */
@@ -266,6 +300,35 @@ static void demand_same_sums(const sunder_report *whole, const gis_joined *j)
     assert_true(s.cost == t->cost && s.lower_bound == t->lower_bound && s.verified == t->verified);
 }
 
+/* The same rows of houses, with the same figures. */
+static void demand_same_rows(const town *t, const sunder_report *whole, const gis_joined *j)
+{
+    size_t n;
+    sunder_layer_summary s;
+    const sunder_layer_summary *u = &j->summary;
+    const sunder_row *row = sunder_report_rows(whole, &n);
+    sunder_report_summary(whole, &s);
+    assert_int_equal(n, j->row_list.rows);
+    for (size_t k = 0; k < n; k++) {
+        const sunder_row *other = &j->row_list.row[k];
+        assert_int_equal(row[k].features, other->features);
+        assert_true(row[k].bodies == other->bodies && row[k].ring == other->ring);
+        assert_true(row[k].kink_before == other->kink_before && row[k].kink_after == other->kink_after);
+        for (size_t i = 0; i < row[k].features; i++) {
+            double anchor[2], move[2];
+            const size_t f = row[k].feature[i];
+            const gis_row_place *place = gis_joined_row_place(j, f);
+            assert_true(f == other->feature[i] && place);
+            sunder_shape_anchor(t->feature[f].shape, anchor);
+            sunder_report_move(whole, f, &move[0], &move[1]);
+            assert_true(place->at[0] == anchor[0] + move[0] && place->at[1] == anchor[1] + move[1]);
+        }
+    }
+    assert_true(s.rows == u->rows && s.row_features == u->row_features && s.row_pairs == u->row_pairs);
+    assert_true(s.kink_mean == u->kink_mean && s.kink_p95 == u->kink_p95 && s.kink_share == u->kink_share);
+    assert_true(s.cost_moves == u->cost_moves && s.cost_rows == u->cost_rows);
+}
+
 /* Writes each part into a file of its own, or all of them into one file. */
 static void separate_parts(gis_layout *layout, unsigned shards, bool apart)
 {
@@ -308,6 +371,7 @@ static unsigned compare(const town *t, const sunder_report *whole, unsigned shar
     demand_same_features(t, whole, &joined);
     demand_same_conflicts(t, whole, &joined);
     demand_same_sums(whole, &joined);
+    demand_same_rows(t, whole, &joined);
     const unsigned more = joined.runs - shards;
     gis_joined_clear(&joined);
     for (unsigned k = 0; k < files; k++) gis_part_file_close(&file[k]);
@@ -317,14 +381,17 @@ static unsigned compare(const town *t, const sunder_report *whole, unsigned shar
     return more;
 }
 
-static void separate_towns(bool barriers)
+static void separate_towns(size_t n, bool barriers, bool rows)
 {
     static town t;
     unsigned more = 0;
-    size_t moved = 0;
+    size_t moved = 0, neighbours = 0;
     for (size_t number = 0; number < test_count(4); number++) {
-        rng r = rng_start(test_seed(), (barriers ? 8300 : 8200) + number);
-        lay_out(&t, &r, barriers ? MOST / 8 : MOST);
+        rng r = rng_start(test_seed(), (rows ? 8400 : barriers ? 8300 : 8200) + number);
+        if (rows)
+            lay_streets(&t, &r, n);
+        else
+            lay_out(&t, &r, n);
         lay_barriers(&t, &r, barriers);
         sunder_layer *layer;
         sunder_report *whole;
@@ -335,6 +402,7 @@ static void separate_towns(bool barriers)
         assert_int_equal(sunder_layer_separate(layer, &t.how, &whole, &why), SUNDER_OK);
         sunder_report_summary(whole, &s);
         moved += s.moved;
+        neighbours += s.row_pairs;
         more += compare(&t, whole, 1, -1) + compare(&t, whole, 2, -1) + compare(&t, whole, 7, -1);
         more += compare(&t, whole, 7, t.how.gap); /* a small margin around each part */
         sunder_report_free(whole);
@@ -342,24 +410,33 @@ static void separate_towns(bool barriers)
         clear_barriers(&t);
         for (size_t k = 0; k < t.n; k++) sunder_shape_free((sunder_shape *)t.feature[k].shape);
     }
-    print_message("%zu features moved; %u parts were separated once more\n", moved, more);
-    assert_true(moved > 0 && more > 0);
+    print_message("%zu features moved; %u parts were separated once more; %zu neighbours in rows\n", moved, more,
+                  neighbours);
+    assert_true(moved > 0 && more > 0 && (neighbours > 0) == rows);
 }
 
 static void test_towns_in_parts(void **state)
 {
     (void)state;
-    separate_towns(false);
+    separate_towns(MOST, false, false);
 }
 
 static void test_barriers_in_parts(void **state)
 {
     (void)state;
-    separate_towns(true);
+    separate_towns(MOST / 8, true, false);
+}
+
+static void test_rows_in_parts(void **state)
+{
+    (void)state;
+    separate_towns(MOST / 8, false, true);
+    separate_towns(MOST / 16, true, true);
 }
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_towns_in_parts), cmocka_unit_test(test_barriers_in_parts)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_towns_in_parts), cmocka_unit_test(test_barriers_in_parts),
+                                       cmocka_unit_test(test_rows_in_parts)};
     return cmocka_run_group_tests(tests, scratch_set_up, scratch_tear_down);
 }

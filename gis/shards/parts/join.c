@@ -204,7 +204,8 @@ bool gis_parts_join(const gis_layout *layout, gis_part_file *file, size_t files,
         done = gis_go_on(error) && settle_round(&j, round, &any, error) &&
                gis_border_chunks_load_new(&chunks, &held, error);
     out->runs = j.run;
-    done = done && gis_joined_lists_make(out, &chunks, &held, directory, error);
+    done = done && gis_joined_lists_make(out, &chunks, &held, directory, error) &&
+           gis_joined_rows_make(out, &layout->how, error);
     gis_border_chunks_clear(&chunks);
     gis_part_result_clear(&held);
     return done;

@@ -13,6 +13,13 @@
 #include "shards/parts/part.h"
 #include "shards/parts/sorted_results.h"
 
+/* A feature in a row of houses: its FID, and its anchor after its move. */
+typedef struct gis_row_place {
+    size_t index;
+    int64_t fid;
+    double at[2];
+} gis_row_place;
+
 /* The joined result. A zeroed struct is empty. */
 typedef struct gis_joined {
     gis_sorted_results rows;      /* by feature: one row or one still each; a feature without an entry is as it would be
@@ -20,8 +27,12 @@ typedef struct gis_joined {
     gis_sorted_results conflicts; /* by (a, b): one conflict each */
     gis_sorted_results pushes;    /* by (a, b): one push each */
     gis_sorted_results trees;     /* by group (its first feature that moves) and place in the group */
-    gis_part_link *block;         /* by feature; a: a feature in a block, b: the block's first feature */
-    bool *fixed;                  /* [blocks] at the entry of a block's first feature: one of its features is fixed, and
+    gis_sorted_results neighbours; /* by the two features: neighbours in rows of houses */
+    sunder_row_list row_list;      /* the rows that they form */
+    gis_row_place *row_place;      /* [row_places] their features, by number */
+    size_t row_places;
+    gis_part_link *block; /* by feature; a: a feature in a block, b: the block's first feature */
+    bool *fixed;          /* [blocks] at the entry of a block's first feature: one of its features is fixed, and
                                    * so the whole block is */
     size_t blocks;
     sunder_layer_summary summary; /* except features, vertices and skipped, which are known of the layer */
@@ -39,6 +50,11 @@ void gis_joined_clear(gis_joined *joined);
  * those in chunks that are not in memory. */
 bool gis_joined_lists_make(gis_joined *out, gis_border_chunks *chunks, gis_part_result *held, const char *directory,
                            gis_error *error);
+/* Joins the neighbours to rows, with the moves of the joined rows of features, and adds up what is about rows in the
+ * summary (joined_rows.c). how: the options of the parts. Called when all lists are sorted. */
+bool gis_joined_rows_make(gis_joined *joined, const sunder_layer_options *how, gis_error *error);
+/* The entry of a feature that is in a row of houses. */
+const gis_row_place *gis_joined_row_place(const gis_joined *joined, size_t feature);
 /* The entry of a feature in joined->block; NULL: it is in no block. */
 const gis_part_link *gis_joined_block(const gis_joined *joined, size_t feature);
 /* The status of a feature that is in no world. */

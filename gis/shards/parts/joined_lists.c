@@ -68,6 +68,14 @@ static bool put_tree(gathering *g, const gis_part_result *r, size_t k, gis_error
            gis_sorted_results_add(&g->out->trees, r->tree[k].first, r->tree[k].among, &g->one, error);
 }
 
+static bool put_neighbours(gathering *g, const gis_part_result *r, size_t k, gis_error *error)
+{
+    const size_t *feature = r->neighbour[k].is.feature;
+    gis_part_result_empty(&g->one);
+    return gis_part_copy_neighbours(&g->one, r, k, error) &&
+           gis_sorted_results_add(&g->out->neighbours, feature[0], feature[1], &g->one, error);
+}
+
 static void add_counts(sunder_conflict_counts *to, const sunder_conflict_counts *from)
 {
     to->overlap += from->overlap;
@@ -108,6 +116,7 @@ static bool put_result(gathering *g, const gis_part_result *r, gis_error *error)
     for (size_t w = 0; w < r->worlds && done; w++) done = put_world(g, r, &r->world[w], error);
     for (size_t k = 0; k < r->stills && done; k++) done = put_still(g, r, k, error);
     for (size_t k = 0; k < r->links && done; k++) done = gis_part_copy_link(&g->links, r, k, error);
+    for (size_t k = 0; k < r->neighbours && done; k++) done = put_neighbours(g, r, k, error);
     g->out->summary.verified = g->out->summary.verified && !r->unverified;
     return done && gis_go_on(error);
 }
@@ -235,7 +244,7 @@ static bool keep_feature(void *user, const gis_sort_head *head, const gis_part_r
     return true;
 }
 
-/* Keeps each push, and each tree, once. */
+/* Keeps each push, each tree, and each pair of neighbours once. */
 static bool keep_once(void *user, const gis_sort_head *head, const gis_part_result *one, bool *keep, gis_error *error)
 {
     (void)one;
@@ -278,7 +287,9 @@ static bool sort_everything(gathering *g, gis_error *error)
     g->any = false;
     if (!gis_sorted_results_sort(&j->pushes, keep_once, g, error)) return false;
     g->any = false;
-    return gis_sorted_results_sort(&j->trees, keep_once, g, error);
+    if (!gis_sorted_results_sort(&j->trees, keep_once, g, error)) return false;
+    g->any = false;
+    return gis_sorted_results_sort(&j->neighbours, keep_once, g, error);
 }
 
 /* ---- All lists --------------------------------------------------------------------------------------------------- */
@@ -291,7 +302,8 @@ static bool begin_lists(gis_joined *j, const char *directory, gis_error *error)
     return gis_sorted_results_begin(&j->rows, directory, "rows", error) &&
            gis_sorted_results_begin(&j->conflicts, directory, "conflicts", error) &&
            gis_sorted_results_begin(&j->pushes, directory, "pushes", error) &&
-           gis_sorted_results_begin(&j->trees, directory, "trees", error);
+           gis_sorted_results_begin(&j->trees, directory, "trees", error) &&
+           gis_sorted_results_begin(&j->neighbours, directory, "neighbours", error);
 }
 
 bool gis_joined_lists_make(gis_joined *out, gis_border_chunks *chunks, gis_part_result *held, const char *directory,
@@ -306,7 +318,7 @@ bool gis_joined_lists_make(gis_joined *out, gis_border_chunks *chunks, gis_part_
     s->lower_bound = sunder_total_below(&g.proved);
     s->pair_bound = sunder_total_below(&g.by_pairs);
     s->total = sunder_total_nearest(&g.total);
-    s->cost = sunder_total_nearest(&g.cost);
+    s->cost = s->cost_moves = sunder_total_nearest(&g.cost);
     const size_t moved = s->moved + s->blocked_moved;
     if (moved) s->mean = s->total / (double)moved;
     return done;
@@ -325,6 +337,9 @@ void gis_joined_clear(gis_joined *joined)
     gis_sorted_results_clear(&joined->conflicts);
     gis_sorted_results_clear(&joined->pushes);
     gis_sorted_results_clear(&joined->trees);
+    gis_sorted_results_clear(&joined->neighbours);
+    sunder_row_list_free(&joined->row_list);
+    free(joined->row_place);
     free(joined->block);
     free(joined->fixed);
     *joined = (gis_joined){0};

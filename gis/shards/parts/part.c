@@ -158,6 +158,11 @@ static bool separate_part(gis_part *p, gis_error *error)
     sunder_feature *feature = malloc((p->n + 1) * sizeof *feature);
     if (!feature) return gis_no_memory(error);
     for (size_t k = 0; k < p->n; k++) feature[k] = p->item[k].feature.demands;
+    p->decided = calloc(p->n + 1, sizeof *p->decided);
+    if (!p->decided) {
+        free(feature);
+        return gis_no_memory(error);
+    }
     const bool made = sunder_layer_new(feature, p->n, &p->layer, &why) == SUNDER_OK;
     free(feature);
     if (made && (!set_sides(p, error) || !gis_barriers_set(&p->barriers, p->layer, error))) return false;
@@ -179,6 +184,7 @@ static void clear_part(gis_part *p)
     }
     free(p->item);
     free(p->block);
+    free(p->decided);
     gis_barriers_list_clear(&p->barriers);
     gis_proof_lines_clear(&p->lines);
     sunder_layer_free(p->layer);
@@ -197,7 +203,8 @@ bool gis_part_separate(const gis_layout *layout, const gis_boxes_list *boxes, gi
                   .out = result};
     bool done = load_part(&p, error);
     if (done) warn_if_large(&p);
-    done = done && separate_part(&p, error) && gis_part_fill_worlds(&p, error) && gis_part_fill_others(&p, error);
+    done = done && separate_part(&p, error) && gis_part_fill_worlds(&p, error) && gis_part_fill_rows(&p, error) &&
+           gis_part_fill_others(&p, error);
     clear_part(&p);
     return done;
 }

@@ -147,7 +147,9 @@ bool gis_part_file_add(gis_part_file *file, const gis_part_result *result, gis_e
     bool done = write_worlds(file, result, error);
     for (size_t k = 0; k < result->stills && done; k++) done = gis_part_copy_still(&others, result, k, error);
     for (size_t k = 0; k < result->links && done; k++) done = gis_part_copy_link(&others, result, k, error);
-    if (done && (others.stills || others.links || others.unverified)) done = write_chunk(file, &others, error);
+    for (size_t k = 0; k < result->neighbours && done; k++) done = gis_part_copy_neighbours(&others, result, k, error);
+    if (done && (others.stills || others.links || others.neighbours || others.unverified))
+        done = write_chunk(file, &others, error);
     gis_part_result_clear(&others);
     return done;
 }

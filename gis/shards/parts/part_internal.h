@@ -22,6 +22,7 @@ typedef struct gis_part {
     bool *block; /* [layout->blocks] a feature of the block is in the part */
     gis_part_loaded *item;
     size_t n, capacity;
+    bool *decided; /* [n] it is known which neighbours in rows the feature has; only for features that are wanted */
     gis_barriers_list barriers;
     sunder_layer *layer;
     sunder_report *report;
@@ -41,11 +42,21 @@ bool gis_part_fill_row(gis_part *p, size_t k, gis_error *error);
 bool gis_part_fill_conflict(gis_part *p, size_t number, bool loose, gis_error *error);
 bool gis_part_fill_push(gis_part *p, const sunder_push *push, gis_error *error);
 bool gis_part_fill_tree(gis_part *p, const gis_proof_place *place, gis_error *error);
+bool gis_part_fill_neighbours(gis_part *p, const sunder_row_pair *pair, gis_error *error);
 
 /* ---- part_worlds.c: adds the worlds that have a requested feature, and features in no world
  * ----------------------- */
 
 bool gis_part_fill_worlds(gis_part *p, gis_error *error);
 bool gis_part_fill_others(gis_part *p, gis_error *error);
+/* Is everything of the layer that meets the box in the part? May return false if it is. */
+bool gis_part_knows(const gis_part *p, const double box[4]);
+
+/* ---- part_rows.c: adds neighbours in rows
+ * ------------------------------------------------------------------------- */
+
+/* Adds the pairs of neighbours of requested features. Requested features that are in no world, and for which it is not
+ * known which neighbours they have, are added as one incomplete world. Called after gis_part_fill_worlds(). */
+bool gis_part_fill_rows(gis_part *p, gis_error *error);
 
 #endif

@@ -39,6 +39,7 @@ static const struct list {
              LIST(name, names, NULL, 0),
              LIST(still, stills, HOLES(holes_of_still)),
              LIST(link, links, NULL, 0),
+             LIST(neighbour, neighbours, NULL, 0),
              LIST(text, texts, NULL, 0),
              LIST(line, lines, NULL, 0)};
 
@@ -162,6 +163,13 @@ bool gis_part_copy_link(gis_part_result *to, const gis_part_result *from, size_t
     return true;
 }
 
+bool gis_part_copy_neighbours(gis_part_result *to, const gis_part_result *from, size_t neighbours, gis_error *error)
+{
+    if (!GIS_PART_MORE(to, neighbour, neighbours, 1, error)) return false;
+    to->neighbour[to->neighbours++] = from->neighbour[neighbours];
+    return true;
+}
+
 bool gis_part_copy_world(gis_part_result *to, const gis_part_result *from, size_t world, gis_error *error)
 {
     const gis_part_world *w = &from->world[world];
@@ -192,6 +200,7 @@ bool gis_part_copy_all(gis_part_result *to, const gis_part_result *from, gis_err
     for (size_t k = 0; k < from->worlds && done; k++) done = gis_part_copy_world(to, from, k, error);
     for (size_t k = 0; k < from->stills && done; k++) done = gis_part_copy_still(to, from, k, error);
     for (size_t k = 0; k < from->links && done; k++) done = gis_part_copy_link(to, from, k, error);
+    for (size_t k = 0; k < from->neighbours && done; k++) done = gis_part_copy_neighbours(to, from, k, error);
     to->unverified = to->unverified || from->unverified;
     return done;
 }
@@ -199,7 +208,7 @@ bool gis_part_copy_all(gis_part_result *to, const gis_part_result *from, gis_err
 /* ---- Bytes ------------------------------------------------------------------------------------------------------- */
 
 typedef struct stored_head {
-    uint32_t count[LISTS], unverified;
+    uint32_t count[LISTS], unverified, unused;
 } stored_head;
 
 _Static_assert(sizeof(stored_head) % 8 == 0, "lists are aligned");

@@ -81,6 +81,14 @@ typedef struct gis_part_link {
     size_t a, b;
 } gis_part_link;
 
+/* Two neighbours in a row of houses, with their FIDs, and the anchors of their shapes before the moves. The moves are
+ * those in the part, and the blocks are those that it knows. */
+typedef struct gis_part_neighbours {
+    sunder_row_pair is;
+    int64_t fid[2];
+    double anchor[2][2];
+} gis_part_neighbours;
+
 /* The results of one part, or of several, concatenated. A zeroed struct is empty. */
 typedef struct gis_part_result {
     gis_part_world *world;
@@ -94,11 +102,13 @@ typedef struct gis_part_result {
     gis_part_name *name;
     gis_part_still *still;
     gis_part_link *link;
+    gis_part_neighbours *neighbour;
     char *text;
     char *line; /* the bytes of all lines of the proof */
-    size_t worlds, rows, footprints, bounds, conflicts, blockers, pushes, trees, names, stills, links, texts, lines;
+    size_t worlds, rows, footprints, bounds, conflicts, blockers, pushes, trees, names, stills, links, neighbours,
+        texts, lines;
     struct {
-        size_t world, row, footprint, bound, conflict, blocker, push, tree, name, still, link, text, line;
+        size_t world, row, footprint, bound, conflict, blocker, push, tree, name, still, link, neighbour, text, line;
     } room;
     bool unverified; /* the core did not verify the result of some part */
 } gis_part_result;
@@ -128,6 +138,7 @@ bool gis_part_copy_push(gis_part_result *to, const gis_part_result *from, size_t
 bool gis_part_copy_tree(gis_part_result *to, const gis_part_result *from, size_t tree, gis_error *error);
 bool gis_part_copy_still(gis_part_result *to, const gis_part_result *from, size_t still, gis_error *error);
 bool gis_part_copy_link(gis_part_result *to, const gis_part_result *from, size_t link, gis_error *error);
+bool gis_part_copy_neighbours(gis_part_result *to, const gis_part_result *from, size_t neighbours, gis_error *error);
 /* Appends a copy of a world with all its items. */
 bool gis_part_copy_world(gis_part_result *to, const gis_part_result *from, size_t world, gis_error *error);
 /* Appends a copy of all items. */

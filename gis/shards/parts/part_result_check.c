@@ -88,6 +88,10 @@ static bool are_others(const gis_part_result *r, uint64_t places)
     for (size_t k = 0; k < r->pushes; k++)
         if (!is_place(r->push[k].is.a, places) || !is_place(r->push[k].is.b, places) || !is_text(r, r->push[k].layer))
             return false;
+    for (size_t k = 0; k < r->neighbours; k++)
+        if (!(r->neighbour[k].is.feature[0] < r->neighbour[k].is.feature[1]) ||
+            !is_place(r->neighbour[k].is.feature[1], places))
+            return false;
     for (size_t k = 0; k < r->trees; k++)
         if (!is_line(r, &r->tree[k].line)) return false;
     return true;

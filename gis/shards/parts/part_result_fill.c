@@ -125,3 +125,18 @@ bool gis_part_fill_tree(gis_part *p, const gis_proof_place *place, gis_error *er
     p->out->tree[p->out->trees++] = to;
     return true;
 }
+
+bool gis_part_fill_neighbours(gis_part *p, const sunder_row_pair *pair, gis_error *error)
+{
+    gis_part_neighbours to = {.is = *pair};
+    for (int c = 0; c < 2; c++) {
+        const gis_spool_feature *f = &p->item[pair->feature[c]].feature;
+        sunder_shape_anchor(f->demands.shape, to.anchor[c]);
+        to.fid[c] = f->fid;
+        to.is.feature[c] = gis_part_index_of(p, pair->feature[c]);
+        to.is.block[c] = gis_part_index_of(p, pair->block[c]);
+    }
+    if (!GIS_PART_MORE(p->out, neighbour, neighbours, 1, error)) return false;
+    p->out->neighbour[p->out->neighbours++] = to;
+    return true;
+}

@@ -17,7 +17,6 @@ static bool is_within(const double box[4], const double of[4])
     return of[0] <= box[0] && of[1] <= box[1] && box[2] <= of[2] && box[3] <= of[3];
 }
 
-/* Is everything of the layer that meets the box in the part? */
 static bool is_known(const gis_part *p, const double box[4], int depth)
 {
     bool any = false;
@@ -38,6 +37,8 @@ static bool is_known(const gis_part *p, const double box[4], int depth)
     return true;
 }
 
+bool gis_part_knows(const gis_part *p, const double box[4]) { return is_known(p, box, DEPTH); }
+
 /* ---- Worlds ---------------------------------------------------------------------------------------------------- */
 
 static bool add_footprints(gis_part *p, const sunder_world *w, gis_part_world *to, gis_error *error)
@@ -49,7 +50,7 @@ static bool add_footprints(gis_part *p, const sunder_world *w, gis_part_world *t
     for (size_t k = 0; k < w->footprints; k++) {
         const sunder_footprint *f = &all[w->footprint + k];
         p->out->footprint[p->out->footprints++] = *f;
-        to->complete = to->complete && is_known(p, f->seen, DEPTH);
+        to->complete = to->complete && gis_part_knows(p, f->seen);
     }
     return true;
 }
@@ -152,6 +153,8 @@ static bool add_world(gis_part *p, size_t number, belongings *all, gis_error *er
     if (!GIS_PART_MORE(out, bound, bounds, w->bounds, error) || !add_footprints(p, w, &to, error)) return false;
     for (size_t k = 0; k < w->bounds; k++) out->bound[out->bounds++] = bound[w->bound + k];
     if (!add_members(p, all, number, error)) return false;
+    for (size_t k = all->f; k < all->features && all->feature[k].world == number; k++)
+        p->decided[all->feature[k].at] = to.complete;
     to.rows = out->rows - to.row;
     to.conflicts = out->conflicts - to.conflict;
     to.pushes = out->pushes - to.push;

@@ -34,6 +34,6 @@ gis_plan_estimate gis_plan_estimate_merge(const gis_plan *plan, const gis_shard_
 {
     const double features = (double)plan->facts.source.features;
     const gis_plan_estimate group = gis_plan_estimate_group(parts);
-    return (gis_plan_estimate){.bytes = fmax(group.bytes, gis_shard_run_bytes_written(features, parts->request->drawn)),
+    return (gis_plan_estimate){.bytes = fmax(group.bytes, gis_shard_run_bytes_written(parts->request, features)),
                                .seconds = group.seconds + ceil(seconds_anyway + seconds_merged * features)};
 }

@@ -256,6 +256,33 @@ static bool move_of(void *user, size_t feature, double move[2], gis_error *error
     return gis_sorted_results_next(m->rows, &m->any, error);
 }
 
+/* Visits one row of houses; xy has room for the anchors of its features. */
+static bool visit_row(const gis_joined *j, const sunder_row *row, double *xy, gis_house_row_visit *visit, void *user,
+                      gis_error *error)
+{
+    GIntBig least = OGRNullFID;
+    for (size_t k = 0; k < row->features; k++) {
+        const gis_row_place *place = gis_joined_row_place(j, row->feature[k]);
+        if (k == 0 || place->fid < least) least = place->fid;
+        memcpy(xy + 2 * k, place->at, sizeof place->at);
+    }
+    return visit(user, row, least, xy, error);
+}
+
+static bool visit_rows(const gis_result *r, gis_house_row_visit *visit, void *user, gis_error *error)
+{
+    const gis_joined *j = &((const gis_shard_run *)r->of)->joined;
+    size_t longest = 0;
+    for (size_t k = 0; k < j->row_list.rows; k++)
+        if (j->row_list.row[k].features > longest) longest = j->row_list.row[k].features;
+    double *xy = malloc((2 * longest + 1) * sizeof *xy);
+    bool done = xy || gis_no_memory(error);
+    for (size_t k = 0; k < j->row_list.rows && done; k++)
+        done = visit_row(j, &j->row_list.row[k], xy, visit, user, error);
+    free(xy);
+    return done;
+}
+
 static bool write_symbols(const gis_result *r, gis_sink *sink, gis_error *error)
 {
     gis_shard_run *p = r->of;
@@ -280,8 +307,7 @@ static OGRFieldType id_type(const gis_result *r) { return ((const gis_shard_run 
 
 gis_result gis_shard_run_result(gis_shard_run *parts, const gis_layer_input *input)
 {
-    static const gis_result_kind kind = {visit_features,     visit_arrows,  visit_conflicts,
-                                         visit_pushes,       NULL,          write_symbols, write_proof,
-                                         gis_shard_run_view, longest_fid,   id_type};
+    static const gis_result_kind kind = {visit_features, visit_arrows, visit_conflicts,    visit_pushes, visit_rows,
+                                         write_symbols,  write_proof,  gis_shard_run_view, longest_fid,  id_type};
     return (gis_result){&kind, input, parts};
 }

@@ -177,12 +177,12 @@ static bool list_conflicts(void *of, const sunder_conflict **conflict, size_t *n
     return !any;
 }
 
-/* A layer in parts has no rows. */
 static bool list_rows(void *of, const sunder_row **row, size_t *n, gis_error *error)
 {
-    (void)of, (void)error;
-    *row = NULL;
-    *n = 0;
+    const sunder_row_list *list = &((const spool_view *)of)->parts->joined.row_list;
+    (void)error;
+    *row = list->row;
+    *n = list->rows;
     return true;
 }
 

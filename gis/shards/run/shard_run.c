@@ -26,6 +26,8 @@ static const double bytes_anyway = GIS_PART_BYTES_ANYWAY;
 /* Bytes while the layer is written: for each feature, and for what is sorted and written at once, which grows with the
  * first million features up to bytes_full. */
 static const double bytes_written = 32, bytes_filled = 30, bytes_full = 30e6;
+/* Bytes while rows of houses are joined, for each feature of the layer, of which half may be in rows. */
+static const double bytes_of_rows = 120;
 /* Bytes while the layer is drawn: for each feature its place and block; and the data of the page. */
 static const double bytes_drawn = 90, bytes_of_page = 60e6;
 /* Bytes for barriers: their pieces, and the shapes of their parts. */
@@ -61,10 +63,12 @@ double gis_shard_run_bytes(const gis_layer_rules *rules, double features, double
     return gis_part_bytes(rules->core.keep_trees, rules->core.effort, features, vertices);
 }
 
-double gis_shard_run_bytes_written(double features, bool drawn)
+double gis_shard_run_bytes_written(const gis_layer_input_request *request, double features)
 {
-    const double written = fmin(bytes_full, bytes_filled * features) + bytes_written * features,
-                 page = drawn ? fmin(bytes_of_page, bytes_of_page / 1e5 * features) + bytes_drawn * features : 0;
+    const double rows = request->rules.core.rows ? bytes_of_rows * features : 0,
+                 written = fmin(bytes_full, bytes_filled * features) + bytes_written * features + rows,
+                 page =
+                     request->drawn ? fmin(bytes_of_page, bytes_of_page / 1e5 * features) + bytes_drawn * features : 0;
     return bytes_anyway + fmax(written, page);
 }
 
@@ -75,7 +79,7 @@ static bool choose_parts(gis_shard_run *p, double memory, gis_error *error)
     const double features = (double)gis_spool_features(p->spool), vertices = (double)gis_spool_vertices(p->spool),
                  all = gis_shard_run_bytes(&p->request->rules, features, vertices) - bytes_anyway +
                        bytes_of_barriers(&p->barriers),
-                 written = gis_shard_run_bytes_written((double)p->facts.source.features, p->request->drawn),
+                 written = gis_shard_run_bytes_written(p->request, (double)p->facts.source.features),
                  least = fmax(bytes_anyway + all / parts, written);
     if (!(memory > least))
         return gis_fail(error, "--max-memory: %zu features need %.0f MB at least", p->facts.source.features,
@@ -98,6 +102,10 @@ static void choose_options(gis_shard_run *p)
     p->layout.how = gis_layer_core_options(&input);
 }
 
+/* If rows of houses are wanted, this number of gaps more is read around parts. Which neighbours a house has depends on
+ * what is within four gaps of it, of its neighbours, and of the neighbours of these. */
+static const double row_gaps = 9;
+
 static bool open_spool(gis_shard_run *p, double memory, gis_error *error)
 {
     const bool done =
@@ -107,6 +115,7 @@ static bool open_spool(gis_shard_run *p, double memory, gis_error *error)
         (p->request->barriers == 0 || gis_barriers_open(p->directory, &p->barriers, error)) &&
         choose_parts(p, memory, error) &&
         gis_layout_make(p->spool, p->facts.gap, p->request->rules.block_field != NULL, &p->layout, error);
+    if (p->request->rules.core.rows) p->layout.halo += row_gaps * p->facts.gap;
     p->layout.barriers = p->barriers;
     p->layout.features = p->facts.source.features;
     p->layout.memory = memory;

@@ -34,9 +34,9 @@ typedef struct gis_shard_run {
 } gis_shard_run;
 
 /* Estimated bytes of a process: while it separates a part with these numbers of features and vertices; and while it
- * writes the layer (or draws it, if `drawn`), when no part is in memory. */
+ * joins the parts and writes or draws the layer, when no part is in memory. */
 double gis_shard_run_bytes(const gis_layer_rules *rules, double features, double vertices);
-double gis_shard_run_bytes_written(double features, bool drawn);
+double gis_shard_run_bytes_written(const gis_layer_input_request *request, double features);
 
 /* Reads the layer onto disk. directory == NULL: into a directory of its own, which is removed at the end. memory:
  * approximate bytes that a process may take; a contact group that needs far more gets a warning. */

@@ -4,6 +4,7 @@
  *
  * With a smaller gap less is demanded. A pair that would not be in conflict with it may be demanded to come no nearer
  * along the row, which is no less than the rule. */
+#include "displacement/layer/reads.h"
 #include "displacement/report/question.h"
 
 #include "base/extremes.h"
@@ -26,6 +27,22 @@ static size_t place_of_body(const sunder_i_surroundings *a, const sunder_i_model
     return SIZE_MAX;
 }
 
+/* Records that the question depends on which neighbours the body has in rows, and on where they stand. */
+static void note_neighbours(const sunder_i_solver *solver, uint32_t body)
+{
+    const sunder_i_model *model = &solver->model;
+    const sunder_i_extras *has = model->body[body].has;
+    sunder_i_reading *to = sunder_i_reads;
+    if (!to || to->model != model || !solver->rows.reach) return;
+    sunder_i_box_join(to->box.seen, solver->rows.reach[body]);
+    for (uint32_t e = has->row_side; e < has->row_side + has->row_sides; e++) {
+        const uint32_t other = model->row_side[e].other;
+        double box[4];
+        sunder_i_body_box(&model->body[other], model->move + 2 * (size_t)other, 0, box);
+        sunder_i_box_join(to->box.place, box);
+    }
+}
+
 sunder_status sunder_i_question_rows(const sunder_i_questions *questions, const sunder_i_surroundings *surroundings,
                                      const sunder_i_supposition *what, sunder_i_row_demand **list, size_t *n,
                                      sunder_error *err)
@@ -39,6 +56,7 @@ sunder_status sunder_i_question_rows(const sunder_i_questions *questions, const 
         const uint32_t body = whole->body_of[a->feature.item[k]];
         const sunder_i_extras *has = whole->body[body].has;
         if (place_of_body(a, whole, body, what->gone) != k) continue;
+        note_neighbours(questions->solver, body);
         for (uint32_t e = has->row_side; e < has->row_side + has->row_sides; e++) {
             const sunder_i_row_side *side = &whole->row_side[e];
             const size_t other = place_of_body(a, whole, side->other, what->gone);
