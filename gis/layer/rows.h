@@ -90,7 +90,7 @@ void gis_conflict_texts_clear(gis_conflict_texts *scratch);
 enum { N_PUSH_COLUMNS = 7 };
 void gis_things_push(const gis_things *things, const sunder_push *push, gis_value values[N_PUSH_COLUMNS]);
 
-/* Adds the layer MAIN_suffix, or MAIN if suffix is "". by_row: with the column of that name. */
+/* Adds the layer MAIN_suffix, or MAIN if suffix is "". With by_row, it has the column of that name. */
 bool gis_conflicts_begin(gis_sink *sink, const char *suffix, OGRFieldType id, OGRSpatialReferenceH crs, bool by_row,
                          gis_sink_layer **layer, gis_error *error);
 bool gis_pushes_begin(gis_sink *sink, OGRSpatialReferenceH crs, gis_sink_layer **layer, gis_error *error);

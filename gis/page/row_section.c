@@ -1,5 +1,5 @@
-/* row_section.c: the section about rows of neighbours: how much the moves bend them, and close-ups of those that are
- * bent most. */
+/* row_section.c: the section about rows of neighbours: how much the moves bend the rows, and close-ups of the rows with
+ * the greatest bend. */
 #include "base/interrupt.h"
 #include "page/sections.h"
 

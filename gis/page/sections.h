@@ -14,7 +14,7 @@ gis_page_section gis_page_legend;      /* the part of the legend that only some 
 gis_page_section gis_page_map_note;    /* how much of the layer the map shows */
 gis_page_section gis_page_places;      /* close-ups, the worst conflicts first */
 gis_page_section gis_page_moves;       /* the histogram */
-gis_page_section gis_page_rows;        /* the rows of neighbours, with close-ups of those that are bent most */
+gis_page_section gis_page_rows;        /* the rows of neighbours, with close-ups of the most bent rows */
 gis_page_section gis_page_blocked;     /* the table of remaining conflicts */
 gis_page_section gis_page_certificate; /* what is proved, and the options of the run */
 gis_page_section gis_page_colophon;    /* version and date */

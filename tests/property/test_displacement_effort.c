@@ -27,21 +27,14 @@ typedef struct crowd {
 
 static void add_box(crowd *c, rng *r, double x, double y)
 {
-    polyset box = {0};
     sunder_feature *f = &c->feature[c->n];
     const double a = rng_once_in(r, 2) ? 0 : 0.8 * rng_unit(r), w = 3 + 5 * rng_unit(r), h = 3 + 3 * rng_unit(r);
-    const double e[2] = {cos(a), sin(a)};
-    polyset_polygon(&box,
-                    (double[]){x, y, x + w * e[0], y + w * e[1], x + w * e[0] - h * e[1], y + w * e[1] + h * e[0],
-                               x - h * e[1], y + h * e[0]},
-                    4);
-    *f = (sunder_feature){.shape = polyset_shape(&box),
+    *f = (sunder_feature){.shape = polyset_turned_rectangle(x, y, w, h, a),
                           .weight = rng_once_in(r, 3) ? 1 + 3 * rng_unit(r) : 1,
                           .max_shift = INFINITY,
                           .fixed = rng_once_in(r, 12),
                           .block = -1};
     assert_non_null(f->shape);
-    polyset_free(&box);
     c->n++;
 }
 

@@ -40,21 +40,14 @@ typedef struct order {
 
 static void add_box(town *t, rng *r, double x, double y, double limit)
 {
-    polyset box = {0};
     const double a = rng_once_in(r, 2) ? 0 : 0.8 * rng_unit(r), size = rng_once_in(r, 6) ? 4 : 1,
                  w = size * (3 + 5 * rng_unit(r)), h = size * (3 + 3 * rng_unit(r));
-    const double e[2] = {cos(a), sin(a)};
-    polyset_polygon(&box,
-                    (double[]){x, y, x + w * e[0], y + w * e[1], x + w * e[0] - h * e[1], y + w * e[1] + h * e[0],
-                               x - h * e[1], y + h * e[0]},
-                    4);
-    t->feature[t->n++] = (sunder_feature){.shape = polyset_shape(&box),
+    t->feature[t->n++] = (sunder_feature){.shape = polyset_turned_rectangle(x, y, w, h, a),
                                           .weight = rng_once_in(r, 3) ? 1 + 3 * rng_unit(r) : 1,
                                           .max_shift = limit,
                                           .fixed = rng_once_in(r, 12),
                                           .block = -1};
     assert_non_null(t->feature[t->n - 1].shape);
-    polyset_free(&box);
 }
 
 static void draw_options(country *c, rng *r)

@@ -38,16 +38,9 @@ typedef struct field {
 
 static sunder_shape *slanted_box(rng *r, double x, double y, double steepest)
 {
-    polyset box = {0};
     const double a = rng_once_in(r, 2) ? 0 : steepest * rng_unit(r), w = 3 + 5 * rng_unit(r), h = 3 + 3 * rng_unit(r);
-    const double e[2] = {cos(a), sin(a)};
-    polyset_polygon(&box,
-                    (double[]){x, y, x + w * e[0], y + w * e[1], x + w * e[0] - h * e[1], y + w * e[1] + h * e[0],
-                               x - h * e[1], y + h * e[0]},
-                    4);
-    sunder_shape *shape = polyset_shape(&box);
+    sunder_shape *shape = polyset_turned_rectangle(x, y, w, h, a);
     assert_non_null(shape);
-    polyset_free(&box);
     return shape;
 }
 

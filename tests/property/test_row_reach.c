@@ -28,17 +28,10 @@ typedef struct street {
 
 static sunder_shape *house(rng *r, double x, double y)
 {
-    polyset box = {0};
     const double a = rng_once_in(r, 3) ? 0.3 * (rng_unit(r) - 0.5) : 0, w = 4 + 4 * rng_unit(r),
                  h = 5 + 3 * rng_unit(r);
-    const double e[2] = {cos(a), sin(a)};
-    polyset_polygon(&box,
-                    (double[]){x, y, x + w * e[0], y + w * e[1], x + w * e[0] - h * e[1], y + w * e[1] + h * e[0],
-                               x - h * e[1], y + h * e[0]},
-                    4);
-    sunder_shape *shape = polyset_shape(&box);
+    sunder_shape *shape = polyset_turned_rectangle(x, y, w, h, a);
     assert_non_null(shape);
-    polyset_free(&box);
     return shape;
 }
 

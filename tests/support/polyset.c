@@ -1,6 +1,7 @@
 #include "polyset.h"
 
 #include <ctype.h>
+#include <math.h>
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
@@ -251,6 +252,19 @@ sunder_shape *polyset_shape(const polyset *set)
         free(wkt);
         return NULL;
     }
+    return shape;
+}
+
+sunder_shape *polyset_turned_rectangle(double x, double y, double w, double h, double angle)
+{
+    const double e[2] = {cos(angle), sin(angle)};
+    polyset set = {0};
+    polyset_polygon(&set,
+                    (double[]){x, y, x + w * e[0], y + w * e[1], x + w * e[0] - h * e[1], y + w * e[1] + h * e[0],
+                               x - h * e[1], y + h * e[0]},
+                    4);
+    sunder_shape *shape = polyset_shape(&set);
+    polyset_free(&set);
     return shape;
 }
 

@@ -50,6 +50,8 @@ char *polyset_wkt(const polyset *set);
 
 /* The shape of these rings (strict); or NULL, with the message and the WKT on stderr. */
 sunder_shape *polyset_shape(const polyset *set);
+/* The shape of a rectangle of w by h with a corner at (x, y), turned about it to the left by `angle`. */
+sunder_shape *polyset_turned_rectangle(double x, double y, double w, double h, double angle);
 /* The shape of a text; NULL if it is not WKT, or is refused. */
 sunder_shape *polyset_shape_of_wkt(const char *wkt);
 

@@ -26,7 +26,7 @@ static const double bytes_anyway = GIS_PART_BYTES_ANYWAY;
 /* Bytes while the layer is written: for each feature, and for what is sorted and written at once, which grows with the
  * first million features up to bytes_full. */
 static const double bytes_written = 32, bytes_filled = 30, bytes_full = 30e6;
-/* Bytes while rows of houses are joined, for each feature of the layer, of which half may be in rows. */
+/* Bytes for each feature of the layer while rows of houses are joined, if half of the features are in rows. */
 static const double bytes_of_rows = 120;
 /* Bytes while the layer is drawn: for each feature its place and block; and the data of the page. */
 static const double bytes_drawn = 90, bytes_of_page = 60e6;
@@ -102,8 +102,9 @@ static void choose_options(gis_shard_run *p)
     p->layout.how = gis_layer_core_options(&input);
 }
 
-/* If rows of houses are wanted, this number of gaps more is read around parts. Which neighbours a house has depends on
- * what is within four gaps of it, of its neighbours, and of the neighbours of these. */
+/* If rows of houses are wanted, the distance up to which features around a part are read is larger by this number of
+ * gaps. The neighbours of a house depend on all features within four gaps of the house, of its neighbours, and of their
+ * neighbours. */
 static const double row_gaps = 9;
 
 static bool open_spool(gis_shard_run *p, double memory, gis_error *error)

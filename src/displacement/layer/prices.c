@@ -1,8 +1,9 @@
 /* The price of the distance s that a pair left in conflict still lacks: w (4 R s + ease s^2).
  *
- * w is the lesser weight of those of its bodies that may move, and R the lesser limit; in place of a limit counts the
- * distance that the pair has to keep. A move of length r costs w r^2, so its last metre costs at most w 2 R. So a body
- * that reaches its place within the limit goes there, even if it has to push another as far. */
+ * w is the lesser weight of the two bodies, or the weight of the only body that may move. R is the lesser of their
+ * limits; if neither has a limit above 0, R is the distance that the pair has to keep. A move of length r costs w r^2,
+ * so its last metre costs at most w 2 R. So a body that reaches its place within the limit goes there, even if it has
+ * to push another as far. */
 #include "displacement/layer/prices.h"
 
 static double limit_above_0(const sunder_i_body *body)
