@@ -127,12 +127,10 @@ static bool resolve_rows(const gis_options *options, gis_layer_rules *out, gis_e
     return gis_fail_usage(error, "--rows: rows are found among polygons, and the symbols of points have none");
 }
 
-bool gis_resolve_rows_in_parts(const gis_options *options, const gis_layer_rules *rules, gis_error *error)
+bool gis_resolve_rows_in_parts(const gis_layer_rules *rules, gis_error *error)
 {
-    if (rules->core.rows == SUNDER_ROWS_GIVEN)
-        return gis_fail_usage(error, "--rows FIELD needs the whole layer in memory: neither plan nor --max-memory");
-    return !rules->core.rows || !options->given[OPT_PROOF] ||
-           gis_fail_usage(error, "--proof with --rows needs the whole layer in memory: neither plan nor --max-memory");
+    return rules->core.rows != SUNDER_ROWS_GIVEN ||
+           gis_fail_usage(error, "--rows FIELD needs the whole layer in memory: neither plan nor --max-memory");
 }
 
 /* Reads K or K,K_ALONG; K alone keeps the default along rows. */

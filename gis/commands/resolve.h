@@ -46,6 +46,6 @@ gis_progress gis_resolve_progress(const gis_options *options);
 bool gis_resolve_messages(const gis_options *options, gis_messages_request *out, gis_error *error);
 
 /* Fails if the rows that are wanted need the whole layer in memory; called for a layer in parts. */
-bool gis_resolve_rows_in_parts(const gis_options *options, const gis_layer_rules *rules, gis_error *error);
+bool gis_resolve_rows_in_parts(const gis_layer_rules *rules, gis_error *error);
 
 #endif

@@ -69,14 +69,16 @@ static bool put_line(gis_proof_lines *lines, const char *key, size_t number, gis
     return gis_proof_print(line, to, error);
 }
 
-static bool put_rows(gis_proof_lines *lines, gis_json *line, FILE *to, gis_error *error)
+static bool put_rows(gis_proof_lines *lines, FILE *to, gis_error *error)
 {
     size_t n;
     const sunder_row_pair *pair = sunder_report_row_pairs(lines->report, &n);
     bool done = true;
     for (size_t k = 0; k < n && done; k++) {
-        gis_proof_row_pair(lines, &pair[k]);
-        done = put_line(lines, "row", k, line, to, error);
+        const size_t *feature = pair[k].feature;
+        const int64_t name[2] = {call_feature(lines->things.of, feature[0]), call_feature(lines->things.of, feature[1])};
+        gis_proof_row_line(&lines->json, k, name, &pair[k]);
+        done = gis_proof_print(&lines->json, to, error);
     }
     return done;
 }
@@ -121,7 +123,7 @@ bool gis_proof_write(const gis_layer_input *input, const sunder_report *report, 
     gis_proof_lines lines;
     gis_json line = {0};
     const bool done = gis_proof_lines_begin(&lines, &things, report, error) && put_head(&lines, input, to, error) &&
-                      put_blocks(&lines, to, error) && put_rows(&lines, &line, to, error) &&
+                      put_blocks(&lines, to, error) && put_rows(&lines, to, error) &&
                       put_conflicts(&lines, &line, to, error) && put_trees(&lines, &line, to, error);
     gis_proof_lines_clear(&lines);
     gis_json_clear(&line);

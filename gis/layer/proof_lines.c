@@ -36,20 +36,20 @@ static void put_thing(gis_proof_lines *w, const char *key, size_t thing)
     gis_text_clear(&name);
 }
 
-static void put_place(gis_proof_lines *w, const char *key, double x, double y)
+static void put_place(gis_json *json, const char *key, double x, double y)
 {
-    if (key) gis_json_key(&w->json, key);
-    gis_json_open(&w->json, '[');
-    gis_json_double(&w->json, x);
-    gis_json_double(&w->json, y);
-    gis_json_close(&w->json, ']');
+    if (key) gis_json_key(json, key);
+    gis_json_open(json, '[');
+    gis_json_double(json, x);
+    gis_json_double(json, y);
+    gis_json_close(json, ']');
 }
 
 static void put_corners(gis_proof_lines *w, const char *key, const double *xy, size_t n)
 {
     gis_json_key(&w->json, key);
     gis_json_open(&w->json, '[');
-    for (size_t k = 0; k < n; k++) put_place(w, NULL, xy[2 * k], xy[2 * k + 1]);
+    for (size_t k = 0; k < n; k++) put_place(&w->json, NULL, xy[2 * k], xy[2 * k + 1]);
     gis_json_close(&w->json, ']');
 }
 
@@ -130,7 +130,7 @@ static void put_ways(gis_proof_lines *w, const sunder_proof *proof, const sunder
     for (size_t k = node->way; k < node->way + node->ways; k++) {
         const sunder_proof_way *way = &proof->way[k];
         gis_json_open(&w->json, '{');
-        put_place(w, "n", way->n[0], way->n[1]);
+        put_place(&w->json, "n", way->n[0], way->n[1]);
         gis_json_put_double(&w->json, "d", way->d);
         gis_json_put_size(&w->json, "next", way->next);
         gis_json_close(&w->json, '}');
@@ -197,14 +197,6 @@ void gis_proof_conflict(gis_proof_lines *lines, size_t k)
     if (proof) put_proof(lines, proof);
 }
 
-void gis_proof_row_pair(gis_proof_lines *lines, const sunder_row_pair *pair)
-{
-    put_thing(lines, "a", pair->feature[0]);
-    put_thing(lines, "b", pair->feature[1]);
-    put_place(lines, "along", pair->along[0], pair->along[1]);
-    gis_json_put_double(&lines->json, "apart", pair->apart);
-}
-
 /* ---- Trees ------------------------------------------------------------------------------------------------------- */
 
 static void put_members(gis_proof_lines *w, size_t thing)
@@ -222,7 +214,7 @@ static void put_members(gis_proof_lines *w, size_t thing)
         if (f->shape) {
             double at[2];
             sunder_shape_anchor(f->shape, at);
-            put_place(w, "anchor", at[0], at[1]);
+            put_place(&w->json, "anchor", at[0], at[1]);
         }
         gis_json_close(&w->json, '}');
     }
@@ -237,7 +229,7 @@ static void put_body(gis_proof_lines *w, const sunder_bound_body *body)
     else
         put_thing(w, "barrier", body->thing);
     gis_json_put_double(&w->json, "weight", body->weight);
-    put_place(w, "shift", body->shift[0], body->shift[1]);
+    put_place(&w->json, "shift", body->shift[0], body->shift[1]);
     gis_json_close(&w->json, '}');
 }
 
@@ -270,7 +262,7 @@ static void put_cut(gis_proof_lines *w, const sunder_bound_tree *tree, const sun
     gis_json_put_string(&w->json, "kind", kinds[cut->kind]);
     gis_json_put_size(&w->json, "i", cut->i);
     if (cut->j != SIZE_MAX) gis_json_put_size(&w->json, "j", cut->j);
-    put_place(w, "n", cut->n[0], cut->n[1]);
+    put_place(&w->json, "n", cut->n[0], cut->n[1]);
     gis_json_put_double(&w->json, "d", cut->d);
     if (cut->kind == SUNDER_BOUND_CUT_HULL) put_sizes(w, "pieces", tree->named + cut->named, cut->names);
     gis_json_close(&w->json, '}');
@@ -285,7 +277,7 @@ static void put_springs(gis_proof_lines *w, const sunder_bound_tree *tree)
         gis_json_open(&w->json, '{');
         gis_json_put_size(&w->json, "i", spring->i);
         gis_json_put_size(&w->json, "j", spring->j);
-        put_place(w, "n", spring->n[0], spring->n[1]);
+        put_place(&w->json, "n", spring->n[0], spring->n[1]);
         gis_json_put_double(&w->json, "stiff", spring->stiff);
         gis_json_close(&w->json, '}');
     }
@@ -405,6 +397,19 @@ static void end_line(gis_json *json)
     gis_json_close(json, '}');
     gis_json_raw(json, "\n");
     json->need_comma = false;
+}
+
+void gis_proof_row_line(gis_json *json, size_t number, const int64_t name[2], const sunder_row_pair *pair)
+{
+    gis_json_open(json, '{');
+    gis_json_put_size(json, "row", number);
+    gis_json_key(json, "a");
+    gis_json_signed(json, name[0]);
+    gis_json_key(json, "b");
+    gis_json_signed(json, name[1]);
+    put_place(json, "along", pair->along[0], pair->along[1]);
+    gis_json_put_double(json, "apart", pair->apart);
+    end_line(json);
 }
 
 void gis_proof_line(gis_json *json, const char *key, size_t number, const char *rest)

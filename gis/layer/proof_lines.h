@@ -40,8 +40,7 @@ void gis_proof_lines_clear(gis_proof_lines *lines);
 /* The number that identifies the feature's block: its first feature, or the feature itself if it is in no block. */
 size_t gis_proof_block(const gis_proof_lines *lines, size_t feature);
 
-/* Make the text that follows the number of two neighbours in a row, of conflict k, or of a tree's group. */
-void gis_proof_row_pair(gis_proof_lines *lines, const sunder_row_pair *pair);
+/* Make the text that follows the number of conflict k, or of a tree's group. */
 void gis_proof_conflict(gis_proof_lines *lines, size_t k);
 bool gis_proof_tree(gis_proof_lines *lines, const sunder_bound_tree *tree, gis_error *error);
 
@@ -66,6 +65,8 @@ void gis_proof_head_line(gis_json *json, const gis_proof_head *head);
 /* Begin and end the line of a block; between the two, the numbers of its members are written. */
 void gis_proof_block_begins(gis_json *json);
 void gis_proof_block_ends(gis_json *json);
+/* Makes the line of two neighbours in a row; name: the numbers that identify them. */
+void gis_proof_row_line(gis_json *json, size_t number, const int64_t name[2], const sunder_row_pair *pair);
 /* Makes the line {"key":number, followed by `rest`. */
 void gis_proof_line(gis_json *json, const char *key, size_t number, const char *rest);
 

@@ -51,12 +51,10 @@ alike o.gpkg 98.5M --gap 3 --effort 0 --block-field blk
 alike o.geojson 99M --gap 3 --effort 0 --layers main,conflicts
 drawn o.fgb 2G --gap 3 --effort 0
 
-# Rows of houses: in parts there is no proof of them.
-proof=()
+# Rows of houses.
 alike o.gpkg 99M --gap 3 --effort 0.05 --rows auto
 drawn o.gpkg 103M --gap 2 --effort 0 --rows auto --row-stiffness 10,1 --block-field blk --max-shift 3 --id-field id
 jq -e '.rows.rows > 50 and .displacement.cost_rows > 1' whole.json >/dev/null || fail "few rows: $(jq -c .rows whole.json)"
-proof=(--proof at/proof.jsonl)
 
 # Barriers: roads through the whole layer with different widths, meadows, one that is near a feature only at one end,
 # and one that is near none.
@@ -89,9 +87,7 @@ done
 alike o.gpkg 99M --gap 3 --effort 0 --max-shift 4 --barrier roads.gpkg,width-field=w
 drawn o.gpkg 103M --gap 3 --effort 0 --max-shift 4 --barrier roads.gpkg,width=5,gap=0,side=no \
     --barrier meadows.gpkg,gap=1 --barrier "roads.gpkg,where=w > 3" --id-field id
-proof=()
 alike o.gpkg 99M --gap 3 --effort 0 --rows auto --max-shift 4 --barrier roads.gpkg,width-field=w --barrier meadows.gpkg
-proof=(--proof at/proof.jsonl)
 alike o.gpkg 99M --gap 1 --effort 0 --max-shift 2 --barrier meadows.gpkg,as=boundary,gap=0 --touch-tolerance 0.01
 alike o.gpkg 99M --gap 1 --effort 0 --max-shift 2 --barrier "roads.gpkg,where=w > 60"
 

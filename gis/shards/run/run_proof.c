@@ -31,6 +31,22 @@ static bool put_blocks(const gis_shard_run *p, gis_json *json, FILE *to, gis_err
     return done;
 }
 
+static bool put_rows(gis_shard_run *p, gis_json *json, FILE *to, gis_error *error)
+{
+    gis_sorted_results *pairs = &p->joined.neighbours;
+    bool any = true;
+    gis_sorted_results_rewind(pairs);
+    for (size_t k = 0; gis_sorted_results_next(pairs, &any, error) && any; k++) {
+        const gis_part_neighbours *one = pairs->one.neighbour;
+        int64_t name[2];
+        for (int c = 0; c < 2; c++)
+            name[c] = p->facts.source.fids_unique ? one->fid[c] : (int64_t)one->is.feature[c];
+        gis_proof_row_line(json, k, name, &one->is);
+        if (!gis_proof_print(json, to, error)) return false;
+    }
+    return !any;
+}
+
 static bool put_conflicts(gis_shard_run *p, gis_json *json, FILE *to, gis_error *error)
 {
     gis_sorted_results *conflicts = &p->joined.conflicts;
@@ -68,7 +84,7 @@ bool gis_shard_run_proof(gis_shard_run *parts, const gis_layer_input *input, con
     head.trees = parts->joined.trees.n;
     gis_proof_head_line(&json, &head);
     const bool done = gis_proof_print(&json, to, error) && put_blocks(parts, &json, to, error) &&
-                      put_conflicts(parts, &json, to, error) && put_trees(parts, &json, to, error);
+                      put_rows(parts, &json, to, error) && put_conflicts(parts, &json, to, error) && put_trees(parts, &json, to, error);
     gis_json_clear(&json);
     return done;
 }
