@@ -562,7 +562,7 @@ typedef struct sunder_layer_options {
     /* 0 (the default), or pairs that remain in conflict are eased: what a pair lacks of its distance, s, costs
      * w (4 R s + ease s^2), and the cost is least with that. w is the lesser weight of the bodies of the pair that may
      * move, R the lesser max_shift above 0 of the two, or the distance that the pair has to keep. No pair is given up,
-     * and no other one made worse, for it. Not with keep_worlds, nor with keep_trees. */
+     * and no other one made worse, for it. Not with keep_trees. */
     double ease;
 } sunder_layer_options;
 

@@ -67,12 +67,16 @@ SUNDER_EXPERIMENTAL const sunder_world *sunder_report_worlds(const sunder_report
 /* Returns the footprints, in the order of their worlds, and sets *n to their number. */
 SUNDER_EXPERIMENTAL const sunder_footprint *sunder_report_footprints(const sunder_report *report, size_t *n);
 /* Two lower bounds of the cost of a part of a world. `proved` is the bound that trees or prices prove, and is part of
- * lower_bound. `by_pairs` is the bound that the least translations of pairs prove, and is part of pair_bound. */
+ * lower_bound. `by_pairs` is the bound that the least translations of pairs prove, and is part of pair_bound. The other
+ * members are parts of those of the summary with the same names. */
 typedef struct sunder_world_bound {
     double proved, by_pairs;
+    size_t short_pairs;
+    double shortfall, cost_shortfall, cost_alone;
 } sunder_world_bound;
 /* Returns the bounds of all parts of worlds, in the order of the worlds, and sets *n to their number. The sums of
- * `proved` and of `by_pairs` over all of them, rounded down, are lower_bound and pair_bound of the summary. */
+ * `proved`, `by_pairs` and `cost_alone` over all of them, rounded down, are lower_bound, pair_bound and cost_alone of
+ * the summary, and the other sums, rounded to the nearest double, are those of the summary. */
 SUNDER_EXPERIMENTAL const sunder_world_bound *sunder_report_world_bounds(const sunder_report *report, size_t *n);
 /* Returns the index of the feature's world in sunder_report_worlds(), or SIZE_MAX if the feature is in no world. */
 SUNDER_EXPERIMENTAL size_t sunder_report_world(const sunder_report *report, size_t feature);

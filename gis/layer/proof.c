@@ -75,8 +75,8 @@ static bool put_rows(gis_proof_lines *lines, FILE *to, gis_error *error)
     const sunder_row_pair *pair = sunder_report_row_pairs(lines->report, &n);
     bool done = true;
     for (size_t k = 0; k < n && done; k++) {
-        const size_t *feature = pair[k].feature;
-        const int64_t name[2] = {call_feature(lines->things.of, feature[0]), call_feature(lines->things.of, feature[1])};
+        int64_t name[2];
+        for (int c = 0; c < 2; c++) name[c] = call_feature(lines->things.of, pair[k].feature[c]);
         gis_proof_row_line(&lines->json, k, name, &pair[k]);
         done = gis_proof_print(&lines->json, to, error);
     }

@@ -35,7 +35,7 @@ const gis_option gis_option_table[OPT_N] = {
     [OPT_ROW_STIFFNESS] = {OPT_ROW_STIFFNESS, "--row-stiffness", GIS_TYPE_TEXT, GIS_SEPARATE | GIS_PLAN, OWN,
                            "K[,K_ALONG]", "3,0.3",
                            "stiffness of rows against kinks, and against uneven spacing; 10,1: stiff"},
-    [OPT_EASE] = {OPT_EASE, "--ease", GIS_TYPE_TEXT, GIS_SEPARATE, OWN, "KAPPA|no", "no",
+    [OPT_EASE] = {OPT_EASE, "--ease", GIS_TYPE_TEXT, GIS_SEPARATE | GIS_PLAN, OWN, "KAPPA|no", "no",
                   "price of what conflicts lack, so that they are eased; usual: 30"},
     [OPT_SYMBOL] = {OPT_SYMBOL, "--symbol", GIS_TYPE_SHAPE, GIS_LAYERS, OWN, "SHAPE", NULL,
                     "symbol of each point: WKT, disc:R[:N], square:S ..."},

@@ -40,7 +40,5 @@ for kappa in 0 -1 x nan inf 3, ''; do
 done
 expect 2 "${words[@]}" --ease 30 --proof p.jsonl
 grep -q -e '--ease' err || fail "the message does not name the option: $(cat err)"
-expect 2 "${words[@]}" --ease 30 --max-memory 1GB
-expect 2 plan houses.gpkg plan --shards 2 --ease 30
 expect 2 check houses.gpkg --ease 30
 finish

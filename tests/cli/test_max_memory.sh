@@ -56,6 +56,12 @@ alike o.gpkg 99M --gap 3 --effort 0.05 --rows auto
 drawn o.gpkg 103M --gap 2 --effort 0 --rows auto --row-stiffness 10,1 --block-field blk --max-shift 3 --id-field id
 jq -e '.rows.rows > 50 and .displacement.cost_rows > 1' whole.json >/dev/null || fail "few rows: $(jq -c .rows whole.json)"
 
+# Pairs that are eased.
+proof=()
+alike o.gpkg 99M --gap 4 --effort 0 --rows auto --max-shift 0.5 --ease 30
+proof=(--proof at/proof.jsonl)
+jq -e '.shortfall.pairs > 50' whole.json >/dev/null || fail "few are short: $(jq -c .shortfall whole.json)"
+
 # Barriers: roads through the whole layer with different widths, meadows, one that is near a feature only at one end,
 # and one that is near none.
 python3 - <<'PYTHON' || fail "no barriers are made"

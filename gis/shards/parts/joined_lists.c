@@ -18,7 +18,7 @@ typedef struct gathering {
     gis_part_result links; /* the links of all worlds */
     gis_part_file *file;   /* the files of all shards */
     size_t files;
-    sunder_total proved, by_pairs, total, cost;
+    sunder_total proved, by_pairs, total, cost, shortfall, cost_shortfall, cost_alone;
     size_t block;     /* the place in out->block that was reached, while rows are visited in order */
     uint64_t last[2]; /* keys of the last item that was kept */
     bool any, more;   /* any: an item was kept; more: `rows` has a current row, while conflicts are visited */
@@ -106,6 +106,10 @@ static bool put_world(gathering *g, const gis_part_result *r, const gis_part_wor
     for (size_t k = w->bound; k < w->bound + w->bounds; k++) {
         sunder_total_add(&g->proved, r->bound[k].proved);
         sunder_total_add(&g->by_pairs, r->bound[k].by_pairs);
+        s->short_pairs += r->bound[k].short_pairs;
+        sunder_total_add(&g->shortfall, r->bound[k].shortfall);
+        sunder_total_add(&g->cost_shortfall, r->bound[k].cost_shortfall);
+        sunder_total_add(&g->cost_alone, r->bound[k].cost_alone);
     }
     return done;
 }
@@ -318,7 +322,11 @@ bool gis_joined_lists_make(gis_joined *out, gis_border_chunks *chunks, gis_part_
     s->lower_bound = sunder_total_below(&g.proved);
     s->pair_bound = sunder_total_below(&g.by_pairs);
     s->total = sunder_total_nearest(&g.total);
-    s->cost = s->cost_moves = sunder_total_nearest(&g.cost);
+    s->cost_moves = sunder_total_nearest(&g.cost);
+    s->shortfall = sunder_total_nearest(&g.shortfall);
+    s->cost_shortfall = sunder_total_nearest(&g.cost_shortfall);
+    s->cost_alone = sunder_total_below(&g.cost_alone);
+    s->cost = s->cost_moves + s->cost_shortfall; /* and that of rows: sunder_rows_make() */
     const size_t moved = s->moved + s->blocked_moved;
     if (moved) s->mean = s->total / (double)moved;
     return done;

@@ -84,7 +84,8 @@ bool gis_shard_run_proof(gis_shard_run *parts, const gis_layer_input *input, con
     head.trees = parts->joined.trees.n;
     gis_proof_head_line(&json, &head);
     const bool done = gis_proof_print(&json, to, error) && put_blocks(parts, &json, to, error) &&
-                      put_rows(parts, &json, to, error) && put_conflicts(parts, &json, to, error) && put_trees(parts, &json, to, error);
+                      put_rows(parts, &json, to, error) && put_conflicts(parts, &json, to, error) &&
+                      put_trees(parts, &json, to, error);
     gis_json_clear(&json);
     return done;
 }

@@ -10,6 +10,7 @@
  * the first of them leaves possible. */
 #include "displacement/layer/barrier_pairs.h"
 #include "displacement/layer/prices.h"
+#include "displacement/layer/reads.h"
 #include "displacement/report/report.h"
 
 #include "base/extremes.h"
@@ -68,19 +69,16 @@ static sunder_status measure_conflict(const sunder_i_model *model, const sunder_
     return missing_at_home(model, c, &out->home, err);
 }
 
-/* Adds a pair, given by its worst conflicts, to the sums, and to what its first body pays. */
-static void add_pair(sunder_report *report, const sunder_i_model *model, const lacking *pair, sunder_total total[3])
+/* Adds a pair, given by its worst conflicts, to what its first body pays. */
+static void add_pair(const sunder_i_model *model, const lacking *pair, sunder_i_paying *paying)
 {
     const sunder_i_body *p = &model->body[pair->i], *q = &model->body[pair->j];
     const sunder_i_price price = sunder_i_price_of(model, p, q);
     const double rest = pair->home - (sunder_i_limit_of(p) + sunder_i_limit_of(q)) * (1 + ROUNDED);
     const double pays = sunder_i_price_at(&price, pair->missing),
                  alone = rest > 0 ? sunder_i_price_at(&price, rest) * (1 - ROUNDED) : 0;
-    report->summary.short_pairs++;
-    sunder_total_add(&total[0], pair->missing);
-    sunder_total_add(&total[1], pays);
-    sunder_total_add(&total[2], alone);
-    sunder_i_paying *paying = &report->paying[pair->i];
+    paying->pairs++;
+    paying->missing += pair->missing;
     paying->pays += pays;
     paying->alone += alone;
     if (!q->fixed) paying->own += alone;
@@ -132,7 +130,10 @@ static bool bound_body(const sunder_i_model *model, const lacking *pair, size_t 
             (sunder_i_priced_barrier){model->member[other->member], sunder_i_price_of(model, body, other)};
         enough += sunder_i_price_at(&priced[barriers++].price, pair[k].missing);
     }
+    sunder_i_reading reading;
+    sunder_i_reads_begin(&reading, model, pair->i);
     const bool ok = priced && (!barriers || sunder_i_body_bound(model, pair->i, priced, barriers, enough, &bound));
+    sunder_i_reads_end(&reading);
     *own = sunder_i_max(bound * (1 - ROUNDED * (double)(n + 8)), least_after(model, pair, n));
     sunder_i_free(priced);
     return ok;
@@ -158,18 +159,31 @@ static size_t merge_conflicts(lacking *list, size_t n)
 
 static bool add_pairs(sunder_report *report, const sunder_i_model *model, const lacking *list, size_t n)
 {
-    sunder_total total[3] = {{{0}, 0}};
     bool ok = true;
     for (size_t k = 0, next; k < n && ok; k = next) {
-        for (next = k; next < n && list[next].i == list[k].i; next++) add_pair(report, model, &list[next], total);
+        sunder_i_paying *paying = &report->paying[list[k].i];
+        for (next = k; next < n && list[next].i == list[k].i; next++) add_pair(model, &list[next], paying);
         double own;
         ok = bound_body(model, list + k, next - k, &own);
-        report->paying[list[k].i].own += own;
+        paying->own += own;
+        paying->alone *= 1 - ROUNDED * (double)(next - k);
     }
-    report->summary.shortfall = sunder_total_nearest(&total[0]);
-    report->summary.cost_shortfall = sunder_total_nearest(&total[1]);
-    report->summary.cost_alone = sunder_total_below(&total[2]);
     return ok;
+}
+
+/* Adds up what all bodies pay. The sums are exact until they are rounded once, as those of the bounds are. */
+static void add_up(sunder_report *report, size_t bodies)
+{
+    sunder_total missing = {0}, pays = {0}, alone = {0};
+    for (size_t b = 0; b < bodies; b++) {
+        report->summary.short_pairs += report->paying[b].pairs;
+        sunder_total_add(&missing, report->paying[b].missing);
+        sunder_total_add(&pays, report->paying[b].pays);
+        sunder_total_add(&alone, report->paying[b].alone);
+    }
+    report->summary.shortfall = sunder_total_nearest(&missing);
+    report->summary.cost_shortfall = sunder_total_nearest(&pays);
+    report->summary.cost_alone = sunder_total_below(&alone);
 }
 
 sunder_status sunder_i_report_eased(sunder_report *report, const sunder_i_model *model, sunder_error *err)
@@ -184,6 +198,7 @@ sunder_status sunder_i_report_eased(sunder_report *report, const sunder_i_model 
             status = measure_conflict(model, &report->conflict[k], &list[n++], err);
     if (!status && n) qsort(list, n, sizeof *list, by_bodies);
     if (!status && !add_pairs(report, model, list, merge_conflicts(list, n))) status = sunder_i_failure_cause(err);
+    if (!status) add_up(report, model->bodies);
     sunder_i_free(list);
     return status;
 }

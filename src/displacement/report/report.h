@@ -18,6 +18,8 @@ typedef struct sunder_i_row_figures {
 
 /* The prices of the pairs of a body; of two bodies that may both move one has the pair. */
 typedef struct sunder_i_paying {
+    size_t pairs;
+    double missing;     /* what they lack, in sum */
     double pays, alone; /* at the present place; at least, whatever place each pair has */
     double own;         /* a lower bound of these prices together with the cost of the body's move */
 } sunder_i_paying;

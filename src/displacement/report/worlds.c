@@ -260,14 +260,22 @@ static sunder_status count_pairs(sunder_report *report, const gathering *g, sund
     return SUNDER_OK;
 }
 
-/* Returns what is proved of the part whose root is `body`. */
+/* Returns what is proved of the part whose root is `body`, and what the body pays. */
 static sunder_world_bound bound_of(const sunder_report *report, uint32_t body)
 {
-    if (!report->proved) return (sunder_world_bound){0, 0};
-    return (sunder_world_bound){report->proved[body], (report->by_pairs ? report->by_pairs : report->proved)[body]};
+    sunder_world_bound bound = {0};
+    if (report->proved) bound.proved = report->proved[body];
+    if (report->proved) bound.by_pairs = (report->by_pairs ? report->by_pairs : report->proved)[body];
+    if (!report->paying) return bound;
+    const sunder_i_paying *paying = &report->paying[body];
+    bound.short_pairs = paying->pairs;
+    bound.shortfall = paying->missing;
+    bound.cost_shortfall = paying->pays;
+    bound.cost_alone = paying->alone;
+    return bound;
 }
 
-static bool is_any(sunder_world_bound bound) { return bound.proved > 0 || bound.by_pairs > 0; }
+static bool is_any(sunder_world_bound bound) { return bound.proved > 0 || bound.by_pairs > 0 || bound.short_pairs; }
 
 /* Counts the contact groups of each world, and lists what is proved of its parts. */
 static sunder_status count_proved(sunder_report *report, const gathering *g, sunder_error *err)

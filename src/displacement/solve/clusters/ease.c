@@ -10,6 +10,26 @@
 #include "displacement/solve/clusters/trial.h"
 #include "displacement/solve/clusters/tuning.h"
 
+#include <string.h>
+
+/* Marks the bodies of pairs that may fall short. Their clusters are eased first; later only those that others joined,
+ * so that no cluster is eased once more on account of another one. */
+static bool mark_short(sunder_i_solver *s)
+{
+    const sunder_i_relaxations *all = &s->model.relaxations;
+    s->to_ease = sunder_i_calloc(s->model.bodies, sizeof *s->to_ease);
+    for (size_t k = 0; k < all->relaxed_n && s->to_ease; k++)
+        s->to_ease[all->relaxed[k].i] = s->to_ease[all->relaxed[k].j] = true;
+    return s->to_ease != NULL;
+}
+
+static bool is_to_ease(const sunder_i_solver *s, uint32_t body) { return s->to_ease[body]; }
+
+static bool has_to_ease(const sunder_i_solver *s, const sunder_i_cluster *c)
+{
+    return sunder_i_solver_any_of(s, c->body, c->n, is_to_ease);
+}
+
 /* Joins the bodies of each conflict of which one may move. */
 static sunder_status join_conflicts(sunder_i_solver *s, sunder_error *err)
 {
@@ -102,10 +122,13 @@ static sunder_status try_moves(sunder_i_solver *s, sunder_i_cluster *c, bool *ag
 {
     const double none[2] = {0, 0};
     sunder_i_trial t = {.solver = s};
+    sunder_i_reading reading;
+    sunder_i_reads_begin(&reading, &s->model, sunder_i_reader_for(s, c));
     sunder_status status = sunder_i_trial_take_moved(&t, c, s->move + 2 * (size_t)(c->body - s->body))
                                ? SUNDER_OK
                                : sunder_i_failure_cause(err);
     if (!status && t.n) status = sunder_i_trial_place(&t, none, err);
+    sunder_i_reads_end(&reading);
     if (t.well || t.n == 0)
         unpin(s, c);
     else if (!status)
@@ -134,10 +157,11 @@ static sunder_status ease_clusters(sunder_i_solver *s, sunder_i_cluster_test tes
 static sunder_status join_guests(sunder_i_solver *s, bool *any, sunder_error *err)
 {
     *any = false;
+    memset(s->to_ease, 0, s->model.bodies * sizeof *s->to_ease);
     for (size_t k = 0; k < s->clusters; k++)
         for (size_t g = 0; g < s->cluster[k].guests; g++) {
             const sunder_i_id_pair *pair = &s->cluster[k].guest[g];
-            *any = true;
+            *any = s->to_ease[pair->a] = s->to_ease[pair->b] = true;
             if (!sunder_i_solver_add_edge(s, pair->a, pair->b)) return sunder_i_failure_cause(err);
         }
     return *any ? sunder_i_solver_gather(s, err) : SUNDER_OK;
@@ -162,15 +186,17 @@ static sunder_status gather_groups(sunder_i_solver *s, sunder_error *err)
 sunder_status sunder_i_solver_ease(sunder_i_solver *solver, sunder_error *err)
 {
     bool more = true;
-    sunder_status status = join_conflicts(solver, err);
+    sunder_status status = mark_short(solver) ? join_conflicts(solver, err) : sunder_i_failure_cause(err);
     for (int round = 0; round < MOST_JOININGS && more && !status; round++) {
         bool again;
         status = sunder_i_solver_unite_blocks(solver, err);
-        if (!status) status = ease_clusters(solver, NULL, &again, err);
+        if (!status) status = ease_clusters(solver, has_to_ease, &again, err);
         for (int k = 0; k < MOST_PINNINGS && again && !status; k++)
             status = ease_clusters(solver, has_pinned, &again, err);
         for (size_t b = 0; b < solver->model.bodies; b++) solver->model.body[b].pinned = false;
         if (!status) status = join_guests(solver, &more, err);
     }
+    sunder_i_free(solver->to_ease);
+    solver->to_ease = NULL;
     return status || !solver->groups.n ? status : gather_groups(solver, err);
 }

@@ -61,6 +61,7 @@ typedef struct sunder_i_solver {
     uint32_t *conflict_root;     /* see sunder_i_solver_conflict_roots() */
     uint32_t *parent;            /* [bodies] union-find over the edges between movable bodies */
     sunder_i_body_states states; /* [bodies] */
+    bool *to_ease;               /* [bodies] the body's cluster is to be eased (ease.c); NULL: not begun */
     unsigned char *widened;      /* [bodies] how often the margin of the body's cluster grew, fourfold each time */
     sunder_i_changes changes;    /* features that have moved since pairs were last related */
     sunder_i_id_pair *asked;     /* [asked_n] pairs of things that one_by_one.c has asked about; sorted */
